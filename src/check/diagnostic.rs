@@ -1,0 +1,62 @@
+//! A finding, as plain data: terminal, JSON and LSP are equal clients.
+use trunnion_syntax::TextRange;
+
+/// How bad.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// Worth knowing.
+    Info,
+    /// Probably wrong or costly.
+    Warning,
+    /// Wrong: must not run.
+    Error,
+}
+
+/// Whether the rule decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Status {
+    /// The rule is broken.
+    Fail,
+    /// The rule could not decide; the message says what is missing.
+    Unknown,
+}
+
+/// A number or text in `values`; keys carry their unit as suffix (`rotary_change_deg`).
+#[derive(Clone, Debug, PartialEq)]
+pub enum ValueKey {
+    /// A number.
+    Number(f64),
+    /// A text, e.g. an axis letter.
+    Text(String),
+}
+
+/// One finding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// The rule's name.
+    pub rule: &'static str,
+    /// How bad.
+    pub severity: Severity,
+    /// Decided or not.
+    pub status: Status,
+    /// Bytes in the file.
+    pub range: TextRange,
+    /// Block number as written (`N2930`), if any.
+    pub block: Option<String>,
+    /// What is wrong, in one sentence with numbers and units.
+    pub message: String,
+    /// Why it matters, other numbers.
+    pub notes: Vec<String>,
+    /// What to do.
+    pub help: Option<String>,
+    /// Every number of the message.
+    pub values: Vec<(&'static str, ValueKey)>,
+    /// Rewrites that may cure it.
+    pub fixes: Vec<&'static str>,
+    /// Other places of interest in the file.
+    pub related: Vec<(TextRange, String)>,
+    /// How many consecutive blocks share the finding (1 for one).
+    pub count: u32,
+    /// Range of the last of them.
+    pub last: TextRange,
+}

@@ -1,0 +1,1 @@
+//! APT / CL records to motions.

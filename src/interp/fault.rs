@@ -1,0 +1,89 @@
+//! Facts about what is wrong with a program's meaning. Words for people are made by the check floor.
+use trunnion_syntax::{BlockId, TextRange};
+
+/// What is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FaultKind {
+    /// The dialect knows no such code. Text as written is at the range. `machine_builder`: an M code a builder may own.
+    UnknownCode {
+        /// True for M codes that the control leaves to the machine builder.
+        machine_builder: bool,
+    },
+    /// The dialect gives this letter or name no meaning.
+    UnknownWord,
+    /// Two codes of one modal group.
+    GroupConflict {
+        /// The group's name.
+        group: String,
+        /// The first code.
+        first: String,
+        /// The second code (at the range).
+        second: String,
+        /// Range of the first.
+        first_range: TextRange,
+    },
+    /// A word is given twice.
+    RepeatedWord,
+    /// A feed motion while no feed is known (or F0; or G93 without F in the block).
+    MissingFeed {
+        /// True under G93, where each block needs its own F.
+        inverse_time: bool,
+        /// True where F is there but zero or negative.
+        zero: bool,
+    },
+    /// Start and end of an arc lie at different distances from the centre.
+    ArcRadiusMismatch {
+        /// mm.
+        start: f64,
+        /// mm.
+        end: f64,
+        /// mm, the dialect's limit.
+        tolerance: f64,
+    },
+    /// Radius form: the end is farther away than two radii.
+    ArcRadiusTooSmall {
+        /// Programmed, mm.
+        radius: f64,
+        /// Half the distance between start and end, mm.
+        half_chord: f64,
+    },
+    /// An arc without centre and radius.
+    ArcCentreMissing,
+    /// The length of a tool vector is not 1 (dialects where that matters), or zero (anywhere).
+    VectorNotUnit {
+        /// Its length.
+        norm: f64,
+    },
+    /// APT: the record is not known.
+    AptUnknownRecord,
+    /// APT: MULTAX is on and GOTO has no vector.
+    AptVectorMissing,
+    /// An expression, parameter, call or cycle that is not evaluated: positions it feeds are unknown.
+    NotModelled {
+        /// What, e.g. `G81`, `R1+2`, `CYCLE800`.
+        what: String,
+    },
+    /// A work offset is used that is not declared: taken as zero. Reported once per offset.
+    WorkOffsetUnset {
+        /// `G54`.
+        name: String,
+    },
+    /// A tool's length is not declared: taken as zero. Once per tool.
+    ToolLengthUnset {
+        /// Tool or offset number as written.
+        tool: String,
+    },
+    /// The program has no end code.
+    MissingProgramEnd,
+}
+
+/// One fact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// The block.
+    pub block: BlockId,
+    /// Where in the file.
+    pub range: TextRange,
+    /// What.
+    pub kind: FaultKind,
+}

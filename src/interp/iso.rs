@@ -1,0 +1,1 @@
+//! ISO blocks to motions.

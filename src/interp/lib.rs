@@ -1,0 +1,19 @@
+//! Floor 2: blocks to motions. A pure fold of blocks through a modal state; the result is a stream of [`Motion`]s and
+//! [`Fault`]s (facts, not words).
+//!
+//! It does not know machines: a [`Motion`] says what is programmed, not what joints do.
+mod apt;
+mod directive;
+mod fault;
+mod iso;
+mod modal;
+mod motion;
+mod run;
+mod setup;
+
+pub use directive::{Directive, directives};
+pub use fault::{Fault, FaultKind};
+pub use modal::{FeedMode, ModalState};
+pub use motion::{AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position};
+pub use run::{Interpreter, Sink, run};
+pub use setup::{Setup, Tool, ToolShape, WorkOffset};

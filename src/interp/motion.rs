@@ -1,0 +1,134 @@
+//! What is programmed, block by block: machine-free motions.
+use trunnion_geometry::{Vec3, arc::Arc};
+use trunnion_syntax::BlockId;
+
+/// The letters of axes in the order of [`Position`].
+pub const AXIS_LETTERS: [u8; 9] = *b"XYZABCUVW";
+
+/// Index of an axis letter in [`AXIS_LETTERS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct AxisLetter(pub u8);
+
+impl AxisLetter {
+    /// From a letter, either case; `None` when it names no axis.
+    pub fn new(letter: u8) -> Option<Self> {
+        let upper = letter.to_ascii_uppercase();
+        AXIS_LETTERS.iter().position(|&l| l == upper).map(|i| Self(i as u8))
+    }
+    /// The letter, upper case.
+    pub fn letter(self) -> u8 {
+        AXIS_LETTERS[usize::from(self.0)]
+    }
+}
+
+/// Programmed coordinates of all axes: X Y Z U V W in mm, A B C in degrees, each known or unknown.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Position {
+    /// Values in the order of [`AXIS_LETTERS`]; meaningless where unknown.
+    pub values: [f64; 9],
+    /// Bit i: axis i is known.
+    pub known: u16,
+}
+
+impl Position {
+    /// Value of an axis, if known.
+    pub fn get(&self, axis: usize) -> Option<f64> {
+        (self.known & (1 << axis) != 0).then(|| self.values[axis])
+    }
+    /// Sets an axis to a known value.
+    pub fn set(&mut self, axis: usize, value: f64) {
+        self.values[axis] = value;
+        self.known |= 1 << axis;
+    }
+    /// Makes an axis unknown.
+    pub fn forget(&mut self, axis: usize) {
+        self.known &= !(1 << axis);
+    }
+    /// X, Y, Z in mm if all three are known.
+    pub fn xyz(&self) -> Option<Vec3> {
+        (self.known & 7 == 7).then(|| Vec3::new(self.values[0], self.values[1], self.values[2]))
+    }
+}
+
+/// The feed of a motion as programmed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Feed {
+    /// mm/min (deg/min where only rotary axes move, as the control says).
+    PerMinute(f64),
+    /// mm per spindle revolution.
+    PerRevolution(f64),
+    /// G93: the block takes 1/F minutes.
+    InverseTime(f64),
+    /// No feed was programmed yet.
+    Unknown,
+    /// Rapid.
+    Rapid,
+}
+
+/// How the tool's orientation is programmed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Orientation {
+    /// Rotary words A B C in [`Position`].
+    Words,
+    /// A unit tool vector tip -> spindle in the workpiece frame, at start (if known) and end.
+    Vector(Option<Vec3>, Vec3),
+}
+
+/// What kind of motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MotionKind {
+    /// Rapid traverse.
+    Rapid,
+    /// Feed along a line.
+    Linear,
+    /// Feed along an arc or helix in programmed coordinates; `None` when its centre is not known.
+    Arc(Option<Arc>),
+    /// Dwell, seconds (`None`: unknown, e.g. in spindle turns).
+    Dwell(Option<f64>),
+    /// A motion that is recognised but not modelled: the end is unknown.
+    Unknown,
+}
+
+/// One motion as programmed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// The block where it ends.
+    pub block: BlockId,
+    /// Kind.
+    pub kind: MotionKind,
+    /// Programmed coordinates before, without work offset.
+    pub start: Position,
+    /// Programmed coordinates after, without work offset.
+    pub end: Position,
+    /// Words or vector.
+    pub orientation: Orientation,
+    /// Tool centre point control is active: X Y Z are the tip in the workpiece frame.
+    pub tcp: bool,
+    /// While TCP is on: orientation runs on the great circle (else joint-linear); `None`: the machine's control decides.
+    pub great_circle: Option<bool>,
+    /// Feed.
+    pub feed: Feed,
+    /// Spindle on; `None` unknown (before any spindle word: off is assumed by nobody).
+    pub spindle_on: Option<bool>,
+    /// Spindle speed, 1/min.
+    pub spindle_rpm: Option<f64>,
+    /// Work offset to add, mm / deg, order of [`AXIS_LETTERS`] (zero for machine coordinates).
+    pub zero: [f64; 9],
+    /// Length of the tool that is compensated, mm: G43 H / active D / TCP. Zero when off or undeclared.
+    pub tool_length_mm: f64,
+    /// Programmed under G53: machine coordinates.
+    pub machine_coordinates: bool,
+    /// Number of the tool in use, if known.
+    pub tool: Option<u32>,
+}
+
+impl Motion {
+    /// Whether it is a feed motion (line or arc).
+    pub fn is_feed(&self) -> bool {
+        matches!(self.kind, MotionKind::Linear | MotionKind::Arc(_))
+    }
+    /// Engaged, until stock is known: a feed motion with the spindle on.
+    pub fn is_engaged(&self) -> bool {
+        self.is_feed() && self.spindle_on == Some(true)
+    }
+}

@@ -1,0 +1,1 @@
+//! Lexer of APT / CL records.

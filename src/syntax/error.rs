@@ -1,0 +1,44 @@
+//! Problems of the text as facts; words for people are made by the check floor.
+use crate::TextRange;
+
+/// What is wrong with a piece of text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SyntaxErrorKind {
+    /// A comment is opened and not closed. Range: the comment.
+    UnclosedComment,
+    /// A comment opens inside a comment that has the same closing mark. Range: the inner opening.
+    NestedComment,
+    /// A character that belongs to no word. Range: the character(s).
+    UnexpectedCharacter,
+    /// A letter has no value. Range: the letter.
+    WordWithoutValue,
+    /// A number stands where no letter owns it. Range: the number.
+    NumberWithoutLetter,
+    /// Not a number: two points, a sign without digits, more digits than can be held exactly. Range: the number's text.
+    BadNumber,
+    /// A comma where a decimal point is meant (`X1,5`). Range: the number with its comma.
+    DecimalComma,
+    /// Blanks inside a number in a dialect that does not allow them. Range: the number.
+    BlankInNumber,
+    /// `=` or an operator without a value behind it. Range: the operator.
+    MissingValue,
+    /// A bracket or parenthesis without its partner. Range: the bracket.
+    UnbalancedBracket,
+    /// A quoted text that is not closed on its line. Range: the text.
+    UnclosedText,
+    /// APT: a statement is continued by `$` at the end of the file. Range: the `$`.
+    DanglingContinuation,
+    /// APT: a statement does not begin with a major word, or a comma or slash stands where it may not. Range: that place.
+    BadRecord,
+    /// The file is larger than 4 GiB: only the part before is parsed. Range: its last byte.
+    TooLarge,
+}
+
+/// One problem of the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SyntaxError {
+    /// What is wrong.
+    pub kind: SyntaxErrorKind,
+    /// Where, inside the file.
+    pub range: TextRange,
+}

@@ -1,0 +1,1 @@
+//! Lexer of ISO words.

@@ -1,0 +1,32 @@
+//! What the lexer must be told before it can cut a text into tokens: the few lexical facts that differ per dialect.
+
+/// The family of notations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// ISO 6983 words: `N10 G1 X1.5`.
+    Iso,
+    /// APT / CL records: `GOTO / 1, 2, 3`.
+    Apt,
+}
+
+/// Lexical facts of a dialect. Comments the flags do not name are still lexed as far as that is unambiguous.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LexOptions {
+    /// ISO words or APT records.
+    pub format: Format,
+    /// `( ... )` is a comment (else it brackets arguments: `CYCLE81(1,2)`).
+    pub paren_comment: bool,
+    /// `;` starts a comment that runs to the end of the line.
+    pub semicolon_comment: bool,
+    /// `/* ... */` is a comment, also over several lines.
+    pub slash_star_comment: bool,
+    /// Blanks may stand inside a number (`X1 2` is X12, as RS274/NGC says); else that is reported as a bad number.
+    pub blanks_in_numbers: bool,
+}
+
+impl Default for LexOptions {
+    /// The common core: ISO words, all comment forms.
+    fn default() -> Self {
+        Self { format: Format::Iso, paren_comment: true, semicolon_comment: true, slash_star_comment: true, blanks_in_numbers: false }
+    }
+}

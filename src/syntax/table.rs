@@ -1,0 +1,61 @@
+//! The token table: kinds and starts side by side, five bytes a token.
+use crate::TokenKind;
+
+/// A half-open range of bytes in the source.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+pub struct TextRange {
+    /// First byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+impl TextRange {
+    /// The range `start..end`.
+    pub fn new(start: u32, end: u32) -> Self {
+        Self { start, end }
+    }
+    /// As indices into the source.
+    pub fn as_usize(self) -> core::ops::Range<usize> {
+        self.start as usize..self.end as usize
+    }
+    /// The smallest range that holds both.
+    pub fn cover(self, other: Self) -> Self {
+        Self { start: self.start.min(other.start), end: self.end.max(other.end) }
+    }
+    /// Whether `offset` lies inside, the end included.
+    pub fn touches(self, offset: u32) -> bool {
+        self.start <= offset && offset <= self.end
+    }
+}
+
+/// Index of a token.
+pub type TokenId = u32;
+
+/// Kinds and start offsets of all tokens of a source; token `i` ends where token `i + 1` starts.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TokenTable {
+    pub(crate) kinds: Vec<TokenKind>,
+    pub(crate) starts: Vec<u32>,
+    pub(crate) end: u32,
+}
+
+impl TokenTable {
+    /// Number of tokens.
+    pub fn len(&self) -> usize {
+        self.kinds.len()
+    }
+    /// Whether there is no token.
+    pub fn is_empty(&self) -> bool {
+        self.kinds.is_empty()
+    }
+    /// Kind of token `id`.
+    pub fn kind(&self, id: TokenId) -> TokenKind {
+        self.kinds[id as usize]
+    }
+    /// Bytes of token `id`.
+    pub fn range(&self, id: TokenId) -> TextRange {
+        let end = self.starts.get(id as usize + 1).copied().unwrap_or(self.end);
+        TextRange::new(self.starts[id as usize], end)
+    }
+}

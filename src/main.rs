@@ -1,2 +1,8 @@
 //! The command line: parses arguments, calls one file of `cli/`, sets the exit status.
-fn main() {}
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::run()
+}

@@ -1,6 +1,48 @@
 //! Floor 7: the language server. Only this crate knows LSP, JSON-RPC and tokio.
+//!
+//! One thread owns all state (`owner`); handlers only put events into its inbox, so that edits stay in wire order, and
+//! await an answer. Work that takes time runs on a pool with a snapshot; newest version wins.
+mod analysis;
+mod backend;
+mod code_action;
+mod document;
+mod event;
+mod exit;
+mod hover;
+mod outbox;
+mod owner;
+mod position;
+mod settings;
+mod to_proto;
 
-/// Runs the language server on standard input and output until the client says exit. Returns the exit status.
+use backend::Backend;
+use exit::ExitOnExit;
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+use tower_lsp::{LspService, Server};
+
+/// How many handlers may wait at once; tower-lsp's default of 4 lets four slow requests block every edit.
+const CONCURRENCY: usize = 256;
+
+/// Runs the language server on standard input and output until the client says exit or closes the stream.
+/// Returns the exit status: 0 after `shutdown`, else 1.
 pub fn serve() -> i32 {
-    todo!()
+    let Ok(runtime) = tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build() else {
+        return 2;
+    };
+    let shutdown = Arc::new(AtomicBool::new(false));
+    let seen = Arc::clone(&shutdown);
+    runtime.block_on(async move {
+        let (service, socket) = LspService::new(|client| Backend::start(client, Arc::clone(&seen)));
+        let service = ExitOnExit::new(service, Arc::clone(&seen));
+        Server::new(tokio::io::stdin(), tokio::io::stdout(), socket)
+            .concurrency_level(CONCURRENCY)
+            .serve(service)
+            .await;
+    });
+    // A blocking read of standard input may still hang in the pool: do not wait for it.
+    runtime.shutdown_background();
+    i32::from(!shutdown.load(Ordering::SeqCst))
 }

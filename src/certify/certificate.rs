@@ -1,5 +1,6 @@
 //! What a proof leaves behind: digests of the inputs, the claim, and the numbers found.
 use crate::Claim;
+use crate::digest::hex_sha256;
 use serde::{Deserialize, Serialize};
 
 /// Version of the certificate's shape.
@@ -11,6 +12,180 @@ pub const SCHEMA: &str = "trunnion-certificate/1";
 pub struct Certificate {
     /// [`SCHEMA`].
     pub schema: String,
+    /// Version of the program that proved it.
+    pub tool_version: String,
+    /// The text before.
+    pub before: TextDigest,
+    /// The text after.
+    pub after: TextDigest,
+    /// The dialect: name, and digest of what it says about letters and codes.
+    pub dialect: NamedDigest,
+    /// The machine: id, and digest of its chain, limits, speeds and control.
+    pub machine: NamedDigest,
+    /// Digest of tools and work offsets the programs were run with, declarations outside the texts.
+    pub setup_sha256: String,
     /// The claim.
     pub claim: Claim,
+    /// How the texts differ.
+    pub text: TextChange,
+    /// How many motions.
+    pub motions: MotionCounts,
+    /// The worst of every number of `changes`.
+    pub worst: WorstChanges,
+    /// What the rotary axes do, before and after, workpiece side first.
+    pub rotary: Vec<RotaryChange>,
+    /// Each motion that differs.
+    pub changes: Vec<MotionChange>,
+    /// SHA-256 of this certificate with an empty seal, so that an altered claim is noticed too.
+    pub seal_sha256: String,
+}
+
+/// A text's digest.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TextDigest {
+    /// Lower case hexadecimal.
+    pub sha256: String,
+    /// Length in bytes.
+    pub bytes: u64,
+}
+
+/// A name and the digest of what it stands for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NamedDigest {
+    /// The name.
+    pub name: String,
+    /// Lower case hexadecimal.
+    pub sha256: String,
+}
+
+/// How two texts differ.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TextChange {
+    /// Numbers of coordinate words that differ.
+    pub numbers_changed: u64,
+    /// Coordinate words that are new.
+    pub words_inserted: u64,
+    /// Bytes that were replaced in the text before.
+    pub bytes_changed: u64,
+    /// Whether all else is the same byte for byte; if not, the three counts are 0.
+    pub rest_identical: bool,
+}
+
+/// How many motions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MotionCounts {
+    /// In each of the programs.
+    pub total: u64,
+    /// That differ.
+    pub changed: u64,
+    /// Whose position is unknown in both, but which are programmed alike from a like state.
+    pub unknown: u64,
+    /// With another feed or spindle speed (0 in a rewrite).
+    pub process_changed: u64,
+}
+
+/// A worst value and where it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Worst {
+    /// The value.
+    pub value: f64,
+    /// Index of the motion, from 0; of the first one if all are 0.
+    pub motion: u64,
+    /// Line in the program after, from 1; 0 when there is no motion.
+    pub line: u32,
+}
+
+/// The worst changes over all motions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WorstChanges {
+    /// Shift of the claimed point (ball's centre or tip) at block ends, mm.
+    pub point_shift_mm: Worst,
+    /// Shift of the tip at block ends, mm.
+    pub tip_shift_mm: Worst,
+    /// Turn of the tool axis about the part at block ends, deg.
+    pub axis_change_deg: Worst,
+    /// Proven bound on how far the claimed point's paths lie apart at any moment, mm.
+    pub path_bound_mm: Worst,
+    /// Proven bound on the angle between the tool axes at any moment, deg.
+    pub path_axis_bound_deg: Worst,
+    /// Forward kinematics of the joints against the programmed tip, both programs, mm.
+    pub forward_residual_mm: Worst,
+    /// Forward kinematics of the joints against the programmed tool axis, both programs, deg.
+    pub forward_residual_deg: Worst,
+}
+
+/// What one rotary axis does.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RotaryChange {
+    /// Letter.
+    pub axis: String,
+    /// Largest step of one motion before, deg.
+    pub step_before_deg: f64,
+    /// Largest step of one motion after, deg.
+    pub step_after_deg: f64,
+    /// Sum of all steps before, deg.
+    pub travel_before_deg: f64,
+    /// Sum of all steps after, deg.
+    pub travel_after_deg: f64,
+}
+
+/// One motion that differs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MotionChange {
+    /// Index of the motion, from 0.
+    pub motion: u64,
+    /// Line in the program after, from 1.
+    pub line: u32,
+    /// Shift of the claimed point at the block's end, mm.
+    pub point_shift_mm: f64,
+    /// Shift of the tip at the block's end, mm.
+    pub tip_shift_mm: f64,
+    /// Turn of the tool axis about the part at the block's end, deg.
+    pub axis_change_deg: f64,
+    /// After minus before at the block's end, each rotary axis, deg.
+    pub rotary_change_deg: Vec<f64>,
+    /// Largest distance found between the two paths of the claimed point, mm.
+    pub path_sampled_mm: f64,
+    /// Proven bound on that distance at any moment of the block, mm.
+    pub path_bound_mm: f64,
+    /// Proven bound on the angle between the tool axes at any moment of the block, deg.
+    pub path_axis_bound_deg: f64,
+}
+
+impl Certificate {
+    /// As JSON, indented, with a line end.
+    pub fn to_json(&self) -> String {
+        let mut json = serde_json::to_string_pretty(self).unwrap_or_default();
+        json.push('\n');
+        json
+    }
+
+    /// Reads JSON. `Err` says what is wrong and where (line and column).
+    pub fn from_json(json: &str) -> Result<Self, String> {
+        let certificate: Self = serde_json::from_str(json).map_err(|error| format!("not a certificate: {error}"))?;
+        if certificate.schema != SCHEMA {
+            return Err(format!("certificate schema is \"{}\", this program reads \"{SCHEMA}\"", certificate.schema));
+        }
+        Ok(certificate)
+    }
+
+    /// The certificate with its seal.
+    pub(crate) fn sealed(mut self) -> Self {
+        self.seal_sha256 = self.seal();
+        self
+    }
+
+    /// What the seal must be.
+    pub(crate) fn seal(&self) -> String {
+        let bare = Self { seal_sha256: String::new(), ..self.clone() };
+        hex_sha256(bare.to_json().as_bytes())
+    }
 }

@@ -2,19 +2,24 @@
 use serde::{Deserialize, Serialize};
 
 /// The claim. Lengths mm, angles deg (certificates are read by people).
+///
+/// The first two are claims of rewrites: beside the poses, everything else must be as before (kinds of motion, feeds, spindle,
+/// tools, and every byte that is not a number of a coordinate word).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Claim {
-    /// Every motion ends in the same pose; rotary joints differ by whole turns only (`unwind-rotary`), and no motion's tip path
-    /// differs by more than `tolerance_mm` nor its tool axis by more than `tolerance_deg`.
+    /// Every motion ends in the same pose and its rotary joints differ by whole turns only (`unwind-rotary`). Where the number of
+    /// turns is the same at both ends of a motion, its path is the same too; where it changes, the rotary axis takes the other
+    /// way round, and nothing is claimed between the ends (the certificate says by how much the paths differ there).
     SamePoses {
         /// mm.
         tolerance_mm: f64,
         /// deg.
         tolerance_deg: f64,
     },
-    /// At every block end the tool axis turns about the part by at most `tolerance_deg`, and the point `ball_radius_mm` above the tip along
-    /// the tool axis (the ball's centre) stays where it was within `tolerance_mm` (`smooth-pole`).
+    /// At every block end the tool axis turns about the part by at most `tolerance_deg`, and the point `ball_radius_mm` above the tip
+    /// along the tool axis (the ball's centre) stays where it was within `tolerance_mm` (`smooth-pole`). Every motion that
+    /// differs is made with a ball of that radius. The certificate says how far the paths lie apart between block ends.
     SameBallCentre {
         /// mm.
         ball_radius_mm: f64,
@@ -23,4 +28,36 @@ pub enum Claim {
         /// deg.
         tolerance_deg: f64,
     },
+    /// At every moment of every motion (same share of the block), the tip is where it was within `tolerance_mm` and the tool axis
+    /// within `tolerance_deg`. Feeds may differ; the texts may differ in anything.
+    SameToolPath {
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+    },
+}
+
+impl Claim {
+    /// Distance of the compared point from the tip along the tool axis, mm: the ball's centre, or the tip itself.
+    pub fn point_height_mm(&self) -> f64 {
+        match self {
+            Self::SameBallCentre { ball_radius_mm, .. } => *ball_radius_mm,
+            Self::SamePoses { .. } | Self::SameToolPath { .. } => 0.0,
+        }
+    }
+
+    /// Tolerances: mm and deg.
+    pub fn tolerances(&self) -> (f64, f64) {
+        match *self {
+            Self::SamePoses { tolerance_mm, tolerance_deg }
+            | Self::SameBallCentre { tolerance_mm, tolerance_deg, .. }
+            | Self::SameToolPath { tolerance_mm, tolerance_deg } => (tolerance_mm, tolerance_deg),
+        }
+    }
+
+    /// Whether it is a rewrite's claim: then nothing but numbers of coordinate words may differ in the text.
+    pub fn is_rewrite(&self) -> bool {
+        !matches!(self, Self::SameToolPath { .. })
+    }
 }

@@ -4,10 +4,18 @@
 //! It knows neither rules nor rewrites nor any search: what it trusts is floors 0 to 3 and itself.
 mod certificate;
 mod claim;
+mod compare;
+mod difference;
+mod digest;
+mod path;
 mod recheck;
+mod rerun;
+mod text;
 mod verdict;
 
-pub use certificate::{Certificate, SCHEMA};
+pub use certificate::{
+    Certificate, MotionChange, MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextChange, TextDigest, Worst, WorstChanges,
+};
 pub use claim::Claim;
 pub use recheck::{certify, recheck};
 pub use verdict::{Gap, Outcome, Witness};

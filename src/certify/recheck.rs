@@ -1,17 +1,219 @@
 //! Certificate and files to verdict, from scratch: the file to read if you trust nobody.
+//!
+//! Both texts are parsed, run and followed again by floors 0 to 3. Each pair of motions is compared (`compare`), the ways between
+//! block ends are bounded (`path`), and the texts are compared byte by byte outside coordinate words (`text`).
+use crate::certificate::{MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextDigest, WorstChanges, Worst};
+use crate::compare::{Compared, Place, compare, forward_residual, process_differs};
+use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
+use crate::rerun::{Rerun, Step};
+use crate::text::text_change;
+use crate::verdict::Stop;
 use crate::{Certificate, Claim, Outcome};
 use trunnion_dialect::Dialect;
+use trunnion_geometry::deg;
 use trunnion_interp::Setup;
-use trunnion_machine::Machine;
+use trunnion_machine::{Leg, Machine};
+use trunnion_syntax::{BlockId, LineIndex, Program, parse};
 
 /// Tries to prove `claim` for two texts.
 pub fn certify(before: &[u8], after: &[u8], dialect: &Dialect, machine: &Machine, setup: &Setup, claim: &Claim) -> Outcome {
-    let _ = (before, after, dialect, machine, setup, claim);
-    todo!()
+    match prove(before, after, dialect, machine, setup, claim) {
+        Ok(certificate) => Outcome::Proved(Box::new(certificate)),
+        Err(stop) => stop.into(),
+    }
 }
 
 /// Proves the certificate's claim again and compares every number in it.
 pub fn recheck(certificate: &Certificate, before: &[u8], after: &[u8], dialect: &Dialect, machine: &Machine, setup: &Setup) -> Outcome {
-    let _ = (certificate, before, after, dialect, machine, setup);
-    todo!()
+    let fresh = match inputs_match(certificate, before, after, dialect, machine, setup)
+        .and_then(|()| prove(before, after, dialect, machine, setup, &certificate.claim))
+    {
+        Ok(fresh) => fresh,
+        Err(stop) => return stop.into(),
+    };
+    // the version is not a number of the proof: another version may check, but the seal keeps it as it was
+    let fresh = Certificate { tool_version: certificate.tool_version.clone(), ..fresh }.sealed();
+    match crate::difference::first_difference(certificate, &fresh) {
+        Some(message) => Stop::refuted(message).into(),
+        None => Outcome::Proved(Box::new(fresh)),
+    }
+}
+
+/// The certificate is about these inputs.
+fn inputs_match(
+    certificate: &Certificate,
+    before: &[u8],
+    after: &[u8],
+    dialect: &Dialect,
+    machine: &Machine,
+    setup: &Setup,
+) -> Result<(), Stop> {
+    let refuse = |what: &str| Err(Stop::refuted(format!("the certificate was made for {what}: its SHA-256 differs")));
+    if certificate.schema != SCHEMA {
+        return Err(Stop::refuted(format!("schema: certificate says \"{}\", this program reads \"{SCHEMA}\"", certificate.schema)));
+    }
+    if certificate.before != text_digest(before) {
+        return refuse("another text before");
+    }
+    if certificate.after != text_digest(after) {
+        return refuse("another text after");
+    }
+    if certificate.dialect.name != dialect.name || certificate.dialect.sha256 != dialect_digest(dialect) {
+        return refuse(&format!("another dialect ({}, here it is {})", certificate.dialect.name, dialect.name));
+    }
+    if certificate.machine.name != machine.id || certificate.machine.sha256 != machine_digest(machine) {
+        return refuse(&format!("another machine ({}, here it is {})", certificate.machine.name, machine.id));
+    }
+    if certificate.setup_sha256 != setup_digest(setup) {
+        return refuse("other tools or work offsets");
+    }
+    Ok(())
+}
+
+fn text_digest(text: &[u8]) -> TextDigest {
+    TextDigest { sha256: hex_sha256(text), bytes: text.len() as u64 }
+}
+
+/// The proof.
+fn prove(
+    before: &[u8],
+    after: &[u8],
+    dialect: &Dialect,
+    machine: &Machine,
+    setup: &Setup,
+    claim: &Claim,
+) -> Result<Certificate, Stop> {
+    claim_makes_sense(claim)?;
+    let old = parse(before.to_vec(), dialect.lex);
+    let new = parse(after.to_vec(), dialect.lex);
+    let text = text_change(&old, &new, dialect);
+    if claim.is_rewrite() && !text.rest_identical {
+        return Err(Stop::refuted("the texts differ in more than numbers of coordinate words"));
+    }
+    let mut proof = Proof::new(machine, claim, &new);
+    let mut old_steps = Rerun::new(&old, dialect, machine, setup);
+    let mut new_steps = Rerun::new(&new, dialect, machine, setup);
+    loop {
+        match (old_steps.next(), new_steps.next()) {
+            (Some(was), Some(is)) => proof.add(&was, &is)?,
+            (None, None) => break,
+            (was, _) => {
+                let (which, shared) = (if was.is_some() { "before" } else { "after" }, proof.motions.total);
+                return Err(Stop::unknown(format!(
+                    "the program {which} has more motions than the other, which ends after {shared}: programs are compared motion by motion"
+                )));
+            }
+        }
+    }
+    Ok(Certificate {
+        schema: SCHEMA.into(),
+        tool_version: env!("CARGO_PKG_VERSION").into(),
+        before: text_digest(before),
+        after: text_digest(after),
+        dialect: NamedDigest { name: dialect.name.clone(), sha256: dialect_digest(dialect) },
+        machine: NamedDigest { name: machine.id.clone(), sha256: machine_digest(machine) },
+        setup_sha256: setup_digest(setup),
+        claim: claim.clone(),
+        text,
+        motions: proof.motions,
+        worst: proof.worst,
+        rotary: proof.rotary,
+        changes: proof.changes,
+        seal_sha256: String::new(),
+    }
+    .sealed())
+}
+
+/// Tolerances and radius must be finite and not negative.
+fn claim_makes_sense(claim: &Claim) -> Result<(), Stop> {
+    let (mm, degrees) = claim.tolerances();
+    let fine = [mm, degrees, claim.point_height_mm()].iter().all(|value| value.is_finite() && *value >= 0.0);
+    if fine { Ok(()) } else { Err(Stop::refuted("claim: tolerances and radius must be finite and not negative")) }
+}
+
+/// What is found while both programs run.
+struct Proof<'a> {
+    machine: &'a Machine,
+    claim: &'a Claim,
+    after: &'a Program,
+    lines: LineIndex,
+    motions: MotionCounts,
+    worst: WorstChanges,
+    rotary: Vec<RotaryChange>,
+    changes: Vec<crate::certificate::MotionChange>,
+}
+
+impl<'a> Proof<'a> {
+    fn new(machine: &'a Machine, claim: &'a Claim, after: &'a Program) -> Self {
+        let axis = |&joint: &usize| RotaryChange {
+            axis: char::from(machine.axes[joint].letter).to_string(),
+            step_before_deg: 0.0,
+            step_after_deg: 0.0,
+            travel_before_deg: 0.0,
+            travel_after_deg: 0.0,
+        };
+        Self {
+            machine,
+            claim,
+            after,
+            lines: LineIndex::new(after.source()),
+            motions: MotionCounts::default(),
+            worst: WorstChanges::default(),
+            rotary: machine.rotary.iter().map(axis).collect(),
+            changes: Vec::new(),
+        }
+    }
+
+    fn line(&self, block: BlockId) -> u32 {
+        self.lines.line_column(self.after.source(), self.after.block(block).range().start).0
+    }
+
+    fn add(&mut self, was: &Step, is: &Step) -> Result<(), Stop> {
+        let at = Place { motion: self.motions.total as usize, line: self.line(is.leg.motion.block) };
+        let residuals =
+            [forward_residual(self.machine, at, &was.leg)?, forward_residual(self.machine, at, &is.leg)?];
+        for (mm, degrees) in residuals.into_iter().flatten() {
+            raise(&mut self.worst.forward_residual_mm, mm, at);
+            raise(&mut self.worst.forward_residual_deg, degrees, at);
+        }
+        for (index, rotary) in self.rotary.iter_mut().enumerate() {
+            let joint = self.machine.rotary[index];
+            let steps = [&was.leg, &is.leg].map(|leg| rotary_step(leg, joint));
+            rotary.step_before_deg = rotary.step_before_deg.max(steps[0]);
+            rotary.step_after_deg = rotary.step_after_deg.max(steps[1]);
+            rotary.travel_before_deg += steps[0];
+            rotary.travel_after_deg += steps[1];
+        }
+        match compare(self.machine, self.claim, at, was, is)? {
+            Compared::Same => {}
+            Compared::UnknownAlike => self.motions.unknown += 1,
+            Compared::Changed(change) => {
+                raise(&mut self.worst.point_shift_mm, change.point_shift_mm, at);
+                raise(&mut self.worst.tip_shift_mm, change.tip_shift_mm, at);
+                raise(&mut self.worst.axis_change_deg, change.axis_change_deg, at);
+                raise(&mut self.worst.path_bound_mm, change.path_bound_mm, at);
+                raise(&mut self.worst.path_axis_bound_deg, change.path_axis_bound_deg, at);
+                self.motions.changed += 1;
+                self.changes.push(*change);
+            }
+        }
+        self.motions.process_changed += u64::from(process_differs(&was.leg.motion, &is.leg.motion));
+        self.motions.total += 1;
+        Ok(())
+    }
+}
+
+/// Size of a joint's step in one motion, deg; 0 where an end is unknown.
+fn rotary_step(leg: &Leg, joint: usize) -> f64 {
+    match (&leg.start, &leg.end) {
+        (Some(start), Ok(end)) => deg((end.joints[joint] - start.joints[joint]).abs()),
+        _ => 0.0,
+    }
+}
+
+/// Keeps the worst value and its place.
+fn raise(worst: &mut Worst, value: f64, at: Place) {
+    if value > worst.value || worst.line == 0 {
+        *worst = Worst { value, motion: at.motion as u64, line: at.line };
+    }
 }

@@ -1,14 +1,24 @@
 //! Outcome of a proof attempt.
+use core::fmt;
 
-/// Where two programs differ.
+/// Where two programs differ, or where a certificate does not tell the truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Witness {
-    /// Index of the motion (from 0).
-    pub motion: usize,
-    /// Line in the program after (from 1).
-    pub line: u32,
+    /// Index of the motion (from 0); `None`: the texts or the certificate, not a motion.
+    pub motion: Option<usize>,
+    /// Line in the program after (from 1), where there is one.
+    pub line: Option<u32>,
     /// What differs, with numbers and units.
     pub message: String,
+}
+
+impl fmt::Display for Witness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "line {line}: {}", self.message),
+            None => f.write_str(&self.message),
+        }
+    }
 }
 
 /// Why nothing could be decided.
@@ -16,6 +26,12 @@ pub struct Witness {
 pub struct Gap {
     /// The reason, and what would settle it.
     pub message: String,
+}
+
+impl fmt::Display for Gap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
 }
 
 /// Proved, refuted or unknown.
@@ -27,4 +43,39 @@ pub enum Outcome {
     Refuted(Witness),
     /// Unknown.
     Unknown(Gap),
+}
+
+/// Why a proof ended early.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Stop {
+    /// Refuted.
+    Refuted(Witness),
+    /// Unknown.
+    Unknown(Gap),
+}
+
+impl Stop {
+    /// Refuted by the texts or the certificate as a whole.
+    pub(crate) fn refuted(message: impl Into<String>) -> Self {
+        Self::Refuted(Witness { motion: None, line: None, message: message.into() })
+    }
+
+    /// Refuted by one motion.
+    pub(crate) fn refuted_at(motion: usize, line: u32, message: impl Into<String>) -> Self {
+        Self::Refuted(Witness { motion: Some(motion), line: Some(line), message: message.into() })
+    }
+
+    /// Undecided.
+    pub(crate) fn unknown(message: impl Into<String>) -> Self {
+        Self::Unknown(Gap { message: message.into() })
+    }
+}
+
+impl From<Stop> for Outcome {
+    fn from(stop: Stop) -> Self {
+        match stop {
+            Stop::Refuted(witness) => Self::Refuted(witness),
+            Stop::Unknown(gap) => Self::Unknown(gap),
+        }
+    }
 }

@@ -1,8 +1,14 @@
 //! Settings of a check: `trunnion.toml` and what the command line adds. No file is opened here.
+mod file;
+mod tool;
+
+pub use tool::parse_tool_flag;
+
 use crate::Severity;
 use trunnion_dialect::Dialect;
+use trunnion_geometry::rad;
 use trunnion_interp::Setup;
-use trunnion_machine::Machine;
+use trunnion_machine::{Machine, Tolerances};
 
 /// Level of a rule in `trunnion.toml`: `[rules] pole-flip = "error"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +28,7 @@ pub struct Config {
     pub dialect: Option<String>,
     /// `[rules]`.
     pub rules: Vec<(String, RuleLevel)>,
-    /// `[tolerances] tip = 0.02` (mm), overrides the machine's: tip, pole_cone (deg), pole_angle (deg), ...
+    /// `[tolerances]`, names as in [`TOLERANCES`]; they override the machine's.
     pub tolerances: Vec<(String, f64)>,
     /// `[[tool]]`, `[work_offsets]`.
     pub setup: Setup,
@@ -45,12 +51,46 @@ impl core::fmt::Display for ConfigError {
 
 impl std::error::Error for ConfigError {}
 
+/// Names of `[tolerances]` with what they mean.
+pub const TOLERANCES: &[(&str, &str)] = &[
+    ("tip", "path-deviation: how far the tip may leave the programmed segment, mm"),
+    ("pole_cone", "pole-flip: cone about the pole, deg"),
+    ("pole_angle", "pole-flip: change of the rotary axis, deg"),
+    ("swap_excess", "branch-swap: rotary excess over the cheapest move without a swap, deg"),
+    ("pole_touch", "pole-crossing: distance to the pole, deg"),
+    ("feed_drop_warning", "feed-drop: share of the programmed feed, 0 to 1, below which it warns"),
+    ("feed_drop_error", "feed-drop: share of the programmed feed, 0 to 1, below which it is an error"),
+];
+
 impl Config {
     /// Reads the text of a `trunnion.toml`.
     pub fn parse(toml: &str) -> Result<Self, ConfigError> {
-        let _ = toml;
-        todo!()
+        file::parse(toml)
     }
+
+    /// The machine with this file's tolerances in place of its own.
+    pub fn machine_with_tolerances(&self, machine: &Machine) -> Machine {
+        let mut machine = machine.clone();
+        for (name, value) in &self.tolerances {
+            apply(&mut machine.tolerances, name, *value);
+        }
+        machine
+    }
+}
+
+/// Sets one tolerance by its name in [`TOLERANCES`]; false when there is no such name.
+fn apply(tolerances: &mut Tolerances, name: &str, value: f64) -> bool {
+    match name {
+        "tip" => tolerances.tip_mm = value,
+        "pole_cone" => tolerances.pole_cone = rad(value),
+        "pole_angle" => tolerances.pole_angle = rad(value),
+        "swap_excess" => tolerances.swap_excess = rad(value),
+        "pole_touch" => tolerances.pole_touch = rad(value),
+        "feed_drop_warning" => tolerances.feed_drop_warning = value,
+        "feed_drop_error" => tolerances.feed_drop_error = value,
+        _ => return false,
+    }
+    true
 }
 
 /// Everything one check needs.
@@ -64,4 +104,17 @@ pub struct Settings<'a> {
     pub setup: Setup,
     /// Rule levels, last wins (config, then command line).
     pub rules: Vec<(String, RuleLevel)>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_named_tolerance_can_be_set() {
+        for (name, _) in TOLERANCES {
+            assert!(apply(&mut Tolerances::default(), name, 0.5), "{name}");
+        }
+        assert!(!apply(&mut Tolerances::default(), "tipp", 0.5));
+    }
 }

@@ -1,18 +1,40 @@
 //! What a rule is: data, and a function that reads one level of the analysis.
-use crate::{Severity, sink::Reporter};
+use crate::{Severity, sink::Reporter, view::LegView, view::Overview};
 use trunnion_interp::Fault;
-use trunnion_machine::{Leg, Machine};
-use trunnion_syntax::{Program, SyntaxError};
+use trunnion_syntax::SyntaxError;
 
-/// What a rule reads.
+/// Reads a problem of the text.
+pub type TextRule = fn(&SyntaxError, &mut Reporter<'_>);
+/// Reads the program as a whole.
+pub type ProgramRule = fn(&Overview<'_>, &mut Reporter<'_>);
+/// Reads a fault of the run.
+pub type FaultRule = fn(&Fault, &mut Reporter<'_>);
+/// Reads a leg of the machine.
+pub type LegRule = fn(&LegView<'_>, &mut Reporter<'_>);
+
+/// What a rule reads, hence what it costs.
 #[derive(Clone, Copy)]
 pub enum Level {
     /// Each problem of the text.
-    Text(fn(&Program, &SyntaxError, &mut Reporter<'_>)),
+    Text(TextRule),
+    /// The program as a whole, once.
+    Program(ProgramRule),
     /// Each fault of the run.
-    Fault(fn(&Program, &Fault, &mut Reporter<'_>)),
+    Fault(FaultRule),
     /// Each leg of the machine.
-    Leg(fn(&Machine, &Leg, &mut Reporter<'_>)),
+    Leg(LegRule),
+}
+
+impl Level {
+    /// One word for lists: `text`, `program`, `motion`, `machine`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Text(_) => "text",
+            Self::Program(_) => "program",
+            Self::Fault(_) => "motion",
+            Self::Leg(_) => "machine",
+        }
+    }
 }
 
 /// What silence means.
@@ -22,6 +44,17 @@ pub enum Guarantee {
     Sound,
     /// Silence proves nothing.
     Heuristic,
+}
+
+/// What a rule file says about itself; name and documentation come from the file.
+#[derive(Clone, Copy)]
+pub(crate) struct Body {
+    /// Severity unless a finding says otherwise.
+    pub(crate) severity: Severity,
+    /// What silence means.
+    pub(crate) guarantee: Guarantee,
+    /// What it reads.
+    pub(crate) level: Level,
 }
 
 /// One rule. Its name is its file's name with dashes, its documentation its file's header.
@@ -37,4 +70,11 @@ pub struct Rule {
     pub guarantee: Guarantee,
     /// What it reads.
     pub level: Level,
+}
+
+impl Rule {
+    /// The first sentence of the documentation: the rule in one line.
+    pub fn summary(&self) -> &'static str {
+        self.docs.lines().next().unwrap_or_default()
+    }
 }

@@ -1,9 +1,95 @@
-//! The list of rules, alphabetical. A rule is one file in `rules/`, its name in two lists here.
+//! The list of rules, alphabetical. A rule is one file in `rules/`; its name stands in two lists here.
+mod apt_unknown_record;
+mod apt_vector_missing;
+mod arc_centre_missing;
+mod arc_radius_mismatch;
+mod axis_limit;
+mod axis_overspeed;
+mod bad_number;
+mod branch_swap;
+mod broken_directive;
+mod decimal_comma;
+mod feed_drop;
+mod machine_unset;
+mod missing_axis;
+mod missing_feed;
+mod missing_program_end;
+mod modal_group_conflict;
+mod not_modelled;
+mod path_deviation;
+mod pole_crossing;
+mod pole_flip;
+mod position_unknown;
+mod repeated_word;
+mod syntax_error;
+mod tool_length_unset;
+mod tool_vector_not_unit;
+mod unclosed_comment;
+mod unknown_code;
+mod unknown_word;
+mod unreachable_orientation;
+mod work_offset_unset;
+
 use crate::Rule;
+use crate::header;
+
+/// The rules of the files named: name from the file's name, documentation from the file's header. The `mod` lines stay
+/// plain above, because rustfmt does not follow those a macro makes.
+macro_rules! table {
+    ($($file:ident),* $(,)?) => {
+        &[$({
+            const SOURCE: &str = include_str!(concat!("rules/", stringify!($file), ".rs"));
+            const DOCS: [u8; header::docs_len(SOURCE)] = header::docs_bytes(SOURCE);
+            const NAME: [u8; stringify!($file).len()] = header::dashed(stringify!($file));
+            const BODY: crate::rule::Body = $file::RULE;
+            const RULE: Rule = Rule {
+                name: header::text(&NAME),
+                docs: header::text(&DOCS),
+                severity: BODY.severity,
+                guarantee: BODY.guarantee,
+                level: BODY.level,
+            };
+            &RULE
+        }),*]
+    };
+}
+
+static RULES: &[&Rule] = table![
+    apt_unknown_record,
+    apt_vector_missing,
+    arc_centre_missing,
+    arc_radius_mismatch,
+    axis_limit,
+    axis_overspeed,
+    bad_number,
+    branch_swap,
+    broken_directive,
+    decimal_comma,
+    feed_drop,
+    machine_unset,
+    missing_axis,
+    missing_feed,
+    missing_program_end,
+    modal_group_conflict,
+    not_modelled,
+    path_deviation,
+    pole_crossing,
+    pole_flip,
+    position_unknown,
+    repeated_word,
+    syntax_error,
+    tool_length_unset,
+    tool_vector_not_unit,
+    unclosed_comment,
+    unknown_code,
+    unknown_word,
+    unreachable_orientation,
+    work_offset_unset,
+];
 
 /// All rules, by name.
 pub fn rules() -> &'static [&'static Rule] {
-    &[]
+    RULES
 }
 
 /// A rule by name.

@@ -1,5 +1,234 @@
-//! Where rules report to: ranges from blocks, levels from settings, merging of consecutive findings.
+//! Where rules report to: wording is theirs; levels, suppression, block numbers and merging are done here.
+use crate::runs::{Log, Merge};
+use crate::suppress::Suppressions;
+use crate::{Diagnostic, RuleLevel, Severity, Status, ValueKey};
+use trunnion_syntax::{BlockId, Program, TextRange};
+
+/// A rule in the list with the level the settings give it.
+#[derive(Clone, Copy)]
+pub(crate) struct Active<F> {
+    pub(crate) name: &'static str,
+    pub(crate) severity: Severity,
+    /// Severity of every finding of the rule, if the settings name one.
+    pub(crate) level: Option<Severity>,
+    pub(crate) run: F,
+}
+
 /// Collects findings of rules.
 pub struct Reporter<'a> {
-    _program: &'a (),
+    program: &'a Program,
+    dialect: &'a str,
+    suppressions: &'a Suppressions,
+    log: Log,
+    /// Of the rule that runs now.
+    name: &'static str,
+    severity: Severity,
+    level: Option<Severity>,
+    /// The block it looks at; `None`: the block of what it reports.
+    block: Option<BlockId>,
+    sequence: u64,
+    pending: Vec<Draft>,
+    told: Vec<(&'static str, u64)>,
+}
+
+/// A finding while its rule still words it.
+pub struct Draft {
+    diagnostic: Diagnostic,
+    merge: Option<Merge>,
+}
+
+impl<'a> Reporter<'a> {
+    pub(crate) fn new(program: &'a Program, dialect: &'a str, suppressions: &'a Suppressions) -> Self {
+        Self {
+            program,
+            dialect,
+            suppressions,
+            log: Log::default(),
+            name: "",
+            severity: Severity::Error,
+            level: None,
+            block: None,
+            sequence: 0,
+            pending: Vec::new(),
+            told: Vec::new(),
+        }
+    }
+
+    /// The program that is checked.
+    pub fn program(&self) -> &'a Program {
+        self.program
+    }
+
+    /// The name of the dialect the program is read in.
+    pub fn dialect(&self) -> &'a str {
+        self.dialect
+    }
+
+    /// The text of a range.
+    pub fn text(&self, range: TextRange) -> String {
+        self.program.text(range).into_owned()
+    }
+
+    /// Starts a finding; the message says what is wrong, in one sentence with numbers and units.
+    pub fn report(&mut self, range: TextRange, message: impl Into<String>) -> &mut Draft {
+        let range = self.inside(range);
+        let diagnostic = Diagnostic {
+            rule: self.name,
+            severity: self.severity,
+            status: Status::Fail,
+            range,
+            block: None,
+            message: message.into(),
+            notes: Vec::new(),
+            help: None,
+            values: Vec::new(),
+            fixes: Vec::new(),
+            related: Vec::new(),
+            count: 1,
+            last: range,
+        };
+        self.pending.push(Draft { diagnostic, merge: None });
+        let last = self.pending.len() - 1;
+        &mut self.pending[last]
+    }
+
+    /// True the first time the running rule asks for `cause`, so that one cause is told once.
+    pub fn once(&mut self, cause: u64) -> bool {
+        let told = (self.name, cause);
+        let first = !self.told.contains(&told);
+        if first {
+            self.told.push(told);
+        }
+        first
+    }
+
+    /// Names the rule that runs next and the block it looks at. `sequence` counts blocks for merging.
+    pub(crate) fn enter<F>(&mut self, rule: &Active<F>, block: Option<BlockId>, sequence: u64) {
+        self.name = rule.name;
+        self.severity = rule.severity;
+        self.level = rule.level;
+        self.block = block;
+        self.sequence = sequence;
+    }
+
+    /// Takes what the rule reported.
+    pub(crate) fn leave(&mut self) {
+        if self.pending.is_empty() {
+            return;
+        }
+        let program = self.program;
+        for Draft { mut diagnostic, merge } in self.pending.drain(..) {
+            let block = self.block.or_else(|| program.block_at(diagnostic.range.start)).unwrap_or_default();
+            if self.suppressions.allows(diagnostic.rule, block) {
+                continue;
+            }
+            if let Some(level) = self.level
+                && diagnostic.status == Status::Fail
+            {
+                diagnostic.severity = level;
+            }
+            if (block.0 as usize) < program.block_count() {
+                diagnostic.block = program.block(block).number().map(|range| program.text(range).into_owned());
+            }
+            self.log.add(diagnostic, merge, self.sequence);
+        }
+    }
+
+    pub(crate) fn finish(self) -> Vec<Diagnostic> {
+        self.log.finish()
+    }
+
+    fn inside(&self, range: TextRange) -> TextRange {
+        let end = self.program.source().len() as u32;
+        let start = range.start.min(end);
+        TextRange::new(start, range.end.clamp(start, end))
+    }
+}
+
+impl Draft {
+    /// Why it matters, or more numbers.
+    pub fn note(&mut self, note: impl Into<String>) -> &mut Self {
+        self.diagnostic.notes.push(note.into());
+        self
+    }
+
+    /// What to do.
+    pub fn help(&mut self, help: impl Into<String>) -> &mut Self {
+        self.diagnostic.help = Some(help.into());
+        self
+    }
+
+    /// A number of the message; the key ends in its unit.
+    pub fn value(&mut self, key: &'static str, value: f64) -> &mut Self {
+        self.diagnostic.values.push((key, ValueKey::Number(value)));
+        self
+    }
+
+    /// A text of the message, such as an axis letter.
+    pub fn value_text(&mut self, key: &'static str, value: impl Into<String>) -> &mut Self {
+        self.diagnostic.values.push((key, ValueKey::Text(value.into())));
+        self
+    }
+
+    /// Another severity than the rule's own.
+    pub fn severity(&mut self, severity: Severity) -> &mut Self {
+        self.diagnostic.severity = severity;
+        self
+    }
+
+    /// The rule could not decide; the message says what is missing.
+    pub fn unknown(&mut self) -> &mut Self {
+        self.diagnostic.status = Status::Unknown;
+        self.diagnostic.severity = Severity::Info;
+        self
+    }
+
+    /// A rewrite that may cure it.
+    pub fn fix(&mut self, rewrite: &'static str) -> &mut Self {
+        self.diagnostic.fixes.push(rewrite);
+        self
+    }
+
+    /// Another place of interest.
+    pub fn related(&mut self, range: TextRange, message: impl Into<String>) -> &mut Self {
+        self.diagnostic.related.push((range, message.into()));
+        self
+    }
+
+    /// In consecutive blocks the finding is told once; `key` must agree (an axis letter, or 0), the largest `badness` is kept.
+    pub fn merge(&mut self, key: u64, badness: f64) -> &mut Self {
+        self.merge = Some(Merge { key, badness, show: 1, everywhere: false });
+        self
+    }
+
+    /// The finding is told once in the whole program, at its first place; `key` must agree.
+    pub fn merge_everywhere(&mut self, key: u64) -> &mut Self {
+        self.merge = Some(Merge { key, badness: 0.0, show: 1, everywhere: true });
+        self
+    }
+
+    /// As [`Self::merge`], but runs of up to `show` blocks are reported block by block.
+    pub fn merge_runs_over(&mut self, show: usize, key: u64, badness: f64) -> &mut Self {
+        self.merge = Some(Merge { key, badness, show, everywhere: false });
+        self
+    }
+}
+
+/// The rules of one level that are not allowed everywhere, with their levels. The last entry for a name wins.
+pub(crate) fn active<F: Copy>(
+    levels: &[(String, RuleLevel)],
+    pick: impl Fn(crate::Level) -> Option<F>,
+) -> Vec<Active<F>> {
+    let mut out = Vec::new();
+    for rule in crate::rules() {
+        let Some(run) = pick(rule.level) else { continue };
+        let level = levels.iter().rev().find(|(name, _)| name == rule.name).map(|(_, level)| *level);
+        let level = match level {
+            Some(RuleLevel::Allow) => continue,
+            Some(RuleLevel::At(severity)) => Some(severity),
+            None => None,
+        };
+        out.push(Active { name: rule.name, severity: rule.severity, level, run });
+    }
+    out
 }

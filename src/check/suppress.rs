@@ -1,1 +1,45 @@
-//! Comments that allow a rule.
+//! Comments that allow a rule: `(trunnion: allow pole-flip because the tool is out of the cut)`.
+//!
+//! On a line of its own it holds for the whole program, beside words for its block. Without a reason it does nothing and
+//! `broken-directive` says so.
+use trunnion_interp::Directive;
+use trunnion_syntax::{BlockId, Program, TextRange};
+
+/// What the program's comments allow.
+#[derive(Default)]
+pub(crate) struct Suppressions {
+    everywhere: Vec<String>,
+    /// Sorted by block.
+    in_block: Vec<(BlockId, String)>,
+}
+
+impl Suppressions {
+    pub(crate) fn new(program: &Program, directives: &[(TextRange, Directive)]) -> Self {
+        let mut found = Self::default();
+        for (range, directive) in directives {
+            let Directive::Allow { rule, reason } = directive else { continue };
+            if reason.trim().is_empty() {
+                continue;
+            }
+            match program.block_at(range.start) {
+                Some(block) if has_code(program, block) => found.in_block.push((block, rule.clone())),
+                _ => found.everywhere.push(rule.clone()),
+            }
+        }
+        found.in_block.sort();
+        found
+    }
+
+    /// Whether findings of `rule` in `block` are allowed.
+    pub(crate) fn allows(&self, rule: &str, block: BlockId) -> bool {
+        let from = self.in_block.partition_point(|(at, _)| *at < block);
+        self.everywhere.iter().any(|name| name == rule)
+            || self.in_block[from..].iter().take_while(|(at, _)| *at == block).any(|(_, name)| name == rule)
+    }
+}
+
+/// Whether a block has more than comments.
+pub(crate) fn has_code(program: &Program, block: BlockId) -> bool {
+    let view = program.block(block);
+    view.record().is_some() || view.items().any(|item| !matches!(item, trunnion_syntax::Item::Comment(_)))
+}

@@ -93,6 +93,25 @@ pub enum Action {
     PathMode,
     /// Recognised, but its motion or its effect on the position is not modelled: what follows is unknown.
     NotModelled,
+    /// Moves, turns, mirrors or scales the coordinates in a way that is not modelled (G68.2, G92, CYCLE800, TRANS): machine
+    /// positions are unknown from here on, until a [`Action::FrameReset`] of the same group. A name without arguments and
+    /// without words in its block (`TRANS`, `CYCLE800()`) resets.
+    FrameChange,
+    /// Ends every [`Action::FrameChange`] of the same group (G69).
+    FrameReset,
+    /// DEF, PROC, EXTERN: declares names; no motion and no positions in the rest of the block.
+    Declaration,
+    /// A modal cycle that is not modelled yet (G81; MCALL CYCLE81): blocks with coordinates after it run it, until `CycleOff`
+    /// or a motion code.
+    CannedCycle,
+    /// G80; MCALL without a cycle.
+    CycleOff,
+    /// G96: S is a cutting speed, so the spindle's turns are unknown.
+    ConstantSurfaceSpeed,
+    /// G97: S is turns per minute.
+    ConstantSpindleSpeed,
+    /// A call of a subprogram: it may change anything, so all that follows is unknown until it is programmed again.
+    SubprogramCall,
     /// Sinumerik ORIAXES / ORIVECT and the like: orientation interpolated joint-linear.
     OrientationAxes,
     /// Orientation interpolated on the great circle.
@@ -117,6 +136,8 @@ pub enum Role {
     ArcCentre,
     /// Arc radius R, CR=.
     ArcRadius,
+    /// Further full turns of an arc, TURN=.
+    ArcTurns,
     /// Component of the tool vector A3= B3= C3=.
     ToolVector,
     /// Feed F.
@@ -131,4 +152,8 @@ pub enum Role {
     EdgeOffset,
     /// A parameter of the code in the block (P, Q, L, ...).
     Parameter,
+    /// A variable of the program (R1=): no motion; its value is not followed.
+    Variable,
+    /// Recognised, but it changes the path or calls a program in a way that is not modelled (RND=, CHF=, A2=, L20).
+    NotModelled,
 }

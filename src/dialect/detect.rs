@@ -1,5 +1,5 @@
 //! Which dialect a program is written in, and why.
-use crate::Dialect;
+use crate::{BUILTIN_NAMES, Dialect, builtin};
 
 /// A detected dialect with the reason for people.
 #[derive(Clone, Debug)]
@@ -10,13 +10,194 @@ pub struct Detected {
     pub reason: String,
 }
 
+/// How many lines at the start may hold a modeline.
+const MODELINE_LINES: usize = 10;
+/// How much of a program is looked at for signs of its dialect, bytes.
+const CONTENT_BYTES: usize = 64 * 1024;
+
 /// Modeline comment `(trunnion: dialect NAME)` in the first 10 lines, then file extension, then the machine's control family, then content (first 64 KiB).
 pub fn detect(file_name: Option<&str>, source: &[u8], family: Option<&str>) -> Detected {
-    let _ = (file_name, source, family);
-    todo!()
+    if let Some((dialect, line)) = modeline(source) {
+        return Detected { dialect, reason: format!("modeline in line {line}") };
+    }
+    let extension = file_name.and_then(extension);
+    if let Some(extension) = &extension
+        && let Some(dialect) = by_extension(extension)
+    {
+        return Detected { dialect, reason: format!("file extension .{extension}") };
+    }
+    if let Some((family, dialect)) = family.and_then(|family| Some((family, builtin(family)?))) {
+        return Detected { dialect, reason: format!("the machine's control family {family}") };
+    }
+    let (name, reason) = content(&source[..source.len().min(CONTENT_BYTES)]);
+    let dialect = builtin(name).unwrap_or_else(core_dialect);
+    Detected { dialect, reason }
+}
+
+fn core_dialect() -> &'static Dialect {
+    builtin("iso-6983").expect("the core is built in")
 }
 
 /// File name extensions (lower case, no dot) that name programs, of all built-in dialects.
 pub fn program_extensions() -> Vec<&'static str> {
-    todo!()
+    let dialects = BUILTIN_NAMES.iter().filter_map(|name| builtin(name));
+    dialects.flat_map(|dialect| dialect.extensions.iter().map(String::as_str)).collect()
+}
+
+/// Whether a file's name says that it holds a program; versions behind the name count (`part.ncl.8`).
+pub fn is_program_file_name(name: &str) -> bool {
+    extension(name).is_some_and(|extension| program_extensions().contains(&extension.as_str()))
+}
+
+/// Last extension, lower case; a version number behind it (`part.ncl.8`) is left out.
+fn extension(name: &str) -> Option<String> {
+    let name = name.rsplit(['/', '\\']).next()?;
+    let (stem, last) = name.rsplit_once('.')?;
+    if !last.is_empty() && last.bytes().all(|b| b.is_ascii_digit()) {
+        return stem.rsplit_once('.').map(|(_, real)| real.to_ascii_lowercase());
+    }
+    Some(last.to_ascii_lowercase())
+}
+
+/// The dialect that alone owns an extension. Extensions of the core (`.nc`) are shared by many controls and name none.
+fn by_extension(extension: &str) -> Option<&'static Dialect> {
+    let owners = BUILTIN_NAMES.iter().filter_map(|name| builtin(name)).filter(|dialect| dialect.name != core_dialect().name);
+    owners.into_iter().find(|dialect| dialect.extensions.iter().any(|known| known == extension))
+}
+
+/// `(trunnion: dialect NAME)`, `; trunnion: dialect NAME` or `$$ trunnion: dialect NAME` and its line; unknown names are passed over.
+fn modeline(source: &[u8]) -> Option<(&'static Dialect, usize)> {
+    let head = &source[..source.len().min(CONTENT_BYTES)];
+    for (i, line) in head.split(|&b| b == b'\n').take(MODELINE_LINES).enumerate() {
+        let line = String::from_utf8_lossy(line).to_ascii_lowercase();
+        for mark in ["(", ";", "$$"] {
+            for (at, _) in line.match_indices(mark) {
+                let Some(rest) = line[at + mark.len()..].trim_start().strip_prefix("trunnion:") else { continue };
+                let Some(rest) = rest.trim_start().strip_prefix("dialect") else { continue };
+                let name = rest.trim_start().split(|c: char| c.is_whitespace() || c == ')').next().unwrap_or_default();
+                if rest.starts_with(char::is_whitespace)
+                    && let Some(dialect) = builtin(name)
+                {
+                    return Some((dialect, i + 1));
+                }
+            }
+        }
+    }
+    None
+}
+
+/// The dialect by what the text looks like, with the sign that decided.
+fn content(source: &[u8]) -> (&'static str, String) {
+    let text = String::from_utf8_lossy(source).to_ascii_uppercase();
+    let mut votes: Vec<(&'static str, u32, String, usize)> = Vec::new();
+    for (i, line) in text.lines().enumerate() {
+        for (name, weight, sign) in line_signs(line.trim()) {
+            match votes.iter_mut().find(|vote| vote.0 == name) {
+                Some(vote) => vote.1 = vote.1.saturating_add(weight),
+                None => votes.push((name, weight, sign, i + 1)),
+            }
+        }
+    }
+    // The first of the strongest: a tie goes to the sign that came first.
+    let mut best: Option<(&'static str, u32, String, usize)> = None;
+    for vote in votes {
+        if best.as_ref().is_none_or(|known| vote.1 > known.1) {
+            best = Some(vote);
+        }
+    }
+    match best {
+        Some((name, _, sign, line)) => (name, format!("content: {sign} in line {line}")),
+        None => ("iso-6983", "no sign of a particular control".to_owned()),
+    }
+}
+
+/// Signs of a control in one upper-case line: dialect, weight, what was seen.
+fn line_signs(line: &str) -> Vec<(&'static str, u32, String)> {
+    let mut signs = Vec::new();
+    let mut sign = |name: &'static str, weight: u32, seen: &str| signs.push((name, weight, seen.to_owned()));
+    if line.starts_with("$$") {
+        sign("apt", 8, "a `$$` comment");
+    }
+    for word in ["PARTNO", "GOTO", "FEDRAT", "LOADTL", "SPINDL", "MULTAX", "CUTTER", "FINI"] {
+        if let Some(rest) = line.strip_prefix(word)
+            && (rest.trim_start().starts_with('/') || (rest.is_empty() && word == "FINI") || (word == "PARTNO" && rest.starts_with(' ')))
+        {
+            sign("apt", 8, word);
+        }
+    }
+    if line.starts_with("%_N_") {
+        sign("sinumerik-840d", 20, "%_N_");
+    }
+    if line.starts_with('%') || line.starts_with("$$") {
+        return signs;
+    }
+    let code = strip_comments(line);
+    let code = code.trim();
+    iso_signs(code, &mut sign);
+    if !code.contains('(') && line.starts_with(';') {
+        sign("sinumerik-840d", 1, "a `;` comment");
+    }
+    signs
+}
+
+fn iso_signs(code: &str, sign: &mut dyn FnMut(&'static str, u32, &str)) {
+    for name in ["TRAORI", "TRAFOOF", "CYCLE800", "CYCLE832", "MCALL", "SUPA", "G710", "G700", "GOTOF", "GOTOB", "DIAMON", "DEF REAL", "DEF INT", "MSG("] {
+        if code.contains(name) {
+            sign("sinumerik-840d", 10, name);
+        }
+    }
+    if assigned(code) && !code.contains('#') {
+        sign("sinumerik-840d", 4, "a word with `=`");
+    }
+    let o_word = code.strip_prefix('O').map(str::trim_start);
+    if let Some(rest) = o_word {
+        let after = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+        let label = after.len() < rest.len() || rest.starts_with('<') || rest.starts_with('#');
+        let words = ["SUB", "ENDSUB", "CALL", "IF", "WHILE", "DO", "REPEAT", "RETURN", "ELSE", "ENDIF", "ENDWHILE", "ENDREPEAT", "BREAK", "CONTINUE"];
+        let last = after.trim_start_matches(|c: char| c != '>' && after.contains('>')).trim_start_matches('>').trim_start();
+        if label && words.iter().any(|word| last.starts_with(word)) {
+            sign("linuxcnc", 10, "an O-word");
+        } else if rest.len() >= 4 && rest.as_bytes()[..4].iter().all(u8::is_ascii_digit) {
+            sign("fanuc-30i", 6, "a program number O");
+        }
+    }
+    for (name, text) in [("linuxcnc", "#<"), ("linuxcnc", "M428"), ("linuxcnc", "M429"), ("linuxcnc", "EXISTS[")] {
+        if code.contains(text) {
+            sign(name, 10, text);
+        }
+    }
+    for text in ["G43.4", "G43.5", "G68.2", "G54.1", "G5.1Q", "G5.1 Q", "G05.1"] {
+        if code.contains(text) {
+            sign("fanuc-30i", 6, text);
+        }
+    }
+    for text in ["GOTO", "]DO", "] DO", "]THEN", "] THEN"] {
+        if code.contains(text) && code.contains('[') {
+            sign("fanuc-30i", 6, "custom macro");
+        }
+    }
+}
+
+/// Whether a word or variable is assigned with `=` (`R1=5`, `X=10`, `CR=3`).
+fn assigned(code: &str) -> bool {
+    code.match_indices('=').any(|(at, _)| {
+        let before = code[..at].trim_end();
+        before.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_') && !code[at + 1..].starts_with('=')
+    })
+}
+
+/// The line without `( ... )` comments and without `; ...`; arguments `NAME( ... )` stay.
+fn strip_comments(line: &str) -> String {
+    let mut out = String::with_capacity(line.len());
+    let mut depth_comment = false;
+    for c in line.chars() {
+        match c {
+            ')' if depth_comment => depth_comment = false,
+            _ if depth_comment => {}
+            ';' => break,
+            '(' if !out.trim_end().ends_with(|c: char| c.is_ascii_alphabetic() || c == '0' || c == '2') => depth_comment = true,
+            _ => out.push(c),
+        }
+    }
+    out
 }

@@ -1,6 +1,12 @@
 //! A dialect: look-ups over a loaded table.
-use crate::{Action, Role};
+use crate::{Action, Owner, Role};
+use core::cmp::Ordering;
+use core::ops::RangeInclusive;
+use std::collections::BTreeMap;
 use trunnion_syntax::LexOptions;
+
+/// Slots of the look-up of G and of M codes: 0 to 999.9 in tenths.
+pub(crate) const G_SLOTS: usize = 10_000;
 
 /// Whether a code is a G code, an M code or a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -30,6 +36,53 @@ pub struct Code {
     pub doc: String,
     /// Where that is written down.
     pub source: String,
+    /// Who gives it that meaning.
+    pub owner: Owner,
+}
+
+/// Facts of a control that are neither letters nor codes. In TOML: table `[quirks]`, each key optional.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Quirks {
+    /// Motion code in force at the start of a program (Sinumerik: `linear`); `None`: none until one is programmed.
+    pub motion_at_start: Option<Action>,
+    /// T puts the tool into the spindle at once; else it only prepares it for M6.
+    pub tool_word_changes: bool,
+    /// The length of a programmed tool vector must be 1 (I J K of G43.5; not A3= B3= C3=).
+    pub unit_vectors: bool,
+    /// A second `%` is a program end (LinuxCNC); else it only ends the text.
+    pub percent_ends_program: bool,
+    /// G54 is in force from the start (LinuxCNC, Fanuc); else no settable offset (Sinumerik G500).
+    pub first_offset_at_start: bool,
+    /// A tool change makes its first cutting edge (D1), and so its length, active.
+    pub edge_at_tool_change: bool,
+    /// In a dwell P without a decimal point is ms (Fanuc); else s. X and U without a point then are ms too.
+    pub dwell_in_ms: bool,
+    /// Radii of an arc's start and end that differ by less than this part of the radius agree, whatever `arc_tolerance_mm` says
+    /// (LinuxCNC 0.001). In TOML: `relative` in `[arc-tolerance]`.
+    #[serde(skip)]
+    pub arc_tolerance_relative: f64,
+    /// The program may define names of its own (variables, labels, subprograms), so an unknown name is no error in itself.
+    pub user_names: bool,
+    /// Of two codes of one group, or two words with one letter, in a block the last one counts and the control says nothing.
+    pub last_code_wins: bool,
+    /// A number may follow a name directly (`DO1`, `GOTO900`).
+    pub numbers_follow_names: bool,
+}
+
+/// How far the radii of an arc's start and end may differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArcTolerance {
+    /// mm, programs in millimetres.
+    pub mm: f64,
+    /// mm, programs in inch.
+    pub inch_mm: f64,
+    /// Or this part of the radius; 0 where the control has no such rule.
+    pub relative: f64,
+    /// The part of the radius counts up to this many times the fixed tolerance.
+    pub relative_up_to: f64,
+    /// Where that is written down.
+    pub source: String,
 }
 
 /// A loaded dialect.
@@ -43,14 +96,26 @@ pub struct Dialect {
     pub lex: LexOptions,
     /// An arc's end radius may differ from its start radius by this much, mm (with its source in the table).
     pub arc_tolerance_mm: f64,
-    /// Feed mode at the start of a program.
+    /// The same in full: inch, part of the radius, source.
+    pub arc: ArcTolerance,
+    /// File name extensions that name this dialect, lower case, no dot.
     pub extensions: Vec<String>,
+    /// Modal groups: name to one line for people.
+    pub groups: BTreeMap<String, String>,
+    pub(crate) builder_codes: Vec<(CodeKind, RangeInclusive<u32>)>,
+    /// G by number, then M by number, then names by text.
     pub(crate) codes: Vec<Code>,
     /// Index into `codes` plus one by number x 10 for G 0..=999.9; 0 = unknown.
     pub(crate) g: Vec<u16>,
     /// The same for M.
     pub(crate) m: Vec<u16>,
+    /// Indexes into `codes` of the names, sorted by name.
+    pub(crate) names: Vec<u16>,
     pub(crate) roles: [Option<Role>; 26],
+    /// Roles of names with `=`, upper case: `CR`, `TURN`, `A3`.
+    pub(crate) named: Vec<(String, Role)>,
+    /// Facts that are neither letters nor codes.
+    pub quirks: Quirks,
 }
 
 impl Dialect {
@@ -64,16 +129,101 @@ impl Dialect {
         let i = *self.m.get(tenths as usize)?;
         (i != 0).then(|| &self.codes[usize::from(i) - 1])
     }
-    /// A name such as TRAORI, ASCII case ignored.
+    /// A name such as TRAORI or CYCLE832, ASCII case ignored; O(log n). Where the control lets numbers follow names (`DO1`),
+    /// the name without them.
     pub fn name(&self, name: &str) -> Option<&Code> {
-        self.codes.iter().find(|code| code.kind == CodeKind::Name && code.id.eq_ignore_ascii_case(name))
+        let exact = |name: &str| {
+            let found = self.names.binary_search_by(|&i| ignore_case(&self.codes[usize::from(i)].id, name)).ok()?;
+            Some(&self.codes[usize::from(self.names[found])])
+        };
+        let stem = || name.trim_end_matches(|c: char| c.is_ascii_digit());
+        exact(name).or_else(|| if self.quirks.numbers_follow_names { exact(stem()) } else { None })
+    }
+    /// Whether the builder of the machine may give the code, unknown to the control, a meaning (number in tenths).
+    pub fn builder_may_own(&self, kind: CodeKind, tenths: u32) -> bool {
+        self.builder_codes.iter().any(|(known, range)| *known == kind && range.contains(&tenths))
+    }
+    /// How far the radii of an arc's start and end may differ, mm, where the larger one is `radius_mm`; `inch`: in a program in inch.
+    pub fn arc_limit_mm(&self, radius_mm: f64, inch: bool) -> f64 {
+        let fixed = if inch { self.arc.inch_mm } else { self.arc.mm };
+        fixed.max((self.arc.relative * radius_mm).min(self.arc.relative_up_to * fixed))
     }
     /// What a letter (upper case) means.
     pub fn role(&self, letter: u8) -> Option<Role> {
         *self.roles.get(usize::from(letter.wrapping_sub(b'A')))?
     }
+    /// What a name before `=` means (`CR`, `TURN`, `A3`), ASCII case ignored. A letter with any number (`R#` in the table) is
+    /// found when the very name is not.
+    pub fn named_role(&self, name: &[u8]) -> Option<Role> {
+        let exact = |name: &[u8]| self.named.iter().find(|(known, _)| known.as_bytes().eq_ignore_ascii_case(name)).map(|row| row.1);
+        let any_number = || match name {
+            [letter, digits @ ..] if !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) => exact(&[*letter, b'#']),
+            _ => None,
+        };
+        exact(name).or_else(any_number)
+    }
     /// All codes.
     pub fn codes(&self) -> &[Code] {
         &self.codes
+    }
+    /// A dialect that knows nothing.
+    pub(crate) fn empty() -> Self {
+        let arc = ArcTolerance { mm: 0.0, inch_mm: 0.0, relative: 0.0, relative_up_to: 0.0, source: String::new() };
+        Self {
+            name: String::new(),
+            title: String::new(),
+            lex: LexOptions::default(),
+            arc_tolerance_mm: 0.0,
+            arc,
+            extensions: Vec::new(),
+            groups: BTreeMap::new(),
+            builder_codes: Vec::new(),
+            codes: Vec::new(),
+            g: Vec::new(),
+            m: Vec::new(),
+            names: Vec::new(),
+            roles: [None; 26],
+            named: Vec::new(),
+            quirks: Quirks::default(),
+        }
+    }
+}
+
+impl Code {
+    /// Markdown for an editor: what it is, what it does, what else is in its group's name, and where that is written down.
+    pub fn hover(&self) -> String {
+        let mut text = format!("**{}** {}\n", self.id, self.doc);
+        if let Some(group) = &self.group {
+            text.push_str(&format!("\nModal group: {group}\n"));
+        }
+        if !self.words.is_empty() {
+            text.push_str(&format!("\nReads: {}\n", self.words.join(" ")));
+        }
+        if self.owner == Owner::MachineBuilder {
+            text.push_str("\nGiven by the builder of the machine: yours may differ.\n");
+        }
+        match self.action {
+            Action::NotModelled => text.push_str("\nIts motion is not modelled: what follows is unknown until it is programmed anew.\n"),
+            Action::FrameChange => text.push_str("\nThe change of coordinates is not modelled: machine positions are unknown until it ends.\n"),
+            Action::CompensationLeft | Action::CompensationRight => text.push_str("\nThe compensated path is not modelled.\n"),
+            _ => {}
+        }
+        text.push_str(&format!("\n*{}*", self.source));
+        text
+    }
+}
+
+/// Order of text with ASCII lower case taken as upper case.
+fn ignore_case(a: &str, b: &str) -> Ordering {
+    a.bytes().map(|b| b.to_ascii_uppercase()).cmp(b.bytes().map(|b| b.to_ascii_uppercase()))
+}
+
+/// Order of codes: G, M, names; numbers by value, names by text.
+pub(crate) fn sort_key(code: &Code) -> (u8, u32, &str) {
+    let number = crate::assemble::number_tenths(&code.id).unwrap_or(0);
+    match code.kind {
+        CodeKind::G => (0, number, ""),
+        CodeKind::M => (1, number, ""),
+        CodeKind::Name => (2, 0, &code.id),
     }
 }

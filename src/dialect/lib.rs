@@ -2,13 +2,21 @@
 //!
 //! It does not know motions, machines or files.
 mod action;
+mod assemble;
 mod builtin;
 mod detect;
 mod dialect;
+mod modeline;
 mod schema;
+mod textmate;
 
 pub use action::{Action, Plane, Role};
 pub use builtin::{BUILTIN_NAMES, builtin};
-pub use detect::{Detected, detect, program_extensions};
-pub use dialect::{Code, CodeKind, Dialect};
-pub use schema::{DialectError, load};
+pub use detect::{Detected, detect, is_program_file_name, program_extensions};
+pub use dialect::{ArcTolerance, Code, CodeKind, Dialect, Quirks};
+pub use modeline::{Modeline, modeline};
+pub use schema::{DialectError, Owner, load};
+pub use textmate::textmate;
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,8 @@
-//! The TOML shape of a dialect table, `extends`, validation with spans.
-use crate::Dialect;
+//! The TOML shape of a dialect table. Unknown keys are errors; every error says where.
+use crate::{Action, Dialect, Quirks, Role, assemble::assemble};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::Spanned;
 
 /// Why a table could not be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,8 +21,95 @@ impl core::fmt::Display for DialectError {
 
 impl std::error::Error for DialectError {}
 
+/// Who gives a code its meaning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Owner {
+    /// The control.
+    #[default]
+    Control,
+    /// The builder of the machine: another machine may use it for something else.
+    MachineBuilder,
+}
+
+/// A whole table.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct Table {
+    pub(crate) name: Spanned<String>,
+    pub(crate) title: String,
+    /// Source of every code that names none of its own.
+    pub(crate) source: String,
+    pub(crate) extends: Option<Spanned<String>>,
+    #[serde(default)]
+    pub(crate) extensions: Vec<Spanned<String>>,
+    /// Codes of the extended table that this control does not have.
+    #[serde(default)]
+    pub(crate) remove: Vec<Spanned<String>>,
+    /// Codes that the builder of the machine may give a meaning.
+    #[serde(default)]
+    pub(crate) builder_codes: Vec<Spanned<String>>,
+    pub(crate) lex: Option<Lex>,
+    pub(crate) arc_tolerance: Option<ArcToleranceRow>,
+    #[serde(default)]
+    pub(crate) quirks: Quirks,
+    #[serde(default)]
+    pub(crate) roles: BTreeMap<Spanned<String>, Role>,
+    #[serde(default)]
+    pub(crate) addresses: BTreeMap<Spanned<String>, Role>,
+    #[serde(default)]
+    pub(crate) groups: BTreeMap<Spanned<String>, String>,
+    #[serde(default)]
+    pub(crate) codes: BTreeMap<Spanned<String>, CodeRow>,
+}
+
+/// `[lex]`.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct Lex {
+    pub(crate) format: FormatRow,
+    pub(crate) paren_comment: bool,
+    pub(crate) semicolon_comment: bool,
+    pub(crate) slash_star_comment: bool,
+    pub(crate) blanks_in_numbers: bool,
+}
+
+/// `format = "iso" | "apt"`.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum FormatRow {
+    Iso,
+    Apt,
+}
+
+/// `[arc-tolerance]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct ArcToleranceRow {
+    pub(crate) mm: Spanned<f64>,
+    pub(crate) inch: Option<Spanned<f64>>,
+    pub(crate) relative: Option<Spanned<f64>>,
+    pub(crate) relative_up_to: Option<Spanned<f64>>,
+    pub(crate) source: Spanned<String>,
+}
+
+/// One row of `[codes]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct CodeRow {
+    pub(crate) group: Option<Spanned<String>>,
+    pub(crate) action: Action,
+    #[serde(default)]
+    pub(crate) words: Vec<String>,
+    pub(crate) doc: Spanned<String>,
+    pub(crate) source: Option<Spanned<String>>,
+    #[serde(default)]
+    pub(crate) owner: Owner,
+}
+
 /// Loads a table; `extends` may name a built-in dialect.
 pub fn load(toml: &str) -> Result<Dialect, DialectError> {
-    let _ = toml;
-    todo!()
+    let table: Table = toml::from_str(toml)
+        .map_err(|error| DialectError { message: error.message().to_owned(), span: error.span() })?;
+    assemble(table)
 }

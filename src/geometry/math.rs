@@ -37,3 +37,7 @@ pub fn rotate(axis: &crate::Vec3, angle: f64, a: &crate::Vec3) -> crate::Vec3 {
     let (s, c) = sin_cos(angle);
     a * c + axis.cross(a) * s + axis * (axis.dot(a) * (1.0 - c))
 }
+/// Inverse hyperbolic sine.
+pub fn asinh(x: f64) -> f64 {
+    libm::asinh(x)
+}

@@ -1,6 +1,7 @@
 //! The modal state: what is in force between blocks.
-use crate::{Orientation, Position};
-use trunnion_dialect::{Action, Plane};
+use crate::{Orientation, Position, Tool, ToolShape};
+use std::sync::Arc;
+use trunnion_dialect::{Action, Dialect, Plane};
 
 /// How F is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +17,7 @@ pub enum FeedMode {
 /// What is in force between blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalState {
-    /// Motion code in force (`Rapid`, `Linear`, arcs), `None` before the first.
+    /// Motion code in force (`Rapid`, `Linear`, arcs, `CannedCycle`, `NotModelled`), `None` before the first.
     pub motion: Option<Action>,
     /// Plane.
     pub plane: Plane,
@@ -30,20 +31,22 @@ pub struct ModalState {
     pub feed_unit_mm: f64,
     /// Meaning of F.
     pub feed_mode: FeedMode,
-    /// F in mm/min, mm/rev or 1/min.
+    /// F in mm/min, mm/rev or 1/min; `None` before the first, and where its value could not be read.
     pub feed: Option<f64>,
     /// Spindle running.
     pub spindle_on: Option<bool>,
-    /// 1/min.
+    /// 1/min; `None` before the first S, and under constant cutting speed.
     pub spindle_rpm: Option<f64>,
     /// Active work offset's name.
-    pub work_offset: Option<String>,
-    /// Its values.
+    pub work_offset: Option<Arc<str>>,
+    /// Its values, mm and degrees.
     pub zero: [f64; 9],
-    /// Tool in the spindle.
+    /// Tool in the spindle; `None` unknown, or chosen by a name.
     pub tool: Option<u32>,
     /// Tool prepared by T, waiting for M6.
     pub tool_prepared: Option<u32>,
+    /// What is declared about the tool in use: merged from the run's setup, the program's comments and CUTTER.
+    pub tool_data: Option<Tool>,
     /// Compensated tool length, mm; `None` = off.
     pub tool_length_mm: Option<f64>,
     /// TCP on.
@@ -56,10 +59,50 @@ pub struct ModalState {
     pub multax: bool,
     /// Cutter radius compensation side: 0 off, 41, 42.
     pub compensation: u8,
+    /// Coordinates are in a frame that is not modelled (G68.2, CYCLE800, TRANS): motions have unknown X Y Z.
+    pub frame_unknown: bool,
     /// Programmed position.
     pub position: Position,
     /// Last orientation.
     pub orientation: Orientation,
     /// The program end was seen.
     pub ended: bool,
+}
+
+impl ModalState {
+    /// What is in force before the first block: nothing is known of the position, lengths are mm, F is per minute.
+    pub(crate) fn at_start(dialect: &Dialect) -> Self {
+        Self {
+            motion: dialect.quirks.motion_at_start,
+            plane: Plane::Xy,
+            incremental: false,
+            arc_centre_absolute: false,
+            length_unit_mm: 1.0,
+            feed_unit_mm: 1.0,
+            feed_mode: FeedMode::PerMinute,
+            feed: None,
+            spindle_on: None,
+            spindle_rpm: None,
+            work_offset: None,
+            zero: [0.0; 9],
+            tool: None,
+            tool_prepared: None,
+            tool_data: None,
+            tool_length_mm: None,
+            tcp: false,
+            great_circle: None,
+            vector_mode: false,
+            multax: false,
+            compensation: 0,
+            frame_unknown: false,
+            position: Position::default(),
+            orientation: Orientation::Words,
+            ended: false,
+        }
+    }
+    /// Declared shape of the tool in use, with its diameter in mm; `None` where either is not declared.
+    pub fn tool_shape(&self) -> Option<(ToolShape, f64)> {
+        let tool = self.tool_data?;
+        Some((tool.shape?, tool.diameter_mm?))
+    }
 }

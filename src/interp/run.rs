@@ -1,7 +1,9 @@
 //! The fold: a program's blocks through the modal state.
-use crate::{Fault, ModalState, Motion, Setup};
+use crate::codes::Found;
+use crate::memory::Memory;
+use crate::{Fault, FaultKind, ModalState, Motion, Setup};
 use trunnion_dialect::Dialect;
-use trunnion_syntax::{BlockId, Program};
+use trunnion_syntax::{Block, BlockId, Format, Program, TextRange};
 
 /// Receives what a run finds, in order.
 pub trait Sink {
@@ -22,18 +24,81 @@ pub struct Interpreter<'d> {
     pub(crate) setup: std::sync::Arc<Setup>,
     /// What is in force.
     pub state: ModalState,
+    pub(crate) memory: Memory<'d>,
+    /// Codes of the block in hand: kept only for its storage.
+    pub(crate) codes: Vec<Found<'d>>,
+    pub(crate) apt: crate::apt::AptState,
+}
+
+/// Where facts about the block in hand go.
+pub(crate) struct Report<'a> {
+    pub(crate) program: &'a Program,
+    pub(crate) block: BlockId,
+    /// The block's bytes.
+    pub(crate) whole: TextRange,
+    pub(crate) faults: &'a mut dyn FnMut(Fault),
+}
+
+impl Report<'_> {
+    /// A fact; an empty range stands for the whole block.
+    pub(crate) fn fault(&mut self, range: TextRange, kind: FaultKind) {
+        let range = if range == TextRange::default() { self.whole } else { range };
+        (self.faults)(Fault { block: self.block, range, kind });
+    }
 }
 
 impl<'d> Interpreter<'d> {
     /// At the start of a program.
     pub fn new(dialect: &'d Dialect, setup: &Setup) -> Self {
-        let _ = (dialect, setup);
-        todo!()
+        let mut interpreter = Self {
+            dialect,
+            setup: std::sync::Arc::new(setup.clone()),
+            state: ModalState::at_start(dialect),
+            memory: Memory::default(),
+            codes: Vec::new(),
+            apt: crate::apt::AptState::default(),
+        };
+        if dialect.quirks.first_offset_at_start {
+            let first = setup.work_offsets.iter().find(|offset| offset.name.eq_ignore_ascii_case("G54"));
+            if let Some(offset) = first {
+                interpreter.set_zero(Some("G54".into()), offset.values);
+            }
+        }
+        interpreter.merge_tool();
+        interpreter
     }
-    /// Runs one block.
+
+    /// Runs one block. The first step also reads the program's own declarations of tools; the step of the last block reports a
+    /// missing program end. Blocks after the program's end are not run.
     pub fn step(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
-        let _ = (program, block, sink);
-        todo!()
+        if !self.memory.directives_read {
+            self.declare(program);
+        }
+        if block.0 as usize >= program.block_count() {
+            return;
+        }
+        if !self.state.ended {
+            let view = program.block(block);
+            match program.options().format {
+                Format::Iso => self.step_iso(&view, sink),
+                Format::Apt => self.step_apt(&view, sink),
+            }
+        }
+        if block.0 as usize + 1 == program.block_count() {
+            self.finish(sink);
+        }
+    }
+
+    /// Remembers the block as the last one with content.
+    #[inline]
+    pub(crate) fn has_content(&mut self, block: &Block<'_>) {
+        self.memory.last_content = Some((block.id(), block.range()));
+    }
+
+    fn finish(&mut self, sink: &mut impl Sink) {
+        if let Some((block, range)) = self.memory.last_content.filter(|_| !self.memory.proper_end) {
+            sink.fault(Fault { block, range, kind: FaultKind::MissingProgramEnd });
+        }
     }
 }
 

@@ -1,4 +1,5 @@
 //! The machine as a chain of axes from workpiece to tool. Internal units: mm, rad, s.
+use crate::Constants;
 use trunnion_geometry::Vec3;
 
 /// The most axes a machine may have.
@@ -57,6 +58,83 @@ pub struct Axis {
     pub max_acceleration: Option<f64>,
     /// A word on where speed or limits come from ("assumed"), for people.
     pub note: Option<String>,
+    /// Where the numbers of this axis come from.
+    pub source: Option<String>,
+    /// Properties that no formula of this crate needs.
+    pub extra: AxisExtra,
+}
+
+/// How a control reads a rotary word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Wrap {
+    /// The value as written, with its turns.
+    #[default]
+    Literal,
+    /// The shortest way to the angle (M126).
+    Shortest,
+    /// The angle modulo 360 deg; the sign of the word is the direction of turning.
+    ModuloSign,
+}
+
+/// Properties of an axis beyond kinematics.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct AxisExtra {
+    /// How the control reads a rotary word.
+    pub wrap: Wrap,
+    /// The axis must not move while cutting (3+2, indexed).
+    pub clamp: bool,
+    /// The turns of the axis wind up a cable or a hose.
+    pub cable: bool,
+    /// The axis is also a spindle (mill-turn).
+    pub spindle: bool,
+    /// Words of a linear axis are diameters, joint values are radii.
+    pub diameter: bool,
+    /// Whether the file states limits (or that there are none).
+    pub limits_declared: bool,
+    /// Warn when nearer than this to a limit, mm or rad; `None`: only outside.
+    pub limit_margin: Option<f64>,
+    /// Smallest step, mm or rad; `None`: not declared.
+    pub resolution: Option<f64>,
+    /// Highest jerk, mm/s^3 or rad/s^3; `None`: not declared.
+    pub max_jerk: Option<f64>,
+    /// Position loop gain, 1/s; `None`: not declared.
+    pub position_gain: Option<f64>,
+    /// Share of velocity feed-forward, 0..=1; `None`: not declared.
+    pub feed_forward: Option<f64>,
+    /// Uncertainty of the axis' point, mm; `None`: not declared.
+    pub point_uncertainty: Option<f64>,
+    /// Uncertainty of the axis' direction, rad; `None`: not declared.
+    pub direction_uncertainty: Option<f64>,
+}
+
+/// An axis that only mirrors another one (gantry); it is not a joint of the chain.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Gantry {
+    /// Letter of the mirroring axis.
+    pub letter: u8,
+    /// Letter of the axis it follows.
+    pub leader: u8,
+}
+
+/// How rapid motions run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum RapidPath {
+    /// The file does not say.
+    #[default]
+    Undeclared,
+    /// All axes arrive together.
+    Synchronous,
+    /// Each axis runs at its own speed.
+    Dogleg,
+}
+
+/// A rigid body that hangs on a part of the machine (for clearance checks).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Body {
+    /// Axis letter, `base`, `spindle` or `workpiece`.
+    pub carrier: String,
+    /// File with the shape, relative to the machine file.
+    pub mesh: String,
 }
 
 /// How the control interpolates.
@@ -68,6 +146,16 @@ pub struct Control {
     pub tcp_great_circle: bool,
     /// Whether the machine file said so, or it is the default.
     pub tcp_declared: bool,
+    /// How rapid motions run.
+    pub rapid: RapidPath,
+    /// Rule by which the control picks a posture; `None`: not declared.
+    pub branch_rule: Option<String>,
+    /// Cone about the pole inside which the control acts, rad; `None`: not declared.
+    pub pole_cone: Option<f64>,
+    /// Corner speed model (axis-jump, grbl, klipper, linuxcnc-g64, exact-stop, servo); `None`: not declared.
+    pub corner_model: Option<String>,
+    /// Shortest time the control needs per block, s; `None`: not declared.
+    pub block_time: Option<f64>,
 }
 
 /// Thresholds of the rules.
@@ -87,6 +175,10 @@ pub struct Tolerances {
     pub feed_drop_warning: f64,
     /// feed-drop: share below which it is an error.
     pub feed_drop_error: f64,
+    /// orientation-deviation, rad.
+    pub orientation: f64,
+    /// near-miss: clearance below which a warning is given, mm.
+    pub near_mm: f64,
 }
 
 impl Default for Tolerances {
@@ -100,11 +192,14 @@ impl Default for Tolerances {
             pole_touch: deg(0.01),
             feed_drop_warning: 0.8,
             feed_drop_error: 0.3,
+            orientation: deg(0.1),
+            near_mm: 2.0,
         }
     }
 }
 
-/// A machine: validated, ready for kinematics.
+/// A machine: validated, ready for kinematics. Only `load` makes one; the axes and `constants` belong together, so change the file,
+/// not the fields.
 #[derive(Clone, Debug)]
 pub struct Machine {
     /// `mikron-ucp710`.
@@ -129,4 +224,18 @@ pub struct Machine {
     pub linear: Vec<usize>,
     /// For each of `AXIS_LETTERS`, the joint it drives.
     pub joint_of_letter: [Option<u8>; 9],
+    /// Precomputed kinematics of the chain.
+    pub constants: Constants,
+    /// Axes that mirror another one.
+    pub gantries: Vec<Gantry>,
+    /// Rigid bodies.
+    pub bodies: Vec<Body>,
+}
+
+impl Machine {
+    /// The joint that a letter drives (either case); `None` when the machine has no such axis.
+    pub fn joint(&self, letter: u8) -> Option<usize> {
+        let upper = letter.to_ascii_uppercase();
+        self.axes.iter().position(|axis| axis.letter == upper)
+    }
 }

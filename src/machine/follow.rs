@@ -1,7 +1,13 @@
 //! Motions to joints, block by block along one posture: the machine re-runs the program.
-use crate::{Joints, Machine};
+use crate::choice::{cheapest_in_posture, choose};
+use crate::forward::{Turn, place, segment_shifts};
+use crate::inverse::inverse_turned;
+use crate::pole;
+use crate::words::{Words, XYZ, zero_point};
+use crate::{Joints, MAX_AXES, Machine};
+use core::f64::consts::FRAC_PI_2;
 use trunnion_geometry::Vec3;
-use trunnion_interp::Motion;
+use trunnion_interp::{Motion, MotionKind, Orientation};
 
 /// Where the machine stands between two blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,12 +20,45 @@ pub struct Stance {
     pub axis: Vec3,
     /// S of the posture (see `Solution::branch`), signed.
     pub s: f64,
-    /// +1, -1, 0 at the pole; 0 also for machines with fewer than two rotary axes.
+    /// +1, -1, 0 at the pole (|S| below 1e-9); 0 also for machines with fewer than two rotary axes.
     pub branch: i8,
     /// Angle between tool axis and first rotary axis (0..pi/2, the nearer end of the axis), rad; pi/2 for machines without two rotaries.
     pub pole_angle: f64,
     /// Tool length used, mm.
     pub tool_length: f64,
+    /// Tip in the workpiece frame with the work offset, mm.
+    pub(crate) point: Vec3,
+    /// Sine and cosine of the turns of the two rotary axes (0, 1 for missing ones).
+    pub(crate) turns: [(f64, f64); 2],
+}
+
+impl Stance {
+    /// The rotary turns of this stance.
+    #[inline]
+    pub(crate) fn turns(&self, machine: &Machine) -> [Turn; 2] {
+        let rotary = &machine.constants.rotary;
+        let turn = |i: usize| Turn { axis: rotary[i].direction, sin: self.turns[i].0, cos: self.turns[i].1 };
+        [turn(0), turn(1)]
+    }
+    /// Tip in the workpiece frame with another tool length, mm.
+    #[inline]
+    pub(crate) fn point_with(&self, tool_length: f64) -> Vec3 {
+        if tool_length == self.tool_length { self.point } else { self.point + self.axis * (self.tool_length - tool_length) }
+    }
+    /// Rotary joints, workpiece side first, rad; 0 for missing ones.
+    #[inline]
+    pub(crate) fn rotary(&self, machine: &Machine) -> [f64; 2] {
+        rotary_joints(machine, &self.joints)
+    }
+}
+
+#[inline]
+fn rotary_joints(machine: &Machine, joints: &Joints) -> [f64; 2] {
+    let mut q = [0.0; 2];
+    for (slot, rotary) in q.iter_mut().zip(machine.constants.rotary()) {
+        *slot = joints[rotary.joint];
+    }
+    q
 }
 
 /// Why there is no stance.
@@ -57,34 +96,306 @@ pub struct Leg {
     pub known_joints: (Joints, u16),
     /// Absolute increments of the rotary joints, rad (0 for missing).
     pub rotary_change: [f64; 2],
-    /// Smallest pole angle within the block, rad.
+    /// Smallest pole angle within the block, rad (pi/2 where unknown).
     pub pole_angle_min: f64,
     /// Rotary excess over the cheapest move of the start's posture, rad, when the posture sign changes; else 0.
     pub rotary_excess: f64,
-    /// Length of the programmed tip path, mm (programmed X Y Z path without TCP).
+    /// Length of the tip path with TCP or vectors, of the programmed X Y Z path without, mm; 0 where it is not known.
     pub length: f64,
+}
+
+/// What a follower remembers between two motions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct State {
+    stance: Option<Stance>,
+    known_joints: (Joints, u16),
+    /// Last known rotary joints, rad; zeros before the first: the reference of the posture choice.
+    rotary: [f64; 2],
+    /// Sign of the last stance that had one, 0 when there was none.
+    sign: i8,
+    /// Letters that the last motion's end knew.
+    named: u16,
+    /// Whether the last motion's X Y Z were tip coordinates.
+    tip_words: bool,
 }
 
 /// Follows motions; cloning it makes a check-point.
 #[derive(Clone)]
 pub struct Follower<'m> {
     pub(crate) machine: &'m Machine,
-    pub(crate) stance: Option<Stance>,
-    pub(crate) known_joints: (Joints, u16),
+    pub(crate) state: State,
+    words: Words,
 }
 
 impl<'m> Follower<'m> {
     /// At an unknown position.
     pub fn new(machine: &'m Machine) -> Self {
-        Self { machine, stance: None, known_joints: ([0.0; crate::MAX_AXES], 0) }
+        let state = State {
+            stance: None,
+            known_joints: ([0.0; MAX_AXES], 0),
+            rotary: [0.0; 2],
+            sign: 0,
+            named: 0,
+            tip_words: false,
+        };
+        Self::at(machine, state)
+    }
+    /// Going on from a remembered state.
+    pub(crate) fn at(machine: &'m Machine, state: State) -> Self {
+        Self { machine, state, words: Words::new(machine) }
     }
     /// The machine.
     pub fn machine(&self) -> &'m Machine {
         self.machine
     }
-    /// Moves the machine.
+
+    /// Moves the machine. What cannot be followed leaves it at an unknown position until the program gives one again.
     pub fn follow(&mut self, motion: &Motion) -> Leg {
-        let _ = (motion, &self.stance, &self.known_joints);
-        todo!()
+        let start = self.state.stance;
+        let end = match motion.kind {
+            MotionKind::Dwell(_) => start.ok_or_else(|| NoStance::PositionUnknown(self.unknown())),
+            MotionKind::Unknown => {
+                self.state.known_joints.1 = 0;
+                Err(NoStance::NotModelled)
+            }
+            MotionKind::Arc(_) if self.words.diameters => Err(NoStance::NotModelled),
+            MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(_) => self.arrive(motion, start.as_ref()),
+        };
+        let leg = self.leg(motion, start, end);
+        self.remember(motion, &leg);
+        leg
     }
+
+    fn remember(&mut self, motion: &Motion, leg: &Leg) {
+        let state = &mut self.state;
+        state.stance = leg.end.as_ref().ok().copied();
+        state.known_joints = leg.known_joints;
+        state.named = motion.end.known;
+        state.tip_words = has_tip_words(motion);
+        match &leg.end {
+            Ok(stance) => {
+                state.rotary = stance.rotary(self.machine);
+                if stance.branch != 0 {
+                    state.sign = stance.branch;
+                }
+            }
+            Err(_) => {
+                state.sign = 0;
+                for (slot, rotary) in state.rotary.iter_mut().zip(self.machine.constants.rotary()) {
+                    if leg.known_joints.1 & (1 << rotary.joint) != 0 {
+                        *slot = leg.known_joints.0[rotary.joint];
+                    }
+                }
+            }
+        }
+    }
+
+    /// The stance at the end of a motion.
+    fn arrive(&mut self, motion: &Motion, start: Option<&Stance>) -> Result<Stance, NoStance> {
+        let tip_words = has_tip_words(motion);
+        let (mut joints, mut known) = self.words.joints(motion, &motion.end, tip_words);
+        self.keep(motion, start, tip_words, (&mut joints, &mut known));
+        self.state.known_joints = (joints, known);
+        if let Some(letter) = self.words.foreign(motion) {
+            return Err(NoStance::NoSuchAxis(letter));
+        }
+        if !tip_words {
+            if known != self.words.all() {
+                return Err(NoStance::PositionUnknown(self.unknown()));
+            }
+            return Ok(self.stand(motion, joints, start, None));
+        }
+        if let Orientation::Vector(_, axis) = motion.orientation {
+            let length = axis.norm();
+            if !(length > 1e-6 && length.is_finite()) {
+                return Err(NoStance::NotModelled);
+            }
+            let q = choose(self.machine, &(axis / length), self.state.rotary)?;
+            for (value, rotary) in q.iter().zip(self.machine.constants.rotary()) {
+                joints[rotary.joint] = *value;
+                known |= 1 << rotary.joint;
+            }
+            self.state.known_joints = (joints, known);
+        }
+        let tip = self.tip(motion, start);
+        let unknown = self.words.all() & !known & !self.solved();
+        let Some(tip) = tip.filter(|_| unknown == 0) else {
+            return Err(NoStance::PositionUnknown(self.unknown_tip(motion, tip.is_some())));
+        };
+        let mut stance = self.stand(motion, joints, start, Some(tip));
+        let turns = stance.turns(self.machine);
+        inverse_turned(self.machine, &turns, &mut stance.joints, &tip, stance.tool_length)
+            .ok_or(NoStance::NotModelled)?;
+        Ok(stance)
+    }
+
+    /// The tip that tip words name, workpiece frame with the work offset, mm. Where the program never named it but the machine
+    /// stands somewhere (TCP was just switched), it stays there.
+    fn tip(&self, motion: &Motion, start: Option<&Stance>) -> Option<Vec3> {
+        if let Some(point) = self.words.point(&motion.end) {
+            return Some(point + zero_point(motion));
+        }
+        let stance = start.filter(|_| self.keeps(motion, true))?;
+        let zero = zero_point(motion);
+        let mut tip = stance.point_with(motion.tool_length_mm);
+        for letter in 0..3 {
+            match (motion.end.get(letter), motion.start.get(letter)) {
+                (Some(value), _) => tip[letter] = value + zero[letter],
+                (None, None) => {}
+                (None, Some(_)) => return None,
+            }
+        }
+        Some(tip)
+    }
+
+    /// Whether coordinates that the program does not know can be taken from the machine's stance: their last value came from a
+    /// vector, or TCP was switched since.
+    fn keeps(&self, motion: &Motion, tip_words: bool) -> bool {
+        self.state.tip_words != tip_words || self.state.named & XYZ & !motion.end.known == 0
+    }
+
+    /// Joints that no word names keep what the machine knows of them, unless the program itself lost their position.
+    fn keep(&self, motion: &Motion, start: Option<&Stance>, tip_words: bool, (joints, known): (&mut Joints, &mut u16)) {
+        let missing = self.words.all() & !*known;
+        if missing == 0 || start.is_none() {
+            return;
+        }
+        let lost = motion.start.known & !motion.end.known;
+        for joint in 0..self.words.count() {
+            let was_named = self.words.names(self.state.named, joint) && self.state.tip_words == tip_words;
+            if missing & (1 << joint) != 0
+                && self.state.known_joints.1 & (1 << joint) != 0
+                && !self.words.names(lost, joint)
+                && !was_named
+            {
+                joints[joint] = self.state.known_joints.0[joint];
+                *known |= 1 << joint;
+            }
+        }
+    }
+
+    /// Joints that inverse kinematics solves for, as a mask.
+    fn solved(&self) -> u16 {
+        let constants = &self.machine.constants;
+        constants.solved.iter().fold(0, |mask, &index| mask | 1 << constants.linear[index].joint)
+    }
+
+    /// Letters of the joints whose position is unknown.
+    fn unknown(&self) -> String {
+        self.letters(!self.state.known_joints.1)
+    }
+
+    fn unknown_tip(&self, motion: &Motion, tip_known: bool) -> String {
+        let mut letters = String::new();
+        if !tip_known {
+            letters.extend("XYZ".chars().enumerate().filter(|(i, _)| motion.end.get(*i).is_none()).map(|(_, c)| c));
+        }
+        letters + &self.letters(!self.state.known_joints.1 & !self.solved())
+    }
+
+    fn letters(&self, joints: u16) -> String {
+        let axes = self.machine.axes.iter().enumerate();
+        axes.filter(|(joint, _)| joints & (1 << joint) != 0).map(|(_, axis)| char::from(axis.letter)).collect()
+    }
+
+    /// A stance with the given joints (without `tip`) or with the given rotary joints and tip (linear joints left to be solved).
+    #[inline]
+    fn stand(&self, motion: &Motion, joints: Joints, start: Option<&Stance>, tip: Option<Vec3>) -> Stance {
+        let machine = self.machine;
+        let constants = &machine.constants;
+        let mut turns = [Turn::NONE; 2];
+        for (index, rotary) in constants.rotary().iter().enumerate() {
+            turns[index] = match start {
+                // a rotary axis that stands still needs no sine
+                Some(before) if before.joints[rotary.joint] == joints[rotary.joint] => {
+                    let (sin, cos) = before.turns[index];
+                    Turn { axis: rotary.direction, sin, cos }
+                }
+                _ => Turn::new(constants, index, joints[rotary.joint]),
+            };
+        }
+        let tool_length = if motion.machine_coordinates { 0.0 } else { motion.tool_length_mm };
+        let point = tip.unwrap_or_else(|| {
+            let tool = machine.gauge_point - machine.tool_axis * tool_length;
+            place(constants, &turns, &segment_shifts(constants, &joints), &tool)
+        });
+        let (axis, s, branch, pole_angle) = if let Some(pair) = &constants.pair {
+            let w = turns[1].apply(&machine.tool_axis);
+            let (s, branch) = pole::posture(pair, &w);
+            (turns[0].apply(&w), s, branch, pole::pole_angle(constants, pair, &w, joints[constants.rotary[1].joint]))
+        } else {
+            (turns[0].apply(&machine.tool_axis), 0.0, 0, FRAC_PI_2)
+        };
+        Stance {
+            joints,
+            tip: point - zero_point(motion),
+            axis,
+            s,
+            branch,
+            pole_angle,
+            tool_length,
+            point,
+            turns: turns.map(|turn| (turn.sin, turn.cos)),
+        }
+    }
+
+    /// What happens between start and end.
+    fn leg(&self, motion: &Motion, start: Option<Stance>, end: Result<Stance, NoStance>) -> Leg {
+        let mut leg = Leg {
+            motion: *motion,
+            start,
+            end,
+            known_joints: self.state.known_joints,
+            rotary_change: [0.0; 2],
+            pole_angle_min: FRAC_PI_2,
+            rotary_excess: 0.0,
+            length: 0.0,
+        };
+        leg.length = self.length(&leg);
+        let Ok(end) = &leg.end else { return leg };
+        leg.known_joints = (end.joints, self.words.all());
+        leg.pole_angle_min = end.pole_angle;
+        let Some(start) = &leg.start else { return leg };
+        let (from, to) = (start.rotary(self.machine), end.rotary(self.machine));
+        leg.rotary_change = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
+        let constants = &self.machine.constants;
+        if let Some(pair) = &constants.pair {
+            leg.pole_angle_min = if crate::course::on_great_circle(self.machine, motion) {
+                let ends = start.pole_angle.min(end.pole_angle);
+                pole::pole_angle_min_great_circle(self.machine, &start.axis, &end.axis, ends)
+            } else {
+                pole::pole_angle_min(constants, pair, (from[1], start.pole_angle), (to[1], end.pole_angle))
+            };
+            if self.state.sign * end.branch < 0 {
+                let cheapest = cheapest_in_posture(self.machine, &end.axis, self.state.sign, from);
+                let total = leg.rotary_change[0] + leg.rotary_change[1];
+                leg.rotary_excess = cheapest.map_or(0.0, |least| (total - least).max(0.0));
+            }
+        }
+        leg
+    }
+
+    /// Length of the tip path (TCP) or of the programmed X Y Z path, mm; 0 where it is not known.
+    fn length(&self, leg: &Leg) -> f64 {
+        let motion = &leg.motion;
+        match &motion.kind {
+            MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => 0.0,
+            MotionKind::Arc(Some(arc)) => crate::course::arc_length(arc),
+            MotionKind::Rapid | MotionKind::Linear => {
+                if let (true, Some(start), Ok(end)) = (has_tip_words(motion), &leg.start, &leg.end) {
+                    return (end.point - start.point_with(end.tool_length)).norm();
+                }
+                match (self.words.point(&motion.start), self.words.point(&motion.end)) {
+                    (Some(from), Some(to)) => (to - from).norm(),
+                    _ => 0.0,
+                }
+            }
+        }
+    }
+}
+
+/// Whether X Y Z are coordinates of the tip in the workpiece: TCP, or tool vectors.
+#[inline]
+pub(crate) fn has_tip_words(motion: &Motion) -> bool {
+    (motion.tcp || matches!(motion.orientation, Orientation::Vector(..))) && !motion.machine_coordinates
 }

@@ -2,26 +2,44 @@
 //! what happens between two blocks. Formulas: Trunnion's kinematics notes; each function names its source.
 //!
 //! It does not know rules, severities or words for people.
+mod bound;
 mod builtin;
 mod chain;
+mod choice;
+mod constants;
+mod control;
+mod course;
 mod deviation;
+mod describe;
 mod follow;
 mod forward;
 mod inverse;
 mod limits;
+mod memory;
 mod row;
+mod pole;
+mod raw;
 mod selftest;
 mod spec;
 mod speed;
+mod validate;
+mod windings;
+mod words;
 
-pub use builtin::{BUILTIN_MACHINES, builtin};
-pub use chain::{Axis, AxisKind, Control, Joints, Limits, Machine, MAX_AXES, Side, Tolerances};
+pub use builtin::{BUILTIN_MACHINES, builtin, builtin_source};
+pub use chain::{
+    Axis, AxisExtra, AxisKind, Body, Control, Gantry, Joints, Limits, MAX_AXES, Machine, RapidPath, Side, Tolerances, Wrap,
+};
+pub use constants::{Constants, LinearAxis, PairConstants, RotaryAxis};
+pub use describe::{AxisDescription, Description, describe};
 pub use deviation::{Deviation, tip_deviation};
 pub use follow::{Follower, Leg, NoStance, Stance};
-pub use forward::{Pose, forward};
-pub use inverse::{Orientations, Solution, inverse, orientations};
+pub use forward::{Pose, forward, tool_axis_at};
+pub use inverse::{Orientations, POLE_TOLERANCE, Postures, REACH_TOLERANCE, Solution, inverse, orientations};
 pub use limits::{Excess, limit_excess};
+pub use memory::Memory;
 pub use row::{Row, row};
 pub use selftest::{SelfTest, self_test};
 pub use spec::{MachineError, load};
 pub use speed::{FeedLimit, block_duration_s, feed_limit};
+pub use windings::{Windings, pole_angle, rotary_jacobian, solution_s, windings};

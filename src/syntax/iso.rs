@@ -1,1 +1,295 @@
 //! Lexer of ISO words.
+//!
+//! The lexer alone decides where tokens end; what they mean together is decided by the items. Where a comment ends
+//! depends on the options, so the regular part stops at its mark and the loop takes the rest by hand.
+use crate::error::SyntaxErrorKind;
+use crate::lines::character;
+use crate::sink::Sink;
+use crate::builder::Builder;
+use crate::{LexOptions, TextRange, TokenKind};
+use logos::Logos;
+
+#[derive(Logos, Clone, Copy, Debug, PartialEq, Eq)]
+#[logos(utf8 = false)]
+enum Raw {
+    #[regex(b"[ \t\x00-\x08\x0B\x0C\x0E-\x1F\x7F]+")]
+    Blank,
+    #[regex(b"\r\n|\n|\r")]
+    Newline,
+    #[regex(br"[A-Za-z@^][ \t]*[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)", priority = 10)]
+    Word,
+    #[regex(br"[A-Za-z@^][ \t]*[+-][ \t]+([0-9]+(\.[0-9]*)?|\.[0-9]+)", priority = 9)]
+    SpacedWord,
+    #[regex(b"[A-Za-z@^]", priority = 8)]
+    Letter,
+    #[regex(b"[A-Za-z_$][A-Za-z_]+")]
+    #[regex(b"[_$][A-Za-z_][A-Za-z0-9_]*")]
+    #[regex(b"[A-Za-z_$][A-Za-z_]+[A-Za-z0-9]{0,30}_[A-Za-z0-9_]*")]
+    Name,
+    #[regex(b"[Oo][ \t]*<[^<>\r\n]*>")]
+    NamedO,
+    #[regex(b"#[ \t]*<[^<>\r\n]*>")]
+    #[token(b"#")]
+    Hash,
+    #[regex(br"[0-9]+(\.[0-9]*)?|\.[0-9]+")]
+    #[token(b".")]
+    Number,
+    #[regex(b"\"[^\"\r\n]*\"")]
+    #[regex(b"'[^'\r\n]*'")]
+    Text,
+    #[token(b"\"")]
+    Quote,
+    #[token(b"=")]
+    Equals,
+    #[token(b"[")]
+    BracketOpen,
+    #[token(b"]")]
+    BracketClose,
+    #[token(b"(")]
+    ParenOpen,
+    #[token(b")")]
+    ParenClose,
+    #[token(b",")]
+    Comma,
+    #[token(b"/*")]
+    SlashStar,
+    #[token(b"/")]
+    Slash,
+    #[token(b"*")]
+    Star,
+    #[token(b"+")]
+    Plus,
+    #[token(b"-")]
+    Minus,
+    #[token(b"<")]
+    Less,
+    #[token(b">")]
+    Greater,
+    #[token(b"%")]
+    Percent,
+    #[token(b":")]
+    Colon,
+    #[token(b";")]
+    Semicolon,
+}
+
+/// Words longer than this may have more digits than a decimal holds, and are looked at again.
+const SHORT_WORD: usize = 19;
+
+/// Lexes `source`, whose first byte stands at offset 0 of the file if `at_start`, into `out`.
+pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut Builder) {
+    let mut lexer = Raw::lexer(source);
+    if at_start && source.starts_with(b"\xEF\xBB\xBF") {
+        out.push(TokenKind::Blank, 0);
+        lexer.bump(3);
+    }
+    while let Some(raw) = lexer.next() {
+        let span = lexer.span();
+        let start = span.start as u32;
+        let kind = match raw {
+            Ok(Raw::Blank) => TokenKind::Blank,
+            Ok(Raw::Word) => {
+                out.odd |= span.len() > SHORT_WORD;
+                TokenKind::Word
+            }
+            Ok(Raw::Newline) => {
+                out.push(TokenKind::Newline, start);
+                out.end_block(source, options, span.end as u32);
+                continue;
+            }
+            Ok(raw) => {
+                out.odd = true;
+                match plain(raw) {
+                    Some(kind) => kind,
+                    None => {
+                        let length = Special { source, options, start: span.start, end: span.end, out }.lex(raw);
+                        lexer.bump(length - span.len());
+                        continue;
+                    }
+                }
+            }
+            Err(()) => {
+                out.odd = true;
+                let length = character(&source[span.start..]);
+                lexer.bump(length.saturating_sub(span.len()));
+                TokenKind::Unknown
+            }
+        };
+        out.push(kind, start);
+    }
+    out.finish(source, options, source.len() as u32);
+}
+
+/// The kinds that need no second look.
+fn plain(raw: Raw) -> Option<TokenKind> {
+    Some(match raw {
+        Raw::Blank => TokenKind::Blank,
+        Raw::Newline => TokenKind::Newline,
+        Raw::Word | Raw::SpacedWord => TokenKind::Word,
+        Raw::Letter => TokenKind::Letter,
+        Raw::Name => TokenKind::Name,
+        Raw::Hash => TokenKind::Hash,
+        Raw::Text => TokenKind::Text,
+        Raw::Equals => TokenKind::Equals,
+        Raw::BracketOpen => TokenKind::BracketOpen,
+        Raw::BracketClose => TokenKind::BracketClose,
+        Raw::ParenClose => TokenKind::ParenClose,
+        Raw::Comma => TokenKind::Comma,
+        Raw::Slash => TokenKind::Slash,
+        Raw::Star => TokenKind::Star,
+        Raw::Plus => TokenKind::Plus,
+        Raw::Minus => TokenKind::Minus,
+        Raw::Less => TokenKind::Less,
+        Raw::Greater => TokenKind::Greater,
+        Raw::Colon => TokenKind::Colon,
+        Raw::NamedO | Raw::Number | Raw::Quote | Raw::ParenOpen | Raw::SlashStar | Raw::Percent | Raw::Semicolon => {
+            return None;
+        }
+    })
+}
+
+/// A token whose end or kind depends on what stands around it, or on the options.
+struct Special<'a> {
+    source: &'a [u8],
+    options: LexOptions,
+    start: usize,
+    end: usize,
+    out: &'a mut Builder,
+}
+
+impl Special<'_> {
+    /// Pushes the token (or tokens) and returns how many bytes they are.
+    fn lex(&mut self, raw: Raw) -> usize {
+        let end = match raw {
+            Raw::NamedO => self.named_o(),
+            Raw::Number => self.number(),
+            Raw::Quote => self.unclosed_text(),
+            Raw::ParenOpen => self.paren(),
+            Raw::SlashStar => self.slash_star(),
+            Raw::Percent => self.percent(),
+            _ => self.semicolon(),
+        };
+        end - self.start
+    }
+
+    fn push(&mut self, kind: TokenKind) {
+        self.out.push(kind, self.start as u32);
+    }
+
+    fn report(&mut self, kind: SyntaxErrorKind, start: usize, end: usize) {
+        self.out.errors.report(kind, TextRange::new(start as u32, end as u32));
+    }
+
+    fn line_end(&self) -> usize {
+        memchr::memchr2(b'\n', b'\r', &self.source[self.end..]).map_or(self.source.len(), |at| self.end + at)
+    }
+
+    /// `o<name>`: the letter and the name are tokens of their own.
+    fn named_o(&mut self) -> usize {
+        self.push(TokenKind::Letter);
+        let name = self.start + memchr::memchr(b'<', &self.source[self.start..self.end]).unwrap_or(1);
+        if name > self.start + 1 {
+            self.out.push(TokenKind::Blank, self.start as u32 + 1);
+        }
+        self.out.push(TokenKind::Less, name as u32);
+        self.end
+    }
+
+    /// A number behind a word or number, with or without blanks between, belongs to it: `X1 2`, `X1.2.3`.
+    fn number(&mut self) -> usize {
+        let kinds = &mut self.out.table.kinds;
+        let spaced = kinds.ends_with(&[TokenKind::Word, TokenKind::Blank])
+            || kinds.ends_with(&[TokenKind::Number, TokenKind::Blank]);
+        if spaced && kinds.len() >= self.out.first as usize + 2 {
+            kinds.pop();
+            self.out.table.starts.pop();
+            return self.end;
+        }
+        let inside = kinds.len() > self.out.first as usize;
+        match kinds.last_mut() {
+            Some(TokenKind::Word | TokenKind::Number) if inside => {}
+            // `X.`, and `X.` with a blank between, is a word whose number is broken.
+            Some(last @ TokenKind::Letter) if inside => *last = TokenKind::Word,
+            _ => self.push(TokenKind::Number),
+        }
+        self.end
+    }
+
+    fn unclosed_text(&mut self) -> usize {
+        let end = self.line_end();
+        self.push(TokenKind::Text);
+        self.report(SyntaxErrorKind::UnclosedText, self.start, end);
+        end
+    }
+
+    fn paren(&mut self) -> usize {
+        if !self.options.paren_comment {
+            self.push(TokenKind::ParenOpen);
+            return self.end;
+        }
+        let line_end = self.line_end();
+        let close = memchr::memchr(b')', &self.source[self.end..line_end]).map(|at| self.end + at);
+        if let Some(at) = close.and_then(|close| memchr::memchr(b'(', &self.source[self.end..close])) {
+            self.report(SyntaxErrorKind::NestedComment, self.end + at, self.end + at + 1);
+        }
+        self.comment(close.map(|at| at + 1), line_end)
+    }
+
+    fn slash_star(&mut self) -> usize {
+        let limit = if self.options.slash_star_comment {
+            self.source.len()
+        } else {
+            // Not a comment in this dialect, but nothing else either: one problem instead of one per word.
+            self.report(SyntaxErrorKind::UnexpectedCharacter, self.start, self.end);
+            self.line_end()
+        };
+        let close = memchr::memmem::find(&self.source[self.end..limit], b"*/").map(|at| self.end + at + 2);
+        self.comment(close, limit)
+    }
+
+    /// A comment that ends at `close`, or is not closed and reaches `limit`.
+    fn comment(&mut self, close: Option<usize>, limit: usize) -> usize {
+        let Some(close) = close else {
+            self.push(TokenKind::UnclosedComment);
+            self.report(SyntaxErrorKind::UnclosedComment, self.start, limit);
+            return limit;
+        };
+        self.push(TokenKind::Comment);
+        close
+    }
+
+    /// `%` at the start of a line, with the program name behind it as one token: the name may hold anything.
+    fn percent(&mut self) -> usize {
+        let first = self.out.block_is_empty();
+        self.push(TokenKind::Percent);
+        if !first {
+            return self.end;
+        }
+        let line = &self.source[self.end..self.line_end()];
+        let stop = memchr::memchr2(b'(', b';', line).unwrap_or(line.len());
+        let name = line[..stop].trim_ascii();
+        if name.is_empty() {
+            return self.end;
+        }
+        let lead = line.iter().position(|byte| !byte.is_ascii_whitespace()).unwrap_or(0);
+        if lead > 0 {
+            self.out.push(TokenKind::Blank, self.end as u32);
+        }
+        self.out.push(TokenKind::Name, (self.end + lead) as u32);
+        self.end + lead + name.len()
+    }
+
+    fn semicolon(&mut self) -> usize {
+        let line_end = self.line_end();
+        if !self.options.semicolon_comment {
+            if self.source[self.end..line_end].trim_ascii().is_empty() {
+                // The end-of-block mark of a printed listing.
+                self.push(TokenKind::Blank);
+                return self.end;
+            }
+            self.report(SyntaxErrorKind::UnexpectedCharacter, self.start, self.end);
+        }
+        self.push(TokenKind::Comment);
+        line_end
+    }
+}

@@ -1,0 +1,134 @@
+//! Hover: the code under the cursor, what is in force, and what the machine does in the block.
+use crate::{
+    analysis::{Analysed, Judged},
+    position::{Encoding, offset, range},
+};
+use std::fmt::Write;
+use tower_lsp::lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind, Position};
+use trunnion_check::BlockInfo;
+use trunnion_dialect::{Code, Dialect};
+use trunnion_interp::{FeedMode, ModalState};
+use trunnion_machine::{AxisKind, Machine, Row};
+use trunnion_syntax::{Address, Block, Item, TextRange, Value, Word};
+
+/// The hover at a position; `None` where there is nothing to say.
+pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding) -> Option<Hover> {
+    let judged = analysed.outcome.as_ref().ok()?;
+    let at = offset(&analysed.text, &analysed.starts, position, encoding) as u32;
+    let id = judged.program.block_at(at)?;
+    let block = judged.program.block(id);
+    if judged.program.source()[block.range().as_usize()].iter().all(u8::is_ascii_whitespace) {
+        return None;
+    }
+    let mut text = String::new();
+    let mut shown = block.range();
+    if let Some((code, word)) = code_at(judged, &block, at) {
+        let _ = writeln!(text, "{}\n\n---\n", code.hover());
+        shown = word;
+    }
+    let info = judged.session.describe(&judged.program, &judged.resolved.settings(), id);
+    modal(&mut text, &info.after);
+    motion(&mut text, &info, judged.resolved.machine.as_ref());
+    Some(Hover {
+        contents: HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value: text }),
+        range: Some(range(&analysed.text, &analysed.starts, shown, encoding)),
+    })
+}
+
+/// The code the cursor is on.
+fn code_at<'a>(judged: &'a Judged, block: &Block<'_>, at: u32) -> Option<(&'a Code, TextRange)> {
+    let dialect = judged.resolved.dialect;
+    if let Some(record) = block.record() {
+        let on = record.major.touches(at);
+        return on.then(|| dialect.name(&judged.program.text(record.major)).map(|code| (code, record.major))).flatten();
+    }
+    block.items().find_map(|item| match item {
+        Item::Word(word) if word.range.touches(at) => code_of(dialect, &word).map(|code| (code, word.range)),
+        Item::Call(call) if call.name.touches(at) => {
+            dialect.name(&judged.program.text(call.name)).map(|code| (code, call.name))
+        }
+        _ => None,
+    })
+}
+
+fn code_of<'a>(dialect: &'a Dialect, word: &Word) -> Option<&'a Code> {
+    let Value::Number(number) = word.value else { return None };
+    let tenths = number.to_f64() * 10.0;
+    if tenths < 0.0 || tenths.fract() != 0.0 {
+        return None;
+    }
+    match word.address {
+        Address::Letter(b'G') => dialect.g(tenths as u32),
+        Address::Letter(b'M') => dialect.m(tenths as u32),
+        _ => None,
+    }
+}
+
+fn modal(text: &mut String, state: &ModalState) {
+    let feed = match (state.feed, state.feed_mode) {
+        (None, _) => "not programmed".to_owned(),
+        (Some(feed), FeedMode::PerMinute) => format!("{feed:.1} mm/min"),
+        (Some(feed), FeedMode::PerRevolution) => format!("{feed:.4} mm/rev"),
+        (Some(feed), FeedMode::InverseTime) => format!("{feed:.4} 1/min (inverse time)"),
+    };
+    let speed = match (state.spindle_on, state.spindle_rpm) {
+        (Some(true), Some(rpm)) => format!("{rpm:.0} 1/min"),
+        (Some(true), None) => "on".into(),
+        (Some(false), _) => "off".into(),
+        (None, _) => "unknown".into(),
+    };
+    let tool = state.tool.map_or_else(|| "unknown".to_owned(), |tool| format!("T{tool}"));
+    let mode = if state.tcp { "on: the tip is programmed" } else { "off" };
+    let sense = if state.incremental { "incremental" } else { "absolute" };
+    let unit = if state.length_unit_mm == 1.0 { "mm" } else { "inch" };
+    let _ = writeln!(text, "**In force** feed {feed}, spindle {speed}, tool {tool}, {sense}, {unit}, TCP {mode}\n");
+}
+
+fn motion(text: &mut String, info: &BlockInfo, machine: Option<&Machine>) {
+    let Some(machine) = machine else {
+        text.push_str("No machine is named: joints are not known (set `trunnion.machine`, or `machine` in trunnion.toml).\n");
+        return;
+    };
+    for row in &info.rows {
+        joints(text, row, machine);
+        facts(text, row);
+    }
+}
+
+fn joints(text: &mut String, row: &Row, machine: &Machine) {
+    let _ = write!(text, "**{}** on {}\n\n| axis |", row.motion, machine.id);
+    for axis in &machine.axes {
+        let _ = write!(text, " {} |", char::from(axis.letter));
+    }
+    text.push_str("\n|---|");
+    text.push_str(&"---:|".repeat(machine.axes.len()));
+    text.push_str("\n| end |");
+    for (axis, joint) in machine.axes.iter().zip(&row.joints) {
+        let unit = if axis.kind == AxisKind::Linear { "mm" } else { "deg" };
+        let cell = joint.map_or_else(|| "unknown".to_owned(), |value| format!("{value:.4} {unit}"));
+        let _ = write!(text, " {cell} |");
+    }
+    text.push_str("\n\n");
+}
+
+fn facts(text: &mut String, row: &Row) {
+    if let Some(branch) = row.branch {
+        let posture = match branch {
+            0 => "at the pole",
+            1.. => "posture +",
+            _ => "posture \u{2212}",
+        };
+        let pole = row.pole_angle_deg.map_or_else(String::new, |angle| format!(", {angle:.4} deg from the pole"));
+        let _ = writeln!(text, "* {posture}{pole}");
+    }
+    if let Some(bound) = row.tip_deviation_mm {
+        let _ = writeln!(text, "* tip leaves the programmed line by at most {bound:.4} mm (proven)");
+    }
+    if let Some(limit) = row.feed_limit_mm_min {
+        let axis = row.limiting_axis.map_or_else(String::new, |axis| format!(", limited by {axis}"));
+        let _ = writeln!(text, "* reachable feed {limit:.0} mm/min{axis}");
+    }
+    if let Some(time) = row.duration_s {
+        let _ = writeln!(text, "* {time:.4} s at the programmed feed");
+    }
+}

@@ -1,0 +1,79 @@
+//! Our plain data to lsp-types.
+use crate::{
+    analysis::Analysed,
+    position::{Encoding, range},
+};
+use tower_lsp::lsp_types::{
+    Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString, Position, Range,
+};
+use trunnion_check::{Severity, Status};
+use trunnion_syntax::TextRange;
+
+/// More findings than this help nobody in an editor; the last one then says how many there are.
+const MOST: usize = 2000;
+
+/// The findings of an analysis; a settings error is one finding at the start of the document.
+pub(crate) fn diagnostics(analysed: &Analysed, encoding: Encoding) -> Vec<Diagnostic> {
+    let judged = match &analysed.outcome {
+        Ok(judged) => judged,
+        Err(error) => {
+            let text = format!("{error}; until that is mended nothing is checked");
+            return vec![plain("settings", DiagnosticSeverity::ERROR, text)];
+        }
+    };
+    let all = &judged.session.report.diagnostics;
+    let mut out: Vec<Diagnostic> = all.iter().take(MOST).map(|d| one(analysed, d, encoding)).collect();
+    if let Some(more @ 1..) = all.len().checked_sub(MOST) {
+        let text = format!("{more} more findings are not shown here; `trunnion check` lists all {}", all.len());
+        out.push(plain("too-many-findings", DiagnosticSeverity::INFORMATION, text));
+    }
+    out
+}
+
+fn plain(code: &str, severity: DiagnosticSeverity, message: String) -> Diagnostic {
+    Diagnostic {
+        range: Range::new(Position::new(0, 0), Position::new(0, 0)),
+        severity: Some(severity),
+        code: Some(NumberOrString::String(code.into())),
+        source: Some("trunnion".into()),
+        message,
+        ..Diagnostic::default()
+    }
+}
+
+fn one(analysed: &Analysed, d: &trunnion_check::Diagnostic, encoding: Encoding) -> Diagnostic {
+    let place = |bytes: TextRange| range(&analysed.text, &analysed.starts, bytes, encoding);
+    let mut message = d.message.clone();
+    if d.status == Status::Unknown {
+        message.insert_str(0, "Not decided: ");
+    }
+    if d.count > 1 {
+        let last = place(d.last).start.line + 1;
+        message.push_str(&format!(" ({} blocks in a row, to line {last})", d.count));
+    }
+    for more in d.notes.iter().chain(&d.help) {
+        message.push('\n');
+        message.push_str(more);
+    }
+    let related: Vec<_> = d
+        .related
+        .iter()
+        .map(|(bytes, text)| DiagnosticRelatedInformation {
+            location: Location::new(analysed.uri.clone(), place(*bytes)),
+            message: text.clone(),
+        })
+        .collect();
+    Diagnostic {
+        range: place(d.range),
+        severity: Some(match d.severity {
+            Severity::Error => DiagnosticSeverity::ERROR,
+            Severity::Warning => DiagnosticSeverity::WARNING,
+            Severity::Info => DiagnosticSeverity::INFORMATION,
+        }),
+        code: Some(NumberOrString::String(d.rule.into())),
+        source: Some("trunnion".into()),
+        message,
+        related_information: (!related.is_empty()).then_some(related),
+        ..Diagnostic::default()
+    }
+}

@@ -1,0 +1,175 @@
+//! Where the tool is between the two ends of a motion, and how much its path can bend: the base of every bound.
+//!
+//! For a point that moves on W(t), 0 <= t <= 1, with |W''| <= Q, the distance of W from any chord between two moments h apart
+//! is at most Q h^2 / 8 (kinematics notes 3). The same holds for the difference of two such points.
+use trunnion_geometry::Vec3;
+use trunnion_geometry::math::{angle_between, asin, rotate, sin_cos};
+use trunnion_interp::MotionKind;
+use trunnion_machine::{AxisKind, Joints, Leg, MAX_AXES, Machine, Stance, forward};
+
+/// Most moments at which two paths are compared.
+const MOST_SAMPLES: u32 = 512;
+
+/// How the ends are joined.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Interpolation {
+    /// Joints run linear in time.
+    Joints,
+    /// The tip runs straight in the part, rotary joints linear.
+    TipStraight,
+    /// The tip runs straight in the part, the tool axis on the great circle.
+    GreatCircle,
+}
+
+/// A tool path of one motion.
+pub(crate) struct Path<'m> {
+    machine: &'m Machine,
+    interpolation: Interpolation,
+    start: Stance,
+    end: Stance,
+    /// Distance of the followed point from the tip along the tool axis, mm.
+    height: f64,
+}
+
+impl<'m> Path<'m> {
+    /// The path of the point `height` mm above the tip. `None` where the way between the ends is not modelled: arcs, unknown motions.
+    pub(crate) fn new(machine: &'m Machine, leg: &Leg, start: Stance, end: Stance, height: f64) -> Option<Self> {
+        let motion = &leg.motion;
+        let vectors = matches!(motion.orientation, trunnion_interp::Orientation::Vector(..));
+        let interpolation = match motion.kind {
+            MotionKind::Rapid | MotionKind::Linear if !motion.tcp && !vectors => Interpolation::Joints,
+            MotionKind::Rapid | MotionKind::Linear if motion.great_circle.unwrap_or(machine.control.tcp_great_circle) => {
+                Interpolation::GreatCircle
+            }
+            MotionKind::Rapid | MotionKind::Linear => Interpolation::TipStraight,
+            MotionKind::Dwell(_) => Interpolation::Joints,
+            MotionKind::Arc(_) | MotionKind::Unknown => return None,
+        };
+        Some(Self { machine, interpolation, start, end, height })
+    }
+
+    /// Point (mm) and tool axis at the share `t` of the motion, workpiece frame.
+    fn at(&self, t: f64) -> (Vec3, Vec3) {
+        let mut joints: Joints = [0.0; MAX_AXES];
+        for (joint, (from, to)) in joints.iter_mut().zip(self.start.joints.iter().zip(&self.end.joints)) {
+            *joint = from + (to - from) * t;
+        }
+        let pose = forward(self.machine, &joints, self.end.tool_length);
+        let axis = match self.interpolation {
+            Interpolation::Joints => return (pose.tip + pose.axis * self.height, pose.axis),
+            Interpolation::TipStraight => pose.axis,
+            Interpolation::GreatCircle => great_circle(&self.start.axis, &self.end.axis, t),
+        };
+        // the work offset cancels in every difference of two paths, but must be there beside joint paths
+        let from = forward(self.machine, &self.start.joints, self.end.tool_length).tip;
+        let to = forward(self.machine, &self.end.joints, self.end.tool_length).tip;
+        (from + (to - from) * t + axis * self.height, axis)
+    }
+
+    /// Bounds on the second derivatives of point (mm) and tool axis.
+    fn bend(&self) -> (f64, f64) {
+        let turn: f64 = self.turns().iter().map(|(_, change)| change).sum();
+        let axis = match self.interpolation {
+            Interpolation::GreatCircle => angle_between(&self.start.axis, &self.end.axis),
+            Interpolation::Joints | Interpolation::TipStraight => turn,
+        };
+        let axis = axis * axis;
+        match self.interpolation {
+            Interpolation::Joints => (self.joint_bend(), axis),
+            Interpolation::TipStraight | Interpolation::GreatCircle => (self.height.abs() * axis, axis),
+        }
+    }
+
+    /// Rotary joints with the size of their change, rad.
+    fn turns(&self) -> Vec<(usize, f64)> {
+        let rotary = |joint: &usize| self.machine.axes[*joint].kind == AxisKind::Rotary;
+        let change = |joint: usize| (joint, (self.end.joints[joint] - self.start.joints[joint]).abs());
+        (0..self.machine.axes.len()).filter(rotary).map(change).collect()
+    }
+
+    /// |W''| of the point while all joints run linear: the chain is walked from the tool to the workpiece, keeping bounds on the
+    /// speed V and the bend A of the point as each axis carries it. A linear axis of speed v adds v to V; a rotary axis of speed w
+    /// at a distance of at most d adds w d to V and 2 w V + w^2 d to A. With two rotary axes this is Q of kinematics notes 3.
+    fn joint_bend(&self) -> f64 {
+        let machine = self.machine;
+        let length = self.end.tool_length - self.height;
+        let mut ends = [machine.gauge_point - machine.tool_axis * length; 2];
+        let (mut speed, mut bend) = (0.0, 0.0);
+        for (joint, axis) in machine.axes.iter().enumerate().rev() {
+            let values = [self.start.joints[joint], self.end.joints[joint]];
+            let change = (values[1] - values[0]).abs();
+            match axis.kind {
+                AxisKind::Linear => {
+                    for (point, value) in ends.iter_mut().zip(values) {
+                        *point += axis.direction * (axis.sign * value);
+                    }
+                    speed += change;
+                }
+                AxisKind::Rotary => {
+                    let distance = |point: &Vec3| axis.direction.cross(&(point - axis.point)).norm();
+                    // between the ends the point is at most half its way farther out than their mean
+                    let reach = 0.5 * (distance(&ends[0]) + distance(&ends[1]) + speed);
+                    for (point, value) in ends.iter_mut().zip(values) {
+                        *point = rotate(&axis.direction, axis.sign * value, &(*point - axis.point)) + axis.point;
+                    }
+                    bend += 2.0 * change * speed + change * change * reach;
+                    speed += change * reach;
+                }
+            }
+        }
+        bend
+    }
+}
+
+/// The unit vector at the share `t` of the shorter great circle from `a` to `b` (unit vectors, not opposite).
+fn great_circle(a: &Vec3, b: &Vec3, t: f64) -> Vec3 {
+    let angle = angle_between(a, b);
+    let across = b - a * a.dot(b);
+    let length = across.norm();
+    if length <= 0.0 {
+        return *a;
+    }
+    let (sin, cos) = sin_cos(angle * t);
+    a * cos + across * (sin / length)
+}
+
+/// How far two paths lie apart at the same share of the motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Apart {
+    /// Largest distance found, mm.
+    pub sampled_mm: f64,
+    /// No distance is larger, mm.
+    pub bound_mm: f64,
+    /// Largest angle between the tool axes found, rad.
+    pub sampled_axis: f64,
+    /// No angle is larger, rad.
+    pub bound_axis: f64,
+}
+
+/// Compares two paths: samples at equal moments, and a bound for all moments between them.
+pub(crate) fn apart(before: &Path<'_>, after: &Path<'_>) -> Apart {
+    let (bend_before, bend_after) = (before.bend(), after.bend());
+    let bend = (bend_before.0 + bend_after.0, bend_before.1 + bend_after.1);
+    // so many that the bound is at most 1e-6 mm (or rad) above the samples, if that is affordable
+    let wanted = (bend.0.max(bend.1) / 8e-6).sqrt().ceil();
+    let steps = if wanted < f64::from(MOST_SAMPLES) { (wanted as u32).max(1) } else { MOST_SAMPLES };
+    let (mut distance, mut chord) = (0.0f64, 0.0f64);
+    for step in 0..=steps {
+        let t = f64::from(step) / f64::from(steps);
+        let ((point, axis), (point_after, axis_after)) = (before.at(t), after.at(t));
+        distance = distance.max((point_after - point).norm());
+        chord = chord.max((axis_after - axis).norm());
+    }
+    let between = 1.0 / (8.0 * f64::from(steps) * f64::from(steps));
+    Apart {
+        sampled_mm: distance,
+        bound_mm: distance + bend.0 * between,
+        sampled_axis: chord_angle(chord),
+        bound_axis: chord_angle(chord + bend.1 * between),
+    }
+}
+
+/// The angle between two unit vectors whose tips are `chord` apart, rad.
+fn chord_angle(chord: f64) -> f64 {
+    2.0 * asin((0.5 * chord).min(1.0))
+}

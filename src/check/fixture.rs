@@ -1,0 +1,145 @@
+//! Programs with their findings drawn under them, for the examples in rule headers and for tests.
+//!
+//! ```text
+//! N20 G1 X10
+//! ;      ^^^ rule-name: beginning of the message
+//! ```
+//!
+//! A line of carets (`;` or `$$`, carets, a rule's name, a colon, text) belongs to the nearest line above that is none. It
+//! is taken out before the program is read. The caret under the mark itself stands for column 1.
+use crate::{Report, RuleLevel, Settings, check};
+use trunnion_interp::Setup;
+use trunnion_syntax::LineIndex;
+
+/// Rules that say what a fragment lacks; they are silent in fixtures that do not draw them.
+pub const QUIET: &[&str] = &["machine-unset", "missing-program-end"];
+
+/// One finding as drawn.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Drawn {
+    /// Line of the program without caret lines, from 1.
+    pub line: usize,
+    /// First column in characters, from 1.
+    pub column: usize,
+    /// How many characters, at least 1.
+    pub width: usize,
+    /// Rule.
+    pub rule: String,
+    /// Beginning of the message.
+    pub text: String,
+}
+
+/// A program and what is expected of it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Fixture {
+    /// Name of a built-in dialect.
+    pub dialect: String,
+    /// Name of a built-in machine, if any.
+    pub machine: Option<String>,
+    /// The program without caret lines.
+    pub program: String,
+    /// What is drawn, sorted.
+    pub drawn: Vec<Drawn>,
+}
+
+impl Fixture {
+    /// Reads a fixture; `info` is a fence's info string: `gcode`, then names of a dialect (else iso-6983) and a machine.
+    pub fn parse(info: &str, text: &str) -> Self {
+        let is_dialect = |word: &&str| trunnion_dialect::BUILTIN_NAMES.contains(word);
+        let mut names = info.split_whitespace().skip(1);
+        let dialect = names.clone().find(is_dialect).unwrap_or("iso-6983").to_owned();
+        let machine = names.find(|word| !is_dialect(word)).map(str::to_owned);
+        let mut fixture = Self { dialect, machine, ..Self::default() };
+        let mut lines = 0;
+        for line in text.lines() {
+            if let Some(drawn) = caret_line(line, lines) {
+                fixture.drawn.push(drawn);
+            } else {
+                fixture.program.push_str(line);
+                fixture.program.push('\n');
+                lines += 1;
+            }
+        }
+        fixture.drawn.sort();
+        fixture
+    }
+
+    /// Checks the program; `Err` says that dialect or machine do not exist.
+    pub fn check(&self) -> Result<Report, String> {
+        let dialect = trunnion_dialect::builtin(&self.dialect).ok_or_else(|| format!("no dialect {}", self.dialect))?;
+        let machine = match &self.machine {
+            Some(name) => Some(trunnion_machine::builtin(name).ok_or_else(|| format!("no machine {name}"))?),
+            None => None,
+        };
+        let drawn = |rule: &&&str| self.drawn.iter().any(|drawn| drawn.rule == **rule);
+        let rules = QUIET.iter().filter(|rule| !drawn(rule)).map(|rule| ((*rule).to_owned(), RuleLevel::Allow)).collect();
+        let program = trunnion_syntax::parse(self.program.clone().into_bytes(), dialect.lex);
+        Ok(check(&program, &Settings { dialect, machine, setup: Setup::default(), rules }))
+    }
+
+    /// Compares what is found with what is drawn: the same rules at the same places with messages that begin as drawn.
+    /// `Err` shows both.
+    pub fn compare(&self) -> Result<Report, String> {
+        let report = self.check()?;
+        let found = self.found(&report);
+        let agrees = |(found, drawn): (&Drawn, &Drawn)| {
+            (found.line, found.column, found.width, &found.rule) == (drawn.line, drawn.column, drawn.width, &drawn.rule)
+                && found.text.starts_with(&drawn.text)
+        };
+        if found.len() == self.drawn.len() && found.iter().zip(&self.drawn).all(agrees) {
+            return Ok(report);
+        }
+        Err(format!("found:\n{}drawn:\n{}in:\n{}", list(&found), list(&self.drawn), self.program))
+    }
+
+    fn found(&self, report: &Report) -> Vec<Drawn> {
+        let source = self.program.as_bytes();
+        let index = LineIndex::new(source);
+        let place = |offset| index.line_column(source, offset);
+        let mut found: Vec<Drawn> = report
+            .diagnostics
+            .iter()
+            .map(|diagnostic| {
+                let (line, column) = place(diagnostic.range.start);
+                let (end_line, end_column) = place(diagnostic.range.end);
+                let line_end = self.program.lines().nth(line as usize - 1).map_or(0, |text| text.chars().count()) + 1;
+                let end = if end_line == line { end_column as usize } else { line_end };
+                let width = end.saturating_sub(column as usize).max(1);
+                let text = diagnostic.message.clone();
+                Drawn { line: line as usize, column: column as usize, width, rule: diagnostic.rule.to_owned(), text }
+            })
+            .collect();
+        found.sort();
+        found
+    }
+}
+
+fn list(findings: &[Drawn]) -> String {
+    let line = |d: &Drawn| format!("  {}:{}+{} {}: {}", d.line, d.column, d.width, d.rule, d.text);
+    findings.iter().map(line).chain([String::new()]).collect::<Vec<_>>().join("\n")
+}
+
+fn caret_line(line: &str, above: usize) -> Option<Drawn> {
+    let rest = line.strip_prefix(';').or_else(|| line.strip_prefix("$$"))?;
+    let mark = line.len() - rest.len();
+    let carets = rest.trim_start();
+    let blanks = rest.len() - carets.len();
+    let behind = carets.trim_start_matches('^');
+    let width = carets.len() - behind.len();
+    let (rule, text) = behind.split_once(':')?;
+    if width == 0 || above == 0 {
+        return None;
+    }
+    // carets directly behind the mark reach back to column 1: there is no other way to draw it
+    let (column, width) = if blanks == 0 { (1, width + mark - usize::from(width == 1)) } else { (mark + blanks + 1, width) };
+    Some(Drawn { line: above, column, width, rule: rule.trim().to_owned(), text: text.trim().to_owned() })
+}
+
+/// Panics unless the text's findings are those drawn under it; see [`Fixture`].
+#[cfg(test)]
+pub(crate) fn assert_drawn(info: &str, text: &str) -> Report {
+    match Fixture::parse(info, text).compare() {
+        Ok(report) => report,
+        Err(message) => panic!("{message}"),
+    }
+}

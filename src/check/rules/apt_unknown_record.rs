@@ -1,0 +1,38 @@
+//! An APT record is not known.
+//!
+//! # Why
+//! It is skipped. If it moves the tool or changes how later records are meant, what follows is judged wrongly.
+//!
+//! # Example
+//! ```gcode apt
+//! WIGGLE/1,2
+//! $$^^^^^^^^ apt-unknown-record: APT record WIGGLE is not known
+//! FINI
+//! ```
+//!
+//! # Use instead
+//! ```gcode apt
+//! GOTO/1,2,3
+//! FINI
+//! ```
+//!
+//! # Guarantee
+//! Heuristic: a post-processor may know words that the table does not.
+//!
+//! # Sources
+//! ISO 4343 (post-processor commands); the table `grammar/dialects/apt.toml`.
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Warning, guarantee: Guarantee::Heuristic, level: Level::Fault(check) };
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    if fault.kind == FaultKind::AptUnknownRecord {
+        let text = out.text(fault.range);
+        let major: String = text.split('/').next().unwrap_or_default().trim().to_owned();
+        out.report(fault.range, format!("APT record {major} is not known"))
+            .note("it is skipped")
+            .help("check its spelling; if it matters only to the post-processor, allow it with a comment")
+            .merge(hash(&major), 0.0);
+    }
+}

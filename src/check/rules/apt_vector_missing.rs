@@ -1,0 +1,40 @@
+//! MULTAX is on and a GOTO has no tool vector.
+//!
+//! # Why
+//! The tool axis stays as it was. That may be meant, or the vector may have been lost on the way.
+//!
+//! # Example
+//! ```gcode apt
+//! MULTAX/ON
+//! GOTO/0,0,10,0,0,1
+//! GOTO/5,0,10
+//! $$^^^^^^^^^ apt-vector-missing: MULTAX is on, but GOTO has no tool vector
+//! FINI
+//! ```
+//!
+//! # Use instead
+//! ```gcode apt
+//! MULTAX/ON
+//! GOTO/0,0,10,0,0,1
+//! GOTO/5,0,10,0,0,1
+//! FINI
+//! ```
+//!
+//! # Guarantee
+//! Sound; the last vector is kept.
+//!
+//! # Sources
+//! APT part programming manuals, MULTAX; Trunnion's kinematics notes, section 12.6.
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    if fault.kind == FaultKind::AptVectorMissing {
+        out.report(fault.range, "MULTAX is on, but GOTO has no tool vector")
+            .note("the last tool vector is kept")
+            .help("write i, j, k behind x, y, z, or switch off with MULTAX/OFF")
+            .merge(0, 0.0);
+    }
+}

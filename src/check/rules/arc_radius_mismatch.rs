@@ -1,0 +1,54 @@
+//! The start and end of an arc lie at different distances from its centre, or no circle of the radius joins them.
+//!
+//! # Why
+//! The control alarms, or silently cuts a spiral. The larger the mismatch, the deeper the gouge.
+//!
+//! # Example
+//! ```gcode
+//! N10 G17 G90 G0 X0 Y0
+//! N20 G2 X10 Y0 I4 J0 F300
+//! ;   ^^^^^^^^^^^^^^^^^^^^ arc-radius-mismatch: the arc starts 4 mm from its centre and ends 6 mm from it
+//! ```
+//!
+//! # Use instead
+//! ```gcode
+//! N10 G17 G90 G0 X0 Y0
+//! N20 G2 X10 Y0 I5 J0 F300
+//! ```
+//!
+//! # Guarantee
+//! Sound for arcs whose start is known.
+//!
+//! # Thresholds
+//! `arc_tolerance` of the dialect's table, with its source there.
+//!
+//! # Sources
+//! RS274/NGC interpreter, version 3, section 3.5.3 (arc at feed rate).
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    match fault.kind {
+        FaultKind::ArcRadiusMismatch { start, end, tolerance } => {
+            out.report(fault.range, format!("the arc starts {} from its centre and ends {} from it", mm(start), mm(end)))
+                .note(format!("the end point is not on the circle; they may differ by {}", mm(tolerance)))
+                .help("correct the end point or the centre")
+                .value("radius_start_mm", start)
+                .value("radius_end_mm", end)
+                .value("limit_mm", tolerance);
+        }
+        FaultKind::ArcRadiusTooSmall { radius, half_chord } => {
+            out.report(
+                fault.range,
+                format!("no circle of radius {} joins points that lie {} apart", mm(radius), mm(2.0 * half_chord)),
+            )
+            .note(format!("the radius must be at least half of that, {}", mm(half_chord)))
+            .help("correct the end point or the radius")
+            .value("value_mm", radius)
+            .value("limit_mm", half_chord);
+        }
+        _ => {}
+    }
+}

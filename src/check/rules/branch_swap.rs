@@ -1,0 +1,55 @@
+//! The machine changes its posture in a block, with far more rotary travel than staying in it would need.
+//!
+//! # Why
+//! Two postures of the rotary axes give the same tool direction. Changing from one to the other turns an axis by up to half a
+//! turn while the tool is meant to hardly move: in the cut that is a gouge or a mark, in the air it is lost time.
+//!
+//! # Example
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A20 C0
+//! N30 G1 X1 A-20 C180 F500
+//! ;         ^^^^^^^^^ branch-swap: the posture changes
+//! N40 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A20 C0
+//! N30 G1 X1 A20 C0 F500
+//! N40 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound for blocks between known positions: the posture is the sign of e1 . (R1 e2 x u), the cheapest move without a swap is
+//! found among all windings inside the limits. Judges feed motions; a rapid that swaps is an info.
+//!
+//! # Thresholds
+//! `swap_excess`: rotary travel over the cheapest move of the same posture, 5 deg.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, section 5 (BRANCH-SWAP); the guide-vane paper of 2006, "swap at the limit".
+use crate::prelude::*;
+
+pub(super) const RULE: Body = Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let excess = view.leg.rotary_excess;
+    if excess <= view.machine.tolerances.swap_excess {
+        return;
+    }
+    let [first, second] = view.rotary_letters();
+    let range = orientation_range(out.program(), view.motion().block);
+    let [d1, d2] = view.leg.rotary_change;
+    let draft = out.report(range, format!("the posture changes with {} more rotary travel than needed", degrees(excess)));
+    draft
+        .note(format!("{first} turns {} and {second} {}", degrees(d1), degrees(d2)))
+        .help("give the rotary words of the posture before, or retract and swap out of the cut")
+        .value("rotary_excess_deg", deg(excess))
+        .value("rotary_change_deg", deg(d1))
+        .value("pole_angle_deg", deg(view.leg.pole_angle_min));
+    if !view.motion().is_feed() {
+        draft.severity(Severity::Info);
+    }
+}

@@ -1,0 +1,71 @@
+//! In a block the axes allow only a small share of the programmed feed.
+//!
+//! # Why
+//! The tool slows down in the cut. It rubs instead of cutting, leaves a mark, and the time the program takes is not what its
+//! feeds say.
+//!
+//! # Example
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A30 C0
+//! N30 G1 X1 C9 F2000
+//! ;         ^^ axis-overspeed: C would have to run at
+//! ;            ^^^^^ feed-drop: the axes allow
+//! N40 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A30 C0
+//! N30 G1 X1 C9 F600
+//! N40 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound for axes with a declared speed: the worst moment inside the block counts, not its average. Acceleration is not
+//! considered. Up to 8 consecutive blocks are reported one by one, longer runs as one with their worst.
+//!
+//! # Thresholds
+//! `feed_drop_warning`: 0.8 of the programmed feed; `feed_drop_error`: 0.3.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, sections 4.1 and 5 (FEED-DROP).
+use super::axis_overspeed::SHORT_RUN;
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    if !view.motion().is_feed() {
+        return;
+    }
+    let Some(limit) = view.feed_limit() else { return };
+    let Some(feed) = view.programmed_feed_mm_min().filter(|feed| *feed > 0.0) else { return };
+    let share = limit.feed_mm_min / feed;
+    let tolerances = &view.machine.tolerances;
+    if share >= tolerances.feed_drop_warning {
+        return;
+    }
+    let name = letter(view.machine.axes[limit.axis].letter);
+    let range = axis_word(out.program(), view.motion().block, b'F');
+    let percent = number((share * 1000.0).round() / 10.0);
+    let draft = out.report(
+        range,
+        format!("the axes allow {} mm/min, {percent} % of the programmed {} mm/min", number(limit.feed_mm_min), number(feed)),
+    );
+    draft
+        .note(format!("{name} limits the block"))
+        .help("lower the feed in this block, or lead the tool axis so that the axis moves less")
+        .value("feed_mm_min", feed)
+        .value("feed_limit_mm_min", limit.feed_mm_min)
+        .value_text("limiting_axis", name);
+    if share < tolerances.feed_drop_error {
+        draft.severity(Severity::Error);
+    }
+    if view.near_pole() {
+        draft.fix("smooth-pole");
+    }
+    draft.merge_runs_over(SHORT_RUN, 0, -limit.feed_mm_min);
+}

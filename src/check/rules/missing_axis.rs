@@ -1,0 +1,40 @@
+//! The program moves an axis that the machine does not have.
+//!
+//! # Why
+//! The control stops with an alarm; the program was written for another machine.
+//!
+//! # Example
+//! ```gcode mill-3axis
+//! N10 G0 X0 Y0 Z0
+//! N20 G0 C90
+//! ;      ^^^ missing-axis: mill-3axis has no axis C
+//! ```
+//!
+//! # Use instead
+//! ```gcode mill-3axis
+//! N10 G0 X0 Y0 Z0
+//! N20 G0 X90
+//! ```
+//!
+//! # Guarantee
+//! Sound.
+//!
+//! # Sources
+//! The machine file.
+use crate::prelude::*;
+use trunnion_machine::NoStance;
+
+pub(super) const RULE: Body = Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    if let Err(NoStance::NoSuchAxis(axis)) = view.leg.end {
+        let range = axis_word(out.program(), view.motion().block, axis);
+        let name = letter(axis);
+        let axes: Vec<String> = view.machine.axes.iter().map(|axis| letter(axis.letter)).collect();
+        out.report(range, format!("{} has no axis {name}", view.machine.id))
+            .note(format!("its axes are {}", axes.join(" ")))
+            .help("name the machine that the program is for, or remove the word")
+            .value_text("axis", name)
+            .merge(u64::from(axis), 0.0);
+    }
+}

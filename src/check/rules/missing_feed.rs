@@ -1,0 +1,39 @@
+//! A feed motion has no feed.
+//!
+//! # Why
+//! The control stops with an alarm, or runs at whatever feed was left in force by the program before.
+//! Under inverse time (G93) each feed motion needs an F of its own.
+//!
+//! # Example
+//! ```gcode
+//! N10 G0 X0 Y0
+//! N20 G1 X10
+//! ;   ^^^^^^ missing-feed: a feed motion, but no feed is programmed
+//! ```
+//!
+//! # Use instead
+//! ```gcode
+//! N10 G0 X0 Y0
+//! N20 G1 X10 F500
+//! ```
+//!
+//! # Guarantee
+//! Sound: in a program that is not reported each feed motion has a feed above zero, or a feed that is not modelled and said
+//! to be so.
+//!
+//! # Sources
+//! RS274/NGC interpreter, version 3, sections 2.1.2.5 (feed rate) and 3.5.19 (G93).
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    let FaultKind::MissingFeed { inverse_time, zero } = fault.kind else { return };
+    let (message, help) = match (zero, inverse_time) {
+        (true, _) => ("a feed motion at a feed of zero or less", "write a feed above zero"),
+        (false, true) => ("a feed motion under G93 without its own F", "write F in each feed motion, or go back to G94"),
+        (false, false) => ("a feed motion, but no feed is programmed", "write F in this block or before it"),
+    };
+    out.report(fault.range, message).help(help).merge(u64::from(zero), 0.0);
+}

@@ -1,0 +1,40 @@
+//! The program has no end code.
+//!
+//! # Why
+//! Without M2 or M30 the file may be cut short, and the control does not stop spindle and coolant. LinuxCNC refuses such a
+//! file, unless it is framed by `%`.
+//!
+//! # Example
+//! ```gcode
+//! N10 G0 X0 Y0
+//! N20 M5
+//! ;   ^^ missing-program-end: the program ends without an end code
+//! ```
+//!
+//! # Use instead
+//! ```gcode
+//! N10 G0 X0 Y0
+//! N20 M5
+//! N30 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound for the end codes of the dialect's table. An error on LinuxCNC, else a warning.
+//!
+//! # Sources
+//! RS274/NGC interpreter, version 3, section 3.6.1 (M2, M30); LinuxCNC, "Requirements for a G-code file".
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    if fault.kind == FaultKind::MissingProgramEnd {
+        let strict = out.dialect() == "linuxcnc";
+        let draft = out.report(fault.range, "the program ends without an end code");
+        draft.note("the file may have been cut short").help("end the program with M30, or the code your control wants");
+        if strict {
+            draft.severity(Severity::Error);
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Two codes of one modal group stand in a block.
+//!
+//! # Why
+//! Only one of them can be in force. RS274/NGC controls stop; others take the last one, so the block does not do what one of
+//! its codes says.
+//!
+//! # Example
+//! ```gcode
+//! N10 G0 G1 X10 F500
+//! ;      ^^ modal-group-conflict: G1 contradicts G0
+//! ```
+//!
+//! # Use instead
+//! ```gcode
+//! N10 G1 X10 F500
+//! ```
+//!
+//! # Guarantee
+//! Sound for the groups of the dialect's table.
+//!
+//! # Sources
+//! RS274/NGC interpreter, version 3, section 3.4 (modal groups).
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    let FaultKind::GroupConflict { group, first, second, first_range } = &fault.kind else { return };
+    out.report(fault.range, format!("{second} contradicts {first}: both belong to the modal group `{group}`"))
+        .help("keep the one that is meant, or write them in two blocks")
+        .related(*first_range, format!("{first} is here"));
+}

@@ -1,0 +1,35 @@
+//! Something is recognised, but Trunnion does not run it: what depends on it is unknown.
+//!
+//! # Why
+//! A verdict must not rest on a guess. Where an expression, a cycle or a call is not evaluated, the positions it feeds are
+//! unknown until the program gives them anew, and nothing is checked from them.
+//!
+//! # Example
+//! ```gcode sinumerik-840d
+//! N10 G0 X=R1+2
+//! ;      ^^^^^^ not-modelled: `R1+2` is not evaluated
+//! ```
+//!
+//! # Use instead
+//! ```gcode sinumerik-840d
+//! N10 G0 X12
+//! ```
+//!
+//! # Guarantee
+//! Sound: what is not modelled is reported, once per cause.
+//!
+//! # Sources
+//! Engineering judgement.
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Info, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    if let FaultKind::NotModelled { what } = &fault.kind {
+        out.report(fault.range, format!("{what} is not modelled: what it does is not known"))
+            .note("positions that depend on it are unknown until the program gives them anew; nothing is checked from them")
+            .unknown()
+            .merge_everywhere(hash(what));
+    }
+}

@@ -1,0 +1,77 @@
+//! Between the ends of a feed motion the tool tip leaves the programmed path by more than the tolerance.
+//!
+//! # Why
+//! Without tool centre point control all axes run linearly, and while a rotary axis turns the tip runs on a curve instead of
+//! the line: it gouges or leaves material, although both ends are right.
+//!
+//! # Example
+//! ```gcode mikron-ucp710
+//! N10 G0 X30 Y0 Z0 A0 C0
+//! N20 G1 Y5 C40 F500
+//! ;   ^^^^^^^^^^^^^^ path-deviation: the tip leaves the programmed segment by
+//! N30 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N5 TRAORI
+//! N10 G0 X30 Y0 Z0 A0 C0
+//! N20 G1 Y5 C40 F500
+//! N30 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound: silence rests on a proven bound, not on samples. Where samples keep the tolerance but the bound does not prove it,
+//! and where a motion is not modelled, the rule says unknown. The deviation is the distance to the programmed segment.
+//!
+//! # Thresholds
+//! `tip`: 0.01 mm.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, sections 3 and 5 (KIN-TIP); the saddle-surface paper of 2004.
+use crate::prelude::*;
+
+pub(super) const RULE: Body = Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    if !view.motion().is_feed() || view.stances().is_none() {
+        return;
+    }
+    let tolerance = view.machine.tolerances.tip_mm;
+    let range = |out: &Reporter<'_>| code_range(out.program(), view.motion().block);
+    let Some(deviation) = view.deviation() else {
+        let range = range(out);
+        out.report(range, "the tip's path is not modelled in this block: its deviation is not known")
+            .note("arcs while rotary axes move are not modelled")
+            .unknown()
+            .merge_everywhere(0);
+        return;
+    };
+    if deviation.bound_mm <= tolerance {
+        return;
+    }
+    let range = range(out);
+    if deviation.sampled_mm > tolerance {
+        out.report(range, format!("the tip leaves the programmed segment by {}", mm(deviation.sampled_mm)))
+            .note(format!(
+                "farthest after {} % of the block; proven to be at most {}; allowed are {}",
+                number((deviation.at * 100.0).round()),
+                mm(deviation.bound_mm),
+                mm(tolerance)
+            ))
+            .help("switch tool centre point control on, or insert points")
+            .value("deviation_mm", deviation.sampled_mm)
+            .value("deviation_bound_mm", deviation.bound_mm)
+            .value("limit_mm", tolerance)
+            .merge(1, deviation.sampled_mm);
+    } else {
+        let found = format!("between {} and {}", mm(deviation.sampled_mm), mm(deviation.bound_mm));
+        out.report(range, format!("the tip's deviation is {found}: not proven to keep {}", mm(tolerance)))
+            .help("insert points, or allow a little more tolerance")
+            .value("deviation_mm", deviation.sampled_mm)
+            .value("deviation_bound_mm", deviation.bound_mm)
+            .value("limit_mm", tolerance)
+            .unknown()
+            .merge(2, deviation.bound_mm);
+    }
+}

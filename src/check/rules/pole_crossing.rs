@@ -1,0 +1,50 @@
+//! The tool axis passes through the pole and the posture's sign changes, without needless rotary travel.
+//!
+//! # Why
+//! A crossing is legal. It is worth knowing, because close to it small changes of the program make the first rotary axis flip,
+//! and because not every control takes the same way through.
+//!
+//! # Example
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A5 C0
+//! N30 G1 X1 A-5 F500
+//! ;         ^^^ pole-crossing: the tool axis passes
+//! N40 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A15 C0
+//! N30 G1 X1 A5 F500
+//! N40 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound for feed motions between known positions; a stop exactly at the pole belongs to the block that leaves it.
+//!
+//! # Thresholds
+//! `swap_excess`: with more rotary travel than that over the cheapest move of the same posture it is `branch-swap`.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, section 5 (POLE-CROSS).
+use crate::prelude::*;
+
+pub(super) const RULE: Body = Body { severity: Severity::Info, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let Some((start, end)) = view.stances() else { return };
+    let before = if start.branch == 0 { view.posture_before } else { start.branch };
+    let crossed = before * end.branch < 0;
+    if !crossed || !view.motion().is_feed() || view.leg.rotary_excess > view.machine.tolerances.swap_excess {
+        return;
+    }
+    let [first, _] = view.rotary_letters();
+    let range = orientation_range(out.program(), view.motion().block);
+    let message = format!("the tool axis passes {} from the pole and the posture changes sign", degrees(view.leg.pole_angle_min));
+    out.report(range, message)
+        .note(format!("at the pole the tool axis is parallel to {first}; {first} turns {}", degrees(view.leg.rotary_change[0])))
+        .value("pole_angle_deg", deg(view.leg.pole_angle_min))
+        .value("rotary_change_deg", deg(view.leg.rotary_change[0]));
+}

@@ -1,0 +1,73 @@
+//! Close to the pole the first rotary axis turns far, while the tool axis hardly moves.
+//!
+//! # Why
+//! At the pole the tool axis is parallel to the rotary axis nearest the workpiece, and that axis may stand anywhere. Near it a
+//! change of direction by a fraction of a degree can need half a turn: the tool slows down or stops in the cut and leaves a
+//! mark, and without tool centre point control it leaves its path.
+//!
+//! # Example
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N2900 TRAORI
+//! N2910 G1 X-28.38197 Y-2.14469 Z59.86773 A2.042 C3.358 F2000
+//! N2920 G1 X-28.38474 Y-1.84041 Z59.90263 A1.047 C4.822
+//! N2930 G1 X-28.38709 Y-1.53565 Z59.93222 A0.081 C52.595
+//! ;                                       ^^^^^ feed-drop: 46.
+//! ;                                              ^^^^^^^ pole-flip: C turns 47.773 deg
+//! ;                                              ^^^^^^^ axis-overspeed: C
+//! N2940 M30
+//! ```
+//!
+//! # Use instead
+//! Let `trunnion fix --rewrite smooth-pole` lead the tool axis around the pole, or tilt the path away from it:
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N2900 TRAORI
+//! N2910 G1 X-28.38197 Y-2.14469 Z59.86773 A12.042 C3.358 F2000
+//! N2920 G1 X-28.38474 Y-1.84041 Z59.90263 A11.047 C4.822
+//! N2940 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound for feed motions between known positions: the angle to the pole is the smallest inside the block.
+//!
+//! # Thresholds
+//! `pole_cone`: 2 deg about the pole; `pole_angle`: 10 deg of the first rotary axis. An error where it turns 175 to 185 deg.
+//!
+//! # Sources
+//! The guide-vane paper of 2006 ("pole flick"); Trunnion's kinematics notes, section 5 (POLE-FLIP).
+use crate::prelude::*;
+use trunnion_geometry::rad;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let tolerances = &view.machine.tolerances;
+    let turn = view.leg.rotary_change[0];
+    let flips = turn > tolerances.pole_angle && view.leg.pole_angle_min < tolerances.pole_cone;
+    if !flips || !view.motion().is_feed() || view.machine.rotary.len() < 2 || view.stances().is_none() {
+        return;
+    }
+    let axis = &view.machine.axes[view.machine.rotary[0]];
+    let name = letter(axis.letter);
+    let range = axis_word(out.program(), view.motion().block, axis.letter);
+    let message =
+        format!("{name} turns {} while the tool axis passes {} from the pole", degrees(turn), degrees(view.leg.pole_angle_min));
+    let draft = out.report(range, message);
+    draft
+        .note(format!("at the pole the tool axis is parallel to {name}: near it a small change of direction turns {name} far"))
+        .help("tilt the path away from the pole, or try `trunnion fix --rewrite smooth-pole`")
+        .value_text("axis", name.clone())
+        .value("rotary_change_deg", deg(turn))
+        .value("pole_angle_deg", deg(view.leg.pole_angle_min))
+        .fix("smooth-pole");
+    if let Some(limit) = view.feed_limit()
+        && limit.feed_mm_min.is_finite()
+    {
+        draft
+            .note(format!("no axis is overrun up to a feed of {} mm/min", number(limit.feed_mm_min)))
+            .value("feed_limit_mm_min", limit.feed_mm_min);
+    }
+    if (rad(175.0)..=rad(185.0)).contains(&turn) {
+        draft.severity(Severity::Error).note("half a turn: the tool axis runs straight over the pole, or the posture is swapped");
+    }
+}

@@ -1,0 +1,47 @@
+//! A feed motion ends at a position that is not known.
+//!
+//! # Why
+//! Some axis was never positioned, so nobody can say where the joints are: limits, postures, speeds and the tip's path were
+//! not checked there. An axis that was not named is not taken to be at zero.
+//!
+//! # Example
+//! ```gcode mikron-ucp710
+//! N10 G0 X0 Y0 Z50
+//! N20 G1 X10 F500
+//! ;   ^^^^^^^^^^^ position-unknown: A and C were never positioned
+//! ```
+//!
+//! # Use instead
+//! ```gcode mikron-ucp710
+//! N10 G0 X0 Y0 Z50 A0 C0
+//! N20 G1 X10 F500
+//! ```
+//!
+//! # Guarantee
+//! Sound; told once for each set of axes. Rapid moves before everything is positioned are normal and not reported.
+//!
+//! # Sources
+//! Trunnion's interface: the position before the first motion is unknown, and nothing is checked from it.
+use crate::prelude::*;
+use trunnion_machine::NoStance;
+
+pub(super) const RULE: Body = Body { severity: Severity::Info, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let Err(NoStance::PositionUnknown(letters)) = &view.leg.end else { return };
+    if !view.motion().is_feed() {
+        return;
+    }
+    let names: Vec<String> = letters.chars().map(String::from).collect();
+    let (names, was) = match names.as_slice() {
+        [] => ("the position".to_owned(), "is not known"),
+        [one] => (one.clone(), "was never positioned"),
+        [most @ .., last] => (format!("{} and {last}", most.join(", ")), "were never positioned"),
+    };
+    let range = code_range(out.program(), view.motion().block);
+    out.report(range, format!("{names} {was}: the joints of {} are unknown here", view.machine.id))
+        .note("limits, postures, speeds and the tip's path are not checked until every axis has a position")
+        .help(format!("position {names} before the first feed motion"))
+        .unknown()
+        .merge_everywhere(hash(letters));
+}

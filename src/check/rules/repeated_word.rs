@@ -1,0 +1,38 @@
+//! A word is given twice in a block.
+//!
+//! # Why
+//! The control stops (RS274/NGC), or the last one wins (Fanuc) and the first value is never used.
+//!
+//! # Example
+//! ```gcode
+//! N10 G0 X10 Y5 X20
+//! ;             ^^^ repeated-word: `X20` repeats a word of the block
+//! ```
+//!
+//! # Use instead
+//! ```gcode
+//! N10 G0 X10 Y5
+//! N20 X20
+//! ```
+//!
+//! # Guarantee
+//! Sound for words that a block may hold once; a warning on Fanuc, where the last one wins.
+//!
+//! # Sources
+//! RS274/NGC interpreter, version 3, section 3.3.3 (repeated items).
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    if fault.kind == FaultKind::RepeatedWord {
+        let text = out.text(fault.range);
+        let fanuc = out.dialect().starts_with("fanuc");
+        let draft = out.report(fault.range, format!("`{text}` repeats a word of the block"));
+        draft.help("remove the one that is not meant");
+        if fanuc {
+            draft.severity(Severity::Warning).note("on this control the last one wins");
+        }
+    }
+}

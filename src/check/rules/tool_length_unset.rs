@@ -1,0 +1,33 @@
+//! The length of a tool is used that nobody declared: it is taken as zero.
+//!
+//! # Why
+//! With tool centre point control the linear axes move with the rotary ones, and the farther the longer the tool is. With a
+//! length of zero travel and speed of the linear axes come out too small.
+//!
+//! # Example
+//! ```gcode fanuc-30i
+//! N10 G43 H5 Z10.
+//! ;       ^^ tool-length-unset: the length of tool 5 is not declared and taken as zero
+//! ```
+//!
+//! # Use instead
+//! Declare it in `trunnion.toml`: `[[tool]] number = 5, length = 120.5`, in mm.
+//!
+//! # Guarantee
+//! Sound; told once per tool.
+//!
+//! # Sources
+//! Trunnion's interface: lengths of tools are a setting, not a guess.
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Info, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    if let FaultKind::ToolLengthUnset { tool } = &fault.kind {
+        out.report(fault.range, format!("the length of tool {tool} is not declared and taken as zero"))
+            .note("tool length is measured from the gauge point of the spindle to the tip, mm")
+            .help(format!("declare it in trunnion.toml: [[tool]] number = {tool}, length = ..."))
+            .merge_everywhere(hash(tool));
+    }
+}

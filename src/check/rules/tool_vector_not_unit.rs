@@ -1,0 +1,57 @@
+//! The length of a tool vector is not 1.
+//!
+//! # Why
+//! A direction is told by a vector of length 1. Another length means that a digit is wrong or missing, and then the
+//! direction is wrong too. A vector of length zero has no direction at all.
+//!
+//! # Example
+//! ```gcode apt
+//! MULTAX/ON
+//! GOTO/0,0,10,0,0.6,0.9
+//! $$          ^^^^^^^^^ tool-vector-not-unit: the tool vector has length 1.082
+//! FINI
+//! ```
+//!
+//! # Use instead
+//! ```gcode apt
+//! MULTAX/ON
+//! GOTO/0,0,10,0,0.6,0.8
+//! FINI
+//! ```
+//!
+//! # Guarantee
+//! Sound for APT, LN and G43.5. The length of A3= B3= C3= means nothing, so there only a zero vector is reported.
+//! The direction is used as it is, scaled to length 1.
+//!
+//! # Thresholds
+//! A warning above 0.0001, an error above 0.01; a zero vector is an error.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, section 2.3; the thresholds are engineering judgement.
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+
+/// Above this difference from 1 it is a warning.
+const WARNING: f64 = 1e-4;
+/// Above this difference from 1 it is an error.
+const ERROR: f64 = 1e-2;
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    let FaultKind::VectorNotUnit { norm } = fault.kind else { return };
+    let off = (norm - 1.0).abs();
+    if norm > 0.0 && off <= WARNING {
+        return;
+    }
+    let message = if norm > 0.0 {
+        format!("the tool vector has length {}, not 1", number(norm))
+    } else {
+        "the tool vector has length 0 and no direction".to_owned()
+    };
+    let draft = out.report(fault.range, message);
+    draft.help("correct its components: the sum of their squares must be 1").value("norm", norm).merge(0, off);
+    if off > ERROR {
+        draft.severity(Severity::Error);
+    }
+}

@@ -1,0 +1,36 @@
+//! A comment is opened and not closed.
+//!
+//! # Why
+//! Controls differ: one reports an alarm, another takes the rest of the line, or of the file, as comment and leaves out the
+//! motions in it.
+//!
+//! # Example
+//! ```gcode
+//! N10 G0 X10 (approach
+//! ;          ^^^^^^^^^ unclosed-comment: the comment is not closed
+//! N20 G0 Z5
+//! ```
+//!
+//! # Use instead
+//! ```gcode
+//! N10 G0 X10 (approach)
+//! N20 G0 Z5
+//! ```
+//!
+//! # Guarantee
+//! Sound for the comment marks of the dialect.
+//!
+//! # Sources
+//! RS274/NGC interpreter, version 3, section 3.3.4 (comments and messages); LinuxCNC stops with "Unclosed comment found".
+use crate::prelude::*;
+
+pub(super) const RULE: Body =
+    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Text(check) };
+
+fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
+    if error.kind == SyntaxErrorKind::UnclosedComment {
+        out.report(error.range, "the comment is not closed")
+            .note("everything up to the end of the comment is not run")
+            .help("write the closing mark");
+    }
+}

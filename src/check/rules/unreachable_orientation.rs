@@ -1,0 +1,68 @@
+//! No posture of the machine gives the tool this direction.
+//!
+//! # Why
+//! The rotary axes cannot turn the tool, or the part, so far: the control stops, or goes to a direction of its own choice.
+//!
+//! # Example
+//! ```gcode apt mikron-ucp710
+//! MULTAX/ON
+//! GOTO/0,0,10,0,0,1
+//! GOTO/0,0,10,0,0.6,-0.8
+//! $$          ^^^^^^^^^^ unreachable-orientation: no posture
+//! FINI
+//! ```
+//!
+//! # Use instead
+//! ```gcode apt mikron-ucp710
+//! MULTAX/ON
+//! GOTO/0,0,10,0,0,1
+//! GOTO/0,0,10,0,0.6,0.8
+//! FINI
+//! ```
+//!
+//! # Guarantee
+//! Sound: the solver is exact and finds all postures; windings are tried inside the limits.
+//!
+//! # Thresholds
+//! The limits of the machine file.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, sections 2.3 and 5 (ORI-UNREACH).
+use crate::prelude::*;
+use trunnion_machine::NoStance;
+
+pub(super) const RULE: Body = Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    match &view.leg.end {
+        Err(NoStance::Unreachable(angle)) => {
+            let range = orientation_range(out.program(), view.motion().block);
+            out.report(range, format!("no posture reaches this tool axis: it lies {} outside the reach", degrees(*angle)))
+                .note(format!("the rotary axes of {} sweep a cone that ends before it", view.machine.id))
+                .help("tilt the tool path, or set the part up differently")
+                .value("excess_deg", deg(*angle))
+                .merge(0, *angle);
+        }
+        Err(NoStance::OutsideLimits { axis, value, limit }) => {
+            let range = orientation_range(out.program(), view.motion().block);
+            let name = letter(*axis);
+            let beyond = (value - limit).abs();
+            out.report(
+                range,
+                format!(
+                    "no posture inside the limits reaches this tool axis: {name} would be {}, its limit is {}",
+                    degrees(*value),
+                    degrees(*limit)
+                ),
+            )
+            .note("postures exist, but each needs a rotary axis outside its travel; this is the nearest one")
+            .help("tilt the tool path, or set the part up differently")
+            .value_text("axis", name)
+            .value("value_deg", deg(*value))
+            .value("limit_deg", deg(*limit))
+            .value("excess_deg", deg(beyond))
+            .merge(u64::from(*axis), beyond);
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,76 @@
+//! What rules look at: a leg with what is computed from it at most once, and the program as a whole.
+use crate::Settings;
+use core::cell::OnceCell;
+use trunnion_interp::{Directive, Feed, Motion};
+use trunnion_machine::{Deviation, FeedLimit, Leg, Machine, Stance, feed_limit, tip_deviation};
+use trunnion_syntax::{Program, TextRange};
+
+/// The program as a whole.
+pub struct Overview<'a> {
+    /// The program.
+    pub program: &'a Program,
+    /// What it is checked with.
+    pub settings: &'a Settings<'a>,
+    /// Comments that speak to Trunnion.
+    pub directives: &'a [(TextRange, Directive)],
+}
+
+/// One leg, shared by all rules that read it: costly numbers are computed when first asked for, and once.
+pub struct LegView<'a> {
+    /// The machine.
+    pub machine: &'a Machine,
+    /// What it does.
+    pub leg: &'a Leg,
+    /// Sign of the last posture that was not at the pole, before this leg; 0 when there was none.
+    pub posture_before: i8,
+    feed_limit: OnceCell<Option<FeedLimit>>,
+    deviation: OnceCell<Option<Deviation>>,
+}
+
+impl<'a> LegView<'a> {
+    /// A view of `leg`.
+    pub(crate) fn new(machine: &'a Machine, leg: &'a Leg, posture_before: i8) -> Self {
+        Self { machine, leg, posture_before, feed_limit: OnceCell::new(), deviation: OnceCell::new() }
+    }
+
+    /// The motion.
+    pub fn motion(&self) -> &'a Motion {
+        &self.leg.motion
+    }
+
+    /// Where the machine stands before and after, when both are known.
+    pub fn stances(&self) -> Option<(&'a Stance, &'a Stance)> {
+        Some((self.leg.start.as_ref()?, self.leg.end.as_ref().ok()?))
+    }
+
+    /// Highest feed of the block, see [`feed_limit`].
+    pub fn feed_limit(&self) -> Option<FeedLimit> {
+        *self.feed_limit.get_or_init(|| feed_limit(self.machine, self.leg))
+    }
+
+    /// Deviation of the tip path, see [`tip_deviation`].
+    pub fn deviation(&self) -> Option<Deviation> {
+        *self.deviation.get_or_init(|| tip_deviation(self.machine, self.leg, self.machine.tolerances.tip_mm))
+    }
+
+    /// Programmed feed along the path, mm/min; `None` where it is not known or the block is no feed motion.
+    /// Per revolution: times the spindle speed. Inverse time: length of the path times F (RS274/NGC, G93).
+    pub fn programmed_feed_mm_min(&self) -> Option<f64> {
+        match self.motion().feed {
+            Feed::PerMinute(feed) => Some(feed),
+            Feed::PerRevolution(feed) => Some(feed * self.motion().spindle_rpm?),
+            Feed::InverseTime(per_minute) => Some(per_minute * self.leg.length),
+            Feed::Unknown | Feed::Rapid => None,
+        }
+    }
+
+    /// Letters of the first and second rotary axis; `-` where there is none.
+    pub fn rotary_letters(&self) -> [char; 2] {
+        [0, 1].map(|i| self.machine.rotary.get(i).map_or('-', |at| char::from(self.machine.axes[*at].letter)))
+    }
+
+    /// Whether the block comes into the pole's cone on a machine with two rotary axes.
+    pub fn near_pole(&self) -> bool {
+        self.machine.rotary.len() == 2 && self.leg.pole_angle_min < self.machine.tolerances.pole_cone
+    }
+}

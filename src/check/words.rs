@@ -1,0 +1,76 @@
+//! Numbers as people read them in messages: with the digits that matter, and their unit.
+use trunnion_geometry::deg;
+use trunnion_machine::{Axis, AxisKind};
+
+/// A number with about four digits that matter and no trailing zeros.
+pub(crate) fn number(value: f64) -> String {
+    let size = value.abs();
+    let decimals = match size {
+        _ if size >= 1000.0 => 0,
+        _ if size >= 100.0 => 1,
+        _ if size >= 0.1 => 3,
+        _ if size >= 0.001 => 4,
+        _ => 6,
+    };
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// A length in mm.
+pub(crate) fn mm(value: f64) -> String {
+    format!("{} mm", number(value))
+}
+
+/// An angle in rad, told in degrees.
+pub(crate) fn degrees(angle: f64) -> String {
+    format!("{} deg", number(deg(angle)))
+}
+
+/// A joint value in the axis's unit: mm or deg.
+pub(crate) fn joint(axis: &Axis, value: f64) -> String {
+    match axis.kind {
+        AxisKind::Linear => mm(value),
+        AxisKind::Rotary => degrees(value),
+    }
+}
+
+/// A joint speed, mm/s or rad/s, in mm/min or deg/s.
+pub(crate) fn speed(axis: &Axis, value: f64) -> String {
+    match axis.kind {
+        AxisKind::Linear => format!("{} mm/min", number(value * 60.0)),
+        AxisKind::Rotary => format!("{} deg/s", number(deg(value))),
+    }
+}
+
+/// The letter of an axis as text.
+pub(crate) fn letter(letter: u8) -> String {
+    char::from(letter).to_string()
+}
+
+/// A text as a key for merging (FNV-1a, 64 bit).
+pub(crate) fn hash(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_keep_the_digits_that_matter() {
+        for (value, text) in [
+            (5201.4, "5201"),
+            (205.04, "205"),
+            (47.773, "47.773"),
+            (0.0772, "0.0772"),
+            (0.000_031, "0.000031"),
+            (10.0, "10"),
+            (-0.0, "0"),
+            (-2.5, "-2.5"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+}

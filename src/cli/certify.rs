@@ -1,0 +1,45 @@
+//! `certify`: re-checks a certificate, or proves or refutes that AFTER is the same tool path as BEFORE.
+use super::{
+    Done,
+    args::{Certify, Global},
+    failure::Failure,
+    load,
+};
+use std::io::Write;
+use trunnion_certify::{Certificate, Claim, Outcome, certify, recheck};
+
+/// Runs `certify`. Refuted or unknown makes the exit status 1.
+pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
+    let loaded = load::load(global, &command.before)?;
+    let machine = loaded.machine_or_fail("certify")?;
+    let after = load::read(&command.after)?;
+    let before = loaded.program.source();
+    let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
+    let outcome = match &command.certificate {
+        Some(file) => {
+            let text = std::fs::read_to_string(file).map_err(|e| Failure::io(file, "read the certificate", &e))?;
+            let certificate = Certificate::from_json(&text).map_err(|e| Failure::file(file, e))?;
+            recheck(&certificate, before, &after, dialect, machine, setup)
+        }
+        None => {
+            let claim =
+                Claim::SamePoses { tolerance_mm: command.tolerance_mm, tolerance_deg: command.tolerance_deg };
+            certify(before, &after, dialect, machine, setup, &claim)
+        }
+    };
+    let mut out = std::io::stdout().lock();
+    match outcome {
+        Outcome::Proved(certificate) => {
+            writeln!(out, "PROVED {}", certificate.summary())?;
+            Ok(Done::Clean)
+        }
+        Outcome::Refuted(witness) => {
+            writeln!(out, "REFUTED {}:{}: {}", command.after.display(), witness.line, witness.message)?;
+            Ok(Done::Found)
+        }
+        Outcome::Unknown(gap) => {
+            writeln!(out, "UNKNOWN {}", gap.message)?;
+            Ok(Done::Found)
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! The JSON document of `check`, as the interface says.
+use super::{check::Checked, failure::Failure, load::Loaded, short};
+use serde::{Serialize, Serializer, ser::SerializeMap};
+use std::io::Write;
+use trunnion_check::{Report, Status, ValueKey, Verdict};
+use trunnion_syntax::LineIndex;
+
+#[derive(Serialize)]
+struct Document {
+    schema: &'static str,
+    version: &'static str,
+    machine: Option<String>,
+    summary: Summary,
+    files: Vec<File>,
+}
+
+#[derive(Default, Serialize)]
+struct Summary {
+    files: u64,
+    blocks: u64,
+    motions: u64,
+    errors: u64,
+    warnings: u64,
+    infos: u64,
+    unknown: u64,
+}
+
+/// One file of the document.
+#[derive(Serialize)]
+pub(super) struct File {
+    path: String,
+    dialect: &'static str,
+    dialect_reason: String,
+    machine: Option<String>,
+    verdict: &'static str,
+    blocks: u64,
+    motions: u64,
+    cycle_time_s: Option<[f64; 2]>,
+    diagnostics: Vec<Item>,
+}
+
+#[derive(Serialize)]
+struct Item {
+    rule: &'static str,
+    severity: &'static str,
+    line: u32,
+    column: u32,
+    end_line: u32,
+    end_column: u32,
+    byte_start: u32,
+    byte_end: u32,
+    block: Option<String>,
+    message: String,
+    notes: Vec<String>,
+    help: Option<String>,
+    values: Values,
+    status: &'static str,
+    fixes: Vec<&'static str>,
+    docs: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    count: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    last_line: Option<u32>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    related: Vec<Related>,
+}
+
+#[derive(Serialize)]
+struct Related {
+    line: u32,
+    column: u32,
+    message: String,
+}
+
+/// Values in the order the rule gave them.
+struct Values(Vec<(&'static str, ValueKey)>);
+
+impl Serialize for Values {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (key, value) in &self.0 {
+            match value {
+                ValueKey::Number(number) => map.serialize_entry(key, &tidy(*number))?,
+                ValueKey::Text(text) => map.serialize_entry(key, text)?,
+            }
+        }
+        map.end()
+    }
+}
+
+/// Rounded to a millionth of its unit: what lies below is arithmetic, not information.
+pub(super) fn tidy(value: f64) -> f64 {
+    let rounded = (value * 1e6).round() / 1e6;
+    if rounded.is_finite() { rounded + 0.0 } else { value }
+}
+
+/// The word of a verdict.
+pub(super) fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "pass",
+        Verdict::Fail => "fail",
+        Verdict::Unknown => "unknown",
+    }
+}
+
+/// One file.
+pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, outcome: Verdict) -> File {
+    let place = |offset| lines.line_column(loaded.program.source(), offset);
+    let item = |d: &trunnion_check::Diagnostic| {
+        let (line, column) = place(d.range.start);
+        let (end_line, end_column) = place(d.range.end);
+        let merged = d.count > 1;
+        Item {
+            rule: d.rule,
+            severity: short::severity(d.severity),
+            line,
+            column,
+            end_line,
+            end_column,
+            byte_start: d.range.start,
+            byte_end: d.range.end,
+            block: d.block.clone(),
+            message: d.message.clone(),
+            notes: d.notes.clone(),
+            help: d.help.clone(),
+            values: Values(d.values.clone()),
+            status: if d.status == Status::Fail { "fail" } else { "unknown" },
+            fixes: d.fixes.clone(),
+            docs: format!("rules/{}", d.rule),
+            count: merged.then_some(d.count),
+            last_line: merged.then(|| place(d.last.start).0),
+            related: d
+                .related
+                .iter()
+                .map(|(range, message)| {
+                    let (line, column) = place(range.start);
+                    Related { line, column, message: message.clone() }
+                })
+                .collect(),
+        }
+    };
+    File {
+        path: loaded.name.clone(),
+        dialect: &loaded.resolved.dialect.name,
+        dialect_reason: loaded.resolved.dialect_reason.clone(),
+        machine: loaded.resolved.machine.as_ref().map(|m| m.id.clone()),
+        verdict: verdict(outcome),
+        blocks: report.summary.blocks,
+        motions: report.summary.motions,
+        cycle_time_s: report.cycle_time_s.map(|t| t.map(tidy)),
+        diagnostics: report.diagnostics.iter().map(item).collect(),
+    }
+}
+
+/// Writes the document of all files.
+pub(super) fn write(out: &mut impl Write, checked: Vec<Checked>) -> Result<(), Failure> {
+    let mut summary = Summary { files: checked.len() as u64, ..Summary::default() };
+    let machine = checked.first().and_then(|file| file.machine.clone());
+    let machine = machine.filter(|first| checked.iter().all(|file| file.machine.as_ref() == Some(first)));
+    for file in &checked {
+        let s = file.summary;
+        summary.blocks += s.blocks;
+        summary.motions += s.motions;
+        summary.errors += s.errors;
+        summary.warnings += s.warnings;
+        summary.infos += s.infos;
+        summary.unknown += s.unknown;
+    }
+    let document = Document {
+        schema: "trunnion-check/1",
+        version: env!("CARGO_PKG_VERSION"),
+        machine,
+        summary,
+        files: checked.into_iter().filter_map(|file| file.json).collect(),
+    };
+    write_json(out, &document)
+}
+
+/// Writes any document, pretty, with a line end.
+pub(super) fn write_json(out: &mut impl Write, document: &impl Serialize) -> Result<(), Failure> {
+    serde_json::to_writer_pretty(&mut *out, document).map_err(|error| Failure::from(std::io::Error::from(error)))?;
+    writeln!(out)?;
+    Ok(())
+}

@@ -1,0 +1,53 @@
+//! One sub-command per file. Only this folder and `lsp/` touch the world.
+mod args;
+mod certify;
+mod check;
+mod explain;
+mod failure;
+mod fix;
+mod json;
+mod load;
+mod machine;
+mod parse;
+mod render;
+mod short;
+mod trace;
+mod walk;
+
+use args::{Args, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+/// What a command ended with.
+pub(crate) enum Done {
+    /// Nothing at or above the `--deny` level.
+    Clean,
+    /// Something found.
+    Found,
+}
+
+/// Parses arguments and runs one command. 0: clean, 1: found, 2: the job could not be done.
+pub(crate) fn run() -> ExitCode {
+    let args = Args::parse();
+    let global = &args.global;
+    let result = match &args.command {
+        Command::Check(command) => check::run(global, command),
+        Command::Trace(command) => trace::run(global, command),
+        Command::Fix(command) => fix::run(global, command),
+        Command::Certify(command) => certify::run(global, command),
+        Command::Explain(command) => explain::explain(command),
+        Command::Rules(command) => explain::rules_list(command),
+        Command::Machine(command) => machine::run(global, command),
+        Command::Parse(command) => parse::run(global, command),
+        Command::Lsp(_) => return ExitCode::from(trunnion_lsp::serve() as u8),
+    };
+    match result {
+        Ok(Done::Clean) => ExitCode::SUCCESS,
+        Ok(Done::Found) => ExitCode::from(1),
+        Err(failure) if failure.is_broken_pipe() => ExitCode::SUCCESS,
+        Err(failure) => {
+            failure.print();
+            ExitCode::from(2)
+        }
+    }
+}

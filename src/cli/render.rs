@@ -1,0 +1,186 @@
+//! Diagnostics as miette reports: the only file that names miette.
+use super::{check::Checked, load::Loaded, short};
+use miette::{
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
+    SourceSpan, SpanContents,
+};
+use std::fmt;
+use trunnion_check::{Report, Severity, Status, Verdict};
+use trunnion_syntax::{LineIndex, TextRange};
+
+/// Lines of program shown before and after the finding.
+const CONTEXT: usize = 1;
+/// Lines longer than this are cut round the finding, bytes.
+const LONGEST_LINE: usize = 240;
+
+/// The findings of one file; at most `limit` of them (0: all), and a line that counts the rest.
+pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: usize, color: bool) -> String {
+    let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+    let handler = GraphicalReportHandler::new_themed(theme).with_width(110).with_context_lines(CONTEXT).with_links(false);
+    let shown = if limit == 0 { report.diagnostics.len() } else { limit };
+    let mut out = String::new();
+    for d in report.diagnostics.iter().take(shown) {
+        let excerpt = Excerpt::new(loaded, lines, d.range);
+        let finding = Finding { d, excerpt };
+        // Writing into a String cannot fail; a rendering error must not hide the finding, so its one-line form stands in.
+        if handler.render_report(&mut out, &finding).is_err() {
+            out.push_str(&format!("{}[{}] {}\n", short::severity(d.severity), d.rule, d.message));
+        }
+        out.push('\n');
+    }
+    out.push_str(&short::rest(report, shown, &loaded.name));
+    out
+}
+
+/// The last line of the pretty form: verdict and counts.
+pub(super) fn verdict_line(file: &Checked, color: bool) -> String {
+    let (word, code) = match file.verdict {
+        Verdict::Pass => ("PASS", "32"),
+        Verdict::Fail => ("FAIL", "31"),
+        Verdict::Unknown => ("UNKNOWN", "33"),
+    };
+    let word = if color { format!("\u{1b}[1;{code}m{word}\u{1b}[0m") } else { word.to_owned() };
+    let s = &file.summary;
+    let machine = file.machine.as_deref().unwrap_or("no machine");
+    format!(
+        "{word} {} on {machine}: {} blocks, {} motions; {} errors, {} warnings, {} infos, {} unknown",
+        file.name, s.blocks, s.motions, s.errors, s.warnings, s.infos, s.unknown
+    )
+}
+
+struct Finding<'a> {
+    d: &'a trunnion_check::Diagnostic,
+    excerpt: Excerpt,
+}
+
+impl fmt::Debug for Finding<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(self.d, f)
+    }
+}
+
+impl fmt::Display for Finding<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.d.message)?;
+        if self.d.count > 1 {
+            write!(f, " ({} blocks in a row)", self.d.count)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Finding<'_> {}
+
+impl Diagnostic for Finding<'_> {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        let unknown = if self.d.status == Status::Unknown { ", not decided" } else { "" };
+        Some(Box::new(format!("{}[{}]{unknown}", short::severity(self.d.severity), self.d.rule)))
+    }
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.d.severity {
+            Severity::Error => miette::Severity::Error,
+            Severity::Warning => miette::Severity::Warning,
+            Severity::Info => miette::Severity::Advice,
+        })
+    }
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        let mut text = self.d.notes.join("\n");
+        if let Some(help) = &self.d.help {
+            if !text.is_empty() {
+                text.push('\n');
+            }
+            text.push_str(help);
+        }
+        (!text.is_empty()).then(|| Box::new(text) as Box<dyn fmt::Display>)
+    }
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        Some(&self.excerpt)
+    }
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let label = self.d.block.as_ref().map_or_else(|| "here".to_owned(), |block| format!("in block {block}"));
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(label), self.excerpt.span))))
+    }
+}
+
+/// The lines round a finding. miette would scan the file from its start for each finding; this does not.
+#[derive(Debug)]
+struct Excerpt {
+    name: String,
+    /// Valid UTF-8: bytes that are not are shown as `?`, one for one, so that offsets hold.
+    data: Vec<u8>,
+    /// The finding inside `data`.
+    span: SourceSpan,
+    /// Line of the first byte, from 0.
+    line: usize,
+    column: usize,
+}
+
+impl Excerpt {
+    fn new(loaded: &Loaded, lines: &LineIndex, range: TextRange) -> Self {
+        let source = loaded.program.source();
+        let (line, _) = lines.line_column(source, range.start);
+        let (last, _) = lines.line_column(source, range.end.max(range.start));
+        let start_of = |line: usize| lines.starts.get(line).map_or(source.len(), |&s| s as usize);
+        let mut first = (line as usize - 1).saturating_sub(CONTEXT);
+        let mut start = start_of(first);
+        let mut end = start_of(last as usize + CONTEXT);
+        let mut column = 0;
+        let from = range.start as usize;
+        if from - start > LONGEST_LINE * 2 {
+            first = line as usize - 1;
+            start = start_of(first).max(from.saturating_sub(LONGEST_LINE / 2));
+            column = start - start_of(first);
+        }
+        let until = (range.end as usize).min(from + LONGEST_LINE);
+        end = end.min(until + LONGEST_LINE).max(until).min(source.len());
+        while start < from && is_continuation(source[start]) {
+            start += 1;
+        }
+        while end < source.len() && is_continuation(source[end]) {
+            end += 1;
+        }
+        let data = printable(&source[start..end]);
+        let span = SourceSpan::new((from - start).into(), (until - from).min(data.len()));
+        Self { name: loaded.name.clone(), data, span, line: first, column }
+    }
+}
+
+fn is_continuation(byte: u8) -> bool {
+    byte & 0b1100_0000 == 0b1000_0000
+}
+
+/// The bytes as valid UTF-8 of the same length; without control bytes that would upset a terminal.
+fn printable(bytes: &[u8]) -> Vec<u8> {
+    let mut out = Vec::with_capacity(bytes.len());
+    for chunk in bytes.utf8_chunks() {
+        for byte in chunk.valid().bytes() {
+            let keep = byte >= b' ' && byte != 0x7f || matches!(byte, b'\n' | b'\t' | b'\r');
+            out.push(if keep { byte } else { b'?' });
+        }
+        out.extend(chunk.invalid().iter().map(|_| b'?'));
+    }
+    out
+}
+
+impl SourceCode for Excerpt {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        _before: usize,
+        _after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        if span.offset() + span.len() > self.data.len() {
+            return Err(MietteError::OutOfBounds);
+        }
+        let whole = SourceSpan::new(0.into(), self.data.len());
+        let lines = self.data.iter().filter(|&&b| b == b'\n').count() + 1;
+        Ok(Box::new(MietteSpanContents::new_named(
+            self.name.clone(),
+            &self.data,
+            whole,
+            self.line,
+            self.column,
+            lines,
+        )))
+    }
+}

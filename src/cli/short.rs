@@ -1,0 +1,39 @@
+//! One line per finding: `path:line:col: severity[rule] message`.
+use super::load::Loaded;
+use std::fmt::Write;
+use trunnion_check::{Report, Severity};
+use trunnion_syntax::LineIndex;
+
+/// The findings of one file; at most `limit` of them (0: all), and a line that counts the rest.
+pub(super) fn short(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: usize) -> String {
+    let mut out = String::new();
+    let shown = if limit == 0 { report.diagnostics.len() } else { limit };
+    for d in report.diagnostics.iter().take(shown) {
+        let (line, column) = lines.line_column(loaded.program.source(), d.range.start);
+        let _ = write!(out, "{}:{line}:{column}: {}[{}] {}", loaded.name, severity(d.severity), d.rule, d.message);
+        if d.count > 1 {
+            let (last, _) = lines.line_column(loaded.program.source(), d.last.start);
+            let _ = write!(out, " ({} blocks, to line {last})", d.count);
+        }
+        out.push('\n');
+    }
+    out.push_str(&rest(report, shown, &loaded.name));
+    out
+}
+
+/// The line that counts what `limit` left out.
+pub(super) fn rest(report: &Report, shown: usize, name: &str) -> String {
+    match report.diagnostics.len().checked_sub(shown) {
+        Some(more @ 1..) => format!("{name}: {more} more findings, see them all with --limit 0\n"),
+        _ => String::new(),
+    }
+}
+
+/// Lower-case word of a severity.
+pub(super) fn severity(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Info => "info",
+    }
+}

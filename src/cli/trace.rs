@@ -1,0 +1,166 @@
+//! `trace`: one row per motion, what the machine will do, in numbers.
+use super::{
+    Done,
+    args::{Global, Trace, TraceFormat},
+    failure::{Failure, remark},
+    json::tidy,
+    load::{self, Loaded},
+};
+use serde_json::{Map, Value, json};
+use std::io::{BufWriter, Write};
+use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
+use trunnion_machine::{Follower, Machine, Row, row};
+use trunnion_syntax::{BlockId, LineIndex};
+
+const COLUMNS: [&str; 17] = [
+    "line", "block", "motion", "tcp", "x_mm", "y_mm", "z_mm", "i", "j", "k", "feed_mm_min", "duration_s", "branch",
+    "pole_angle_deg", "tip_deviation_mm", "feed_limit_mm_min", "limiting_axis",
+];
+
+/// Runs `trace`.
+pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
+    let loaded = load::load(global, &command.file)?;
+    if global.verbose {
+        remark(false, &loaded.explanation());
+    }
+    let machine = loaded.machine_or_fail("trace")?;
+    let lines = LineIndex::new(loaded.program.source());
+    let out = BufWriter::new(std::io::stdout().lock());
+    let mut tracer = Tracer {
+        loaded: &loaded,
+        lines: &lines,
+        machine,
+        follower: Follower::new(machine),
+        writer: Rows::new(command.format, out, machine)?,
+        error: None,
+        faults: 0,
+    };
+    trunnion_interp::run(&loaded.program, loaded.resolved.dialect, &loaded.resolved.setup, &mut tracer);
+    if let Some(failure) = tracer.error {
+        return Err(failure);
+    }
+    let problems = tracer.faults + loaded.program.errors().len();
+    tracer.writer.finish()?;
+    if problems > 0 {
+        remark(global.quiet, &format!("{}: {problems} problems in the program; see `trunnion check`", loaded.name));
+    }
+    Ok(Done::Clean)
+}
+
+struct Tracer<'a, W: Write> {
+    loaded: &'a Loaded,
+    lines: &'a LineIndex,
+    machine: &'a Machine,
+    follower: Follower<'a>,
+    writer: Rows<W>,
+    error: Option<Failure>,
+    faults: usize,
+}
+
+impl<W: Write> Sink for Tracer<'_, W> {
+    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
+        let leg = self.follower.follow(motion);
+        if self.error.is_some() {
+            return;
+        }
+        let (line, block) = place(self.loaded, self.lines, motion.block);
+        if let Err(failure) = self.writer.write(line, &block, &row(self.machine, &leg)) {
+            self.error = Some(failure);
+        }
+    }
+    fn fault(&mut self, _fault: Fault) {
+        self.faults += 1;
+    }
+    fn block_done(&mut self, _block: BlockId, _interpreter: &Interpreter<'_>) {}
+}
+
+fn place(loaded: &Loaded, lines: &LineIndex, id: BlockId) -> (u32, String) {
+    let block = loaded.program.block(id);
+    let (line, _) = lines.line_column(loaded.program.source(), block.range().start);
+    let number = block.number().map_or_else(String::new, |range| loaded.program.text(range).into_owned());
+    (line, number)
+}
+
+/// Where rows go.
+enum Rows<W: Write> {
+    Csv(Box<csv::Writer<W>>),
+    Json { out: W, names: Vec<String>, first: bool },
+}
+
+impl<W: Write> Rows<W> {
+    fn new(format: TraceFormat, mut out: W, machine: &Machine) -> Result<Self, Failure> {
+        let joints = machine.axes.iter().map(|axis| format!("joint_{}", char::from(axis.letter.to_ascii_lowercase())));
+        let names: Vec<String> = COLUMNS.iter().map(|&name| name.to_owned()).chain(joints).collect();
+        match format {
+            TraceFormat::Csv => {
+                let mut writer = csv::Writer::from_writer(out);
+                writer.write_record(&names).map_err(csv_failure)?;
+                Ok(Self::Csv(Box::new(writer)))
+            }
+            TraceFormat::Json => {
+                let id = serde_json::to_string(&machine.id).unwrap_or_default();
+                write!(out, "{{\"schema\":\"trunnion-trace/1\",\"machine\":{id},\"rows\":[")?;
+                Ok(Self::Json { out, names, first: true })
+            }
+        }
+    }
+
+    fn write(&mut self, line: u32, block: &str, row: &Row) -> Result<(), Failure> {
+        let cells = cells(line, block, row);
+        match self {
+            Self::Csv(writer) => writer.write_record(cells.iter().map(text)).map_err(csv_failure),
+            Self::Json { out, names, first } => {
+                let object: Map<String, Value> = names.iter().cloned().zip(cells).collect();
+                out.write_all(if *first { b"\n" } else { b",\n" })?;
+                *first = false;
+                serde_json::to_writer(&mut *out, &object).map_err(std::io::Error::from)?;
+                Ok(())
+            }
+        }
+    }
+
+    fn finish(self) -> Result<(), Failure> {
+        match self {
+            Self::Csv(mut writer) => writer.flush()?,
+            Self::Json { mut out, .. } => {
+                out.write_all(b"\n]}\n")?;
+                out.flush()?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Empty where a value has no meaning.
+fn cells(line: u32, block: &str, row: &Row) -> Vec<Value> {
+    let number = |value: Option<f64>| value.filter(|v| v.is_finite()).map_or(Value::Null, |v| json!(tidy(v)));
+    let part = |vector: Option<[f64; 3]>, i: usize| number(vector.map(|v| v[i]));
+    let mut cells = vec![
+        json!(line),
+        if block.is_empty() { Value::Null } else { json!(block) },
+        json!(row.motion),
+        json!(row.tcp),
+    ];
+    cells.extend((0..3).map(|i| part(row.tip_mm, i)));
+    cells.extend((0..3).map(|i| part(row.axis, i)));
+    cells.extend([number(row.feed_mm_min), number(row.duration_s), row.branch.map_or(Value::Null, |b| json!(b))]);
+    cells.extend([number(row.pole_angle_deg), number(row.tip_deviation_mm), number(row.feed_limit_mm_min)]);
+    cells.push(row.limiting_axis.map_or(Value::Null, |letter| json!(letter.to_string())));
+    cells.extend(row.joints.iter().map(|&joint| number(joint)));
+    cells
+}
+
+fn text(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
+}
+
+fn csv_failure(error: csv::Error) -> Failure {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => Failure::from(error),
+        other => Failure::new(format!("cannot write CSV: {other:?}")),
+    }
+}

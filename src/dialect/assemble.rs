@@ -1,0 +1,286 @@
+//! From a table to a dialect: `extends`, ranges of codes, indexes, and every check that serde cannot make.
+use crate::dialect::{ArcTolerance, G_SLOTS, sort_key};
+use crate::schema::{ArcToleranceRow, CodeRow, DialectError, FormatRow, Lex, Table};
+use crate::{Code, CodeKind, Dialect, Role, builtin};
+use core::ops::{Range, RangeInclusive};
+use std::collections::BTreeMap;
+use toml::Spanned;
+use trunnion_syntax::{Format, LexOptions};
+
+const MM_PER_INCH: f64 = 25.4;
+
+fn error<T>(span: Range<usize>, message: impl Into<String>) -> Result<T, DialectError> {
+    Err(DialectError { message: message.into(), span: Some(span) })
+}
+
+/// Builds the dialect that `table` describes.
+pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
+    let mut dialect = start(&table)?;
+    dialect.name.clone_from(table.name.get_ref());
+    dialect.title.clone_from(&table.title);
+    let relative = dialect.arc.relative;
+    dialect.quirks = crate::Quirks { arc_tolerance_relative: relative, ..table.quirks };
+    if let Some(lex) = table.lex {
+        dialect.lex = lex_options(lex);
+    }
+    if let Some(row) = &table.arc_tolerance {
+        dialect.arc = arc_tolerance(row)?;
+        dialect.arc_tolerance_mm = dialect.arc.mm;
+        dialect.quirks.arc_tolerance_relative = dialect.arc.relative;
+    }
+    dialect.extensions = extensions(&table.extensions)?;
+    roles(&table.roles, &mut dialect)?;
+    addresses(&table.addresses, &mut dialect)?;
+    for (name, doc) in &table.groups {
+        if !is_kebab(name.get_ref()) {
+            return error(name.span(), format!("group `{}`: write lower-case words joined by `-`", name.get_ref()));
+        }
+        dialect.groups.insert(name.get_ref().clone(), doc.clone());
+    }
+    for id in &table.remove {
+        let pattern = Pattern::parse(id, dialect.lex.format)?;
+        let before = dialect.codes.len();
+        dialect.codes.retain(|code| !pattern.matches(code));
+        if dialect.codes.len() == before {
+            return error(id.span(), format!("`{}` is not in the extended table: nothing to remove", id.get_ref()));
+        }
+    }
+    dialect.builder_codes.clear();
+    for id in &table.builder_codes {
+        match Pattern::parse(id, dialect.lex.format)? {
+            Pattern::Numbers(kind, tenths) => dialect.builder_codes.push((kind, tenths)),
+            Pattern::Name(name) => return error(id.span(), format!("`{name}`: only G and M codes can be the builder's")),
+        }
+    }
+    codes(table.codes, &table.source, &mut dialect)?;
+    index(&mut dialect);
+    Ok(dialect)
+}
+
+/// The dialect that is extended, or an empty one.
+fn start(table: &Table) -> Result<Dialect, DialectError> {
+    if !is_kebab(table.name.get_ref()) {
+        return error(table.name.span(), "a dialect's name is lower-case words joined by `-`");
+    }
+    if let Some(base) = &table.extends {
+        if base.get_ref() == table.name.get_ref() {
+            return error(base.span(), "a table cannot extend itself");
+        }
+        return match builtin(base.get_ref()) {
+            Some(base) => Ok(base.clone()),
+            None => error(base.span(), format!("no built-in dialect `{}`; there are {}", base.get_ref(), crate::BUILTIN_NAMES.join(", "))),
+        };
+    }
+    let missing = match (&table.lex, &table.arc_tolerance) {
+        (None, _) => "[lex]",
+        (_, None) => "[arc-tolerance]",
+        _ => return Ok(Dialect::empty()),
+    };
+    error(table.name.span(), format!("a table that extends no other needs {missing}"))
+}
+
+fn lex_options(lex: Lex) -> LexOptions {
+    LexOptions {
+        format: match lex.format {
+            FormatRow::Iso => Format::Iso,
+            FormatRow::Apt => Format::Apt,
+        },
+        paren_comment: lex.paren_comment,
+        semicolon_comment: lex.semicolon_comment,
+        slash_star_comment: lex.slash_star_comment,
+        blanks_in_numbers: lex.blanks_in_numbers,
+    }
+}
+
+fn arc_tolerance(row: &ArcToleranceRow) -> Result<ArcTolerance, DialectError> {
+    let positive = |value: &Spanned<f64>| {
+        if value.get_ref().is_finite() && *value.get_ref() > 0.0 {
+            Ok(*value.get_ref())
+        } else {
+            error(value.span(), format!("{} is no tolerance: give a number above 0", value.get_ref()))
+        }
+    };
+    if row.source.get_ref().trim().is_empty() {
+        return error(row.source.span(), "say where the tolerance comes from");
+    }
+    let mm = positive(&row.mm)?;
+    Ok(ArcTolerance {
+        mm,
+        inch_mm: row.inch.as_ref().map_or(Ok(mm), |inch| positive(inch).map(|inch| inch * MM_PER_INCH))?,
+        relative: row.relative.as_ref().map_or(Ok(0.0), positive)?,
+        relative_up_to: row.relative_up_to.as_ref().map_or(Ok(f64::INFINITY), positive)?,
+        source: row.source.get_ref().clone(),
+    })
+}
+
+fn extensions(rows: &[Spanned<String>]) -> Result<Vec<String>, DialectError> {
+    for row in rows {
+        let plain = row.get_ref().bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit());
+        if row.get_ref().is_empty() || !plain {
+            return error(row.span(), format!("`{}`: write a file name extension in lower case without dot", row.get_ref()));
+        }
+    }
+    Ok(rows.iter().map(|row| row.get_ref().clone()).collect())
+}
+
+fn roles(rows: &BTreeMap<Spanned<String>, Role>, dialect: &mut Dialect) -> Result<(), DialectError> {
+    for (letter, &role) in rows {
+        match letter.get_ref().as_bytes() {
+            [upper @ b'A'..=b'Z'] => dialect.roles[usize::from(upper - b'A')] = Some(role),
+            _ => return error(letter.span(), format!("`{}` is not one upper-case letter", letter.get_ref())),
+        }
+    }
+    Ok(())
+}
+
+fn addresses(rows: &BTreeMap<Spanned<String>, Role>, dialect: &mut Dialect) -> Result<(), DialectError> {
+    for (name, &role) in rows {
+        let text = name.get_ref();
+        let stem = text.strip_suffix('#').unwrap_or(text);
+        if !is_name(stem) || (stem.len() != 1 && stem.len() != text.len()) {
+            return error(name.span(), format!("`{text}`: write an upper-case name such as CR or A3, or one letter and `#`"));
+        }
+        dialect.named.retain(|(known, _)| known != text);
+        dialect.named.push((text.clone(), role));
+    }
+    dialect.named.sort_by(|a, b| a.0.cmp(&b.0));
+    Ok(())
+}
+
+fn codes(rows: BTreeMap<Spanned<String>, CodeRow>, source: &str, dialect: &mut Dialect) -> Result<(), DialectError> {
+    if source.trim().is_empty() {
+        return Err(DialectError { message: "`source` is empty: name the standard or manual".to_owned(), span: None });
+    }
+    for (id, row) in rows {
+        let pattern = Pattern::parse(&id, dialect.lex.format)?;
+        let code = check_row(&id, row, source, dialect)?;
+        dialect.codes.retain(|known| !pattern.matches(known));
+        match pattern {
+            Pattern::Name(name) => dialect.codes.push(Code { id: name, kind: CodeKind::Name, ..code }),
+            Pattern::Numbers(kind, tenths) => {
+                let step = if tenths.start() == tenths.end() { 1 } else { 10 };
+                let ids = tenths.step_by(step).map(|t| Code { id: number_id(kind, t), kind, ..code.clone() });
+                dialect.codes.extend(ids);
+            }
+        }
+    }
+    if dialect.codes.len() >= usize::from(u16::MAX) {
+        return Err(DialectError { message: "more than 65534 codes".to_owned(), span: None });
+    }
+    Ok(())
+}
+
+fn check_row(id: &Spanned<String>, row: CodeRow, source: &str, dialect: &Dialect) -> Result<Code, DialectError> {
+    if let Some(group) = &row.group
+        && !dialect.groups.contains_key(group.get_ref())
+    {
+        return error(group.span(), format!("`{}`: no group `{}` in [groups]", id.get_ref(), group.get_ref()));
+    }
+    let doc = row.doc.get_ref();
+    if doc.trim().is_empty() || doc.contains('\n') {
+        return error(row.doc.span(), format!("`{}`: say in one line what the code does", id.get_ref()));
+    }
+    let own = row.source.map(|own| (own.span(), own.into_inner()));
+    if let Some((span, text)) = &own
+        && text.trim().is_empty()
+    {
+        return error(span.clone(), format!("`{}`: an empty source", id.get_ref()));
+    }
+    Ok(Code {
+        id: String::new(),
+        kind: CodeKind::Name,
+        group: row.group.map(Spanned::into_inner),
+        words: row.words,
+        action: row.action,
+        doc: row.doc.into_inner(),
+        source: own.map_or_else(|| source.to_owned(), |(_, text)| text),
+        owner: row.owner,
+    })
+}
+
+/// Sorts the codes and fills the look-up tables.
+fn index(dialect: &mut Dialect) {
+    dialect.codes.sort_by(|a, b| sort_key(a).cmp(&sort_key(b)));
+    dialect.g = vec![0; G_SLOTS];
+    dialect.m = vec![0; G_SLOTS];
+    dialect.names.clear();
+    for (i, code) in dialect.codes.iter().enumerate() {
+        let slot = i as u16 + 1;
+        match (code.kind, number_tenths(&code.id)) {
+            (CodeKind::G, Some(tenths)) => dialect.g[tenths as usize] = slot,
+            (CodeKind::M, Some(tenths)) => dialect.m[tenths as usize] = slot,
+            _ => dialect.names.push(slot - 1),
+        }
+    }
+}
+
+/// What an id in a table stands for.
+#[derive(Debug, PartialEq)]
+enum Pattern {
+    /// G or M codes from .. to, in tenths.
+    Numbers(CodeKind, RangeInclusive<u32>),
+    Name(String),
+}
+
+impl Pattern {
+    /// `G43.4`, `M6`, `G505..G599`, `TRAORI`; APT words may hold `-` and blanks.
+    fn parse(id: &Spanned<String>, format: Format) -> Result<Self, DialectError> {
+        let text = id.get_ref();
+        let (from, to) = text.split_once("..").unwrap_or((text, text));
+        let numbers = format == Format::Iso && matches!(text.as_bytes(), [b'G' | b'M', b'0'..=b'9', ..]);
+        if !numbers {
+            let apt_name = text.split([' ', '-']).all(is_name) && format == Format::Apt;
+            return if apt_name || is_name(text) {
+                Ok(Self::Name(text.clone()))
+            } else {
+                error(id.span(), format!("`{text}` is no code: write `G43.4`, `M6`, `G505..G599` or an upper-case name"))
+            };
+        }
+        let kind = if from.starts_with('G') { CodeKind::G } else { CodeKind::M };
+        match (number_tenths(from), number_tenths(to)) {
+            (Some(a), Some(b)) if from.as_bytes()[0] == to.as_bytes()[0] && (a < b || from == to) => Ok(Self::Numbers(kind, a..=b)),
+            _ => error(id.span(), format!("`{text}`: codes are 0 to 999.9 with at most one decimal and no leading zero")),
+        }
+    }
+    fn matches(&self, code: &Code) -> bool {
+        match self {
+            Self::Name(name) => code.kind == CodeKind::Name && code.id == *name,
+            Self::Numbers(kind, tenths) => code.kind == *kind && number_tenths(&code.id).is_some_and(|t| tenths.contains(&t)),
+        }
+    }
+}
+
+/// Number of a canonical id in tenths: `G43.4` is 434. `None` unless it is written canonically.
+pub(crate) fn number_tenths(id: &str) -> Option<u32> {
+    let digits = id.get(1..)?;
+    let (whole, tenth) = digits.split_once('.').map_or((digits, None), |(whole, tenth)| (whole, Some(tenth)));
+    let canonical = !whole.is_empty() && whole.len() <= 3 && whole.bytes().all(|b| b.is_ascii_digit());
+    if !canonical || (whole.len() > 1 && whole.starts_with('0')) {
+        return None;
+    }
+    let tenth = match tenth.map(str::as_bytes) {
+        None => 0,
+        Some([digit @ b'1'..=b'9']) => u32::from(digit - b'0'),
+        Some(_) => return None,
+    };
+    Some(whole.parse::<u32>().ok()? * 10 + tenth)
+}
+
+fn number_id(kind: CodeKind, tenths: u32) -> String {
+    let letter = if kind == CodeKind::G { 'G' } else { 'M' };
+    match tenths % 10 {
+        0 => format!("{letter}{}", tenths / 10),
+        tenth => format!("{letter}{}.{tenth}", tenths / 10),
+    }
+}
+
+fn is_name(text: &str) -> bool {
+    let mut bytes = text.bytes();
+    bytes.next().is_some_and(|b| b.is_ascii_uppercase() || b == b'_')
+        && bytes.all(|b| b.is_ascii_uppercase() || b.is_ascii_digit() || b == b'_')
+}
+
+fn is_kebab(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_lowercase())
+        && text.split('-').all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit()))
+}

@@ -1,0 +1,4 @@
+//! Tests of the tables and of what reads them.
+mod detection;
+mod hostile;
+mod tables;

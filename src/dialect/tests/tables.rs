@@ -1,0 +1,203 @@
+//! The built-in tables say what they should.
+use crate::{Action, BUILTIN_NAMES, Code, CodeKind, Dialect, Owner, Role, builtin};
+use trunnion_syntax::Format;
+
+fn dialect(name: &str) -> &'static Dialect {
+    builtin(name).unwrap()
+}
+
+fn action(name: &str, id: &str) -> Option<Action> {
+    find(name, id).map(|code| code.action)
+}
+
+fn find(name: &str, id: &str) -> Option<&'static Code> {
+    dialect(name).codes().iter().find(|code| code.id == id)
+}
+
+#[test]
+fn every_built_in_table_loads_under_its_name() {
+    for &name in BUILTIN_NAMES {
+        assert_eq!(dialect(name).name, name);
+        assert!(!dialect(name).title.is_empty());
+        assert!(!dialect(name).arc.source.is_empty());
+        assert!(dialect(name).arc_tolerance_mm > 0.0);
+    }
+    assert!(builtin("no-such-control").is_none());
+    assert!(builtin("").is_none());
+}
+
+#[test]
+fn look_up_finds_exactly_the_codes_of_the_list() {
+    for &name in BUILTIN_NAMES {
+        let dialect = dialect(name);
+        for tenths in 0..10_100 {
+            let id = |letter: char| match tenths % 10 {
+                0 => format!("{letter}{}", tenths / 10),
+                _ => format!("{letter}{}.{}", tenths / 10, tenths % 10),
+            };
+            let listed = |kind: CodeKind, id: &str| dialect.codes().iter().any(|code| code.kind == kind && code.id == id);
+            assert_eq!(dialect.g(tenths).map(|code| code.id.clone()).is_some(), listed(CodeKind::G, &id('G')), "{name} {tenths}");
+            assert_eq!(dialect.m(tenths).map(|code| code.id.clone()).is_some(), listed(CodeKind::M, &id('M')), "{name} {tenths}");
+            assert!(dialect.g(tenths).is_none_or(|code| code.id == id('G')));
+        }
+        for code in dialect.codes().iter().filter(|code| code.kind == CodeKind::Name) {
+            assert_eq!(dialect.name(&code.id).unwrap().id, code.id);
+            assert_eq!(dialect.name(&code.id.to_ascii_lowercase()).unwrap().id, code.id);
+        }
+        assert!(dialect.g(u32::MAX).is_none());
+        assert!(dialect.m(u32::MAX).is_none());
+    }
+}
+
+#[test]
+fn every_code_is_documented_with_a_source_and_a_known_group() {
+    for &name in BUILTIN_NAMES {
+        let dialect = dialect(name);
+        for code in dialect.codes() {
+            assert!(code.doc.len() > 3 && !code.doc.ends_with('.') && !code.doc.contains('\n'), "{name} {}", code.id);
+            assert!(!code.source.is_empty(), "{name} {}", code.id);
+            assert!(code.group.as_ref().is_none_or(|group| dialect.groups.contains_key(group)), "{name} {}", code.id);
+        }
+    }
+}
+
+#[test]
+fn a_frame_that_is_reset_is_in_the_group_of_its_reset() {
+    for &name in BUILTIN_NAMES {
+        for reset in dialect(name).codes().iter().filter(|code| code.action == Action::FrameReset) {
+            let changes = dialect(name).codes().iter().filter(|code| code.action == Action::FrameChange && code.group == reset.group);
+            assert!(reset.group.is_some() && changes.count() > 0, "{name} {}", reset.id);
+        }
+    }
+}
+
+#[test]
+fn motion_codes_are_the_same_everywhere() {
+    for name in ["iso-6983", "linuxcnc", "fanuc-30i", "sinumerik-840d"] {
+        let expected = [
+            ("G0", Action::Rapid),
+            ("G1", Action::Linear),
+            ("G2", Action::ArcClockwise),
+            ("G3", Action::ArcCounterClockwise),
+            ("G4", Action::Dwell),
+            ("G17", Action::PlaneXy),
+            ("G18", Action::PlaneZx),
+            ("G19", Action::PlaneYz),
+            ("G40", Action::CompensationOff),
+            ("G41", Action::CompensationLeft),
+            ("G42", Action::CompensationRight),
+            ("G53", Action::MachineCoordinates),
+            ("G54", Action::WorkOffset),
+            ("G90", Action::Absolute),
+            ("G91", Action::Incremental),
+            ("G93", Action::FeedInverseTime),
+            ("G94", Action::FeedPerMinute),
+            ("G95", Action::FeedPerRevolution),
+            ("M3", Action::SpindleClockwise),
+            ("M4", Action::SpindleCounterClockwise),
+            ("M5", Action::SpindleStop),
+            ("M6", Action::ToolChange),
+            ("M30", Action::ProgramEnd),
+        ];
+        for (id, expected) in expected {
+            assert_eq!(action(name, id), Some(expected), "{name} {id}");
+        }
+    }
+}
+
+#[test]
+fn controls_differ_where_their_manuals_do() {
+    assert_eq!(action("sinumerik-840d", "G70"), Some(Action::InchLengthsOnly));
+    assert_eq!(action("sinumerik-840d", "G700"), Some(Action::Inch));
+    assert_eq!(action("sinumerik-840d", "G20"), None);
+    assert_eq!(action("sinumerik-840d", "G43"), None);
+    assert_eq!(action("fanuc-30i", "G70"), None);
+    assert_eq!(action("fanuc-30i", "G71"), None);
+    assert_eq!(action("fanuc-30i", "G20"), Some(Action::Inch));
+    assert_eq!(action("fanuc-30i", "G43.4"), Some(Action::TcpOn));
+    assert_eq!(action("fanuc-30i", "G43.5"), Some(Action::TcpVectorOn));
+    assert_eq!(action("linuxcnc", "G43.4"), None);
+    assert_eq!(action("linuxcnc", "G70"), Some(Action::NotModelled));
+    assert_eq!(action("iso-6983", "G70"), Some(Action::Inch));
+    assert_eq!(action("iso-6983", "G43.4"), None);
+    assert_eq!(action("linuxcnc", "M428"), Some(Action::TcpOn));
+    assert_eq!(find("linuxcnc", "M428").unwrap().owner, Owner::MachineBuilder);
+    assert_eq!(action("sinumerik-840d", "TRAORI"), Some(Action::TcpOn));
+    assert_eq!(action("sinumerik-840d", "G500"), Some(Action::WorkOffsetNone));
+    assert_eq!(action("sinumerik-840d", "G505"), Some(Action::WorkOffset));
+    assert_eq!(action("sinumerik-840d", "G599"), Some(Action::WorkOffset));
+    assert_eq!(action("sinumerik-840d", "G600"), None);
+    assert_eq!(dialect("sinumerik-840d").role(b'R'), Some(Role::Variable));
+    assert_eq!(dialect("fanuc-30i").role(b'R'), Some(Role::ArcRadius));
+    assert_eq!(dialect("apt").lex.format, Format::Apt);
+    assert!(!dialect("sinumerik-840d").lex.paren_comment);
+    assert!(dialect("linuxcnc").lex.blanks_in_numbers);
+}
+
+#[test]
+fn names_with_digits_are_whole_words() {
+    let sinumerik = dialect("sinumerik-840d");
+    assert_eq!(sinumerik.name("cycle832").unwrap().id, "CYCLE832");
+    assert_eq!(sinumerik.name("Cycle800").unwrap().action, Action::FrameChange);
+    assert!(sinumerik.name("CYCLE8321").is_none());
+    assert!(sinumerik.name("CYCLE").is_none());
+    assert!(sinumerik.name("").is_none());
+    assert!(sinumerik.name("TRAORI\u{e9}").is_none());
+    let fanuc = dialect("fanuc-30i");
+    assert_eq!(fanuc.name("DO1").unwrap().id, "DO");
+    assert_eq!(fanuc.name("goto900").unwrap().id, "GOTO");
+    assert!(fanuc.name("900").is_none());
+    assert!(sinumerik.name("GOTO900").is_none());
+}
+
+#[test]
+fn addresses_with_equals() {
+    let sinumerik = dialect("sinumerik-840d");
+    assert_eq!(sinumerik.named_role(b"cr"), Some(Role::ArcRadius));
+    assert_eq!(sinumerik.named_role(b"TURN"), Some(Role::ArcTurns));
+    assert_eq!(sinumerik.named_role(b"A3"), Some(Role::ToolVector));
+    assert_eq!(sinumerik.named_role(b"A2"), Some(Role::NotModelled));
+    assert_eq!(sinumerik.named_role(b"R1"), Some(Role::Variable));
+    assert_eq!(sinumerik.named_role(b"R999"), Some(Role::Variable));
+    assert_eq!(sinumerik.named_role(b"r"), None);
+    assert_eq!(sinumerik.named_role(b"R1A"), None);
+    assert_eq!(sinumerik.named_role(b"R#"), Some(Role::Variable));
+    assert_eq!(sinumerik.named_role(b""), None);
+    assert_eq!(sinumerik.named_role(b"XNOW"), None);
+}
+
+#[test]
+fn arcs_are_judged_as_the_control_does() {
+    let linuxcnc = dialect("linuxcnc");
+    // fixed part for small arcs, part of the radius above it, capped
+    assert!((linuxcnc.arc_limit_mm(1.0, false) - 0.028_284).abs() < 1e-9);
+    assert!((linuxcnc.arc_limit_mm(1000.0, false) - 1.0).abs() < 1e-9);
+    assert!((linuxcnc.arc_limit_mm(1e6, false) - 2.8284).abs() < 1e-9);
+    let core = dialect("iso-6983");
+    assert!((core.arc_limit_mm(1000.0, false) - 0.002).abs() < 1e-12);
+    assert!((core.arc_limit_mm(1000.0, true) - 0.005_08).abs() < 1e-12);
+    let sinumerik = dialect("sinumerik-840d");
+    assert!((sinumerik.arc_limit_mm(5.0, false) - 0.01).abs() < 1e-12);
+    assert!((sinumerik.arc_limit_mm(50.0, false) - 0.05).abs() < 1e-12);
+}
+
+#[test]
+fn builders_own_what_the_control_leaves_them() {
+    assert!(dialect("fanuc-30i").builder_may_own(CodeKind::M, 1230));
+    assert!(!dialect("fanuc-30i").builder_may_own(CodeKind::M, 980));
+    assert!(!dialect("fanuc-30i").builder_may_own(CodeKind::G, 1230));
+    assert!(dialect("sinumerik-840d").builder_may_own(CodeKind::M, 1000));
+    assert!(!dialect("sinumerik-840d").builder_may_own(CodeKind::M, 300));
+    assert!(!dialect("iso-6983").builder_may_own(CodeKind::M, 0));
+}
+
+#[test]
+fn hover_names_the_code_its_group_and_its_source() {
+    let text = find("fanuc-30i", "G43.4").unwrap().hover();
+    assert!(text.starts_with("**G43.4** Tool centre point control"), "{text}");
+    assert!(text.contains("Modal group: tool-length"), "{text}");
+    assert!(text.contains("Reads: H L"), "{text}");
+    assert!(text.ends_with("*Fanuc Series 30i/31i/32i operator's manual, machining center system*"), "{text}");
+    assert!(find("linuxcnc", "M428").unwrap().hover().contains("builder of the machine"));
+    assert!(find("fanuc-30i", "G81").unwrap().hover().contains("not modelled"));
+}

@@ -1,0 +1,115 @@
+//! Arcs from what a block says: centre form and radius form, in the three planes.
+use crate::{FaultKind, Position, words::Words};
+use trunnion_dialect::{Dialect, Plane};
+use trunnion_geometry::Vec3;
+use trunnion_geometry::arc::{Arc, RadiusFault, Turning};
+
+/// Axes of a plane in [`crate::AXIS_LETTERS`]: first, second, normal. Seen from the normal's positive end the second axis is
+/// a quarter turn counter-clockwise from the first.
+pub(crate) fn plane_axes(plane: Plane) -> [usize; 3] {
+    match plane {
+        Plane::Xy => [0, 1, 2],
+        Plane::Zx => [2, 0, 1],
+        Plane::Yz => [1, 2, 0],
+    }
+}
+
+/// What an arc block is given beside its words.
+pub(crate) struct ArcSetting<'a> {
+    pub(crate) dialect: &'a Dialect,
+    pub(crate) plane: Plane,
+    pub(crate) turning: Turning,
+    /// I J K are coordinates unless a word says otherwise.
+    pub(crate) centre_absolute: bool,
+    pub(crate) length_unit_mm: f64,
+    pub(crate) start: Position,
+    pub(crate) end: Position,
+    /// Further full turns; `None`: not known.
+    pub(crate) turns: Option<u32>,
+}
+
+/// An arc, as far as it is known, and what is wrong with it.
+pub(crate) type Outcome = (Option<Arc>, Option<FaultKind>);
+
+/// The arc of a block; no arc and no fault where the start, the end or the centre is not known.
+pub(crate) fn arc(setting: &ArcSetting<'_>, words: &Words) -> Outcome {
+    let axes = plane_axes(setting.plane);
+    let by_centre = axes[..2].iter().any(|&axis| (words.centre.given | words.centre.unread) & (1 << axis) != 0);
+    match (words.radius.is_said(), by_centre) {
+        (true, true) => (None, Some(FaultKind::NotModelled { what: "R together with I, J, K".to_owned() })),
+        (true, false) => by_radius(setting, words, axes),
+        (false, true) => by_centre_words(setting, words, axes),
+        (false, false) => (None, Some(FaultKind::ArcCentreMissing)),
+    }
+}
+
+/// Start and end in space. A height that is not known is taken as 0, and then the flag is false: the arc is true only in its plane.
+fn ends(setting: &ArcSetting<'_>, axes: [usize; 3]) -> Option<(Vec3, Vec3, bool)> {
+    let plane = (1u16 << axes[0]) | (1 << axes[1]);
+    if setting.start.known & setting.end.known & plane != plane {
+        return None;
+    }
+    let (mut start, mut end) = (Vec3::zeros(), Vec3::zeros());
+    for axis in 0..3 {
+        start[axis] = setting.start.get(axis).unwrap_or(0.0);
+        end[axis] = setting.end.get(axis).unwrap_or(0.0);
+    }
+    Some((start, end, setting.start.xyz().is_some() && setting.end.xyz().is_some()))
+}
+
+fn normal(axes: [usize; 3]) -> Vec3 {
+    let mut normal = Vec3::zeros();
+    normal[axes[2]] = 1.0;
+    normal
+}
+
+fn by_centre_words(setting: &ArcSetting<'_>, words: &Words, axes: [usize; 3]) -> Outcome {
+    let mut centre = Vec3::zeros();
+    for &axis in &axes[..2] {
+        let bit = 1 << axis;
+        if words.centre.unread & bit != 0 {
+            return (None, None);
+        }
+        let absolute =
+            words.centre.absolute & bit != 0 || (setting.centre_absolute && words.centre.incremental & bit == 0);
+        let value = words.centre.get(axis).map(|value| value * setting.length_unit_mm);
+        centre[axis] = match (value, absolute) {
+            (Some(value), true) => value,
+            (None, true) => return (None, Some(FaultKind::ArcCentreMissing)),
+            (value, false) => match setting.start.get(axis) {
+                Some(start) => start + value.unwrap_or(0.0),
+                None => return (None, None),
+            },
+        };
+    }
+    let Some((start, end, whole)) = ends(setting, axes) else { return (None, None) };
+    let Some(turns) = setting.turns else { return (None, None) };
+    let Some(arc) = Arc::from_centre(start, end, centre, normal(axes), setting.turning, turns) else {
+        return (None, Some(FaultKind::ArcCentreMissing));
+    };
+    (whole.then_some(arc), mismatch(&arc, setting.dialect, setting.length_unit_mm))
+}
+
+/// Whether the two radii of an arc differ by more than the dialect allows.
+pub(crate) fn mismatch(arc: &Arc, dialect: &Dialect, length_unit_mm: f64) -> Option<FaultKind> {
+    let (start, end) = (arc.radius_start, arc.radius_end);
+    let tolerance = dialect.arc_limit_mm(start.max(end), length_unit_mm != 1.0);
+    ((start - end).abs() > tolerance).then_some(FaultKind::ArcRadiusMismatch { start, end, tolerance })
+}
+
+/// The arc of a given radius: positive the one below half a turn, negative the one above.
+fn by_radius(setting: &ArcSetting<'_>, words: &Words, axes: [usize; 3]) -> Outcome {
+    let Some(number) = words.radius.number() else { return (None, None) };
+    let Some((start, end, whole)) = ends(setting, axes) else { return (None, None) };
+    let radius = number.value * setting.length_unit_mm;
+    let tolerance = setting.dialect.arc_limit_mm(radius.abs(), setting.length_unit_mm != 1.0);
+    match Arc::from_radius(start, end, radius, normal(axes), setting.turning, tolerance) {
+        Ok(mut arc) => {
+            let Some(turns) = setting.turns else { return (None, None) };
+            arc.sweep += arc.sweep.signum() * f64::from(turns) * core::f64::consts::TAU;
+            (whole.then_some(arc), None)
+        }
+        Err(RadiusFault::SamePoint) => (None, Some(FaultKind::ArcCentreMissing)),
+        Err(RadiusFault::TooSmall(half_chord)) => (None, Some(FaultKind::ArcRadiusTooSmall { radius, half_chord })),
+    }
+}

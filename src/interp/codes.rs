@@ -1,0 +1,343 @@
+//! What the codes of a block change, in the order in which a control acts on them.
+use crate::run::{Interpreter, Report};
+use crate::words::{Said, Words};
+use crate::{FaultKind, FeedMode, Orientation};
+use trunnion_dialect::{Action, Code, CodeKind, Plane};
+use trunnion_syntax::TextRange;
+
+/// A code in a block.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found<'d> {
+    pub(crate) code: &'d Code,
+    pub(crate) range: TextRange,
+    /// A name with something between its parentheses.
+    pub(crate) with_arguments: bool,
+}
+
+/// What the codes of a block say about this block alone.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct BlockCodes {
+    /// Number of codes.
+    pub(crate) count: usize,
+    /// The motion code that stands in the block.
+    pub(crate) motion: Option<Action>,
+    /// A code whose motion is not modelled.
+    pub(crate) not_modelled: bool,
+    /// A code that uses up the coordinates of the block without moving there.
+    pub(crate) takes_coordinates: bool,
+    pub(crate) dwell: bool,
+    pub(crate) machine_coordinates: bool,
+    pub(crate) end: bool,
+}
+
+/// Place in the order of execution (RS274/NGC, version 3, section 3.8: feed mode, F, S, T, tool change, spindle, dwell, plane,
+/// units, compensation, length, work offset, distance mode, motion, stop). Units come first, so that F of the same block has them.
+fn rank(action: Action) -> u8 {
+    match action {
+        Action::Inch | Action::InchLengthsOnly | Action::Metric => 0,
+        Action::FeedInverseTime | Action::FeedPerMinute | Action::FeedPerRevolution => 1,
+        Action::ConstantSurfaceSpeed | Action::ConstantSpindleSpeed => 2,
+        Action::Dwell => 3,
+        Action::ToolChange => FIRST_AFTER_WORDS,
+        Action::SpindleClockwise | Action::SpindleCounterClockwise | Action::SpindleStop => 5,
+        Action::PlaneXy | Action::PlaneZx | Action::PlaneYz => 6,
+        Action::CompensationOff | Action::CompensationLeft | Action::CompensationRight => 7,
+        Action::ToolLengthOn | Action::ToolLengthOff => 8,
+        Action::TcpOn | Action::TcpVectorOn | Action::TcpOff => 9,
+        Action::WorkOffset | Action::WorkOffsetNone | Action::MachineCoordinates => 10,
+        Action::Absolute | Action::Incremental => 11,
+        Action::FrameReset => 12,
+        Action::ProgramStop | Action::ProgramEnd => 14,
+        _ => 13,
+    }
+}
+
+/// Codes of this rank and above act after F, S and T.
+const FIRST_AFTER_WORDS: u8 = 4;
+
+impl<'d> Interpreter<'d> {
+    /// Applies all codes and the words F S T D; what concerns the block's motion comes back.
+    pub(crate) fn apply(&mut self, codes: &mut [Found<'d>], words: &Words, report: &mut Report<'_>) -> BlockCodes {
+        if codes.len() > 1 {
+            conflicts(codes, report);
+            codes.sort_by_key(|found| rank(found.code.action));
+        }
+        let mut block = BlockCodes { count: codes.len(), ..BlockCodes::default() };
+        let mut rest = &*codes;
+        while let Some((found, after)) = rest.split_first().filter(|(found, _)| rank(found.code.action) < FIRST_AFTER_WORDS) {
+            self.apply_code(found, words, &mut block, report);
+            rest = after;
+        }
+        self.feed_word(codes, words);
+        self.speed_word(codes, words);
+        self.tool_word(words, report);
+        for found in rest {
+            self.apply_code(found, words, &mut block, report);
+        }
+        if words.edge.is_said() {
+            self.edge_word(words.edge, report);
+        }
+        self.state.frame_unknown = self.memory.frame_unknown();
+        block
+    }
+
+    fn apply_code(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+        let state = &mut self.state;
+        self.memory.known_again(found.code);
+        match found.code.action {
+            motion @ (Action::Rapid | Action::Linear | Action::ArcClockwise | Action::ArcCounterClockwise) => {
+                state.motion = Some(motion);
+                block.motion = Some(motion);
+            }
+            Action::Dwell => block.dwell = true,
+            Action::PlaneXy => state.plane = Plane::Xy,
+            Action::PlaneZx => state.plane = Plane::Zx,
+            Action::PlaneYz => state.plane = Plane::Yz,
+            Action::Absolute => state.incremental = false,
+            Action::Incremental => state.incremental = true,
+            Action::ArcCentreAbsolute => state.arc_centre_absolute = true,
+            Action::ArcCentreIncremental => state.arc_centre_absolute = false,
+            Action::Inch => (state.length_unit_mm, state.feed_unit_mm) = (25.4, 25.4),
+            Action::InchLengthsOnly => (state.length_unit_mm, state.feed_unit_mm) = (25.4, 1.0),
+            Action::Metric => (state.length_unit_mm, state.feed_unit_mm) = (1.0, 1.0),
+            Action::FeedInverseTime => self.feed_mode(FeedMode::InverseTime),
+            Action::FeedPerMinute => self.feed_mode(FeedMode::PerMinute),
+            Action::FeedPerRevolution => self.feed_mode(FeedMode::PerRevolution),
+            Action::ConstantSurfaceSpeed => {
+                self.memory.surface_speed = true;
+                state.spindle_rpm = None;
+            }
+            Action::ConstantSpindleSpeed => {
+                if std::mem::replace(&mut self.memory.surface_speed, false) {
+                    state.spindle_rpm = None;
+                }
+            }
+            Action::SpindleClockwise | Action::SpindleCounterClockwise => state.spindle_on = Some(true),
+            Action::SpindleStop => state.spindle_on = Some(false),
+            Action::ToolChange => self.change_tool(report),
+            Action::MachineCoordinates => block.machine_coordinates = true,
+            Action::OrientationAxes => state.great_circle = Some(false),
+            Action::OrientationVector => state.great_circle = Some(true),
+            Action::ProgramEnd => block.end = true,
+            Action::NoMotion | Action::PathMode | Action::ProgramStop | Action::Declaration => {}
+            _ => self.apply_rare(found, words, block, report),
+        }
+    }
+
+    fn apply_rare(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+        match found.code.action {
+            Action::CompensationOff => self.state.compensation = 0,
+            Action::CompensationLeft => self.compensation(41, found, report),
+            Action::CompensationRight => self.compensation(42, found, report),
+            Action::ToolLengthOn => {
+                self.end_tcp_of_group(found.code);
+                self.length_on(words.length_offset, found.range, report);
+            }
+            Action::ToolLengthOff => {
+                self.end_tcp_of_group(found.code);
+                self.set_length(None);
+            }
+            Action::TcpOn | Action::TcpVectorOn => {
+                if words.length_offset.is_said() || found.code.words.iter().any(|word| word == "H") {
+                    self.length_on(words.length_offset, found.range, report);
+                }
+                self.tcp_on(found.code, found.code.action == Action::TcpVectorOn);
+            }
+            Action::TcpOff => self.tcp_off(),
+            Action::WorkOffset => self.work_offset(found, words, report),
+            Action::WorkOffsetNone => self.set_zero(None, [0.0; 9]),
+            Action::FrameReset => {
+                if self.memory.end_frame(found.code) {
+                    self.forget_position();
+                }
+            }
+            Action::FrameChange => self.frame_change(found, words, block, report),
+            Action::CannedCycle => {
+                // MCALL with a cycle behind it begins, MCALL alone ends
+                let ends = found.code.kind == CodeKind::Name && !found.with_arguments && block.count == 1;
+                if ends { self.cycle_off(found.code) } else { self.canned_cycle(found, block, report) }
+            }
+            Action::CycleOff => self.cycle_off(found.code),
+            Action::SubprogramCall => {
+                block.not_modelled = true;
+                not_modelled(found, report);
+                self.forget_everything();
+            }
+            _ => self.unmodelled_code(found, words, block, report),
+        }
+    }
+
+    fn feed_mode(&mut self, mode: FeedMode) {
+        if self.state.feed_mode != mode {
+            self.state.feed_mode = mode;
+            self.state.feed = None;
+            self.memory.feed_unread = false;
+        }
+    }
+
+    fn feed_word(&mut self, codes: &[Found<'_>], words: &Words) {
+        if self.state.feed_mode == FeedMode::InverseTime {
+            self.state.feed = None;
+            self.memory.feed_unread = false;
+        }
+        if !words.feed.is_said() || dwell_reads(codes, "F") {
+            return;
+        }
+        let unit = if self.state.feed_mode == FeedMode::InverseTime { 1.0 } else { self.state.feed_unit_mm };
+        self.state.feed = words.feed.number().map(|number| number.value * unit);
+        self.memory.feed_unread = self.state.feed.is_none();
+    }
+
+    fn speed_word(&mut self, codes: &[Found<'_>], words: &Words) {
+        // G92 S and the like limit the speed
+        let limit = || codes.iter().any(|found| found.code.action == Action::FrameChange) && !words.axes.any();
+        if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
+            self.state.spindle_rpm =
+                words.speed.number().map(|number| number.value).filter(|_| !self.memory.surface_speed);
+        }
+    }
+
+    fn compensation(&mut self, side: u8, found: &Found<'_>, report: &mut Report<'_>) {
+        self.state.compensation = side;
+        if !std::mem::replace(&mut self.memory.compensation_said, true) {
+            let what = "cutter radius compensation: path is the programmed one".to_owned();
+            report.fault(found.range, FaultKind::NotModelled { what });
+        }
+    }
+
+    fn tcp_on(&mut self, code: &'d Code, vectors: bool) {
+        if !self.state.tcp {
+            self.forget_linear();
+        }
+        self.state.tcp = true;
+        self.state.vector_mode = vectors;
+        self.memory.tcp_group = code.group.as_deref();
+    }
+
+    /// Ends tool centre point control: X Y Z change their meaning, and rotary axes that were set by a vector are not known.
+    pub(crate) fn tcp_off(&mut self) {
+        if self.state.tcp {
+            self.forget_linear();
+        }
+        self.state.tcp = false;
+        self.state.vector_mode = false;
+        self.state.orientation = Orientation::Words;
+    }
+
+    /// G43 and G49 end a tool centre point control that is a code of their own group (G43.4).
+    fn end_tcp_of_group(&mut self, code: &Code) {
+        if self.state.tcp && code.group.is_some() && code.group.as_deref() == self.memory.tcp_group {
+            self.tcp_off();
+        }
+    }
+
+    /// A code whose effect is not modelled. In the motion group it is modal; in a group whose other codes give the coordinates
+    /// their meaning, positions are unknown until one of those comes; else everything is forgotten.
+    fn unmodelled_code(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+        not_modelled(found, report);
+        block.not_modelled = true;
+        let group = found.code.group.as_deref();
+        if group.is_some() && group == self.motion_group() {
+            self.state.motion = Some(Action::NotModelled);
+        } else if group.is_some() && self.gives_meaning(group) {
+            self.memory.begin_frame(found.code, true);
+            self.forget_position();
+        } else if !words.axes.any() {
+            self.forget_position();
+        }
+    }
+
+    /// Whether codes of the group decide where a coordinate lies.
+    fn gives_meaning(&self, group: Option<&str>) -> bool {
+        let meaning = |action| {
+            matches!(
+                action,
+                Action::ToolLengthOn
+                    | Action::ToolLengthOff
+                    | Action::TcpOn
+                    | Action::TcpOff
+                    | Action::WorkOffset
+                    | Action::FrameReset
+                    | Action::Metric
+                    | Action::Absolute
+            )
+        };
+        self.dialect.codes().iter().any(|code| code.group.as_deref() == group && meaning(code.action))
+    }
+
+    fn motion_group(&self) -> Option<&'d str> {
+        self.dialect.g(0)?.group.as_deref()
+    }
+
+    fn frame_change(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+        let with_values = found.with_arguments || words.has_values;
+        if found.code.kind == CodeKind::Name && !with_values {
+            if self.memory.end_frame(found.code) {
+                self.forget_position();
+            }
+            return;
+        }
+        if !words.axes.any() && words.speed.is_said() && found.code.words.iter().any(|word| word == "S") {
+            return;
+        }
+        block.takes_coordinates = true;
+        not_modelled(found, report);
+        self.memory.begin_frame(found.code, false);
+        self.forget_position();
+    }
+
+    fn canned_cycle(&mut self, found: &Found<'d>, block: &mut BlockCodes, report: &mut Report<'_>) {
+        not_modelled(found, report);
+        block.not_modelled = true;
+        if self.state.motion != Some(Action::CannedCycle) {
+            self.memory.before_cycle = self.state.motion;
+        }
+        self.state.motion = Some(Action::CannedCycle);
+    }
+
+    /// Ends a cycle: where it belongs to the motion group (LinuxCNC) no motion code is in force then, else the one before.
+    fn cycle_off(&mut self, code: &Code) {
+        let of_motion_group = code.group.is_some() && code.group.as_deref() == self.motion_group();
+        if of_motion_group {
+            self.state.motion = None;
+        } else if self.state.motion == Some(Action::CannedCycle) {
+            self.state.motion = self.memory.before_cycle;
+        }
+    }
+}
+
+/// The fact that a code is not modelled.
+fn not_modelled(found: &Found<'_>, report: &mut Report<'_>) {
+    let what = found.code.id.clone();
+    report.fault(found.range, FaultKind::NotModelled { what });
+}
+
+/// Whether a dwell of the block takes the word for itself.
+fn dwell_reads(codes: &[Found<'_>], word: &str) -> bool {
+    codes.iter().any(|found| found.code.action == Action::Dwell && found.code.words.iter().any(|known| known == word))
+}
+
+/// Two different codes of one group.
+fn conflicts(codes: &[Found<'_>], report: &mut Report<'_>) {
+    for (at, second) in codes.iter().enumerate() {
+        let Some(group) = second.code.group.as_deref() else { continue };
+        let first = codes[..at].iter().find(|first| first.code.group.as_deref() == Some(group));
+        if let Some(first) = first.filter(|first| !std::ptr::eq(first.code, second.code)) {
+            let kind = FaultKind::GroupConflict {
+                group: group.to_owned(),
+                first: first.code.id.clone(),
+                second: second.code.id.clone(),
+                first_range: first.range,
+            };
+            report.fault(second.range, kind);
+        }
+    }
+}
+
+impl Said {
+    /// A whole number that is not negative, as numbers of tools and offsets are.
+    pub(crate) fn index(self) -> Option<u32> {
+        let value = self.number()?.value;
+        (value >= 0.0 && value.fract() == 0.0 && value <= f64::from(u32::MAX)).then_some(value as u32)
+    }
+}

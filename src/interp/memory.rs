@@ -1,0 +1,108 @@
+//! What an interpreter remembers beside the modal state: what was already said, and what made positions unknown.
+use std::sync::Arc;
+use trunnion_dialect::{Action, Code};
+use trunnion_syntax::{BlockId, TextRange};
+
+use crate::Tool;
+
+/// The tool that T has chosen and M6 will bring.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) enum Chosen {
+    /// No T yet.
+    #[default]
+    Nothing,
+    Number(u32),
+    Named(Arc<str>),
+    /// T with a value that is not evaluated.
+    Unread,
+}
+
+/// A code that made positions unknown, until a code of its group ends it.
+#[derive(Clone, Copy, Debug)]
+struct Frame<'d> {
+    /// The group, or the code itself where it has none.
+    key: &'d str,
+    /// Any modelled code of the group ends it; else only a frame reset.
+    any_code_ends: bool,
+}
+
+/// See the module.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Memory<'d> {
+    frames: Vec<Frame<'d>>,
+    /// The group of the code that switched tool centre point control on.
+    pub(crate) tcp_group: Option<&'d str>,
+    /// F has a value that is not evaluated.
+    pub(crate) feed_unread: bool,
+    /// S is a cutting speed (G96).
+    pub(crate) surface_speed: bool,
+    pub(crate) compensation_said: bool,
+    pub(crate) prepared: Chosen,
+    pub(crate) in_spindle: Chosen,
+    /// Cutting edge in force (D); `None` before the first.
+    pub(crate) edge: Option<u32>,
+    /// Last H.
+    pub(crate) length_offset: Option<u32>,
+    pub(crate) before_cycle: Option<Action>,
+    /// APT: the tool shape that CUTTER gives.
+    pub(crate) cutter: Option<Tool>,
+    /// APT: a motion was made with it.
+    pub(crate) cutter_used: bool,
+    /// Tools that the program's comments declare.
+    pub(crate) declared: Vec<Tool>,
+    pub(crate) directives_read: bool,
+    lengths_said: Vec<Box<str>>,
+    offsets_said: Vec<Box<str>>,
+    /// The last block with content, for a missing program end.
+    pub(crate) last_content: Option<(BlockId, TextRange)>,
+    pub(crate) percent_seen: bool,
+    /// A code or character that ends the program was seen.
+    pub(crate) proper_end: bool,
+}
+
+impl<'d> Memory<'d> {
+    fn key(code: &'d Code) -> &'d str {
+        code.group.as_deref().unwrap_or(&code.id)
+    }
+    /// From here on positions are unknown.
+    pub(crate) fn begin_frame(&mut self, code: &'d Code, any_code_ends: bool) {
+        let key = Self::key(code);
+        if !self.frames.iter().any(|frame| frame.key == key) {
+            self.frames.push(Frame { key, any_code_ends });
+        }
+    }
+    /// Ends the frame of a code's group; whether there was one.
+    pub(crate) fn end_frame(&mut self, code: &Code) -> bool {
+        let key = code.group.as_deref().unwrap_or(&code.id);
+        let before = self.frames.len();
+        self.frames.retain(|frame| frame.key != key);
+        before != self.frames.len()
+    }
+    /// A modelled code of a group makes known again what another code of the group made unknown.
+    #[inline]
+    pub(crate) fn known_again(&mut self, code: &Code) {
+        if !self.frames.is_empty() && !matches!(code.action, Action::NotModelled | Action::FrameChange) {
+            let key = code.group.as_deref();
+            self.frames.retain(|frame| !(frame.any_code_ends && Some(frame.key) == key));
+        }
+    }
+    pub(crate) fn frame_unknown(&self) -> bool {
+        !self.frames.is_empty()
+    }
+    /// Whether this is the first time that the tool's length is found missing.
+    pub(crate) fn length_is_news(&mut self, tool: &str) -> bool {
+        news(&mut self.lengths_said, tool)
+    }
+    /// Whether this is the first time that the work offset is found missing.
+    pub(crate) fn offset_is_news(&mut self, name: &str) -> bool {
+        news(&mut self.offsets_said, name)
+    }
+}
+
+fn news(said: &mut Vec<Box<str>>, what: &str) -> bool {
+    let new = !said.iter().any(|known| &**known == what);
+    if new {
+        said.push(what.into());
+    }
+    new
+}

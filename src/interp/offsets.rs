@@ -1,0 +1,122 @@
+//! Work offsets, tool lengths and cutting edges, and what they do to the programmed position.
+use crate::codes::Found;
+use crate::memory::Chosen;
+use crate::run::{Interpreter, Report};
+use crate::words::{Said, Words};
+use crate::{FaultKind, Tool};
+use std::sync::Arc;
+use trunnion_syntax::TextRange;
+
+/// X, Y, Z, U, V, W in [`crate::AXIS_LETTERS`].
+pub(crate) const LINEAR: u16 = 0b1_1100_0111;
+/// A, B, C.
+pub(crate) const ROTARY: u16 = 0b0_0011_1000;
+/// Z: controls with a plain length offset shift this axis.
+const Z: usize = 2;
+
+impl Interpreter<'_> {
+    /// Nothing is known of the position any more.
+    pub(crate) fn forget_position(&mut self) {
+        self.state.position.known = 0;
+        self.state.orientation = crate::Orientation::Words;
+    }
+    /// X Y Z U V W are not known any more.
+    pub(crate) fn forget_linear(&mut self) {
+        self.state.position.known &= !LINEAR;
+    }
+    /// A subprogram may have changed anything.
+    pub(crate) fn forget_everything(&mut self) {
+        self.forget_position();
+        self.state.spindle_on = None;
+        self.state.spindle_rpm = None;
+        self.state.feed = None;
+        self.memory.feed_unread = true;
+    }
+
+    /// Selects a work offset by the code's own name, with P where the code reads one (G54.1 P3).
+    pub(crate) fn work_offset(&mut self, found: &Found<'_>, words: &Words, report: &mut Report<'_>) {
+        let mut name = found.code.id.clone();
+        if let Some(p) = words.p.index().filter(|_| found.code.words.iter().any(|word| word == "P")) {
+            name = format!("{name} P{p}");
+        }
+        let declared = self.setup.work_offsets.iter().find(|offset| offset.name.eq_ignore_ascii_case(&name));
+        let zero = declared.map(|offset| offset.values);
+        if zero.is_none() && self.memory.offset_is_news(&name) {
+            report.fault(found.range, FaultKind::WorkOffsetUnset { name: name.clone() });
+        }
+        self.set_zero(Some(name.into()), zero.unwrap_or([0.0; 9]));
+    }
+
+    /// The machine stays where it is, so the programmed position moves against the zero point.
+    pub(crate) fn set_zero(&mut self, name: Option<Arc<str>>, zero: [f64; 9]) {
+        for ((value, old), new) in self.state.position.values.iter_mut().zip(self.state.zero).zip(zero) {
+            *value += old - new;
+        }
+        self.state.work_offset = name;
+        self.state.zero = zero;
+    }
+
+    /// G43 H: the length of the tool of that number; without H that of the tool in use.
+    pub(crate) fn length_on(&mut self, offset: Said, range: TextRange, report: &mut Report<'_>) {
+        if let Some(number) = offset.index() {
+            self.memory.length_offset = Some(number);
+        }
+        let (tool, key) = match (offset, self.memory.length_offset) {
+            (Said::Nothing, None) => (self.state.tool_data, self.tool_name()),
+            (Said::Nothing | Said::Number(_), Some(0)) => return self.set_length(Some(0.0)),
+            (Said::Nothing | Said::Number(_), Some(number)) => (self.tool_of(Some(number)), format!("H{number}")),
+            _ => (None, "H".to_owned()),
+        };
+        self.take_length(tool, &key, range, report);
+    }
+
+    /// D: the cutting edge in force. Edge 1 has the tool's declared length, 0 none.
+    pub(crate) fn edge_word(&mut self, edge: Said, report: &mut Report<'_>) {
+        let range = edge.number().map_or(TextRange::default(), |number| number.range);
+        self.memory.edge = edge.index();
+        match edge.index() {
+            Some(0) => self.set_length(None),
+            // the tool is chosen, but not yet in the spindle: its length comes with it
+            _ if self.waits_for_change() => {}
+            edge => self.edge_length(edge, range, report),
+        }
+    }
+
+    /// A tool is chosen that is not the one in the spindle.
+    fn waits_for_change(&self) -> bool {
+        self.memory.prepared != Chosen::Nothing && self.memory.prepared != self.memory.in_spindle
+    }
+
+    pub(crate) fn edge_length(&mut self, edge: Option<u32>, range: TextRange, report: &mut Report<'_>) {
+        let name = self.tool_name();
+        match edge {
+            Some(0) => self.set_length(None),
+            Some(1) => self.take_length(self.state.tool_data, &name, range, report),
+            Some(edge) => self.take_length(None, &format!("{name} D{edge}"), range, report),
+            None => self.take_length(None, &format!("{name} D"), range, report),
+        }
+    }
+
+    /// Makes a tool's length active; where it is not declared, zero, said once.
+    fn take_length(&mut self, tool: Option<Tool>, key: &str, range: TextRange, report: &mut Report<'_>) {
+        let length = tool.and_then(|tool| tool.length_mm);
+        if length.is_none() && self.memory.length_is_news(key) {
+            report.fault(range, FaultKind::ToolLengthUnset { tool: key.to_owned() });
+        }
+        self.set_length(Some(length.unwrap_or(0.0)));
+    }
+
+    /// The machine stays where it is, so the programmed position moves: along Z while the axes are joints; anywhere under tool
+    /// centre point control.
+    pub(crate) fn set_length(&mut self, length: Option<f64>) {
+        let change = length.unwrap_or(0.0) - self.state.tool_length_mm.unwrap_or(0.0);
+        self.state.tool_length_mm = length;
+        if change != 0.0 {
+            if self.state.tcp {
+                self.forget_linear();
+            } else {
+                self.state.position.values[Z] -= change;
+            }
+        }
+    }
+}

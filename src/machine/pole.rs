@@ -1,0 +1,86 @@
+//! Posture sign and distance from the pole.
+//!
+//! With tau = s2 q2 + azimuth of k0 about e2: e1.u = c y + rho cos tau and S = -rho sin tau (from kinematics notes 2.3), so that the
+//! angle to the pole depends on the second rotary joint alone and has its extremes where S is zero, at the multiples of pi of tau.
+use crate::{Constants, Machine, PairConstants};
+use core::f64::consts::{FRAC_PI_2, PI};
+use trunnion_geometry::Vec3;
+use trunnion_geometry::math::atan2;
+
+/// Below this |S| a stance is at the pole (or at the edge of the reach) and has no posture sign.
+pub(crate) const NO_SIGN: f64 = 1e-9;
+
+/// S = e1 . (R1 e2 x u) = n . R2 k0 and its sign, 0 within [`NO_SIGN`].
+#[inline]
+pub(crate) fn posture(pair: &PairConstants, tool_axis_after_second: &Vec3) -> (f64, i8) {
+    let s = pair.n.dot(tool_axis_after_second);
+    let sign = if s > NO_SIGN {
+        1
+    } else if s < -NO_SIGN {
+        -1
+    } else {
+        0
+    };
+    (s, sign)
+}
+
+/// Angle between tool axis and the nearer end of the first rotary axis, rad, 0..=pi/2, from w = R2 k0 and q2.
+#[inline]
+pub(crate) fn pole_angle(constants: &Constants, pair: &PairConstants, w: &Vec3, q2: f64) -> f64 {
+    if is_orthogonal(pair) {
+        // e1, e2, k0 at right angles in pairs: the angle is tau itself, without any rounding at the pole
+        let tau = constants.rotary[1].sign * q2 + pair.k_azimuth;
+        return (tau - PI * (tau / PI).round()).abs();
+    }
+    let x = constants.rotary[0].direction.dot(w);
+    let across = pair.m.dot(w);
+    let along = (pair.y - pair.c * x) * (pair.y - pair.c * x) / pair.d;
+    atan2((across * across + along).sqrt(), x.abs())
+}
+
+/// Whether both pairs of directions are at right angles, so that the tool axis runs through the pole itself.
+fn is_orthogonal(pair: &PairConstants) -> bool {
+    pair.c == 0.0 && pair.y == 0.0
+}
+
+/// Smallest pole angle, rad, while q2 runs straight from `from.0` to `to.0`; the pole angles at the ends are `from.1` and `to.1`.
+#[inline]
+pub(crate) fn pole_angle_min(constants: &Constants, pair: &PairConstants, from: (f64, f64), to: (f64, f64)) -> f64 {
+    let ends = from.1.min(to.1);
+    if from.0 == to.0 {
+        return ends;
+    }
+    let tau = |q: f64| (constants.rotary[1].sign * q + pair.k_azimuth) / PI;
+    let (a, b) = (tau(from.0), tau(to.0));
+    let (first, last) = (a.min(b).ceil(), a.max(b).floor());
+    if last < first {
+        return ends;
+    }
+    // multiples of pi inside: an even one is the smallest reachable angle to +e1, an odd one the largest
+    let fold = |angle: f64| if angle > FRAC_PI_2 { PI - angle } else { angle };
+    let even = (last * 0.5).floor() * 2.0 >= first;
+    let odd = ((last - 1.0) * 0.5).floor() * 2.0 + 1.0 >= first;
+    let mut least = ends;
+    if even {
+        least = least.min(fold(pair.reach_min));
+    }
+    if odd {
+        least = least.min(fold(pair.reach_max));
+    }
+    least
+}
+
+/// Smallest pole angle, rad, while the tool axis runs on the great circle from `u0` to `u1` (unit vectors).
+pub(crate) fn pole_angle_min_great_circle(machine: &Machine, u0: &Vec3, u1: &Vec3, ends: f64) -> f64 {
+    let pole = machine.constants.rotary[0].direction;
+    let normal = u0.cross(u1);
+    let length = normal.norm();
+    if length < 1e-12 {
+        return ends;
+    }
+    let normal = normal / length;
+    let height = normal.dot(&pole);
+    let nearest = pole - normal * height;
+    let passes = |p: &Vec3| u0.cross(p).dot(&normal) >= 0.0 && p.cross(u1).dot(&normal) >= 0.0;
+    if passes(&nearest) || passes(&-nearest) { ends.min(atan2(height.abs(), nearest.norm())) } else { ends }
+}

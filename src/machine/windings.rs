@@ -1,0 +1,81 @@
+//! Facts about a posture: its sign, its distance from the pole, how it turns the tool, its windings inside the limits.
+use crate::{Limits, Machine, tool_axis_at};
+use core::f64::consts::{FRAC_PI_2, TAU};
+use trunnion_geometry::Vec3;
+use trunnion_geometry::math::{atan2, rotate};
+
+/// How far outside a limit a rotary value may lie and still count as on it, rad (rounding of the solver, far below any resolution).
+const LIMIT_SLACK: f64 = 1e-9;
+
+/// The windings of a rotary value that lie inside the limits and nearest to a wanted value; reads as a slice, nearest first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Windings {
+    values: [f64; 3],
+    count: usize,
+}
+
+impl core::ops::Deref for Windings {
+    type Target = [f64];
+    fn deref(&self) -> &[f64] {
+        &self.values[..self.count]
+    }
+}
+
+/// The values q + 2 pi m inside the limits of axis `axis` (joint index), nearest to `near` first, at most three; empty when no winding
+/// is legal or when the axis is missing. All in rad. Source: kinematics notes 2.3.
+pub fn windings(machine: &Machine, axis: usize, q: f64, near: f64) -> Windings {
+    let mut found = Windings { values: [0.0; 3], count: 0 };
+    let Some(limits) = machine.axes.get(axis).map(|axis| axis.limits) else { return found };
+    let (lowest, highest) = match limits {
+        Limits::Unbounded => (f64::NEG_INFINITY, f64::INFINITY),
+        Limits::Range(min, max) => (((min - LIMIT_SLACK - q) / TAU).ceil(), ((max + LIMIT_SLACK - q) / TAU).floor()),
+    };
+    let nearest = ((near - q) / TAU).round();
+    if nearest.is_nan() || lowest > highest {
+        return found;
+    }
+    // NaN and contradictory ranges were refused above, so clamp cannot panic
+    let centre = nearest.clamp(lowest, highest);
+    for turns in [centre, centre - 1.0, centre + 1.0] {
+        if turns >= lowest && turns <= highest {
+            found.values[found.count] = if turns == 0.0 { q } else { q + TAU * turns };
+            found.count += 1;
+        }
+    }
+    let count = found.count;
+    found.values[..count].sort_by(|a, b| (a - near).abs().total_cmp(&(b - near).abs()));
+    found
+}
+
+/// S = e1 . (R1 e2 x u) of a posture, signed; |S| = sqrt(g2) D. It depends on q2 alone (rad), since R1 keeps e1: S = (e1 x e2) . R2 k0.
+/// 0 for machines with fewer than two rotary axes. Source: kinematics notes 2.3.
+pub fn solution_s(machine: &Machine, q2: f64) -> f64 {
+    let (Some(pair), [_, second]) = (&machine.constants.pair, &machine.constants.rotary) else { return 0.0 };
+    pair.n.dot(&rotate(&second.direction, second.sign * q2, &machine.tool_axis))
+}
+
+/// Angle between a unit tool axis (workpiece frame) and the nearer end of the first rotary axis, rad, 0..=pi/2; pi/2 for machines with
+/// fewer than two rotary axes, which have no pole.
+pub fn pole_angle(machine: &Machine, axis: &Vec3) -> f64 {
+    if machine.constants.pair.is_none() {
+        return FRAC_PI_2;
+    }
+    let e1 = machine.constants.rotary[0].direction;
+    atan2(e1.cross(axis).norm(), e1.dot(axis).abs())
+}
+
+/// Change of the tool axis (workpiece frame) per rad of each rotary joint: j1 = s1 e1 x u, j2 = s2 (R1 e2) x u; zero for a missing axis.
+/// Source: kinematics notes 2.4.
+pub fn rotary_jacobian(machine: &Machine, q: [f64; 2]) -> [Vec3; 2] {
+    let constants = &machine.constants;
+    let axis = tool_axis_at(machine, q);
+    let [first, second] = &constants.rotary;
+    match constants.rotary_count {
+        0 => [Vec3::zeros(); 2],
+        1 => [first.direction.cross(&axis) * first.sign, Vec3::zeros()],
+        _ => {
+            let turned = rotate(&first.direction, first.sign * q[0], &second.direction);
+            [first.direction.cross(&axis) * first.sign, turned.cross(&axis) * second.sign]
+        }
+    }
+}

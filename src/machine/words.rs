@@ -1,0 +1,128 @@
+//! Axis words to joint values: what a program's coordinates mean for the joints of a machine.
+use crate::{AxisKind, Joints, MAX_AXES, Machine};
+use core::f64::consts::PI;
+use trunnion_geometry::Vec3;
+use trunnion_interp::{AXIS_LETTERS, Motion, Position};
+
+/// Bits of X, Y, Z in a [`Position`].
+pub(crate) const XYZ: u16 = 0b111;
+
+/// How the letters of a program reach the joints of one machine.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Words {
+    /// Index of each joint's letter in `AXIS_LETTERS`; beyond them for a letter no program can name.
+    letter: [u8; MAX_AXES],
+    /// mm (rad) of joint per mm (degree) of word.
+    scale: [f64; MAX_AXES],
+    /// The same for work offsets, which are never diameters.
+    zero_scale: [f64; MAX_AXES],
+    /// mm of joint per mm of tool length: the tool axis at home in terms of the linear joints.
+    per_length: Joints,
+    /// Number of joints.
+    count: usize,
+    /// Letters the machine has no axis for.
+    foreign: u16,
+    /// X, Y, Z words to mm (diameters to radii).
+    point_scale: Vec3,
+    /// Whether words of some axis are diameters.
+    pub(crate) diameters: bool,
+}
+
+impl Words {
+    pub(crate) fn new(machine: &Machine) -> Self {
+        let mut words = Self {
+            letter: [u8::MAX; MAX_AXES],
+            scale: [1.0; MAX_AXES],
+            zero_scale: [1.0; MAX_AXES],
+            per_length: [0.0; MAX_AXES],
+            count: machine.axes.len().min(MAX_AXES),
+            foreign: (1 << AXIS_LETTERS.len()) - 1,
+            point_scale: Vec3::new(1.0, 1.0, 1.0),
+            diameters: false,
+        };
+        for (joint, axis) in machine.axes.iter().enumerate().take(MAX_AXES) {
+            let diameter = axis.extra.diameter && axis.kind == AxisKind::Linear;
+            words.zero_scale[joint] = if axis.kind == AxisKind::Rotary { PI / 180.0 } else { 1.0 };
+            words.scale[joint] = if diameter { 0.5 } else { words.zero_scale[joint] };
+            words.diameters |= diameter;
+            if let Some(index) = AXIS_LETTERS.iter().position(|&letter| letter == axis.letter) {
+                words.letter[joint] = index as u8;
+                words.foreign &= !(1 << index);
+                if index < 3 {
+                    words.point_scale[index] = words.scale[joint];
+                }
+            }
+        }
+        let constants = &machine.constants;
+        let along = constants.inverse_motion * machine.tool_axis;
+        for (&index, value) in constants.solved.iter().zip(along.iter()) {
+            words.per_length[constants.linear[index].joint] = *value;
+        }
+        words
+    }
+
+    /// Bit mask of all joints.
+    pub(crate) fn all(&self) -> u16 {
+        ((1_u32 << self.count) - 1) as u16
+    }
+
+    /// The first letter that the motion gives a value to and that is no axis of the machine. Words that stay as they were are no news.
+    pub(crate) fn foreign(&self, motion: &Motion) -> Option<u8> {
+        let named = motion.end.known & self.foreign;
+        if named == 0 {
+            return None;
+        }
+        (0..AXIS_LETTERS.len())
+            .filter(|letter| named & (1 << letter) != 0)
+            .find(|&letter| motion.start.get(letter) != motion.end.get(letter))
+            .map(|letter| AXIS_LETTERS[letter])
+    }
+
+    /// Joint values of the position's words: joint = word + zero, linear joints shifted by the tool length along the tool axis at home
+    /// (unless the words are tip coordinates: then only rotary words are joints). The mask says which joints are known.
+    #[inline]
+    pub(crate) fn joints(&self, motion: &Motion, position: &Position, tip_words: bool) -> (Joints, u16) {
+        let mut joints = [0.0; MAX_AXES];
+        let mut known = 0;
+        let (offset, length) = if motion.machine_coordinates { (0.0, 0.0) } else { (1.0, motion.tool_length_mm) };
+        for joint in 0..self.count {
+            let letter = usize::from(self.letter[joint]);
+            if letter >= AXIS_LETTERS.len()
+                || position.known & (1 << letter) == 0
+                || (tip_words && XYZ & (1 << letter) != 0)
+            {
+                continue;
+            }
+            let word = position.values[letter] * self.scale[joint];
+            let zero = motion.zero[letter] * self.zero_scale[joint] * offset;
+            joints[joint] = word + zero + self.per_length[joint] * length;
+            known |= 1 << joint;
+        }
+        (joints, known)
+    }
+
+    /// X, Y, Z of a position in mm, if all three are known.
+    #[inline]
+    pub(crate) fn point(&self, position: &Position) -> Option<Vec3> {
+        let point = position.xyz()?;
+        Some(if self.diameters { point.component_mul(&self.point_scale) } else { point })
+    }
+
+    /// Whether the joint's letter is in a mask of letters.
+    #[inline]
+    pub(crate) fn names(&self, mask: u16, joint: usize) -> bool {
+        let letter = self.letter[joint];
+        letter < 16 && mask & (1 << letter) != 0
+    }
+
+    /// Number of joints.
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+}
+
+/// Work offset of X Y Z, mm.
+#[inline]
+pub(crate) fn zero_point(motion: &Motion) -> Vec3 {
+    if motion.machine_coordinates { Vec3::zeros() } else { Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2]) }
+}

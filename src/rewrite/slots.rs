@@ -1,0 +1,147 @@
+//! The coordinate numbers of a block: where they are written, and edits that give them new values.
+use crate::style::NumberStyle;
+use trunnion_syntax::{Address, AptArg, Block, Format, Program, TextEdit, TextRange, Value};
+
+/// Which numbers of a block a rewrite handles: X, Y, Z, and then one rotary word or three components of the tool vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Scheme {
+    /// ISO words X, Y, Z and this rotary letter.
+    Rotary(u8),
+    /// ISO words X, Y, Z and A3= B3= C3=.
+    IndexedVector,
+    /// ISO words X, Y, Z and I, J, K.
+    LetterVector,
+    /// The six numbers of APT GOTO.
+    Goto,
+}
+
+/// One coordinate as written.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Slot {
+    /// Bytes of the number.
+    pub number: TextRange,
+    /// Bytes of the whole word.
+    pub word: TextRange,
+    /// The number's text.
+    pub text: String,
+    /// Its value.
+    pub value: f64,
+}
+
+/// Coordinates of a block, in the order of the scheme (at most six).
+pub(crate) type Slots = [Option<Slot>; 6];
+
+impl Scheme {
+    /// The scheme of a block whose tool axis is programmed as a vector.
+    pub(crate) fn of_vector(program: &Program, block: &Block<'_>) -> Self {
+        if program.options().format == Format::Apt {
+            return Self::Goto;
+        }
+        let indexed = block.words().any(|word| matches!(word.address, Address::Indexed(b'A' | b'B' | b'C', 3)));
+        if indexed { Self::IndexedVector } else { Self::LetterVector }
+    }
+
+    /// Position of a word's address in the scheme.
+    fn index(self, address: Address) -> Option<usize> {
+        let vector = match (self, address) {
+            (_, Address::Letter(letter @ b'X'..=b'Z')) => return Some(usize::from(letter - b'X')),
+            (Self::Rotary(rotary), Address::Letter(letter)) => return (letter == rotary).then_some(3),
+            (Self::IndexedVector, Address::Indexed(letter, 3)) => letter.checked_sub(b'A'),
+            (Self::LetterVector, Address::Letter(letter)) => letter.checked_sub(b'I'),
+            _ => None,
+        };
+        vector.filter(|&i| i < 3).map(|i| 3 + usize::from(i))
+    }
+
+    /// Number of coordinates.
+    pub(crate) fn count(self) -> usize {
+        if matches!(self, Self::Rotary(_)) { 4 } else { 6 }
+    }
+
+    /// The word's name, for inserting one and for messages.
+    pub(crate) fn name(self, index: usize) -> String {
+        match (self, index) {
+            (_, 0..=2) => char::from(b"XYZ"[index]).to_string(),
+            (Self::Rotary(letter), _) => char::from(letter).to_string(),
+            (Self::IndexedVector, _) => format!("{}3", char::from(b"ABC"[(index - 3).min(2)])),
+            _ => char::from(b"IJK"[(index - 3).min(2)]).to_string(),
+        }
+    }
+}
+
+/// The coordinates of a block. `Err`: one is not a plain number, or is given twice.
+pub(crate) fn slots(program: &Program, block: &Block<'_>, scheme: Scheme) -> Result<Slots, String> {
+    let mut slots = Slots::default();
+    if scheme == Scheme::Goto {
+        let Some(record) = block.record().filter(|record| record.is("GOTO")) else {
+            return Err("the motion is not a GOTO record".into());
+        };
+        for (i, arg) in record.args().enumerate().take(6) {
+            let AptArg::Number(value, range) = arg else { return Err("GOTO has an argument that is not a number".into()) };
+            slots[i] = Some(Slot { number: range, word: range, text: program.text(range).into_owned(), value: value.to_f64() });
+        }
+        return Ok(slots);
+    }
+    for word in block.words() {
+        let Some(i) = scheme.index(word.address) else { continue };
+        let Value::Number(value) = word.value else {
+            return Err(format!("{} is not a plain number but {}", scheme.name(i), program.text(word.range)));
+        };
+        let slot = Slot {
+            number: word.value_range,
+            word: word.range,
+            text: program.text(word.value_range).into_owned(),
+            value: value.to_f64(),
+        };
+        if slots[i].replace(slot).is_some() {
+            return Err(format!("{} is given twice", scheme.name(i)));
+        }
+    }
+    Ok(slots)
+}
+
+/// How the program writes each coordinate of a scheme.
+pub(crate) fn styles(program: &Program, scheme: Scheme) -> [Option<NumberStyle>; 6] {
+    let mut texts: [Vec<TextRange>; 6] = Default::default();
+    for block in program.blocks() {
+        if scheme == Scheme::Goto {
+            let Some(record) = block.record().filter(|record| record.is("GOTO")) else { continue };
+            for (i, arg) in record.args().enumerate().take(6) {
+                if let AptArg::Number(_, range) = arg {
+                    texts[i].push(range);
+                }
+            }
+        } else {
+            for word in block.words() {
+                if let (Some(i), Value::Number(_)) = (scheme.index(word.address), word.value) {
+                    texts[i].push(word.value_range);
+                }
+            }
+        }
+    }
+    texts.map(|ranges| {
+        let texts = ranges.into_iter().map(|range| core::str::from_utf8(&program.source()[range.as_usize()]).unwrap_or(""));
+        NumberStyle::learn(texts)
+    })
+}
+
+/// An edit that inserts the word `text` (letter and number) as coordinate `index` of a block that has other coordinates.
+/// `None` if it has none.
+pub(crate) fn insert_word(program: &Program, slots: &Slots, index: usize, text: &str) -> Option<TextEdit> {
+    let (earlier, later) = slots.split_at(index);
+    if let Some(slot) = earlier.iter().rev().flatten().next() {
+        let at = slot.word.end;
+        let blank = blank_before(program, slot.word.start);
+        return Some(TextEdit { range: TextRange::new(at, at), new_text: format!("{blank}{text}") });
+    }
+    let slot = later.iter().flatten().next()?;
+    let at = slot.word.start;
+    let blank = blank_before(program, at);
+    Some(TextEdit { range: TextRange::new(at, at), new_text: format!("{text}{blank}") })
+}
+
+/// One blank where the word at `start` has one before it.
+fn blank_before(program: &Program, start: u32) -> &'static str {
+    let before = (start as usize).checked_sub(1).and_then(|at| program.source().get(at));
+    if matches!(before, Some(b' ' | b'\t')) { " " } else { "" }
+}

@@ -1,0 +1,151 @@
+//! How a program writes its numbers, and numbers written that way.
+
+/// How the words of one letter are written in a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct NumberStyle {
+    /// Most digits behind the point that the program uses.
+    pub decimals: usize,
+    /// Zeros at the end are left out: `-0.79` beside `2.042`.
+    pub trims: bool,
+    /// A whole number keeps its point: `10.`.
+    pub whole_point: bool,
+    /// A zero stands before the point: `0.5`, not `.5`.
+    pub leading_zero: bool,
+}
+
+impl NumberStyle {
+    /// Learns from numbers as written. `None` when there is none, or none that is a plain decimal.
+    pub(crate) fn learn<'t>(texts: impl Iterator<Item = &'t str>) -> Option<Self> {
+        let mut style: Option<Self> = None;
+        let (mut fewest, mut whole_without_point, mut bare_point) = (usize::MAX, false, false);
+        for text in texts {
+            let digits = text.trim_start_matches(['+', '-']);
+            if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit() || b == b'.') {
+                continue;
+            }
+            let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+            whole_without_point |= !digits.contains('.');
+            bare_point |= digits.ends_with('.');
+            fewest = fewest.min(fraction.len());
+            let known = style.get_or_insert(Self { decimals: 0, trims: false, whole_point: true, leading_zero: true });
+            known.decimals = known.decimals.max(fraction.len());
+            known.leading_zero &= !whole.is_empty();
+        }
+        style.map(|known| Self {
+            trims: fewest < known.decimals,
+            whole_point: bare_point || !whole_without_point,
+            ..known
+        })
+    }
+
+    /// `value` in this style, rounded to [`NumberStyle::decimals`]; `plus` writes the sign of positive numbers.
+    pub(crate) fn write(&self, value: f64, plus: bool) -> String {
+        let mut text = format!("{value:.*}", self.decimals);
+        if self.trims && text.contains('.') {
+            text.truncate(text.trim_end_matches('0').len());
+            if text.ends_with('.') && !self.whole_point {
+                text.pop();
+            }
+        } else if self.decimals == 0 && self.whole_point {
+            text.push('.');
+        }
+        finish(text, plus, self.leading_zero)
+    }
+
+    /// Half of the last digit: by this much rounding may change a number.
+    pub(crate) fn rounding(&self) -> f64 {
+        0.5 / 10f64.powi(i32::try_from(self.decimals).unwrap_or(i32::MAX))
+    }
+}
+
+/// Signs and leading zero as the style wants them; never a minus before nothing but zeros.
+fn finish(mut text: String, plus: bool, leading_zero: bool) -> String {
+    if text.starts_with('-') && !text.bytes().any(|b| (b'1'..=b'9').contains(&b)) {
+        text.remove(0);
+    }
+    if !leading_zero {
+        let sign = usize::from(text.starts_with('-'));
+        if text[sign..].starts_with("0.") && text.len() > sign + 2 {
+            text.remove(sign);
+        }
+    }
+    if plus && !text.starts_with('-') {
+        text.insert(0, '+');
+    }
+    text
+}
+
+/// The decimal number `text` with the whole number `add` added, exactly, with as many digits behind the point as before.
+/// `None` when `text` is no plain decimal or has too many digits.
+pub(crate) fn add_whole(text: &str, add: i64) -> Option<String> {
+    let digits = text.trim_start_matches(['+', '-']);
+    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+    if text.len() - digits.len() > 1 || (whole.is_empty() && fraction.is_empty()) {
+        return None;
+    }
+    if !whole.bytes().chain(fraction.bytes()).all(|b| b.is_ascii_digit()) {
+        return None;
+    }
+    let scale = 10i64.checked_pow(u32::try_from(fraction.len()).ok()?)?;
+    let size: i64 = format!("0{whole}{fraction}").parse().ok()?;
+    let signed = if text.starts_with('-') { -size } else { size };
+    let sum = signed.checked_add(add.checked_mul(scale)?)?;
+    let mut out = format!("{}{}", if sum < 0 { "-" } else { "" }, sum.unsigned_abs() / scale.unsigned_abs());
+    if digits.contains('.') {
+        out.push('.');
+    }
+    if !fraction.is_empty() {
+        out.push_str(&format!("{:0width$}", sum.unsigned_abs() % scale.unsigned_abs(), width = fraction.len()));
+    }
+    Some(finish(out, text.starts_with('+'), !whole.is_empty()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{NumberStyle, add_whole};
+
+    fn style(texts: &[&str]) -> NumberStyle {
+        NumberStyle::learn(texts.iter().copied()).expect("numbers")
+    }
+
+    #[test]
+    fn the_published_rows_are_written_as_they_are() {
+        let c = style(&["3.358", "4.822", "52.595", "-3.086", "-0.905"]);
+        assert_eq!(c.write(2.2124, false), "2.212");
+        let a = style(&["2.042", "-0.79", "0"]);
+        assert_eq!((a.write(-0.79, false), a.write(0.0, false), a.write(1.5, false)), ("-0.79".into(), "0".into(), "1.5".into()));
+        let y = style(&["0.00000", "60.00000"]);
+        assert_eq!(y.write(-0.000_001, false), "0.00000");
+        assert_eq!(y.write(-2.144_69, false), "-2.14469");
+    }
+
+    #[test]
+    fn points_zeros_and_signs_follow_the_file() {
+        assert_eq!(style(&["10.", ".5"]).write(-0.5, false), "-.5");
+        assert_eq!(style(&["10.", "2.25"]).write(3.0, false), "3.");
+        assert_eq!(style(&["10"]).write(3.4, false), "3");
+        assert_eq!(style(&["10."]).write(3.4, false), "3.");
+        assert_eq!(style(&["1.50"]).write(3.0, true), "+3.00");
+        assert_eq!(NumberStyle::learn(["R1+2", ""].into_iter()), None);
+    }
+
+    #[test]
+    fn whole_turns_are_added_exactly() {
+        for (text, add, sum) in [
+            ("0.5", 360, "360.5"),
+            (".5", 360, "360.5"),
+            ("-359.90", 360, "0.10"),
+            ("-359.9", 0, "-359.9"),
+            ("10.", 360, "370."),
+            ("+5", 360, "+365"),
+            ("355", -360, "-5"),
+            ("360.000", -360, "0.000"),
+            ("-.25", 0, "-.25"),
+        ] {
+            assert_eq!(add_whole(text, add).as_deref(), Some(sum), "{text} + {add}");
+        }
+        for text in ["", "-", ".", "1.2.3", "--5", "1e5", "99999999999999999999"] {
+            assert_eq!(add_whole(text, 360), None, "{text}");
+        }
+    }
+}

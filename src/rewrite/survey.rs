@@ -1,0 +1,134 @@
+//! A program run once for a rewrite: each motion with what the machine does, kept small.
+use trunnion_check::Settings;
+use trunnion_interp::{Fault, Motion, MotionKind, ModalState, Orientation, Setup, Sink, ToolShape, run};
+use trunnion_machine::{Follower, Machine, NoStance, Stance};
+use trunnion_syntax::{BlockId, Program};
+
+/// What is declared about the tool's tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Tip {
+    /// Nothing.
+    Undeclared,
+    /// A ball of this radius, mm.
+    Ball(f64),
+    /// Another shape.
+    Other,
+}
+
+/// One motion and the point it ends at.
+#[derive(Clone, Debug)]
+pub(crate) struct Point {
+    /// Its block.
+    pub block: BlockId,
+    /// Feed along a line.
+    pub linear: bool,
+    /// Feed along a line or an arc.
+    pub feed: bool,
+    /// Tool centre point control, or tool vectors.
+    pub tcp: bool,
+    /// Tool vectors are programmed.
+    pub vector: bool,
+    /// G91.
+    pub incremental: bool,
+    /// mm per programmed length unit.
+    pub unit_mm: f64,
+    /// The tool's tip.
+    pub tip: Tip,
+    /// Where it ends; else why that is unknown.
+    pub end: Result<Stance, NoStance>,
+    /// The start is known.
+    pub from_known: bool,
+    /// Sizes of the rotary steps, rad.
+    pub rotary_change: [f64; 2],
+    /// Smallest angle to the pole on the way, rad.
+    pub pole_angle_min: f64,
+    /// The posture changes by a swap.
+    pub swap: bool,
+    /// Length of the programmed tip path, mm.
+    pub length: f64,
+    /// Work offset of the rotary axis nearest the workpiece, deg.
+    pub rotary_zero: f64,
+}
+
+struct Collector<'m> {
+    follower: Follower<'m>,
+    machine: &'m Machine,
+    points: Vec<Point>,
+}
+
+impl Sink for Collector<'_> {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        let leg = self.follower.follow(motion);
+        let vector = matches!(motion.orientation, Orientation::Vector(..));
+        let letter = self.machine.rotary.first().and_then(|&joint| self.machine.axes.get(joint)).map(|axis| axis.letter);
+        let zero = letter.and_then(trunnion_interp::AxisLetter::new).map_or(0.0, |axis| motion.zero[usize::from(axis.0)]);
+        self.points.push(Point {
+            block: motion.block,
+            linear: motion.kind == MotionKind::Linear,
+            feed: motion.is_feed(),
+            tcp: motion.tcp || vector,
+            vector,
+            incremental: state.incremental,
+            unit_mm: state.length_unit_mm,
+            tip: match state.tool_shape() {
+                None => Tip::Undeclared,
+                Some((ToolShape::Ball, diameter)) => Tip::Ball(0.5 * diameter),
+                Some(_) => Tip::Other,
+            },
+            from_known: leg.start.is_some(),
+            end: leg.end,
+            rotary_change: leg.rotary_change,
+            pole_angle_min: leg.pole_angle_min,
+            swap: leg.rotary_excess > self.machine.tolerances.swap_excess,
+            length: leg.length,
+            rotary_zero: zero,
+        });
+    }
+    fn fault(&mut self, _: Fault) {}
+}
+
+/// Runs the program on the machine.
+pub(crate) fn survey(program: &Program, settings: &Settings<'_>, machine: &Machine) -> Vec<Point> {
+    let mut collector = Collector { follower: Follower::new(machine), machine, points: Vec::new() };
+    run(program, settings.dialect, &settings.setup, &mut collector);
+    collector.points
+}
+
+/// A program's programmed rotary positions, for rewrites that read words rather than joints.
+pub(crate) struct Programmed {
+    /// Each motion.
+    pub motions: Vec<ProgrammedMotion>,
+}
+
+/// One motion as programmed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ProgrammedMotion {
+    /// Its block.
+    pub block: BlockId,
+    /// A, B, C after the motion plus work offset, deg: machine values.
+    pub rotary: [Option<f64>; 3],
+    /// G91.
+    pub incremental: bool,
+    /// Tool vectors are programmed.
+    pub vector: bool,
+}
+
+impl Sink for Programmed {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        let rotary = [3, 4, 5].map(|axis| motion.end.get(axis).map(|value| value + motion.zero[axis]));
+        self.motions.push(ProgrammedMotion {
+            block: motion.block,
+            rotary,
+            incremental: state.incremental,
+            vector: matches!(motion.orientation, Orientation::Vector(..)),
+        });
+    }
+    fn fault(&mut self, _: Fault) {}
+}
+
+/// Runs the program without a machine.
+pub(crate) fn programmed(program: &Program, dialect: &trunnion_dialect::Dialect, setup: &Setup) -> Programmed {
+    let mut programmed = Programmed { motions: Vec::new() };
+    run(program, dialect, setup, &mut programmed);
+    programmed
+}

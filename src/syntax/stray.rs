@@ -1,0 +1,88 @@
+//! What stands in a block without belonging to a word or name.
+use crate::error::SyntaxErrorKind;
+use crate::items::Items;
+use crate::sink::Sink;
+use crate::{Item, TextRange, TokenId, TokenKind};
+
+impl Items<'_> {
+    /// The text at `at`, which no word and no name owns; reported unless some dialect knows it.
+    pub(crate) fn stray(&mut self, at: TokenId, sink: &mut impl Sink) -> Item {
+        let scan = self.scan;
+        match scan.kind(at) {
+            TokenKind::Number => self.number(at, at, sink),
+            TokenKind::Plus | TokenKind::Minus if scan.kind(scan.skip_blank(at + 1)) == TokenKind::Number => {
+                self.number(at, scan.skip_blank(at + 1), sink)
+            }
+            // Block delete in the middle of a block: from here on, on controls that know it.
+            TokenKind::Slash => {
+                let end = if scan.kind(at + 1) == TokenKind::Number { at + 2 } else { at + 1 };
+                self.silent(at, end)
+            }
+            // A checksum at the end of the block, as printers send it: `*57`.
+            TokenKind::Star
+                if scan.kind(at + 1) == TokenKind::Number
+                    && matches!(scan.kind(scan.skip_blank(at + 2)), TokenKind::Newline | TokenKind::Comment) =>
+            {
+                self.silent(at, at + 2)
+            }
+            TokenKind::BracketOpen | TokenKind::ParenOpen => {
+                let end = scan.group(at, sink);
+                self.other(at, end, SyntaxErrorKind::UnexpectedCharacter, sink)
+            }
+            TokenKind::ParenClose if self.closes_nested(at) => self.silent(at, at + 1),
+            TokenKind::BracketClose | TokenKind::ParenClose => {
+                self.other(at, at + 1, SyntaxErrorKind::UnbalancedBracket, sink)
+            }
+            TokenKind::Text if is_unclosed(scan.text(at)) => self.silent(at, at + 1),
+            TokenKind::Unknown => {
+                let mut end = at + 1;
+                while scan.kind(end) == TokenKind::Unknown {
+                    end += 1;
+                }
+                let range = scan.span(at, end);
+                sink.report(SyntaxErrorKind::UnexpectedCharacter, range);
+                self.silent(at, end)
+            }
+            _ => self.other(at, at + 1, SyntaxErrorKind::UnexpectedCharacter, sink),
+        }
+    }
+
+    /// The tokens `from..to`, which are no problem or are reported already.
+    fn silent(&mut self, from: TokenId, to: TokenId) -> Item {
+        self.at = to;
+        Item::Other(self.scan.span(from, to))
+    }
+
+    /// A number that no letter owns, from its sign at `from`.
+    fn number(&mut self, from: TokenId, digits: TokenId, sink: &mut impl Sink) -> Item {
+        let mut end = digits + 1;
+        while self.scan.kind(end) == TokenKind::Comma && self.scan.kind(end + 1) == TokenKind::Number {
+            end += 2;
+        }
+        let range: TextRange = self.scan.span(from, end);
+        sink.report(SyntaxErrorKind::NumberWithoutLetter, range);
+        self.silent(from, end)
+    }
+
+    /// Whether the `)` at `at` belongs to a comment that was opened inside a comment: reported there.
+    fn closes_nested(&self, at: TokenId) -> bool {
+        for before in (0..at).rev() {
+            match self.scan.kind(before) {
+                TokenKind::Newline | TokenKind::ParenClose => return false,
+                TokenKind::Comment => {
+                    let text = self.scan.text(before);
+                    if text.starts_with(b"(") {
+                        return text[1..].contains(&b'(');
+                    }
+                }
+                _ => {}
+            }
+        }
+        false
+    }
+}
+
+/// Whether a quoted text lacks its closing mark, which the lexer reports.
+fn is_unclosed(text: &[u8]) -> bool {
+    text.len() < 2 || text.first() != text.last()
+}

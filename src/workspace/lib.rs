@@ -1,0 +1,12 @@
+//! Floor 6, beside rewrite: finds on disk what a program is checked with. Settings (`trunnion.toml`, looked for upward),
+//! machine (embedded or a file), dialect; and says why each was taken. The command line and the language server share it,
+//! so that both give the same verdict.
+//!
+//! It reads files and never writes. It does not know terminals or LSP.
+mod error;
+mod machine;
+mod resolve;
+
+pub use error::LoadError;
+pub use machine::find_machine;
+pub use resolve::{Overrides, Resolved, resolve};

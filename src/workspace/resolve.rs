@@ -1,0 +1,141 @@
+//! Which settings, machine and dialect a program is checked with, and why.
+use crate::{LoadError, find_machine};
+use std::path::{Path, PathBuf};
+use trunnion_check::{Config, RuleLevel, Settings, config::parse_tool_flag};
+use trunnion_dialect::{Dialect, Modeline};
+use trunnion_interp::Setup;
+use trunnion_machine::Machine;
+
+/// What the user says beside the files: it wins over them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Overrides {
+    /// Embedded machine or TOML file.
+    pub machine: Option<String>,
+    /// Dialect.
+    pub dialect: Option<String>,
+    /// Settings file instead of the one found upward.
+    pub config: Option<PathBuf>,
+    /// `ball:10`.
+    pub tool: Option<String>,
+    /// Rules to silence.
+    pub allow: Vec<String>,
+}
+
+/// Everything a check needs beside the program.
+#[derive(Clone)]
+pub struct Resolved {
+    /// Dialect.
+    pub dialect: &'static Dialect,
+    /// Why this dialect.
+    pub dialect_reason: String,
+    /// Machine with the settings' tolerances applied.
+    pub machine: Option<Machine>,
+    /// Why this machine.
+    pub machine_reason: String,
+    /// The settings file that was read.
+    pub config_path: Option<PathBuf>,
+    /// Tools and work offsets.
+    pub setup: Setup,
+    /// Rule levels, last wins.
+    pub rules: Vec<(String, RuleLevel)>,
+}
+
+impl Resolved {
+    /// As the check floor wants it.
+    pub fn settings(&self) -> Settings<'_> {
+        Settings {
+            dialect: self.dialect,
+            machine: self.machine.as_ref(),
+            setup: self.setup.clone(),
+            rules: self.rules.clone(),
+        }
+    }
+}
+
+/// Resolves for a program at `path` (`None`: standard input or an unsaved buffer) with the given text.
+///
+/// Machine: overrides, modeline comment, `trunnion.toml`. Dialect: overrides, modeline comment, `trunnion.toml`, then the
+/// file's extension, the machine's control family and the content.
+///
+/// # Errors
+/// A file that cannot be read or is not valid, an unknown name; each with its place.
+pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Result<Resolved, LoadError> {
+    let (config, config_path) = config_for(path, overrides)?;
+    let mode = trunnion_dialect::modeline(source);
+    let (machine, machine_reason) = machine_for(overrides, &mode, &config, config_path.as_deref())?;
+    let family = machine.as_ref().map(|m| m.control.family.as_str());
+    let file_name = path.and_then(Path::file_name).and_then(|name| name.to_str());
+    let (dialect, dialect_reason) = dialect_for(overrides, &mode, &config, file_name, source, family)?;
+    let mut rules = config.rules.clone();
+    for rule in &overrides.allow {
+        if trunnion_check::rule(rule).is_none() {
+            return Err(LoadError::new(format!("--allow {rule}: no such rule; `trunnion rules` lists them")));
+        }
+        rules.push((rule.clone(), RuleLevel::Allow));
+    }
+    let mut setup = config.setup.clone();
+    if let Some(flag) = &overrides.tool {
+        setup.tools.push(parse_tool_flag(flag).map_err(|error| LoadError::new(format!("--tool {flag}: {error}")))?);
+    }
+    let machine = machine.map(|machine| config.machine_with_tolerances(&machine));
+    Ok(Resolved { dialect, dialect_reason, machine, machine_reason, config_path, setup, rules })
+}
+
+/// `--config`, or `trunnion.toml` in the program's folder (standard input: the current one) or above.
+fn config_for(path: Option<&Path>, overrides: &Overrides) -> Result<(Config, Option<PathBuf>), LoadError> {
+    let found = match &overrides.config {
+        Some(file) => Some(file.clone()),
+        None => std::path::absolute(path.unwrap_or(Path::new("-"))).ok().and_then(|path| {
+            path.ancestors().skip(1).map(|folder| folder.join("trunnion.toml")).find(|file| file.is_file())
+        }),
+    };
+    let Some(file) = found else { return Ok((Config::default(), None)) };
+    let text = std::fs::read_to_string(&file)
+        .map_err(|error| LoadError::file(&file, format!("cannot read the settings: {error}")))?;
+    let config =
+        Config::parse(&text).map_err(|error| LoadError::at(&file, &text, error.span.as_ref(), &error.message))?;
+    Ok((config, Some(file)))
+}
+
+fn machine_for(
+    overrides: &Overrides,
+    mode: &Modeline,
+    config: &Config,
+    config_path: Option<&Path>,
+) -> Result<(Option<Machine>, String), LoadError> {
+    if let Some(name) = &overrides.machine {
+        return Ok((Some(find_machine(name, None)?), "named by the user".into()));
+    }
+    if let Some(name) = &mode.machine {
+        return Ok((Some(find_machine(name, None)?), "modeline comment in the program".into()));
+    }
+    if let Some(name) = &config.machine {
+        return Ok((Some(find_machine(name, config_path.and_then(Path::parent))?), "trunnion.toml".into()));
+    }
+    Ok((None, "none is named".into()))
+}
+
+fn dialect_for(
+    overrides: &Overrides,
+    mode: &Modeline,
+    config: &Config,
+    file_name: Option<&str>,
+    source: &[u8],
+    family: Option<&str>,
+) -> Result<(&'static Dialect, String), LoadError> {
+    let choices = [
+        (&overrides.dialect, "named by the user"),
+        (&mode.dialect, "modeline comment in the program"),
+        (&config.dialect, "trunnion.toml"),
+    ];
+    for (name, reason) in choices {
+        let Some(name) = name else { continue };
+        let Some(dialect) = trunnion_dialect::builtin(name) else {
+            let known = trunnion_dialect::BUILTIN_NAMES.join(", ");
+            return Err(LoadError::new(format!("no dialect is named `{name}` ({reason}); known are {known}")));
+        };
+        return Ok((dialect, reason.to_owned()));
+    }
+    let detected = trunnion_dialect::detect(file_name, source, family);
+    Ok((detected.dialect, detected.reason))
+}

@@ -1,0 +1,256 @@
+//! A small language client for tests: frames over the pipes of a real `trunnion lsp`.
+use serde_json::{Value, json};
+use std::{
+    collections::HashMap,
+    io::{BufRead, BufReader, Read, Write},
+    process::{Child, ChildStdin, Command, Stdio},
+    sync::mpsc::{Receiver, channel},
+    time::Duration,
+};
+
+/// A hang, not a slow machine.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+pub struct Client {
+    child: Child,
+    input: Option<ChildStdin>,
+    messages: Receiver<Value>,
+    next: i64,
+    answers: HashMap<i64, Value>,
+    published: Vec<Value>,
+    pub last_status: Option<Value>,
+}
+
+impl Client {
+    pub fn start(options: Value) -> Self {
+        Self::start_with(options, &json!(["utf-16"]))
+    }
+
+    pub fn start_with(options: Value, encodings: &Value) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_trunnion"))
+            .arg("lsp")
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the server starts");
+        let output = BufReader::new(child.stdout.take().unwrap());
+        let (sender, messages) = channel();
+        std::thread::spawn(move || {
+            let mut output = output;
+            while let Some(message) = read_frame(&mut output) {
+                if sender.send(message).is_err() {
+                    break;
+                }
+            }
+        });
+        let input = child.stdin.take();
+        let mut client = Self {
+            child,
+            input,
+            messages,
+            next: 0,
+            answers: HashMap::new(),
+            published: Vec::new(),
+            last_status: None,
+        };
+        let capabilities = json!({ "general": { "positionEncodings": encodings } });
+        let params = json!({ "processId": null, "rootUri": null, "capabilities": capabilities,
+                             "initializationOptions": options });
+        let answer = client.request("initialize", params);
+        assert_eq!(answer["result"]["capabilities"]["textDocumentSync"]["change"], 2, "incremental sync");
+        client.notify("initialized", json!({}));
+        client
+    }
+
+    fn send(&mut self, message: &Value) {
+        let body = message.to_string();
+        let input = self.input.as_mut().expect("open");
+        write!(input, "Content-Length: {}\r\n\r\n{body}", body.len()).expect("the server reads");
+        input.flush().expect("the server reads");
+    }
+
+    pub fn notify(&mut self, method: &str, params: Value) {
+        let mut message = json!({ "jsonrpc": "2.0", "method": method });
+        if !params.is_null() {
+            message["params"] = params;
+        }
+        self.send(&message);
+    }
+
+    pub fn send_request(&mut self, method: &str, params: Value) -> i64 {
+        self.next += 1;
+        let id = self.next;
+        let mut message = json!({ "jsonrpc": "2.0", "id": id, "method": method });
+        if !params.is_null() {
+            message["params"] = params;
+        }
+        self.send(&message);
+        id
+    }
+
+    pub fn request(&mut self, method: &str, params: Value) -> Value {
+        let id = self.send_request(method, params);
+        self.answer(id)
+    }
+
+    fn pump(&mut self) {
+        let message = self.messages.recv_timeout(PATIENCE).expect("the server answers");
+        match (message["method"].as_str(), message["id"].as_i64()) {
+            (Some("textDocument/publishDiagnostics"), _) => self.published.push(message["params"].clone()),
+            (Some("trunnion/status"), _) => self.last_status = Some(message["params"].clone()),
+            (Some(_), _) => {}
+            (None, Some(id)) => drop(self.answers.insert(id, message)),
+            (None, None) => panic!("neither request nor answer: {message}"),
+        }
+    }
+
+    pub fn answer(&mut self, id: i64) -> Value {
+        loop {
+            if let Some(answer) = self.answers.remove(&id) {
+                return answer;
+            }
+            self.pump();
+        }
+    }
+
+    /// The findings of a version of a document (older versions are passed over).
+    pub fn diagnostics(&mut self, uri: &str, version: i64) -> Vec<Value> {
+        loop {
+            let at = self.published.iter().position(|p| p["uri"] == uri && p["version"] == version);
+            if let Some(at) = at {
+                let found = self.published[at]["diagnostics"].as_array().expect("a list").clone();
+                self.published.drain(..=at);
+                // The status follows its diagnostics.
+                while self.last_status.as_ref().is_none_or(|s| s["uri"] != uri) {
+                    self.pump();
+                }
+                return found;
+            }
+            self.pump();
+        }
+    }
+
+    /// The next findings published without a version.
+    pub fn any_diagnostics(&mut self, uri: &str) -> Vec<Value> {
+        loop {
+            if let Some(at) = self.published.iter().position(|p| p["uri"] == uri && p["version"].is_null()) {
+                return self.published.remove(at)["diagnostics"].as_array().expect("a list").clone();
+            }
+            self.pump();
+        }
+    }
+
+    pub fn open(&mut self, uri: &str, text: &str) {
+        let document = json!({ "uri": uri, "languageId": "gcode", "version": 1, "text": text });
+        self.notify("textDocument/didOpen", json!({ "textDocument": document }));
+    }
+
+    pub fn edit(&mut self, uri: &str, version: i64, before: &str, bytes: std::ops::Range<usize>, new: &str) {
+        let range = json!({ "start": position(before, bytes.start), "end": position(before, bytes.end) });
+        self.notify(
+            "textDocument/didChange",
+            json!({ "textDocument": { "uri": uri, "version": version },
+                    "contentChanges": [{ "range": range, "text": new }] }),
+        );
+    }
+
+    pub fn change_all(&mut self, uri: &str, version: i64, text: &str) {
+        self.notify(
+            "textDocument/didChange",
+            json!({ "textDocument": { "uri": uri, "version": version }, "contentChanges": [{ "text": text }] }),
+        );
+    }
+
+    /// Clean shutdown: the answer to `shutdown`, then status 0 though the pipe stays open.
+    pub fn finish(mut self) {
+        let answer = self.request("shutdown", Value::Null);
+        assert!(answer.get("error").is_none(), "{answer}");
+        self.notify("exit", Value::Null);
+        assert_eq!(self.wait(), Some(0));
+    }
+
+    pub fn wait(&mut self) -> Option<i32> {
+        for _ in 0..600 {
+            if let Some(status) = self.child.try_wait().expect("a child of ours") {
+                return status.code();
+            }
+            std::thread::sleep(Duration::from_millis(100));
+        }
+        self.child.kill().ok();
+        panic!("the server did not exit");
+    }
+}
+
+impl Drop for Client {
+    fn drop(&mut self) {
+        self.child.kill().ok();
+        self.child.wait().ok();
+    }
+}
+
+fn read_frame(output: &mut impl BufRead) -> Option<Value> {
+    let mut length = None;
+    loop {
+        let mut line = String::new();
+        if output.read_line(&mut line).ok()? == 0 {
+            return None;
+        }
+        let line = line.trim();
+        if line.is_empty() {
+            break;
+        }
+        if let Some(value) = line.strip_prefix("Content-Length:") {
+            length = value.trim().parse::<usize>().ok();
+        }
+    }
+    let mut body = vec![0; length?];
+    output.read_exact(&mut body).ok()?;
+    serde_json::from_slice(&body).ok()
+}
+
+/// UTF-16 position of a byte; `\n`, `\r\n` and `\r` end lines.
+pub fn position(text: &str, byte: usize) -> Value {
+    let mut byte = byte;
+    while !text.is_char_boundary(byte) {
+        byte -= 1;
+    }
+    let before = &text[..byte];
+    let line = before.matches('\n').count();
+    let start = before.rfind('\n').map_or(0, |at| at + 1);
+    json!({ "line": line, "character": before[start..].encode_utf16().count() })
+}
+
+fn byte(text: &str, position: &Value) -> usize {
+    let line = position["line"].as_u64().unwrap() as usize;
+    let character = position["character"].as_u64().unwrap() as usize;
+    let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();
+    let mut units = 0;
+    for (at, c) in text[start..].char_indices() {
+        if units >= character {
+            return start + at;
+        }
+        units += c.len_utf16();
+    }
+    text.len()
+}
+
+pub fn text_of<'a>(text: &'a str, range: &Value) -> &'a str {
+    &text[byte(text, &range["start"])..byte(text, &range["end"])]
+}
+
+/// The text after the edits of a workspace edit.
+pub fn apply(text: &str, edits: &[Value]) -> String {
+    let mut spans: Vec<_> = edits
+        .iter()
+        .map(|e| {
+            let range = byte(text, &e["range"]["start"])..byte(text, &e["range"]["end"]);
+            (range, e["newText"].as_str().unwrap())
+        })
+        .collect();
+    spans.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
+    let mut out = text.to_owned();
+    for (range, new) in spans {
+        out.replace_range(range, new);
+    }
+    out
+}

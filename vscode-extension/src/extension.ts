@@ -1,0 +1,118 @@
+// Starts `trunnion lsp` for G-code and APT programs, and shows what it says about machine and dialect.
+import * as vscode from 'vscode';
+import { LanguageClient, RevealOutputChannelOn, State, TransportKind } from 'vscode-languageclient/node';
+import { chooseDialect, chooseMachine } from './choose';
+import { findProgram, firstFolder } from './server';
+import { type Status, StatusItem } from './status';
+import { checkTask, taskProvider } from './tasks';
+
+const LANGUAGES = ['gcode', 'apt'];
+
+let client: LanguageClient | undefined;
+/** Starts and stops of the server wait for each other here. */
+let turn: Promise<void> = Promise.resolve();
+
+export async function activate(context: vscode.ExtensionContext): Promise<void> {
+  const status = new StatusItem();
+  const output = vscode.window.createOutputChannel('Trunnion', { log: true });
+  const restart = () => (turn = turn.then(() => stop()).then(() => start(context, status, output)));
+  const withProgram = (action: (program: string) => unknown) => async () => {
+    const found = findProgram(context);
+    await ('program' in found ? Promise.resolve(action(found.program)).catch(complain) : complain(found.problem));
+  };
+  context.subscriptions.push(
+    status,
+    output,
+    vscode.commands.registerCommand('trunnion.restartServer', restart),
+    vscode.commands.registerCommand('trunnion.chooseMachine', withProgram(chooseMachine)),
+    vscode.commands.registerCommand('trunnion.chooseDialect', () => chooseDialect(context)),
+    vscode.commands.registerCommand('trunnion.checkFile', withProgram(checkActiveFile)),
+    vscode.tasks.registerTaskProvider('trunnion', taskProvider(() => {
+      const found = findProgram(context);
+      return 'program' in found ? found.program : undefined;
+    })),
+    vscode.window.onDidChangeActiveTextEditor(() => status.show()),
+    vscode.workspace.onDidCloseTextDocument((document) => status.forget(document.uri)),
+    vscode.workspace.onDidChangeConfiguration((event) => {
+      if (event.affectsConfiguration('trunnion.path')) {
+        void restart();
+      }
+      status.show();
+    }),
+  );
+  await restart();
+}
+
+export function deactivate(): Promise<void> {
+  return (turn = turn.then(() => stop()));
+}
+
+async function start(context: vscode.ExtensionContext, status: StatusItem, output: vscode.LogOutputChannel): Promise<void> {
+  const found = findProgram(context);
+  if ('problem' in found) {
+    status.fail(found.problem);
+    void complain(found.problem);
+    return;
+  }
+  output.info(`starting ${found.program} lsp`);
+  const settings = vscode.workspace.getConfiguration('trunnion');
+  const folder = firstFolder();
+  const started = new LanguageClient(
+    'trunnion',
+    'Trunnion',
+    { command: found.program, args: ['lsp'], transport: TransportKind.stdio, options: folder ? { cwd: folder } : {} },
+    {
+      documentSelector: LANGUAGES.flatMap((language) => ['file', 'untitled'].map((scheme) => ({ language, scheme }))),
+      initializationOptions: { machine: settings.get('machine'), dialect: settings.get('dialect'), tool: settings.get('tool') },
+      synchronize: {
+        configurationSection: 'trunnion',
+        fileEvents: vscode.workspace.createFileSystemWatcher('**/trunnion.toml'),
+      },
+      outputChannel: output,
+      revealOutputChannelOn: RevealOutputChannelOn.Never,
+    },
+  );
+  client = started;
+  started.onNotification('trunnion/status', (said: Status) => status.update(said));
+  started.onDidChangeState(({ newState }) => {
+    if (newState === State.Running) {
+      status.fail(undefined);
+    } else if (newState === State.Stopped && client === started) {
+      status.fail(`The language server ${found.program} has stopped. "Trunnion: Restart Server" starts it again.`);
+    }
+  });
+  try {
+    await started.start();
+  } catch (error) {
+    const problem = `The language server ${found.program} did not start: ${error instanceof Error ? error.message : String(error)}`;
+    status.fail(problem);
+    void complain(problem);
+  }
+}
+
+async function stop(): Promise<void> {
+  const running = client;
+  client = undefined;
+  await running?.dispose().catch(() => undefined);
+}
+
+async function checkActiveFile(program: string): Promise<void> {
+  const document = vscode.window.activeTextEditor?.document;
+  if (document?.uri.scheme !== 'file') {
+    return complain('Only a program that is saved as a file can be checked in the terminal.');
+  }
+  await document.save();
+  const path = vscode.workspace.asRelativePath(document.uri, false);
+  await vscode.tasks.executeTask(checkTask(program, path, `check ${path}`, 'pretty'));
+}
+
+/** Shows a problem with the two things one can do about it. */
+async function complain(problem: unknown): Promise<void> {
+  const text = problem instanceof Error ? problem.message : String(problem);
+  const answer = await vscode.window.showErrorMessage(`Trunnion: ${text}`, 'Open Settings', 'Restart Server');
+  if (answer === 'Open Settings') {
+    await vscode.commands.executeCommand('workbench.action.openSettings', 'trunnion.path');
+  } else if (answer === 'Restart Server') {
+    await vscode.commands.executeCommand('trunnion.restartServer');
+  }
+}

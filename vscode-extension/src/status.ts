@@ -1,0 +1,73 @@
+// The status bar item: the machine and the dialect of the program in front, and its verdict.
+import * as vscode from 'vscode';
+
+/** What the server says after each analysis (`trunnion/status`). */
+export interface Status {
+  uri: string;
+  machine: string | null;
+  dialect: string | null;
+  /** Why this dialect was taken, or what is wrong with the settings. */
+  reason: string;
+  verdict: 'pass' | 'fail' | 'unknown';
+  errors: number;
+  warnings: number;
+  unknown: number;
+}
+
+const ICONS = { pass: '$(pass)', fail: '$(error)', unknown: '$(question)' } as const;
+
+export class StatusItem implements vscode.Disposable {
+  private readonly item = vscode.window.createStatusBarItem('trunnion.status', vscode.StatusBarAlignment.Right, 90);
+  private readonly latest = new Map<string, Status>();
+  private problem: string | undefined;
+
+  constructor() {
+    this.item.name = 'Trunnion: machine and dialect';
+    this.item.command = 'trunnion.chooseMachine';
+  }
+
+  /** Stores what the server said; shown when that program is in front. */
+  update(status: Status): void {
+    this.latest.set(vscode.Uri.parse(status.uri).toString(), status);
+    this.show();
+  }
+
+  forget(uri: vscode.Uri): void {
+    this.latest.delete(uri.toString());
+  }
+
+  /** Shows that there is no server, and why; undefined when it runs again. */
+  fail(problem: string | undefined): void {
+    this.problem = problem;
+    this.latest.clear();
+    this.show();
+  }
+
+  show(): void {
+    const document = vscode.window.activeTextEditor?.document;
+    if (!document || !['gcode', 'apt'].includes(document.languageId)) {
+      this.item.hide();
+      return;
+    }
+    const settings = vscode.workspace.getConfiguration('trunnion');
+    const status = this.latest.get(document.uri.toString());
+    const machine = status ? status.machine : settings.get<string>('machine', '');
+    const dialect = status ? status.dialect : settings.get<string>('dialect', '');
+    const icon = this.problem !== undefined ? '$(warning)' : status ? ICONS[status.verdict] : '$(circle-outline)';
+    this.item.text = `${icon} ${machine || 'no machine'}${dialect ? ` · ${dialect}` : ''}`;
+    this.item.tooltip = this.problem ?? tooltip(status);
+    this.item.show();
+  }
+
+  dispose(): void {
+    this.item.dispose();
+  }
+}
+
+function tooltip(status: Status | undefined): string {
+  if (!status) {
+    return 'Trunnion: not checked yet. Click to choose the machine.';
+  }
+  const counts = `${status.errors} errors, ${status.warnings} warnings, ${status.unknown} unknown`;
+  return `Verdict: ${status.verdict} (${counts})\n${status.reason}\nClick to choose the machine.`;
+}

@@ -1,0 +1,134 @@
+// Asserts on the vscode API, inside the extension host.
+const assert = require('node:assert/strict');
+const vscode = require('vscode');
+
+async function until(what, ask, milliseconds = 30_000) {
+  for (const end = Date.now() + milliseconds; Date.now() < end; ) {
+    const answer = await ask();
+    if (answer) return answer;
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+  throw new Error(`no ${what} after ${milliseconds / 1000} s`);
+}
+
+const file = (name) => vscode.Uri.joinPath(vscode.workspace.workspaceFolders[0].uri, name);
+const codeOf = (diagnostic) => (typeof diagnostic.code === 'object' ? diagnostic.code.value : diagnostic.code);
+const flips = (uri) => vscode.languages.getDiagnostics(uri).filter((diagnostic) => codeOf(diagnostic) === 'pole-flip');
+
+async function show(name) {
+  const document = await vscode.workspace.openTextDocument(file(name));
+  await vscode.window.showTextDocument(document);
+  return document;
+}
+
+const tests = {
+  async 'the language is found from the file name'() {
+    assert.equal((await show('strategy-2.mpf')).languageId, 'gcode');
+    assert.equal((await show('strategy-2.apt')).languageId, 'apt');
+  },
+  async 'the first pole-flip of strategy 2 lies on C52.595'() {
+    const document = await show('strategy-2.mpf');
+    const found = await until('pole-flip', () => flips(document.uri).length > 0 && flips(document.uri));
+    assert.equal(document.getText(found[0].range), 'C52.595');
+    assert.match(document.lineAt(found[0].range.start.line).text, /^N2930\b/);
+    assert.equal(found[0].severity, vscode.DiagnosticSeverity.Warning);
+  },
+  async 'the APT form of strategy 2 is judged too'() {
+    const document = await show('strategy-2.apt');
+    await until('pole-flip', () => flips(document.uri).length > 0);
+  },
+  async 'an edit that removes the flip removes the squiggle, undo brings it back'() {
+    const document = await show('strategy-2.mpf');
+    await until('pole-flip', () => flips(document.uri).length > 0);
+    const line = flips(document.uri)[0].range.start.line;
+    const on = () => flips(document.uri).filter((diagnostic) => diagnostic.range.start.line === line).length;
+    const edit = new vscode.WorkspaceEdit();
+    edit.replace(document.uri, flips(document.uri)[0].range, 'C4.822');
+    assert.ok(await vscode.workspace.applyEdit(edit));
+    await until('line without a flip', () => on() === 0);
+    await vscode.commands.executeCommand('undo');
+    await until('flip again', () => on() === 1);
+    assert.equal(document.isDirty, false);
+  },
+  async 'another machine in the settings judges anew'() {
+    const document = await show('strategy-2.mpf');
+    await until('pole-flip', () => flips(document.uri).length > 0);
+    const settings = vscode.workspace.getConfiguration('trunnion');
+    await settings.update('machine', '', vscode.ConfigurationTarget.Workspace);
+    await until('no flip without a machine', () => flips(document.uri).length === 0);
+    await settings.update('machine', 'mikron-ucp710', vscode.ConfigurationTarget.Workspace);
+    await until('the flip again', () => flips(document.uri).length > 0);
+  },
+  async 'the quick fix smooth-pole is proved for a declared ball and cures the flip'() {
+    const document = await show('strategy-2.mpf');
+    const [flip] = await until('pole-flip', () => flips(document.uri).length > 0 && flips(document.uri));
+    const offered = async () => {
+      const all = await vscode.commands.executeCommand('vscode.executeCodeActionProvider', document.uri, flip.range);
+      return all.find((action) => action.title.startsWith('smooth-pole') && !action.disabled);
+    };
+    assert.equal(await offered(), undefined, 'no tool is declared, so nothing can be proved');
+    const settings = vscode.workspace.getConfiguration('trunnion');
+    await settings.update('tool', 'ball:10', vscode.ConfigurationTarget.Workspace);
+    try {
+      const action = await until('smooth-pole', offered);
+      assert.ok(await vscode.workspace.applyEdit(action.edit));
+      await until('no flip', () => flips(document.uri).length === 0);
+    } finally {
+      await vscode.commands.executeCommand('workbench.action.files.revert');
+      await settings.update('tool', undefined, vscode.ConfigurationTarget.Workspace);
+    }
+    await until('the flip of the original', () => flips(document.uri).length > 0);
+  },
+  async 'words end where the next address begins'() {
+    const document = await vscode.workspace.openTextDocument({ language: 'gcode', content: 'N10G1X10Y-2.5 #<_a b>=#101' });
+    const words = [1, 4, 6, 10, 16, 24].map((at) => document.getText(document.getWordRangeAtPosition(new vscode.Position(0, at))));
+    assert.deepEqual(words, ['N10', 'G1', 'X10', 'Y-2.5', '#<_a b>', '#101']);
+  },
+  async 'the commands are there'() {
+    const all = await vscode.commands.getCommands(true);
+    for (const name of ['restartServer', 'chooseMachine', 'chooseDialect', 'checkFile']) assert.ok(all.includes(`trunnion.${name}`), name);
+  },
+  async 'a restarted server finds the flip again'() {
+    const document = await show('strategy-2.mpf');
+    await until('pole-flip', () => flips(document.uri).length > 0);
+    await vscode.commands.executeCommand('trunnion.restartServer');
+    await until('pole-flip after the restart', () => flips(document.uri).length > 0);
+  },
+  async 'the check in the terminal ends with a verdict'() {
+    await show('strategy-2.mpf');
+    const ended = new Promise((resolve) => {
+      const listener = vscode.tasks.onDidEndTaskProcess((event) => {
+        listener.dispose();
+        resolve(event);
+      });
+    });
+    await vscode.commands.executeCommand('trunnion.checkFile');
+    const { execution, exitCode } = await ended;
+    assert.equal(execution.task.definition.path, 'strategy-2.mpf');
+    assert.ok(exitCode === 0 || exitCode === 1, `exit code ${exitCode}`);
+  },
+  async 'the task reports through the problem matcher'() {
+    await vscode.commands.executeCommand('workbench.action.closeAllEditors');
+    const tasks = await vscode.tasks.fetchTasks({ type: 'trunnion' });
+    assert.equal(tasks.length, 1);
+    await vscode.tasks.executeTask(tasks[0]);
+    const found = await until('pole-flip by the task', () => flips(file('strategy-2.mpf'))[0]);
+    assert.equal(found.source, 'trunnion');
+    assert.equal(found.range.start.character > 0, true);
+  },
+};
+
+exports.run = async () => {
+  let failed = 0;
+  for (const [name, body] of Object.entries(tests)) {
+    try {
+      await body();
+      console.log(`ok - host: ${name}`);
+    } catch (error) {
+      failed += 1;
+      console.log(`not ok - host: ${name}: ${error.message}`);
+    }
+  }
+  console.log(`host: ${Object.keys(tests).length - failed} passed, ${failed} failed`);
+  if (failed > 0) throw new Error(`${failed} failed`);
+};

@@ -1,0 +1,121 @@
+// What a person sees: strategy 2 opens, `C52.595` has a squiggle under it, the status bar names machine and dialect.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { launch, open, remote, work } from './browser.mjs';
+
+const shots = process.env.SHOTS;
+const settings = `${work}/.vscode/settings.json`;
+const set = (values) => writeFileSync(settings, JSON.stringify(values));
+const browser = await launch();
+const page = await browser.newPage({ viewport: { width: 1400, height: 900 } });
+let passed = 0;
+let failed = 0;
+
+async function test(name, body) {
+  try {
+    await body();
+    passed += 1;
+    console.log(`ok - workbench: ${name}`);
+  } catch (error) {
+    failed += 1;
+    console.log(`not ok - workbench: ${name}\n${error.stack}`);
+    await page.screenshot({ path: `${shots}/failed-${name.replace(/\W+/g, '-')}.png` }).catch(() => undefined);
+  }
+}
+
+/** Repeats until the answer is truthy; the last answer goes into the error. */
+async function until(what, ask, milliseconds = 60_000) {
+  const end = Date.now() + milliseconds;
+  let last;
+  while (Date.now() < end) {
+    last = await ask().catch((error) => error.message);
+    if (last && typeof last !== 'string') return last;
+    await page.waitForTimeout(200);
+  }
+  throw new Error(`no ${what} after ${milliseconds / 1000} s; last: ${JSON.stringify(last)}`);
+}
+
+/** In the page: `text` as it is drawn, and every squiggle that lies under it (same line, same columns, within 1.5 px). */
+function squigglesUnder(text) {
+  const lines = [...document.querySelectorAll('.monaco-editor .view-line')];
+  const line = lines.find((node) => node.textContent.includes(text));
+  if (!line) return 'the text is not on the screen';
+  const walker = document.createTreeWalker(line, NodeFilter.SHOW_TEXT);
+  const places = [];
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    for (let i = 0; i < node.data.length; i += 1) places.push([node, i]);
+  }
+  const start = line.textContent.indexOf(text);
+  const range = document.createRange();
+  range.setStart(...places[start]);
+  const [last, offset] = places[start + text.length - 1];
+  range.setEnd(last, offset + 1);
+  const box = range.getBoundingClientRect();
+  const under = [...document.querySelectorAll('.monaco-editor .view-overlays .cdr[class*="squiggly-"]')].filter((node) => {
+    const place = node.getBoundingClientRect();
+    const middle = (place.top + place.bottom) / 2;
+    return Math.abs(place.left - box.left) < 1.5 && Math.abs(place.right - box.right) < 1.5 && middle > box.top - 2 && middle < box.bottom + 4;
+  });
+  const middle = { x: (box.left + box.right) / 2, y: (box.top + box.bottom) / 2 };
+  return under.length > 0 ? { classes: under.map((node) => node.className), middle } : `no squiggle at ${JSON.stringify(box)}`;
+}
+
+await open(page, [['openFile', remote(`${work}/strategy-2.mpf`)]]);
+
+await test('a squiggle under C52.595', async () => {
+  const { classes } = await until('squiggle under C52.595', () => page.evaluate(squigglesUnder, 'C52.595'), 90_000);
+  assert.ok(classes.some((name) => /squiggly-(warning|error)/.test(name)), `classes: ${classes}`);
+  await page.screenshot({ path: `${shots}/squiggle.png` });
+});
+
+await test('the row before it has none under its C', async () => {
+  assert.equal(typeof (await page.evaluate(squigglesUnder, 'C4.822')), 'string');
+});
+
+await test('the status bar names machine and dialect', async () => {
+  const item = page.locator('.statusbar-item', { hasText: 'mikron-ucp710' });
+  await item.waitFor({ timeout: 20_000 });
+  assert.match(await item.innerText(), /mikron-ucp710 · sinumerik-840d/);
+});
+
+await test('words are coloured', async () => {
+  const kinds = await page.evaluate(() => {
+    const line = [...document.querySelectorAll('.view-line')].find((node) => node.textContent.includes('C52.595'));
+    return new Set([...line.querySelectorAll('span > span')].map((span) => getComputedStyle(span).color)).size;
+  });
+  assert.ok(kinds >= 2, `${kinds} colour(s) on the line of N2930`);
+});
+
+await test('the hover of the squiggle names the rule', async () => {
+  const { middle } = await until('squiggle under C52.595', () => page.evaluate(squigglesUnder, 'C52.595'));
+  await page.mouse.move(middle.x - 3, middle.y);
+  await page.mouse.move(middle.x, middle.y);
+  const hover = page.locator('.monaco-hover', { hasText: 'pole-flip' }).first();
+  await hover.waitFor({ timeout: 20_000 });
+  await page.screenshot({ path: `${shots}/hover.png` });
+});
+
+await test('a click on the status bar offers the machines, the choice is used', async () => {
+  await page.keyboard.press('Escape');
+  const item = page.locator('.statusbar-item', { hasText: 'mikron-ucp710' });
+  await item.click();
+  const rows = page.locator('.quick-input-list .monaco-list-row');
+  await rows.filter({ hasText: 'mikron-ucp710' }).waitFor({ timeout: 20_000 });
+  await page.screenshot({ path: `${shots}/machines.png` });
+  await rows.filter({ hasText: 'ferrari-bc' }).click();
+  await page.locator('.statusbar-item', { hasText: 'ferrari-bc' }).waitFor({ timeout: 20_000 });
+  assert.equal(JSON.parse(readFileSync(settings, 'utf8'))['trunnion.machine'], 'ferrari-bc');
+});
+
+await test('a program that is not there is named in a message, and a good setting ends it', async () => {
+  set({ 'trunnion.machine': 'mikron-ucp710', 'trunnion.path': '/no/such/program' });
+  await page.locator('.notification-toast', { hasText: '"/no/such/program"' }).waitFor({ timeout: 30_000 });
+  await page.screenshot({ path: `${shots}/missing.png` });
+  await until('no squiggle without a server', () => page.evaluate(squigglesUnder, 'C52.595').then((found) => typeof found === 'string'));
+  set({ 'trunnion.machine': 'mikron-ucp710' });
+  await until('squiggle under C52.595', () => page.evaluate(squigglesUnder, 'C52.595'));
+});
+
+await browser.close();
+console.log(`workbench: ${passed} passed, ${failed} failed`);
+process.exit(failed === 0 ? 0 : 1);

@@ -1,0 +1,78 @@
+// The manifest agrees with the dialect tables, with the word pattern, and with the form the command line prints.
+import assert from 'node:assert/strict';
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { test } from 'node:test';
+
+const here = (path) => new URL(`../${path}`, import.meta.url);
+const manifest = JSON.parse(readFileSync(here('package.json'), 'utf8'));
+const { contributes } = manifest;
+const dialects = readdirSync(here('../grammar/dialects')).filter((name) => name.endsWith('.toml'));
+
+test('the dialect setting offers exactly the dialect tables', () => {
+  const setting = contributes.configuration.properties['trunnion.dialect'];
+  const tables = dialects.map((name) => name.replace(/\.toml$/, ''));
+  assert.deepEqual([...setting.enum].sort(), ['', ...tables].sort());
+  assert.equal(setting.enum.length, setting.enumDescriptions.length);
+});
+
+test('every file extension of a dialect table belongs to a language', () => {
+  const known = new Set(contributes.languages.flatMap((language) => language.extensions));
+  for (const name of dialects) {
+    const list = /^extensions\s*=\s*\[([^\]]*)\]/m.exec(readFileSync(here(`../grammar/dialects/${name}`), 'utf8'))?.[1] ?? '';
+    for (const [, extension] of list.matchAll(/"([^"]+)"/g)) {
+      assert.ok(known.has(`.${extension}`), `.${extension} of ${name} is in no language of package.json`);
+    }
+  }
+});
+
+test('no file extension belongs to two languages', () => {
+  const all = contributes.languages.flatMap((language) => language.extensions);
+  assert.deepEqual([...new Set(all)], all);
+});
+
+test('every file the manifest names exists', () => {
+  const named = [manifest.icon, ...contributes.grammars.map((grammar) => grammar.path), ...contributes.languages.map((language) => language.configuration)];
+  for (const path of named) assert.ok(existsSync(here(path)), path);
+});
+
+test('dependencies are pinned exactly', () => {
+  for (const [name, version] of Object.entries(manifest.devDependencies)) assert.match(version, /^\d+\.\d+\.\d+$/, name);
+});
+
+test('the lock file names no registry', () => {
+  assert.equal(readFileSync(here('package-lock.json'), 'utf8').includes('"resolved"'), false);
+});
+
+test('the problem pattern reads `check --format short`', () => {
+  const [pattern] = contributes.problemPatterns;
+  const match = new RegExp(pattern.regexp).exec('parts/strategy-2.mpf:9:48: warning[pole-flip] C turns 47.773 deg');
+  const read = ['file', 'line', 'column', 'severity', 'code', 'message'].map((key) => match[pattern[key]]);
+  assert.deepEqual(read, ['parts/strategy-2.mpf', '9', '48', 'warning', 'pole-flip', 'C turns 47.773 deg']);
+  const drive = new RegExp(pattern.regexp).exec('C:\\nc\\a.nc:1:2: error[syntax-error] x');
+  assert.equal(drive[pattern.file], 'C:\\nc\\a.nc');
+});
+
+const words = (language, text) => {
+  const { wordPattern } = JSON.parse(readFileSync(here(`${language}.language-configuration.json`), 'utf8'));
+  return text.match(new RegExp(wordPattern, 'g'));
+};
+
+test('joined G-code words are words of their own', () => {
+  const all = {
+    'G1X10Y-2.5': ['G1', 'X10', 'Y-2.5'],
+    'n10g01x.5f100.': ['n10', 'g01', 'x.5', 'f100.'],
+    '#100=#<_depth of cut>': ['#100', '#<_depth of cut>'],
+    'A3=0.5 C=DC(90)': ['A3', '0.5', 'C', 'DC', '90'],
+    'CYCLE800(1,"TC") TRAORI': ['CYCLE800', '1', 'TC', 'TRAORI'],
+    'GOTOF _END R1=$AA_IM': ['GOTOF', '_END', 'R1', '$AA_IM'],
+  };
+  for (const [text, expected] of Object.entries(all)) assert.deepEqual(words('gcode', text), expected, text);
+});
+
+test('APT words, numbers with signs and exponents', () => {
+  assert.deepEqual(words('apt', 'GOTO / -28.38,-2.1E-4, .5, 1.'), ['GOTO', '-28.38', '-2.1E-4', '.5', '1.']);
+});
+
+test('the licences are those of the project', () => {
+  for (const name of ['LICENSE-MIT', 'LICENSE-APACHE']) assert.equal(readFileSync(here(name), 'utf8'), readFileSync(here(`../${name}`), 'utf8'), name);
+});

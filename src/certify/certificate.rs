@@ -177,6 +177,34 @@ impl Certificate {
         Ok(certificate)
     }
 
+    /// One line for people: what is proved, with the worst numbers.
+    pub fn summary(&self) -> String {
+        let (mm, degrees) = self.claim.tolerances();
+        let claim = match self.claim {
+            Claim::SamePoses { .. } => "same poses at all block ends",
+            Claim::SameBallCentre { .. } => "same ball centre at all block ends",
+            Claim::SameToolPath { .. } => "same tool path at every moment",
+        };
+        let worst = &self.worst;
+        let mut text = format!(
+            "{claim} within {mm} mm and {degrees} deg: {} of {} motions differ; shift at block ends {:.6} mm, tool axis {:.6} deg; \
+             paths at most {:.6} mm and {:.6} deg apart",
+            self.motions.changed,
+            self.motions.total,
+            worst.point_shift_mm.value,
+            worst.axis_change_deg.value,
+            worst.path_bound_mm.value,
+            worst.path_axis_bound_deg.value
+        );
+        if self.motions.unknown > 0 {
+            text.push_str(&format!("; {} with unknown position, programmed alike", self.motions.unknown));
+        }
+        if self.motions.process_changed > 0 {
+            text.push_str(&format!("; {} with another feed or spindle speed", self.motions.process_changed));
+        }
+        text
+    }
+
     /// The certificate with its seal.
     pub(crate) fn sealed(mut self) -> Self {
         self.seal_sha256 = self.seal();

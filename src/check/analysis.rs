@@ -6,7 +6,7 @@ use crate::view::{LegView, Overview};
 use crate::rule::{FaultRule, LegRule, ProgramRule, TextRule};
 use crate::{Diagnostic, Level, Settings, Severity, Status};
 use core::ops::ControlFlow;
-use trunnion_interp::{Directive, Fault, Interpreter, ModalState, Motion, Setup, Sink, directives};
+use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink, directives};
 use trunnion_machine::{Follower, Leg};
 use trunnion_syntax::{BlockId, Program};
 
@@ -81,7 +81,7 @@ impl Report {
 
 /// Checks a parsed program.
 pub fn check(program: &Program, settings: &Settings<'_>) -> Report {
-    let never = &mut |_: BlockId, _: &Interpreter<'_>, _: Option<&Follower<'_>>| ControlFlow::Continue(());
+    let never = &mut |_: &Interpreter<'static>, _: Option<&Follower<'_>>| ControlFlow::Continue(());
     analyse(program, settings, never).unwrap_or_else(|| Report {
         diagnostics: Vec::new(),
         summary: Summary::default(),
@@ -91,7 +91,7 @@ pub fn check(program: &Program, settings: &Settings<'_>) -> Report {
 
 /// Asked before each 1024th block with what is in force there; `Break` ends the check.
 pub(crate) type AtCheckPoint<'f> =
-    &'f mut dyn FnMut(BlockId, &Interpreter<'_>, Option<&Follower<'_>>) -> ControlFlow<()>;
+    &'f mut dyn FnMut(&Interpreter<'static>, Option<&Follower<'_>>) -> ControlFlow<()>;
 
 /// Checks a parsed program; `None` when `at_check_point` broke off.
 pub(crate) fn analyse(program: &Program, settings: &Settings<'_>, at_check_point: AtCheckPoint<'_>) -> Option<Report> {
@@ -101,11 +101,10 @@ pub(crate) fn analyse(program: &Program, settings: &Settings<'_>, at_check_point
     pass.read_text(program);
     pass.read_whole(&Overview { program, settings, directives: &directives });
 
-    let setup = declared(&settings.setup, &directives);
-    let mut interpreter = Interpreter::new(settings.dialect, &setup);
+    let mut interpreter = Interpreter::new(settings.dialect, &settings.setup);
     for id in (0..program.block_count() as u32).map(BlockId) {
         if id.0.is_multiple_of(CHECK_POINT_BLOCKS)
-            && at_check_point(id, &interpreter, pass.follower.as_ref()).is_break()
+            && at_check_point(&interpreter, pass.follower.as_ref()).is_break()
         {
             return None;
         }
@@ -113,19 +112,6 @@ pub(crate) fn analyse(program: &Program, settings: &Settings<'_>, at_check_point
         interpreter.step(program, id, &mut pass);
     }
     Some(pass.finish())
-}
-
-/// The setup with the tools that the program's comments declare; what the settings say of a tool goes first.
-pub(crate) fn declared(setup: &Setup, directives: &[(trunnion_syntax::TextRange, Directive)]) -> Setup {
-    let mut setup = setup.clone();
-    for (_, directive) in directives {
-        if let Directive::Tool(tool) = directive
-            && setup.tools.iter().all(|known| known.number != tool.number)
-        {
-            setup.tools.push(*tool);
-        }
-    }
-    setup
 }
 
 /// One pass over a program.
@@ -225,5 +211,94 @@ impl Sink for Pass<'_> {
             (rule.run)(&fault, &mut self.reporter);
             self.reporter.leave();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::Fixture;
+    use crate::{RuleLevel, Session};
+    use trunnion_interp::Setup;
+    use trunnion_syntax::parse;
+
+    fn settings(rules: &[(&str, RuleLevel)]) -> Settings<'static> {
+        Settings {
+            dialect: trunnion_dialect::builtin("iso-6983").expect("the core dialect is built in"),
+            machine: trunnion_machine::builtin("mill-3axis"),
+            setup: Setup::default(),
+            rules: rules.iter().map(|(name, level)| ((*name).to_owned(), *level)).collect(),
+        }
+    }
+
+    fn report(text: &str, rules: &[(&str, RuleLevel)]) -> Report {
+        let settings = settings(rules);
+        check(&parse(text.as_bytes().to_vec(), settings.dialect.lex), &settings)
+    }
+
+    #[test]
+    fn settings_change_levels_and_the_last_wins() {
+        let text = "G0 X0 X1\nM30\n";
+        assert_eq!(report(text, &[]).summary.errors, 1);
+        assert_eq!(report(text, &[("repeated-word", RuleLevel::Allow)]).diagnostics, []);
+        let levels = [("repeated-word", RuleLevel::Allow), ("repeated-word", RuleLevel::At(Severity::Warning))];
+        assert_eq!(report(text, &levels).summary.warnings, 1);
+    }
+
+    #[test]
+    fn verdicts_depend_on_what_is_denied() {
+        let found = report("G0 X0 X1\nM30\n", &[("repeated-word", RuleLevel::At(Severity::Warning))]);
+        assert_eq!(found.verdict(Severity::Error), Verdict::Pass);
+        assert_eq!(found.verdict(Severity::Warning), Verdict::Fail);
+    }
+
+    #[test]
+    fn without_a_machine_the_verdict_is_unknown() {
+        let found = Fixture::parse("gcode", "G0 X0\n;^ machine-unset: \nM30\n").check().unwrap();
+        assert_eq!(found.verdict(Severity::Error), Verdict::Unknown);
+        assert_eq!(found.cycle_time_s, None);
+    }
+
+    #[test]
+    fn blocks_with_content_and_motions_are_counted() {
+        let summary = report("%\n(comment)\n\nG0 X0 Y0 Z0\nG1 X1 F100\nM30\n", &[]).summary;
+        assert_eq!((summary.blocks, summary.motions), (3, 2));
+    }
+
+    #[test]
+    fn cycle_time_counts_from_the_first_known_position() {
+        let [low, high] = report("G0 X0 Y0 Z0\nG1 X100 F600\nM30\n", &[]).cycle_time_s.expect("all is known");
+        assert!((low - 10.0).abs() < 1e-9, "{low}");
+        assert!(high > low && high < low + 1.0, "{high}");
+    }
+
+    #[test]
+    fn every_sort_of_bytes_has_a_report_with_places_inside() {
+        for text in ["", "\n", "\0", "(", "G1", "GOTO", "X1,5", "%", "\u{feff}G0", "G0 X1.2.3 Y- ( ) ; \"", "/"] {
+            for diagnostic in report(text, &[]).diagnostics {
+                assert!(diagnostic.range.start <= diagnostic.range.end && diagnostic.range.end as usize <= text.len(), "{text:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_session_describes_blocks_as_a_run_from_the_start_does() {
+        use core::fmt::Write;
+        let mut text = String::from("G0 X0 Y0 Z0\nG1 F500\n");
+        for i in 0..2500 {
+            let _ = writeln!(text, "X{}", i % 100);
+        }
+        let settings = settings(&[]);
+        let program = parse(text.into_bytes(), settings.dialect.lex);
+        let session = Session::new(&program, &settings, &|| false).expect("nobody cancels");
+        for block in [0, 1, 2, 1023, 1024, 1025, 2047, 2048, 2500, 2501, 9999] {
+            let info = session.describe(&program, &settings, BlockId(block));
+            if (2..2502).contains(&block) {
+                assert_eq!(info.rows.len(), 1, "{block}");
+                assert_eq!(info.rows[0].tip_mm.map(|tip| tip[0]), Some(f64::from((block - 2) % 100)), "{block}");
+                assert_eq!(info.before.feed, Some(500.0), "{block}");
+            }
+        }
+        assert!(Session::new(&program, &settings, &|| true).is_none());
     }
 }

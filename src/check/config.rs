@@ -96,8 +96,8 @@ fn apply(tolerances: &mut Tolerances, name: &str, value: f64) -> bool {
 /// Everything one check needs.
 #[derive(Clone)]
 pub struct Settings<'a> {
-    /// The dialect.
-    pub dialect: &'a Dialect,
+    /// The dialect. Tables live as long as the process, so that a session can be kept without them.
+    pub dialect: &'static Dialect,
     /// The machine with tolerances applied, if any.
     pub machine: Option<&'a Machine>,
     /// Tools and offsets.

@@ -21,7 +21,7 @@ mod words;
 pub use analysis::{Report, Summary, Verdict, check};
 pub use config::{Config, ConfigError, RuleLevel, Settings};
 pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
-pub use rule::{Guarantee, Level, Rule};
+pub use rule::{FaultRule, Guarantee, LegRule, Level, ProgramRule, Rule, TextRule};
 pub use rules::{rule, rules};
 pub use session::{BlockInfo, Session};
 pub use sink::{Draft, Reporter};

@@ -2,6 +2,9 @@
 use crate::Diagnostic;
 use trunnion_syntax::TextRange;
 
+/// Runs of findings that differ in their numbers are reported block by block up to this many blocks.
+pub(crate) const SHORT_RUN: usize = 8;
+
 /// How findings of one rule are put together. Findings that are events (`pole-flip`) have none and are never merged.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Merge {

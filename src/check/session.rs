@@ -1,8 +1,8 @@
 //! A program that stays open: check-points let any block be described without running the whole file again.
-use crate::analysis::{CHECK_POINT_BLOCKS, analyse, declared};
+use crate::analysis::{CHECK_POINT_BLOCKS, analyse};
 use crate::{Report, Settings};
 use core::ops::ControlFlow;
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Setup, Sink, directives};
+use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
 use trunnion_machine::{Follower, Memory, Row, row};
 use trunnion_syntax::{BlockId, Program};
 
@@ -20,7 +20,7 @@ pub struct BlockInfo {
 /// What is in force before a block.
 #[derive(Clone)]
 struct CheckPoint {
-    state: ModalState,
+    interpreter: Interpreter<'static>,
     machine: Option<Memory>,
 }
 
@@ -29,7 +29,6 @@ struct CheckPoint {
 pub struct Session {
     /// The report.
     pub report: Report,
-    setup: Setup,
     check_points: Vec<CheckPoint>,
 }
 
@@ -37,35 +36,36 @@ impl Session {
     /// Checks and keeps check-points. `cancelled` is polled each 1024 blocks; `None` when it said true.
     pub fn new(program: &Program, settings: &Settings<'_>, cancelled: &dyn Fn() -> bool) -> Option<Self> {
         let mut check_points = Vec::new();
-        let report = analyse(program, settings, &mut |_, interpreter, follower| {
+        let report = analyse(program, settings, &mut |interpreter, follower| {
             let machine = follower.map(Follower::memory);
-            check_points.push(CheckPoint { state: interpreter.state.clone(), machine });
+            check_points.push(CheckPoint { interpreter: interpreter.clone(), machine });
             if cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })?;
-        Some(Self { report, setup: declared(&settings.setup, &directives(program)), check_points })
+        Some(Self { report, check_points })
     }
 
-    /// Describes a block of the program the session was made of, with the same settings: at most 1024 blocks are run again.
+    /// Describes a block of the program the session was made of, with the same settings: at most 1024 blocks are run
+    /// again. A block behind the end is described as the last one.
     pub fn describe(&self, program: &Program, settings: &Settings<'_>, block: BlockId) -> BlockInfo {
-        let mut interpreter = Interpreter::new(settings.dialect, &self.setup);
-        let mut walk = Walk { follower: settings.machine.map(Follower::new), rows: Vec::new(), wanted: block };
-        let at = (block.0 / CHECK_POINT_BLOCKS) as usize;
-        if let Some(point) = self.check_points.get(at) {
-            interpreter.state = point.state.clone();
-            if let (Some(machine), Some(memory)) = (settings.machine, &point.machine) {
-                walk.follower = Some(Follower::resume(machine, memory));
-            }
+        let end = program.block_count() as u32;
+        let wanted = BlockId(block.0.min(end.saturating_sub(1)));
+        let at = wanted.0 / CHECK_POINT_BLOCKS;
+        let point = self.check_points.get(at as usize);
+        let fresh = || Interpreter::new(settings.dialect, &settings.setup);
+        let mut interpreter = point.map_or_else(fresh, |point| point.interpreter.clone());
+        let from = if point.is_some() { at * CHECK_POINT_BLOCKS } else { 0 };
+        let memory = point.and_then(|point| point.machine.as_ref());
+        let follower = settings.machine.map(|machine| match memory {
+            Some(memory) => Follower::resume(machine, memory),
+            None => Follower::new(machine),
+        });
+        let mut walk = Walk { follower, rows: Vec::new(), wanted };
+        for id in (from..wanted.0).map(BlockId) {
+            interpreter.step(program, id, &mut walk);
         }
-        let from = at as u32 * CHECK_POINT_BLOCKS;
-        let last = block.0.min((program.block_count() as u32).saturating_sub(1));
-        let mut before = interpreter.state.clone();
-        for id in from..=last {
-            if id == last {
-                before = interpreter.state.clone();
-            }
-            if (id as usize) < program.block_count() {
-                interpreter.step(program, BlockId(id), &mut walk);
-            }
+        let before = interpreter.state.clone();
+        if wanted.0 < end {
+            interpreter.step(program, wanted, &mut walk);
         }
         BlockInfo { before, after: interpreter.state, rows: walk.rows }
     }

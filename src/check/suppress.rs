@@ -43,3 +43,28 @@ pub(crate) fn has_code(program: &Program, block: BlockId) -> bool {
     let view = program.block(block);
     view.record().is_some() || view.items().any(|item| !matches!(item, trunnion_syntax::Item::Comment(_)))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::{Fixture, assert_drawn};
+
+    #[test]
+    fn beside_words_it_holds_for_its_block() {
+        assert_drawn(
+            "gcode",
+            "G0 X0 X1 (trunnion: allow repeated-word because the first is a marker)\nG0 X0 X1\n;     ^^ repeated-word: \n",
+        );
+    }
+
+    #[test]
+    fn on_its_own_line_it_holds_for_the_program() {
+        assert_drawn("gcode", "G0 X0 X1\n(trunnion: allow repeated-word because this control takes the last)\nG0 X0 X1\n");
+    }
+
+    #[test]
+    fn without_a_reason_it_does_nothing() {
+        let report = Fixture::parse("gcode", "(trunnion: allow repeated-word)\nG0 X0 X1\n").check().unwrap();
+        let found: Vec<&str> = report.diagnostics.iter().map(|found| found.rule).collect();
+        assert_eq!(found, ["broken-directive", "repeated-word"]);
+    }
+}

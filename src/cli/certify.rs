@@ -23,7 +23,7 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         }
         None => {
             let claim =
-                Claim::SamePoses { tolerance_mm: command.tolerance_mm, tolerance_deg: command.tolerance_deg };
+                Claim::SameToolPath { tolerance_mm: command.tolerance_mm, tolerance_deg: command.tolerance_deg };
             certify(before, &after, dialect, machine, setup, &claim)
         }
     };
@@ -34,7 +34,8 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
             Ok(Done::Clean)
         }
         Outcome::Refuted(witness) => {
-            writeln!(out, "REFUTED {}:{}: {}", command.after.display(), witness.line, witness.message)?;
+            let line = witness.line.map(|line| format!(":{line}")).unwrap_or_default();
+            writeln!(out, "REFUTED {}{line}: {}", command.after.display(), witness.message)?;
             Ok(Done::Found)
         }
         Outcome::Unknown(gap) => {

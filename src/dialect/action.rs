@@ -110,7 +110,8 @@ pub enum Action {
     ConstantSurfaceSpeed,
     /// G97: S is turns per minute.
     ConstantSpindleSpeed,
-    /// A call of a subprogram: it may change anything, so all that follows is unknown until it is programmed again.
+    /// A call of a subprogram, a jump, a condition or a loop: which blocks run, and what they change, is not followed, so all that
+    /// comes after is unknown until it is programmed again.
     SubprogramCall,
     /// Sinumerik ORIAXES / ORIVECT and the like: orientation interpolated joint-linear.
     OrientationAxes,

@@ -1,5 +1,6 @@
 //! From a table to a dialect: `extends`, ranges of codes, indexes, and every check that serde cannot make.
-use crate::dialect::{ArcTolerance, G_SLOTS, sort_key};
+use crate::code::sort_key;
+use crate::dialect::{ArcTolerance, G_SLOTS};
 use crate::schema::{ArcToleranceRow, CodeRow, DialectError, FormatRow, Lex, Table};
 use crate::{Code, CodeKind, Dialect, Role, builtin};
 use core::ops::{Range, RangeInclusive};
@@ -10,7 +11,10 @@ use trunnion_syntax::{Format, LexOptions};
 const MM_PER_INCH: f64 = 25.4;
 
 fn error<T>(span: Range<usize>, message: impl Into<String>) -> Result<T, DialectError> {
-    Err(DialectError { message: message.into(), span: Some(span) })
+    Err(DialectError {
+        message: message.into(),
+        span: Some(span),
+    })
 }
 
 /// Builds the dialect that `table` describes.
@@ -19,7 +23,10 @@ pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
     dialect.name.clone_from(table.name.get_ref());
     dialect.title.clone_from(&table.title);
     let relative = dialect.arc.relative;
-    dialect.quirks = crate::Quirks { arc_tolerance_relative: relative, ..table.quirks };
+    dialect.quirks = crate::Quirks {
+        arc_tolerance_relative: relative,
+        ..table.quirks
+    };
     if let Some(lex) = table.lex {
         dialect.lex = lex_options(lex);
     }
@@ -33,7 +40,10 @@ pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
     addresses(&table.addresses, &mut dialect)?;
     for (name, doc) in &table.groups {
         if !is_kebab(name.get_ref()) {
-            return error(name.span(), format!("group `{}`: write lower-case words joined by `-`", name.get_ref()));
+            return error(
+                name.span(),
+                format!("group `{}`: write lower-case words joined by `-`", name.get_ref()),
+            );
         }
         dialect.groups.insert(name.get_ref().clone(), doc.clone());
     }
@@ -42,14 +52,19 @@ pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
         let before = dialect.codes.len();
         dialect.codes.retain(|code| !pattern.matches(code));
         if dialect.codes.len() == before {
-            return error(id.span(), format!("`{}` is not in the extended table: nothing to remove", id.get_ref()));
+            return error(
+                id.span(),
+                format!("`{}` is not in the extended table: nothing to remove", id.get_ref()),
+            );
         }
     }
     dialect.builder_codes.clear();
     for id in &table.builder_codes {
         match Pattern::parse(id, dialect.lex.format)? {
             Pattern::Numbers(kind, tenths) => dialect.builder_codes.push((kind, tenths)),
-            Pattern::Name(name) => return error(id.span(), format!("`{name}`: only G and M codes can be the builder's")),
+            Pattern::Name(name) => {
+                return error(id.span(), format!("`{name}`: only G and M codes can be the builder's"));
+            }
         }
     }
     codes(table.codes, &table.source, &mut dialect)?;
@@ -68,7 +83,14 @@ fn start(table: &Table) -> Result<Dialect, DialectError> {
         }
         return match builtin(base.get_ref()) {
             Some(base) => Ok(base.clone()),
-            None => error(base.span(), format!("no built-in dialect `{}`; there are {}", base.get_ref(), crate::BUILTIN_NAMES.join(", "))),
+            None => error(
+                base.span(),
+                format!(
+                    "no built-in dialect `{}`; there are {}",
+                    base.get_ref(),
+                    crate::BUILTIN_NAMES.join(", ")
+                ),
+            ),
         };
     }
     let missing = match (&table.lex, &table.arc_tolerance) {
@@ -76,7 +98,10 @@ fn start(table: &Table) -> Result<Dialect, DialectError> {
         (_, None) => "[arc-tolerance]",
         _ => return Ok(Dialect::empty()),
     };
-    error(table.name.span(), format!("a table that extends no other needs {missing}"))
+    error(
+        table.name.span(),
+        format!("a table that extends no other needs {missing}"),
+    )
 }
 
 fn lex_options(lex: Lex) -> LexOptions {
@@ -97,7 +122,10 @@ fn arc_tolerance(row: &ArcToleranceRow) -> Result<ArcTolerance, DialectError> {
         if value.get_ref().is_finite() && *value.get_ref() > 0.0 {
             Ok(*value.get_ref())
         } else {
-            error(value.span(), format!("{} is no tolerance: give a number above 0", value.get_ref()))
+            error(
+                value.span(),
+                format!("{} is no tolerance: give a number above 0", value.get_ref()),
+            )
         }
     };
     if row.source.get_ref().trim().is_empty() {
@@ -106,7 +134,10 @@ fn arc_tolerance(row: &ArcToleranceRow) -> Result<ArcTolerance, DialectError> {
     let mm = positive(&row.mm)?;
     Ok(ArcTolerance {
         mm,
-        inch_mm: row.inch.as_ref().map_or(Ok(mm), |inch| positive(inch).map(|inch| inch * MM_PER_INCH))?,
+        inch_mm: row
+            .inch
+            .as_ref()
+            .map_or(Ok(mm), |inch| positive(inch).map(|inch| inch * MM_PER_INCH))?,
         relative: row.relative.as_ref().map_or(Ok(0.0), positive)?,
         relative_up_to: row.relative_up_to.as_ref().map_or(Ok(f64::INFINITY), positive)?,
         source: row.source.get_ref().clone(),
@@ -115,9 +146,18 @@ fn arc_tolerance(row: &ArcToleranceRow) -> Result<ArcTolerance, DialectError> {
 
 fn extensions(rows: &[Spanned<String>]) -> Result<Vec<String>, DialectError> {
     for row in rows {
-        let plain = row.get_ref().bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit());
+        let plain = row
+            .get_ref()
+            .bytes()
+            .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit());
         if row.get_ref().is_empty() || !plain {
-            return error(row.span(), format!("`{}`: write a file name extension in lower case without dot", row.get_ref()));
+            return error(
+                row.span(),
+                format!(
+                    "`{}`: write a file name extension in lower case without dot",
+                    row.get_ref()
+                ),
+            );
         }
     }
     Ok(rows.iter().map(|row| row.get_ref().clone()).collect())
@@ -127,7 +167,12 @@ fn roles(rows: &BTreeMap<Spanned<String>, Role>, dialect: &mut Dialect) -> Resul
     for (letter, &role) in rows {
         match letter.get_ref().as_bytes() {
             [upper @ b'A'..=b'Z'] => dialect.roles[usize::from(upper - b'A')] = Some(role),
-            _ => return error(letter.span(), format!("`{}` is not one upper-case letter", letter.get_ref())),
+            _ => {
+                return error(
+                    letter.span(),
+                    format!("`{}` is not one upper-case letter", letter.get_ref()),
+                );
+            }
         }
     }
     Ok(())
@@ -138,7 +183,10 @@ fn addresses(rows: &BTreeMap<Spanned<String>, Role>, dialect: &mut Dialect) -> R
         let text = name.get_ref();
         let stem = text.strip_suffix('#').unwrap_or(text);
         if !is_name(stem) || (stem.len() != 1 && stem.len() != text.len()) {
-            return error(name.span(), format!("`{text}`: write an upper-case name such as CR or A3, or one letter and `#`"));
+            return error(
+                name.span(),
+                format!("`{text}`: write an upper-case name such as CR or A3, or one letter and `#`"),
+            );
         }
         dialect.named.retain(|(known, _)| known != text);
         dialect.named.push((text.clone(), role));
@@ -149,23 +197,37 @@ fn addresses(rows: &BTreeMap<Spanned<String>, Role>, dialect: &mut Dialect) -> R
 
 fn codes(rows: BTreeMap<Spanned<String>, CodeRow>, source: &str, dialect: &mut Dialect) -> Result<(), DialectError> {
     if source.trim().is_empty() {
-        return Err(DialectError { message: "`source` is empty: name the standard or manual".to_owned(), span: None });
+        return Err(DialectError {
+            message: "`source` is empty: name the standard or manual".to_owned(),
+            span: None,
+        });
     }
     for (id, row) in rows {
         let pattern = Pattern::parse(&id, dialect.lex.format)?;
         let code = check_row(&id, row, source, dialect)?;
         dialect.codes.retain(|known| !pattern.matches(known));
         match pattern {
-            Pattern::Name(name) => dialect.codes.push(Code { id: name, kind: CodeKind::Name, ..code }),
+            Pattern::Name(name) => dialect.codes.push(Code {
+                id: name,
+                kind: CodeKind::Name,
+                ..code
+            }),
             Pattern::Numbers(kind, tenths) => {
                 let step = if tenths.start() == tenths.end() { 1 } else { 10 };
-                let ids = tenths.step_by(step).map(|t| Code { id: number_id(kind, t), kind, ..code.clone() });
+                let ids = tenths.step_by(step).map(|t| Code {
+                    id: number_id(kind, t),
+                    kind,
+                    ..code.clone()
+                });
                 dialect.codes.extend(ids);
             }
         }
     }
     if dialect.codes.len() >= usize::from(u16::MAX) {
-        return Err(DialectError { message: "more than 65534 codes".to_owned(), span: None });
+        return Err(DialectError {
+            message: "more than 65534 codes".to_owned(),
+            span: None,
+        });
     }
     Ok(())
 }
@@ -174,11 +236,17 @@ fn check_row(id: &Spanned<String>, row: CodeRow, source: &str, dialect: &Dialect
     if let Some(group) = &row.group
         && !dialect.groups.contains_key(group.get_ref())
     {
-        return error(group.span(), format!("`{}`: no group `{}` in [groups]", id.get_ref(), group.get_ref()));
+        return error(
+            group.span(),
+            format!("`{}`: no group `{}` in [groups]", id.get_ref(), group.get_ref()),
+        );
     }
     let doc = row.doc.get_ref();
     if doc.trim().is_empty() || doc.contains('\n') {
-        return error(row.doc.span(), format!("`{}`: say in one line what the code does", id.get_ref()));
+        return error(
+            row.doc.span(),
+            format!("`{}`: say in one line what the code does", id.get_ref()),
+        );
     }
     let own = row.source.map(|own| (own.span(), own.into_inner()));
     if let Some((span, text)) = &own
@@ -233,19 +301,33 @@ impl Pattern {
             return if apt_name || is_name(text) {
                 Ok(Self::Name(text.clone()))
             } else {
-                error(id.span(), format!("`{text}` is no code: write `G43.4`, `M6`, `G505..G599` or an upper-case name"))
+                error(
+                    id.span(),
+                    format!("`{text}` is no code: write `G43.4`, `M6`, `G505..G599` or an upper-case name"),
+                )
             };
         }
-        let kind = if from.starts_with('G') { CodeKind::G } else { CodeKind::M };
+        let kind = if from.starts_with('G') {
+            CodeKind::G
+        } else {
+            CodeKind::M
+        };
         match (number_tenths(from), number_tenths(to)) {
-            (Some(a), Some(b)) if from.as_bytes()[0] == to.as_bytes()[0] && (a < b || from == to) => Ok(Self::Numbers(kind, a..=b)),
-            _ => error(id.span(), format!("`{text}`: codes are 0 to 999.9 with at most one decimal and no leading zero")),
+            (Some(a), Some(b)) if from.as_bytes()[0] == to.as_bytes()[0] && (a < b || from == to) => {
+                Ok(Self::Numbers(kind, a..=b))
+            }
+            _ => error(
+                id.span(),
+                format!("`{text}`: codes are 0 to 999.9 with at most one decimal and no leading zero"),
+            ),
         }
     }
     fn matches(&self, code: &Code) -> bool {
         match self {
             Self::Name(name) => code.kind == CodeKind::Name && code.id == *name,
-            Self::Numbers(kind, tenths) => code.kind == *kind && number_tenths(&code.id).is_some_and(|t| tenths.contains(&t)),
+            Self::Numbers(kind, tenths) => {
+                code.kind == *kind && number_tenths(&code.id).is_some_and(|t| tenths.contains(&t))
+            }
         }
     }
 }
@@ -253,7 +335,9 @@ impl Pattern {
 /// Number of a canonical id in tenths: `G43.4` is 434. `None` unless it is written canonically.
 pub(crate) fn number_tenths(id: &str) -> Option<u32> {
     let digits = id.get(1..)?;
-    let (whole, tenth) = digits.split_once('.').map_or((digits, None), |(whole, tenth)| (whole, Some(tenth)));
+    let (whole, tenth) = digits
+        .split_once('.')
+        .map_or((digits, None), |(whole, tenth)| (whole, Some(tenth)));
     let canonical = !whole.is_empty() && whole.len() <= 3 && whole.bytes().all(|b| b.is_ascii_digit());
     if !canonical || (whole.len() > 1 && whole.starts_with('0')) {
         return None;
@@ -282,5 +366,7 @@ fn is_name(text: &str) -> bool {
 
 fn is_kebab(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_lowercase())
-        && text.split('-').all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit()))
+        && text
+            .split('-')
+            .all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit()))
 }

@@ -19,5 +19,8 @@ static LOADED: [OnceLock<Dialect>; 5] = [const { OnceLock::new() }; 5];
 /// A built-in dialect by name; loaded once. `None` when there is no such name.
 pub fn builtin(name: &str) -> Option<&'static Dialect> {
     let i = BUILTIN_NAMES.iter().position(|&known| known == name)?;
-    Some(LOADED[i].get_or_init(|| load(TABLES[i]).expect("the tables in grammar/dialects load: a test loads each of them")))
+    Some(
+        LOADED[i]
+            .get_or_init(|| load(TABLES[i]).expect("the tables in grammar/dialects load: a test loads each of them")),
+    )
 }

@@ -1,33 +1,41 @@
 //! Which dialect a program is written in, and why.
-use crate::{BUILTIN_NAMES, Dialect, builtin};
+use crate::{BUILTIN_NAMES, Dialect, builtin, modeline};
 
 /// A detected dialect with the reason for people.
 #[derive(Clone, Debug)]
 pub struct Detected {
     /// The dialect.
     pub dialect: &'static Dialect,
-    /// Why: "file extension .mpf", "modeline in line 1", "the machine's control family" ...
+    /// Why: "file extension .mpf", "the machine's control family" ...
     pub reason: String,
 }
 
-/// How many lines at the start may hold a modeline.
-const MODELINE_LINES: usize = 10;
 /// How much of a program is looked at for signs of its dialect, bytes.
 const CONTENT_BYTES: usize = 64 * 1024;
 
-/// Modeline comment `(trunnion: dialect NAME)` in the first 10 lines, then file extension, then the machine's control family, then content (first 64 KiB).
+/// Modeline comment `(trunnion: dialect NAME)` in the first 10 lines, then a file extension that one dialect owns, then the
+/// machine's control family, then content (first 64 KiB).
 pub fn detect(file_name: Option<&str>, source: &[u8], family: Option<&str>) -> Detected {
-    if let Some((dialect, line)) = modeline(source) {
-        return Detected { dialect, reason: format!("modeline in line {line}") };
+    if let Some(dialect) = modeline(source).dialect.as_deref().and_then(builtin) {
+        return Detected {
+            dialect,
+            reason: "modeline comment in the program".to_owned(),
+        };
     }
     let extension = file_name.and_then(extension);
     if let Some(extension) = &extension
         && let Some(dialect) = by_extension(extension)
     {
-        return Detected { dialect, reason: format!("file extension .{extension}") };
+        return Detected {
+            dialect,
+            reason: format!("file extension .{extension}"),
+        };
     }
     if let Some((family, dialect)) = family.and_then(|family| Some((family, builtin(family)?))) {
-        return Detected { dialect, reason: format!("the machine's control family {family}") };
+        return Detected {
+            dialect,
+            reason: format!("the machine's control family {family}"),
+        };
     }
     let (name, reason) = content(&source[..source.len().min(CONTENT_BYTES)]);
     let dialect = builtin(name).unwrap_or_else(core_dialect);
@@ -41,7 +49,9 @@ fn core_dialect() -> &'static Dialect {
 /// File name extensions (lower case, no dot) that name programs, of all built-in dialects.
 pub fn program_extensions() -> Vec<&'static str> {
     let dialects = BUILTIN_NAMES.iter().filter_map(|name| builtin(name));
-    dialects.flat_map(|dialect| dialect.extensions.iter().map(String::as_str)).collect()
+    dialects
+        .flat_map(|dialect| dialect.extensions.iter().map(String::as_str))
+        .collect()
 }
 
 /// Whether a file's name says that it holds a program; versions behind the name count (`part.ncl.8`).
@@ -61,29 +71,13 @@ fn extension(name: &str) -> Option<String> {
 
 /// The dialect that alone owns an extension. Extensions of the core (`.nc`) are shared by many controls and name none.
 fn by_extension(extension: &str) -> Option<&'static Dialect> {
-    let owners = BUILTIN_NAMES.iter().filter_map(|name| builtin(name)).filter(|dialect| dialect.name != core_dialect().name);
-    owners.into_iter().find(|dialect| dialect.extensions.iter().any(|known| known == extension))
-}
-
-/// `(trunnion: dialect NAME)`, `; trunnion: dialect NAME` or `$$ trunnion: dialect NAME` and its line; unknown names are passed over.
-fn modeline(source: &[u8]) -> Option<(&'static Dialect, usize)> {
-    let head = &source[..source.len().min(CONTENT_BYTES)];
-    for (i, line) in head.split(|&b| b == b'\n').take(MODELINE_LINES).enumerate() {
-        let line = String::from_utf8_lossy(line).to_ascii_lowercase();
-        for mark in ["(", ";", "$$"] {
-            for (at, _) in line.match_indices(mark) {
-                let Some(rest) = line[at + mark.len()..].trim_start().strip_prefix("trunnion:") else { continue };
-                let Some(rest) = rest.trim_start().strip_prefix("dialect") else { continue };
-                let name = rest.trim_start().split(|c: char| c.is_whitespace() || c == ')').next().unwrap_or_default();
-                if rest.starts_with(char::is_whitespace)
-                    && let Some(dialect) = builtin(name)
-                {
-                    return Some((dialect, i + 1));
-                }
-            }
-        }
-    }
-    None
+    let owners = BUILTIN_NAMES
+        .iter()
+        .filter_map(|name| builtin(name))
+        .filter(|dialect| dialect.name != core_dialect().name);
+    owners
+        .into_iter()
+        .find(|dialect| dialect.extensions.iter().any(|known| known == extension))
 }
 
 /// The dialect by what the text looks like, with the sign that decided.
@@ -118,9 +112,13 @@ fn line_signs(line: &str) -> Vec<(&'static str, u32, String)> {
     if line.starts_with("$$") {
         sign("apt", 8, "a `$$` comment");
     }
-    for word in ["PARTNO", "GOTO", "FEDRAT", "LOADTL", "SPINDL", "MULTAX", "CUTTER", "FINI"] {
+    for word in [
+        "PARTNO", "GOTO", "FEDRAT", "LOADTL", "SPINDL", "MULTAX", "CUTTER", "FINI",
+    ] {
         if let Some(rest) = line.strip_prefix(word)
-            && (rest.trim_start().starts_with('/') || (rest.is_empty() && word == "FINI") || (word == "PARTNO" && rest.starts_with(' ')))
+            && (rest.trim_start().starts_with('/')
+                || (rest.is_empty() && word == "FINI")
+                || (word == "PARTNO" && rest.starts_with(' ')))
         {
             sign("apt", 8, word);
         }
@@ -141,7 +139,10 @@ fn line_signs(line: &str) -> Vec<(&'static str, u32, String)> {
 }
 
 fn iso_signs(code: &str, sign: &mut dyn FnMut(&'static str, u32, &str)) {
-    for name in ["TRAORI", "TRAFOOF", "CYCLE800", "CYCLE832", "MCALL", "SUPA", "G710", "G700", "GOTOF", "GOTOB", "DIAMON", "DEF REAL", "DEF INT", "MSG("] {
+    for name in [
+        "TRAORI", "TRAFOOF", "CYCLE800", "CYCLE832", "MCALL", "SUPA", "G710", "G700", "GOTOF", "GOTOB", "DIAMON",
+        "DEF REAL", "DEF INT", "MSG(",
+    ] {
         if code.contains(name) {
             sign("sinumerik-840d", 10, name);
         }
@@ -153,15 +154,38 @@ fn iso_signs(code: &str, sign: &mut dyn FnMut(&'static str, u32, &str)) {
     if let Some(rest) = o_word {
         let after = rest.trim_start_matches(|c: char| c.is_ascii_digit());
         let label = after.len() < rest.len() || rest.starts_with('<') || rest.starts_with('#');
-        let words = ["SUB", "ENDSUB", "CALL", "IF", "WHILE", "DO", "REPEAT", "RETURN", "ELSE", "ENDIF", "ENDWHILE", "ENDREPEAT", "BREAK", "CONTINUE"];
-        let last = after.trim_start_matches(|c: char| c != '>' && after.contains('>')).trim_start_matches('>').trim_start();
+        let words = [
+            "SUB",
+            "ENDSUB",
+            "CALL",
+            "IF",
+            "WHILE",
+            "DO",
+            "REPEAT",
+            "RETURN",
+            "ELSE",
+            "ENDIF",
+            "ENDWHILE",
+            "ENDREPEAT",
+            "BREAK",
+            "CONTINUE",
+        ];
+        let last = after
+            .trim_start_matches(|c: char| c != '>' && after.contains('>'))
+            .trim_start_matches('>')
+            .trim_start();
         if label && words.iter().any(|word| last.starts_with(word)) {
             sign("linuxcnc", 10, "an O-word");
         } else if rest.len() >= 4 && rest.as_bytes()[..4].iter().all(u8::is_ascii_digit) {
             sign("fanuc-30i", 6, "a program number O");
         }
     }
-    for (name, text) in [("linuxcnc", "#<"), ("linuxcnc", "M428"), ("linuxcnc", "M429"), ("linuxcnc", "EXISTS[")] {
+    for (name, text) in [
+        ("linuxcnc", "#<"),
+        ("linuxcnc", "M428"),
+        ("linuxcnc", "M429"),
+        ("linuxcnc", "EXISTS["),
+    ] {
         if code.contains(text) {
             sign(name, 10, text);
         }
@@ -195,7 +219,12 @@ fn strip_comments(line: &str) -> String {
             ')' if depth_comment => depth_comment = false,
             _ if depth_comment => {}
             ';' => break,
-            '(' if !out.trim_end().ends_with(|c: char| c.is_ascii_alphabetic() || c == '0' || c == '2') => depth_comment = true,
+            '(' if !out
+                .trim_end()
+                .ends_with(|c: char| c.is_ascii_alphabetic() || c == '0' || c == '2') =>
+            {
+                depth_comment = true;
+            }
             _ => out.push(c),
         }
     }

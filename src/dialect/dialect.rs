@@ -1,5 +1,5 @@
 //! A dialect: look-ups over a loaded table.
-use crate::{Action, Owner, Role};
+use crate::{Action, Code, CodeKind, Role};
 use core::cmp::Ordering;
 use core::ops::RangeInclusive;
 use std::collections::BTreeMap;
@@ -7,38 +7,6 @@ use trunnion_syntax::LexOptions;
 
 /// Slots of the look-up of G and of M codes: 0 to 999.9 in tenths.
 pub(crate) const G_SLOTS: usize = 10_000;
-
-/// Whether a code is a G code, an M code or a name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CodeKind {
-    /// G with a number.
-    G,
-    /// M with a number.
-    M,
-    /// A name such as TRAORI or CYCLE800.
-    Name,
-}
-
-/// One code of a dialect.
-#[derive(Clone, Debug)]
-pub struct Code {
-    /// As people write it: `G43.4`, `M6`, `TRAORI`.
-    pub id: String,
-    /// G, M or name.
-    pub kind: CodeKind,
-    /// Modal group's name; two codes of one group in a block contradict each other. `None`: belongs to no group.
-    pub group: Option<String>,
-    /// Addresses the code reads beside the axes.
-    pub words: Vec<String>,
-    /// What it does.
-    pub action: Action,
-    /// One line for people.
-    pub doc: String,
-    /// Where that is written down.
-    pub source: String,
-    /// Who gives it that meaning.
-    pub owner: Owner,
-}
 
 /// Facts of a control that are neither letters nor codes. In TOML: table `[quirks]`, each key optional.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Deserialize)]
@@ -133,15 +101,26 @@ impl Dialect {
     /// the name without them.
     pub fn name(&self, name: &str) -> Option<&Code> {
         let exact = |name: &str| {
-            let found = self.names.binary_search_by(|&i| ignore_case(&self.codes[usize::from(i)].id, name)).ok()?;
+            let found = self
+                .names
+                .binary_search_by(|&i| ignore_case(&self.codes[usize::from(i)].id, name))
+                .ok()?;
             Some(&self.codes[usize::from(self.names[found])])
         };
         let stem = || name.trim_end_matches(|c: char| c.is_ascii_digit());
-        exact(name).or_else(|| if self.quirks.numbers_follow_names { exact(stem()) } else { None })
+        exact(name).or_else(|| {
+            if self.quirks.numbers_follow_names {
+                exact(stem())
+            } else {
+                None
+            }
+        })
     }
     /// Whether the builder of the machine may give the code, unknown to the control, a meaning (number in tenths).
     pub fn builder_may_own(&self, kind: CodeKind, tenths: u32) -> bool {
-        self.builder_codes.iter().any(|(known, range)| *known == kind && range.contains(&tenths))
+        self.builder_codes
+            .iter()
+            .any(|(known, range)| *known == kind && range.contains(&tenths))
     }
     /// How far the radii of an arc's start and end may differ, mm, where the larger one is `radius_mm`; `inch`: in a program in inch.
     pub fn arc_limit_mm(&self, radius_mm: f64, inch: bool) -> f64 {
@@ -155,9 +134,16 @@ impl Dialect {
     /// What a name before `=` means (`CR`, `TURN`, `A3`), ASCII case ignored. A letter with any number (`R#` in the table) is
     /// found when the very name is not.
     pub fn named_role(&self, name: &[u8]) -> Option<Role> {
-        let exact = |name: &[u8]| self.named.iter().find(|(known, _)| known.as_bytes().eq_ignore_ascii_case(name)).map(|row| row.1);
+        let exact = |name: &[u8]| {
+            self.named
+                .iter()
+                .find(|(known, _)| known.as_bytes().eq_ignore_ascii_case(name))
+                .map(|row| row.1)
+        };
         let any_number = || match name {
-            [letter, digits @ ..] if !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) => exact(&[*letter, b'#']),
+            [letter, digits @ ..] if !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) => {
+                exact(&[*letter, b'#'])
+            }
             _ => None,
         };
         exact(name).or_else(any_number)
@@ -168,7 +154,13 @@ impl Dialect {
     }
     /// A dialect that knows nothing.
     pub(crate) fn empty() -> Self {
-        let arc = ArcTolerance { mm: 0.0, inch_mm: 0.0, relative: 0.0, relative_up_to: 0.0, source: String::new() };
+        let arc = ArcTolerance {
+            mm: 0.0,
+            inch_mm: 0.0,
+            relative: 0.0,
+            relative_up_to: 0.0,
+            source: String::new(),
+        };
         Self {
             name: String::new(),
             title: String::new(),
@@ -189,41 +181,9 @@ impl Dialect {
     }
 }
 
-impl Code {
-    /// Markdown for an editor: what it is, what it does, what else is in its group's name, and where that is written down.
-    pub fn hover(&self) -> String {
-        let mut text = format!("**{}** {}\n", self.id, self.doc);
-        if let Some(group) = &self.group {
-            text.push_str(&format!("\nModal group: {group}\n"));
-        }
-        if !self.words.is_empty() {
-            text.push_str(&format!("\nReads: {}\n", self.words.join(" ")));
-        }
-        if self.owner == Owner::MachineBuilder {
-            text.push_str("\nGiven by the builder of the machine: yours may differ.\n");
-        }
-        match self.action {
-            Action::NotModelled => text.push_str("\nIts motion is not modelled: what follows is unknown until it is programmed anew.\n"),
-            Action::FrameChange => text.push_str("\nThe change of coordinates is not modelled: machine positions are unknown until it ends.\n"),
-            Action::CompensationLeft | Action::CompensationRight => text.push_str("\nThe compensated path is not modelled.\n"),
-            _ => {}
-        }
-        text.push_str(&format!("\n*{}*", self.source));
-        text
-    }
-}
-
 /// Order of text with ASCII lower case taken as upper case.
 fn ignore_case(a: &str, b: &str) -> Ordering {
-    a.bytes().map(|b| b.to_ascii_uppercase()).cmp(b.bytes().map(|b| b.to_ascii_uppercase()))
-}
-
-/// Order of codes: G, M, names; numbers by value, names by text.
-pub(crate) fn sort_key(code: &Code) -> (u8, u32, &str) {
-    let number = crate::assemble::number_tenths(&code.id).unwrap_or(0);
-    match code.kind {
-        CodeKind::G => (0, number, ""),
-        CodeKind::M => (1, number, ""),
-        CodeKind::Name => (2, 0, &code.id),
-    }
+    a.bytes()
+        .map(|b| b.to_ascii_uppercase())
+        .cmp(b.bytes().map(|b| b.to_ascii_uppercase()))
 }

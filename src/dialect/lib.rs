@@ -4,6 +4,7 @@
 mod action;
 mod assemble;
 mod builtin;
+mod code;
 mod detect;
 mod dialect;
 mod modeline;
@@ -12,8 +13,9 @@ mod textmate;
 
 pub use action::{Action, Plane, Role};
 pub use builtin::{BUILTIN_NAMES, builtin};
+pub use code::{Code, CodeKind};
 pub use detect::{Detected, detect, is_program_file_name, program_extensions};
-pub use dialect::{ArcTolerance, Code, CodeKind, Dialect, Quirks};
+pub use dialect::{ArcTolerance, Dialect, Quirks};
 pub use modeline::{Modeline, modeline};
 pub use schema::{DialectError, Owner, load};
 pub use textmate::textmate;

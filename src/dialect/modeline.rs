@@ -18,11 +18,18 @@ pub fn modeline(source: &[u8]) -> Modeline {
     let mut found = Modeline::default();
     for line in source.split(|&b| b == b'\n').take(LINES) {
         let text = String::from_utf8_lossy(&line[..line.len().min(400)]);
-        let Some(at) = text.to_ascii_lowercase().find("trunnion:") else { continue };
-        let rest: String = text.chars().skip(text[..at].chars().count() + "trunnion:".len()).collect();
+        let Some(at) = text.to_ascii_lowercase().find("trunnion:") else {
+            continue;
+        };
+        let rest: String = text
+            .chars()
+            .skip(text[..at].chars().count() + "trunnion:".len())
+            .collect();
         let end = rest.find([')', '*']).unwrap_or(rest.len());
         let mut words = rest[..end].split_whitespace();
-        let (Some(key), Some(name)) = (words.next(), words.next()) else { continue };
+        let (Some(key), Some(name)) = (words.next(), words.next()) else {
+            continue;
+        };
         match key.to_ascii_lowercase().as_str() {
             "dialect" => found.dialect = found.dialect.or(Some(name.to_ascii_lowercase())),
             "machine" => found.machine = found.machine.or(Some(name.to_owned())),
@@ -39,11 +46,31 @@ mod tests {
     #[test]
     fn any_comment_mark_will_do() {
         let all = modeline(b"%\n(TRUNNION: dialect LinuxCNC)\n; trunnion: machine samples/my.toml\nG1 X1\n");
-        assert_eq!(all, Modeline { dialect: Some("linuxcnc".into()), machine: Some("samples/my.toml".into()) });
-        assert_eq!(modeline(b"$$ trunnion: dialect apt\r\n").dialect.as_deref(), Some("apt"));
+        assert_eq!(
+            all,
+            Modeline {
+                dialect: Some("linuxcnc".into()),
+                machine: Some("samples/my.toml".into())
+            }
+        );
+        assert_eq!(
+            modeline(b"$$ trunnion: dialect apt\r\n").dialect.as_deref(),
+            Some("apt")
+        );
         assert_eq!(modeline(b"/* trunnion: machine m */").machine.as_deref(), Some("m"));
-        assert_eq!(modeline(b"(trunnion: tool 1 ball diameter 10)\n(trunnion: dialect)"), Modeline::default());
-        assert_eq!(modeline(&[b"\n".repeat(10), b"(trunnion: dialect apt)".to_vec()].concat()), Modeline::default());
-        assert_eq!(modeline("\u{130}\u{e4}(trunnion: machine m)".as_bytes()).machine.as_deref(), Some("m"));
+        assert_eq!(
+            modeline(b"(trunnion: tool 1 ball diameter 10)\n(trunnion: dialect)"),
+            Modeline::default()
+        );
+        assert_eq!(
+            modeline(&[b"\n".repeat(10), b"(trunnion: dialect apt)".to_vec()].concat()),
+            Modeline::default()
+        );
+        assert_eq!(
+            modeline("\u{130}\u{e4}(trunnion: machine m)".as_bytes())
+                .machine
+                .as_deref(),
+            Some("m")
+        );
     }
 }

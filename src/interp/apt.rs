@@ -1,1 +1,339 @@
 //! APT / CL records to motions.
+use crate::run::{Interpreter, Report, Sink};
+use crate::{FaultKind, FeedMode, Motion, Orientation};
+use trunnion_dialect::Action;
+use trunnion_geometry::Vec3;
+use trunnion_syntax::{AptArg, Block, Program, Record, TextRange};
+
+/// What APT keeps between records beside the modal state.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct AptState {
+    /// RAPID: the next motion is a rapid.
+    pub(crate) rapid: bool,
+    /// CIRCLE: the next GOTO is the end of this arc.
+    pub(crate) circle: Option<Circle>,
+    /// TLAXIS: the orientation of the next motion.
+    pub(crate) axis: Option<Orientation>,
+    /// The last vector could not be read, so no orientation is in force.
+    pub(crate) axis_lost: bool,
+}
+
+/// An arc that waits for its end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Circle {
+    /// Centre mm and unit axis; `None` where the record could not be read.
+    pub(crate) shape: Option<(Vec3, Vec3)>,
+    /// mm, where it is written.
+    pub(crate) radius: Option<f64>,
+    pub(crate) range: TextRange,
+}
+
+/// The arguments of a record: up to sixteen numbers in order, and the minor words.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Args {
+    numbers: [f64; 16],
+    count: usize,
+    words: [TextRange; 8],
+    word_count: usize,
+    /// For each word, how many numbers stand before it.
+    before: [usize; 8],
+    /// Something is neither a number nor a word.
+    pub(crate) odd: bool,
+    /// Bytes of the first argument to the last.
+    pub(crate) range: TextRange,
+}
+
+impl Args {
+    fn new(record: &Record<'_>) -> Self {
+        let mut args = Self {
+            numbers: [0.0; 16],
+            count: 0,
+            words: [TextRange::default(); 8],
+            word_count: 0,
+            before: [0; 8],
+            odd: false,
+            range: record.range,
+        };
+        let mut whole: Option<TextRange> = None;
+        for arg in record.args() {
+            let range = match arg {
+                AptArg::Number(decimal, range) => {
+                    let value = decimal.to_f64();
+                    if args.count == args.numbers.len() || value.abs() > 1e12 {
+                        args.odd = true;
+                    } else {
+                        args.numbers[args.count] = value;
+                        args.count += 1;
+                    }
+                    range
+                }
+                AptArg::Word(range) => {
+                    if args.word_count < args.words.len() {
+                        args.words[args.word_count] = range;
+                        args.before[args.word_count] = args.count;
+                        args.word_count += 1;
+                    }
+                    range
+                }
+                AptArg::Other(range) => {
+                    args.odd = true;
+                    range
+                }
+            };
+            whole = Some(whole.map_or(range, |whole| whole.cover(range)));
+        }
+        if let Some(whole) = whole {
+            args.range = whole;
+        }
+        args
+    }
+    pub(crate) fn numbers(&self) -> &[f64] {
+        &self.numbers[..self.count]
+    }
+    /// Minor words, upper case comparison is [`Args::has`].
+    pub(crate) fn words(&self) -> &[TextRange] {
+        &self.words[..self.word_count]
+    }
+    pub(crate) fn has(&self, program: &Program, word: &str) -> bool {
+        self.words().iter().any(|&range| is(program, range, word))
+    }
+    /// The number that follows a minor word.
+    pub(crate) fn after(&self, program: &Program, word: &str) -> Option<f64> {
+        let at = self.words().iter().position(|&range| is(program, range, word))?;
+        self.numbers().get(self.before[at]).copied()
+    }
+}
+
+/// Whether a range is this word, in either case.
+pub(crate) fn is(program: &Program, range: TextRange, word: &str) -> bool {
+    program
+        .source()
+        .get(range.as_usize())
+        .is_some_and(|text| text.eq_ignore_ascii_case(word.as_bytes()))
+}
+
+/// A major word in upper case, as far as it fits.
+fn upper<'b>(program: &Program, range: TextRange, buffer: &'b mut [u8; 12]) -> &'b [u8] {
+    let text = program.source().get(range.as_usize()).unwrap_or_default();
+    let length = text.len().min(buffer.len());
+    for (to, from) in buffer.iter_mut().zip(text) {
+        *to = from.to_ascii_uppercase();
+    }
+    if text.len() > buffer.len() {
+        b""
+    } else {
+        &buffer[..length]
+    }
+}
+
+impl Interpreter<'_> {
+    /// Runs one APT record.
+    pub(crate) fn step_apt(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
+        let Some(record) = block.record() else { return };
+        self.has_content(block);
+        let motion = {
+            let mut report = Report {
+                program: block.program(),
+                block: block.id(),
+                whole: record.range,
+                faults: &mut |fault| sink.fault(fault),
+            };
+            self.record(&record, &mut report)
+        };
+        if let Some(motion) = motion {
+            sink.motion(&motion, &self.state);
+        }
+    }
+
+    fn record(&mut self, record: &Record<'_>, report: &mut Report<'_>) -> Option<Motion> {
+        let args = Args::new(record);
+        let program = report.program;
+        match upper(program, record.major, &mut [0; 12]) {
+            b"GOTO" => return Some(self.goto(&args, report)),
+            b"GODLTA" => return Some(self.godlta(&args, report)),
+            b"FROM" => self.from(&args, report),
+            b"RAPID" => self.rapid(report),
+            b"CIRCLE" => self.circle(&args, report),
+            b"DELAY" => return Some(self.delay(&args, report)),
+            b"FEDRAT" => self.fedrat(&args, report),
+            b"UNITS" | b"UNIT" => self.units(&args, report),
+            b"MULTAX" => self.state.multax = !args.has(program, "OFF"),
+            b"TLAXIS" => self.tool_axis(&args, report),
+            b"SPINDL" => self.spindl(&args, report),
+            b"CUTTER" => self.cutter(&args, report),
+            b"LOADTL" => self.load_tool(&args, report),
+            b"LOAD" | b"TOOLNO" if args.has(program, "TOOL") || record.is("TOOLNO") => self.load_tool(&args, report),
+            b"CUTCOM" => self.cutcom(&args, report),
+            b"CYCLE" => self.cycle(&args, report),
+            b"CSYS" => self.csys(record, &args, report),
+            b"END" | b"FINI" => {
+                self.state.ended = true;
+                self.memory.proper_end = true;
+            }
+            _ => self.other_record(record, report),
+        }
+        None
+    }
+
+    /// Records that only the dialect's table knows.
+    fn other_record(&mut self, record: &Record<'_>, report: &mut Report<'_>) {
+        let text = report.program.text(record.major).into_owned();
+        match self.dialect.name(&text).map(|code| code.action) {
+            Some(Action::NotModelled | Action::FrameChange | Action::CannedCycle | Action::SubprogramCall) => {
+                report.fault(record.range, FaultKind::NotModelled { what: text });
+                self.forget_position();
+                self.apt.circle = None;
+            }
+            Some(_) => {}
+            None => report.fault(record.major, FaultKind::AptUnknownRecord),
+        }
+    }
+
+    fn rapid(&mut self, report: &mut Report<'_>) {
+        if let Some(circle) = self.apt.circle.take() {
+            report.fault(
+                circle.range,
+                FaultKind::NotModelled {
+                    what: "CIRCLE followed by RAPID".to_owned(),
+                },
+            );
+        }
+        self.apt.rapid = true;
+    }
+
+    fn units(&mut self, args: &Args, report: &mut Report<'_>) {
+        let unit = match args.words().first() {
+            Some(&word) if is(report.program, word, "MM") => 1.0,
+            Some(&word) if is(report.program, word, "CM") => 10.0,
+            Some(&word)
+                if ["INCHES", "INCH", "IN"]
+                    .iter()
+                    .any(|inch| is(report.program, word, inch)) =>
+            {
+                25.4
+            }
+            _ => {
+                let what = report.program.text(report.whole).into_owned();
+                report.fault(TextRange::default(), FaultKind::NotModelled { what });
+                self.forget_position();
+                return;
+            }
+        };
+        self.state.length_unit_mm = unit;
+        self.state.feed_unit_mm = unit;
+    }
+
+    /// FEDRAT/v, FEDRAT/v,MMPM, FEDRAT/MMPM,v; without a unit length units per minute.
+    fn fedrat(&mut self, args: &Args, report: &mut Report<'_>) {
+        let program = report.program;
+        if args.has(program, "RAPID") {
+            return self.rapid(report);
+        }
+        let units = [
+            ("MMPM", FeedMode::PerMinute, Some(1.0)),
+            ("IPM", FeedMode::PerMinute, Some(25.4)),
+            ("PERMIN", FeedMode::PerMinute, None),
+            ("MMPR", FeedMode::PerRevolution, Some(1.0)),
+            ("IPR", FeedMode::PerRevolution, Some(25.4)),
+            ("PERREV", FeedMode::PerRevolution, None),
+            ("INVERS", FeedMode::InverseTime, Some(1.0)),
+        ];
+        let unit = match args.words() {
+            [] => Some((FeedMode::PerMinute, None)),
+            words => units
+                .iter()
+                .find(|(name, ..)| words.iter().any(|&word| is(program, word, name)))
+                .map(|&(_, mode, unit)| (mode, unit)),
+        };
+        match (unit, args.numbers().first()) {
+            (Some((mode, unit)), Some(value)) if !args.odd => {
+                self.state.feed_mode = mode;
+                self.state.feed = Some(value * unit.unwrap_or(self.state.feed_unit_mm));
+                self.memory.feed_unread = false;
+            }
+            _ => {
+                let what = program.text(report.whole).into_owned();
+                report.fault(TextRange::default(), FaultKind::NotModelled { what });
+                self.state.feed = None;
+                self.memory.feed_unread = true;
+            }
+        }
+    }
+
+    /// SPINDL/n[,RPM][,CLW|CCLW], SPINDL/ON, SPINDL/OFF; a cutting speed (SFM, SMM) leaves the turns unknown.
+    fn spindl(&mut self, args: &Args, report: &Report<'_>) {
+        let program = report.program;
+        if args.has(program, "OFF") {
+            self.state.spindle_on = Some(false);
+            return;
+        }
+        if args.has(program, "LOCK") || args.has(program, "ORIENT") {
+            self.state.spindle_on = Some(false);
+            return;
+        }
+        self.state.spindle_on = Some(true);
+        if let Some(&speed) = args.numbers().first() {
+            let cutting_speed = args.has(program, "SFM") || args.has(program, "SMM");
+            self.state.spindle_rpm = Some(speed).filter(|_| !cutting_speed && !args.odd);
+            if speed == 0.0 {
+                self.state.spindle_on = Some(false);
+            }
+        }
+    }
+
+    fn cutcom(&mut self, args: &Args, report: &mut Report<'_>) {
+        let program = report.program;
+        self.state.compensation = if args.has(program, "LEFT") {
+            41
+        } else if args.has(program, "RIGHT") {
+            42
+        } else {
+            0
+        };
+        let on = self.state.compensation != 0 || args.has(program, "ON");
+        if on && !std::mem::replace(&mut self.memory.compensation_said, true) {
+            let what = "cutter radius compensation: path is the programmed one".to_owned();
+            report.fault(TextRange::default(), FaultKind::NotModelled { what });
+        }
+    }
+
+    /// CYCLE/...: each GOTO until CYCLE/OFF runs it.
+    fn cycle(&mut self, args: &Args, report: &mut Report<'_>) {
+        if args.has(report.program, "OFF") {
+            self.state.motion = Some(Action::Linear);
+            return;
+        }
+        if !args.has(report.program, "ON") || args.words().len() > 1 {
+            let kind = args
+                .words()
+                .first()
+                .map(|&word| report.program.text(word).into_owned())
+                .unwrap_or_default();
+            report.fault(
+                TextRange::default(),
+                FaultKind::NotModelled {
+                    what: format!("CYCLE/{kind}"),
+                },
+            );
+        }
+        self.state.motion = Some(Action::CannedCycle);
+    }
+
+    /// CSYS/ with the identity changes nothing; any other system is not modelled.
+    fn csys(&mut self, record: &Record<'_>, args: &Args, report: &mut Report<'_>) {
+        const IDENTITY: [f64; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        let identity = !args.odd && args.numbers() == IDENTITY;
+        if !identity {
+            report.fault(
+                record.range,
+                FaultKind::NotModelled {
+                    what: "CSYS".to_owned(),
+                },
+            );
+        }
+        if identity == self.state.frame_unknown {
+            self.state.frame_unknown = !identity;
+            self.forget_position();
+        }
+    }
+}

@@ -34,9 +34,16 @@ pub(crate) type Outcome = (Option<Arc>, Option<FaultKind>);
 /// The arc of a block; no arc and no fault where the start, the end or the centre is not known.
 pub(crate) fn arc(setting: &ArcSetting<'_>, words: &Words) -> Outcome {
     let axes = plane_axes(setting.plane);
-    let by_centre = axes[..2].iter().any(|&axis| (words.centre.given | words.centre.unread) & (1 << axis) != 0);
+    let by_centre = axes[..2]
+        .iter()
+        .any(|&axis| (words.centre.given | words.centre.unread) & (1 << axis) != 0);
     match (words.radius.is_said(), by_centre) {
-        (true, true) => (None, Some(FaultKind::NotModelled { what: "R together with I, J, K".to_owned() })),
+        (true, true) => (
+            None,
+            Some(FaultKind::NotModelled {
+                what: "R together with I, J, K".to_owned(),
+            }),
+        ),
         (true, false) => by_radius(setting, words, axes),
         (false, true) => by_centre_words(setting, words, axes),
         (false, false) => (None, Some(FaultKind::ArcCentreMissing)),
@@ -82,12 +89,19 @@ fn by_centre_words(setting: &ArcSetting<'_>, words: &Words, axes: [usize; 3]) ->
             },
         };
     }
-    let Some((start, end, whole)) = ends(setting, axes) else { return (None, None) };
-    let Some(turns) = setting.turns else { return (None, None) };
+    let Some((start, end, whole)) = ends(setting, axes) else {
+        return (None, None);
+    };
+    let Some(turns) = setting.turns else {
+        return (None, None);
+    };
     let Some(arc) = Arc::from_centre(start, end, centre, normal(axes), setting.turning, turns) else {
         return (None, Some(FaultKind::ArcCentreMissing));
     };
-    (whole.then_some(arc), mismatch(&arc, setting.dialect, setting.length_unit_mm))
+    (
+        whole.then_some(arc),
+        mismatch(&arc, setting.dialect, setting.length_unit_mm),
+    )
 }
 
 /// Whether the two radii of an arc differ by more than the dialect allows.
@@ -99,13 +113,21 @@ pub(crate) fn mismatch(arc: &Arc, dialect: &Dialect, length_unit_mm: f64) -> Opt
 
 /// The arc of a given radius: positive the one below half a turn, negative the one above.
 fn by_radius(setting: &ArcSetting<'_>, words: &Words, axes: [usize; 3]) -> Outcome {
-    let Some(number) = words.radius.number() else { return (None, None) };
-    let Some((start, end, whole)) = ends(setting, axes) else { return (None, None) };
+    let Some(number) = words.radius.number() else {
+        return (None, None);
+    };
+    let Some((start, end, whole)) = ends(setting, axes) else {
+        return (None, None);
+    };
     let radius = number.value * setting.length_unit_mm;
-    let tolerance = setting.dialect.arc_limit_mm(radius.abs(), setting.length_unit_mm != 1.0);
+    let tolerance = setting
+        .dialect
+        .arc_limit_mm(radius.abs(), setting.length_unit_mm != 1.0);
     match Arc::from_radius(start, end, radius, normal(axes), setting.turning, tolerance) {
         Ok(mut arc) => {
-            let Some(turns) = setting.turns else { return (None, None) };
+            let Some(turns) = setting.turns else {
+                return (None, None);
+            };
             arc.sweep += arc.sweep.signum() * f64::from(turns) * core::f64::consts::TAU;
             (whole.then_some(arc), None)
         }

@@ -62,9 +62,15 @@ impl<'d> Interpreter<'d> {
             conflicts(codes, report);
             codes.sort_by_key(|found| rank(found.code.action));
         }
-        let mut block = BlockCodes { count: codes.len(), ..BlockCodes::default() };
+        let mut block = BlockCodes {
+            count: codes.len(),
+            ..BlockCodes::default()
+        };
         let mut rest = &*codes;
-        while let Some((found, after)) = rest.split_first().filter(|(found, _)| rank(found.code.action) < FIRST_AFTER_WORDS) {
+        while let Some((found, after)) = rest
+            .split_first()
+            .filter(|(found, _)| rank(found.code.action) < FIRST_AFTER_WORDS)
+        {
             self.apply_code(found, words, &mut block, report);
             rest = after;
         }
@@ -155,7 +161,11 @@ impl<'d> Interpreter<'d> {
             Action::CannedCycle => {
                 // MCALL with a cycle behind it begins, MCALL alone ends
                 let ends = found.code.kind == CodeKind::Name && !found.with_arguments && block.count == 1;
-                if ends { self.cycle_off(found.code) } else { self.canned_cycle(found, block, report) }
+                if ends {
+                    self.cycle_off(found.code)
+                } else {
+                    self.canned_cycle(found, block, report)
+                }
             }
             Action::CycleOff => self.cycle_off(found.code),
             Action::SubprogramCall => {
@@ -183,7 +193,11 @@ impl<'d> Interpreter<'d> {
         if !words.feed.is_said() || dwell_reads(codes, "F") {
             return;
         }
-        let unit = if self.state.feed_mode == FeedMode::InverseTime { 1.0 } else { self.state.feed_unit_mm };
+        let unit = if self.state.feed_mode == FeedMode::InverseTime {
+            1.0
+        } else {
+            self.state.feed_unit_mm
+        };
         self.state.feed = words.feed.number().map(|number| number.value * unit);
         self.memory.feed_unread = self.state.feed.is_none();
     }
@@ -192,8 +206,11 @@ impl<'d> Interpreter<'d> {
         // G92 S and the like limit the speed
         let limit = || codes.iter().any(|found| found.code.action == Action::FrameChange) && !words.axes.any();
         if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
-            self.state.spindle_rpm =
-                words.speed.number().map(|number| number.value).filter(|_| !self.memory.surface_speed);
+            self.state.spindle_rpm = words
+                .speed
+                .number()
+                .map(|number| number.value)
+                .filter(|_| !self.memory.surface_speed);
         }
     }
 
@@ -262,7 +279,10 @@ impl<'d> Interpreter<'d> {
                     | Action::Absolute
             )
         };
-        self.dialect.codes().iter().any(|code| code.group.as_deref() == group && meaning(code.action))
+        self.dialect
+            .codes()
+            .iter()
+            .any(|code| code.group.as_deref() == group && meaning(code.action))
     }
 
     fn motion_group(&self) -> Option<&'d str> {
@@ -314,14 +334,20 @@ fn not_modelled(found: &Found<'_>, report: &mut Report<'_>) {
 
 /// Whether a dwell of the block takes the word for itself.
 fn dwell_reads(codes: &[Found<'_>], word: &str) -> bool {
-    codes.iter().any(|found| found.code.action == Action::Dwell && found.code.words.iter().any(|known| known == word))
+    codes
+        .iter()
+        .any(|found| found.code.action == Action::Dwell && found.code.words.iter().any(|known| known == word))
 }
 
 /// Two different codes of one group.
 fn conflicts(codes: &[Found<'_>], report: &mut Report<'_>) {
     for (at, second) in codes.iter().enumerate() {
-        let Some(group) = second.code.group.as_deref() else { continue };
-        let first = codes[..at].iter().find(|first| first.code.group.as_deref() == Some(group));
+        let Some(group) = second.code.group.as_deref() else {
+            continue;
+        };
+        let first = codes[..at]
+            .iter()
+            .find(|first| first.code.group.as_deref() == Some(group));
         if let Some(first) = first.filter(|first| !std::ptr::eq(first.code, second.code)) {
             let kind = FaultKind::GroupConflict {
                 group: group.to_owned(),

@@ -3,13 +3,22 @@
 //!
 //! It does not know machines: a [`Motion`] says what is programmed, not what joints do.
 mod apt;
+mod apt_motion;
+mod apt_tool;
+mod arc;
+mod codes;
 mod directive;
 mod fault;
 mod iso;
+mod memory;
 mod modal;
 mod motion;
+mod offsets;
+mod orientation;
 mod run;
 mod setup;
+mod tools;
+mod words;
 
 pub use directive::{Directive, directives};
 pub use fault::{Fault, FaultKind};

@@ -83,7 +83,8 @@ impl<'d> Memory<'d> {
     pub(crate) fn known_again(&mut self, code: &Code) {
         if !self.frames.is_empty() && !matches!(code.action, Action::NotModelled | Action::FrameChange) {
             let key = code.group.as_deref();
-            self.frames.retain(|frame| !(frame.any_code_ends && Some(frame.key) == key));
+            self.frames
+                .retain(|frame| !(frame.any_code_ends && Some(frame.key) == key));
         }
     }
     pub(crate) fn frame_unknown(&self) -> bool {

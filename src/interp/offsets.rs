@@ -36,10 +36,18 @@ impl Interpreter<'_> {
     /// Selects a work offset by the code's own name, with P where the code reads one (G54.1 P3).
     pub(crate) fn work_offset(&mut self, found: &Found<'_>, words: &Words, report: &mut Report<'_>) {
         let mut name = found.code.id.clone();
-        if let Some(p) = words.p.index().filter(|_| found.code.words.iter().any(|word| word == "P")) {
+        if let Some(p) = words
+            .p
+            .index()
+            .filter(|_| found.code.words.iter().any(|word| word == "P"))
+        {
             name = format!("{name} P{p}");
         }
-        let declared = self.setup.work_offsets.iter().find(|offset| offset.name.eq_ignore_ascii_case(&name));
+        let declared = self
+            .setup
+            .work_offsets
+            .iter()
+            .find(|offset| offset.name.eq_ignore_ascii_case(&name));
         let zero = declared.map(|offset| offset.values);
         if zero.is_none() && self.memory.offset_is_news(&name) {
             report.fault(found.range, FaultKind::WorkOffsetUnset { name: name.clone() });

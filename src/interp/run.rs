@@ -42,8 +42,16 @@ pub(crate) struct Report<'a> {
 impl Report<'_> {
     /// A fact; an empty range stands for the whole block.
     pub(crate) fn fault(&mut self, range: TextRange, kind: FaultKind) {
-        let range = if range == TextRange::default() { self.whole } else { range };
-        (self.faults)(Fault { block: self.block, range, kind });
+        let range = if range == TextRange::default() {
+            self.whole
+        } else {
+            range
+        };
+        (self.faults)(Fault {
+            block: self.block,
+            range,
+            kind,
+        });
     }
 }
 
@@ -59,7 +67,10 @@ impl<'d> Interpreter<'d> {
             apt: crate::apt::AptState::default(),
         };
         if dialect.quirks.first_offset_at_start {
-            let first = setup.work_offsets.iter().find(|offset| offset.name.eq_ignore_ascii_case("G54"));
+            let first = setup
+                .work_offsets
+                .iter()
+                .find(|offset| offset.name.eq_ignore_ascii_case("G54"));
             if let Some(offset) = first {
                 interpreter.set_zero(Some("G54".into()), offset.values);
             }
@@ -97,7 +108,11 @@ impl<'d> Interpreter<'d> {
 
     fn finish(&mut self, sink: &mut impl Sink) {
         if let Some((block, range)) = self.memory.last_content.filter(|_| !self.memory.proper_end) {
-            sink.fault(Fault { block, range, kind: FaultKind::MissingProgramEnd });
+            sink.fault(Fault {
+                block,
+                range,
+                kind: FaultKind::MissingProgramEnd,
+            });
         }
     }
 }

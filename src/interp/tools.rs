@@ -2,7 +2,8 @@
 use crate::memory::Chosen;
 use crate::run::{Interpreter, Report};
 use crate::words::{Said, Words};
-use crate::{Program, Setup, Tool};
+use crate::{Setup, Tool};
+use trunnion_syntax::Program;
 
 /// Lays `over` on `under`: what it declares counts.
 fn lay(over: Option<&Tool>, under: Tool) -> Tool {
@@ -12,7 +13,12 @@ fn lay(over: Option<&Tool>, under: Tool) -> Tool {
         Some(shape) => (Some(shape), over.diameter_mm.or(under.diameter_mm)),
         None => (under.shape, over.diameter_mm.or(under.diameter_mm)),
     };
-    Tool { number: under.number, shape, diameter_mm, length_mm: over.length_mm.or(under.length_mm) }
+    Tool {
+        number: under.number,
+        shape,
+        diameter_mm,
+        length_mm: over.length_mm.or(under.length_mm),
+    }
 }
 
 fn numbered(tools: &[Tool], number: u32) -> Option<&Tool> {
@@ -32,7 +38,13 @@ impl Interpreter<'_> {
         self.memory.directives_read = true;
         self.memory.declared = crate::directives(program)
             .into_iter()
-            .filter_map(|(_, directive)| if let crate::Directive::Tool(tool) = directive { Some(tool) } else { None })
+            .filter_map(|(_, directive)| {
+                if let crate::Directive::Tool(tool) = directive {
+                    Some(tool)
+                } else {
+                    None
+                }
+            })
             .collect();
         self.merge_tool();
     }
@@ -51,8 +63,17 @@ impl Interpreter<'_> {
         if number.is_none() && any.is_none() && any_declared.is_none() && self.memory.cutter.is_none() {
             return None;
         }
-        let empty = Tool { number: number.unwrap_or(0), shape: None, diameter_mm: None, length_mm: None };
-        let named = |tools| number.filter(|&number| number != 0).and_then(|number| numbered(tools, number));
+        let empty = Tool {
+            number: number.unwrap_or(0),
+            shape: None,
+            diameter_mm: None,
+            length_mm: None,
+        };
+        let named = |tools| {
+            number
+                .filter(|&number| number != 0)
+                .and_then(|number| numbered(tools, number))
+        };
         let merged = lay(named(&setup.tools), empty);
         let merged = lay(named(declared), merged);
         let merged = lay(any_declared, merged);
@@ -84,7 +105,11 @@ impl Interpreter<'_> {
             Said::Number(_) => words.tool.index().map_or(Chosen::Unread, Chosen::Number),
             Said::Unread => Chosen::Unread,
         };
-        self.state.tool_prepared = if let Chosen::Number(number) = chosen { Some(number) } else { None };
+        self.state.tool_prepared = if let Chosen::Number(number) = chosen {
+            Some(number)
+        } else {
+            None
+        };
         self.memory.prepared = chosen;
         if self.dialect.quirks.tool_word_changes {
             self.change_tool(report);

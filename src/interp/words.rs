@@ -27,7 +27,11 @@ pub(crate) enum Said {
 
 impl Said {
     pub(crate) fn number(self) -> Option<Number> {
-        if let Self::Number(number) = self { Some(number) } else { None }
+        if let Self::Number(number) = self {
+            Some(number)
+        } else {
+            None
+        }
     }
     pub(crate) fn is_said(self) -> bool {
         !matches!(self, Self::Nothing)
@@ -124,7 +128,15 @@ pub(crate) struct Words {
 /// A number, unless it is beyond what can be reckoned with.
 fn number(decimal: Decimal, range: TextRange) -> Said {
     let value = decimal.to_f64();
-    if value.abs() <= LARGEST { Said::Number(Number { value, has_point: decimal.has_point, range }) } else { Said::Unread }
+    if value.abs() <= LARGEST {
+        Said::Number(Number {
+            value,
+            has_point: decimal.has_point,
+            range,
+        })
+    } else {
+        Said::Unread
+    }
 }
 
 /// No coordinate, feed or number of a tool is larger; squares and sums stay finite.
@@ -200,7 +212,11 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             Address::Letter(letter) => self.letter_word(letter, word),
             Address::Indexed(letter, index) => self.indexed_word(letter, index, word),
             Address::Named(name) => {
-                let role = self.program.source().get(name.as_usize()).and_then(|name| self.dialect.named_role(name));
+                let role = self
+                    .program
+                    .source()
+                    .get(name.as_usize())
+                    .and_then(|name| self.dialect.named_role(name));
                 match role {
                     Some(role) => self.role_word(role, b' ', word),
                     None if self.dialect.quirks.user_names => self.words.has_values = true,
@@ -350,14 +366,17 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             CodeKind::M => self.dialect.m(tenths),
             _ => self.dialect.g(tenths),
         });
-        match code {
-            Some(code) => self.codes.push(Found { code, range: word.range, with_arguments: false }),
-            None => {
-                let machine_builder = tenths.is_some_and(|tenths| self.dialect.builder_may_own(kind, tenths));
-                self.words.unknown_code |= kind == CodeKind::G;
-                (self.report)(word.range, FaultKind::UnknownCode { machine_builder });
-            }
+        if let Some(code) = code {
+            self.codes.push(Found {
+                code,
+                range: word.range,
+                with_arguments: false,
+            });
+            return;
         }
+        let machine_builder = tenths.is_some_and(|tenths| self.dialect.builder_may_own(kind, tenths));
+        self.words.unknown_code |= kind == CodeKind::G;
+        (self.report)(word.range, FaultKind::UnknownCode { machine_builder });
     }
 
     fn call(&mut self, call: &Call) {
@@ -366,7 +385,9 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 return;
             }
             let kind = if self.dialect.quirks.user_names {
-                FaultKind::NotModelled { what: self.text(call.range) }
+                FaultKind::NotModelled {
+                    what: self.text(call.range),
+                }
             } else {
                 FaultKind::UnknownCode { machine_builder: false }
             };
@@ -377,9 +398,16 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             self.words.declares = true;
         }
         let with_arguments = call.arguments.is_some_and(|inner| {
-            self.program.source().get(inner.as_usize()).is_some_and(|text| text.iter().any(|b| !b.is_ascii_whitespace()))
+            self.program
+                .source()
+                .get(inner.as_usize())
+                .is_some_and(|text| text.iter().any(|b| !b.is_ascii_whitespace()))
         });
-        self.codes.push(Found { code, range: call.range, with_arguments });
+        self.codes.push(Found {
+            code,
+            range: call.range,
+            with_arguments,
+        });
     }
 
     fn name(&self, range: TextRange) -> Option<&'d Code> {

@@ -31,18 +31,7 @@ impl Track {
     pub(crate) fn at(&self, t: f64) -> (Vec3, Vec3) {
         match self {
             Self::Line(way) => (way * t, *way),
-            Self::Arc(arc) => {
-                let (sin, cos) = sin_cos(arc.sweep * t);
-                let spoke = arc.start - arc.centre;
-                let spoke = spoke - arc.normal * arc.normal.dot(&spoke);
-                let radial = spoke.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
-                let across = arc.normal.cross(&radial);
-                let (rise, widening) = (arc_rise(arc), arc.radius_end - arc.radius_start);
-                let radius = arc.radius_start + widening * t;
-                let (out, along) = (radial * cos + across * sin, across * cos - radial * sin);
-                let way = out * radius - radial * arc.radius_start + arc.normal * (rise * t);
-                (way, out * widening + along * (radius * arc.sweep) + arc.normal * rise)
-            }
+            Self::Arc(arc) => (arc.point_at(t) - arc.start, arc.derivative_at(t)),
         }
     }
     /// Largest rate, smallest rate and largest second derivative.
@@ -51,26 +40,14 @@ impl Track {
             Self::Line(way) => (way.norm(), way.norm(), 0.0),
             Self::Arc(arc) => {
                 let widening = arc.radius_end - arc.radius_start;
-                let rate = |radius: f64| {
-                    (radius * radius * arc.sweep * arc.sweep + widening * widening + arc_rise(arc) * arc_rise(arc)).sqrt()
-                };
+                let rest = widening * widening + arc.height() * arc.height();
+                let rate = |radius: f64| (radius * radius * arc.sweep * arc.sweep + rest).sqrt();
                 let (least, most) = (arc.radius_start.min(arc.radius_end), arc.radius_start.max(arc.radius_end));
                 let bend = most * arc.sweep * arc.sweep + 2.0 * (widening * arc.sweep).abs();
                 (rate(most), rate(least), bend)
             }
         }
     }
-}
-
-fn arc_rise(arc: &Arc) -> f64 {
-    (arc.end - arc.start).dot(&arc.normal)
-}
-
-/// Length of an arc or helix, mm (a spiral counts with its mean radius).
-pub(crate) fn arc_length(arc: &Arc) -> f64 {
-    let mean = 0.5 * (arc.radius_start + arc.radius_end);
-    let widening = arc.radius_end - arc.radius_start;
-    (mean * mean * arc.sweep * arc.sweep + widening * widening + arc_rise(arc) * arc_rise(arc)).sqrt()
 }
 
 /// Joints and rates at one moment.

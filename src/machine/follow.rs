@@ -1,7 +1,7 @@
 //! Motions to joints, block by block along one posture: the machine re-runs the program.
 use crate::choice::{cheapest_in_posture, choose};
-use crate::forward::{Turn, place, segment_shifts};
-use crate::inverse::inverse_turned;
+use crate::forward::{Turn, segment_shifts};
+use crate::inverse::{inverse_turned, place};
 use crate::pole;
 use crate::words::{Words, XYZ, zero_point};
 use crate::{Joints, MAX_AXES, Machine};
@@ -380,7 +380,7 @@ impl<'m> Follower<'m> {
         let motion = &leg.motion;
         match &motion.kind {
             MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => 0.0,
-            MotionKind::Arc(Some(arc)) => crate::course::arc_length(arc),
+            MotionKind::Arc(Some(arc)) => arc.length(),
             MotionKind::Rapid | MotionKind::Linear => {
                 if let (true, Some(start), Ok(end)) = (has_tip_words(motion), &leg.start, &leg.end) {
                     return (end.point - start.point_with(end.tool_length)).norm();

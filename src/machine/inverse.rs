@@ -174,10 +174,13 @@ pub(crate) fn inverse_turned(
     tool_length: f64,
 ) -> Option<()> {
     let constants = &machine.constants;
-    for &index in &constants.solved {
-        joints[constants.linear[index].joint] = 0.0;
+    let mut rest = [Vec3::zeros(); 3];
+    if constants.linear_count > 3 {
+        for &index in &constants.solved {
+            joints[constants.linear[index].joint] = 0.0;
+        }
+        rest = segment_shifts(constants, joints);
     }
-    let rest = segment_shifts(constants, joints);
     let tool = machine.gauge_point - machine.tool_axis * tool_length;
     match constants.shared_segment {
         Some(segment) => {

@@ -12,6 +12,7 @@ mod course;
 mod deviation;
 mod describe;
 mod follow;
+mod formula;
 mod forward;
 mod inverse;
 mod limits;

@@ -1,5 +1,9 @@
 //! One row of a trace: what the machine does in one motion, in the units people read.
-use crate::{Leg, Machine};
+use crate::follow::has_tip_words;
+use crate::speed::feed_limit_tight;
+use crate::{AxisKind, Leg, Machine, block_duration_s, tip_deviation};
+use trunnion_geometry::deg;
+use trunnion_interp::{Feed, MotionKind};
 use trunnion_syntax::BlockId;
 
 /// One row; see the interface's section on `trace`. mm, deg, mm/min, s.
@@ -33,8 +37,48 @@ pub struct Row {
     pub joints: Vec<Option<f64>>,
 }
 
-/// The row of a leg.
+/// Deviations up to this need no tighter bound in a trace, mm.
+const TRACE_TOLERANCE_MM: f64 = 2e-4;
+
+/// The row of a leg. Branch and pole angle are empty for machines without two rotary axes, deviation and feed limit where nothing moves
+/// along a path (dwell) or where they are not known.
 pub fn row(machine: &Machine, leg: &Leg) -> Row {
-    let _ = (machine, leg);
-    todo!()
+    let motion = &leg.motion;
+    let stance = leg.end.as_ref().ok();
+    let posture = stance.filter(|_| machine.constants.pair.is_some());
+    let limit = feed_limit_tight(machine, leg).filter(|limit| limit.feed_mm_min.is_finite());
+    let axes = machine.axes.iter().enumerate();
+    let joint = |(index, axis): (usize, &crate::Axis)| {
+        (leg.known_joints.1 & (1 << index) != 0).then(|| match axis.kind {
+            AxisKind::Linear => leg.known_joints.0[index],
+            AxisKind::Rotary => deg(leg.known_joints.0[index]),
+        })
+    };
+    Row {
+        block: motion.block,
+        motion: match motion.kind {
+            MotionKind::Rapid => "rapid",
+            MotionKind::Linear => "linear",
+            MotionKind::Arc(_) => "arc",
+            MotionKind::Dwell(_) => "dwell",
+            MotionKind::Unknown => "unknown",
+        },
+        tcp: has_tip_words(motion),
+        tip_mm: stance.map(|s| s.tip.into()),
+        axis: stance.map(|s| s.axis.into()),
+        feed_mm_min: match motion.feed {
+            _ if !motion.is_feed() => None,
+            Feed::PerMinute(feed) => Some(feed),
+            Feed::PerRevolution(feed) => motion.spindle_rpm.map(|rpm| feed * rpm),
+            Feed::InverseTime(per_minute) => (leg.length > 0.0).then_some(per_minute * leg.length),
+            Feed::Unknown | Feed::Rapid => None,
+        },
+        duration_s: block_duration_s(machine, leg),
+        branch: posture.map(|s| s.branch),
+        pole_angle_deg: posture.map(|s| deg(s.pole_angle)),
+        tip_deviation_mm: tip_deviation(machine, leg, TRACE_TOLERANCE_MM).map(|d| d.bound_mm),
+        feed_limit_mm_min: limit.map(|limit| limit.feed_mm_min),
+        limiting_axis: limit.map(|limit| char::from(machine.axes[limit.axis].letter)),
+        joints: axes.map(joint).collect(),
+    }
 }

@@ -1,7 +1,7 @@
 //! The machine file (TOML, schema `ncmachine/1`, kinematics notes 7): read, checked, turned into mm, rad and s, with clear errors.
 use crate::control::control;
 use crate::raw::{Number, RawBody, RawMachine, RawTolerances, RawUnits};
-use crate::validate::{Fault, axis, gantry, non_negative, point, positive, unit_vector};
+use crate::validate::{Fault, axis, gantry, point, positive, unit_vector};
 use crate::{Axis, AxisKind, Body, Constants, Gantry, MAX_AXES, Machine, Side, Tolerances};
 use core::ops::Range;
 use trunnion_geometry::math::angle_between;

@@ -1,5 +1,10 @@
 //! How fast a block can run, and how long it takes.
-use crate::{Leg, Machine};
+use crate::bound::{Piece, peak};
+use crate::course::Course;
+use crate::follow::has_tip_words;
+use crate::{AxisKind, Leg, Machine};
+use trunnion_geometry::{deg, Vec3};
+use trunnion_interp::{Feed, MotionKind};
 
 /// The highest feed of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,15 +19,181 @@ pub struct FeedLimit {
     pub axis_limit: f64,
 }
 
-/// The worst moment inside the block. `None`: stance unknown, no length, or no axis that moves has a declared speed.
+/// Relative width to which the worst moment of a linear axis is closed in.
+const TIGHT: f64 = 1e-3;
+
+/// The worst moment inside the block. `None`: stance or path unknown, no length, or no axis that moves has a declared speed.
+///
+/// Never above the true limit. Where the programmed feed is above it, it is within 1e-3 of the true limit; where the program stays
+/// below, a coarser bound may be given. Without TCP the joints run linearly and the feed is that of the programmed X Y Z path; with
+/// TCP (or vectors) the rotary joints run linearly and the linear joints' rates change within the block: samples of their exact rates
+/// and a bound of their second derivative (kinematics notes 3 and 4.1).
 pub fn feed_limit(machine: &Machine, leg: &Leg) -> Option<FeedLimit> {
-    let _ = (machine, leg);
-    todo!()
+    limit(machine, leg, programmed_feed(leg).unwrap_or(f64::INFINITY))
 }
 
-/// How long the block takes at the programmed feed, without acceleration, s: lowest and highest (rapid: by the slowest axis;
-/// feed: not faster than the axes allow). `None`: unknown.
+/// [`feed_limit`], always within 1e-3.
+pub(crate) fn feed_limit_tight(machine: &Machine, leg: &Leg) -> Option<FeedLimit> {
+    limit(machine, leg, f64::INFINITY)
+}
+
+/// An axis and how much of its speed limit one block per second takes.
+#[derive(Clone, Copy)]
+struct Load {
+    axis: usize,
+    limit: f64,
+    rate: f64,
+}
+
+impl Load {
+    fn share(&self) -> f64 {
+        self.rate / self.limit
+    }
+}
+
+/// `enough_mm_min`: a feed from which on a coarse answer does.
+fn limit(machine: &Machine, leg: &Leg, enough_mm_min: f64) -> Option<FeedLimit> {
+    if leg.length <= 0.0 {
+        return None;
+    }
+    let course = Course::new(machine, leg)?;
+    let (_, slowest_tip, _) = course.track.bounds();
+    // rates are per block; the track's slowest moment carries the feed (a spiral's speed differs a little along it)
+    let slowest = if slowest_tip > 0.0 { slowest_tip } else { leg.length };
+    let mut worst = constant_load(&course);
+    if let Some(linear) = linear_load(&course, worst.map_or(0.0, |w| w.share()), slowest * 60.0 / enough_mm_min) {
+        worst = Some(linear);
+    }
+    let worst = worst?;
+    let feed = programmed_feed(leg);
+    Some(FeedLimit {
+        feed_mm_min: 60.0 * slowest / worst.share(),
+        axis: worst.axis,
+        axis_speed: feed.map(|feed| worst.rate * feed / (60.0 * slowest)),
+        axis_limit: worst.limit,
+    })
+}
+
+/// The axes that run at a constant rate: rotary ones, and linear ones that inverse kinematics does not solve for.
+fn constant_load(course: &Course<'_>) -> Option<Load> {
+    let constants = &course.machine.constants;
+    let mut worst: Option<Load> = None;
+    for (joint, axis) in course.machine.axes.iter().enumerate() {
+        let solved = axis.kind == AxisKind::Linear && constants.solved.iter().any(|&i| constants.linear[i].joint == joint);
+        let rate = (course.end.joints[joint] - course.start.joints[joint]).abs();
+        if let (false, Some(limit)) = (solved || rate == 0.0, axis.max_speed) {
+            let load = Load { axis: joint, limit, rate };
+            if worst.is_none_or(|w| load.share() > w.share()) {
+                worst = Some(load);
+            }
+        }
+    }
+    worst
+}
+
+/// The three solved linear axes, if one of them takes more than the share `above` of its limit. A bound below `coarse` need not be
+/// closed in further.
+fn linear_load(course: &Course<'_>, above: f64, coarse: f64) -> Option<Load> {
+    let constants = &course.machine.constants;
+    let joints = constants.solved.map(|index| constants.linear[index].joint);
+    let speeds = joints.map(|joint| course.machine.axes[joint].max_speed);
+    // shares per rate; an undeclared speed never limits
+    let per_rate = Vec3::from_iterator(speeds.iter().map(|speed| speed.map_or(0.0, |s| 1.0 / s)));
+    let load = |share: f64, rates: &Vec3| {
+        let shares = rates.abs().component_mul(&per_rate);
+        let slot = shares.imax();
+        speeds[slot].map(|limit| Load { axis: joints[slot], limit, rate: share * limit })
+    };
+    let (rates, bends) = course.bends();
+    let share = rates.component_mul(&per_rate).max();
+    if !(share > above) {
+        return None;
+    }
+    if bends.max() == 0.0 || share <= coarse {
+        return load(share, &rates);
+    }
+    let slope = bends.component_mul(&per_rate).max();
+    let shares = |t: f64| course.moment(t).rates.abs().component_mul(&per_rate).max();
+    let found = peak(
+        shares,
+        |piece: &Piece| piece.below_roof(slope),
+        |bound, sampled, _| bound <= above || bound <= coarse || bound <= sampled * (1.0 + TIGHT),
+    );
+    let bound = found.bound.min(share);
+    if !(bound > above) || !bound.is_finite() {
+        return None;
+    }
+    load(bound, &course.moment(found.at).rates)
+}
+
+/// Programmed feed along the path, mm/min; `None` for rapids and where it is unknown.
+fn programmed_feed(leg: &Leg) -> Option<f64> {
+    match leg.motion.feed {
+        Feed::PerMinute(feed) => Some(feed),
+        Feed::PerRevolution(feed) => Some(feed * leg.motion.spindle_rpm?),
+        Feed::InverseTime(per_minute) => Some(per_minute * leg.length),
+        Feed::Unknown | Feed::Rapid => None,
+    }
+}
+
+/// How long the block takes at the programmed feed, without acceleration, s. `None`: unknown.
+///
+/// Rapid: the slowest axis. Feed: length over F, or the angle (root of the sum of squares of the rotary increments, degrees) over F
+/// where no linear axis moves (RS274/NGC); in both cases not less than the slowest axis needs for its way.
 pub fn block_duration_s(machine: &Machine, leg: &Leg) -> Option<f64> {
-    let _ = (machine, leg);
-    todo!()
+    match leg.motion.kind {
+        MotionKind::Dwell(seconds) => return seconds,
+        MotionKind::Unknown | MotionKind::Arc(None) => return None,
+        MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(Some(_)) => {}
+    }
+    let axes = axes_time(machine, leg);
+    let programmed = match leg.motion.feed {
+        Feed::Rapid => return axes.filter(|time| time.complete).map(|time| time.seconds),
+        Feed::Unknown => return None,
+        Feed::InverseTime(per_minute) if per_minute > 0.0 => 60.0 / per_minute,
+        Feed::InverseTime(_) => return None,
+        Feed::PerMinute(_) | Feed::PerRevolution(_) => {
+            let feed = programmed_feed(leg).filter(|feed| *feed > 0.0)?;
+            let way = if leg.length > 0.0 { leg.length } else { rotary_way(leg)? };
+            way / feed * 60.0
+        }
+    };
+    Some(axes.map_or(programmed, |time| programmed.max(time.seconds)))
+}
+
+/// Length of a block in which only rotary axes move, in degrees; `None` where the stances are not known.
+fn rotary_way(leg: &Leg) -> Option<f64> {
+    if let (Some(from), Some(to)) = (leg.motion.start.xyz(), leg.motion.end.xyz())
+        && from == to
+        && !has_tip_words(&leg.motion)
+        && leg.start.is_none()
+    {
+        return None;
+    }
+    leg.start.as_ref()?;
+    leg.end.as_ref().ok()?;
+    let [a, b] = leg.rotary_change.map(deg);
+    Some((a * a + b * b).sqrt())
+}
+
+/// Time the axes need.
+struct AxesTime {
+    seconds: f64,
+    /// Every axis that moves has a declared speed.
+    complete: bool,
+}
+
+/// Time of the slowest axis over its whole way; `None` where the stances are not known.
+fn axes_time(machine: &Machine, leg: &Leg) -> Option<AxesTime> {
+    let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
+    let mut time = AxesTime { seconds: 0.0, complete: true };
+    for (joint, axis) in machine.axes.iter().enumerate() {
+        let way = (end.joints[joint] - start.joints[joint]).abs();
+        match axis.max_speed {
+            _ if way == 0.0 => {}
+            Some(speed) => time.seconds = time.seconds.max(way / speed),
+            None => time.complete = false,
+        }
+    }
+    Some(time)
 }

@@ -2,7 +2,14 @@
 //!
 //! It does no I/O and never vouches for itself.
 mod propose;
+mod reposition;
 mod rewrites;
+mod slots;
+mod stations;
+mod style;
+mod survey;
+mod taut_string;
+mod unwrap;
 
 pub use propose::{Attempt, Options, Proposal, Rewrite, attempt};
 pub use rewrites::{rewrite, rewrites};

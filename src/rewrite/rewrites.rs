@@ -1,9 +1,44 @@
-//! The list of rewrites, alphabetical.
-use crate::Rewrite;
+//! The list of rewrites, alphabetical. A rewrite is one file in `rewrites/`; its name stands in two lists here.
+mod smooth_pole;
+mod unwind_rotary;
 
-/// All rewrites.
+use crate::{Options, Proposal, Rewrite};
+use trunnion_check::{Settings, header};
+use trunnion_syntax::Program;
+
+/// What a rewrite file says about itself; name and documentation come from the file.
+#[derive(Clone, Copy)]
+pub(crate) struct Body {
+    /// Rules whose findings it may cure.
+    pub(crate) cures: &'static [&'static str],
+    /// Proposes; see [`Rewrite::propose`].
+    pub(crate) propose: fn(&Program, &Settings<'_>, &Options) -> Result<Option<Proposal>, String>,
+}
+
+/// The rewrites of the files named: name from the file's name, documentation from the file's header. The `mod` lines stay
+/// plain above, because rustfmt does not follow those a macro makes.
+macro_rules! table {
+    ($($file:ident),* $(,)?) => {
+        &[$({
+            const SOURCE: &str = include_str!(concat!("rewrites/", stringify!($file), ".rs"));
+            const DOCS: [u8; header::docs_len(SOURCE)] = header::docs_bytes(SOURCE);
+            const NAME: [u8; stringify!($file).len()] = header::dashed(stringify!($file));
+            static REWRITE: Rewrite = Rewrite {
+                name: header::text(&NAME),
+                docs: header::text(&DOCS),
+                cures: $file::REWRITE.cures,
+                propose: $file::REWRITE.propose,
+            };
+            &REWRITE
+        }),*]
+    };
+}
+
+static REWRITES: &[&Rewrite] = table![smooth_pole, unwind_rotary];
+
+/// All rewrites, by name.
 pub fn rewrites() -> &'static [&'static Rewrite] {
-    &[]
+    REWRITES
 }
 
 /// A rewrite by name.

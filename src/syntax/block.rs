@@ -1,5 +1,7 @@
 //! Borrowed views: blocks, and the items in them.
-use crate::{BlockId, Decimal, Program, TextRange};
+use crate::items::comment;
+use crate::{BlockId, Decimal, Format, Items, Program, Record, TextRange, TokenId, TokenKind};
+use core::ops::Range;
 
 /// A view of one block.
 #[derive(Clone, Copy)]
@@ -88,38 +90,6 @@ pub enum Item {
     Other(TextRange),
 }
 
-/// Iterator over the items of a block. No allocation.
-#[derive(Clone)]
-pub struct Items<'p> {
-    pub(crate) program: &'p Program,
-    pub(crate) next: u32,
-    pub(crate) end: u32,
-}
-
-/// An argument of an APT record.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AptArg {
-    /// A number and its bytes.
-    Number(Decimal, TextRange),
-    /// A minor word or identifier.
-    Word(TextRange),
-    /// Anything else, e.g. a nested definition `(POINT/1,2)`, or a broken number.
-    Other(TextRange),
-}
-
-/// An APT record: major word and what follows the slash.
-#[derive(Clone, Copy)]
-pub struct Record<'p> {
-    /// The program.
-    pub program: &'p Program,
-    /// The major word's bytes (`GOTO`); compare case-insensitively.
-    pub major: TextRange,
-    /// Bytes of the statement.
-    pub range: TextRange,
-    pub(crate) first: u32,
-    pub(crate) end: u32,
-}
-
 impl<'p> Block<'p> {
     /// Which block.
     pub fn id(&self) -> BlockId {
@@ -129,48 +99,52 @@ impl<'p> Block<'p> {
     pub fn program(&self) -> &'p Program {
         self.program
     }
+    /// Its tokens, the line end included.
+    pub fn tokens(&self) -> Range<TokenId> {
+        self.program.block_tokens(self.id)
+    }
     /// Its bytes without the line end.
     pub fn range(&self) -> TextRange {
-        todo!()
+        let tokens = self.tokens();
+        let table = &self.program.tokens;
+        let full = table.range(tokens.start).cover(table.range(tokens.end - 1));
+        match table.kind(tokens.end - 1) {
+            TokenKind::Newline => TextRange::new(full.start, table.range(tokens.end - 1).start),
+            _ => full,
+        }
     }
-    /// Its items, ISO format (APT: comments and other tokens only).
+    /// Its items, ISO format. In APT format: comments, and every other token but blanks as [`Item::Other`].
+    #[inline]
     pub fn items(&self) -> Items<'p> {
-        todo!()
+        let tokens = self.tokens();
+        Items::new(self.program.scan(tokens.end), tokens.start)
     }
     /// Only the words.
     pub fn words(&self) -> impl Iterator<Item = Word> + use<'p> {
         self.items().filter_map(|item| if let Item::Word(word) = item { Some(word) } else { None })
     }
-    /// The block number as written (`N2930`), if there is one.
+    /// The block number as written (`N2930`), if there is one. Marks and labels may stand in front of it.
     pub fn number(&self) -> Option<TextRange> {
-        todo!()
+        let first = self.items().find(|item| !matches!(item, Item::Skip(..) | Item::Comment(_)))?;
+        match first {
+            Item::Word(Word { address: Address::Letter(b'N'), value: Value::Number(_), range, .. }) => Some(range),
+            _ => None,
+        }
     }
-    /// APT: the record, unless the statement is empty or only a comment.
+    /// APT: the record, unless the statement is empty, is only a comment, or does not begin with a word (reported).
     pub fn record(&self) -> Option<Record<'p>> {
-        todo!()
+        let tokens = self.tokens();
+        match self.program.options.format {
+            Format::Iso => None,
+            Format::Apt => Record::read(self.program, self.program.scan(tokens.end), tokens.start),
+        }
     }
-    /// All comments of the block, both formats.
+    /// All comments of the block, both formats, those inside words and brackets included.
     pub fn comments(&self) -> impl Iterator<Item = Comment> + use<'p> {
-        self.items().filter_map(|item| if let Item::Comment(comment) = item { Some(comment) } else { None })
-    }
-}
-
-impl Iterator for Items<'_> {
-    type Item = Item;
-    fn next(&mut self) -> Option<Item> {
-        let _ = (self.program, self.next, self.end);
-        todo!()
-    }
-}
-
-impl<'p> Record<'p> {
-    /// The major word's text, upper case comparison is the caller's: `record.is("GOTO")`.
-    pub fn is(&self, major: &str) -> bool {
-        self.program.source()[self.major.as_usize()].eq_ignore_ascii_case(major.as_bytes())
-    }
-    /// The arguments in order.
-    pub fn args(&self) -> impl Iterator<Item = AptArg> + use<'p> {
-        let _ = (self.first, self.end);
-        std::iter::empty()
+        let program = self.program;
+        self.tokens().filter_map(move |id| match program.tokens.kind(id) {
+            TokenKind::Comment | TokenKind::UnclosedComment => Some(comment(&program.source, program.tokens.range(id))),
+            _ => None,
+        })
     }
 }

@@ -22,9 +22,7 @@ enum Raw {
     SpacedWord,
     #[regex(b"[A-Za-z@^]", priority = 8)]
     Letter,
-    #[regex(b"[A-Za-z_$][A-Za-z_]+")]
-    #[regex(b"[_$][A-Za-z_][A-Za-z0-9_]*")]
-    #[regex(b"[A-Za-z_$][A-Za-z_]+[A-Za-z0-9]{0,30}_[A-Za-z0-9_]*")]
+    #[regex(b"[A-Za-z][A-Za-z_]+|[_$][A-Za-z_][A-Za-z0-9_]*|[A-Za-z][A-Za-z_]+[A-Za-z0-9]{0,30}_[A-Za-z0-9_]*")]
     Name,
     #[regex(b"[Oo][ \t]*<[^<>\r\n]*>")]
     NamedO,

@@ -164,13 +164,14 @@ impl<'p> Items<'p> {
                 if self.assigns(equals) {
                     return self.assignment(at, Address::Named(scan.span(at, end)), equals, sink);
                 }
-                self.other(at, end, SyntaxErrorKind::UnexpectedCharacter, sink)
+                sink.report(SyntaxErrorKind::UnexpectedCharacter, scan.span(at, end));
+                self.silent(at, end)
             }
             TokenKind::Percent => self.percent(at, stage, sink),
             TokenKind::Colon if stage <= Stage::Numbered => match scan.kind(at + 1) {
                 TokenKind::Number => self.label(at, at + 2),
                 TokenKind::Name => self.label(at, scan.name_end(at + 1)),
-                _ => self.other(at, at + 1, SyntaxErrorKind::UnexpectedCharacter, sink),
+                _ => self.stray(at, sink),
             },
             TokenKind::Comma => self.comma(at, sink),
             _ => self.stray(at, sink),
@@ -181,13 +182,6 @@ impl<'p> Items<'p> {
         self.at = to;
         self.stage = Stage::Numbered;
         Item::Label(self.scan.span(from, to))
-    }
-
-    /// The tokens `from..to` as text that fits nowhere; the first one is reported.
-    pub(crate) fn other(&mut self, from: TokenId, to: TokenId, kind: SyntaxErrorKind, sink: &mut impl Sink) -> Item {
-        sink.report(kind, self.scan.range(from));
-        self.at = to;
-        Item::Other(self.scan.span(from, to))
     }
 
     /// Whether a single `=` stands at `at`.
@@ -221,7 +215,7 @@ impl<'p> Items<'p> {
         let mut item = match self.scan.kind(next) {
             TokenKind::Word => self.word(next, sink),
             TokenKind::Letter => self.letter(next, next, sink),
-            _ => return self.other(at, at + 1, SyntaxErrorKind::UnexpectedCharacter, sink),
+            _ => return self.stray(at, sink),
         };
         if let Item::Word(word) = &mut item {
             let start = self.scan.range(at).start;

@@ -2,22 +2,34 @@
 //!
 //! It does not know what a letter means: dialects live one floor up. Parsing is total: it returns a [`Program`] and,
 //! beside it, the problems as facts ([`SyntaxError`]); it never fails. The tokens concatenate to the source.
+mod apt;
 mod block;
+mod builder;
 mod edit;
 mod error;
+mod expression;
 mod iso;
-mod apt;
+mod items;
+mod lines;
 mod number;
 mod options;
 mod program;
+mod record;
+mod relex;
+mod scan;
+mod sink;
+mod stray;
 mod table;
 mod token;
 
-pub use block::{Address, AptArg, Block, Call, Comment, Item, Items, Record, Value, Word};
-pub use edit::{apply_edits, TextEdit};
+pub use block::{Address, Block, Call, Comment, Item, Value, Word};
+pub use edit::{TextEdit, apply_edits};
 pub use error::{SyntaxError, SyntaxErrorKind};
+pub use items::Items;
+pub use lines::LineIndex;
 pub use number::Decimal;
 pub use options::{Format, LexOptions};
-pub use program::{BlockId, LineIndex, Program, parse};
+pub use program::{BlockId, Program, parse};
+pub use record::{AptArg, Record};
 pub use table::{TextRange, TokenId, TokenTable};
 pub use token::TokenKind;

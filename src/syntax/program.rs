@@ -1,12 +1,16 @@
 //! A parsed program: source, tokens, blocks and problems.
-use crate::{Block, LexOptions, SyntaxError, TextRange, TokenTable};
+use crate::builder::Builder;
+use crate::scan::Scan;
+use crate::{Block, Format, LexOptions, SyntaxError, SyntaxErrorKind, TextRange, TokenId, TokenTable, apt, iso};
+use core::ops::Range;
+use std::borrow::Cow;
 
 /// Index of a block; one block per line (APT: per statement, which may span lines by `$`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct BlockId(pub u32);
 
 /// A parsed program. Owns its source; blocks and words are views into it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
     pub(crate) source: Vec<u8>,
     pub(crate) options: LexOptions,
@@ -18,8 +22,27 @@ pub struct Program {
 
 /// Parses any bytes. Total: problems are in [`Program::errors`].
 pub fn parse(source: Vec<u8>, options: LexOptions) -> Program {
-    let _ = (source, options);
-    todo!()
+    parse_up_to(source, options, u32::MAX)
+}
+
+/// Parses the first `limit` bytes: offsets must fit their type.
+fn parse_up_to(source: Vec<u8>, options: LexOptions, limit: u32) -> Program {
+    let length = source.len().min(limit as usize);
+    let mut out = Builder::with_room(length);
+    lex(&source[..length], options, true, &mut out);
+    if length < source.len() {
+        let range = TextRange::new(limit.saturating_sub(1), limit);
+        out.errors.push(SyntaxError { kind: SyntaxErrorKind::TooLarge, range });
+    }
+    Program { source, options, tokens: out.table, blocks: out.blocks, errors: out.errors }
+}
+
+/// Lexes `source` with the lexer of its format.
+pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut Builder) {
+    match options.format {
+        Format::Iso => iso::lex(source, options, at_start, out),
+        Format::Apt => apt::lex(source, options, at_start, out),
+    }
 }
 
 impl Program {
@@ -39,11 +62,11 @@ impl Program {
     pub fn errors(&self) -> &[SyntaxError] {
         &self.errors
     }
-    /// Number of blocks (lines, empty ones included; APT: statements).
+    /// Number of blocks (lines, empty ones included; a line end at the end of the file opens no further one; APT: statements).
     pub fn block_count(&self) -> usize {
         self.blocks.len()
     }
-    /// View of one block.
+    /// View of one block. Its number must be below [`Self::block_count`].
     pub fn block(&self, id: BlockId) -> Block<'_> {
         Block { program: self, id }
     }
@@ -51,33 +74,49 @@ impl Program {
     pub fn blocks(&self) -> impl Iterator<Item = Block<'_>> {
         (0..self.blocks.len() as u32).map(|i| self.block(BlockId(i)))
     }
-    /// The block that holds the byte `offset`.
+    /// The block that holds the byte `offset`, its line end included; the end of the text belongs to the last block.
+    /// `None` beyond it, and in an empty program.
     pub fn block_at(&self, offset: u32) -> Option<BlockId> {
-        let _ = offset;
-        todo!()
+        if offset > self.tokens.end {
+            return None;
+        }
+        let behind = self.blocks.partition_point(|&first| self.tokens.starts[first as usize] <= offset);
+        behind.checked_sub(1).map(|index| BlockId(index as u32))
     }
     /// The text of a range, where it is UTF-8; else with replacement characters.
-    pub fn text(&self, range: TextRange) -> std::borrow::Cow<'_, str> {
-        String::from_utf8_lossy(&self.source[range.as_usize()])
+    pub fn text(&self, range: TextRange) -> Cow<'_, str> {
+        String::from_utf8_lossy(self.bytes(range))
+    }
+    /// The bytes of a range; of the part inside the file where it reaches outside.
+    pub fn bytes(&self, range: TextRange) -> &[u8] {
+        let end = (range.end as usize).min(self.source.len());
+        &self.source[(range.start as usize).min(end)..end]
+    }
+    /// The tokens of a block.
+    #[inline]
+    pub(crate) fn block_tokens(&self, id: BlockId) -> Range<TokenId> {
+        let end = self.blocks.get(id.0 as usize + 1).copied().unwrap_or(self.tokens.kinds.len() as u32);
+        self.blocks[id.0 as usize]..end
+    }
+    /// A look at the tokens before `end`.
+    #[inline]
+    pub(crate) fn scan(&self, end: TokenId) -> Scan<'_> {
+        Scan { source: &self.source, table: &self.tokens, options: self.options, end }
     }
 }
 
-/// Line starts of a text: byte offsets to lines and columns and back.
-#[derive(Clone, Debug)]
-pub struct LineIndex {
-    /// Byte offset of the start of each line (lines end with `\n`, `\r\n` or a lone `\r`).
-    pub starts: Vec<u32>,
-}
+#[cfg(test)]
+mod tests {
+    use super::parse_up_to;
+    use crate::{LexOptions, SyntaxErrorKind, TextRange};
 
-impl LineIndex {
-    /// Line starts of `source`.
-    pub fn new(source: &[u8]) -> Self {
-        let _ = source;
-        todo!()
-    }
-    /// Line and column of a byte, both from 1; the column counts Unicode characters (invalid bytes count one each).
-    pub fn line_column(&self, source: &[u8], offset: u32) -> (u32, u32) {
-        let _ = (source, offset);
-        todo!()
+    #[test]
+    fn a_file_that_is_too_large_is_parsed_as_far_as_offsets_reach() {
+        let program = parse_up_to(b"G1 X1\nG1 X23456\n".to_vec(), LexOptions::default(), 12);
+        assert_eq!(program.block_count(), 2);
+        assert_eq!(program.tokens().range(program.tokens().len() as u32 - 1).end, 12);
+        assert_eq!(program.errors().len(), 1);
+        assert_eq!(program.errors()[0].kind, SyntaxErrorKind::TooLarge);
+        assert_eq!(program.errors()[0].range, TextRange::new(11, 12));
     }
 }

@@ -47,12 +47,10 @@ impl<'p> Record<'p> {
     /// Reads the statement that starts at token `first`.
     pub(crate) fn read(program: &'p Program, scan: Scan<'p>, first: TokenId) -> Option<Self> {
         let head = head(&scan, first, &mut Quiet)?;
-        let end = scan.trim(head.first, scan.end);
-        let end = if scan.kind(end.saturating_sub(1)) == TokenKind::Continuation { end - 1 } else { end };
         Some(Self {
             program,
             major: scan.span(head.major.0, head.major.1),
-            range: scan.span(head.first, scan.trim(head.first, end)),
+            range: scan.span(head.first, scan.trim(head.first, scan.end)),
             first: head.arguments,
             end: scan.end,
         })

@@ -59,11 +59,15 @@ impl<'p> Scan<'p> {
         at
     }
 
-    /// Behind the last token of `from..to` that is neither blank nor comment.
+    /// Behind the last token of `from..to` that is neither blank nor comment nor line end.
     pub(crate) fn trim(&self, from: TokenId, mut to: TokenId) -> TokenId {
         while to > from {
             match self.kind(to - 1) {
-                TokenKind::Blank | TokenKind::Comment | TokenKind::UnclosedComment | TokenKind::Newline => to -= 1,
+                TokenKind::Blank
+                | TokenKind::Comment
+                | TokenKind::UnclosedComment
+                | TokenKind::Continuation
+                | TokenKind::Newline => to -= 1,
                 _ => break,
             }
         }
@@ -86,7 +90,7 @@ impl<'p> Scan<'p> {
                     sink.report(SyntaxErrorKind::UnbalancedBracket, self.range(next));
                 }
                 TokenKind::Newline => break,
-                TokenKind::Blank | TokenKind::Comment => continue,
+                TokenKind::Blank | TokenKind::Comment | TokenKind::Continuation => continue,
                 _ => {}
             }
             let closes = matches!(kind, TokenKind::BracketClose | TokenKind::ParenClose);

@@ -2,7 +2,7 @@
 use crate::error::SyntaxErrorKind;
 use crate::items::Items;
 use crate::sink::Sink;
-use crate::{Item, TextRange, TokenId, TokenKind};
+use crate::{Item, TokenId, TokenKind};
 
 impl Items<'_> {
     /// The text at `at`, which no word and no name owns; reported unless some dialect knows it.
@@ -34,21 +34,40 @@ impl Items<'_> {
                 self.other(at, at + 1, SyntaxErrorKind::UnbalancedBracket, sink)
             }
             TokenKind::Text if is_unclosed(scan.text(at)) => self.silent(at, at + 1),
-            TokenKind::Unknown => {
+            _ => {
+                // One problem for a run of them, such as the dashes behind a comment that ended too early.
                 let mut end = at + 1;
-                while scan.kind(end) == TokenKind::Unknown {
+                while self.is_stray(end) {
                     end += 1;
                 }
-                let range = scan.span(at, end);
-                sink.report(SyntaxErrorKind::UnexpectedCharacter, range);
+                sink.report(SyntaxErrorKind::UnexpectedCharacter, scan.span(at, end));
                 self.silent(at, end)
             }
-            _ => self.other(at, at + 1, SyntaxErrorKind::UnexpectedCharacter, sink),
+        }
+    }
+
+    /// The tokens `from..to` as text that fits nowhere; the first one is reported.
+    fn other(&mut self, from: TokenId, to: TokenId, kind: SyntaxErrorKind, sink: &mut impl Sink) -> Item {
+        sink.report(kind, self.scan.range(from));
+        self.silent(from, to)
+    }
+
+    /// Whether the token at `at` can only be out of place, directly behind another one.
+    fn is_stray(&self, at: TokenId) -> bool {
+        match self.scan.kind(at) {
+            TokenKind::Plus | TokenKind::Minus => self.scan.kind(at + 1) != TokenKind::Number,
+            TokenKind::Unknown
+            | TokenKind::Star
+            | TokenKind::Equals
+            | TokenKind::Less
+            | TokenKind::Greater
+            | TokenKind::Colon => true,
+            _ => false,
         }
     }
 
     /// The tokens `from..to`, which are no problem or are reported already.
-    fn silent(&mut self, from: TokenId, to: TokenId) -> Item {
+    pub(crate) fn silent(&mut self, from: TokenId, to: TokenId) -> Item {
         self.at = to;
         Item::Other(self.scan.span(from, to))
     }
@@ -59,8 +78,10 @@ impl Items<'_> {
         while self.scan.kind(end) == TokenKind::Comma && self.scan.kind(end + 1) == TokenKind::Number {
             end += 2;
         }
-        let range: TextRange = self.scan.span(from, end);
-        sink.report(SyntaxErrorKind::NumberWithoutLetter, range);
+        let range = self.scan.span(from, end);
+        let digits = self.scan.bytes(range).iter().any(u8::is_ascii_digit);
+        let kind = if digits { SyntaxErrorKind::NumberWithoutLetter } else { SyntaxErrorKind::UnexpectedCharacter };
+        sink.report(kind, range);
         self.silent(from, end)
     }
 

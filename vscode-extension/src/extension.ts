@@ -9,13 +9,23 @@ import { checkTask, taskProvider } from './tasks';
 const LANGUAGES = ['gcode', 'apt'];
 
 let client: LanguageClient | undefined;
+
+/** What lives as long as the extension and outlives each server. */
+interface Surroundings {
+  context: vscode.ExtensionContext;
+  status: StatusItem;
+  output: vscode.LogOutputChannel;
+  configs: vscode.FileSystemWatcher;
+}
+
 /** Starts and stops of the server wait for each other here. */
 let turn: Promise<void> = Promise.resolve();
 
 export async function activate(context: vscode.ExtensionContext): Promise<void> {
   const status = new StatusItem();
   const output = vscode.window.createOutputChannel('Trunnion', { log: true });
-  const restart = () => (turn = turn.then(() => stop()).then(() => start(context, status, output)));
+  const configs = vscode.workspace.createFileSystemWatcher('**/trunnion.toml');
+  const restart = () => (turn = turn.then(() => stop()).then(() => start({ context, status, output, configs })));
   const withProgram = (action: (program: string) => unknown) => async () => {
     const found = findProgram(context);
     await ('program' in found ? Promise.resolve(action(found.program)).catch(complain) : complain(found.problem));
@@ -23,6 +33,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
   context.subscriptions.push(
     status,
     output,
+    configs,
     vscode.commands.registerCommand('trunnion.restartServer', restart),
     vscode.commands.registerCommand('trunnion.chooseMachine', withProgram(chooseMachine)),
     vscode.commands.registerCommand('trunnion.chooseDialect', () => chooseDialect(context)),
@@ -47,7 +58,7 @@ export function deactivate(): Promise<void> {
   return (turn = turn.then(() => stop()));
 }
 
-async function start(context: vscode.ExtensionContext, status: StatusItem, output: vscode.LogOutputChannel): Promise<void> {
+async function start({ context, status, output, configs }: Surroundings): Promise<void> {
   const found = findProgram(context);
   if ('problem' in found) {
     status.fail(found.problem);
@@ -64,10 +75,7 @@ async function start(context: vscode.ExtensionContext, status: StatusItem, outpu
     {
       documentSelector: LANGUAGES.flatMap((language) => ['file', 'untitled'].map((scheme) => ({ language, scheme }))),
       initializationOptions: { machine: settings.get('machine'), dialect: settings.get('dialect'), tool: settings.get('tool') },
-      synchronize: {
-        configurationSection: 'trunnion',
-        fileEvents: vscode.workspace.createFileSystemWatcher('**/trunnion.toml'),
-      },
+      synchronize: { configurationSection: 'trunnion', fileEvents: configs },
       outputChannel: output,
       revealOutputChannelOn: RevealOutputChannelOn.Never,
     },

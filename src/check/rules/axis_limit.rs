@@ -60,3 +60,32 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         draft.merge(u64::from(axis.letter), beyond);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn a_run_of_blocks_is_told_once_with_the_worst() {
+        let report = assert_drawn(
+            "gcode mill-3axis",
+            "N1 G0 X0 Y0 Z0\nN2 G0 X5000\n;     ^^^^^ axis-limit: X reaches 6000 mm\nN3 X6000\nN4 X5500\nN5 X0\n",
+        );
+        assert_eq!(report.diagnostics[0].count, 3);
+        assert_eq!(report.diagnostics[0].related.len(), 1);
+    }
+
+    #[test]
+    fn the_limit_itself_is_legal_and_each_axis_has_its_own_run() {
+        assert_drawn("gcode mikron-ucp710", "N1 G0 X0 Y0 Z0 A120 C0\nN2 G0 A-30\nN3 G0 C99999\n");
+        assert_drawn(
+            "gcode mikron-ucp710",
+            "N1 G0 X0 Y0 Z0 A0 C0\nN2 G0 A-30.001\n;     ^^^^^^^ axis-limit: A reaches -30\n",
+        );
+    }
+
+    #[test]
+    fn known_joints_are_judged_before_all_axes_are_positioned() {
+        assert_drawn("gcode mill-3axis", "N1 G0 X5000\n;     ^^^^^ axis-limit: X reaches 5000 mm\n");
+    }
+}

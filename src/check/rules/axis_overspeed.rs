@@ -31,13 +31,12 @@
 //! # Sources
 //! Trunnion's kinematics notes, sections 4.1 and 5 (VEL-AXIS).
 use crate::prelude::*;
+use crate::runs::SHORT_RUN;
 use trunnion_machine::AxisKind;
 
 pub(super) const RULE: Body =
     Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Leg(check) };
 
-/// Runs up to this many blocks are told block by block.
-pub(super) const SHORT_RUN: usize = 8;
 /// Relative room for rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -91,5 +90,28 @@ fn undeclared(view: &LegView<'_>, out: &mut Reporter<'_>) {
                 .value_text("axis", name)
                 .unknown();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+
+    /// `blocks` feed motions in each of which C turns 9 deg in 1 mm.
+    fn program(blocks: u32) -> String {
+        let line = |i: u32| format!("G1 X{i} C{} F1000\n", 9 * i);
+        let lines: String = (1..=blocks).map(line).collect();
+        format!("TRAORI\nG0 X0 Y0 Z50 A30 C0\n{lines}M30\n")
+    }
+
+    #[test]
+    fn short_runs_are_told_block_by_block_and_long_ones_once() {
+        let found = |blocks| {
+            let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", &program(blocks));
+            let report = fixture.check().unwrap();
+            report.diagnostics.into_iter().filter(|d| d.rule == "axis-overspeed").collect::<Vec<_>>()
+        };
+        assert_eq!(found(8).len(), 8);
+        let long = found(20);
+        assert_eq!((long.len(), long[0].count), (1, 20));
     }
 }

@@ -53,3 +53,22 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         draft.severity(Severity::Info);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn a_rapid_that_swaps_is_an_info() {
+        let report = assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 G0 X1 A-20 C180\n;         ^^^^^^^^^ branch-swap: \nN40 M30\n",
+        );
+        assert_eq!(report.diagnostics[0].severity, crate::Severity::Info);
+    }
+
+    #[test]
+    fn the_same_posture_is_silent_however_far_it_turns() {
+        assert_drawn("gcode sinumerik-840d mikron-ucp710", "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 G0 A20 C180\nN40 M30\n");
+    }
+}

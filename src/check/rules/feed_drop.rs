@@ -31,8 +31,8 @@
 //!
 //! # Sources
 //! Trunnion's kinematics notes, sections 4.1 and 5 (FEED-DROP).
-use super::axis_overspeed::SHORT_RUN;
 use crate::prelude::*;
+use crate::runs::SHORT_RUN;
 
 pub(super) const RULE: Body =
     Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Leg(check) };
@@ -68,4 +68,21 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         draft.fix("smooth-pole");
     }
     draft.merge_runs_over(SHORT_RUN, 0, -limit.feed_mm_min);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn below_eighty_percent_it_warns_below_thirty_it_is_an_error() {
+        // C turns 9 deg in 1 mm at 120 deg/s: 800 mm/min
+        for (feed, severity) in [(1000, None), (1001, Some(Severity::Warning)), (2667, Some(Severity::Error))] {
+            let text = format!("TRAORI\nG0 X0 Y0 Z50 A30 C0\nG1 X1 C9 F{feed}\nM30\n");
+            let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text);
+            let report = fixture.check().unwrap();
+            let found = report.diagnostics.iter().find(|d| d.rule == "feed-drop").map(|d| d.severity);
+            assert_eq!(found, severity, "F{feed}: {:?}", report.diagnostics);
+        }
+    }
 }

@@ -37,3 +37,25 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     };
     out.report(fault.range, message).help(help).merge(u64::from(zero), 0.0);
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn consecutive_blocks_are_told_once() {
+        let report = assert_drawn(
+            "gcode",
+            "N10 G0 X0 Y0\nN20 G1 X10\n;   ^^^^^^ missing-feed: a feed motion, but no\nN30 X20\nN40 X30\nN50 X40 F100\n",
+        );
+        assert_eq!(report.diagnostics[0].count, 3);
+    }
+
+    #[test]
+    fn inverse_time_wants_its_own_feed() {
+        assert_drawn(
+            "gcode linuxcnc",
+            "G0 X0 Y0 Z0\nG93 G1 X10 F2\nX20\n;^^ missing-feed: a feed motion under G93\nM2\n",
+        );
+    }
+}

@@ -38,3 +38,15 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn linuxcnc_refuses_it() {
+        let report = assert_drawn("gcode linuxcnc", "G0 X0\nM5\n;^ missing-program-end: \n");
+        assert_eq!(report.diagnostics[0].severity, Severity::Error);
+    }
+}

@@ -33,3 +33,17 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .merge_everywhere(hash(what));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_cause_is_told_once_with_its_count() {
+        let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d", "X=R1\nG0 Y0\nX=R1\nM30\n");
+        let report = fixture.check().unwrap();
+        let found: Vec<_> = report.diagnostics.iter().filter(|d| d.rule == "not-modelled").collect();
+        assert_eq!((found.len(), found[0].count), (1, 2));
+        assert_eq!(report.verdict(Severity::Error), crate::Verdict::Unknown);
+    }
+}

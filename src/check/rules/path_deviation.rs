@@ -22,7 +22,8 @@
 //!
 //! # Guarantee
 //! Sound: silence rests on a proven bound, not on samples. Where samples keep the tolerance but the bound does not prove it,
-//! and where a motion is not modelled, the rule says unknown. The deviation is the distance to the programmed segment.
+//! and where a motion is not modelled, the rule says unknown. The deviation is the distance to the programmed segment. Up to
+//! 8 consecutive blocks are reported one by one, longer runs as one with their worst.
 //!
 //! # Thresholds
 //! `tip`: 0.01 mm.
@@ -30,6 +31,7 @@
 //! # Sources
 //! Trunnion's kinematics notes, sections 3 and 5 (KIN-TIP); the saddle-surface paper of 2004.
 use crate::prelude::*;
+use crate::runs::SHORT_RUN;
 
 pub(super) const RULE: Body = Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Leg(check) };
 
@@ -63,7 +65,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             .value("deviation_mm", deviation.sampled_mm)
             .value("deviation_bound_mm", deviation.bound_mm)
             .value("limit_mm", tolerance)
-            .merge(1, deviation.sampled_mm);
+            .merge_runs_over(SHORT_RUN, 1, deviation.sampled_mm);
     } else {
         let found = format!("between {} and {}", mm(deviation.sampled_mm), mm(deviation.bound_mm));
         out.report(range, format!("the tip's deviation is {found}: not proven to keep {}", mm(tolerance)))
@@ -72,6 +74,29 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             .value("deviation_bound_mm", deviation.bound_mm)
             .value("limit_mm", tolerance)
             .unknown()
-            .merge(2, deviation.bound_mm);
+            .merge_runs_over(SHORT_RUN, 2, deviation.bound_mm);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn lines_without_rotary_motion_are_exact() {
+        assert_drawn("gcode mikron-ucp710", "N10 G0 X30 Y0 Z0 A20 C0\nN20 G1 Y200 F500\nN30 Y0\n");
+    }
+
+    #[test]
+    fn the_bound_is_never_below_the_sample() {
+        let report = assert_drawn(
+            "gcode mikron-ucp710",
+            "N10 G0 X30 Y0 Z0 A0 C0\nN20 G1 C10 F500\n;   ^^^^^^^^^^^ path-deviation: \n",
+        );
+        let value = |key| report.diagnostics[0].values.iter().find_map(|(name, value)| match value {
+            crate::ValueKey::Number(value) if *name == key => Some(*value),
+            _ => None,
+        });
+        assert!(value("deviation_bound_mm") >= value("deviation_mm"));
     }
 }

@@ -48,3 +48,24 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .value("pole_angle_deg", deg(view.leg.pole_angle_min))
         .value("rotary_change_deg", deg(view.leg.rotary_change[0]));
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn a_stop_at_the_pole_is_told_where_the_other_side_begins() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A5 C0\nN30 G1 X1 A0 F500\nN40 G1 X2 A-5\n;         ^^^ pole-crossing: \nN50 M30\n",
+        );
+    }
+
+    #[test]
+    fn coming_back_the_same_side_is_no_crossing() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A5 C0\nN30 G1 X1 A0 F500\nN40 G1 X2 A5\nN50 M30\n",
+        );
+    }
+}

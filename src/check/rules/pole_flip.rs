@@ -71,3 +71,32 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         draft.severity(Severity::Error).note("half a turn: the tool axis runs straight over the pole, or the posture is swapped");
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn half_a_turn_is_an_error() {
+        let text = "N10 TRAORI\nN20 G0 X0 Y0 Z50 A1 C0\nN30 G1 X20 A1 C180 F100\n;             ^^^^ pole-flip: C turns 180 deg\nN40 M30\n";
+        let report = assert_drawn("gcode sinumerik-840d mikron-ucp710", text);
+        assert_eq!(report.diagnostics[0].severity, Severity::Error);
+    }
+
+    #[test]
+    fn rapids_and_large_tilts_may_turn() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A1 C0\nN30 G0 X1 C50\nN40 G0 A2.001\nN50 G1 X30 C61 F100\nN60 M30\n",
+        );
+    }
+
+    #[test]
+    fn ten_degrees_are_the_threshold() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A1 C0\nN30 G1 X20 C9.999 F100\nN50 M30\n",
+        );
+    }
+}

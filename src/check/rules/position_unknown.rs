@@ -45,3 +45,23 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .unknown()
         .merge_everywhere(hash(letters));
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn rapids_at_the_start_are_normal_and_one_cause_is_told_once() {
+        let report = assert_drawn(
+            "gcode mikron-ucp710",
+            "N1 G0 X0 Y0\nN2 G0 Z50\nN3 G1 X10 F500\n;  ^^^^^^^^^^^ position-unknown: C and A were never\nN4 X20\nN5 G0 X0\nN6 G1 X5\n",
+        );
+        assert_eq!(report.diagnostics[0].status, crate::Status::Unknown);
+        assert_eq!(report.diagnostics[0].count, 3);
+    }
+
+    #[test]
+    fn a_machine_without_rotary_axes_needs_none() {
+        assert_drawn("gcode mill-3axis", "N1 G0 X0 Y0\nN2 G0 Z50\nN3 G1 X10 F500\n");
+    }
+}

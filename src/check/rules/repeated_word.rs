@@ -36,3 +36,15 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn on_fanuc_it_is_a_warning() {
+        let report = assert_drawn("gcode fanuc-30i", "N10 G0 X10. Y5. X20.\n;               ^^^^ repeated-word: \n");
+        assert_eq!(report.diagnostics[0].severity, Severity::Warning);
+    }
+}

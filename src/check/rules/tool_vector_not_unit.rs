@@ -55,3 +55,18 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         draft.severity(Severity::Error);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_thresholds() {
+        for (k, severity) in [("0.80009", None), ("0.801", Some(Severity::Warning)), ("0.82", Some(Severity::Error))] {
+            let text = format!("MULTAX/ON\nGOTO/0,0,10,0,0.6,{k}\nFINI\n");
+            let report = crate::fixture::Fixture::parse("gcode apt", &text).check().unwrap();
+            let found = report.diagnostics.iter().find(|d| d.rule == "tool-vector-not-unit").map(|d| d.severity);
+            assert_eq!(found, severity, "{k}: {:?}", report.diagnostics);
+        }
+    }
+}

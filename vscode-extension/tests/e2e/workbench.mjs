@@ -109,7 +109,10 @@ await test('a click on the status bar offers the machines, the choice is used', 
 
 await test('a program that is not there is named in a message, and a good setting ends it', async () => {
   set({ 'trunnion.machine': 'mikron-ucp710', 'trunnion.path': '/no/such/program' });
-  await page.locator('.notification-toast', { hasText: '"/no/such/program"' }).waitFor({ timeout: 30_000 });
+  await page.locator('.statusbar-item[id="trunnion.trunnion.trunnion.status"]', { has: page.locator('.codicon-warning') }).waitFor({ timeout: 30_000 });
+  // the smoke-test driver keeps messages in the notification centre, so open that
+  await page.locator('.statusbar-item[id="status.notifications"]').click();
+  await page.locator('.notification-list-item', { hasText: '"/no/such/program"' }).waitFor({ timeout: 30_000 });
   await page.screenshot({ path: `${shots}/missing.png` });
   await until('no squiggle without a server', () => page.evaluate(squigglesUnder, 'C52.595').then((found) => typeof found === 'string'));
   set({ 'trunnion.machine': 'mikron-ucp710' });

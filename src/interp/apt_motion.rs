@@ -1,0 +1,252 @@
+//! APT motions: FROM, GOTO, GODLTA, CIRCLE, DELAY.
+use crate::apt::{Args, Circle};
+use crate::arc::mismatch;
+use crate::offsets::{LINEAR, ROTARY};
+use crate::run::{Interpreter, Report};
+use crate::{FaultKind, Feed, FeedMode, Motion, MotionKind, Orientation, Position};
+use trunnion_dialect::Action;
+use trunnion_geometry::Vec3;
+use trunnion_geometry::arc::{Arc, Turning};
+use trunnion_syntax::TextRange;
+
+impl Interpreter<'_> {
+    /// GOTO/x,y,z[,i,j,k[,feed]].
+    pub(crate) fn goto(&mut self, args: &Args, report: &mut Report<'_>) -> Motion {
+        let numbers = args.numbers();
+        let readable = !args.odd && args.words().is_empty() && matches!(numbers.len(), 3 | 6 | 7);
+        if !readable {
+            return self.unreadable_goto(report);
+        }
+        if let Some(&feed) = numbers.get(6) {
+            self.state.feed = Some(feed * self.state.feed_unit_mm);
+            self.memory.feed_unread = false;
+        }
+        let unit = self.state.length_unit_mm;
+        let target = Vec3::new(numbers[0], numbers[1], numbers[2]) * unit;
+        let vector = (numbers.len() >= 6).then(|| Vec3::new(numbers[3], numbers[4], numbers[5]));
+        self.go(target, vector, args.range, report)
+    }
+
+    /// GODLTA/dx,dy,dz from where the tool is; GODLTA/d along the tool axis.
+    pub(crate) fn godlta(&mut self, args: &Args, report: &mut Report<'_>) -> Motion {
+        let numbers = args.numbers();
+        let unit = self.state.length_unit_mm;
+        let delta = match (numbers.len(), self.held_orientation()) {
+            _ if args.odd || !args.words().is_empty() => None,
+            (3, _) => Some(Vec3::new(numbers[0], numbers[1], numbers[2]) * unit),
+            (1, Orientation::Vector(_, axis)) => Some(axis * (numbers[0] * unit)),
+            (1, Orientation::Words) => Some(Vec3::new(0.0, 0.0, numbers[0] * unit)),
+            _ => None,
+        };
+        match (delta, self.state.position.xyz()) {
+            (Some(delta), Some(from)) => self.go(from + delta, None, args.range, report),
+            _ => self.unreadable_goto(report),
+        }
+    }
+
+    /// FROM: where the tool is, without a motion.
+    pub(crate) fn from(&mut self, args: &Args, report: &mut Report<'_>) {
+        let numbers = args.numbers();
+        if args.odd || !matches!(numbers.len(), 3 | 6) {
+            let what = report.program.text(report.whole).into_owned();
+            report.fault(TextRange::default(), FaultKind::NotModelled { what });
+            self.forget_position();
+            return;
+        }
+        self.state.position = self.at(Vec3::new(numbers[0], numbers[1], numbers[2]) * self.state.length_unit_mm);
+        if numbers.len() == 6 {
+            let vector = Vec3::new(numbers[3], numbers[4], numbers[5]);
+            self.state.orientation = self.unit_vector(vector, true, args.range, report);
+        }
+    }
+
+    /// TLAXIS/i,j,k: the vector for what follows.
+    pub(crate) fn tool_axis(&mut self, args: &Args, report: &mut Report<'_>) {
+        match args.numbers() {
+            &[i, j, k] if !args.odd => {
+                let orientation = self.unit_vector(Vec3::new(i, j, k), true, args.range, report);
+                // set without motion: the tool turns with the next one
+                self.apt.axis = Some(orientation);
+            }
+            _ => {
+                let what = report.program.text(report.whole).into_owned();
+                report.fault(TextRange::default(), FaultKind::NotModelled { what });
+                self.state.orientation = Orientation::Words;
+                self.state.position.known &= !ROTARY;
+            }
+        }
+    }
+
+    /// CIRCLE/x,y,z,i,j,k[,r]: centre, axis (right-hand rule) and radius of the arc that the next GOTO ends.
+    pub(crate) fn circle(&mut self, args: &Args, report: &mut Report<'_>) {
+        let unit = self.state.length_unit_mm;
+        let numbers = args.numbers();
+        let readable = !args.odd && args.words().is_empty() && matches!(numbers.len(), 6 | 7);
+        let axis = if readable {
+            Vec3::new(numbers[3], numbers[4], numbers[5])
+        } else {
+            Vec3::zeros()
+        };
+        let shape = axis
+            .try_normalize(f64::MIN_POSITIVE)
+            .filter(|_| readable)
+            .map(|axis| (Vec3::new(numbers[0], numbers[1], numbers[2]) * unit, axis));
+        if shape.is_none() {
+            let what = report.program.text(report.whole).into_owned();
+            report.fault(TextRange::default(), FaultKind::NotModelled { what });
+        }
+        let radius = numbers.get(6).filter(|_| readable).map(|radius| radius * unit);
+        self.apt.rapid = false;
+        self.apt.circle = Some(Circle {
+            shape,
+            radius,
+            range: args.range,
+        });
+    }
+
+    /// DELAY/seconds, DELAY/turns,REV.
+    pub(crate) fn delay(&mut self, args: &Args, report: &mut Report<'_>) -> Motion {
+        let value = args
+            .numbers()
+            .first()
+            .copied()
+            .filter(|&value| value >= 0.0 && !args.odd);
+        let seconds = if args.has(report.program, "REV") {
+            let rpm = self.state.spindle_rpm.filter(|&rpm| rpm > 0.0);
+            value.zip(rpm).map(|(turns, rpm)| turns / rpm * 60.0)
+        } else {
+            value
+        };
+        let position = self.state.position;
+        let kind = MotionKind::Dwell(seconds);
+        let mut motion = self.new_motion(kind, position, position, self.held_orientation(), Feed::Unknown, report);
+        motion.tcp = true;
+        motion
+    }
+
+    fn at(&self, point: Vec3) -> Position {
+        let mut position = self.state.position;
+        for axis in 0..3 {
+            position.set(axis, point[axis]);
+        }
+        position
+    }
+
+    /// A motion whose target cannot be read.
+    fn unreadable_goto(&mut self, report: &mut Report<'_>) -> Motion {
+        let what = report.program.text(report.whole).into_owned();
+        report.fault(TextRange::default(), FaultKind::NotModelled { what });
+        self.apt.circle = None;
+        self.unknown_goto(report)
+    }
+
+    fn unknown_goto(&mut self, report: &mut Report<'_>) -> Motion {
+        let start = self.state.position;
+        self.forget_position();
+        let (end, orientation) = (self.state.position, Orientation::Words);
+        let mut motion = self.new_motion(MotionKind::Unknown, start, end, orientation, Feed::Unknown, report);
+        motion.tcp = true;
+        motion
+    }
+
+    /// The orientation of a GOTO: its vector, else the one in force, else straight along Z.
+    fn goto_orientation(&mut self, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Orientation {
+        let set = self.apt.axis.take();
+        if let Some(vector) = vector {
+            return self.unit_vector(vector, true, range, report);
+        }
+        if self.state.multax && set.is_none() {
+            report.fault(range, FaultKind::AptVectorMissing);
+        }
+        match (set, self.state.orientation) {
+            (Some(orientation), _) => orientation,
+            (None, Orientation::Vector(_, vector)) => Orientation::Vector(Some(vector), vector),
+            (None, Orientation::Words) if self.apt.axis_lost => Orientation::Words,
+            (None, Orientation::Words) => Orientation::Vector(None, Vec3::z()),
+        }
+    }
+
+    /// The motion to a point.
+    fn go(&mut self, target: Vec3, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Motion {
+        let rapid = std::mem::take(&mut self.apt.rapid);
+        let circle = self.apt.circle.take();
+        let start = self.state.position;
+        let orientation = self.goto_orientation(vector, range, report);
+        self.apt.axis_lost = orientation == Orientation::Words;
+        let cycle = self.state.motion == Some(Action::CannedCycle);
+        self.memory.cutter_used = true;
+        if cycle {
+            let mut motion = self.unknown_goto(report);
+            motion.start = start;
+            self.state.orientation = orientation;
+            motion.orientation = orientation;
+            return motion;
+        }
+        let mut end = self.at(target);
+        if let Orientation::Vector(..) = orientation {
+            end.known &= !ROTARY;
+        }
+        self.state.position = end;
+        self.state.orientation = orientation;
+        let kind = match circle {
+            Some(circle) => MotionKind::Arc(self.arc_to(&circle, start, end, report)),
+            None if rapid => MotionKind::Rapid,
+            None => MotionKind::Linear,
+        };
+        self.state.motion = Some(if rapid { Action::Rapid } else { Action::Linear });
+        let feed = self.goto_feed(kind, range, report);
+        let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
+        motion.tcp = true;
+        if self.state.frame_unknown {
+            motion.start.known &= !LINEAR;
+            motion.end.known &= !LINEAR;
+            motion.orientation = Orientation::Words;
+            if let MotionKind::Arc(arc) = &mut motion.kind {
+                *arc = None;
+            }
+        }
+        motion
+    }
+
+    fn arc_to(&self, circle: &Circle, start: Position, end: Position, report: &mut Report<'_>) -> Option<Arc> {
+        let (centre, normal) = circle.shape?;
+        let (start, end) = (start.xyz()?, end.xyz()?);
+        let Some(arc) = Arc::from_centre(start, end, centre, normal, Turning::CounterClockwise, 0) else {
+            report.fault(circle.range, FaultKind::ArcCentreMissing);
+            return None;
+        };
+        let unit = self.state.length_unit_mm;
+        let written = circle.radius.map(|radius| Arc {
+            radius_start: radius,
+            ..arc
+        });
+        let fault = mismatch(&arc, self.dialect, unit).or_else(|| mismatch(&written?, self.dialect, unit));
+        if let Some(kind) = fault {
+            report.fault(TextRange::default(), kind);
+        }
+        Some(arc)
+    }
+
+    fn goto_feed(&self, kind: MotionKind, range: TextRange, report: &mut Report<'_>) -> Feed {
+        match (kind, self.state.feed) {
+            (MotionKind::Rapid, _) => Feed::Rapid,
+            (_, Some(feed)) if feed > 0.0 => match self.state.feed_mode {
+                FeedMode::PerMinute => Feed::PerMinute(feed),
+                FeedMode::PerRevolution => Feed::PerRevolution(feed),
+                FeedMode::InverseTime => Feed::InverseTime(feed),
+            },
+            (_, None) if self.memory.feed_unread => Feed::Unknown,
+            (_, feed) => {
+                let inverse_time = self.state.feed_mode == FeedMode::InverseTime;
+                report.fault(
+                    range,
+                    FaultKind::MissingFeed {
+                        inverse_time,
+                        zero: feed.is_some(),
+                    },
+                );
+                Feed::Unknown
+            }
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! A tool pose turned about the rotary axis nearest the workpiece and written back into its block, the ball's centre kept.
+use crate::slots::{Scheme, Slots, insert_word, slots};
+use crate::style::NumberStyle;
+use trunnion_geometry::math::angle_between;
+use trunnion_geometry::{Vec3, deg, rad};
+use trunnion_machine::{Machine, Stance, forward};
+use trunnion_syntax::{BlockId, Program, TextEdit};
+
+/// What is the same for all points of a window.
+pub(crate) struct Writer<'a> {
+    /// The program.
+    pub program: &'a Program,
+    /// The machine.
+    pub machine: &'a Machine,
+    /// Which words are written.
+    pub scheme: Scheme,
+    /// How the program writes them.
+    pub styles: [Option<NumberStyle>; 6],
+    /// mm per programmed length unit.
+    pub unit_mm: f64,
+    /// Radius of the ball, mm.
+    pub ball_radius: f64,
+    /// Work offset of the rotary axis, deg.
+    pub rotary_zero: f64,
+    /// The tool axis may turn by this much, deg.
+    pub tolerance_deg: f64,
+    /// The ball's centre may shift by this much, mm.
+    pub tolerance_mm: f64,
+}
+
+/// A coordinate's new number: its text and what that text says.
+struct Number {
+    text: String,
+    value: f64,
+}
+
+impl Writer<'_> {
+    /// By how much rounding of the numbers may turn the tool axis at most, rad, for an axis at `pole_angle` from the pole.
+    pub(crate) fn rounding_turn(&self, pole_angle: f64) -> f64 {
+        let rounding = |index: usize| self.styles[index].map_or(0.0, |style| style.rounding());
+        match self.scheme {
+            Scheme::Rotary(_) => rad(rounding(3)) * trunnion_geometry::math::sin(pole_angle),
+            _ => (3..6).map(|index| rounding(index) * rounding(index)).sum::<f64>().sqrt() * 1.001,
+        }
+    }
+
+    /// Programmed coordinates of a stance as the file counts them: X, Y, Z in file units, then the rotary word.
+    pub(crate) fn programmed(&self, stance: &Stance) -> [f64; 4] {
+        let tip = stance.tip / self.unit_mm;
+        [tip.x, tip.y, tip.z, deg(stance.joints[self.machine.rotary[0]]) - self.rotary_zero]
+    }
+
+    /// Writes the pose of `stance`, turned so that the rotary joint is `q` (rad), into its block. `current` holds the coordinates
+    /// in force before the block in the program after, and those after it on return. Gives the rotary joint as written.
+    pub(crate) fn turn(
+        &self,
+        block: BlockId,
+        stance: &Stance,
+        q: f64,
+        current: &mut [f64; 4],
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<f64, String> {
+        let view = self.program.block(block);
+        let slots = slots(self.program, &view, self.scheme)?;
+        let (orientation, axis, written_q) = self.orientation(stance, q, &slots)?;
+        let tip = (stance.tip + (stance.axis - axis) * self.ball_radius) / self.unit_mm;
+        let mut numbers: Vec<(usize, Number)> = Vec::new();
+        for index in 0..3 {
+            numbers.push((index, self.number(index, tip[index], slots[index].as_ref().map(|slot| slot.text.as_str()))?));
+        }
+        let written = Vec3::new(numbers[0].1.value, numbers[1].1.value, numbers[2].1.value) * self.unit_mm;
+        self.verify(stance, &written, &axis)?;
+        numbers.extend(orientation);
+        self.edit(&slots, numbers, current, edits)?;
+        Ok(written_q)
+    }
+
+    /// Makes the block say the pose of `stance` as it is, whatever was in force before.
+    pub(crate) fn restore(
+        &self,
+        block: BlockId,
+        stance: &Stance,
+        current: &mut [f64; 4],
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<(), String> {
+        let slots = slots(self.program, &self.program.block(block), self.scheme)?;
+        let programmed = self.programmed(stance);
+        // a vector in force stays in force; a rotary word may have to be said again
+        let words = if self.scheme.count() == 4 { 4 } else { 3 };
+        let mut numbers = Vec::new();
+        for (index, &value) in programmed.iter().enumerate().take(words) {
+            match &slots[index] {
+                Some(slot) => numbers.push((index, Number { text: slot.text.clone(), value: slot.value })),
+                None => numbers.push((index, self.number(index, value, None)?)),
+            }
+        }
+        self.edit(&slots, numbers, current, edits)
+    }
+
+    /// The orientation's numbers, the tool axis they say, and the rotary joint (rad).
+    fn orientation(&self, stance: &Stance, q: f64, slots: &Slots) -> Result<(Vec<(usize, Number)>, Vec3, f64), String> {
+        let joint = self.machine.rotary[0];
+        let at = |q: f64| {
+            let mut joints = stance.joints;
+            joints[joint] = q;
+            forward(self.machine, &joints, stance.tool_length).axis
+        };
+        if let Scheme::Rotary(_) = self.scheme {
+            let text = slots[3].as_ref().map(|slot| slot.text.as_str());
+            let number = self.number(3, deg(q) - self.rotary_zero, text)?;
+            let written = rad(number.value + self.rotary_zero);
+            return Ok((vec![(3, number)], at(written), written));
+        }
+        let [Some(i), Some(j), Some(k)] = [&slots[3], &slots[4], &slots[5]] else {
+            return Err("the block has no tool vector to turn".into());
+        };
+        let length = Vec3::new(i.value, j.value, k.value).norm();
+        let wanted = at(q) * length;
+        let mut numbers = Vec::new();
+        for (index, slot) in (3..).zip([i, j, k]) {
+            numbers.push((index, self.number(index, wanted[index - 3], Some(&slot.text))?));
+        }
+        let written = Vec3::new(numbers[0].1.value, numbers[1].1.value, numbers[2].1.value);
+        let norm = written.norm();
+        if norm <= 0.0 {
+            return Err("the tool vector would round to zero".into());
+        }
+        Ok((numbers, written / norm, q))
+    }
+
+    /// A number as the program writes coordinate `index`.
+    fn number(&self, index: usize, value: f64, was: Option<&str>) -> Result<Number, String> {
+        let Some(style) = self.styles[index] else {
+            return Err(format!("the program never writes {} as a plain number", self.scheme.name(index)));
+        };
+        let text = style.write(value, was.is_some_and(|text| text.starts_with('+')));
+        let value = trunnion_syntax::Decimal::parse(text.as_bytes())
+            .ok_or_else(|| format!("{} has too many digits: {text}", self.scheme.name(index)))?
+            .to_f64();
+        Ok(Number { text, value })
+    }
+
+    /// The rounded pose keeps the claim.
+    fn verify(&self, stance: &Stance, tip: &Vec3, axis: &Vec3) -> Result<(), String> {
+        let turned = deg(angle_between(&stance.axis, axis));
+        if turned > self.tolerance_deg {
+            return Err(format!("rounding turns the tool axis by {turned:.6} deg, allowed is {} deg", self.tolerance_deg));
+        }
+        let shift = ((tip + axis * self.ball_radius) - (stance.tip + stance.axis * self.ball_radius)).norm();
+        if shift > self.tolerance_mm {
+            return Err(format!(
+                "with the digits this program writes, the ball's centre would shift by {shift:.6} mm; allowed is {} mm (--tolerance-mm)",
+                self.tolerance_mm
+            ));
+        }
+        Ok(())
+    }
+
+    /// Edits that make the block say `numbers`: a number that differs is replaced, a missing word is inserted if another value is in force.
+    fn edit(
+        &self,
+        slots: &Slots,
+        numbers: Vec<(usize, Number)>,
+        current: &mut [f64; 4],
+        edits: &mut Vec<TextEdit>,
+    ) -> Result<(), String> {
+        let mut found = Vec::new();
+        for (index, number) in numbers {
+            match &slots[index] {
+                Some(slot) if slot.value == number.value => {}
+                Some(slot) => found.push(TextEdit { range: slot.number, new_text: number.text }),
+                None => {
+                    let rounding = self.styles[index].map_or(0.0, |style| style.rounding());
+                    if (number.value - current[index.min(3)]).abs() > 0.5 * rounding {
+                        found.push(self.insertion(slots, index, &number.text)?);
+                    }
+                }
+            }
+            if index < 3 || self.scheme.count() == 4 {
+                current[index] = number.value;
+            }
+        }
+        // insertions at one place stay in the order of the coordinates
+        found.sort_by_key(|edit| edit.range.start);
+        edits.extend(found);
+        Ok(())
+    }
+
+    fn insertion(&self, slots: &Slots, index: usize, text: &str) -> Result<TextEdit, String> {
+        let name = self.scheme.name(index);
+        if self.scheme == Scheme::Goto {
+            return Err("GOTO with fewer than three numbers".into());
+        }
+        insert_word(self.program, slots, index, &format!("{name}{text}"))
+            .ok_or_else(|| format!("the block has no coordinate beside which {name} could be written"))
+    }
+}

@@ -1,0 +1,250 @@
+//! Turns the tool axis a little where it passes near the pole, so that the rotary table need not spin.
+//!
+//! # Why
+//! Near the pole (tool axis parallel to the first rotary axis) a hair's breadth of tool axis asks for a large turn of the
+//! table. The feed breaks down, and the dwell leaves a mark. Seen from above, the tool axis walks round the pole; this rewrite
+//! lets it walk straight, as far as the tolerance allows.
+//!
+//! # How
+//! In each run of straight feed motions round a `pole-flip`, the second rotary axis stays as it is. The first gets the taut
+//! string through the tube `|C' - C| <= 2 asin(sin(tol / 2) / sin theta)`: the least travel and the least peak speed at once. The
+//! ends of the window (the first points outside the pole cone, or the ends of the run) stay. The tip moves by `r (u - u')`, so
+//! that the centre of the ball, and with it the contact with the surface, stays where it was.
+//!
+//! # Example
+//! ```gcode before machine=mikron-ucp710 dialect=sinumerik-840d tolerance-deg=0.08
+//! ; trunnion: tool 1 ball diameter 10
+//! T1 M6
+//! TRAORI
+//! G0 X-28.38197 Y-2.14469 Z59.86773 A2.042 C3.358 S8000 M3
+//! N2920 G1 X-28.38474 Y-1.84041 Z59.90263 A1.047 C4.822 F2000
+//! N2930 G1 X-28.38709 Y-1.53565 Z59.93222 A0.081 C52.595
+//! N2940 G1 X-28.38873 Y-1.28023 Z59.95290 A-0.79 C-3.086
+//! N2950 G1 X-28.39015 Y-1.01049 Z59.97066 A-1.676 C-0.905
+//! M30
+//! ```
+//! ```gcode after
+//! ```
+//!
+//! # Claim
+//! At every block end the tool axis turns about the part by at most the tolerance, and the centre of the ball stays within
+//! `--tolerance-mm`. No feed, no spindle word, no other byte changes. How far the paths lie apart between block ends is measured
+//! and bounded in the certificate.
+//!
+//! # Traps
+//! - Only a ball keeps its contact when the tool axis turns. The tool's shape must be declared; a flat or bull-nosed tool needs
+//!   the surface normal, which a program does not hold.
+//! - A word that was left out because its value did not change may have to be written out.
+//! - Near the pole rounded numbers matter: `A0.081` and `k = 0.999999` are not the same tool axis. The rewrite works from what
+//!   the program says, digit by digit, and is verified after rounding.
+//! - Shank and holder turn with the tool axis, by at most the tolerance.
+//!
+//! # Sources
+//! Singularity paper of the seed set on five-axis guide vanes, 2006 (the circle i^2 + j^2 = 1 - k^2 and P' = P + r (u - u')); Trunnion's
+//! kinematics notes 6 (R3) and 12.3 (taut string).
+use super::Body;
+use crate::reposition::Writer;
+use crate::slots::{Scheme, styles};
+use crate::stations::{Station, chain, largest_step, stance, straighten, window};
+use crate::survey::{Point, Tip, survey};
+use crate::{Options, Proposal};
+use trunnion_certify::Claim;
+use trunnion_check::Settings;
+use trunnion_geometry::{deg, rad};
+use trunnion_machine::{Machine, NoStance};
+use trunnion_syntax::{LineIndex, Program, TextEdit};
+
+pub(super) const REWRITE: Body = Body { cures: &["pole-flip", "axis-overspeed", "feed-drop"], propose };
+
+/// What was done in one window.
+struct Smoothed {
+    edits: Vec<TextEdit>,
+    ball_radius: f64,
+    /// Index of the window's last point.
+    last: usize,
+    summary: String,
+}
+
+/// What is the same for all windows.
+struct Task<'a> {
+    program: &'a Program,
+    machine: &'a Machine,
+    options: &'a Options,
+    points: &'a [Point],
+    lines: LineIndex,
+}
+
+fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
+    let Some(machine) = settings.machine else {
+        return Err("no machine is given: poles belong to a machine (--machine)".into());
+    };
+    if machine.rotary.len() < 2 {
+        return Ok(None);
+    }
+    let points = survey(program, settings, machine);
+    let task = Task { program, machine, options, points: &points, lines: LineIndex::new(program.source()) };
+    let flips: Vec<usize> = (0..points.len()).filter(|&index| task.flips(index)).collect();
+    if flips.is_empty() {
+        return task.unknown_position().map_or(Ok(None), Err);
+    }
+    let mut done: Option<usize> = None;
+    let mut radius = None;
+    let (mut edits, mut summaries, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
+    for flip in flips {
+        if done.is_some_and(|last| flip <= last) {
+            continue;
+        }
+        match task.smooth(flip) {
+            Ok(smoothed) if *radius.get_or_insert(smoothed.ball_radius) == smoothed.ball_radius => {
+                edits.extend(smoothed.edits);
+                summaries.push(smoothed.summary);
+                done = Some(smoothed.last);
+            }
+            Ok(_) => reasons.push(format!("line {}: another ball radius, which needs a run of its own", task.line(flip))),
+            Err(reason) => reasons.push(format!("line {}: {reason}", task.line(flip))),
+        }
+    }
+    reasons.dedup();
+    let Some(ball_radius_mm) = radius else { return Err(reasons.join("; ")) };
+    let claim = Claim::SameBallCentre {
+        ball_radius_mm,
+        tolerance_mm: options.tolerance_mm,
+        tolerance_deg: options.tolerance_deg,
+    };
+    summaries.extend(reasons.into_iter().map(|reason| format!("left as it is: {reason}")));
+    Ok(Some(Proposal { edits, claim, summary: summaries.join("; ") }))
+}
+
+impl Task<'_> {
+    /// The rule pole-flip fires here.
+    fn flips(&self, index: usize) -> bool {
+        let point = &self.points[index];
+        let tolerances = &self.machine.tolerances;
+        point.feed && point.pole_angle_min < tolerances.pole_cone && point.rotary_change[0] > tolerances.pole_angle
+    }
+
+    fn line(&self, index: usize) -> u32 {
+        let start = self.program.block(self.points[index].block).range().start;
+        self.lines.line_column(self.program.source(), start).0
+    }
+
+    /// The first feed motion whose pose is unknown: a flip there would not be seen.
+    fn unknown_position(&self) -> Option<String> {
+        let unknown = |point: &Point| point.feed && matches!(point.end, Err(NoStance::PositionUnknown(_) | NoStance::NotModelled));
+        let index = self.points.iter().position(unknown)?;
+        let why = match &self.points[index].end {
+            Err(NoStance::PositionUnknown(letters)) => format!("the position of {letters} is unknown"),
+            _ => "the motion is not modelled".into(),
+        };
+        Some(format!("line {}: {why}, so whether the table flips at the pole is unknown", self.line(index)))
+    }
+
+    /// Why a motion with a flip cannot be changed.
+    fn obstacle(&self, point: &Point) -> Option<String> {
+        if !point.tcp {
+            return Some("tool centre point control is off, so turning the table would move the tip".into());
+        }
+        if !point.linear {
+            return Some("the motion is an arc: the rewrite handles straight motions".into());
+        }
+        if !point.from_known {
+            return Some("the position before the motion is unknown".into());
+        }
+        self.tool_obstacle(point)
+    }
+
+    fn tool_obstacle(&self, point: &Point) -> Option<String> {
+        match point.tip {
+            Tip::Undeclared => Some(
+                "the tool's shape is not declared, and only a ball keeps its contact: (trunnion: tool 1 ball diameter 10), [[tool]] in trunnion.toml, or --tool ball:10"
+                    .into(),
+            ),
+            Tip::Other => Some("the tool is declared but is no ball: its contact with the surface would move".into()),
+            Tip::Ball(_) if point.incremental => Some("coordinates are incremental (G91)".into()),
+            Tip::Ball(_) => None,
+        }
+    }
+
+    /// Smooths the window round one flip.
+    fn smooth(&self, flip: usize) -> Result<Smoothed, String> {
+        let point = &self.points[flip];
+        if let Some(obstacle) = self.obstacle(point) {
+            return Err(obstacle);
+        }
+        let Tip::Ball(ball_radius) = point.tip else { return Err("the tool is no ball".into()) };
+        let stations = chain(self.machine, self.points, flip);
+        let Some((left, right)) = window(&stations, flip, self.machine.tolerances.pole_cone) else {
+            return Err("no point lies between the two ends that must stay".into());
+        };
+        let stations = &stations[left..=right];
+        let writer = self.writer(point, ball_radius);
+        let room = |index: usize| {
+            rad(self.options.tolerance_deg) * (1.0 - 1e-9) - writer.rounding_turn(stations[index].pole_angle)
+        };
+        let q = straighten(self.machine, stations, room)
+            .ok_or_else(|| "the rotary axis is outside its limits already".to_string())?;
+        let before = largest_step(stations.iter().map(|station| station.q));
+        let after = largest_step(q.iter().copied());
+        if after > 0.99 * before {
+            return Err(format!(
+                "within {} deg the largest step of {:.3} deg can only become {:.3} deg (--tolerance-deg)",
+                self.options.tolerance_deg,
+                deg(before),
+                deg(after)
+            ));
+        }
+        let edits = self.write(&writer, stations, &q)?;
+        let letter = char::from(self.machine.axes[self.machine.rotary[0]].letter);
+        let last = stations[stations.len() - 1].first;
+        let summary = format!(
+            "lines {} to {}: largest step of {letter} {:.3} -> {:.3} deg",
+            self.line(stations[0].last),
+            self.line(last),
+            deg(before),
+            deg(after)
+        );
+        Ok(Smoothed { edits, ball_radius, last, summary })
+    }
+
+    fn writer(&self, point: &Point, ball_radius: f64) -> Writer<'_> {
+        let scheme = if point.vector {
+            Scheme::of_vector(self.program, &self.program.block(point.block))
+        } else {
+            Scheme::Rotary(self.machine.axes[self.machine.rotary[0]].letter)
+        };
+        Writer {
+            program: self.program,
+            machine: self.machine,
+            scheme,
+            styles: styles(self.program, scheme),
+            unit_mm: point.unit_mm,
+            ball_radius,
+            rotary_zero: point.rotary_zero,
+            tolerance_deg: self.options.tolerance_deg,
+            tolerance_mm: self.options.tolerance_mm,
+        }
+    }
+
+    /// Edits for all points between the ends, and for what the last one takes over from them.
+    fn write(&self, writer: &Writer<'_>, stations: &[Station], q: &[f64]) -> Result<Vec<TextEdit>, String> {
+        let unknown = || "a position inside the window is unknown".to_string();
+        let last = stations.len() - 1;
+        let start = stance(&self.points[stations[0].last]).ok_or_else(unknown)?;
+        let mut current = writer.programmed(start);
+        let mut edits = Vec::new();
+        for (station, &q) in stations.iter().zip(q).take(last).skip(1) {
+            for point in &self.points[station.first..=station.last] {
+                if let Some(obstacle) = self.tool_obstacle(point) {
+                    return Err(obstacle);
+                }
+                if point.rotary_zero != writer.rotary_zero {
+                    return Err("the work offset of the rotary axis changes inside the window".into());
+                }
+                writer.turn(point.block, stance(point).ok_or_else(unknown)?, q, &mut current, &mut edits)?;
+            }
+        }
+        let end = &self.points[stations[last].first];
+        writer.restore(end.block, stance(end).ok_or_else(unknown)?, &mut current, &mut edits)?;
+        Ok(edits)
+    }
+}

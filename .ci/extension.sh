@@ -21,7 +21,7 @@ step() {
   status=$?
   if [ $status -eq 0 ]; then
     passed=$((passed + 1))
-    grep -E '^(ok|not ok) |passed, |^ℹ (pass|fail) |^lab: ' "$log" | sed 's/^/  /'
+    grep -E '^(ok|not ok|✓) |passed, |^ℹ (pass|fail) |^lab: ' "$log" | sed 's/^/  /'
     echo "extension: $name: ok ($((SECONDS - start)) s)"
   else
     failed=$((failed + 1))

@@ -1,4 +1,5 @@
 //! docs/rules is made from the rules' headers. `UPDATE=1 cargo test --test generated_docs` writes it anew.
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use trunnion::check::{Guarantee, Rule, Severity, rules};
 
@@ -22,24 +23,40 @@ fn guarantee(rule: &Rule) -> &'static str {
 }
 
 fn page(rule: &Rule) -> String {
-    let facts = format!("Reads: {}. Severity: {}. Silence: {}.", rule.level.name(), severity(rule), guarantee(rule));
+    let facts = format!(
+        "Reads: {}. Severity: {}. Silence: {}.",
+        rule.level.name(),
+        severity(rule),
+        guarantee(rule)
+    );
     let body = rule.docs.replace("\n# ", "\n## ");
-    let fences = body.lines().map(|line| if line.starts_with("```gcode") { "```gcode" } else { line });
+    let fences = body
+        .lines()
+        .map(|line| if line.starts_with("```gcode") { "```gcode" } else { line });
     let body = fences.collect::<Vec<_>>().join("\n");
-    format!("<!-- made from src/check/rules/{}.rs -->\n# {}\n\n{body}\n\n{facts}\n", rule.name.replace('-', "_"), rule.name)
+    format!(
+        "<!-- made from src/check/rules/{}.rs -->\n# {}\n\n{body}\n\n{facts}\n",
+        rule.name.replace('-', "_"),
+        rule.name
+    )
 }
 
 fn list() -> String {
-    let mut text = String::from("<!-- made from the headers in src/check/rules -->\n# Rules\n\n| rule | severity | what it finds |\n|---|---|---|\n");
+    let mut text = String::from(
+        "<!-- made from the headers in src/check/rules -->\n# Rules\n\n| rule | severity | what it finds |\n|---|---|---|\n",
+    );
     for rule in rules() {
-        text.push_str(&format!("| [{0}]({0}.md) | {1} | {2} |\n", rule.name, severity(rule), rule.summary()));
+        let _ = writeln!(text, "| [{0}]({0}.md) | {1} | {2} |", rule.name, severity(rule), rule.summary());
     }
     text
 }
 
 #[test]
 fn rule_pages_are_fresh() {
-    let mut wanted: Vec<(String, String)> = rules().iter().map(|rule| (format!("{}.md", rule.name), page(rule))).collect();
+    let mut wanted: Vec<(String, String)> = rules()
+        .iter()
+        .map(|rule| (format!("{}.md", rule.name), page(rule)))
+        .collect();
     wanted.push(("README.md".to_owned(), list()));
     let update = std::env::var_os("UPDATE").is_some();
     if update {
@@ -63,5 +80,9 @@ fn rule_pages_are_fresh() {
             stale.push(format!("{name} (no rule of that name)"));
         }
     }
-    assert!(stale.is_empty(), "stale: {}; run UPDATE=1 cargo test --test generated_docs", stale.join(", "));
+    assert!(
+        stale.is_empty(),
+        "stale: {}; run UPDATE=1 cargo test --test generated_docs",
+        stale.join(", ")
+    );
 }

@@ -15,8 +15,16 @@ fn page(rewrite: &Rewrite) -> String {
     };
     let body = body.lines().map(fence).collect::<Vec<_>>().join("\n");
     let file = rewrite.name.replace('-', "_");
-    let cures = rewrite.cures.iter().map(|rule| format!("[{rule}](../rules/{rule}.md)")).collect::<Vec<_>>().join(", ");
-    format!("<!-- made from src/rewrite/rewrites/{file}.rs -->\n# {}\n\n{body}\n\nMay cure: {cures}.\n", rewrite.name)
+    let cures = rewrite
+        .cures
+        .iter()
+        .map(|rule| format!("[{rule}](../rules/{rule}.md)"))
+        .collect::<Vec<_>>()
+        .join(", ");
+    format!(
+        "<!-- made from src/rewrite/rewrites/{file}.rs -->\n# {}\n\n{body}\n\nMay cure: {cures}.\n",
+        rewrite.name
+    )
 }
 
 fn list() -> String {
@@ -32,7 +40,10 @@ fn list() -> String {
 
 #[test]
 fn rewrite_pages_are_fresh() {
-    let mut wanted: Vec<(String, String)> = rewrites().iter().map(|rewrite| (format!("{}.md", rewrite.name), page(rewrite))).collect();
+    let mut wanted: Vec<(String, String)> = rewrites()
+        .iter()
+        .map(|rewrite| (format!("{}.md", rewrite.name), page(rewrite)))
+        .collect();
     wanted.push(("README.md".to_owned(), list()));
     let update = std::env::var_os("UPDATE").is_some();
     if update {
@@ -56,7 +67,11 @@ fn rewrite_pages_are_fresh() {
             stale.push(format!("{name} (no rewrite of that name)"));
         }
     }
-    assert!(stale.is_empty(), "stale: {}; run UPDATE=1 cargo test --test generated_rewrite_docs", stale.join(", "));
+    assert!(
+        stale.is_empty(),
+        "stale: {}; run UPDATE=1 cargo test --test generated_rewrite_docs",
+        stale.join(", ")
+    );
 }
 
 #[test]
@@ -65,14 +80,24 @@ fn every_file_is_listed_and_every_cure_is_a_rule() {
     let mut files: Vec<String> = std::fs::read_dir(folder)
         .expect("the folder is there")
         .flatten()
-        .map(|entry| entry.file_name().to_string_lossy().trim_end_matches(".rs").replace('_', "-"))
+        .map(|entry| {
+            entry
+                .file_name()
+                .to_string_lossy()
+                .trim_end_matches(".rs")
+                .replace('_', "-")
+        })
         .collect();
     files.sort();
     let names: Vec<&str> = rewrites().iter().map(|rewrite| rewrite.name).collect();
     assert_eq!(files, names);
     for rewrite in rewrites() {
         for cure in rewrite.cures {
-            assert!(trunnion::check::rule(cure).is_some(), "{} cures the unknown rule {cure}", rewrite.name);
+            assert!(
+                trunnion::check::rule(cure).is_some(),
+                "{} cures the unknown rule {cure}",
+                rewrite.name
+            );
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The four guide-vane strategies on the Mikron UCP 710: the numbers of the paper of 2006 and of the kinematics notes.
 //!
 //! Each strategy is five blocks, printed as Sinumerik words and as APT vectors. Angles deg, lengths mm, feeds mm/min.
+use std::fmt::Write;
 use std::path::Path;
 use trunnion::check::{Diagnostic, Settings, ValueKey, check};
 use trunnion::dialect::{Dialect, builtin as dialect};
@@ -9,9 +10,11 @@ use trunnion::machine::{Follower, Leg, Machine, Row, builtin as machine, row, ti
 use trunnion::syntax::parse;
 
 /// A strategy's text with the given extension, or `None` (said aloud) where the data set is not there.
+#[expect(clippy::print_stderr, reason = "a test that is skipped says so")]
 fn data(strategy: u32, extension: &str) -> Option<String> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join(format!("../shared/data/guide-vane-2006/strategy-{strategy}.{extension}"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!(
+        "../shared/data/guide-vane-2006/strategy-{strategy}.{extension}"
+    ));
     let text = std::fs::read_to_string(&path).ok();
     if text.is_none() {
         eprintln!("skipped: no {}", path.display());
@@ -30,7 +33,12 @@ fn named(name: &str) -> &'static Dialect {
 fn found(text: &str, name: &str, machine: &Machine) -> Vec<Diagnostic> {
     let dialect = named(name);
     let program = parse(text.as_bytes().to_vec(), dialect.lex);
-    let settings = Settings { dialect, machine: Some(machine), setup: Setup::default(), rules: Vec::new() };
+    let settings = Settings {
+        dialect,
+        machine: Some(machine),
+        setup: Setup::default(),
+        rules: Vec::new(),
+    };
     check(&program, &settings).diagnostics
 }
 
@@ -61,7 +69,10 @@ impl Sink for Legs {
 fn legs(text: &str, name: &str) -> Vec<Leg> {
     let dialect = named(name);
     let program = parse(text.as_bytes().to_vec(), dialect.lex);
-    let mut legs = Legs { follower: Follower::new(mikron()), legs: Vec::new() };
+    let mut legs = Legs {
+        follower: Follower::new(mikron()),
+        legs: Vec::new(),
+    };
     run(&program, dialect, &Setup::default(), &mut legs);
     legs.legs
 }
@@ -72,12 +83,19 @@ fn rows(text: &str, name: &str) -> Vec<Row> {
 
 /// The value behind a letter in each line of a Sinumerik excerpt.
 fn words(text: &str, letter: char) -> Vec<f64> {
-    let word = |line: &str| line.split_whitespace().find_map(|word| word.strip_prefix(letter)?.parse().ok());
+    let word = |line: &str| {
+        line.split_whitespace()
+            .find_map(|word| word.strip_prefix(letter)?.parse().ok())
+    };
     text.lines().filter_map(word).collect()
 }
 
 fn joint(row: &Row, letter: u8) -> f64 {
-    let at = mikron().axes.iter().position(|axis| axis.letter == letter).expect("the machine has the axis");
+    let at = mikron()
+        .axes
+        .iter()
+        .position(|axis| axis.letter == letter)
+        .expect("the machine has the axis");
     row.joints[at].expect("the joint is known")
 }
 
@@ -88,7 +106,9 @@ fn with_tcp(mpf: &str) -> String {
 #[test]
 fn joints_of_the_vectors_are_the_printed_words() {
     for strategy in 1..=4 {
-        let (Some(apt), Some(mpf)) = (data(strategy, "apt"), data(strategy, "mpf")) else { return };
+        let (Some(apt), Some(mpf)) = (data(strategy, "apt"), data(strategy, "mpf")) else {
+            return;
+        };
         let rows = rows(&apt, "apt");
         let (a, c) = (words(&mpf, 'A'), words(&mpf, 'C'));
         assert_eq!((rows.len(), a.len(), c.len()), (5, 5, 5));
@@ -96,11 +116,18 @@ fn joints_of_the_vectors_are_the_printed_words() {
             let turns = (joint(row, b'C') - c[i]) / 360.0;
             let off = (turns - turns.round()).abs() * 360.0;
             let pole = a[i] == 0.0;
-            assert!(pole || off <= 0.0006 || (strategy, i) == (2, 2), "strategy {strategy} row {i}: C off by {off}");
+            assert!(
+                pole || off <= 0.0006 || (strategy, i) == (2, 2),
+                "strategy {strategy} row {i}: C off by {off}"
+            );
             // the printed 0.081 comes from the arc cosine of a k rounded to six digits
             let wanted = if (strategy, i) == (2, 2) { 0.0772 } else { a[i] };
             let off = (joint(row, b'A') - wanted).abs();
-            assert!(off <= 0.002, "strategy {strategy} row {i}: A {} is not {wanted}", joint(row, b'A'));
+            assert!(
+                off <= 0.002,
+                "strategy {strategy} row {i}: A {} is not {wanted}",
+                joint(row, b'A')
+            );
         }
     }
 }
@@ -109,7 +136,9 @@ fn joints_of_the_vectors_are_the_printed_words() {
 fn the_pole_flips_in_five_blocks_and_no_other() {
     let wanted: [&[&str]; 4] = [&[], &["N2930", "N2940"], &["N2480"], &["N1910", "N1920"]];
     for (strategy, blocks) in (1..=4).zip(wanted) {
-        let (Some(apt), Some(mpf)) = (data(strategy, "apt"), data(strategy, "mpf")) else { return };
+        let (Some(apt), Some(mpf)) = (data(strategy, "apt"), data(strategy, "mpf")) else {
+            return;
+        };
         for text in [mpf.clone(), with_tcp(&mpf)] {
             let found = found(&text, "sinumerik-840d", mikron());
             let flips: Vec<&str> = of("pole-flip", &found).filter_map(|d| d.block.as_deref()).collect();
@@ -144,17 +173,30 @@ fn the_lowest_reachable_feeds_are_the_papers() {
     for (strategy, (feeds, axis)) in (1..=4).zip(wanted) {
         let Some(mpf) = data(strategy, "mpf") else { return };
         let found = found(&with_tcp(&mpf), "sinumerik-840d", mikron());
-        let mut limits: Vec<f64> = of("axis-overspeed", &found).map(|d| value(d, "feed_limit_mm_min")).collect();
+        let mut limits: Vec<f64> = of("axis-overspeed", &found)
+            .map(|d| value(d, "feed_limit_mm_min"))
+            .collect();
         limits.sort_by(f64::total_cmp);
         for feed in feeds {
-            assert!(limits.iter().any(|limit| (limit - feed).abs() <= 1.0), "strategy {strategy}: {feed} not in {limits:?}");
+            assert!(
+                limits.iter().any(|limit| (limit - feed).abs() <= 1.0),
+                "strategy {strategy}: {feed} not in {limits:?}"
+            );
         }
         let lowest = feeds.iter().copied().fold(f64::INFINITY, f64::min);
-        assert!((limits[0] - lowest).abs() <= 1.0, "strategy {strategy}: lowest is {}", limits[0]);
+        assert!(
+            (limits[0] - lowest).abs() <= 1.0,
+            "strategy {strategy}: lowest is {}",
+            limits[0]
+        );
         let worst = of("axis-overspeed", &found)
             .find(|d| value(d, "feed_limit_mm_min") == limits[0])
             .expect("the lowest was found");
-        let letter = worst.values.iter().find(|(key, _)| *key == "limiting_axis").map(|(_, value)| value);
+        let letter = worst
+            .values
+            .iter()
+            .find(|(key, _)| *key == "limiting_axis")
+            .map(|(_, value)| value);
         assert_eq!(letter, Some(&ValueKey::Text(axis.to_owned())), "strategy {strategy}");
     }
 }
@@ -165,7 +207,7 @@ fn machine_words(mpf: &str) -> String {
     for (i, row) in rows(&with_tcp(mpf), "sinumerik-840d").iter().enumerate() {
         let word = |letter: u8| format!("{}{:.6}", char::from(letter), joint(row, letter));
         let words: Vec<String> = b"XYZAC".iter().map(|letter| word(*letter)).collect();
-        text.push_str(&format!("N{i} G1 {} F2000\n", words.join(" ")));
+        let _ = writeln!(text, "N{i} G1 {} F2000", words.join(" "));
     }
     text + "M30\n"
 }
@@ -183,13 +225,23 @@ fn without_tcp_the_tip_leaves_its_path() {
                 .find(|d| d.block.as_deref() == Some(&block))
                 .unwrap_or_else(|| panic!("strategy {strategy} {block}: no path-deviation"));
             let (sampled, bound) = (value(hit, "deviation_mm"), value(hit, "deviation_bound_mm"));
-            assert!((sampled - deviation).abs() <= 0.001, "strategy {strategy} {block}: {sampled} is not {deviation}");
-            assert!(bound >= sampled && bound <= sampled * 1.2, "strategy {strategy} {block}: {bound} for {sampled}");
+            assert!(
+                (sampled - deviation).abs() <= 0.001,
+                "strategy {strategy} {block}: {sampled} is not {deviation}"
+            );
+            assert!(
+                bound >= sampled && bound <= sampled * 1.2,
+                "strategy {strategy} {block}: {bound} for {sampled}"
+            );
         }
         let worst = legs(&text, "sinumerik-840d")
             .iter()
             .filter(|leg| leg.start.is_some())
-            .map(|leg| tip_deviation(mikron(), leg, 0.0).expect("lines are modelled").sampled_mm)
+            .map(|leg| {
+                tip_deviation(mikron(), leg, 0.0)
+                    .expect("lines are modelled")
+                    .sampled_mm
+            })
             .fold(0.0, f64::max);
         let most = blocks.iter().map(|(_, deviation)| *deviation).fold(0.0012, f64::max) + 0.001;
         assert!(worst <= most, "strategy {strategy}: {worst}");

@@ -1,8 +1,8 @@
 //! Rewrites on the published guide-vane rows, on hard cases, and on random chains.
-mod guide_vane;
+mod strategy_2;
 
-use guide_vane::{ROWS, VECTORS, apt, ball, certified, refused, run, settings, sinumerik, smooth, tool};
 use proptest::prelude::*;
+use strategy_2::{ROWS, VECTORS, apt, ball, certified, refused, run, settings, sinumerik, smooth, tool};
 use trunnion::check::{Settings, Status, ValueKey, check};
 use trunnion::interp::{Setup, ToolShape};
 use trunnion::rewrite::{Attempt, Options, rewrites};
@@ -15,7 +15,10 @@ fn near(value: f64, wanted: f64, within: f64) -> bool {
 /// Diagnostics of a rule as (block, values).
 fn found(text: &str, settings: &Settings<'_>, rule: &str) -> Vec<Vec<(&'static str, ValueKey)>> {
     let report = check(&parse(text.as_bytes().to_vec(), settings.dialect.lex), settings);
-    let fails = report.diagnostics.into_iter().filter(|found| found.rule == rule && found.status == Status::Fail);
+    let fails = report
+        .diagnostics
+        .into_iter()
+        .filter(|found| found.rule == rule && found.status == Status::Fail);
     fails.map(|found| found.values).collect()
 }
 
@@ -23,13 +26,18 @@ fn found(text: &str, settings: &Settings<'_>, rule: &str) -> Vec<Vec<(&'static s
 fn words(text: &str) -> Vec<[f64; 5]> {
     let rows = text.lines().filter(|line| line.contains(" G1 "));
     rows.map(|line| {
-        "XYZAC".bytes().map(|letter| {
-            let word = line.split_whitespace().find(|word| word.as_bytes()[0] == letter).expect("all words are there");
-            word[1..].parse().expect("a number")
-        })
-        .collect::<Vec<f64>>()
-        .try_into()
-        .expect("five words")
+        "XYZAC"
+            .bytes()
+            .map(|letter| {
+                let word = line
+                    .split_whitespace()
+                    .find(|word| word.as_bytes()[0] == letter)
+                    .expect("all words are there");
+                word[1..].parse().expect("a number")
+            })
+            .collect::<Vec<f64>>()
+            .try_into()
+            .expect("five words")
     })
     .collect()
 }
@@ -41,7 +49,9 @@ fn axis(a: f64, c: f64) -> [f64; 3] {
 }
 
 fn largest_c_step(rows: &[[f64; 5]]) -> f64 {
-    rows.windows(2).map(|pair| (pair[1][4] - pair[0][4]).abs()).fold(0.0, f64::max)
+    rows.windows(2)
+        .map(|pair| (pair[1][4] - pair[0][4]).abs())
+        .fold(0.0, f64::max)
 }
 
 #[test]
@@ -52,9 +62,18 @@ fn tool_vectors_of_strategy_2_give_the_published_steps() {
         let c = &certificate.rotary[0];
         assert_eq!(c.axis, "C");
         assert!(near(c.step_before_deg, 55.7, 0.05), "before {}", c.step_before_deg);
-        assert!(near(c.step_after_deg, step, 0.06), "at {tolerance}: {}", c.step_after_deg);
+        eprintln!("{tolerance} {}", c.step_after_deg);
+        assert!(
+            near(c.step_after_deg, step, 0.06),
+            "at {tolerance}: {}",
+            c.step_after_deg
+        );
         assert!(certificate.worst.axis_change_deg.value <= tolerance);
-        assert!(certificate.worst.point_shift_mm.value <= 2e-5, "{}", certificate.worst.point_shift_mm.value);
+        assert!(
+            certificate.worst.point_shift_mm.value <= 2e-5,
+            "{}",
+            certificate.worst.point_shift_mm.value
+        );
         assert!(certificate.text.rest_identical);
         let kept = |text: &str, line: usize| text.lines().nth(line).map(str::to_owned);
         for line in [0, 1, 2, 3, 4, 8, 9] {
@@ -72,14 +91,21 @@ fn machine_words_of_strategy_2_give_what_their_rounded_a_allows() {
         let (after, certificate) = certified(smooth(&sinumerik(ROWS), &settings, tolerance));
         let (before, after) = (words(ROWS), words(&after));
         assert!(near(largest_c_step(&before), 55.681, 1e-9));
-        assert!(near(largest_c_step(&after), step, 0.002), "at {tolerance}: {}", largest_c_step(&after));
+        assert!(
+            near(largest_c_step(&after), step, 0.002),
+            "at {tolerance}: {}",
+            largest_c_step(&after)
+        );
         assert!(near(certificate.rotary[0].step_after_deg, largest_c_step(&after), 1e-9));
         assert_eq!((before[0], before[4]), (after[0], after[4]), "the ends stay");
         for (was, is) in before.iter().zip(&after) {
             assert_eq!(was[3], is[3], "A stays");
             let (u, v) = (axis(was[3], was[4]), axis(is[3], is[4]));
             let chord = (0..3).map(|i| (u[i] - v[i]).powi(2)).sum::<f64>().sqrt();
-            assert!(2.0 * (chord / 2.0).asin().to_degrees() <= tolerance, "tool axis turns too far");
+            assert!(
+                2.0 * (chord / 2.0).asin().to_degrees() <= tolerance,
+                "tool axis turns too far"
+            );
             for i in 0..3 {
                 assert!(near(is[i], was[i] + 5.0 * (u[i] - v[i]), 6e-6), "P' = P + r (u - u')");
             }
@@ -94,17 +120,42 @@ fn at_0_08_deg_the_flip_is_gone_and_the_feed_is_back() {
     let (after, certificate) = certified(smooth(&before, &settings, 0.08));
     assert!(!found(&before, &settings, "pole-flip").is_empty());
     assert!(found(&after, &settings, "pole-flip").is_empty());
-    for values in found(&after, &settings, "axis-overspeed") {
-        let feed = values.iter().find(|(key, _)| *key == "feed_limit_mm_min");
-        assert!(matches!(feed, Some((_, ValueKey::Number(feed))) if *feed >= 1900.0), "{values:?}");
-    }
+    // C reaches 1924 mm/min; what stays below that is A, which the rewrite does not touch
+    let limited = |text: &str, axis: &str| {
+        let all = found(text, &settings, "axis-overspeed").into_iter();
+        let of_axis = all.filter(|values| values.contains(&("limiting_axis", ValueKey::Text(axis.to_owned()))));
+        let number =
+            |values: Vec<(&'static str, ValueKey)>| values.into_iter().find(|(key, _)| *key == "feed_limit_mm_min");
+        let feeds = of_axis
+            .filter_map(number)
+            .map(|(_, value)| if let ValueKey::Number(feed) = value { feed } else { 0.0 });
+        feeds.fold(f64::INFINITY, f64::min)
+    };
+    assert!(near(limited(&before, "C"), 33.0, 1.0));
+    assert!(limited(&after, "C") >= 1900.0);
+    assert!(near(limited(&after, "A"), 1571.0, 1.0));
     assert_eq!(certificate.text.words_inserted, 0);
-    assert_eq!(certificate.motions.changed, 4, "three rows, and the way to the fixed end");
+    assert_eq!(
+        certificate.motions.changed, 4,
+        "three rows, and the way to the fixed end"
+    );
     // only numbers of X, Y and C of the three inner rows differ
     for (index, (was, is)) in before.lines().zip(after.lines()).enumerate() {
-        let differ: String = was.split(' ').zip(is.split(' ')).filter(|(a, b)| a != b).map(|(a, _)| &a[..1]).collect();
+        let differ: String = was
+            .split(' ')
+            .zip(is.split(' '))
+            .filter(|(a, b)| a != b)
+            .map(|(a, _)| &a[..1])
+            .collect();
         let inner = (5..=7).contains(&index);
-        assert!(if inner { ["XYC", "YC", "XC", "C"].contains(&differ.as_str()) } else { differ.is_empty() }, "line {index}: {differ}");
+        assert!(
+            if inner {
+                ["XYC", "YC", "XC", "C"].contains(&differ.as_str())
+            } else {
+                differ.is_empty()
+            },
+            "line {index}: {differ}"
+        );
         assert_eq!(was.len() - was.trim_end().len(), is.len() - is.trim_end().len());
     }
 }
@@ -113,7 +164,10 @@ fn at_0_08_deg_the_flip_is_gone_and_the_feed_is_back() {
 fn a_tool_that_is_not_a_declared_ball_is_refused() {
     let text = sinumerik(ROWS);
     let reason = refused(smooth(&text, &settings("sinumerik-840d", Setup::default()), 0.08));
-    assert!(reason.contains("shape is not declared") && reason.contains("--tool ball:10"), "{reason}");
+    assert!(
+        reason.contains("shape is not declared") && reason.contains("--tool ball:10"),
+        "{reason}"
+    );
     let reason = refused(smooth(&text, &settings("sinumerik-840d", tool(ToolShape::Flat)), 0.08));
     assert!(reason.contains("no ball"), "{reason}");
     let declared = format!("; trunnion: tool 1 ball diameter 10\nT1 D1\nM6\n{text}");
@@ -127,12 +181,22 @@ fn what_cannot_be_proven_is_refused_with_its_reason() {
     let off = refused(smooth(&sinumerik(ROWS).replace("TRAORI\n", ""), &settings, 0.08));
     assert!(off.contains("tool centre point control is off"), "{off}");
     let reason = rows(ROWS.replace("C52.595", "C=52.5+0.095"));
-    assert!(reason.contains("unknown") || reason.contains("not a plain number"), "{reason}");
-    let reason = rows(format!("{}G91\nN2930 G1 X-0.00235 Y0.30476 Z0.02959 A-0.966 C47.773\nG90\n{}", head(2), tail(3)));
+    assert!(
+        reason.contains("unknown") || reason.contains("not a plain number"),
+        "{reason}"
+    );
+    let reason = rows(format!(
+        "{}G91\nN2930 G1 X-0.00235 Y0.30476 Z0.02959 A-0.966 C47.773\nG90\n{}",
+        head(2),
+        tail(3)
+    ));
     assert!(reason.contains("incremental"), "{reason}");
     let reason = refused(smooth(&sinumerik(ROWS), &settings, 0.0005));
     assert!(reason.contains("--tolerance-deg"), "{reason}");
-    let coarse = sinumerik(ROWS).replace("-28.38", "-28.4").replace("Y-1.84041", "Y-1.8").replace("Y-1.53565", "Y-1.5");
+    let coarse = sinumerik(ROWS)
+        .replace("-28.38", "-28.4")
+        .replace("Y-1.84041", "Y-1.8")
+        .replace("Y-1.53565", "Y-1.5");
     let coarse: String = coarse.lines().map(|line| shorten(line) + "\n").collect();
     let reason = refused(smooth(&coarse, &settings, 0.08));
     assert!(reason.contains("--tolerance-mm"), "{reason}");
@@ -168,31 +232,48 @@ fn tail(skip: usize) -> String {
 #[test]
 fn nothing_is_done_where_no_flip_is_reported() {
     let calm = "N1 G1 X0 Y0 Z50 A5 C10\nN2 G1 X1 Y0 Z50 A5.5 C11\n";
-    assert!(matches!(smooth(&sinumerik(calm), &settings("sinumerik-840d", ball()), 0.08), Attempt::NothingToDo));
+    assert!(matches!(
+        smooth(&sinumerik(calm), &settings("sinumerik-840d", ball()), 0.08),
+        Attempt::NothingToDo
+    ));
 }
 
 #[test]
 fn an_approach_and_a_retract_do_not_become_part_of_the_window() {
     let settings = settings("sinumerik-840d", ball());
     let alone = words(&certified(smooth(&sinumerik(ROWS), &settings, 0.08)).0);
-    let framed = format!(
-        "G0 X-28.38197 Y-2.14469 Z79.86773 A2.042 C3.358\nG1 Z62.86773 F500\n{ROWS}G1 Z80 F5000\nG0 Z100\n"
-    );
+    let framed =
+        format!("G0 X-28.38197 Y-2.14469 Z79.86773 A2.042 C3.358\nG1 Z62.86773 F500\n{ROWS}G1 Z80 F5000\nG0 Z100\n");
     let after = certified(smooth(&sinumerik(&framed), &settings, 0.08)).0;
-    let framed: String = after.lines().filter(|line| line.starts_with("N29")).map(|line| format!("{line}\n")).collect();
+    let framed: String = after
+        .lines()
+        .filter(|line| line.starts_with("N29"))
+        .map(|line| format!("{line}\n"))
+        .collect();
     assert_eq!(words(&framed), alone);
 }
 
 #[test]
 fn words_left_out_are_written_where_they_are_needed() {
     let settings = settings("sinumerik-840d", ball());
-    let rows = "N1 G1 X-28 Y-2.1 Z60.5 A2.1 C3\nN2 Y-1.8 A1.05 C5\nN3 Y-1.5 A0.08 C50\nN4 Y-1.25 A-0.8 C-3.1\nN5 Y-1 A-2.1\n";
+    let rows =
+        "N1 G1 X-28 Y-2.1 Z60.5 A2.1 C3\nN2 Y-1.8 A1.05 C5\nN3 Y-1.5 A0.08 C50\nN4 Y-1.25 A-0.8 C-3.1\nN5 Y-1 A-2.1\n";
     // X and Z are said once, with one digit more elsewhere so that there is something to round to
     let rows = format!("G1 X-28.00000 Y-3.00000 Z60.50000 A2.1 C3.000\n{rows}");
     let (after, certificate) = certified(smooth(&sinumerik(&rows), &settings, 0.08));
-    let row = |number: &str| after.lines().find(|line| line.starts_with(number)).expect("the row").to_owned();
+    let row = |number: &str| {
+        after
+            .lines()
+            .find(|line| line.starts_with(number))
+            .expect("the row")
+            .to_owned()
+    };
     assert!(row("N2 ").starts_with("N2 X-27.99"), "{}", row("N2 "));
-    assert!(row("N5 ").starts_with("N5 X-28 Y-1 ") && row("N5 ").contains("C-3.1"), "{}", row("N5 "));
+    assert!(
+        row("N5 ").starts_with("N5 X-28 Y-1 ") && row("N5 ").contains("C-3.1"),
+        "{}",
+        row("N5 ")
+    );
     assert!(certificate.text.words_inserted >= 3, "{:?}", certificate.text);
     assert!(certificate.worst.point_shift_mm.value < 1e-4);
 }
@@ -211,23 +292,42 @@ fn inches_are_kept() {
         .collect();
     let settings = settings("sinumerik-840d", ball());
     let (_, certificate) = certified(smooth(&sinumerik(&format!("G70\n{inch}")), &settings, 0.08));
-    assert!(certificate.worst.point_shift_mm.value < 3e-5, "{}", certificate.worst.point_shift_mm.value);
+    assert!(
+        certificate.worst.point_shift_mm.value < 3e-5,
+        "{}",
+        certificate.worst.point_shift_mm.value
+    );
     assert!(near(certificate.rotary[0].step_after_deg, 1.146, 0.01));
 }
 
 fn unwind(text: &str) -> Attempt {
-    run("unwind-rotary", text, &settings("sinumerik-840d", Setup::default()), &Options::default())
+    run(
+        "unwind-rotary",
+        text,
+        &settings("sinumerik-840d", Setup::default()),
+        &Options::default(),
+    )
 }
 
 #[test]
 fn a_rotary_jump_is_unwound() {
-    let text = sinumerik("G1 X0 Y0 Z50 A10 C350.000\nX1 A10.5 C358.5\nX2 A11 C6.25\nX3 ; comment\nX4 A11.5 C-346.000\nX5 C340\n");
+    let text = sinumerik(
+        "G1 X0 Y0 Z50 A10 C350.000\nX1 A10.5 C358.5\nX2 A11 C6.25\nX3 ; comment\nX4 A11.5 C-346.000\nX5 C340\n",
+    );
     let (after, certificate) = certified(unwind(&text));
-    let expected = text.replace("C6.25", "C366.25").replace("C-346.000", "C374.000").replace("C340", "C340");
+    let expected = text
+        .replace("C6.25", "C366.25")
+        .replace("C-346.000", "C374.000")
+        .replace("C340", "C340");
     assert_eq!(after, expected);
     assert!(near(certificate.rotary[0].step_before_deg, 686.0, 1e-6));
     assert!(near(certificate.rotary[0].step_after_deg, 34.0, 1e-6));
-    assert!(certificate.changes.iter().all(|change| near(change.rotary_change_deg[0] % 360.0, 0.0, 1e-9)));
+    assert!(
+        certificate
+            .changes
+            .iter()
+            .all(|change| near(change.rotary_change_deg[0] % 360.0, 0.0, 1e-9))
+    );
     assert!(certificate.worst.axis_change_deg.value < 1e-9);
     assert!(matches!(unwind(&after), Attempt::NothingToDo));
 }
@@ -250,13 +350,22 @@ fn every_rewrites_example_holds() {
         let [(info, before), (_, after)] = fences.as_slice() else {
             panic!("{}: one before and one after fence expected", rewrite.name);
         };
-        let option = |key: &str| info.split_whitespace().find_map(|word| word.strip_prefix(key)?.strip_prefix('='));
-        let settings = settings(option("dialect").expect("a dialect"), Setup::default());
-        let tolerance_deg = option("tolerance-deg").map_or(0.1, |value| value.parse().expect("a number"));
-        let options = Options { tolerance_deg, ..Options::default() };
-        assert_eq!(&certified(run(rewrite.name, before, &settings, &options)).0, after, "{}", rewrite.name);
+        let known = |word: &&str| trunnion::dialect::BUILTIN_NAMES.contains(word);
+        let dialect = info.split_whitespace().find(known).expect("a dialect");
+        let settings = settings(dialect, Setup::default());
+        let options = Options::default();
+        assert_eq!(
+            &certified(run(rewrite.name, before, &settings, &options)).0,
+            after,
+            "{}",
+            rewrite.name
+        );
         for heading in ["# Why", "# Example", "# Claim", "# Traps", "# Sources"] {
-            assert!(rewrite.docs.contains(&format!("\n{heading}\n")), "{}: {heading} is missing", rewrite.name);
+            assert!(
+                rewrite.docs.contains(&format!("\n{heading}\n")),
+                "{}: {heading} is missing",
+                rewrite.name
+            );
         }
     }
 }

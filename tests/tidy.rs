@@ -24,7 +24,10 @@ const FORBIDDEN: &[(&str, &[&str])] = &[
     ("trunnion-syntax", &["nalgebra", "serde", "toml", "trunnion-geometry"]),
     ("trunnion-geometry", &["trunnion-syntax", "serde", "toml"]),
     ("trunnion-certify", &["trunnion-check", "trunnion-rewrite"]),
-    ("trunnion-check", &["tokio", "clap", "miette", "tower-lsp", "trunnion-certify"]),
+    (
+        "trunnion-check",
+        &["tokio", "clap", "miette", "tower-lsp", "trunnion-certify"],
+    ),
     ("trunnion-rewrite", &["tokio", "clap", "miette", "tower-lsp"]),
     ("trunnion-lsp", &["clap", "miette"]),
 ];
@@ -43,7 +46,9 @@ fn crates() -> BTreeMap<String, BTreeSet<String>> {
     }
     let mut found = BTreeMap::new();
     for manifest in manifests {
-        let Ok(text) = std::fs::read_to_string(&manifest) else { continue };
+        let Ok(text) = std::fs::read_to_string(&manifest) else {
+            continue;
+        };
         let (mut section, mut name, mut uses) = ("", None, BTreeSet::new());
         for line in text.lines().map(str::trim) {
             if line.starts_with('[') {
@@ -57,7 +62,10 @@ fn crates() -> BTreeMap<String, BTreeSet<String>> {
                 }
             }
         }
-        found.insert(name.unwrap_or_else(|| panic!("{} names a package", manifest.display())), uses);
+        found.insert(
+            name.unwrap_or_else(|| panic!("{} names a package", manifest.display())),
+            uses,
+        );
     }
     found
 }
@@ -121,7 +129,11 @@ fn the_list_of_rewrites_is_the_folder() {
 fn rewrites_cure_rules_that_exist() {
     for rewrite in rewrites() {
         for cured in rewrite.cures {
-            assert!(rules().iter().any(|rule| rule.name == *cured), "{} cures {cured}, which is no rule", rewrite.name);
+            assert!(
+                rules().iter().any(|rule| rule.name == *cured),
+                "{} cures {cured}, which is no rule",
+                rewrite.name
+            );
         }
     }
 }
@@ -131,9 +143,17 @@ fn rule_headers_are_whole() {
     const WANTED: &[&str] = &["Why", "Example", "Use instead", "Guarantee", "Sources"];
     for rule in rules() {
         let first = rule.docs.lines().next().unwrap_or_default();
-        assert!(first.ends_with('.') && !first.starts_with('#'), "{}: the header begins with one sentence", rule.name);
+        assert!(
+            first.ends_with('.') && !first.starts_with('#'),
+            "{}: the header begins with one sentence",
+            rule.name
+        );
         let headings: Vec<&str> = rule.docs.lines().filter_map(|line| line.strip_prefix("# ")).collect();
-        let compulsory: Vec<&str> = headings.iter().copied().filter(|heading| *heading != "Thresholds").collect();
+        let compulsory: Vec<&str> = headings
+            .iter()
+            .copied()
+            .filter(|heading| *heading != "Thresholds")
+            .collect();
         assert_eq!(compulsory, WANTED, "{}", rule.name);
     }
 }
@@ -142,12 +162,20 @@ fn rule_headers_are_whole() {
 fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
     const MADE: &[&str] = &["target", "node_modules", "out", "dist", "snapshots"];
     let mut found = Vec::new();
-    let Ok(entries) = std::fs::read_dir(folder) else { return found };
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return found;
+    };
     for path in entries.flatten().map(|entry| entry.path()) {
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let name = path
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned())
+            .unwrap_or_default();
         if path.is_dir() && !name.starts_with('.') && !MADE.contains(&name.as_str()) {
             found.extend(files(&path, extensions));
-        } else if extensions.iter().any(|extension| path.extension().is_some_and(|own| own == *extension)) {
+        } else if extensions
+            .iter()
+            .any(|extension| path.extension().is_some_and(|own| own == *extension))
+        {
             found.push(path);
         }
     }
@@ -162,11 +190,18 @@ fn files_are_short() {
         for path in files(&root().join(folder), &["rs", "ts"]) {
             let lines = std::fs::read_to_string(&path).map_or(0, |text| text.lines().count());
             if lines > LONGEST_FILE {
-                long.push(format!("{}: {lines} lines", path.strip_prefix(root()).unwrap_or(&path).display()));
+                long.push(format!(
+                    "{}: {lines} lines",
+                    path.strip_prefix(root()).unwrap_or(&path).display()
+                ));
             }
         }
     }
-    assert!(long.is_empty(), "over {LONGEST_FILE} lines: one idea per file\n{}", long.join("\n"));
+    assert!(
+        long.is_empty(),
+        "over {LONGEST_FILE} lines: one idea per file\n{}",
+        long.join("\n")
+    );
 }
 
 #[test]

@@ -172,7 +172,10 @@ impl Certificate {
     pub fn from_json(json: &str) -> Result<Self, String> {
         let certificate: Self = serde_json::from_str(json).map_err(|error| format!("not a certificate: {error}"))?;
         if certificate.schema != SCHEMA {
-            return Err(format!("certificate schema is \"{}\", this program reads \"{SCHEMA}\"", certificate.schema));
+            return Err(format!(
+                "certificate schema is \"{}\", this program reads \"{SCHEMA}\"",
+                certificate.schema
+            ));
         }
         Ok(certificate)
     }
@@ -197,10 +200,10 @@ impl Certificate {
             worst.path_axis_bound_deg.value
         );
         if self.motions.unknown > 0 {
-            text.push_str(&format!("; {} with unknown position, programmed alike", self.motions.unknown));
+            text.push_str("; some positions are unknown, but programmed alike");
         }
         if self.motions.process_changed > 0 {
-            text.push_str(&format!("; {} with another feed or spindle speed", self.motions.process_changed));
+            text.push_str("; feed or spindle speed differ");
         }
         text
     }
@@ -213,7 +216,10 @@ impl Certificate {
 
     /// What the seal must be.
     pub(crate) fn seal(&self) -> String {
-        let bare = Self { seal_sha256: String::new(), ..self.clone() };
+        let bare = Self {
+            seal_sha256: String::new(),
+            ..self.clone()
+        };
         hex_sha256(bare.to_json().as_bytes())
     }
 }

@@ -50,9 +50,19 @@ impl Claim {
     /// Tolerances: mm and deg.
     pub fn tolerances(&self) -> (f64, f64) {
         match *self {
-            Self::SamePoses { tolerance_mm, tolerance_deg }
-            | Self::SameBallCentre { tolerance_mm, tolerance_deg, .. }
-            | Self::SameToolPath { tolerance_mm, tolerance_deg } => (tolerance_mm, tolerance_deg),
+            Self::SamePoses {
+                tolerance_mm,
+                tolerance_deg,
+            }
+            | Self::SameBallCentre {
+                tolerance_mm,
+                tolerance_deg,
+                ..
+            }
+            | Self::SameToolPath {
+                tolerance_mm,
+                tolerance_deg,
+            } => (tolerance_mm, tolerance_deg),
         }
     }
 

@@ -32,7 +32,13 @@ pub(crate) struct Place {
 }
 
 /// Compares two legs under a claim.
-pub(crate) fn compare(machine: &Machine, claim: &Claim, at: Place, before: &Step, after: &Step) -> Result<Compared, Stop> {
+pub(crate) fn compare(
+    machine: &Machine,
+    claim: &Claim,
+    at: Place,
+    before: &Step,
+    after: &Step,
+) -> Result<Compared, Stop> {
     let (old, new) = (&before.leg, &after.leg);
     same_kind(claim, at, &old.motion, &new.motion)?;
     let (was, is) = match (&old.end, &new.end) {
@@ -50,7 +56,11 @@ pub(crate) fn compare(machine: &Machine, claim: &Claim, at: Place, before: &Step
     let height = claim.point_height_mm();
     let way = way_between(machine, claim, at, old, new, height)?;
     let shift = |height: f64| ((is.tip + is.axis * height) - (was.tip + was.axis * height)).norm();
-    let rotary = machine.rotary.iter().map(|&joint| deg(is.joints[joint] - was.joints[joint])).collect();
+    let rotary = machine
+        .rotary
+        .iter()
+        .map(|&joint| deg(is.joints[joint] - was.joints[joint]))
+        .collect();
     let change = MotionChange {
         motion: at.motion as u64,
         line: at.line,
@@ -68,7 +78,13 @@ pub(crate) fn compare(machine: &Machine, claim: &Claim, at: Place, before: &Step
 
 /// What must be equal whatever is claimed, and what must be equal in a rewrite.
 fn same_kind(claim: &Claim, at: Place, old: &Motion, new: &Motion) -> Result<(), Stop> {
-    let refuse = |what: &str| Err(Stop::refuted_at(at.motion, at.line, format!("{what} differs between before and after")));
+    let refuse = |what: &str| {
+        Err(Stop::refuted_at(
+            at.motion,
+            at.line,
+            format!("{what} differs between before and after"),
+        ))
+    };
     if core::mem::discriminant(&old.kind) != core::mem::discriminant(&new.kind) {
         return refuse("the kind of motion (rapid, line, arc, dwell)");
     }
@@ -97,7 +113,10 @@ pub(crate) fn process_differs(old: &Motion, new: &Motion) -> bool {
 
 /// Programmed alike, from a like state. The block's number plays no part.
 fn alike(old: &Leg, new: &Leg) -> bool {
-    let new_motion = Motion { block: old.motion.block, ..new.motion };
+    let new_motion = Motion {
+        block: old.motion.block,
+        ..new.motion
+    };
     old.start == new.start && old.known_joints == new.known_joints && old.motion == new_motion
 }
 
@@ -133,7 +152,10 @@ fn same_ball(at: Place, radius: f64, before: &Step, after: &Step) -> Result<(), 
 
 /// The difference of whole turns between the programs changes inside this motion.
 fn turns_change(machine: &Machine, old: &Leg, new: &Leg) -> bool {
-    let (Some(from), Some(to)) = (shift_of(machine, old.start, new.start), shift_of(machine, old.end.as_ref().ok().copied(), new.end.as_ref().ok().copied())) else {
+    let (Some(from), Some(to)) = (
+        shift_of(machine, old.start, new.start),
+        shift_of(machine, old.end.as_ref().ok().copied(), new.end.as_ref().ok().copied()),
+    ) else {
         return false;
     };
     from != to
@@ -153,9 +175,16 @@ fn way_between(machine: &Machine, claim: &Claim, at: Place, old: &Leg, new: &Leg
         (None, None) if alike(old, new) => return Ok(Apart::default()),
         // both come from an unknown position; the ends are compared all the same
         (None, None) if claim.is_rewrite() => return Ok(Apart::default()),
-        _ => return Err(Stop::unknown(format!("line {}: the position before this motion is unknown", at.line))),
+        _ => {
+            return Err(Stop::unknown(format!(
+                "line {}: the position before this motion is unknown",
+                at.line
+            )));
+        }
     };
-    let (Ok(was_end), Ok(is_end)) = (&old.end, &new.end) else { return Ok(Apart::default()) };
+    let (Ok(was_end), Ok(is_end)) = (&old.end, &new.end) else {
+        return Ok(Apart::default());
+    };
     if same_way(machine, old, new) {
         return Ok(Apart::default());
     }
@@ -171,8 +200,14 @@ fn way_between(machine: &Machine, claim: &Claim, at: Place, old: &Leg, new: &Leg
 
 /// Programmed alike but for the same whole turns of rotary axes at both ends: then the way is the same whatever its shape.
 fn same_way(machine: &Machine, old: &Leg, new: &Leg) -> bool {
-    let mut motion = Motion { block: old.motion.block, ..new.motion };
-    let ends = [(old.start, new.start), (old.end.as_ref().ok().copied(), new.end.as_ref().ok().copied())];
+    let mut motion = Motion {
+        block: old.motion.block,
+        ..new.motion
+    };
+    let ends = [
+        (old.start, new.start),
+        (old.end.as_ref().ok().copied(), new.end.as_ref().ok().copied()),
+    ];
     let shifts = ends.map(|(was, is)| shift_of(machine, was, is));
     if shifts[0].is_none() || shifts[0] != shifts[1] {
         return false;
@@ -183,7 +218,8 @@ fn same_way(machine: &Machine, old: &Leg, new: &Leg) -> bool {
             let change = deg(is.joints[joint] - was.joints[joint]);
             (change - 360.0 * (change / 360.0).round()).abs()
         };
-        if was.tip != is.tip && (was.tip - is.tip).norm() > 1e-9 || machine.rotary.iter().map(off).any(|off| off > 1e-9) {
+        if was.tip != is.tip && (was.tip - is.tip).norm() > 1e-9 || machine.rotary.iter().map(off).any(|off| off > 1e-9)
+        {
             return false;
         }
     }
@@ -198,9 +234,16 @@ fn same_way(machine: &Machine, old: &Leg, new: &Leg) -> bool {
 fn judge(claim: &Claim, at: Place, change: &MotionChange, way: &Apart, turns_change: bool) -> Result<(), Stop> {
     let (mm, degrees) = claim.tolerances();
     let refuse = |message: String| Err(Stop::refuted_at(at.motion, at.line, message));
-    let point = if matches!(claim, Claim::SameBallCentre { .. }) { "ball's centre" } else { "tool tip" };
+    let point = if matches!(claim, Claim::SameBallCentre { .. }) {
+        "ball's centre"
+    } else {
+        "tool tip"
+    };
     if above(change.point_shift_mm, mm) {
-        return refuse(format!("the {point} shifts by {:.6} mm at the block's end, allowed is {mm} mm", change.point_shift_mm));
+        return refuse(format!(
+            "the {point} shifts by {:.6} mm at the block's end, allowed is {mm} mm",
+            change.point_shift_mm
+        ));
     }
     if above(change.axis_change_deg, degrees) {
         return refuse(format!(
@@ -214,7 +257,9 @@ fn judge(claim: &Claim, at: Place, change: &MotionChange, way: &Apart, turns_cha
             for value in &change.rotary_change_deg {
                 let off = value - 360.0 * (value / 360.0).round();
                 if above(off.abs(), degrees) {
-                    return refuse(format!("a rotary axis differs by {value:.6} deg, which is not a number of whole turns"));
+                    return refuse(format!(
+                        "a rotary axis differs by {value:.6} deg, which is not a number of whole turns"
+                    ));
                 }
             }
             !turns_change
@@ -241,7 +286,7 @@ fn judge(claim: &Claim, at: Place, change: &MotionChange, way: &Apart, turns_cha
 
 /// Above the limit, or not a number.
 fn above(value: f64, limit: f64) -> bool {
-    !(value <= limit)
+    value.is_nan() || value > limit
 }
 
 /// Distance of forward kinematics from the programmed pose at the end of a leg: mm, deg. `None` where no pose is known.

@@ -23,15 +23,23 @@ pub(crate) fn first_difference(given: &Certificate, fresh: &Certificate) -> Opti
 fn differ(given: &Value, fresh: &Value, path: &str) -> Option<String> {
     match (given, fresh) {
         (Value::Object(a), Value::Object(b)) => a.iter().find_map(|(key, value)| {
-            let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            let path = if path.is_empty() {
+                key.clone()
+            } else {
+                format!("{path}.{key}")
+            };
             differ(value, b.get(key)?, &path)
         }),
-        (Value::Array(a), Value::Array(b)) if a.len() != b.len() => {
-            Some(format!("{path}: certificate has {} entries, the proof {}", a.len(), b.len()))
-        }
-        (Value::Array(a), Value::Array(b)) => {
-            a.iter().zip(b).enumerate().find_map(|(i, (a, b))| differ(a, b, &format!("{path}[{i}]")))
-        }
+        (Value::Array(a), Value::Array(b)) if a.len() != b.len() => Some(format!(
+            "{path}: certificate has {} entries, the proof {}",
+            a.len(),
+            b.len()
+        )),
+        (Value::Array(a), Value::Array(b)) => a
+            .iter()
+            .zip(b)
+            .enumerate()
+            .find_map(|(i, (a, b))| differ(a, b, &format!("{path}[{i}]"))),
         _ if given == fresh => None,
         _ => Some(format!("{path}: certificate says {given}, the proof gives {fresh}")),
     }

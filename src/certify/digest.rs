@@ -7,16 +7,21 @@ use trunnion_machine::Machine;
 
 /// SHA-256 in lower case hexadecimal.
 pub(crate) fn hex_sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().fold(String::with_capacity(64), |mut hex, byte| {
-        // writing to a String cannot fail
-        let _ = write!(hex, "{byte:02x}");
-        hex
-    })
+    Sha256::digest(bytes)
+        .iter()
+        .fold(String::with_capacity(64), |mut hex, byte| {
+            // writing to a String cannot fail
+            let _ = write!(hex, "{byte:02x}");
+            hex
+        })
 }
 
 /// Digest of what a dialect says: notation, letters, codes and quirks; not its prose.
 pub(crate) fn dialect_digest(dialect: &Dialect) -> String {
-    let mut facts = format!("{}\n{:?}\n{:?}\n{:?}\n", dialect.name, dialect.lex, dialect.arc_tolerance_mm, dialect.quirks);
+    let mut facts = format!(
+        "{}\n{:?}\n{:?}\n{:?}\n",
+        dialect.name, dialect.lex, dialect.arc_tolerance_mm, dialect.quirks
+    );
     for letter in b'A'..=b'Z' {
         let _ = writeln!(facts, "{} {:?}", char::from(letter), dialect.role(letter));
     }
@@ -29,7 +34,11 @@ pub(crate) fn dialect_digest(dialect: &Dialect) -> String {
 /// Digest of a machine: chain, limits, speeds, control; not its thresholds and prose.
 pub(crate) fn machine_digest(machine: &Machine) -> String {
     let mut facts = format!("{}\n{:?} {:?}\n", machine.id, machine.tool_axis, machine.gauge_point);
-    let _ = writeln!(facts, "{} great circle {}", machine.control.family, machine.control.tcp_great_circle);
+    let _ = writeln!(
+        facts,
+        "{} great circle {}",
+        machine.control.family, machine.control.tcp_great_circle
+    );
     for axis in &machine.axes {
         let _ = writeln!(
             facts,
@@ -60,6 +69,9 @@ mod tests {
     #[test]
     fn the_digest_of_nothing_is_the_published_one() {
         // FIPS 180-4, SHA-256 of the empty message
-        assert_eq!(hex_sha256(b""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+        assert_eq!(
+            hex_sha256(b""),
+            "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"
+        );
     }
 }

@@ -14,7 +14,8 @@ mod text;
 mod verdict;
 
 pub use certificate::{
-    Certificate, MotionChange, MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextChange, TextDigest, Worst, WorstChanges,
+    Certificate, MotionChange, MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextChange, TextDigest, Worst,
+    WorstChanges,
 };
 pub use claim::Claim;
 pub use recheck::{certify, recheck};

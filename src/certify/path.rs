@@ -38,14 +38,22 @@ impl<'m> Path<'m> {
         let vectors = matches!(motion.orientation, trunnion_interp::Orientation::Vector(..));
         let interpolation = match motion.kind {
             MotionKind::Rapid | MotionKind::Linear if !motion.tcp && !vectors => Interpolation::Joints,
-            MotionKind::Rapid | MotionKind::Linear if motion.great_circle.unwrap_or(machine.control.tcp_great_circle) => {
+            MotionKind::Rapid | MotionKind::Linear
+                if motion.great_circle.unwrap_or(machine.control.tcp_great_circle) =>
+            {
                 Interpolation::GreatCircle
             }
             MotionKind::Rapid | MotionKind::Linear => Interpolation::TipStraight,
             MotionKind::Dwell(_) => Interpolation::Joints,
             MotionKind::Arc(_) | MotionKind::Unknown => return None,
         };
-        Some(Self { machine, interpolation, start, end, height })
+        Some(Self {
+            machine,
+            interpolation,
+            start,
+            end,
+            height,
+        })
     }
 
     /// Point (mm) and tool axis at the share `t` of the motion, workpiece frame.
@@ -152,7 +160,11 @@ pub(crate) fn apart(before: &Path<'_>, after: &Path<'_>) -> Apart {
     let bend = (bend_before.0 + bend_after.0, bend_before.1 + bend_after.1);
     // so many that the bound is at most 1e-6 mm (or rad) above the samples, if that is affordable
     let wanted = (bend.0.max(bend.1) / 8e-6).sqrt().ceil();
-    let steps = if wanted < f64::from(MOST_SAMPLES) { (wanted as u32).max(1) } else { MOST_SAMPLES };
+    let steps = if wanted < f64::from(MOST_SAMPLES) {
+        (wanted as u32).max(1)
+    } else {
+        MOST_SAMPLES
+    };
     let (mut distance, mut chord) = (0.0f64, 0.0f64);
     for step in 0..=steps {
         let t = f64::from(step) / f64::from(steps);

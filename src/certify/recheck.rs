@@ -2,7 +2,7 @@
 //!
 //! Both texts are parsed, run and followed again by floors 0 to 3. Each pair of motions is compared (`compare`), the ways between
 //! block ends are bounded (`path`), and the texts are compared byte by byte outside coordinate words (`text`).
-use crate::certificate::{MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextDigest, WorstChanges, Worst};
+use crate::certificate::{MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextDigest, Worst, WorstChanges};
 use crate::compare::{Compared, Place, compare, forward_residual, process_differs};
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
 use crate::rerun::{Rerun, Step};
@@ -16,7 +16,14 @@ use trunnion_machine::{Leg, Machine};
 use trunnion_syntax::{BlockId, LineIndex, Program, parse};
 
 /// Tries to prove `claim` for two texts.
-pub fn certify(before: &[u8], after: &[u8], dialect: &Dialect, machine: &Machine, setup: &Setup, claim: &Claim) -> Outcome {
+pub fn certify(
+    before: &[u8],
+    after: &[u8],
+    dialect: &Dialect,
+    machine: &Machine,
+    setup: &Setup,
+    claim: &Claim,
+) -> Outcome {
     match prove(before, after, dialect, machine, setup, claim) {
         Ok(certificate) => Outcome::Proved(Box::new(certificate)),
         Err(stop) => stop.into(),
@@ -24,7 +31,14 @@ pub fn certify(before: &[u8], after: &[u8], dialect: &Dialect, machine: &Machine
 }
 
 /// Proves the certificate's claim again and compares every number in it.
-pub fn recheck(certificate: &Certificate, before: &[u8], after: &[u8], dialect: &Dialect, machine: &Machine, setup: &Setup) -> Outcome {
+pub fn recheck(
+    certificate: &Certificate,
+    before: &[u8],
+    after: &[u8],
+    dialect: &Dialect,
+    machine: &Machine,
+    setup: &Setup,
+) -> Outcome {
     let fresh = match inputs_match(certificate, before, after, dialect, machine, setup)
         .and_then(|()| prove(before, after, dialect, machine, setup, &certificate.claim))
     {
@@ -32,7 +46,11 @@ pub fn recheck(certificate: &Certificate, before: &[u8], after: &[u8], dialect: 
         Err(stop) => return stop.into(),
     };
     // the version is not a number of the proof: another version may check, but the seal keeps it as it was
-    let fresh = Certificate { tool_version: certificate.tool_version.clone(), ..fresh }.sealed();
+    let fresh = Certificate {
+        tool_version: certificate.tool_version.clone(),
+        ..fresh
+    }
+    .sealed();
     match crate::difference::first_difference(certificate, &fresh) {
         Some(message) => Stop::refuted(message).into(),
         None => Outcome::Proved(Box::new(fresh)),
@@ -48,9 +66,16 @@ fn inputs_match(
     machine: &Machine,
     setup: &Setup,
 ) -> Result<(), Stop> {
-    let refuse = |what: &str| Err(Stop::refuted(format!("the certificate was made for {what}: its SHA-256 differs")));
+    let refuse = |what: &str| {
+        Err(Stop::refuted(format!(
+            "the certificate was made for {what}: its SHA-256 differs"
+        )))
+    };
     if certificate.schema != SCHEMA {
-        return Err(Stop::refuted(format!("schema: certificate says \"{}\", this program reads \"{SCHEMA}\"", certificate.schema)));
+        return Err(Stop::refuted(format!(
+            "schema: certificate says \"{}\", this program reads \"{SCHEMA}\"",
+            certificate.schema
+        )));
     }
     if certificate.before != text_digest(before) {
         return refuse("another text before");
@@ -59,10 +84,16 @@ fn inputs_match(
         return refuse("another text after");
     }
     if certificate.dialect.name != dialect.name || certificate.dialect.sha256 != dialect_digest(dialect) {
-        return refuse(&format!("another dialect ({}, here it is {})", certificate.dialect.name, dialect.name));
+        return refuse(&format!(
+            "another dialect ({}, here it is {})",
+            certificate.dialect.name, dialect.name
+        ));
     }
     if certificate.machine.name != machine.id || certificate.machine.sha256 != machine_digest(machine) {
-        return refuse(&format!("another machine ({}, here it is {})", certificate.machine.name, machine.id));
+        return refuse(&format!(
+            "another machine ({}, here it is {})",
+            certificate.machine.name, machine.id
+        ));
     }
     if certificate.setup_sha256 != setup_digest(setup) {
         return refuse("other tools or work offsets");
@@ -71,7 +102,10 @@ fn inputs_match(
 }
 
 fn text_digest(text: &[u8]) -> TextDigest {
-    TextDigest { sha256: hex_sha256(text), bytes: text.len() as u64 }
+    TextDigest {
+        sha256: hex_sha256(text),
+        bytes: text.len() as u64,
+    }
 }
 
 /// The proof.
@@ -88,7 +122,9 @@ fn prove(
     let new = parse(after.to_vec(), dialect.lex);
     let text = text_change(&old, &new, dialect);
     if claim.is_rewrite() && !text.rest_identical {
-        return Err(Stop::refuted("the texts differ in more than numbers of coordinate words"));
+        return Err(Stop::refuted(
+            "the texts differ in more than numbers of coordinate words",
+        ));
     }
     let mut proof = Proof::new(machine, claim, &new);
     let mut old_steps = Rerun::new(&old, dialect, machine, setup);
@@ -110,8 +146,14 @@ fn prove(
         tool_version: env!("CARGO_PKG_VERSION").into(),
         before: text_digest(before),
         after: text_digest(after),
-        dialect: NamedDigest { name: dialect.name.clone(), sha256: dialect_digest(dialect) },
-        machine: NamedDigest { name: machine.id.clone(), sha256: machine_digest(machine) },
+        dialect: NamedDigest {
+            name: dialect.name.clone(),
+            sha256: dialect_digest(dialect),
+        },
+        machine: NamedDigest {
+            name: machine.id.clone(),
+            sha256: machine_digest(machine),
+        },
         setup_sha256: setup_digest(setup),
         claim: claim.clone(),
         text,
@@ -127,8 +169,16 @@ fn prove(
 /// Tolerances and radius must be finite and not negative.
 fn claim_makes_sense(claim: &Claim) -> Result<(), Stop> {
     let (mm, degrees) = claim.tolerances();
-    let fine = [mm, degrees, claim.point_height_mm()].iter().all(|value| value.is_finite() && *value >= 0.0);
-    if fine { Ok(()) } else { Err(Stop::refuted("claim: tolerances and radius must be finite and not negative")) }
+    let fine = [mm, degrees, claim.point_height_mm()]
+        .iter()
+        .all(|value| value.is_finite() && *value >= 0.0);
+    if fine {
+        Ok(())
+    } else {
+        Err(Stop::refuted(
+            "claim: tolerances and radius must be finite and not negative",
+        ))
+    }
 }
 
 /// What is found while both programs run.
@@ -165,13 +215,20 @@ impl<'a> Proof<'a> {
     }
 
     fn line(&self, block: BlockId) -> u32 {
-        self.lines.line_column(self.after.source(), self.after.block(block).range().start).0
+        self.lines
+            .line_column(self.after.source(), self.after.block(block).range().start)
+            .0
     }
 
     fn add(&mut self, was: &Step, is: &Step) -> Result<(), Stop> {
-        let at = Place { motion: self.motions.total as usize, line: self.line(is.leg.motion.block) };
-        let residuals =
-            [forward_residual(self.machine, at, &was.leg)?, forward_residual(self.machine, at, &is.leg)?];
+        let at = Place {
+            motion: self.motions.total as usize,
+            line: self.line(is.leg.motion.block),
+        };
+        let residuals = [
+            forward_residual(self.machine, at, &was.leg)?,
+            forward_residual(self.machine, at, &is.leg)?,
+        ];
         for (mm, degrees) in residuals.into_iter().flatten() {
             raise(&mut self.worst.forward_residual_mm, mm, at);
             raise(&mut self.worst.forward_residual_deg, degrees, at);
@@ -214,6 +271,10 @@ fn rotary_step(leg: &Leg, joint: usize) -> f64 {
 /// Keeps the worst value and its place.
 fn raise(worst: &mut Worst, value: f64, at: Place) {
     if value > worst.value || worst.line == 0 {
-        *worst = Worst { value, motion: at.motion as u64, line: at.line };
+        *worst = Worst {
+            value,
+            motion: at.motion as u64,
+            line: at.line,
+        };
     }
 }

@@ -46,7 +46,10 @@ impl<'a> Rerun<'a> {
             program,
             interpreter: Interpreter::new(dialect, setup),
             next_block: 0,
-            legs: Legs { follower: Follower::new(machine), waiting: VecDeque::new() },
+            legs: Legs {
+                follower: Follower::new(machine),
+                waiting: VecDeque::new(),
+            },
         }
     }
 }

@@ -14,15 +14,34 @@ struct Coordinate {
 /// Coordinates of a block: words of axes and tool vectors with plain numbers; APT: the numbers of GOTO.
 fn coordinates(block: &Block<'_>, dialect: &Dialect) -> Vec<Coordinate> {
     if dialect.lex.format == Format::Apt {
-        let Some(record) = block.record().filter(|record| record.is("GOTO")) else { return Vec::new() };
-        let numbers = record.args().filter_map(|arg| if let AptArg::Number(_, range) = arg { Some(range) } else { None });
-        return numbers.zip(0u16..).map(|(range, i)| Coordinate { name: (0, i), word: range, number: range }).collect();
+        let Some(record) = block.record().filter(|record| record.is("GOTO")) else {
+            return Vec::new();
+        };
+        let numbers = record.args().filter_map(|arg| {
+            if let AptArg::Number(_, range) = arg {
+                Some(range)
+            } else {
+                None
+            }
+        });
+        return numbers
+            .zip(0u16..)
+            .map(|(range, i)| Coordinate {
+                name: (0, i),
+                word: range,
+                number: range,
+            })
+            .collect();
     }
     let words = block.words().filter(|word| matches!(word.value, Value::Number(_)));
     words
         .filter_map(|word| {
             let name = coordinate_name(word.address, dialect)?;
-            Some(Coordinate { name, word: word.range, number: word.value_range })
+            Some(Coordinate {
+                name,
+                word: word.range,
+                number: word.value_range,
+            })
         })
         .collect()
 }
@@ -42,7 +61,10 @@ fn coordinate_name(address: Address, dialect: &Dialect) -> Option<(u8, u16)> {
 
 /// Compares two texts block by block.
 pub(crate) fn text_change(before: &Program, after: &Program, dialect: &Dialect) -> TextChange {
-    let mut change = TextChange { rest_identical: true, ..TextChange::default() };
+    let mut change = TextChange {
+        rest_identical: true,
+        ..TextChange::default()
+    };
     if before.source() == after.source() {
         return change;
     }
@@ -56,7 +78,11 @@ pub(crate) fn text_change(before: &Program, after: &Program, dialect: &Dialect) 
         }
     }
     // line ends lie between the blocks
-    if line_ends(before) == line_ends(after) { change } else { TextChange::default() }
+    if line_ends(before) == line_ends(after) {
+        change
+    } else {
+        TextChange::default()
+    }
 }
 
 fn bytes(program: &Program, range: TextRange) -> &[u8] {
@@ -82,7 +108,13 @@ fn compare_block(old: &Block<'_>, new: &Block<'_>, dialect: &Dialect, change: &m
     let (was, is) = (old.program(), new.program());
     let added = |word: &&Coordinate| !old_words.iter().any(|other| other.name == word.name);
     let bare_old = without(was, old.range(), old_words.iter().map(|word| word.number));
-    let removals = new_words.iter().map(|word| if added(&word) { with_blanks(is, word.word) } else { word.number });
+    let removals = new_words.iter().map(|word| {
+        if added(&word) {
+            with_blanks(is, word.word)
+        } else {
+            word.number
+        }
+    });
     if bare_old != without(is, new.range(), removals) {
         return false;
     }
@@ -103,7 +135,11 @@ fn compare_block(old: &Block<'_>, new: &Block<'_>, dialect: &Dialect, change: &m
 /// The range with the blanks before it.
 fn with_blanks(program: &Program, range: TextRange) -> TextRange {
     let before = &program.source()[..range.start as usize];
-    let blanks = before.iter().rev().take_while(|&&byte| byte == b' ' || byte == b'\t').count();
+    let blanks = before
+        .iter()
+        .rev()
+        .take_while(|&&byte| byte == b' ' || byte == b'\t')
+        .count();
     TextRange::new(range.start - blanks as u32, range.end)
 }
 

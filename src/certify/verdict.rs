@@ -57,17 +57,27 @@ pub(crate) enum Stop {
 impl Stop {
     /// Refuted by the texts or the certificate as a whole.
     pub(crate) fn refuted(message: impl Into<String>) -> Self {
-        Self::Refuted(Witness { motion: None, line: None, message: message.into() })
+        Self::Refuted(Witness {
+            motion: None,
+            line: None,
+            message: message.into(),
+        })
     }
 
     /// Refuted by one motion.
     pub(crate) fn refuted_at(motion: usize, line: u32, message: impl Into<String>) -> Self {
-        Self::Refuted(Witness { motion: Some(motion), line: Some(line), message: message.into() })
+        Self::Refuted(Witness {
+            motion: Some(motion),
+            line: Some(line),
+            message: message.into(),
+        })
     }
 
     /// Undecided.
     pub(crate) fn unknown(message: impl Into<String>) -> Self {
-        Self::Unknown(Gap { message: message.into() })
+        Self::Unknown(Gap {
+            message: message.into(),
+        })
     }
 }
 

@@ -53,13 +53,25 @@ impl std::error::Error for ConfigError {}
 
 /// Names of `[tolerances]` with what they mean.
 pub const TOLERANCES: &[(&str, &str)] = &[
-    ("tip", "path-deviation: how far the tip may leave the programmed segment, mm"),
+    (
+        "tip",
+        "path-deviation: how far the tip may leave the programmed segment, mm",
+    ),
     ("pole_cone", "pole-flip: cone about the pole, deg"),
     ("pole_angle", "pole-flip: change of the rotary axis, deg"),
-    ("swap_excess", "branch-swap: rotary excess over the cheapest move without a swap, deg"),
+    (
+        "swap_excess",
+        "branch-swap: rotary excess over the cheapest move without a swap, deg",
+    ),
     ("pole_touch", "pole-crossing: distance to the pole, deg"),
-    ("feed_drop_warning", "feed-drop: share of the programmed feed, 0 to 1, below which it warns"),
-    ("feed_drop_error", "feed-drop: share of the programmed feed, 0 to 1, below which it is an error"),
+    (
+        "feed_drop_warning",
+        "feed-drop: share of the programmed feed, 0 to 1, below which it warns",
+    ),
+    (
+        "feed_drop_error",
+        "feed-drop: share of the programmed feed, 0 to 1, below which it is an error",
+    ),
 ];
 
 impl Config {

@@ -63,7 +63,11 @@ const fn is_header_line(bytes: &[u8], at: usize) -> bool {
 
 /// Behind `//!` and the one blank that follows it.
 const fn text_start(bytes: &[u8], at: usize) -> usize {
-    if at + 3 < bytes.len() && bytes[at + 3] == b' ' { at + 4 } else { at + 3 }
+    if at + 3 < bytes.len() && bytes[at + 3] == b' ' {
+        at + 4
+    } else {
+        at + 3
+    }
 }
 
 #[cfg(test)]

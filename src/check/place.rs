@@ -21,11 +21,20 @@ pub(crate) fn axis_word(program: &Program, block: BlockId, letter: u8) -> TextRa
 pub(crate) fn orientation_range(program: &Program, block: BlockId) -> TextRange {
     let view = program.block(block);
     let found = if let Some(record) = view.record() {
-        let numbers = record.args().filter_map(|arg| if let AptArg::Number(_, range) = arg { Some(range) } else { None });
+        let numbers = record.args().filter_map(|arg| {
+            if let AptArg::Number(_, range) = arg {
+                Some(range)
+            } else {
+                None
+            }
+        });
         cover(numbers.skip(3))
     } else {
         let rotary = |word: &trunnion_syntax::Word| {
-            matches!(word.address, Address::Letter(b'A' | b'B' | b'C') | Address::Indexed(b'A' | b'B' | b'C', 3))
+            matches!(
+                word.address,
+                Address::Letter(b'A' | b'B' | b'C') | Address::Indexed(b'A' | b'B' | b'C', 3)
+            )
         };
         let vector = |word: &trunnion_syntax::Word| matches!(word.address, Address::Letter(b'I' | b'J' | b'K'));
         cover(view.words().filter(rotary).map(|word| word.range))
@@ -50,7 +59,9 @@ fn code(view: &Block<'_>) -> TextRange {
         Item::Other(range) | Item::Label(range) | Item::Percent(range) => Some(range),
         Item::Comment(_) | Item::Skip(..) => None,
     });
-    cover(items.filter(|range| Some(*range) != number)).or(number).unwrap_or_else(|| view.range())
+    cover(items.filter(|range| Some(*range) != number))
+        .or(number)
+        .unwrap_or_else(|| view.range())
 }
 
 fn cover(ranges: impl Iterator<Item = TextRange>) -> Option<TextRange> {

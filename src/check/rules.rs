@@ -111,11 +111,26 @@ mod tests {
             FaultKind::UnknownCode { machine_builder: false },
             FaultKind::UnknownCode { machine_builder: true },
             FaultKind::UnknownWord,
-            FaultKind::GroupConflict { group: text(), first: text(), second: text(), first_range: TextRange::new(0, 1) },
+            FaultKind::GroupConflict {
+                group: text(),
+                first: text(),
+                second: text(),
+                first_range: TextRange::new(0, 1),
+            },
             FaultKind::RepeatedWord,
-            FaultKind::MissingFeed { inverse_time: false, zero: false },
-            FaultKind::ArcRadiusMismatch { start: 1.0, end: 2.0, tolerance: 0.1 },
-            FaultKind::ArcRadiusTooSmall { radius: 1.0, half_chord: 2.0 },
+            FaultKind::MissingFeed {
+                inverse_time: false,
+                zero: false,
+            },
+            FaultKind::ArcRadiusMismatch {
+                start: 1.0,
+                end: 2.0,
+                tolerance: 0.1,
+            },
+            FaultKind::ArcRadiusTooSmall {
+                radius: 1.0,
+                half_chord: 2.0,
+            },
             FaultKind::ArcCentreMissing,
             FaultKind::VectorNotUnit { norm: 0.0 },
             FaultKind::AptUnknownRecord,
@@ -130,11 +145,21 @@ mod tests {
     #[test]
     fn every_fault_is_told_by_exactly_one_rule() {
         let program = parse(b"G0 X0\n".to_vec(), LexOptions::default());
-        let rules = active(&[], |level| if let crate::Level::Fault(run) = level { Some(run) } else { None });
+        let rules = active(&[], |level| {
+            if let crate::Level::Fault(run) = level {
+                Some(run)
+            } else {
+                None
+            }
+        });
         for kind in faults() {
             let suppressions = Suppressions::default();
             let mut out = Reporter::new(&program, "iso-6983", &suppressions);
-            let fault = Fault { block: BlockId(0), range: TextRange::new(0, 5), kind };
+            let fault = Fault {
+                block: BlockId(0),
+                range: TextRange::new(0, 5),
+                kind,
+            };
             for rule in &rules {
                 out.enter(rule, Some(fault.block), 0);
                 (rule.run)(&fault, &mut out);
@@ -148,7 +173,13 @@ mod tests {
     fn every_syntax_error_is_told_by_exactly_one_rule() {
         use SyntaxErrorKind as Kind;
         let program = parse(b"G0 X0\n".to_vec(), LexOptions::default());
-        let rules = active(&[], |level| if let crate::Level::Text(run) = level { Some(run) } else { None });
+        let rules = active(&[], |level| {
+            if let crate::Level::Text(run) = level {
+                Some(run)
+            } else {
+                None
+            }
+        });
         for kind in [
             Kind::UnclosedComment,
             Kind::NestedComment,
@@ -169,7 +200,13 @@ mod tests {
             let mut out = Reporter::new(&program, "iso-6983", &suppressions);
             for rule in &rules {
                 out.enter(rule, None, 0);
-                (rule.run)(&SyntaxError { kind, range: TextRange::new(3, 5) }, &mut out);
+                (rule.run)(
+                    &SyntaxError {
+                        kind,
+                        range: TextRange::new(3, 5),
+                    },
+                    &mut out,
+                );
                 out.leave();
             }
             assert_eq!(out.finish().len(), 1, "{kind:?}");

@@ -1,5 +1,6 @@
 //! Merging: the same finding in consecutive blocks becomes one diagnostic at the first of them, with the worst values.
-use crate::Diagnostic;
+use crate::{Diagnostic, Status};
+use std::collections::BTreeMap;
 use trunnion_syntax::TextRange;
 
 /// Runs of findings that differ in their numbers are reported block by block up to this many blocks.
@@ -20,7 +21,6 @@ pub(crate) struct Merge {
 
 /// A run of findings that may still grow.
 struct Run {
-    key: u64,
     show: usize,
     /// Counter of the last block in it.
     sequence: u64,
@@ -34,7 +34,8 @@ struct Run {
 /// Collects diagnostics and merges runs.
 #[derive(Default)]
 pub(crate) struct Log {
-    open: Vec<Run>,
+    /// By rule, key and whether it is unknown.
+    open: BTreeMap<(&'static str, u64, bool), Run>,
     closed: Vec<Diagnostic>,
 }
 
@@ -45,29 +46,36 @@ impl Log {
             self.closed.push(diagnostic);
             return;
         };
-        let same = |run: &Run| {
-            let head = &run.items[0].1;
-            head.rule == diagnostic.rule && run.key == merge.key && head.status == diagnostic.status
-        };
-        if let Some(at) = self.open.iter().position(same) {
-            if merge.everywhere || sequence <= self.open[at].sequence + 1 {
-                self.open[at].extend(diagnostic, merge.badness, sequence);
-                return;
-            }
-            let run = self.open.swap_remove(at);
-            run.close(&mut self.closed);
+        let place = (diagnostic.rule, merge.key, diagnostic.status == Status::Unknown);
+        if let Some(run) = self.open.get_mut(&place)
+            && (merge.everywhere || sequence <= run.sequence + 1)
+        {
+            run.extend(diagnostic, merge.badness, sequence);
+            return;
         }
         let worst = diagnostic.range;
         let items = vec![(merge.badness, diagnostic)];
-        self.open.push(Run { key: merge.key, show: merge.show, sequence, items, merged: false, worst });
+        if let Some(ended) = self.open.insert(
+            place,
+            Run {
+                show: merge.show,
+                sequence,
+                items,
+                merged: false,
+                worst,
+            },
+        ) {
+            ended.close(&mut self.closed);
+        }
     }
 
     /// All diagnostics, sorted by place, then rule.
     pub(crate) fn finish(mut self) -> Vec<Diagnostic> {
-        for run in self.open {
+        for run in self.open.into_values() {
             run.close(&mut self.closed);
         }
-        self.closed.sort_by(|a, b| (a.range, a.rule, &a.message).cmp(&(b.range, b.rule, &b.message)));
+        self.closed
+            .sort_by(|a, b| (a.range, a.rule, &a.message).cmp(&(b.range, b.rule, &b.message)));
         self.closed
     }
 }
@@ -79,7 +87,9 @@ impl Run {
         if self.merged || self.items.len() > self.show {
             self.merged = true;
             let mut items = self.items.drain(..);
-            let Some((mut badness, mut whole)) = items.next() else { return };
+            let Some((mut badness, mut whole)) = items.next() else {
+                return;
+            };
             for (other, next) in items {
                 whole.count += next.count;
                 whole.last = next.last;
@@ -115,7 +125,7 @@ impl Run {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Severity, Status};
+    use crate::Severity;
 
     fn finding(at: u32, message: &str) -> Diagnostic {
         let range = TextRange::new(at * 10, at * 10 + 3);
@@ -137,7 +147,12 @@ mod tests {
     }
 
     fn merge(key: u64, badness: f64, show: usize) -> Merge {
-        Merge { key, badness, show, everywhere: false }
+        Merge {
+            key,
+            badness,
+            show,
+            everywhere: false,
+        }
     }
 
     #[test]

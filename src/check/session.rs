@@ -38,8 +38,15 @@ impl Session {
         let mut check_points = Vec::new();
         let report = analyse(program, settings, &mut |interpreter, follower| {
             let machine = follower.map(Follower::memory);
-            check_points.push(CheckPoint { interpreter: interpreter.clone(), machine });
-            if cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            check_points.push(CheckPoint {
+                interpreter: interpreter.clone(),
+                machine,
+            });
+            if cancelled() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
         })?;
         Some(Self { report, check_points })
     }
@@ -59,7 +66,11 @@ impl Session {
             Some(memory) => Follower::resume(machine, memory),
             None => Follower::new(machine),
         });
-        let mut walk = Walk { follower, rows: Vec::new(), wanted };
+        let mut walk = Walk {
+            follower,
+            rows: Vec::new(),
+            wanted,
+        };
         for id in (from..wanted.0).map(BlockId) {
             interpreter.step(program, id, &mut walk);
         }
@@ -67,7 +78,11 @@ impl Session {
         if wanted.0 < end {
             interpreter.step(program, wanted, &mut walk);
         }
-        BlockInfo { before, after: interpreter.state, rows: walk.rows }
+        BlockInfo {
+            before,
+            after: interpreter.state,
+            rows: walk.rows,
+        }
     }
 }
 

@@ -87,7 +87,10 @@ impl<'a> Reporter<'a> {
             count: 1,
             last: range,
         };
-        self.pending.push(Draft { diagnostic, merge: None });
+        self.pending.push(Draft {
+            diagnostic,
+            merge: None,
+        });
         let last = self.pending.len() - 1;
         &mut self.pending[last]
     }
@@ -118,7 +121,10 @@ impl<'a> Reporter<'a> {
         }
         let program = self.program;
         for Draft { mut diagnostic, merge } in self.pending.drain(..) {
-            let block = self.block.or_else(|| program.block_at(diagnostic.range.start)).unwrap_or_default();
+            let block = self
+                .block
+                .or_else(|| program.block_at(diagnostic.range.start))
+                .unwrap_or_default();
             if self.suppressions.allows(diagnostic.rule, block) {
                 continue;
             }
@@ -128,7 +134,10 @@ impl<'a> Reporter<'a> {
                 diagnostic.severity = level;
             }
             if (block.0 as usize) < program.block_count() {
-                diagnostic.block = program.block(block).number().map(|range| program.text(range).into_owned());
+                diagnostic.block = program
+                    .block(block)
+                    .number()
+                    .map(|range| program.text(range).into_owned());
             }
             self.log.add(diagnostic, merge, self.sequence);
         }
@@ -197,19 +206,34 @@ impl Draft {
 
     /// In consecutive blocks the finding is told once; `key` must agree (an axis letter, or 0), the largest `badness` is kept.
     pub fn merge(&mut self, key: u64, badness: f64) -> &mut Self {
-        self.merge = Some(Merge { key, badness, show: 1, everywhere: false });
+        self.merge = Some(Merge {
+            key,
+            badness,
+            show: 1,
+            everywhere: false,
+        });
         self
     }
 
     /// The finding is told once in the whole program, at its first place; `key` must agree.
     pub fn merge_everywhere(&mut self, key: u64) -> &mut Self {
-        self.merge = Some(Merge { key, badness: 0.0, show: 1, everywhere: true });
+        self.merge = Some(Merge {
+            key,
+            badness: 0.0,
+            show: 1,
+            everywhere: true,
+        });
         self
     }
 
     /// As [`Self::merge`], but runs of up to `show` blocks are reported block by block.
     pub fn merge_runs_over(&mut self, show: usize, key: u64, badness: f64) -> &mut Self {
-        self.merge = Some(Merge { key, badness, show, everywhere: false });
+        self.merge = Some(Merge {
+            key,
+            badness,
+            show,
+            everywhere: false,
+        });
         self
     }
 }
@@ -222,13 +246,22 @@ pub(crate) fn active<F: Copy>(
     let mut out = Vec::new();
     for rule in crate::rules() {
         let Some(run) = pick(rule.level) else { continue };
-        let level = levels.iter().rev().find(|(name, _)| name == rule.name).map(|(_, level)| *level);
+        let level = levels
+            .iter()
+            .rev()
+            .find(|(name, _)| name == rule.name)
+            .map(|(_, level)| *level);
         let level = match level {
             Some(RuleLevel::Allow) => continue,
             Some(RuleLevel::At(severity)) => Some(severity),
             None => None,
         };
-        out.push(Active { name: rule.name, severity: rule.severity, level, run });
+        out.push(Active {
+            name: rule.name,
+            severity: rule.severity,
+            level,
+            run,
+        });
     }
     out
 }

@@ -3,7 +3,7 @@
 //! On a line of its own it holds for the whole program, beside words for its block. Without a reason it does nothing and
 //! `broken-directive` says so.
 use trunnion_interp::Directive;
-use trunnion_syntax::{BlockId, Program, TextRange};
+use trunnion_syntax::{BlockId, Item, Program, TextRange};
 
 /// What the program's comments allow.
 #[derive(Default)]
@@ -17,7 +17,9 @@ impl Suppressions {
     pub(crate) fn new(program: &Program, directives: &[(TextRange, Directive)]) -> Self {
         let mut found = Self::default();
         for (range, directive) in directives {
-            let Directive::Allow { rule, reason } = directive else { continue };
+            let Directive::Allow { rule, reason } = directive else {
+                continue;
+            };
             if reason.trim().is_empty() {
                 continue;
             }
@@ -34,14 +36,20 @@ impl Suppressions {
     pub(crate) fn allows(&self, rule: &str, block: BlockId) -> bool {
         let from = self.in_block.partition_point(|(at, _)| *at < block);
         self.everywhere.iter().any(|name| name == rule)
-            || self.in_block[from..].iter().take_while(|(at, _)| *at == block).any(|(_, name)| name == rule)
+            || self.in_block[from..]
+                .iter()
+                .take_while(|(at, _)| *at == block)
+                .any(|(_, name)| name == rule)
     }
 }
 
-/// Whether a block has more than comments.
+/// Whether a block has more than comments and the `%` that frames a tape.
 pub(crate) fn has_code(program: &Program, block: BlockId) -> bool {
     let view = program.block(block);
-    view.record().is_some() || view.items().any(|item| !matches!(item, trunnion_syntax::Item::Comment(_)))
+    view.record().is_some()
+        || view
+            .items()
+            .any(|item| !matches!(item, Item::Comment(_) | Item::Percent(_)))
 }
 
 #[cfg(test)]
@@ -58,12 +66,17 @@ mod tests {
 
     #[test]
     fn on_its_own_line_it_holds_for_the_program() {
-        assert_drawn("gcode", "G0 X0 X1\n(trunnion: allow repeated-word because this control takes the last)\nG0 X0 X1\n");
+        assert_drawn(
+            "gcode",
+            "G0 X0 X1\n(trunnion: allow repeated-word because this control takes the last)\nG0 X0 X1\n",
+        );
     }
 
     #[test]
     fn without_a_reason_it_does_nothing() {
-        let report = Fixture::parse("gcode", "(trunnion: allow repeated-word)\nG0 X0 X1\n").check().unwrap();
+        let report = Fixture::parse("gcode", "(trunnion: allow repeated-word)\nG0 X0 X1\n")
+            .check()
+            .unwrap();
         let found: Vec<&str> = report.diagnostics.iter().map(|found| found.rule).collect();
         assert_eq!(found, ["broken-directive", "repeated-word"]);
     }

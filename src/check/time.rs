@@ -13,7 +13,11 @@ pub(crate) struct CycleTime {
 
 impl Default for CycleTime {
     fn default() -> Self {
-        Self { low: 0.0, high: 0.0, known: true }
+        Self {
+            low: 0.0,
+            high: 0.0,
+            known: true,
+        }
     }
 }
 
@@ -65,5 +69,9 @@ fn with_stops(view: &LegView<'_>, duration: f64) -> Option<f64> {
         return Some(duration);
     }
     let speed = 1.0 / duration;
-    Some(if speed * speed <= slowest { duration + speed / slowest } else { 2.0 * (1.0 / slowest).sqrt() })
+    Some(if speed * speed <= slowest {
+        duration + speed / slowest
+    } else {
+        2.0 * (1.0 / slowest).sqrt()
+    })
 }

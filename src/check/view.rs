@@ -30,7 +30,13 @@ pub struct LegView<'a> {
 impl<'a> LegView<'a> {
     /// A view of `leg`.
     pub(crate) fn new(machine: &'a Machine, leg: &'a Leg, posture_before: i8) -> Self {
-        Self { machine, leg, posture_before, feed_limit: OnceCell::new(), deviation: OnceCell::new() }
+        Self {
+            machine,
+            leg,
+            posture_before,
+            feed_limit: OnceCell::new(),
+            deviation: OnceCell::new(),
+        }
     }
 
     /// The motion.
@@ -50,7 +56,9 @@ impl<'a> LegView<'a> {
 
     /// Deviation of the tip path, see [`tip_deviation`].
     pub fn deviation(&self) -> Option<Deviation> {
-        *self.deviation.get_or_init(|| tip_deviation(self.machine, self.leg, self.machine.tolerances.tip_mm))
+        *self
+            .deviation
+            .get_or_init(|| tip_deviation(self.machine, self.leg, self.machine.tolerances.tip_mm))
     }
 
     /// Programmed feed along the path, mm/min; `None` where it is not known or the block is no feed motion.
@@ -66,7 +74,12 @@ impl<'a> LegView<'a> {
 
     /// Letters of the first and second rotary axis; `-` where there is none.
     pub fn rotary_letters(&self) -> [char; 2] {
-        [0, 1].map(|i| self.machine.rotary.get(i).map_or('-', |at| char::from(self.machine.axes[*at].letter)))
+        [0, 1].map(|i| {
+            self.machine
+                .rotary
+                .get(i)
+                .map_or('-', |at| char::from(self.machine.axes[*at].letter))
+        })
     }
 
     /// Whether the block comes into the pole's cone on a machine with two rotary axes.

@@ -13,7 +13,11 @@ pub(crate) fn number(value: f64) -> String {
         _ => 6,
     };
     let text = format!("{value:.decimals$}");
-    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    let text = if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &text
+    };
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
@@ -25,6 +29,15 @@ pub(crate) fn mm(value: f64) -> String {
 /// An angle in rad, told in degrees.
 pub(crate) fn degrees(angle: f64) -> String {
     format!("{} deg", number(deg(angle)))
+}
+
+/// How near the tool axis comes to the pole, in words that follow "passes".
+pub(crate) fn past_pole(angle: f64) -> String {
+    if deg(angle) < 1e-6 {
+        "over the pole".to_owned()
+    } else {
+        format!("{} from the pole", degrees(angle))
+    }
 }
 
 /// A joint value in the axis's unit: mm or deg.
@@ -50,7 +63,9 @@ pub(crate) fn letter(letter: u8) -> String {
 
 /// A text as a key for merging (FNV-1a, 64 bit).
 pub(crate) fn hash(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 #[cfg(test)]

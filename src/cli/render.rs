@@ -97,8 +97,8 @@ impl Diagnostic for Finding<'_> {
         Some(&self.excerpt)
     }
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let label = self.d.block.as_ref().map_or_else(|| "here".to_owned(), |block| format!("in block {block}"));
-        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(label), self.excerpt.span))))
+        let label = self.d.block.as_ref().map(|block| format!("in block {block}"));
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(label, self.excerpt.span))))
     }
 }
 

@@ -3,7 +3,6 @@ use super::{
     Done,
     args::{Global, Trace, TraceFormat},
     failure::{Failure, remark},
-    json::tidy,
     load::{self, Loaded},
 };
 use serde_json::{Map, Value, json};
@@ -129,6 +128,11 @@ impl<W: Write> Rows<W> {
         }
         Ok(())
     }
+}
+
+/// Rounded to 1e-9 of its unit: finer than any control resolves, and without the noise of the last bits.
+fn tidy(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9 + 0.0
 }
 
 /// Empty where a value has no meaning.

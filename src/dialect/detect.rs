@@ -13,8 +13,9 @@ pub struct Detected {
 /// How much of a program is looked at for signs of its dialect, bytes.
 const CONTENT_BYTES: usize = 64 * 1024;
 
-/// Modeline comment `(trunnion: dialect NAME)` in the first 10 lines, then a file extension that one dialect owns, then the
-/// machine's control family, then content (first 64 KiB).
+/// Modeline comment `(trunnion: dialect NAME)` in the first 10 lines, then a file extension that one dialect owns, then
+/// signs in the content (first 64 KiB), then the machine's control family, then the core: extensions such as `.nc` are shared by many
+/// controls, and a program that bears the signs of another control than the machine's is still that control's program.
 pub fn detect(file_name: Option<&str>, source: &[u8], family: Option<&str>) -> Detected {
     if let Some(dialect) = modeline(source).dialect.as_deref().and_then(builtin) {
         return Detected {
@@ -31,15 +32,40 @@ pub fn detect(file_name: Option<&str>, source: &[u8], family: Option<&str>) -> D
             reason: format!("file extension .{extension}"),
         };
     }
-    if let Some((family, dialect)) = family.and_then(|family| Some((family, builtin(family)?))) {
+    let head = &source[..source.len().min(CONTENT_BYTES)];
+    if let Some((name, reason)) = content(head) {
         return Detected {
-            dialect,
-            reason: format!("the machine's control family {family}"),
+            dialect: builtin(name).unwrap_or_else(core_dialect),
+            reason,
         };
     }
-    let (name, reason) = content(&source[..source.len().min(CONTENT_BYTES)]);
-    let dialect = builtin(name).unwrap_or_else(core_dialect);
-    Detected { dialect, reason }
+    let Some((family, dialect)) = family.and_then(|family| Some((family, builtin(family)?))) else {
+        return Detected {
+            dialect: core_dialect(),
+            reason: "no sign of a particular control".to_owned(),
+        };
+    };
+    if let Some(line) = foreign_comment(head, dialect) {
+        let reason = format!("content: a comment in line {line} that {family} does not know");
+        return Detected {
+            dialect: core_dialect(),
+            reason,
+        };
+    }
+    Detected {
+        dialect,
+        reason: format!("the machine's control family {family}"),
+    }
+}
+
+/// The first line that is a comment in brackets of a kind that `dialect` does not have.
+fn foreign_comment(source: &[u8], dialect: &Dialect) -> Option<usize> {
+    let foreign = |line: &[u8]| {
+        let line = line.trim_ascii();
+        (!dialect.lex.slash_star_comment && line.starts_with(b"/*"))
+            || (!dialect.lex.paren_comment && line.starts_with(b"(") && line.ends_with(b")"))
+    };
+    source.split(|&b| b == b'\n').position(foreign).map(|line| line + 1)
 }
 
 fn core_dialect() -> &'static Dialect {
@@ -80,8 +106,8 @@ fn by_extension(extension: &str) -> Option<&'static Dialect> {
         .find(|dialect| dialect.extensions.iter().any(|known| known == extension))
 }
 
-/// The dialect by what the text looks like, with the sign that decided.
-fn content(source: &[u8]) -> (&'static str, String) {
+/// The dialect by what the text looks like, with the sign that decided; `None` without any sign.
+fn content(source: &[u8]) -> Option<(&'static str, String)> {
     let text = String::from_utf8_lossy(source).to_ascii_uppercase();
     let mut votes: Vec<(&'static str, u32, String, usize)> = Vec::new();
     for (i, line) in text.lines().enumerate() {
@@ -99,10 +125,7 @@ fn content(source: &[u8]) -> (&'static str, String) {
             best = Some(vote);
         }
     }
-    match best {
-        Some((name, _, sign, line)) => (name, format!("content: {sign} in line {line}")),
-        None => ("iso-6983", "no sign of a particular control".to_owned()),
-    }
+    best.map(|(name, _, sign, line)| (name, format!("content: {sign} in line {line}")))
 }
 
 /// Signs of a control in one upper-case line: dialect, weight, what was seen.
@@ -132,9 +155,6 @@ fn line_signs(line: &str) -> Vec<(&'static str, u32, String)> {
     let code = strip_comments(line);
     let code = code.trim();
     iso_signs(code, &mut sign);
-    if !code.contains('(') && line.starts_with(';') {
-        sign("sinumerik-840d", 1, "a `;` comment");
-    }
     signs
 }
 
@@ -143,7 +163,7 @@ fn iso_signs(code: &str, sign: &mut dyn FnMut(&'static str, u32, &str)) {
         "TRAORI", "TRAFOOF", "CYCLE800", "CYCLE832", "MCALL", "SUPA", "G710", "G700", "GOTOF", "GOTOB", "DIAMON",
         "DEF REAL", "DEF INT", "MSG(",
     ] {
-        if code.contains(name) {
+        if has_word(code, name) {
             sign("sinumerik-840d", 10, name);
         }
     }
@@ -210,21 +230,43 @@ fn assigned(code: &str) -> bool {
     })
 }
 
+/// Whether `word` stands in `code` and is not part of a longer name. Words may be packed: `N10G710`.
+fn has_word(code: &str, word: &str) -> bool {
+    code.match_indices(word).any(|(at, _)| {
+        let (before, after) = (&code[..at], &code[at + word.len()..]);
+        let ends = match word.bytes().last() {
+            Some(b'0'..=b'9') => !after.starts_with(|c: char| c.is_ascii_digit() || c == '.'),
+            Some(b'A'..=b'Z') => !after.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_'),
+            _ => true,
+        };
+        ends && !before.ends_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+    })
+}
+
+/// Whether the text ends with a name of two letters or more, whose arguments may follow (`CYCLE800`, `MSG`; not `G1`).
+fn ends_with_name(text: &str) -> bool {
+    let text = text.trim_end();
+    let name = text
+        .rsplit(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+        .next()
+        .unwrap_or_default();
+    name.bytes()
+        .take(2)
+        .filter(|&b| b.is_ascii_alphabetic() || b == b'_')
+        .count()
+        == 2
+}
+
 /// The line without `( ... )` comments and without `; ...`; arguments `NAME( ... )` stay.
 fn strip_comments(line: &str) -> String {
     let mut out = String::with_capacity(line.len());
-    let mut depth_comment = false;
+    let mut in_comment = false;
     for c in line.chars() {
         match c {
-            ')' if depth_comment => depth_comment = false,
-            _ if depth_comment => {}
+            ')' if in_comment => in_comment = false,
+            _ if in_comment => {}
             ';' => break,
-            '(' if !out
-                .trim_end()
-                .ends_with(|c: char| c.is_ascii_alphabetic() || c == '0' || c == '2') =>
-            {
-                depth_comment = true;
-            }
+            '(' if !ends_with_name(&out) => in_comment = true,
             _ => out.push(c),
         }
     }

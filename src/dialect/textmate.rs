@@ -144,6 +144,7 @@ fn words_part() -> Value {
             "captures": { "1": { "name": scope }, "2": { "name": "constant.numeric.gcode" }, "3": { "name": "keyword.operator.assignment.gcode" } } })
     };
     json!({ "patterns": [
+        { "match": r"(?i)(?<=[=*+/<>])\s*R\d+(?![\d.])", "name": "variable.other.gcode" },
         word("[XYZABCUVW]", "variable.parameter.axis.gcode"),
         word("[IJKR]", "variable.parameter.arc.gcode"),
         word("T", "entity.name.type.tool.gcode"),

@@ -71,7 +71,15 @@ impl Arc {
         let partial = if turn <= 1e-12 { turn + TAU } else { turn };
         let sweep = turning.sign() * (partial + TAU * f64::from(extra_turns));
         let finite = sweep.is_finite() && radius_start.is_finite() && radius_end.is_finite();
-        finite.then_some(Self { start, end, centre, normal, sweep, radius_start, radius_end })
+        finite.then_some(Self {
+            start,
+            end,
+            centre,
+            normal,
+            sweep,
+            radius_start,
+            radius_end,
+        })
     }
 
     /// The arc of a given radius: of the two possible ones the minor arc (up to 180 deg) for a positive radius, the major arc for a
@@ -145,49 +153,105 @@ impl Arc {
         (part(self.radius_end) - part(self.radius_start)) / slope
     }
 
-    /// Lowest and highest value of the coordinate along a unit `direction` over the whole arc, mm. Exact for circles and helices,
-    /// within 1e-9 of the radius for spirals.
+    /// Lowest and highest value of the coordinate along a unit `direction` over the whole arc, mm, within rounding; both are values
+    /// that a point of the arc has.
     pub fn extent(&self, direction: &Vec3) -> (f64, f64) {
+        let arm = (self.start - self.centre) / self.radius_start;
+        let along = Along {
+            cosine: direction.dot(&arm),
+            sine: direction.dot(&self.normal.cross(&arm)),
+            drift: direction.dot(&self.normal) * self.height(),
+            slope: self.radius_end - self.radius_start,
+            radius: self.radius_start,
+            sweep: self.sweep,
+        };
         let ends = [direction.dot(&self.start), direction.dot(&self.end)];
-        let (mut low, mut high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-        let arm = self.start - self.centre;
-        let (cosine, sine) = (direction.dot(&arm), direction.dot(&self.normal.cross(&arm)));
-        if cosine == 0.0 && sine == 0.0 {
-            return (low, high);
+        let mut range = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        if along.cosine == 0.0 && along.sine == 0.0 {
+            return range;
         }
-        // the coordinate of the plain circle is stationary where the swept angle is `peak` + k pi
-        let peak = atan2(sine, cosine);
-        let (from, to) = if self.sweep >= 0.0 { (0.0, self.sweep) } else { (self.sweep, 0.0) };
-        let (first, last) = (((from - peak) / PI).ceil(), ((to - peak) / PI).floor());
-        // radius and height change evenly, so the extremes of a long spiral or helix lie near its first or last stationary points
-        for k in [first - 1.0, first, first + 1.0, last - 1.0, last, last + 1.0] {
-            let t = self.stationary(direction, (peak + k * PI) / self.sweep);
+        along.stationary(|t| {
             let value = direction.dot(&self.point_at(t));
-            (low, high) = (low.min(value), high.max(value));
-        }
-        (low, high)
+            range = (range.0.min(value), range.1.max(value));
+        });
+        range
+    }
+}
+
+/// One coordinate along an arc: (radius + slope t) (cosine cos(sweep t) + sine sin(sweep t)) + drift t, plus a constant.
+struct Along {
+    cosine: f64,
+    sine: f64,
+    drift: f64,
+    slope: f64,
+    radius: f64,
+    sweep: f64,
+}
+
+impl Along {
+    /// Derivative by t.
+    fn rate(&self, t: f64) -> f64 {
+        let (sin, cos) = sin_cos(self.sweep * t);
+        let (value, turned) = (self.cosine * cos + self.sine * sin, self.sine * cos - self.cosine * sin);
+        self.slope * value + (self.radius + self.slope * t) * self.sweep * turned + self.drift
     }
 
-    /// A share near `guess` where the coordinate along `direction` is stationary; clamped to the arc, so its point always lies on it.
-    fn stationary(&self, direction: &Vec3, guess: f64) -> f64 {
-        let slope = self.radius_end - self.radius_start;
-        let arm = (self.start - self.centre) / self.radius_start;
-        let (cosine, sine) = (direction.dot(&arm), direction.dot(&self.normal.cross(&arm)));
-        let drift = direction.dot(&self.normal) * self.height();
-        let mut t = guess;
-        for _ in 0..8 {
-            let (sin, cos) = sin_cos(self.sweep * t);
-            let radius = self.radius_start + slope * t;
-            let (value, rate) = (cosine * cos + sine * sin, sine * cos - cosine * sin);
-            let first = slope * value + radius * self.sweep * rate + drift;
-            let second = 2.0 * slope * self.sweep * rate - radius * self.sweep * self.sweep * value;
-            let step = first / second;
-            if !step.is_finite() {
-                break;
+    /// Visits the shares where the coordinate may be extreme. Height and radius change evenly, so of many turns only the first and the
+    /// last can hold the extremes.
+    fn stationary(&self, mut visit: impl FnMut(f64)) {
+        if self.slope == 0.0 && self.drift == 0.0 {
+            // the plain circle: the swept angle is `peak` + k pi
+            let peak = atan2(self.sine, self.cosine);
+            let (from, to) = if self.sweep >= 0.0 {
+                (0.0, self.sweep)
+            } else {
+                (self.sweep, 0.0)
+            };
+            let first = ((from - peak) / PI).ceil();
+            for k in [first, first + 1.0] {
+                let angle = peak + k * PI;
+                if angle <= to {
+                    visit(angle / self.sweep);
+                }
             }
-            t -= step;
+            return;
         }
-        if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) }
+        // at most three turns in 36 pieces: no piece sweeps more than 30 deg, so a change of sign shows
+        let turns = (self.sweep / TAU).abs();
+        if turns <= 3.0 {
+            self.roots(0.0, 1.0, &mut visit);
+        } else {
+            self.roots(0.0, 1.5 / turns, &mut visit);
+            self.roots(1.0 - 1.5 / turns, 1.0, &mut visit);
+        }
+    }
+
+    /// Visits the zeros of the derivative between two shares, found by their change of sign.
+    fn roots(&self, from: f64, to: f64, visit: &mut impl FnMut(f64)) {
+        const PIECES: u32 = 36;
+        let at = |piece: u32| from + (to - from) * f64::from(piece) / f64::from(PIECES);
+        let mut low = (from, self.rate(from));
+        for piece in 1..=PIECES {
+            let high = (at(piece), self.rate(at(piece)));
+            if low.1 * high.1 <= 0.0 {
+                visit(self.bisect(low, high.0));
+            }
+            low = high;
+        }
+    }
+
+    /// The zero between `low` (share, derivative) and `high`.
+    fn bisect(&self, low: (f64, f64), high: f64) -> f64 {
+        let (mut low, mut high, positive) = (low.0, high, low.1 > 0.0);
+        for _ in 0..48 {
+            let middle = 0.5 * (low + high);
+            if (self.rate(middle) > 0.0) == positive {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        0.5 * (low + high)
     }
 }
 

@@ -3,9 +3,6 @@
 //! It does not know programs, dialects or machines.
 pub mod arc;
 pub mod math;
-mod plane;
-
-pub use plane::Plane;
 
 /// A vector or point in three dimensions, mm where it is a length.
 pub type Vec3 = nalgebra::Vector3<f64>;

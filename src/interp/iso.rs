@@ -1,12 +1,13 @@
 //! ISO blocks to motions.
-use crate::arc::{ArcSetting, arc};
+
 use crate::codes::{BlockCodes, Found};
-use crate::offsets::{LINEAR, ROTARY};
+
+use crate::reader::Reader;
 use crate::run::{Interpreter, Report, Sink};
-use crate::words::{Places, Reader, Said, Words};
+use crate::words::Words;
 use crate::{FaultKind, Feed, FeedMode, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
-use trunnion_geometry::arc::Turning;
+
 use trunnion_syntax::{Block, TextRange};
 
 impl<'d> Interpreter<'d> {
@@ -70,6 +71,9 @@ impl<'d> Interpreter<'d> {
             }
         }
         let block = self.apply(codes, words, report);
+        if words.other_spindle {
+            self.state.spindle_on = None;
+        }
         let motion = self.motion(codes, words, &block, report);
         if words.forgets_all {
             self.forget_position();
@@ -106,276 +110,14 @@ impl<'d> Interpreter<'d> {
             {
                 Some(self.modelled_motion(words, block, report))
             }
-            Some(_) => Some(self.unknown_motion(words, report)),
-            None => {
+            _ if unmodelled || modal.is_some() => Some(self.unknown_motion(words, report)),
+            _ => {
                 let what = "coordinates before any motion code".to_owned();
                 report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
                 Some(self.unknown_motion(words, report))
             }
         }
     }
-
-    fn modelled_motion(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Motion {
-        let frame_hides = self.state.frame_unknown && !block.machine_coordinates;
-        let mut start = self.state.position;
-        if block.machine_coordinates {
-            self.to_machine(&mut start, 1.0);
-        }
-        let mut end = start;
-        self.targets(&words.axes, block.machine_coordinates, &mut end);
-        let kind = match self.state.motion {
-            Some(Action::Rapid) => MotionKind::Rapid,
-            Some(Action::ArcClockwise) => self.arc(words, start, end, Turning::Clockwise, report),
-            Some(Action::ArcCounterClockwise) => self.arc(words, start, end, Turning::CounterClockwise, report),
-            _ => MotionKind::Linear,
-        };
-        self.state.position = end;
-        let orientation = self.orientation(words, report);
-        if let Orientation::Vector(..) = orientation {
-            self.state.position.known &= !ROTARY;
-            end.known &= !ROTARY;
-        }
-        end.known &= self.state.position.known;
-        if block.machine_coordinates {
-            let mut position = end;
-            self.to_machine(&mut position, -1.0);
-            self.state.position = position;
-        }
-        let feed = self.feed_of(kind, words, report);
-        let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
-        if block.machine_coordinates {
-            motion.zero = [0.0; 9];
-            motion.tool_length_mm = 0.0;
-            motion.machine_coordinates = true;
-            motion.tcp = false;
-        }
-        if frame_hides {
-            hide(&mut motion);
-        }
-        motion
-    }
-
-    /// Between programmed (sign -1) and machine coordinates (sign 1): the zero point and, along Z, the tool's length. Under tool
-    /// centre point control the linear axes of one are not known from the other.
-    fn to_machine(&self, position: &mut Position, sign: f64) {
-        for (value, zero) in position.values.iter_mut().zip(self.state.zero) {
-            *value += sign * zero;
-        }
-        position.values[2] += sign * self.state.tool_length_mm.unwrap_or(0.0);
-        if self.state.tcp || self.state.frame_unknown {
-            position.known &= !LINEAR;
-        }
-    }
-
-    /// Where the coordinates of the block lead: what is not given stays, what cannot be told is forgotten.
-    fn targets(&self, axes: &Places<9>, machine: bool, end: &mut Position) {
-        let mut rest = axes.given;
-        while rest != 0 {
-            let axis = rest.trailing_zeros() as usize;
-            let bit = 1 << axis;
-            rest &= rest - 1;
-            let scale = if LINEAR & bit != 0 {
-                self.state.length_unit_mm
-            } else {
-                1.0
-            };
-            let value = axes.values[axis] * scale;
-            let absolute = axes.absolute | axes.shortest | axes.positive | axes.negative;
-            let incremental =
-                axes.incremental & bit != 0 || (self.state.incremental && !machine && absolute & bit == 0);
-            let before = end.get(axis);
-            let target = match (incremental, before) {
-                (true, before) => before.map(|before| before + value),
-                (false, Some(before)) if axes.shortest & bit != 0 => Some(before + turn_to(value - before)),
-                (false, Some(before)) if axes.positive & bit != 0 => Some(before + (value - before).rem_euclid(360.0)),
-                (false, Some(before)) if axes.negative & bit != 0 => Some(before - (before - value).rem_euclid(360.0)),
-                (false, _) => Some(value),
-            };
-            match target {
-                Some(target) => end.set(axis, target),
-                None => end.forget(axis),
-            }
-        }
-        end.known &= !axes.unread;
-    }
-
-    fn arc(
-        &mut self,
-        words: &Words,
-        start: Position,
-        end: Position,
-        turning: Turning,
-        report: &mut Report<'_>,
-    ) -> MotionKind {
-        let setting = ArcSetting {
-            dialect: self.dialect,
-            plane: self.state.plane,
-            turning,
-            centre_absolute: self.state.arc_centre_absolute,
-            length_unit_mm: self.state.length_unit_mm,
-            start,
-            end,
-            turns: self.turns(words),
-        };
-        let (arc, fault) = arc(&setting, words);
-        if let Some(kind) = fault {
-            report.fault(words.first.unwrap_or_default(), kind);
-        }
-        MotionKind::Arc(arc)
-    }
-
-    /// Further full turns: TURN= counts them; P, where the arc codes read it, counts all turns begun.
-    fn turns(&self, words: &Words) -> Option<u32> {
-        let limit = |turns: &u32| *turns <= 1_000_000;
-        if words.turns.is_said() {
-            return words.turns.index().filter(limit);
-        }
-        let reads_p = || {
-            self.dialect
-                .g(20)
-                .is_some_and(|code| code.words.iter().any(|word| word == "P"))
-        };
-        match words.p {
-            Said::Nothing => Some(0),
-            p if reads_p() => p.index().and_then(|turns| turns.checked_sub(1)).filter(limit),
-            _ => Some(0),
-        }
-    }
-
-    /// The feed of the block's motion; says when there is none.
-    fn feed_of(&mut self, kind: MotionKind, words: &Words, report: &mut Report<'_>) -> Feed {
-        if kind == MotionKind::Rapid {
-            return Feed::Rapid;
-        }
-        let inverse_time = self.state.feed_mode == FeedMode::InverseTime;
-        match self.state.feed {
-            Some(feed) if feed > 0.0 => match self.state.feed_mode {
-                FeedMode::PerMinute => Feed::PerMinute(feed),
-                FeedMode::PerRevolution => Feed::PerRevolution(feed),
-                FeedMode::InverseTime => Feed::InverseTime(feed),
-            },
-            None if self.memory.feed_unread => Feed::Unknown,
-            feed => {
-                let range = words.feed.number().map(|number| number.range).or(words.first);
-                let zero = feed.is_some();
-                report.fault(range.unwrap_or_default(), FaultKind::MissingFeed { inverse_time, zero });
-                Feed::Unknown
-            }
-        }
-    }
-
-    /// A motion with what is in force.
-    pub(crate) fn new_motion(
-        &self,
-        kind: MotionKind,
-        start: Position,
-        end: Position,
-        orientation: Orientation,
-        feed: Feed,
-        report: &Report<'_>,
-    ) -> Motion {
-        let state = &self.state;
-        Motion {
-            block: report.block,
-            kind,
-            start,
-            end,
-            orientation,
-            tcp: state.tcp,
-            great_circle: state.great_circle,
-            feed,
-            spindle_on: state.spindle_on,
-            spindle_rpm: state.spindle_rpm,
-            zero: state.zero,
-            tool_length_mm: state.tool_length_mm.unwrap_or(0.0),
-            machine_coordinates: false,
-            tool: state.tool,
-        }
-    }
-
-    /// A motion that is not modelled: the axes that it names, and in a cycle the plane's third axis, are not known after it.
-    fn unknown_motion(&mut self, words: &Words, report: &Report<'_>) -> Motion {
-        let start = self.state.position;
-        let mut forgotten = words.axes.given | words.axes.unread;
-        if words.centre.any() || words.vector.any() || self.state.motion == Some(Action::CannedCycle) {
-            forgotten |= LINEAR;
-        }
-        if words.vector.any() || self.state.vector_mode {
-            forgotten |= ROTARY;
-            self.state.orientation = Orientation::Words;
-        }
-        self.state.position.known &= !forgotten;
-        let mut motion = self.new_motion(
-            MotionKind::Unknown,
-            start,
-            self.state.position,
-            self.state.orientation,
-            Feed::Unknown,
-            report,
-        );
-        if self.state.frame_unknown {
-            hide(&mut motion);
-        }
-        motion
-    }
-
-    fn dwell(&self, codes: &[Found<'_>], words: &Words, report: &Report<'_>) -> Motion {
-        let seconds = self.dwell_seconds(codes, words).filter(|seconds| *seconds >= 0.0);
-        let position = self.state.position;
-        let feed = Feed::Unknown;
-        let kind = MotionKind::Dwell(seconds);
-        let mut motion = self.new_motion(kind, position, position, self.held_orientation(), feed, report);
-        if self.state.frame_unknown {
-            hide(&mut motion);
-        }
-        motion
-    }
-
-    /// Seconds of a dwell: from P, X, U or F as the code reads them, or from S turns of the spindle.
-    fn dwell_seconds(&self, codes: &[Found<'_>], words: &Words) -> Option<f64> {
-        let code = codes.iter().find(|found| found.code.action == Action::Dwell)?.code;
-        let reads = |word: &str| code.words.iter().any(|known| known == word);
-        let in_ms = |has_point: bool| {
-            if self.dialect.quirks.dwell_in_ms && !has_point {
-                1e-3
-            } else {
-                1.0
-            }
-        };
-        if let Some(p) = words.p.number().filter(|_| reads("P")) {
-            return Some(p.value * in_ms(p.has_point));
-        }
-        if let Some(f) = words.feed.number().filter(|_| reads("F")) {
-            return Some(f.value);
-        }
-        if let Some(turns) = words.speed.number().filter(|_| reads("S")) {
-            let rpm = self.state.spindle_rpm.filter(|&rpm| rpm > 0.0)?;
-            return Some(turns.value / rpm * 60.0);
-        }
-        let axis = [(0, "X"), (6, "U")]
-            .into_iter()
-            .find(|&(axis, word)| reads(word) && words.axes.get(axis).is_some());
-        let (axis, _) = axis?;
-        Some(words.axes.values[axis] * in_ms(words.axes.point & (1 << axis) != 0))
-    }
-}
-
-/// Under a frame that is not modelled X Y Z and vectors say nothing about the machine.
-fn hide(motion: &mut Motion) {
-    motion.start.known &= !LINEAR;
-    motion.end.known &= !LINEAR;
-    if let MotionKind::Arc(arc) = &mut motion.kind {
-        *arc = None;
-    }
-    if let Orientation::Vector(..) = motion.orientation {
-        motion.orientation = Orientation::Words;
-    }
-}
-
-/// The turn by the shorter way, -180 < turn <= 180 deg.
-fn turn_to(difference: f64) -> f64 {
-    let turn = difference.rem_euclid(360.0);
-    if turn > 180.0 { turn - 360.0 } else { turn }
 }
 
 fn read<'d>(

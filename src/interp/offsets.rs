@@ -96,7 +96,10 @@ impl Interpreter<'_> {
     }
 
     pub(crate) fn edge_length(&mut self, edge: Option<u32>, range: TextRange, report: &mut Report<'_>) {
-        let name = self.tool_name();
+        let name = match (&self.memory.in_spindle, edge) {
+            (Chosen::Nothing, Some(1)) => "D1".to_owned(),
+            _ => self.tool_name(),
+        };
         match edge {
             Some(0) => self.set_length(None),
             Some(1) => self.take_length(self.state.tool_data, &name, range, report),

@@ -52,14 +52,23 @@ pub(crate) fn peak(
         let v = value(t);
         if v.is_nan() { f64::INFINITY } else { v }
     };
-    let whole = Piece { from: 0.0, to: 1.0, value_from: value(0.0), value_to: value(1.0) };
-    let (mut sampled, mut at) =
-        if whole.value_to > whole.value_from { (whole.value_to, 1.0) } else { (whole.value_from, 0.0) };
+    let whole = Piece {
+        from: 0.0,
+        to: 1.0,
+        value_from: value(0.0),
+        value_to: value(1.0),
+    };
+    let (mut sampled, mut at) = if whole.value_to > whole.value_from {
+        (whole.value_to, 1.0)
+    } else {
+        (whole.value_from, 0.0)
+    };
     let mut settled = sampled;
     let mut samples = 2;
     let mut waiting = [whole; WAITING];
     let mut count = 1;
-    while count > 0 {
+    // once a piece has no finite bound the whole has none
+    while count > 0 && settled < f64::INFINITY {
         count -= 1;
         let piece = waiting[count];
         let bound = over(&piece);
@@ -74,15 +83,31 @@ pub(crate) fn peak(
         if v > sampled {
             (sampled, at) = (v, middle);
         }
-        let left = Piece { to: middle, value_to: v, ..piece };
-        let right = Piece { from: middle, value_from: v, ..piece };
+        let left = Piece {
+            to: middle,
+            value_to: v,
+            ..piece
+        };
+        let right = Piece {
+            from: middle,
+            value_from: v,
+            ..piece
+        };
         // the more promising half first: a high sample settles the rest sooner
-        let (later, sooner) = if piece.value_from > piece.value_to { (right, left) } else { (left, right) };
+        let (later, sooner) = if piece.value_from > piece.value_to {
+            (right, left)
+        } else {
+            (left, right)
+        };
         waiting[count] = later;
         waiting[count + 1] = sooner;
         count += 2;
     }
-    Peak { sampled, at, bound: settled.max(sampled) }
+    Peak {
+        sampled,
+        at,
+        bound: settled.max(sampled),
+    }
 }
 
 #[cfg(test)]
@@ -95,7 +120,10 @@ mod tests {
         // peak of t - t^2 is 1/4 at 1/2, curvature 2; here shifted so that no sample hits it
         let f = |t: f64| 0.25 - (t - 0.37) * (t - 0.37);
         let found = peak(f, |p| p.below_parabola(2.0), |bound, best, _| bound <= best + 1e-6);
-        assert!(found.sampled <= 0.25 && found.bound >= 0.25 && found.bound - found.sampled <= 1e-6, "{found:?}");
+        assert!(
+            found.sampled <= 0.25 && found.bound >= 0.25 && found.bound - found.sampled <= 1e-6,
+            "{found:?}"
+        );
         assert!((found.at - 0.37).abs() < 1e-2);
     }
 

@@ -23,5 +23,8 @@ pub fn builtin(name: &str) -> Option<&'static Machine> {
 
 /// The text of a built-in machine's file, as a start for a machine of one's own.
 pub fn builtin_source(name: &str) -> Option<&'static str> {
-    BUILTIN_MACHINES.iter().position(|&known| known == name).map(|index| FILES[index])
+    BUILTIN_MACHINES
+        .iter()
+        .position(|&known| known == name)
+        .map(|index| FILES[index])
 }

@@ -4,15 +4,12 @@
 //! smaller first, then the smaller second rotary move, then the value nearer zero. At the pole the first rotary axis stays where it
 //! is. Windings are chosen inside the limits; an endless axis takes the winding nearest the previous value. Without a previous
 //! posture the rotary axes are taken to stand at zero.
-use crate::{Limits, Machine, NoStance, Orientations, Solution, orientations};
-use core::f64::consts::{PI, TAU};
+use crate::{Limits, Machine, NoStance, Orientations, Solution, orientations, windings};
+use core::f64::consts::TAU;
 use trunnion_geometry::Vec3;
 
 /// Differences below this are ties, rad or s: rounding must not choose a posture.
 const TIE: f64 = 1e-9;
-
-/// How far beyond its limit a rotary value may lie and still count as inside, rad.
-const SLACK: f64 = 1e-9;
 
 /// Why an angle has no winding inside the limits: the winding nearest to legal and the limit it breaks, rad.
 #[derive(Clone, Copy, Debug)]
@@ -21,37 +18,39 @@ struct Outside {
     limit: f64,
 }
 
-/// The winding of `q` nearest to `near`, of two equally near the one nearer zero, rad.
-fn nearest_winding(q: f64, near: f64) -> f64 {
-    let turns = (near - q) / TAU;
-    let value = q + TAU * turns.round();
-    let off = value - near;
-    if off.abs() < PI - TIE {
-        return value;
+/// The winding of `q` inside the limits of joint `axis` that is nearest to `near`, rad; of two equally near the one nearer zero, of two
+/// equally near zero the positive one.
+fn legal_winding(machine: &Machine, axis: usize, q: f64, near: f64) -> Result<f64, Outside> {
+    match *windings(machine, axis, q, near) {
+        [] => Err(least_bad(machine.axes[axis].limits, q)),
+        [first, second, ..] => {
+            let tie = (second - near).abs() < (first - near).abs() + TIE;
+            let nearer_zero = first.abs() - second.abs();
+            let takes_second = nearer_zero > TIE || (nearer_zero > -TIE && second > first);
+            Ok(if tie && takes_second { second } else { first })
+        }
+        [first] => Ok(first),
     }
-    let other = value - TAU.copysign(off);
-    if other.abs() < value.abs() { other } else { value }
 }
 
-/// The winding of `q` inside `limits` that is nearest to `near`, rad.
-fn legal_winding(q: f64, near: f64, limits: Limits) -> Result<f64, Outside> {
-    let value = nearest_winding(q, near);
-    let Limits::Range(low, high) = limits else { return Ok(value) };
-    if value >= low - SLACK && value <= high + SLACK {
-        return Ok(value);
+/// The winding of `q` nearest to the limits, none of which is inside them.
+fn least_bad(limits: Limits, q: f64) -> Outside {
+    let Limits::Range(low, high) = limits else {
+        return Outside { value: q, limit: q };
+    };
+    let below = q + TAU * ((high - q) / TAU).floor();
+    let above = below + TAU;
+    if low - below <= above - high {
+        Outside {
+            value: below,
+            limit: low,
+        }
+    } else {
+        Outside {
+            value: above,
+            limit: high,
+        }
     }
-    let highest = q + TAU * ((high + SLACK - q) / TAU).floor();
-    if highest < low - SLACK {
-        let above = highest + TAU;
-        let outside = if low - highest <= above - high {
-            Outside { value: highest, limit: low }
-        } else {
-            Outside { value: above, limit: high }
-        };
-        return Err(outside);
-    }
-    // the nearest winding lies outside, so the nearest legal one is the last before that limit
-    Ok(if value > high { highest } else { q + TAU * ((low - SLACK - q) / TAU).ceil() })
 }
 
 /// A posture with its windings and what it costs to go there.
@@ -66,7 +65,10 @@ impl Candidate {
         let moves = [(q[0] - from[0]).abs(), (q[1] - from[1]).abs()];
         let slowness = slowness(machine);
         let time = (moves[0] * slowness[0]).max(moves[1] * slowness[1]);
-        Self { q, cost: [time, moves[0], moves[1], q[0].abs(), q[1].abs()] }
+        Self {
+            q,
+            cost: [time, moves[0], moves[1], q[0].abs(), q[1].abs()],
+        }
     }
     /// Whether this one goes before `other`: lexicographic, differences below [`TIE`] are ties; the first named wins a full tie.
     fn before(&self, other: &Self) -> bool {
@@ -98,7 +100,9 @@ fn slowness(machine: &Machine) -> [f64; 2] {
 pub(crate) fn choose(machine: &Machine, axis: &Vec3, from: [f64; 2]) -> Result<[f64; 2], NoStance> {
     match orientations(machine, axis) {
         Orientations::Unreachable(off) => Err(NoStance::Unreachable(off)),
-        Orientations::Pole(q2) => legal(machine, [from[0], q2], from).map(|candidate| candidate.q).map_err(no_winding),
+        Orientations::Pole(q2) => legal(machine, [from[0], q2], from)
+            .map(|candidate| candidate.q)
+            .map_err(no_winding),
         Orientations::Postures(postures) => {
             let mut best: Option<Candidate> = None;
             let mut worst: Option<(u8, Outside)> = None;
@@ -136,8 +140,8 @@ fn no_winding((axis, Outside { value, limit }): (u8, Outside)) -> NoStance {
 /// The posture `q` with its best legal windings, or the letter of the axis that has none.
 fn legal(machine: &Machine, mut q: [f64; 2], from: [f64; 2]) -> Result<Candidate, (u8, Outside)> {
     for (index, rotary) in machine.constants.rotary().iter().enumerate() {
-        let axis = &machine.axes[rotary.joint];
-        q[index] = legal_winding(q[index], from[index], axis.limits).map_err(|outside| (axis.letter, outside))?;
+        let letter = machine.axes[rotary.joint].letter;
+        q[index] = legal_winding(machine, rotary.joint, q[index], from[index]).map_err(|outside| (letter, outside))?;
     }
     Ok(Candidate::new(machine, q, from))
 }
@@ -145,39 +149,84 @@ fn legal(machine: &Machine, mut q: [f64; 2], from: [f64; 2]) -> Result<Candidate
 /// Sum of the rotary moves, rad, of the cheapest way from `from` to the tool axis `axis` in the posture with the sign `branch`, limits
 /// aside: Dmin of branch-swap, kinematics notes 5. A swap that a limit enforces is a swap all the same. `None`: no such posture.
 pub(crate) fn cheapest_in_posture(machine: &Machine, axis: &Vec3, branch: i8, from: [f64; 2]) -> Option<f64> {
-    let Orientations::Postures(postures) = orientations(machine, axis) else { return None };
+    let Orientations::Postures(postures) = orientations(machine, axis) else {
+        return None;
+    };
     let same: &Solution = postures.iter().find(|solution| solution.branch == branch)?;
-    let moves = |index: usize| (nearest_winding(same.q[index], from[index]) - from[index]).abs();
+    let moves = |index: usize| {
+        let off = same.q[index] - from[index];
+        (off - TAU * (off / TAU).round()).abs()
+    };
     Some(moves(0) + moves(1))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trunnion_geometry::rad;
+    use crate::builtin;
+    use trunnion_geometry::{deg, rad};
 
-    fn close(a: f64, b_deg: f64) -> bool {
-        (a - rad(b_deg)).abs() < 1e-12
+    fn mikron() -> &'static Machine {
+        builtin("mikron-ucp710").expect("built in")
+    }
+
+    fn joints(axis: Vec3, from: [f64; 2]) -> [f64; 2] {
+        choose(mikron(), &axis.normalize(), from.map(rad))
+            .expect("reachable")
+            .map(deg)
+    }
+
+    fn assert_near(found: [f64; 2], wanted: [f64; 2]) {
+        assert!(
+            (found[0] - wanted[0]).abs() < 1e-4 && (found[1] - wanted[1]).abs() < 1e-4,
+            "{found:?}, not {wanted:?}"
+        );
     }
 
     #[test]
-    fn endless_axis_takes_the_nearest_winding() {
-        let q = legal_winding(rad(-170.0), rad(1000.0), Limits::Unbounded).expect("endless");
-        assert!(close(q, 910.0) || close(q, 1270.0 - 360.0), "{q}");
-        // 180 degrees away on both sides: nearer zero
-        assert!(close(nearest_winding(rad(180.0), rad(0.0)).abs(), 180.0));
-        assert!(close(nearest_winding(rad(0.0), rad(180.0)), 0.0));
-        assert!(close(nearest_winding(rad(0.0), rad(-180.0)), 0.0));
+    fn an_endless_axis_takes_the_nearest_winding() {
+        // |u| sin 20 deg along (3, 4) / 5: C 143.1301 A 20, or C -36.8699 A -20
+        let axis = Vec3::new(0.205_212_086, 0.273_616_115, 0.939_692_621);
+        assert_near(joints(axis, [0.0, 20.0]), [-36.8699, -20.0]);
+        assert_near(joints(axis, [1200.0, 20.0]), [143.1301 + 1080.0, 20.0]);
+        assert_near(joints(axis, [-400.0, -20.0]), [-36.8699 - 360.0, -20.0]);
     }
 
     #[test]
-    fn limits_choose_the_last_legal_winding() {
-        let range = Limits::Range(rad(-30.0), rad(400.0));
-        assert!(close(legal_winding(rad(10.0), rad(700.0), range).expect("legal"), 370.0));
-        assert!(close(legal_winding(rad(10.0), rad(-700.0), range).expect("legal"), 10.0));
-        let outside = legal_winding(rad(-60.0), 0.0, Limits::Range(rad(-30.0), rad(120.0))).expect_err("outside");
-        assert!(close(outside.value, -60.0) && close(outside.limit, -30.0));
-        let outside = legal_winding(rad(130.0), 0.0, Limits::Range(rad(-30.0), rad(120.0))).expect_err("outside");
-        assert!(close(outside.value, 130.0) && close(outside.limit, 120.0));
+    fn a_limit_excludes_a_posture() {
+        // A -60 is outside -30..120, so the long way it is
+        let axis = Vec3::new(0.0, 0.866_025, 0.5);
+        assert_near(joints(axis, [0.0, 0.0]), [180.0, 60.0]);
+        // pointing down at 150 deg: both postures leave the travel of A, +150 is the nearer
+        let down = Vec3::new(0.0, -0.5, -0.866_025).normalize();
+        let Err(NoStance::OutsideLimits { axis, value, limit }) = choose(mikron(), &down, [0.0; 2]) else {
+            panic!("a posture outside the limits was chosen")
+        };
+        assert_eq!(axis, b'A');
+        assert!((deg(value) - 150.0).abs() < 1e-3 && (deg(limit) - 120.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn ties_are_settled_the_same_way_everywhere() {
+        // half a turn either way: the winding nearer zero
+        let axis = Vec3::new(0.0, -0.5, 0.866_025);
+        assert_near(joints(axis, [180.0, 30.0]), [0.0, 30.0]);
+        assert_near(joints(axis, [-180.0, 30.0]), [0.0, 30.0]);
+        assert_near(joints(axis, [540.0, 30.0]), [360.0, 30.0]);
+    }
+
+    #[test]
+    fn the_pole_keeps_the_first_axis() {
+        assert_near(joints(Vec3::z(), [77.0, 3.0]), [77.0, 0.0]);
+        assert_near(joints(Vec3::z(), [-1000.0, 3.0]), [-1000.0, 0.0]);
+    }
+
+    #[test]
+    fn the_cheapest_move_of_a_posture_ignores_limits() {
+        let axis = Vec3::new(0.0, 0.866_025, 0.5).normalize();
+        let least = cheapest_in_posture(mikron(), &axis, 1, [0.0, rad(-10.0)]).expect("two postures");
+        assert!((deg(least) - 50.0).abs() < 1e-3, "{}", deg(least));
+        let least = cheapest_in_posture(mikron(), &axis, -1, [0.0, rad(10.0)]).expect("two postures");
+        assert!((deg(least) - 230.0).abs() < 1e-3, "{}", deg(least));
     }
 }

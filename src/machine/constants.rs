@@ -79,9 +79,17 @@ pub struct Constants {
     pub pair: Option<PairConstants>,
 }
 
-const NO_ROTARY: RotaryAxis =
-    RotaryAxis { joint: 0, direction: Vec3::new(0.0, 0.0, 1.0), point: Vec3::new(0.0, 0.0, 0.0), sign: 1.0 };
-const NO_LINEAR: LinearAxis = LinearAxis { joint: 0, motion: Vec3::new(0.0, 0.0, 0.0), segment: 0 };
+const NO_ROTARY: RotaryAxis = RotaryAxis {
+    joint: 0,
+    direction: Vec3::new(0.0, 0.0, 1.0),
+    point: Vec3::new(0.0, 0.0, 0.0),
+    sign: 1.0,
+};
+const NO_LINEAR: LinearAxis = LinearAxis {
+    joint: 0,
+    motion: Vec3::new(0.0, 0.0, 0.0),
+    segment: 0,
+};
 
 impl Constants {
     /// From the axes (workpiece to tool) and the tool axis at home. `None` when the linear axes do not span space, when there are
@@ -92,13 +100,20 @@ impl Constants {
         for (joint, axis) in axes.iter().enumerate() {
             match axis.kind {
                 AxisKind::Rotary => {
-                    *rotary.get_mut(rotary_count)? =
-                        RotaryAxis { joint, direction: axis.direction, point: axis.point, sign: axis.sign };
+                    *rotary.get_mut(rotary_count)? = RotaryAxis {
+                        joint,
+                        direction: axis.direction,
+                        point: axis.point,
+                        sign: axis.sign,
+                    };
                     rotary_count += 1;
                 }
                 AxisKind::Linear => {
-                    *linear.get_mut(linear_count)? =
-                        LinearAxis { joint, motion: axis.direction * axis.sign, segment: rotary_count };
+                    *linear.get_mut(linear_count)? = LinearAxis {
+                        joint,
+                        motion: axis.direction * axis.sign,
+                        segment: rotary_count,
+                    };
                     linear_count += 1;
                 }
             }
@@ -108,7 +123,11 @@ impl Constants {
         let inverse_motion = motions.try_inverse()?;
         let segment = linear[solved[0]].segment;
         let shared = solved.iter().all(|&i| linear[i].segment == segment);
-        let pair = if rotary_count == 2 { Some(PairConstants::new(&rotary, tool_axis)?) } else { None };
+        let pair = if rotary_count == 2 {
+            Some(PairConstants::new(&rotary, tool_axis)?)
+        } else {
+            None
+        };
         let shared_segment = shared.then_some(segment);
         let cartesian = cartesian(&inverse_motion);
         Some(Self {
@@ -176,7 +195,12 @@ fn snap(value: f64) -> f64 {
 /// Three linear axes that span space: X, Y, Z if they do, else the first three (in the order XYZUVW) that do; of several choices
 /// the first whose volume is above 1e-3.
 fn choose_solved(axes: &[Axis], linear: &[LinearAxis]) -> Option<[usize; 3]> {
-    let rank = |i: &usize| b"XYZUVW".iter().position(|&l| l == axes[linear[*i].joint].letter).unwrap_or(6);
+    let rank = |i: &usize| {
+        b"XYZUVW"
+            .iter()
+            .position(|&l| l == axes[linear[*i].joint].letter)
+            .unwrap_or(6)
+    };
     let mut order: Vec<usize> = (0..linear.len()).collect();
     order.sort_by_key(rank);
     for (n, &a) in order.iter().enumerate() {

@@ -52,7 +52,10 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
             let [min, max] = *range.get_ref();
             if !(min.is_finite() && max.is_finite() && min < max) {
                 let message = format!("range [{min}, {max}]: the lower end must be below the upper one, both finite");
-                return Err(Fault { message, span: range.span() });
+                return Err(Fault {
+                    message,
+                    span: range.span(),
+                });
             }
         }
     }
@@ -84,14 +87,20 @@ fn one_of(name: &str, word: Option<&Word>, known: &[&str]) -> Result<Option<Stri
         return Ok(Some(word.get_ref().clone()));
     }
     let message = format!("unknown {name} {:?}; known: {}", word.get_ref(), known.join(", "));
-    Err(Fault { message, span: word.span() })
+    Err(Fault {
+        message,
+        span: word.span(),
+    })
 }
 
 fn known_axis(word: &Word, axes: &[Axis]) -> Result<(), Fault> {
     if axes.iter().any(|axis| word.get_ref().as_bytes() == [axis.letter]) {
         return Ok(());
     }
-    Err(Fault { message: format!("{:?} is not an axis of this machine", word.get_ref()), span: word.span() })
+    Err(Fault {
+        message: format!("{:?} is not an axis of this machine", word.get_ref()),
+        span: word.span(),
+    })
 }
 
 fn passing_type(number: Option<&Number>) -> Result<(), Fault> {

@@ -3,10 +3,11 @@
 //! t runs from 0 to 1 with the tip path (TCP) or with the joints (no TCP). Rates are per block (d/dt), mm or rad.
 use crate::follow::has_tip_words;
 use crate::forward::{Turn, segment_shifts};
+use crate::spin::{Spin, SpinBounds};
 use crate::{Constants, Joints, Leg, Machine, Stance};
+use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
 use trunnion_geometry::math::sin_cos;
-use trunnion_geometry::{Mat3, Vec3};
 use trunnion_interp::{Motion, MotionKind};
 
 /// Whether the tool axis runs on a great circle in this motion (else the rotary joints run linearly).
@@ -42,7 +43,10 @@ impl Track {
                 let widening = arc.radius_end - arc.radius_start;
                 let rest = widening * widening + arc.height() * arc.height();
                 let rate = |radius: f64| (radius * radius * arc.sweep * arc.sweep + rest).sqrt();
-                let (least, most) = (arc.radius_start.min(arc.radius_end), arc.radius_start.max(arc.radius_end));
+                let (least, most) = (
+                    arc.radius_start.min(arc.radius_end),
+                    arc.radius_start.max(arc.radius_end),
+                );
                 let bend = most * arc.sweep * arc.sweep + 2.0 * (widening * arc.sweep).abs();
                 (rate(most), rate(least), bend)
             }
@@ -74,6 +78,8 @@ pub(crate) struct Course<'a> {
     from: [f64; 2],
     /// And what is added over the block.
     change: [f64; 2],
+    /// How they turn in between.
+    pub(crate) spin: Spin<'a>,
 }
 
 impl<'a> Course<'a> {
@@ -94,16 +100,23 @@ impl<'a> Course<'a> {
             change[index] = rotary.sign * end.joints[rotary.joint] - from[index];
         }
         let tool = machine.gauge_point - machine.tool_axis * tool_length;
-        Some(Self { machine, start, end, track, tip, tool_length, tool, from, change })
+        let spin = Spin::new(machine, leg, start, end)?;
+        Some(Self {
+            machine,
+            start,
+            end,
+            track,
+            tip,
+            tool_length,
+            tool,
+            from,
+            change,
+            spin,
+        })
     }
 
-    fn constants(&self) -> &'a Constants {
+    pub(crate) fn constants(&self) -> &'a Constants {
         &self.machine.constants
-    }
-
-    /// Absolute turns of the rotary axes over the block, rad.
-    pub(crate) fn turned(&self) -> [f64; 2] {
-        [self.change[0].abs(), self.change[1].abs()]
     }
 
     /// Whether some rotary axis moves.
@@ -111,25 +124,61 @@ impl<'a> Course<'a> {
         self.change != [0.0; 2]
     }
 
-    /// Turns of the rotary axes at t.
+    /// Turns of the rotary axes at t; not a number where a great circle leaves the reach.
     pub(crate) fn turns(&self, t: f64) -> [Turn; 2] {
+        if t <= 0.0 {
+            return self.start.turns(self.machine);
+        }
+        if t >= 1.0 {
+            return self.end.turns(self.machine);
+        }
         let mut turns = self.start.turns(self.machine);
+        let mut angles = [self.from[0] + self.change[0] * t, self.from[1] + self.change[1] * t];
+        if let Spin::GreatCircle(circle) = &self.spin {
+            let rotary = &self.constants().rotary;
+            let joints = circle
+                .joints(t, self.start.rotary(self.machine))
+                .unwrap_or([f64::NAN; 2]);
+            angles = [rotary[0].sign * joints[0], rotary[1].sign * joints[1]];
+        }
         for (index, turn) in turns.iter_mut().enumerate() {
             if self.change[index] != 0.0 {
-                (turn.sin, turn.cos) = sin_cos(self.from[index] + self.change[index] * t);
+                (turn.sin, turn.cos) = sin_cos(angles[index]);
             }
         }
         turns
     }
 
+    /// Rates of the turns at t, rad per block.
+    pub(crate) fn rates(&self, t: f64, turns: &[Turn; 2]) -> [f64; 2] {
+        match &self.spin {
+            Spin::Even => self.change,
+            Spin::GreatCircle(circle) => circle.rates(t, &turns[0].apply(&turns[1].axis)),
+        }
+    }
+
+    /// Bounds of the turns' rates and second derivatives on a piece of the block.
+    pub(crate) fn spin_bounds(&self, from: f64, to: f64) -> SpinBounds {
+        match &self.spin {
+            Spin::Even => SpinBounds {
+                rate: [self.change[0].abs(), self.change[1].abs()],
+                bend: [0.0; 2],
+            },
+            Spin::GreatCircle(circle) => circle.bounds(from, to),
+        }
+    }
+
     /// Shifts of the segments by all linear axes at start and end (joints run linearly).
     pub(crate) fn shifts(&self) -> ([Vec3; 3], [Vec3; 3]) {
         let constants = self.constants();
-        (segment_shifts(constants, &self.start.joints), segment_shifts(constants, &self.end.joints))
+        (
+            segment_shifts(constants, &self.start.joints),
+            segment_shifts(constants, &self.end.joints),
+        )
     }
 
     /// Shifts by the linear axes that inverse kinematics does not solve for, at start and end.
-    fn idle_shifts(&self) -> ([Vec3; 3], [Vec3; 3]) {
+    pub(crate) fn idle_shifts(&self) -> ([Vec3; 3], [Vec3; 3]) {
         let constants = self.constants();
         let (mut start, mut end) = ([Vec3::zeros(); 3], [Vec3::zeros(); 3]);
         if constants.linear_count > 3 {
@@ -145,7 +194,10 @@ impl<'a> Course<'a> {
 
     /// The three solved joints of a stance.
     pub(crate) fn solved(&self, joints: &Joints) -> Vec3 {
-        let [a, b, c] = self.constants().solved.map(|index| joints[self.constants().linear[index].joint]);
+        let [a, b, c] = self
+            .constants()
+            .solved
+            .map(|index| joints[self.constants().linear[index].joint]);
         Vec3::new(a, b, c)
     }
 
@@ -157,7 +209,8 @@ impl<'a> Course<'a> {
         }
         let constants = self.constants();
         let turns = self.turns(t);
-        let spin = |index: usize, v: &Vec3| turns[index].axis.cross(v) * self.change[index];
+        let spins = self.rates(t, &turns);
+        let spin = |index: usize, v: &Vec3| turns[index].axis.cross(v) * spins[index];
         let (start, end) = self.idle_shifts();
         let count = constants.rotary_count;
         // p0: the tool point with the solved joints at zero, and its rate
@@ -185,19 +238,29 @@ impl<'a> Course<'a> {
         let tip = self.start.point_with(self.tool_length) + way;
         let solved = solve(&columns, &(tip - point));
         let drift = column_rates[0] * solved.x + column_rates[1] * solved.y + column_rates[2] * solved.z;
-        Moment { solved, rates: solve(&columns, &(tip_rate - rate - drift)) }
+        Moment {
+            solved,
+            rates: solve(&columns, &(tip_rate - rate - drift)),
+        }
     }
 
     /// Without TCP: X Y Z words run along the track, other joints linearly.
-    fn joint_moment(&self, t: f64) -> Moment {
+    pub(crate) fn joint_moment(&self, t: f64) -> Moment {
         let (from, to) = (self.solved(&self.start.joints), self.solved(&self.end.joints));
-        let mut moment = Moment { solved: from + (to - from) * t, rates: to - from };
+        let mut moment = Moment {
+            solved: from + (to - from) * t,
+            rates: to - from,
+        };
         if let Track::Arc(_) = self.track {
             let (way, rate) = self.track.at(t);
             for letter in 0..3 {
-                let Some(joint) = self.machine.joint_of_letter[letter] else { continue };
+                let Some(joint) = self.machine.joint_of_letter[letter] else {
+                    continue;
+                };
                 let solved = self.constants().solved;
-                let slot = solved.iter().position(|&i| self.constants().linear[i].joint == usize::from(joint));
+                let slot = solved
+                    .iter()
+                    .position(|&i| self.constants().linear[i].joint == usize::from(joint));
                 if let Some(slot) = slot {
                     moment.solved[slot] = from[slot] + way[letter];
                     moment.rates[slot] = rate[letter];
@@ -205,85 +268,6 @@ impl<'a> Course<'a> {
             }
         }
         moment
-    }
-
-    /// Upper bounds of the rates and of the second derivatives of the three solved joints over the block, mm per block and mm per
-    /// block squared; infinite where nothing is proven.
-    pub(crate) fn bends(&self) -> (Vec3, Vec3) {
-        let (fastest, _, bend) = self.track.bounds();
-        if !self.tip {
-            return match self.track {
-                Track::Line(_) => (self.joint_moment(0.0).rates.abs(), Vec3::zeros()),
-                Track::Arc(_) => (Vec3::repeat(fastest), Vec3::repeat(bend)),
-            };
-        }
-        let constants = self.constants();
-        let Some(segment) = constants.shared_segment else { return self.mixed_bends(fastest, bend) };
-        let turned = self.turned();
-        let (start, end) = self.idle_shifts();
-        let [turns_start, turns_end] = [self.start.turns(self.machine), self.end.turns(self.machine)];
-        let (from, to) = (self.start.point_with(self.tool_length), self.end.point);
-        // from the workpiece to the segment: Z = R^T (P - c) + c
-        let mut wanted = Carried::new(from, to, fastest, bend);
-        for index in 0..segment {
-            wanted.shift(&-start[index], &-end[index]);
-            let centre = constants.rotary[index].point;
-            wanted.turn(turned[index], &centre, &turns_start[index], &turns_end[index], Turn::undo);
-        }
-        // from the tool to the segment
-        let count = constants.rotary_count;
-        let mut tool = Carried::new(self.tool, self.tool, 0.0, 0.0);
-        for index in (segment..count).rev() {
-            tool.shift(&start[index + 1], &end[index + 1]);
-            let centre = constants.rotary[index].point;
-            tool.turn(turned[index], &centre, &turns_start[index], &turns_end[index], Turn::apply);
-        }
-        tool.shift(&start[segment], &end[segment]);
-        let rows = constants.inverse_motion;
-        let row = |i: usize| rows.row(i).norm();
-        let rows = Vec3::new(row(0), row(1), row(2));
-        (rows * (wanted.rate + tool.rate), rows * (wanted.bend + tool.bend))
-    }
-
-    /// [`Course::bends`] where the solved axes lie in different segments: J q = r gives |q'| <= k (|r'| + G |q|) and
-    /// |q''| <= k (|r''| + 2 G |q'| + G2 |q|) with k the norm of J^-1, G and G2 bounds of |J'| and |J''|. Proven while J stays near its
-    /// value at the start, else infinite.
-    fn mixed_bends(&self, fastest: f64, bend: f64) -> (Vec3, Vec3) {
-        let nothing = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::INFINITY));
-        let constants = self.constants();
-        let turned = self.turned();
-        let [turns_start, turns_end] = [self.start.turns(self.machine), self.end.turns(self.machine)];
-        let (mut columns, mut spin2, mut spin4) = ([Vec3::zeros(); 3], 0.0, 0.0);
-        for (slot, &solved) in constants.solved.iter().enumerate() {
-            let linear = &constants.linear[solved];
-            columns[slot] = turns_start[..linear.segment].iter().rev().fold(linear.motion, |m, turn| turn.apply(&m));
-            let rate: f64 = turned[..linear.segment].iter().sum();
-            spin2 += rate * rate;
-            spin4 += rate * rate * rate * rate;
-        }
-        let (spin, spin_bend) = (spin2.sqrt(), spin4.sqrt());
-        let Some(inverse) = Mat3::from_columns(&columns).try_inverse() else { return nothing };
-        let at_start = inverse.norm();
-        let k = at_start / (1.0 - at_start * spin);
-        if !(at_start * spin < 0.9) {
-            return nothing;
-        }
-        let (start, end) = self.idle_shifts();
-        let count = constants.rotary_count;
-        let mut point = Carried::new(self.tool, self.tool, 0.0, 0.0);
-        point.shift(&start[count], &end[count]);
-        for index in (0..count).rev() {
-            let centre = constants.rotary[index].point;
-            point.turn(turned[index], &centre, &turns_start[index], &turns_end[index], Turn::apply);
-            point.shift(&start[index], &end[index]);
-        }
-        let (rate, bend) = (fastest + point.rate, bend + point.bend);
-        let (from, to) = (self.start.point_with(self.tool_length), self.end.point);
-        let reach = (from - point.start).norm().max((to - point.end).norm()) + bend * 0.125;
-        let size = k * reach;
-        let rate = k * (rate + spin * size);
-        let bend = k * (bend + 2.0 * spin * rate + spin_bend * size);
-        (Vec3::repeat(rate), Vec3::repeat(bend))
     }
 }
 
@@ -294,41 +278,4 @@ fn solve(columns: &[Vec3; 3], right: &Vec3) -> Vec3 {
     let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
     let volume = a.dot(&bc);
     Vec3::new(right.dot(&bc), right.dot(&ca), right.dot(&ab)) / volume
-}
-
-/// A point that is carried through the chain: its ends, and bounds of its first and second derivative over the block.
-///
-/// Turning by an angle whose rate is at most D and constant adds D r to the rate and 2 D v + D^2 r to the second derivative, r being the
-/// largest distance from the axis (kinematics notes 3, taken axis by axis). r is largest at an end or above its chord by bend / 8.
-pub(crate) struct Carried {
-    pub(crate) start: Vec3,
-    pub(crate) end: Vec3,
-    /// Bound of the rate.
-    pub(crate) rate: f64,
-    /// Bound of the second derivative.
-    pub(crate) bend: f64,
-}
-
-impl Carried {
-    pub(crate) fn new(start: Vec3, end: Vec3, rate: f64, bend: f64) -> Self {
-        Self { start, end, rate, bend }
-    }
-    /// Adds a shift that runs linearly.
-    pub(crate) fn shift(&mut self, start: &Vec3, end: &Vec3) {
-        self.start += start;
-        self.end += end;
-        self.rate += (end - start).norm();
-    }
-    /// Turns about an axis through `centre` by an angle that changes by `turned` over the block.
-    pub(crate) fn turn(&mut self, turned: f64, centre: &Vec3, start: &Turn, end: &Turn, apply: impl Fn(&Turn, &Vec3) -> Vec3) {
-        let (from, to) = (self.start - centre, self.end - centre);
-        if turned > 0.0 {
-            let off = |arm: &Vec3| start.axis.cross(arm).norm();
-            let radius = off(&from).max(off(&to)) + self.bend * 0.125;
-            self.bend += 2.0 * turned * self.rate + turned * turned * radius;
-            self.rate += turned * radius;
-        }
-        self.start = apply(start, &from) + centre;
-        self.end = apply(end, &to) + centre;
-    }
 }

@@ -94,21 +94,33 @@ impl Description {
         let mut lines = vec![format!("{} ({})", self.name, self.id), String::new()];
         lines.push("Axes from workpiece to tool:".to_owned());
         for axis in &self.axes {
-            lines.push(format!("  {}  {} axis on the {}: {}", axis.letter, axis.kind, axis.side, axis.sentence));
+            lines.push(format!(
+                "  {}  {} axis on the {}: {}",
+                axis.letter, axis.kind, axis.side, axis.sentence
+            ));
             lines.push(format!("     {}; {}", axis.limits, axis.speed));
             lines.extend(axis.notes.iter().map(|note| format!("     {note}")));
         }
         lines.push(String::new());
-        lines.push(format!("Tool axis at home (tip to spindle): {}", triple(&Vec3::from(self.tool_axis))));
-        lines.push(format!("Gauge point at home: {} mm; tip = gauge point - length * tool axis", triple(&Vec3::from(self.gauge_point))));
+        lines.push(format!(
+            "Tool axis at home (tip to spindle): {}",
+            triple(&Vec3::from(self.tool_axis))
+        ));
+        lines.push(format!(
+            "Gauge point at home: {} mm; tip = gauge point - length * tool axis",
+            triple(&Vec3::from(self.gauge_point))
+        ));
         lines.push(format!("Tool axis in the part: {}", self.formula));
         lines.push(format!("Reach: {}", self.reach));
         if !self.pole.is_empty() {
             lines.push(format!("Pole: {}", self.pole));
         }
         lines.extend(self.control.iter().map(|line| format!("Control: {line}")));
-        let limits: Vec<String> =
-            self.tolerances.iter().map(|(name, value, unit)| format!("{name} {} {unit}", number(*value))).collect();
+        let limits: Vec<String> = self
+            .tolerances
+            .iter()
+            .map(|(name, value, unit)| format!("{name} {} {unit}", number(*value)))
+            .collect();
         lines.push(format!("Tolerances: {}", limits.join(", ")));
         lines.extend(self.sources.iter().map(|source| format!("Source: {source}")));
         lines
@@ -130,7 +142,11 @@ fn axis(axis: &Axis) -> AxisDescription {
     };
     let max_speed = axis.max_speed.map(plain);
     let speed = match max_speed {
-        Some(speed) => format!("at most {} {unit}/s ({} {unit}/min)", number(speed), number(speed * 60.0)),
+        Some(speed) => format!(
+            "at most {} {unit}/s ({} {unit}/min)",
+            number(speed),
+            number(speed * 60.0)
+        ),
         None => "speed not declared, so it limits no feed".to_owned(),
     };
     AxisDescription {
@@ -153,7 +169,11 @@ fn axis(axis: &Axis) -> AxisDescription {
 fn sentence(axis: &Axis) -> String {
     let letter = char::from(axis.letter);
     let turned = axis.sign < 0.0;
-    let odd = if turned { " (sign -1: the other way round than ISO 841)" } else { "" };
+    let odd = if turned {
+        " (sign -1: the other way round than ISO 841)"
+    } else {
+        ""
+    };
     match (axis.kind, axis.side) {
         (AxisKind::Linear, side) => {
             let tool = axis.direction * axis.sign;
@@ -169,7 +189,11 @@ fn sentence(axis: &Axis) -> String {
         (AxisKind::Rotary, side) => {
             let way = |clockwise: bool| if clockwise { "clockwise" } else { "counter-clockwise" };
             let from = direction(&axis.direction);
-            let place = if axis.point == Vec3::zeros() { String::new() } else { format!(", about a line through {} mm", triple(&axis.point)) };
+            let place = if axis.point == Vec3::zeros() {
+                String::new()
+            } else {
+                format!(", about a line through {} mm", triple(&axis.point))
+            };
             match side {
                 Side::Head => format!("{letter}+ turns the tool {} seen from {from}{place}{odd}", way(turned)),
                 Side::Table => format!(
@@ -186,7 +210,10 @@ fn notes(axis: &Axis, unit: &str, plain: impl Fn(f64) -> f64) -> Vec<String> {
     let extra = &axis.extra;
     let mut notes = Vec::new();
     if let Some(acceleration) = axis.max_acceleration {
-        notes.push(format!("acceleration at most {} {unit}/s^2", number(plain(acceleration))));
+        notes.push(format!(
+            "acceleration at most {} {unit}/s^2",
+            number(plain(acceleration))
+        ));
     }
     if let Some(margin) = extra.limit_margin {
         notes.push(format!("warns {} {unit} before a limit", number(plain(margin))));
@@ -210,17 +237,26 @@ fn reach(machine: &Machine) -> String {
         let home = direction(&machine.tool_axis);
         return match constants.rotary_count {
             0 => format!("the tool axis is always {home}"),
-            _ => format!("the cone that {home} describes about {}", direction(&constants.rotary[0].direction)),
+            _ => format!(
+                "the cone that {home} describes about {}",
+                direction(&constants.rotary[0].direction)
+            ),
         };
     };
     let first = direction(&constants.rotary[0].direction);
     let whole = if pair.reach_min < 1e-9 && pair.reach_max > core::f64::consts::PI - 1e-9 {
         "every direction".to_owned()
     } else {
-        format!("tool axes {} to {} deg from {first}", number(deg(pair.reach_min)), number(deg(pair.reach_max)))
+        format!(
+            "tool axes {} to {} deg from {first}",
+            number(deg(pair.reach_min)),
+            number(deg(pair.reach_max))
+        )
     };
     let second = &machine.axes[constants.rotary[1].joint];
-    let Limits::Range(min, max) = second.limits else { return whole };
+    let Limits::Range(min, max) = second.limits else {
+        return whole;
+    };
     let [low, high] = legal_cone(machine, [min, max]);
     format!(
         "{whole} by geometry; inside the travel of {}: {} to {} deg from {first}",
@@ -242,9 +278,13 @@ fn legal_cone(machine: &Machine, [min, max]: [f64; 2]) -> [f64; 2] {
     // the angle is extreme at the ends and where S = 0: at q2 = k pi - azimuth; one turn holds them all
     let pi = core::f64::consts::PI;
     let first = ((min + azimuth) / pi).ceil();
-    let inside = (0..3).map(|k| (first + f64::from(k)) * pi - azimuth).filter(|&q2| q2 <= max);
+    let inside = (0..3)
+        .map(|k| (first + f64::from(k)) * pi - azimuth)
+        .filter(|&q2| q2 <= max);
     let angles = [min, max].into_iter().chain(inside).map(angle);
-    angles.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], a| [low.min(a), high.max(a)])
+    angles.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], a| {
+        [low.min(a), high.max(a)]
+    })
 }
 
 fn pole(machine: &Machine) -> String {
@@ -252,7 +292,9 @@ fn pole(machine: &Machine) -> String {
     if constants.pair.is_none() {
         return String::new();
     }
-    let [first, second] = constants.rotary.map(|rotary| char::from(machine.axes[rotary.joint].letter));
+    let [first, second] = constants
+        .rotary
+        .map(|rotary| char::from(machine.axes[rotary.joint].letter));
     let e1 = constants.rotary[0].direction;
     let ends: Vec<String> = [e1, -e1]
         .iter()
@@ -260,7 +302,11 @@ fn pole(machine: &Machine) -> String {
             Orientations::Pole(q2) => {
                 let legal = !windings(machine, constants.rotary[1].joint, q2, 0.0).is_empty();
                 let outside = if legal { "" } else { ", outside its travel" };
-                Some(format!("{} ({second} = {} deg{outside})", direction(end), number(deg(q2))))
+                Some(format!(
+                    "{} ({second} = {} deg{outside})",
+                    direction(end),
+                    number(deg(q2))
+                ))
             }
             _ => None,
         })
@@ -268,13 +314,24 @@ fn pole(machine: &Machine) -> String {
     if ends.is_empty() {
         return format!("none: the tool never stands along the axis of {first}");
     }
-    format!("{first} is free where the tool stands along {}; near it, {first} must turn fast", ends.join(" or "))
+    format!(
+        "{first} is free where the tool stands along {}; near it, {first} must turn fast",
+        ends.join(" or ")
+    )
 }
 
 fn control(machine: &Machine) -> Vec<String> {
     let control = &machine.control;
-    let orientation = if control.tcp_great_circle { "on a great circle" } else { "joint by joint" };
-    let said = if control.tcp_declared { "" } else { " (assumed: the file does not say)" };
+    let orientation = if control.tcp_great_circle {
+        "on a great circle"
+    } else {
+        "joint by joint"
+    };
+    let said = if control.tcp_declared {
+        ""
+    } else {
+        " (assumed: the file does not say)"
+    };
     let mut lines = vec![
         format!("family {}", control.family),
         format!("with tool centre point control the tip runs straight and the orientation {orientation}{said}"),
@@ -284,9 +341,18 @@ fn control(machine: &Machine) -> Vec<String> {
         RapidPath::Synchronous => lines.push("in rapid motions all axes arrive together".to_owned()),
         RapidPath::Dogleg => lines.push("in rapid motions each axis runs at its own speed".to_owned()),
     }
-    lines.extend(control.branch_rule.iter().map(|rule| format!("picks postures by the rule {rule:?}")));
+    lines.extend(
+        control
+            .branch_rule
+            .iter()
+            .map(|rule| format!("picks postures by the rule {rule:?}")),
+    );
     lines.extend(machine.gantries.iter().map(|gantry| {
-        format!("axis {} mirrors {}", char::from(gantry.letter), char::from(gantry.leader))
+        format!(
+            "axis {} mirrors {}",
+            char::from(gantry.letter),
+            char::from(gantry.leader)
+        )
     }));
     lines
 }
@@ -313,5 +379,9 @@ fn triple(vector: &Vec3) -> String {
 pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.6}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" { "0".to_owned() } else { short.to_owned() }
+    if short == "-0" {
+        "0".to_owned()
+    } else {
+        short.to_owned()
+    }
 }

@@ -1,6 +1,7 @@
 //! How far the tip strays from the programmed segment inside a block: sampled value and proven bound.
+use crate::bends::{Carried, Shift};
 use crate::bound::{Piece, peak};
-use crate::course::{Carried, Course, Track};
+use crate::course::{Course, Track};
 use crate::forward::Turn;
 use crate::inverse::place;
 use crate::{Leg, Machine};
@@ -36,7 +37,11 @@ const ROUNDING: f64 = 1e-13;
 /// path, so the deviation is zero by construction, and so it is where no rotary axis moves. Without TCP the joints run linearly and
 /// the tip on W(t); bound: largest sample + Q h^2 / 8 per piece of length h, Q >= |W''|. Source: kinematics notes 3.
 pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<Deviation> {
-    let none = Deviation { sampled_mm: 0.0, bound_mm: 0.0, at: 0.0 };
+    let none = Deviation {
+        sampled_mm: 0.0,
+        bound_mm: 0.0,
+        at: 0.0,
+    };
     let course = Course::new(machine, leg)?;
     if course.tip || !course.turns_at_all() {
         return Some(none);
@@ -48,7 +53,10 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
     let tolerance = tolerance_mm.max(0.0);
     let at_once = path.bend * 0.125 + path.rounding;
     if at_once <= tolerance {
-        return Some(Deviation { bound_mm: at_once, ..none });
+        return Some(Deviation {
+            bound_mm: at_once,
+            ..none
+        });
     }
     let room = (tolerance - path.rounding).max(0.0);
     let found = peak(
@@ -58,7 +66,11 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
             bound <= room || bound <= sampled + CLOSE_MM || (samples > CLOSE_SAMPLES && bound <= sampled * RATIO)
         },
     );
-    Some(Deviation { sampled_mm: found.sampled, bound_mm: found.bound + path.rounding, at: found.at })
+    Some(Deviation {
+        sampled_mm: found.sampled,
+        bound_mm: found.bound + path.rounding,
+        at: found.at,
+    })
 }
 
 /// The tip path W(t) in the workpiece frame while all joints run linearly, and the segment it should follow.
@@ -81,13 +93,31 @@ impl<'c, 'm> TipPath<'c, 'm> {
         let constants = &course.machine.constants;
         let count = constants.rotary_count;
         let [turns_start, turns_end] = [course.start.turns(course.machine), course.end.turns(course.machine)];
-        let mut tip = Carried::new(course.tool, course.tool, 0.0, 0.0);
+        let mut tip = Carried {
+            start: course.tool,
+            end: course.tool,
+            rate: 0.0,
+            bend: 0.0,
+            length: 1.0,
+        };
+        let shift = |i: usize| Shift {
+            start: start[i],
+            end: end[i],
+            rate: (end[i] - start[i]).norm(),
+        };
+        let spin = course.spin_bounds(0.0, 1.0).rate;
         let mut size = course.tool.norm();
-        tip.shift(&start[count], &end[count]);
+        tip.shift(&shift(count));
         for index in (0..count).rev() {
             let centre = constants.rotary[index].point;
-            tip.turn(course.turned()[index], &centre, &turns_start[index], &turns_end[index], Turn::apply);
-            tip.shift(&start[index], &end[index]);
+            tip.turn(
+                (spin[index], 0.0),
+                &centre,
+                &turns_start[index],
+                &turns_end[index],
+                Turn::apply,
+            );
+            tip.shift(&shift(index));
             size += centre.norm();
         }
         size += start.iter().chain(&end).map(Vec3::norm).sum::<f64>();

@@ -45,7 +45,9 @@ pub(crate) fn tool_axis_formula(machine: &Machine) -> String {
             } else if (size - 1.0).abs() < NOTHING {
                 text.push_str(factors);
             } else {
-                text.push_str(&format!("{} {factors}", number(size)));
+                text.push_str(&number(size));
+                text.push(' ');
+                text.push_str(factors);
             }
         }
         if text.is_empty() { "0".to_owned() } else { text }

@@ -22,14 +22,22 @@ pub(crate) struct Turn {
 
 impl Turn {
     /// No turn.
-    pub(crate) const NONE: Self = Self { axis: Vec3::new(0.0, 0.0, 1.0), sin: 0.0, cos: 1.0 };
+    pub(crate) const NONE: Self = Self {
+        axis: Vec3::new(0.0, 0.0, 1.0),
+        sin: 0.0,
+        cos: 1.0,
+    };
 
     /// Turn of rotary axis `index` (0 = nearest the workpiece) at joint value `q`, rad.
     #[inline]
     pub(crate) fn new(constants: &Constants, index: usize, q: f64) -> Self {
         let rotary = &constants.rotary[index];
         let (sin, cos) = sin_cos(rotary.sign * q);
-        Self { axis: rotary.direction, sin, cos }
+        Self {
+            axis: rotary.direction,
+            sin,
+            cos,
+        }
     }
     /// The turned vector (Rodrigues' formula).
     #[inline]

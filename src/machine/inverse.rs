@@ -33,7 +33,10 @@ pub struct Postures {
 
 impl Postures {
     fn one(solution: Solution) -> Self {
-        Self { items: [solution; 2], count: 1 }
+        Self {
+            items: [solution; 2],
+            count: 1,
+        }
     }
 }
 
@@ -96,7 +99,10 @@ fn one_rotary(constants: &Constants, tool_axis: &Vec3, axis: &Vec3) -> Orientati
     }
     let across = e.cross(tool_axis);
     let t = atan2(across.dot(axis), across.cross(&e).dot(axis));
-    Orientations::Postures(Postures::one(Solution { q: [joint_value(t, rotary.sign), 0.0], branch: 0 }))
+    Orientations::Postures(Postures::one(Solution {
+        q: [joint_value(t, rotary.sign), 0.0],
+        branch: 0,
+    }))
 }
 
 /// Two rotary axes. With h the length of u's part orthogonal to e1, g^2 = h^2/D - b^2 and b written from h^2 lose no digits near the
@@ -108,7 +114,11 @@ fn two_rotaries(constants: &Constants, pair: &PairConstants, u: &Vec3) -> Orient
     let (across, along) = (pair.m.dot(u), pair.f2.dot(u));
     let h2 = across * across + along * along;
     // y - c x, without cancellation where the pole can be reached
-    let (end, gap) = if x >= 0.0 { (pair.c, pair.y_minus_c) } else { (-pair.c, pair.y_plus_c) };
+    let (end, gap) = if x >= 0.0 {
+        (pair.c, pair.y_minus_c)
+    } else {
+        (-pair.c, pair.y_plus_c)
+    };
     let b = (gap + end * h2 / (1.0 + x.abs())) / pair.d;
     let a = (x - pair.c * pair.y) / pair.d;
     let g2 = h2 / pair.d - b * b;
@@ -137,7 +147,10 @@ fn two_rotaries(constants: &Constants, pair: &PairConstants, u: &Vec3) -> Orient
     if g * pair.d <= MERGED {
         return Orientations::Postures(Postures::one(posture(1.0, 0)));
     }
-    Orientations::Postures(Postures { items: [posture(1.0, 1), posture(-1.0, -1)], count: 2 })
+    Orientations::Postures(Postures {
+        items: [posture(1.0, 1), posture(-1.0, -1)],
+        count: 2,
+    })
 }
 
 /// Joint value in (-pi, pi] for a turn `t` (|t| below 3 pi) of an axis with sign `s`.
@@ -182,25 +195,31 @@ pub(crate) fn inverse_turned(
         rest = segment_shifts(constants, joints);
     }
     let tool = machine.gauge_point - machine.tool_axis * tool_length;
-    match constants.shared_segment {
-        Some(segment) => {
-            let shift = needed_shift(constants, turns, &rest, segment, tip, &tool);
-            store(constants, &constants.inverse_motion, constants.cartesian.as_ref(), &shift, joints);
-        }
-        None => {
-            let at_rest = place(constants, turns, &rest, &tool);
-            let columns = constants.solved.map(|index| {
-                let linear = &constants.linear[index];
-                turns[..linear.segment].iter().rev().fold(linear.motion, |motion, turn| turn.apply(&motion))
-            });
-            let solve = Mat3::from_columns(&columns);
-            // three unit vectors whose volume is below this span a plane rather than space
-            if solve.determinant().abs() < 1e-9 {
-                return None;
-            }
-            store(constants, &solve.try_inverse()?, None, &(tip - at_rest), joints);
-        }
+    if let Some(segment) = constants.shared_segment {
+        let shift = needed_shift(constants, turns, &rest, segment, tip, &tool);
+        store(
+            constants,
+            &constants.inverse_motion,
+            constants.cartesian.as_ref(),
+            &shift,
+            joints,
+        );
+        return Some(());
     }
+    let at_rest = place(constants, turns, &rest, &tool);
+    let columns = constants.solved.map(|index| {
+        let linear = &constants.linear[index];
+        turns[..linear.segment]
+            .iter()
+            .rev()
+            .fold(linear.motion, |motion, turn| turn.apply(&motion))
+    });
+    let solve = Mat3::from_columns(&columns);
+    // three unit vectors whose volume is below this span a plane rather than space
+    if solve.determinant().abs() < 1e-9 {
+        return None;
+    }
+    store(constants, &solve.try_inverse()?, None, &(tip - at_rest), joints);
     Some(())
 }
 

@@ -1,7 +1,8 @@
 //! Floor 3: joints. A chain of linear and rotary axes of any order: forward and inverse kinematics, postures, limits, and
 //! what happens between two blocks. Formulas: Trunnion's kinematics notes; each function names its source.
 //!
-//! It does not know rules, severities or words for people.
+//! It does not know rules or severities; its only words for people are the description of a machine and what is wrong with its file.
+mod bends;
 mod bound;
 mod builtin;
 mod chain;
@@ -17,15 +18,26 @@ mod forward;
 mod inverse;
 mod limits;
 mod memory;
-mod row;
 mod pole;
 mod raw;
+mod row;
 mod selftest;
 mod spec;
 mod speed;
+mod spin;
+mod stance;
 mod validate;
 mod windings;
 mod words;
+
+#[cfg(test)]
+mod chain_tests;
+#[cfg(test)]
+mod fault_tests;
+#[cfg(test)]
+mod kinematics_tests;
+#[cfg(test)]
+mod spec_tests;
 
 pub use builtin::{BUILTIN_MACHINES, builtin, builtin_source};
 pub use chain::{
@@ -34,7 +46,7 @@ pub use chain::{
 pub use constants::{Constants, LinearAxis, PairConstants, RotaryAxis};
 pub use describe::{AxisDescription, Description, describe};
 pub use deviation::{Deviation, tip_deviation};
-pub use follow::{Follower, Leg, NoStance, Stance};
+pub use follow::Follower;
 pub use forward::{Pose, forward, tool_axis_at};
 pub use inverse::{Orientations, POLE_TOLERANCE, Postures, REACH_TOLERANCE, Solution, inverse, orientations};
 pub use limits::{Excess, limit_excess};
@@ -43,4 +55,5 @@ pub use row::{Row, row};
 pub use selftest::{SelfTest, self_test};
 pub use spec::{MachineError, load};
 pub use speed::{FeedLimit, block_duration_s, feed_limit};
+pub use stance::{Leg, NoStance, Stance};
 pub use windings::{Windings, pole_angle, rotary_jacobian, solution_s, windings};

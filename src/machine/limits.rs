@@ -1,7 +1,8 @@
 //! Joints outside their travel, at the end of a block or inside it.
 use crate::bound::{Piece, peak};
 use crate::course::{Course, Track};
-use crate::{AxisKind, Leg, Limits, Machine};
+use crate::spin::Spin;
+use crate::{Leg, Limits, Machine};
 
 /// One joint outside its travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,15 +24,20 @@ const SLACK: f64 = 1e-6;
 const CLOSE_MM: f64 = 1e-3;
 
 /// All joints outside their travel in this leg. At the end: the known joints, also where the stance is not known. Inside the block
-/// (while both ends are legal): linear joints under TCP or along arcs, by the bound of kinematics notes 3 and bisection; other joints
-/// run straight from end to end and cannot leave their travel in between.
+/// (while both ends are legal): linear joints under TCP or along arcs, and rotary ones on a great circle, by the bound of kinematics
+/// notes 3 and bisection; other joints run straight from end to end and cannot leave their travel in between.
 pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) {
     let (joints, known) = (&leg.known_joints.0, leg.known_joints.1);
     for (axis, entry) in machine.axes.iter().enumerate() {
         if known & (1 << axis) != 0
             && let Some(limit) = broken(entry.limits, joints[axis])
         {
-            out.push(Excess { axis, value: joints[axis], limit, inside: false });
+            out.push(Excess {
+                axis,
+                value: joints[axis],
+                limit,
+                inside: false,
+            });
         }
     }
     if let Some(course) = Course::new(machine, leg)
@@ -53,37 +59,88 @@ fn broken(limits: Limits, value: f64) -> Option<f64> {
     }
 }
 
-/// Whether linear joints can run otherwise than straight.
+/// Whether joints can run otherwise than straight.
 fn bends(course: &Course<'_>) -> bool {
     matches!(course.track, Track::Arc(_)) || (course.tip && course.turns_at_all())
 }
 
-/// Linear joints that leave their travel between two legal ends.
+/// Joints that leave their travel between two legal ends.
 fn inside(course: &Course<'_>, out: &mut Vec<Excess>) {
     let constants = &course.machine.constants;
-    let (_, bends) = course.bends();
+    let (_, whole) = course.bends(0.0, 1.0);
+    let at_once = course.bends_at_once();
     for (slot, &index) in constants.solved.iter().enumerate() {
-        let axis = constants.linear[index].joint;
-        let entry = &course.machine.axes[axis];
-        debug_assert_eq!(entry.kind, AxisKind::Linear);
-        let Limits::Range(low, high) = entry.limits else { continue };
-        let (from, to) = (course.start.joints[axis], course.end.joints[axis]);
-        if broken(entry.limits, from).is_some() || broken(entry.limits, to).is_some() {
+        let over = |piece: &Piece| {
+            let bends = if at_once {
+                whole
+            } else {
+                course.bends(piece.from, piece.to).1
+            };
+            piece.below_parabola(bends[slot])
+        };
+        judge(
+            course,
+            constants.linear[index].joint,
+            |t| course.moment(t).solved[slot],
+            over,
+            out,
+        );
+    }
+    if let Spin::GreatCircle(circle) = &course.spin {
+        let from = course.start.rotary(course.machine);
+        for (slot, rotary) in constants.rotary().iter().enumerate() {
+            let value = |t: f64| circle.joints(t, from).map_or(f64::NAN, |joints| joints[slot]);
+            let over = |piece: &Piece| piece.below_parabola(course.spin_bounds(piece.from, piece.to).bend[slot]);
+            judge(course, rotary.joint, value, over, out);
+        }
+    }
+}
+
+/// One joint against both its limits: `value` at a share of the block, `bound` of a piece.
+fn judge(
+    course: &Course<'_>,
+    axis: usize,
+    value: impl Fn(f64) -> f64,
+    bound: impl Fn(&Piece) -> f64,
+    out: &mut Vec<Excess>,
+) {
+    let limits = course.machine.axes[axis].limits;
+    let Limits::Range(low, high) = limits else { return };
+    let (from, to) = (course.start.joints[axis], course.end.joints[axis]);
+    if broken(limits, from).is_some() || broken(limits, to).is_some() {
+        return;
+    }
+    for (sign, limit) in [(1.0, high), (-1.0, low)] {
+        let over = |q: f64| sign * (q - limit);
+        let whole = Piece {
+            from: 0.0,
+            to: 1.0,
+            value_from: over(from),
+            value_to: over(to),
+        };
+        if bound(&whole) <= SLACK {
             continue;
         }
-        for (sign, limit) in [(1.0, high), (-1.0, low)] {
-            let over = |q: f64| sign * (q - limit);
-            if over(from).max(over(to)) + bends[slot] * 0.125 <= SLACK {
-                continue;
-            }
-            let found = peak(
-                |t| over(course.moment(t).solved[slot]),
-                |piece: &Piece| piece.below_parabola(bends[slot]),
-                |bound, sampled, _| bound <= SLACK || (sampled > SLACK && bound <= sampled + CLOSE_MM),
-            );
-            if found.sampled > SLACK {
-                out.push(Excess { axis, value: limit + sign * found.sampled, limit, inside: true });
-            }
+        let found = peak(
+            |t| {
+                if t <= 0.0 {
+                    over(from)
+                } else if t >= 1.0 {
+                    over(to)
+                } else {
+                    over(value(t))
+                }
+            },
+            &bound,
+            |bound, sampled, _| bound <= SLACK || (sampled > SLACK && bound <= sampled + CLOSE_MM),
+        );
+        if found.sampled > SLACK && found.sampled.is_finite() {
+            out.push(Excess {
+                axis,
+                value: limit + sign * found.sampled,
+                limit,
+                inside: true,
+            });
         }
     }
 }

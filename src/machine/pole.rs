@@ -82,5 +82,9 @@ pub(crate) fn pole_angle_min_great_circle(machine: &Machine, u0: &Vec3, u1: &Vec
     let height = normal.dot(&pole);
     let nearest = pole - normal * height;
     let passes = |p: &Vec3| u0.cross(p).dot(&normal) >= 0.0 && p.cross(u1).dot(&normal) >= 0.0;
-    if passes(&nearest) || passes(&-nearest) { ends.min(atan2(height.abs(), nearest.norm())) } else { ends }
+    if passes(&nearest) || passes(&-nearest) {
+        ends.min(atan2(height.abs(), nearest.norm()))
+    } else {
+        ends
+    }
 }

@@ -22,7 +22,12 @@ const SAME_POSTURE: f64 = 1e-6;
 /// Tries `poses` random poses (deterministic for a `seed`): joints drawn inside the limits (an endless rotary axis: one turn; a linear
 /// axis without limits: -300..300 mm), tool lengths 0..200 mm; every posture found must lead back to the pose.
 pub fn self_test(machine: &Machine, poses: usize, seed: u64) -> SelfTest {
-    let mut result = SelfTest { poses, worst_tip_mm: 0.0, worst_axis: 0.0, posture_missing: 0 };
+    let mut result = SelfTest {
+        poses,
+        worst_tip_mm: 0.0,
+        worst_axis: 0.0,
+        posture_missing: 0,
+    };
     let mut random = SplitMix(seed);
     for _ in 0..poses {
         let joints = random_joints(machine, &mut random);
@@ -59,11 +64,19 @@ pub(crate) fn try_pose(machine: &Machine, joints: &Joints, length: f64, result: 
 
 /// Whether the rotary joints agree with `q` up to whole turns. Near the pole, q1 is known only as well as the tool axis fixes it.
 fn same_posture(machine: &Machine, joints: &Joints, q: [f64; 2]) -> bool {
-    let weight = [crate::pole_angle(machine, &crate::tool_axis_at(machine, q)).min(1.0), 1.0];
-    machine.rotary.iter().zip(q).zip(weight).all(|((&joint, value), weight)| {
-        let off = (joints[joint] - value).rem_euclid(TAU);
-        off.min(TAU - off) * weight < SAME_POSTURE
-    })
+    let weight = [
+        crate::pole_angle(machine, &crate::tool_axis_at(machine, q)).min(1.0),
+        1.0,
+    ];
+    machine
+        .rotary
+        .iter()
+        .zip(q)
+        .zip(weight)
+        .all(|((&joint, value), weight)| {
+            let off = (joints[joint] - value).rem_euclid(TAU);
+            off.min(TAU - off) * weight < SAME_POSTURE
+        })
 }
 
 /// Joints inside the limits, even over the range.

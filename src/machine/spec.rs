@@ -30,15 +30,26 @@ impl std::error::Error for MachineError {}
 
 /// Loads and validates a machine file. `id` is its name for reports (file stem).
 pub fn load(id: &str, toml: &str) -> Result<Machine, MachineError> {
-    let raw: RawMachine = toml::from_str(toml)
-        .map_err(|error| MachineError { message: error.message().to_owned(), span: error.span() })?;
-    build(id, &raw).map_err(|fault| MachineError { message: fault.message, span: Some(fault.span) })
+    let raw: RawMachine = toml::from_str(toml).map_err(|error| MachineError {
+        message: error.message().to_owned(),
+        span: error.span(),
+    })?;
+    build(id, &raw).map_err(|fault| MachineError {
+        message: fault.message,
+        span: Some(fault.span),
+    })
 }
 
 fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
     if raw.schema.get_ref() != "ncmachine/1" {
-        let message = format!("unknown schema {:?}; this program reads \"ncmachine/1\"", raw.schema.get_ref());
-        return Err(Fault { message, span: raw.schema.span() });
+        let message = format!(
+            "unknown schema {:?}; this program reads \"ncmachine/1\"",
+            raw.schema.get_ref()
+        );
+        return Err(Fault {
+            message,
+            span: raw.schema.span(),
+        });
     }
     units(&raw.units)?;
     let tool_axis = match &raw.spindle.tool_axis {
@@ -56,7 +67,11 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
             joint_of_letter[slot] = Some(joint as u8);
         }
     }
-    let of_kind = |kind| (0..chain.axes.len()).filter(|&joint| chain.axes[joint].kind == kind).collect::<Vec<_>>();
+    let of_kind = |kind| {
+        (0..chain.axes.len())
+            .filter(|&joint| chain.axes[joint].kind == kind)
+            .collect::<Vec<_>>()
+    };
     let (rotary, linear) = (of_kind(AxisKind::Rotary), of_kind(AxisKind::Linear));
     let sources = raw
         .sources
@@ -98,8 +113,14 @@ impl Chain {
             let (span, written) = (entry.span(), entry.get_ref());
             let axis = axis(written)?;
             if letters.contains(&axis.letter) {
-                let message = format!("axis {} is listed twice; every letter may occur once", char::from(axis.letter));
-                return Err(Fault { message, span: written.letter.span() });
+                let message = format!(
+                    "axis {} is listed twice; every letter may occur once",
+                    char::from(axis.letter)
+                );
+                return Err(Fault {
+                    message,
+                    span: written.letter.span(),
+                });
             }
             letters.push(axis.letter);
             if let Some(leader) = &written.follow {
@@ -111,19 +132,33 @@ impl Chain {
                     "axis {} moves the table but stands after an axis of the head; list the axes from workpiece to tool",
                     char::from(axis.letter)
                 );
-                return Err(Fault { message, span: written.letter.span() });
+                return Err(Fault {
+                    message,
+                    span: written.letter.span(),
+                });
             }
             axes.push(axis);
             spans.push(span);
         }
         for (gantry, span) in &gantries {
             if !axes.iter().any(|axis| axis.letter == gantry.leader) {
-                let message = format!("axis {} follows {}, which is not an axis of this machine", char::from(gantry.letter), char::from(gantry.leader));
-                return Err(Fault { message, span: span.clone() });
+                let message = format!(
+                    "axis {} follows {}, which is not an axis of this machine",
+                    char::from(gantry.letter),
+                    char::from(gantry.leader)
+                );
+                return Err(Fault {
+                    message,
+                    span: span.clone(),
+                });
             }
         }
         let constants = check_chain(&axes, &spans, raw.axis.span(), tool_axis)?;
-        Ok(Self { axes, gantries: gantries.into_iter().map(|(gantry, _)| gantry).collect(), constants })
+        Ok(Self {
+            axes,
+            gantries: gantries.into_iter().map(|(gantry, _)| gantry).collect(),
+            constants,
+        })
     }
 }
 
@@ -131,7 +166,10 @@ impl Chain {
 fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Vec3) -> Result<Constants, Fault> {
     let rotary: Vec<usize> = (0..axes.len()).filter(|&i| axes[i].kind == AxisKind::Rotary).collect();
     if axes.len() > MAX_AXES {
-        return Err(Fault { message: format!("{} axes; at most {MAX_AXES} are possible", axes.len()), span: all });
+        return Err(Fault {
+            message: format!("{} axes; at most {MAX_AXES} are possible", axes.len()),
+            span: all,
+        });
     }
     if let Some(&third) = rotary.get(2) {
         let message = format!(
@@ -139,22 +177,35 @@ fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Ve
             rotary.len(),
             char::from(axes[third].letter)
         );
-        return Err(Fault { message, span: spans[third].clone() });
+        return Err(Fault {
+            message,
+            span: spans[third].clone(),
+        });
     }
     if let [first, second] = rotary[..] {
         let parallel = |a: &Vec3, b: &Vec3| {
             let angle = angle_between(a, b);
-            angle < PARALLEL || angle > core::f64::consts::PI - PARALLEL
+            !(PARALLEL..=core::f64::consts::PI - PARALLEL).contains(&angle)
         };
         let (e1, e2) = (&axes[first].direction, &axes[second].direction);
         let (l1, l2) = (char::from(axes[first].letter), char::from(axes[second].letter));
         if parallel(e1, e2) {
-            let message = format!("the rotary axes {l1} and {l2} are parallel; together they turn the tool about one direction only");
-            return Err(Fault { message, span: spans[second].clone() });
+            let message = format!(
+                "the rotary axes {l1} and {l2} are parallel; together they turn the tool about one direction only"
+            );
+            return Err(Fault {
+                message,
+                span: spans[second].clone(),
+            });
         }
         if parallel(e2, k0) {
-            let message = format!("axis {l2} turns about the tool axis itself and cannot tilt it; check its `dir` or the spindle's `tool_axis`");
-            return Err(Fault { message, span: spans[second].clone() });
+            let message = format!(
+                "axis {l2} turns about the tool axis itself and cannot tilt it; check its `dir` or the spindle's `tool_axis`"
+            );
+            return Err(Fault {
+                message,
+                span: spans[second].clone(),
+            });
         }
     }
     Constants::new(axes, k0).ok_or_else(|| {
@@ -163,20 +214,34 @@ fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Ve
             .filter(|axis| axis.kind == AxisKind::Linear)
             .map(|axis| char::from(axis.letter).to_string())
             .collect();
-        let has = if letters.is_empty() { "there is none".to_owned() } else { format!("there are {}", letters.join(", ")) };
+        let has = if letters.is_empty() {
+            "there is none".to_owned()
+        } else {
+            format!("there are {}", letters.join(", "))
+        };
         let message = format!("the linear axes must span space: three in independent directions are needed, {has}");
         Fault { message, span: all }
     })
 }
 
 fn units(raw: &RawUnits) -> Result<(), Fault> {
-    let known = [(&raw.length, "length", "mm"), (&raw.angle, "angle", "deg"), (&raw.time, "time", "s")];
+    let known = [
+        (&raw.length, "length", "mm"),
+        (&raw.angle, "angle", "deg"),
+        (&raw.time, "time", "s"),
+    ];
     for (word, what, unit) in known {
         if let Some(word) = word
             && word.get_ref() != unit
         {
-            let message = format!("unit {:?} for {what} is not supported; convert the numbers and write \"{unit}\"", word.get_ref());
-            return Err(Fault { message, span: word.span() });
+            let message = format!(
+                "unit {:?} for {what} is not supported; convert the numbers and write \"{unit}\"",
+                word.get_ref()
+            );
+            return Err(Fault {
+                message,
+                span: word.span(),
+            });
         }
     }
     Ok(())
@@ -212,10 +277,19 @@ fn bodies(raw: &[RawBody], axes: &[Axis]) -> Result<Vec<Body>, Fault> {
     raw.iter()
         .map(|body| {
             if known(body.carrier.get_ref()) {
-                Ok(Body { carrier: body.carrier.get_ref().clone(), mesh: body.mesh.get_ref().clone() })
+                Ok(Body {
+                    carrier: body.carrier.get_ref().clone(),
+                    mesh: body.mesh.get_ref().clone(),
+                })
             } else {
-                let message = format!("{:?} carries nothing: name an axis, base, spindle or workpiece", body.carrier.get_ref());
-                Err(Fault { message, span: body.carrier.span() })
+                let message = format!(
+                    "{:?} carries nothing: name an axis, base, spindle or workpiece",
+                    body.carrier.get_ref()
+                );
+                Err(Fault {
+                    message,
+                    span: body.carrier.span(),
+                })
             }
         })
         .collect()

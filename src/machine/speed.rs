@@ -2,8 +2,9 @@
 use crate::bound::{Piece, peak};
 use crate::course::Course;
 use crate::follow::has_tip_words;
+use crate::spin::Spin;
 use crate::{AxisKind, Leg, Machine};
-use trunnion_geometry::{deg, Vec3};
+use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, MotionKind};
 
 /// The highest feed of a block.
@@ -60,9 +61,11 @@ fn limit(machine: &Machine, leg: &Leg, enough_mm_min: f64) -> Option<FeedLimit> 
     let (_, slowest_tip, _) = course.track.bounds();
     // rates are per block; the track's slowest moment carries the feed (a spiral's speed differs a little along it)
     let slowest = if slowest_tip > 0.0 { slowest_tip } else { leg.length };
+    let coarse = slowest * 60.0 / enough_mm_min;
     let mut worst = constant_load(&course);
-    if let Some(linear) = linear_load(&course, worst.map_or(0.0, |w| w.share()), slowest * 60.0 / enough_mm_min) {
-        worst = Some(linear);
+    let above = worst.map_or(0.0, |load| load.share());
+    if let Some(load) = changing_load(&course, above, coarse)? {
+        worst = Some(load);
     }
     let worst = worst?;
     let feed = programmed_feed(leg);
@@ -74,15 +77,31 @@ fn limit(machine: &Machine, leg: &Leg, enough_mm_min: f64) -> Option<FeedLimit> 
     })
 }
 
-/// The axes that run at a constant rate: rotary ones, and linear ones that inverse kinematics does not solve for.
+/// Whether a joint runs at a constant rate: linear axes that inverse kinematics does not solve for, rotary ones off the great circle.
+fn is_constant(course: &Course<'_>, joint: usize) -> bool {
+    match course.machine.axes[joint].kind {
+        AxisKind::Rotary => matches!(course.spin, Spin::Even),
+        AxisKind::Linear => {
+            let constants = &course.machine.constants;
+            constants
+                .solved
+                .iter()
+                .all(|&index| constants.linear[index].joint != joint)
+        }
+    }
+}
+
+/// The worst of the axes that run at a constant rate.
 fn constant_load(course: &Course<'_>) -> Option<Load> {
-    let constants = &course.machine.constants;
     let mut worst: Option<Load> = None;
     for (joint, axis) in course.machine.axes.iter().enumerate() {
-        let solved = axis.kind == AxisKind::Linear && constants.solved.iter().any(|&i| constants.linear[i].joint == joint);
         let rate = (course.end.joints[joint] - course.start.joints[joint]).abs();
-        if let (false, Some(limit)) = (solved || rate == 0.0, axis.max_speed) {
-            let load = Load { axis: joint, limit, rate };
+        if let (true, Some(limit)) = (rate > 0.0 && is_constant(course, joint), axis.max_speed) {
+            let load = Load {
+                axis: joint,
+                limit,
+                rate,
+            };
             if worst.is_none_or(|w| load.share() > w.share()) {
                 worst = Some(load);
             }
@@ -91,39 +110,107 @@ fn constant_load(course: &Course<'_>) -> Option<Load> {
     worst
 }
 
-/// The three solved linear axes, if one of them takes more than the share `above` of its limit. A bound below `coarse` need not be
-/// closed in further.
-fn linear_load(course: &Course<'_>, above: f64, coarse: f64) -> Option<Load> {
-    let constants = &course.machine.constants;
-    let joints = constants.solved.map(|index| constants.linear[index].joint);
-    let speeds = joints.map(|joint| course.machine.axes[joint].max_speed);
-    // shares per rate; an undeclared speed never limits
-    let per_rate = Vec3::from_iterator(speeds.iter().map(|speed| speed.map_or(0.0, |s| 1.0 / s)));
-    let load = |share: f64, rates: &Vec3| {
-        let shares = rates.abs().component_mul(&per_rate);
-        let slot = shares.imax();
-        speeds[slot].map(|limit| Load { axis: joints[slot], limit, rate: share * limit })
-    };
-    let (rates, bends) = course.bends();
-    let share = rates.component_mul(&per_rate).max();
-    if !(share > above) {
-        return None;
+/// The joints whose rates change within the block: the three solved linear ones and, on a great circle, the two rotary ones.
+struct Changing<'c, 'm> {
+    course: &'c Course<'m>,
+    joints: [usize; 5],
+    /// Share of the limit per rate; zero where no speed is declared.
+    per_rate: [f64; 5],
+    count: usize,
+}
+
+impl<'c, 'm> Changing<'c, 'm> {
+    fn new(course: &'c Course<'m>) -> Self {
+        let constants = &course.machine.constants;
+        let [a, b, c] = constants.solved.map(|index| constants.linear[index].joint);
+        let joints = [a, b, c, constants.rotary[0].joint, constants.rotary[1].joint];
+        let per_rate = joints.map(|joint| course.machine.axes[joint].max_speed.map_or(0.0, |speed| 1.0 / speed));
+        let count = if matches!(course.spin, Spin::Even) { 3 } else { 5 };
+        Self {
+            course,
+            joints,
+            per_rate,
+            count,
+        }
     }
-    if bends.max() == 0.0 || share <= coarse {
-        return load(share, &rates);
+
+    /// Largest share and its slot.
+    fn worst(&self, rates: &[f64; 5]) -> (f64, usize) {
+        let mut worst = (0.0, 0);
+        for slot in 0..self.count {
+            let share = rates[slot].abs() * self.per_rate[slot];
+            // not a number counts as infinite
+            let share = if share.is_nan() { f64::INFINITY } else { share };
+            if share > worst.0 {
+                worst = (share, slot);
+            }
+        }
+        worst
     }
-    let slope = bends.component_mul(&per_rate).max();
-    let shares = |t: f64| course.moment(t).rates.abs().component_mul(&per_rate).max();
+
+    /// Worst share at a moment.
+    fn at(&self, t: f64) -> (f64, usize) {
+        let [x, y, z] = self.course.moment(t).rates.into();
+        let [first, second] = if self.count > 3 {
+            self.course.rates(t, &self.course.turns(t))
+        } else {
+            [0.0; 2]
+        };
+        self.worst(&[x, y, z, first, second])
+    }
+
+    /// Bounds on a piece: of the worst share, of its slot, and of the slope of the worst share.
+    fn bounds(&self, from: f64, to: f64) -> (f64, usize, f64) {
+        let (rates, bends) = self.course.bends(from, to);
+        let spin = self.course.spin_bounds(from, to);
+        let all = |linear: &Vec3, rotary: &[f64; 2]| [linear.x, linear.y, linear.z, rotary[0], rotary[1]];
+        let (share, slot) = self.worst(&all(&rates, &spin.rate));
+        (share, slot, self.worst(&all(&bends, &spin.bend)).0)
+    }
+
+    fn load(&self, slot: usize, share: f64) -> Option<Load> {
+        let axis = self.joints[slot];
+        let limit = self.course.machine.axes[axis].max_speed?;
+        Some(Load {
+            axis,
+            limit,
+            rate: share * limit,
+        })
+    }
+}
+
+/// The worst of the axes whose rates change, if it takes more than the share `above` of its limit. A bound below `coarse` need not be
+/// closed in further. The outer `None`: no bound could be proven.
+#[expect(clippy::option_option, reason = "not proven and not limiting are different answers")]
+fn changing_load(course: &Course<'_>, above: f64, coarse: f64) -> Option<Option<Load>> {
+    let axes = Changing::new(course);
+    let (share, slot, slope) = axes.bounds(0.0, 1.0);
+    if share <= above {
+        return Some(None);
+    }
+    if slope == 0.0 || share <= coarse {
+        return Some(axes.load(slot, share));
+    }
+    let at_once = course.bends_at_once();
     let found = peak(
-        shares,
-        |piece: &Piece| piece.below_roof(slope),
+        |t| axes.at(t).0,
+        |piece: &Piece| {
+            piece.below_roof(if at_once {
+                slope
+            } else {
+                axes.bounds(piece.from, piece.to).2
+            })
+        },
         |bound, sampled, _| bound <= above || bound <= coarse || bound <= sampled * (1.0 + TIGHT),
     );
     let bound = found.bound.min(share);
-    if !(bound > above) || !bound.is_finite() {
+    if !bound.is_finite() {
         return None;
     }
-    load(bound, &course.moment(found.at).rates)
+    if bound <= above {
+        return Some(None);
+    }
+    Some(axes.load(axes.at(found.at).1, bound))
 }
 
 /// Programmed feed along the path, mm/min; `None` for rapids and where it is unknown.
@@ -186,7 +273,10 @@ struct AxesTime {
 /// Time of the slowest axis over its whole way; `None` where the stances are not known.
 fn axes_time(machine: &Machine, leg: &Leg) -> Option<AxesTime> {
     let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
-    let mut time = AxesTime { seconds: 0.0, complete: true };
+    let mut time = AxesTime {
+        seconds: 0.0,
+        complete: true,
+    };
     for (joint, axis) in machine.axes.iter().enumerate() {
         let way = (end.joints[joint] - start.joints[joint]).abs();
         match axis.max_speed {

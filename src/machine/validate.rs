@@ -21,7 +21,10 @@ pub(crate) fn finite(name: &str, number: &Number) -> Result<f64, Fault> {
         Ok(value)
     } else {
         let message = format!("{name} = {value}: a number between -{LARGEST:e} and {LARGEST:e} is needed");
-        Err(Fault { message, span: number.span() })
+        Err(Fault {
+            message,
+            span: number.span(),
+        })
     }
 }
 
@@ -32,7 +35,10 @@ pub(crate) fn positive(name: &str, number: Option<&Number>) -> Result<Option<f64
     if value > 0.0 {
         Ok(Some(value))
     } else {
-        Err(Fault { message: format!("{name} = {value} must be above zero"), span: number.span() })
+        Err(Fault {
+            message: format!("{name} = {value} must be above zero"),
+            span: number.span(),
+        })
     }
 }
 
@@ -43,7 +49,10 @@ pub(crate) fn non_negative(name: &str, number: Option<&Number>) -> Result<Option
     if value >= 0.0 {
         Ok(Some(value))
     } else {
-        Err(Fault { message: format!("{name} = {value} must not be negative"), span: number.span() })
+        Err(Fault {
+            message: format!("{name} = {value} must not be negative"),
+            span: number.span(),
+        })
     }
 }
 
@@ -54,7 +63,10 @@ pub(crate) fn point(name: &str, triple: &Triple) -> Result<Vec3, Fault> {
         Ok(Vec3::from(values))
     } else {
         let message = format!("{name} = {values:?}: three numbers between -{LARGEST:e} and {LARGEST:e} are needed");
-        Err(Fault { message, span: triple.span() })
+        Err(Fault {
+            message,
+            span: triple.span(),
+        })
     }
 }
 
@@ -64,7 +76,10 @@ pub(crate) fn unit_vector(name: &str, triple: &Triple) -> Result<Vec3, Fault> {
     let norm = vector.norm();
     if norm < 1e-12 {
         let message = format!("{name} is the zero vector; a direction is needed, for example [0, 0, 1]");
-        return Err(Fault { message, span: triple.span() });
+        return Err(Fault {
+            message,
+            span: triple.span(),
+        });
     }
     let unit = vector / norm;
     if (norm - 1.0).abs() > 1e-6 {
@@ -72,7 +87,10 @@ pub(crate) fn unit_vector(name: &str, triple: &Triple) -> Result<Vec3, Fault> {
             "{name} has length {norm:.6}, not 1; write [{:.9}, {:.9}, {:.9}] if this direction is meant",
             unit.x, unit.y, unit.z
         );
-        return Err(Fault { message, span: triple.span() });
+        return Err(Fault {
+            message,
+            span: triple.span(),
+        });
     }
     // a vector that is exact already stays as it is, to the last bit
     Ok(if norm == 1.0 { vector } else { unit })
@@ -85,7 +103,10 @@ fn letter(word: &Word) -> Result<u8, Fault> {
         [byte] if AXIS_LETTERS.contains(&byte.to_ascii_uppercase()) => Ok(byte.to_ascii_uppercase()),
         _ => {
             let message = format!("{text:?} is not an axis letter; use one of X Y Z A B C U V W");
-            Err(Fault { message, span: word.span() })
+            Err(Fault {
+                message,
+                span: word.span(),
+            })
         }
     }
 }
@@ -104,15 +125,25 @@ pub(crate) fn gantry(letter_of_axis: u8, leader: &Word) -> Result<Gantry, Fault>
     let named = letter(leader)?;
     if named == letter_of_axis {
         let message = format!("axis {} cannot follow itself", char::from(named));
-        return Err(Fault { message, span: leader.span() });
+        return Err(Fault {
+            message,
+            span: leader.span(),
+        });
     }
-    Ok(Gantry { letter: letter_of_axis, leader: named })
+    Ok(Gantry {
+        letter: letter_of_axis,
+        leader: named,
+    })
 }
 
 /// One axis, angles in rad.
 pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
     let letter = letter(&raw.letter)?;
-    let usual = if (b'A'..=b'C').contains(&letter) { RawKind::Rotary } else { RawKind::Linear };
+    let usual = if (b'A'..=b'C').contains(&letter) {
+        RawKind::Rotary
+    } else {
+        RawKind::Linear
+    };
     let kind = match raw.kind.unwrap_or(usual) {
         RawKind::Linear => AxisKind::Linear,
         RawKind::Rotary => AxisKind::Rotary,
@@ -122,7 +153,10 @@ pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
         (Some(RawSide::Head), _) | (None, AxisKind::Linear) => Side::Head,
         (None, AxisKind::Rotary) => {
             let message = format!("axis {} needs side = \"table\" or \"head\"", char::from(letter));
-            return Err(Fault { message, span: raw.letter.span() });
+            return Err(Fault {
+                message,
+                span: raw.letter.span(),
+            });
         }
     };
     let direction = match &raw.dir {
@@ -137,8 +171,12 @@ pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
         None => 1.0,
         Some(number) if number.get_ref().abs() == 1.0 => *number.get_ref(),
         Some(number) => {
-            let message = "sign must be 1 (ISO 841: the tool moves relative to the part) or -1 (turned round)".to_owned();
-            return Err(Fault { message, span: number.span() });
+            let message =
+                "sign must be 1 (ISO 841: the tool moves relative to the part) or -1 (turned round)".to_owned();
+            return Err(Fault {
+                message,
+                span: number.span(),
+            });
         }
     };
     let scale = |value: f64| if kind == AxisKind::Rotary { rad(value) } else { value };
@@ -159,7 +197,9 @@ pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
 }
 
 fn limits(raw: &RawAxis, scale: impl Fn(f64) -> f64) -> Result<Limits, Fault> {
-    let Some(written) = &raw.limits else { return Ok(Limits::Unbounded) };
+    let Some(written) = &raw.limits else {
+        return Ok(Limits::Unbounded);
+    };
     match *written.get_ref() {
         RawLimits::Unbounded => Ok(Limits::Unbounded),
         RawLimits::Range(min, max) if min < max && min.abs() <= LARGEST && max.abs() <= LARGEST => {
@@ -167,7 +207,10 @@ fn limits(raw: &RawAxis, scale: impl Fn(f64) -> f64) -> Result<Limits, Fault> {
         }
         RawLimits::Range(min, max) => {
             let message = format!("limits [{min}, {max}]: the lower limit must be below the upper one, both finite");
-            Err(Fault { message, span: written.span() })
+            Err(Fault {
+                message,
+                span: written.span(),
+            })
         }
     }
 }
@@ -177,13 +220,19 @@ fn extra(raw: &RawAxis, kind: AxisKind, scale: impl Fn(f64) -> f64) -> Result<Ax
         && kind == AxisKind::Rotary
     {
         let message = "mode = \"radius\" or \"diameter\" belongs to a linear axis".to_owned();
-        return Err(Fault { message, span: mode.span() });
+        return Err(Fault {
+            message,
+            span: mode.span(),
+        });
     }
     let feed_forward = non_negative("kff", raw.dynamics.kff.as_ref())?;
     if let (Some(share), Some(written)) = (feed_forward, &raw.dynamics.kff)
         && share > 1.0
     {
-        return Err(Fault { message: format!("kff = {share} is a share, at most 1"), span: written.span() });
+        return Err(Fault {
+            message: format!("kff = {share} is a share, at most 1"),
+            span: written.span(),
+        });
     }
     Ok(AxisExtra {
         wrap: match raw.wrap {
@@ -194,7 +243,10 @@ fn extra(raw: &RawAxis, kind: AxisKind, scale: impl Fn(f64) -> f64) -> Result<Ax
         clamp: raw.clamp,
         cable: raw.cable,
         spindle: raw.spindle,
-        diameter: raw.mode.as_ref().is_some_and(|mode| *mode.get_ref() == RawMode::Diameter),
+        diameter: raw
+            .mode
+            .as_ref()
+            .is_some_and(|mode| *mode.get_ref() == RawMode::Diameter),
         limits_declared: raw.limits.is_some(),
         limit_margin: non_negative("limit_margin", raw.limit_margin.as_ref())?.map(&scale),
         resolution: positive("resolution", raw.resolution.as_ref())?.map(&scale),

@@ -24,11 +24,19 @@ impl core::ops::Deref for Windings {
 /// The values q + 2 pi m inside the limits of axis `axis` (joint index), nearest to `near` first, at most three; empty when no winding
 /// is legal or when the axis is missing. All in rad. Source: kinematics notes 2.3.
 pub fn windings(machine: &Machine, axis: usize, q: f64, near: f64) -> Windings {
-    let mut found = Windings { values: [0.0; 3], count: 0 };
-    let Some(limits) = machine.axes.get(axis).map(|axis| axis.limits) else { return found };
+    let mut found = Windings {
+        values: [0.0; 3],
+        count: 0,
+    };
+    let Some(limits) = machine.axes.get(axis).map(|axis| axis.limits) else {
+        return found;
+    };
     let (lowest, highest) = match limits {
         Limits::Unbounded => (f64::NEG_INFINITY, f64::INFINITY),
-        Limits::Range(min, max) => (((min - LIMIT_SLACK - q) / TAU).ceil(), ((max + LIMIT_SLACK - q) / TAU).floor()),
+        Limits::Range(min, max) => (
+            ((min - LIMIT_SLACK - q) / TAU).ceil(),
+            ((max + LIMIT_SLACK - q) / TAU).floor(),
+        ),
     };
     let nearest = ((near - q) / TAU).round();
     if nearest.is_nan() || lowest > highest {
@@ -50,8 +58,11 @@ pub fn windings(machine: &Machine, axis: usize, q: f64, near: f64) -> Windings {
 /// S = e1 . (R1 e2 x u) of a posture, signed; |S| = sqrt(g2) D. It depends on q2 alone (rad), since R1 keeps e1: S = (e1 x e2) . R2 k0.
 /// 0 for machines with fewer than two rotary axes. Source: kinematics notes 2.3.
 pub fn solution_s(machine: &Machine, q2: f64) -> f64 {
-    let (Some(pair), [_, second]) = (&machine.constants.pair, &machine.constants.rotary) else { return 0.0 };
-    pair.n.dot(&rotate(&second.direction, second.sign * q2, &machine.tool_axis))
+    let (Some(pair), [_, second]) = (&machine.constants.pair, &machine.constants.rotary) else {
+        return 0.0;
+    };
+    pair.n
+        .dot(&rotate(&second.direction, second.sign * q2, &machine.tool_axis))
 }
 
 /// Angle between a unit tool axis (workpiece frame) and the nearer end of the first rotary axis, rad, 0..=pi/2; pi/2 for machines with
@@ -75,7 +86,10 @@ pub fn rotary_jacobian(machine: &Machine, q: [f64; 2]) -> [Vec3; 2] {
         1 => [first.direction.cross(&axis) * first.sign, Vec3::zeros()],
         _ => {
             let turned = rotate(&first.direction, first.sign * q[0], &second.direction);
-            [first.direction.cross(&axis) * first.sign, turned.cross(&axis) * second.sign]
+            [
+                first.direction.cross(&axis) * first.sign,
+                turned.cross(&axis) * second.sign,
+            ]
         }
     }
 }

@@ -84,7 +84,11 @@ impl Words {
     pub(crate) fn joints(&self, motion: &Motion, position: &Position, tip_words: bool) -> (Joints, u16) {
         let mut joints = [0.0; MAX_AXES];
         let mut known = 0;
-        let (offset, length) = if motion.machine_coordinates { (0.0, 0.0) } else { (1.0, motion.tool_length_mm) };
+        let (offset, length) = if motion.machine_coordinates {
+            (0.0, 0.0)
+        } else {
+            (1.0, motion.tool_length_mm)
+        };
         for joint in 0..self.count {
             let letter = usize::from(self.letter[joint]);
             if letter >= AXIS_LETTERS.len()
@@ -105,7 +109,11 @@ impl Words {
     #[inline]
     pub(crate) fn point(&self, position: &Position) -> Option<Vec3> {
         let point = position.xyz()?;
-        Some(if self.diameters { point.component_mul(&self.point_scale) } else { point })
+        Some(if self.diameters {
+            point.component_mul(&self.point_scale)
+        } else {
+            point
+        })
     }
 
     /// Whether the joint's letter is in a mask of letters.
@@ -124,5 +132,9 @@ impl Words {
 /// Work offset of X Y Z, mm.
 #[inline]
 pub(crate) fn zero_point(motion: &Motion) -> Vec3 {
-    if motion.machine_coordinates { Vec3::zeros() } else { Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2]) }
+    if motion.machine_coordinates {
+        Vec3::zeros()
+    } else {
+        Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2])
+    }
 }

@@ -1,5 +1,5 @@
 //! A tool pose turned about the rotary axis nearest the workpiece and written back into its block, the ball's centre kept.
-use crate::slots::{Scheme, Slots, insert_word, slots};
+use crate::slots::{Scheme, Slot, Slots, insert_word, slots};
 use crate::style::NumberStyle;
 use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, deg, rad};
@@ -29,29 +29,34 @@ pub(crate) struct Writer<'a> {
 }
 
 /// A coordinate's new number: its text and what that text says.
+#[derive(Clone)]
 struct Number {
     text: String,
     value: f64,
 }
 
-impl Writer<'_> {
-    /// By how much rounding of the numbers may turn the tool axis at most, rad, for an axis at `pole_angle` from the pole.
-    pub(crate) fn rounding_turn(&self, pole_angle: f64) -> f64 {
-        let rounding = |index: usize| self.styles[index].map_or(0.0, |style| style.rounding());
-        match self.scheme {
-            Scheme::Rotary(_) => rad(rounding(3)) * trunnion_geometry::math::sin(pole_angle),
-            _ => (3..6).map(|index| rounding(index) * rounding(index)).sum::<f64>().sqrt() * 1.001,
-        }
-    }
+/// An orientation as it will be written.
+struct Orientation {
+    /// The tool axis the numbers say.
+    axis: Vec3,
+    /// Coordinate and number.
+    numbers: Vec<(usize, Number)>,
+}
 
+impl Writer<'_> {
     /// Programmed coordinates of a stance as the file counts them: X, Y, Z in file units, then the rotary word.
     pub(crate) fn programmed(&self, stance: &Stance) -> [f64; 4] {
         let tip = stance.tip / self.unit_mm;
-        [tip.x, tip.y, tip.z, deg(stance.joints[self.machine.rotary[0]]) - self.rotary_zero]
+        [
+            tip.x,
+            tip.y,
+            tip.z,
+            deg(stance.joints[self.machine.rotary[0]]) - self.rotary_zero,
+        ]
     }
 
     /// Writes the pose of `stance`, turned so that the rotary joint is `q` (rad), into its block. `current` holds the coordinates
-    /// in force before the block in the program after, and those after it on return. Gives the rotary joint as written.
+    /// in force before the block in the program after, and those after it on return.
     pub(crate) fn turn(
         &self,
         block: BlockId,
@@ -59,20 +64,26 @@ impl Writer<'_> {
         q: f64,
         current: &mut [f64; 4],
         edits: &mut Vec<TextEdit>,
-    ) -> Result<f64, String> {
+    ) -> Result<(), String> {
         let view = self.program.block(block);
         let slots = slots(self.program, &view, self.scheme)?;
-        let (orientation, axis, written_q) = self.orientation(stance, q, &slots)?;
+        let Orientation {
+            axis,
+            numbers: orientation,
+        } = self.orientation(stance, q, &slots)?;
         let tip = (stance.tip + (stance.axis - axis) * self.ball_radius) / self.unit_mm;
         let mut numbers: Vec<(usize, Number)> = Vec::new();
         for index in 0..3 {
-            numbers.push((index, self.number(index, tip[index], slots[index].as_ref().map(|slot| slot.text.as_str()))?));
+            numbers.push((
+                index,
+                self.number(index, tip[index], slots[index].as_ref().map(|slot| slot.text.as_str()))?,
+            ));
         }
         let written = Vec3::new(numbers[0].1.value, numbers[1].1.value, numbers[2].1.value) * self.unit_mm;
         self.verify(stance, &written, &axis)?;
         numbers.extend(orientation);
         self.edit(&slots, numbers, current, edits)?;
-        Ok(written_q)
+        Ok(())
     }
 
     /// Makes the block say the pose of `stance` as it is, whatever was in force before.
@@ -90,61 +101,119 @@ impl Writer<'_> {
         let mut numbers = Vec::new();
         for (index, &value) in programmed.iter().enumerate().take(words) {
             match &slots[index] {
-                Some(slot) => numbers.push((index, Number { text: slot.text.clone(), value: slot.value })),
+                Some(slot) => numbers.push((
+                    index,
+                    Number {
+                        text: slot.text.clone(),
+                        value: slot.value,
+                    },
+                )),
                 None => numbers.push((index, self.number(index, value, None)?)),
             }
         }
         self.edit(&slots, numbers, current, edits)
     }
 
-    /// The orientation's numbers, the tool axis they say, and the rotary joint (rad).
-    fn orientation(&self, stance: &Stance, q: f64, slots: &Slots) -> Result<(Vec<(usize, Number)>, Vec3, f64), String> {
+    /// The orientation nearest to the rotary joint `q` (rad) that can be written and is turned by no more than allowed.
+    fn orientation(&self, stance: &Stance, q: f64, slots: &Slots) -> Result<Orientation, String> {
         let joint = self.machine.rotary[0];
         let at = |q: f64| {
             let mut joints = stance.joints;
             joints[joint] = q;
             forward(self.machine, &joints, stance.tool_length).axis
         };
+        let allowed = |axis: &Vec3| self.allowed_turn(stance, axis);
         if let Scheme::Rotary(_) = self.scheme {
-            let text = slots[3].as_ref().map(|slot| slot.text.as_str());
-            let number = self.number(3, deg(q) - self.rotary_zero, text)?;
+            let wanted = deg(q) - self.rotary_zero;
+            let off = |number: &Number| (number.value - wanted).abs();
+            let best = self
+                .neighbours(3, wanted, slots[3].as_ref())?
+                .into_iter()
+                .min_by(|a, b| {
+                    let fits = |number: &Number| !allowed(&at(rad(number.value + self.rotary_zero)));
+                    fits(a).cmp(&fits(b)).then(off(a).total_cmp(&off(b)))
+                });
+            let number = best.ok_or("no number")?;
             let written = rad(number.value + self.rotary_zero);
-            return Ok((vec![(3, number)], at(written), written));
+            return Ok(Orientation {
+                axis: at(written),
+                numbers: vec![(3, number)],
+            });
         }
         let [Some(i), Some(j), Some(k)] = [&slots[3], &slots[4], &slots[5]] else {
             return Err("the block has no tool vector to turn".into());
         };
         let length = Vec3::new(i.value, j.value, k.value).norm();
         let wanted = at(q) * length;
-        let mut numbers = Vec::new();
-        for (index, slot) in (3..).zip([i, j, k]) {
-            numbers.push((index, self.number(index, wanted[index - 3], Some(&slot.text))?));
+        let choices =
+            [(3, i), (4, j), (5, k)].map(|(index, slot)| self.neighbours(index, wanted[index - 3], Some(slot)));
+        let [i, j, k] = choices;
+        let (i, j, k) = (i?, j?, k?);
+        let mut best: Option<(bool, f64, [&Number; 3], Vec3)> = None;
+        for combination in 0..8usize {
+            let numbers = [&i[combination & 1], &j[combination >> 1 & 1], &k[combination >> 2]];
+            let vector = Vec3::from(numbers.map(|number| number.value));
+            let norm = vector.norm();
+            if norm <= 0.0 {
+                continue;
+            }
+            let (out, off) = (!allowed(&(vector / norm)), (vector - wanted).norm());
+            if best.as_ref().is_none_or(|best| (out, off) < (best.0, best.1)) {
+                best = Some((out, off, numbers, vector / norm));
+            }
         }
-        let written = Vec3::new(numbers[0].1.value, numbers[1].1.value, numbers[2].1.value);
-        let norm = written.norm();
-        if norm <= 0.0 {
-            return Err("the tool vector would round to zero".into());
+        let (_, _, numbers, axis) = best.ok_or("the tool vector would round to zero")?;
+        Ok(Orientation {
+            axis,
+            numbers: (3..).zip(numbers.map(Number::clone)).collect(),
+        })
+    }
+
+    /// The tool axis is not turned farther than it may, with room for the last bit of a double.
+    fn allowed_turn(&self, stance: &Stance, axis: &Vec3) -> bool {
+        deg(angle_between(&stance.axis, axis)) <= self.tolerance_deg * (1.0 - 1e-9)
+    }
+
+    /// The numbers below and above `value` as the program writes coordinate `index`.
+    fn neighbours(&self, index: usize, value: f64, was: Option<&Slot>) -> Result<[Number; 2], String> {
+        let texts = self
+            .style(index)?
+            .neighbours(value, was.is_some_and(|slot| slot.text.starts_with('+')));
+        let [low, high] = texts.map(|text| self.read(index, text));
+        Ok([low?, high?])
+    }
+
+    fn style(&self, index: usize) -> Result<NumberStyle, String> {
+        self.styles[index]
+            .ok_or_else(|| format!("the program never writes {} as a plain number", self.scheme.name(index)))
+    }
+
+    fn read(&self, index: usize, text: String) -> Result<Number, String> {
+        match trunnion_syntax::Decimal::parse(text.as_bytes()) {
+            Some(value) => Ok(Number {
+                text,
+                value: value.to_f64(),
+            }),
+            None => Err(format!("{} has too many digits: {text}", self.scheme.name(index))),
         }
-        Ok((numbers, written / norm, q))
     }
 
     /// A number as the program writes coordinate `index`.
     fn number(&self, index: usize, value: f64, was: Option<&str>) -> Result<Number, String> {
-        let Some(style) = self.styles[index] else {
-            return Err(format!("the program never writes {} as a plain number", self.scheme.name(index)));
-        };
-        let text = style.write(value, was.is_some_and(|text| text.starts_with('+')));
-        let value = trunnion_syntax::Decimal::parse(text.as_bytes())
-            .ok_or_else(|| format!("{} has too many digits: {text}", self.scheme.name(index)))?
-            .to_f64();
-        Ok(Number { text, value })
+        let text = self
+            .style(index)?
+            .write(value, was.is_some_and(|text| text.starts_with('+')));
+        self.read(index, text)
     }
 
     /// The rounded pose keeps the claim.
     fn verify(&self, stance: &Stance, tip: &Vec3, axis: &Vec3) -> Result<(), String> {
         let turned = deg(angle_between(&stance.axis, axis));
-        if turned > self.tolerance_deg {
-            return Err(format!("rounding turns the tool axis by {turned:.6} deg, allowed is {} deg", self.tolerance_deg));
+        if !self.allowed_turn(stance, axis) {
+            return Err(format!(
+                "rounding turns the tool axis by {turned:.6} deg, allowed is {} deg",
+                self.tolerance_deg
+            ));
         }
         let shift = ((tip + axis * self.ball_radius) - (stance.tip + stance.axis * self.ball_radius)).norm();
         if shift > self.tolerance_mm {
@@ -168,7 +237,10 @@ impl Writer<'_> {
         for (index, number) in numbers {
             match &slots[index] {
                 Some(slot) if slot.value == number.value => {}
-                Some(slot) => found.push(TextEdit { range: slot.number, new_text: number.text }),
+                Some(slot) => found.push(TextEdit {
+                    range: slot.number,
+                    new_text: number.text,
+                }),
                 None => {
                     let rounding = self.styles[index].map_or(0.0, |style| style.rounding());
                     if (number.value - current[index.min(3)]).abs() > 0.5 * rounding {

@@ -37,8 +37,14 @@ impl Scheme {
         if program.options().format == Format::Apt {
             return Self::Goto;
         }
-        let indexed = block.words().any(|word| matches!(word.address, Address::Indexed(b'A' | b'B' | b'C', 3)));
-        if indexed { Self::IndexedVector } else { Self::LetterVector }
+        let indexed = block
+            .words()
+            .any(|word| matches!(word.address, Address::Indexed(b'A' | b'B' | b'C', 3)));
+        if indexed {
+            Self::IndexedVector
+        } else {
+            Self::LetterVector
+        }
     }
 
     /// Position of a word's address in the scheme.
@@ -77,15 +83,26 @@ pub(crate) fn slots(program: &Program, block: &Block<'_>, scheme: Scheme) -> Res
             return Err("the motion is not a GOTO record".into());
         };
         for (i, arg) in record.args().enumerate().take(6) {
-            let AptArg::Number(value, range) = arg else { return Err("GOTO has an argument that is not a number".into()) };
-            slots[i] = Some(Slot { number: range, word: range, text: program.text(range).into_owned(), value: value.to_f64() });
+            let AptArg::Number(value, range) = arg else {
+                return Err("GOTO has an argument that is not a number".into());
+            };
+            slots[i] = Some(Slot {
+                number: range,
+                word: range,
+                text: program.text(range).into_owned(),
+                value: value.to_f64(),
+            });
         }
         return Ok(slots);
     }
     for word in block.words() {
         let Some(i) = scheme.index(word.address) else { continue };
         let Value::Number(value) = word.value else {
-            return Err(format!("{} is not a plain number but {}", scheme.name(i), program.text(word.range)));
+            return Err(format!(
+                "{} is not a plain number but {}",
+                scheme.name(i),
+                program.text(word.range)
+            ));
         };
         let slot = Slot {
             number: word.value_range,
@@ -105,7 +122,9 @@ pub(crate) fn styles(program: &Program, scheme: Scheme) -> [Option<NumberStyle>;
     let mut texts: [Vec<TextRange>; 6] = Default::default();
     for block in program.blocks() {
         if scheme == Scheme::Goto {
-            let Some(record) = block.record().filter(|record| record.is("GOTO")) else { continue };
+            let Some(record) = block.record().filter(|record| record.is("GOTO")) else {
+                continue;
+            };
             for (i, arg) in record.args().enumerate().take(6) {
                 if let AptArg::Number(_, range) = arg {
                     texts[i].push(range);
@@ -120,7 +139,9 @@ pub(crate) fn styles(program: &Program, scheme: Scheme) -> [Option<NumberStyle>;
         }
     }
     texts.map(|ranges| {
-        let texts = ranges.into_iter().map(|range| core::str::from_utf8(&program.source()[range.as_usize()]).unwrap_or(""));
+        let texts = ranges
+            .into_iter()
+            .map(|range| core::str::from_utf8(&program.source()[range.as_usize()]).unwrap_or(""));
         NumberStyle::learn(texts)
     })
 }
@@ -132,12 +153,18 @@ pub(crate) fn insert_word(program: &Program, slots: &Slots, index: usize, text: 
     if let Some(slot) = earlier.iter().rev().flatten().next() {
         let at = slot.word.end;
         let blank = blank_before(program, slot.word.start);
-        return Some(TextEdit { range: TextRange::new(at, at), new_text: format!("{blank}{text}") });
+        return Some(TextEdit {
+            range: TextRange::new(at, at),
+            new_text: format!("{blank}{text}"),
+        });
     }
     let slot = later.iter().flatten().next()?;
     let at = slot.word.start;
     let blank = blank_before(program, at);
-    Some(TextEdit { range: TextRange::new(at, at), new_text: format!("{text}{blank}") })
+    Some(TextEdit {
+        range: TextRange::new(at, at),
+        new_text: format!("{text}{blank}"),
+    })
 }
 
 /// One blank where the word at `start` has one before it.

@@ -36,18 +36,24 @@ pub(crate) fn chain(machine: &Machine, points: &[Point], flip: usize) -> Vec<Sta
     }
     let mut stations: Vec<Station> = Vec::new();
     let mut s = 0.0;
-    for index in first..=last {
-        let Ok(stance) = &points[index].end else { continue };
-        let joined = index > first
-            && (points[index].rotary_change == [0.0; 2] || points[index].vector && stance.pole_angle <= POLE_TOLERANCE);
+    for (index, point) in points.iter().enumerate().take(last + 1).skip(first) {
+        let Ok(stance) = &point.end else { continue };
+        let joined =
+            index > first && (point.rotary_change == [0.0; 2] || point.vector && stance.pole_angle <= POLE_TOLERANCE);
         match stations.last_mut() {
             Some(station) if joined => station.last = index,
             _ => {
                 if index > first {
-                    s += points[index].length.max(SHORTEST_STEP_MM);
+                    s += point.length.max(SHORTEST_STEP_MM);
                 }
                 let (q, pole_angle) = (stance.joints[joint], stance.pole_angle);
-                stations.push(Station { first: index, last: index, s, q, pole_angle });
+                stations.push(Station {
+                    first: index,
+                    last: index,
+                    s,
+                    q,
+                    pole_angle,
+                });
             }
         }
     }
@@ -57,13 +63,22 @@ pub(crate) fn chain(machine: &Machine, points: &[Point], flip: usize) -> Vec<Sta
 /// The motion from `a` to `b` belongs to a chain with `a`: a straight feed motion with TCP that keeps the posture and the tool.
 fn linked(a: &Point, b: &Point) -> bool {
     let known = a.end.is_ok() && b.end.is_ok() && b.from_known;
-    known && b.linear && b.tcp && !b.swap && a.vector == b.vector && a.tip == b.tip && a.unit_mm == b.unit_mm && a.block != b.block
+    known
+        && b.linear
+        && b.tcp
+        && !b.swap
+        && a.vector == b.vector
+        && a.tip == b.tip
+        && a.unit_mm == b.unit_mm
+        && a.block != b.block
 }
 
 /// The stations that may turn, round the motion `flip`: those inside the cone about the pole, and one fixed station at each end.
 /// `None` if there is nothing between the ends.
 pub(crate) fn window(stations: &[Station], flip: usize, cone: f64) -> Option<(usize, usize)> {
-    let at = stations.iter().position(|station| station.first <= flip && flip <= station.last)?;
+    let at = stations
+        .iter()
+        .position(|station| station.first <= flip && flip <= station.last)?;
     let (mut left, mut right) = (at.checked_sub(1)?, at);
     while left > 0 && stations[left].pole_angle < cone {
         left -= 1;
@@ -74,9 +89,9 @@ pub(crate) fn window(stations: &[Station], flip: usize, cone: f64) -> Option<(us
     (right > left + 1).then_some((left, right))
 }
 
-/// New values of the rotary joint for the stations of a window, rad; the ends keep theirs. `room(i)`: how far the tool axis of
-/// station i may turn, rad. `None` where a station lies outside the joint's limits.
-pub(crate) fn straighten(machine: &Machine, window: &[Station], room: impl Fn(usize) -> f64) -> Option<Vec<f64>> {
+/// New values of the rotary joint for the stations of a window, rad; the ends keep theirs. `room`: how far a tool axis
+/// may turn, rad. `None` where a station lies outside the joint's limits.
+pub(crate) fn straighten(machine: &Machine, window: &[Station], room: f64) -> Option<Vec<f64>> {
     let limits = match machine.axes[machine.rotary[0]].limits {
         Limits::Unbounded => (f64::NEG_INFINITY, f64::INFINITY),
         Limits::Range(low, high) => (low, high),
@@ -84,7 +99,11 @@ pub(crate) fn straighten(machine: &Machine, window: &[Station], room: impl Fn(us
     let last = window.len().checked_sub(1)?;
     let (mut lower, mut upper) = (Vec::new(), Vec::new());
     for (i, station) in window.iter().enumerate() {
-        let half = if i == 0 || i == last { 0.0 } else { half_width(room(i), station.pole_angle) };
+        let half = if i == 0 || i == last {
+            0.0
+        } else {
+            half_width(room, station.pole_angle)
+        };
         if station.q < limits.0 || station.q > limits.1 {
             return None;
         }
@@ -107,7 +126,11 @@ fn half_width(room: f64, pole_angle: f64) -> f64 {
 
 /// Largest step of the joint between stations, rad.
 pub(crate) fn largest_step(values: impl Iterator<Item = f64> + Clone) -> f64 {
-    values.clone().zip(values.skip(1)).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max)
+    values
+        .clone()
+        .zip(values.skip(1))
+        .map(|(a, b)| (b - a).abs())
+        .fold(0.0, f64::max)
 }
 
 /// The stance at a point that is known to have one.
@@ -122,7 +145,10 @@ mod tests {
 
     #[test]
     fn the_tube_is_as_wide_as_the_notes_say() {
-        assert!(half_width(rad(0.16), rad(0.079)).is_infinite(), "the tool axis may turn right over the pole");
+        assert!(
+            half_width(rad(0.16), rad(0.079)).is_infinite(),
+            "the tool axis may turn right over the pole"
+        );
         assert_eq!(half_width(rad(0.1), 0.0), f64::INFINITY);
         assert_eq!(half_width(0.0, 0.0), 0.0);
         assert!((deg(half_width(rad(0.02), rad(0.79))) - 1.4506).abs() < 1e-3);

@@ -27,7 +27,12 @@ impl NumberStyle {
             whole_without_point |= !digits.contains('.');
             bare_point |= digits.ends_with('.');
             fewest = fewest.min(fraction.len());
-            let known = style.get_or_insert(Self { decimals: 0, trims: false, whole_point: true, leading_zero: true });
+            let known = style.get_or_insert(Self {
+                decimals: 0,
+                trims: false,
+                whole_point: true,
+                leading_zero: true,
+            });
             known.decimals = known.decimals.max(fraction.len());
             known.leading_zero &= !whole.is_empty();
         }
@@ -50,6 +55,12 @@ impl NumberStyle {
             text.push('.');
         }
         finish(text, plus, self.leading_zero)
+    }
+
+    /// The numbers of this style next below and next above `value`, with their texts; one of them twice where `value` is one.
+    pub(crate) fn neighbours(&self, value: f64, plus: bool) -> [String; 2] {
+        let step = 2.0 * self.rounding();
+        [(value / step).floor(), (value / step).ceil()].map(|count| self.write(count * step, plus))
     }
 
     /// Half of the last digit: by this much rounding may change a number.
@@ -90,12 +101,18 @@ pub(crate) fn add_whole(text: &str, add: i64) -> Option<String> {
     let size: i64 = format!("0{whole}{fraction}").parse().ok()?;
     let signed = if text.starts_with('-') { -size } else { size };
     let sum = signed.checked_add(add.checked_mul(scale)?)?;
-    let mut out = format!("{}{}", if sum < 0 { "-" } else { "" }, sum.unsigned_abs() / scale.unsigned_abs());
+    let mut out = format!(
+        "{}{}",
+        if sum < 0 { "-" } else { "" },
+        sum.unsigned_abs() / scale.unsigned_abs()
+    );
     if digits.contains('.') {
         out.push('.');
     }
     if !fraction.is_empty() {
-        out.push_str(&format!("{:0width$}", sum.unsigned_abs() % scale.unsigned_abs(), width = fraction.len()));
+        let digits = (sum.unsigned_abs() % scale.unsigned_abs()).to_string();
+        out.extend(core::iter::repeat_n('0', fraction.len().saturating_sub(digits.len())));
+        out.push_str(&digits);
     }
     Some(finish(out, text.starts_with('+'), !whole.is_empty()))
 }
@@ -113,10 +130,20 @@ mod tests {
         let c = style(&["3.358", "4.822", "52.595", "-3.086", "-0.905"]);
         assert_eq!(c.write(2.2124, false), "2.212");
         let a = style(&["2.042", "-0.79", "0"]);
-        assert_eq!((a.write(-0.79, false), a.write(0.0, false), a.write(1.5, false)), ("-0.79".into(), "0".into(), "1.5".into()));
+        assert_eq!(
+            (a.write(-0.79, false), a.write(0.0, false), a.write(1.5, false)),
+            ("-0.79".into(), "0".into(), "1.5".into())
+        );
         let y = style(&["0.00000", "60.00000"]);
         assert_eq!(y.write(-0.000_001, false), "0.00000");
         assert_eq!(y.write(-2.144_69, false), "-2.14469");
+    }
+
+    #[test]
+    fn neighbours_enclose_the_value() {
+        let c = style(&["3.358"]);
+        assert_eq!(c.neighbours(-1.2345, false), ["-1.235", "-1.234"]);
+        assert_eq!(c.neighbours(2.0, false), ["2.000", "2.000"]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A program run once for a rewrite: each motion with what the machine does, kept small.
 use trunnion_check::Settings;
-use trunnion_interp::{Fault, Motion, MotionKind, ModalState, Orientation, Setup, Sink, ToolShape, run};
+use trunnion_interp::{Fault, ModalState, Motion, MotionKind, Orientation, Setup, Sink, ToolShape, run};
 use trunnion_machine::{Follower, Machine, NoStance, Stance};
 use trunnion_syntax::{BlockId, Program};
 
@@ -60,8 +60,15 @@ impl Sink for Collector<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
         let leg = self.follower.follow(motion);
         let vector = matches!(motion.orientation, Orientation::Vector(..));
-        let letter = self.machine.rotary.first().and_then(|&joint| self.machine.axes.get(joint)).map(|axis| axis.letter);
-        let zero = letter.and_then(trunnion_interp::AxisLetter::new).map_or(0.0, |axis| motion.zero[usize::from(axis.0)]);
+        let letter = self
+            .machine
+            .rotary
+            .first()
+            .and_then(|&joint| self.machine.axes.get(joint))
+            .map(|axis| axis.letter);
+        let zero = letter
+            .and_then(trunnion_interp::AxisLetter::new)
+            .map_or(0.0, |axis| motion.zero[usize::from(axis.0)]);
         self.points.push(Point {
             block: motion.block,
             linear: motion.kind == MotionKind::Linear,
@@ -89,7 +96,11 @@ impl Sink for Collector<'_> {
 
 /// Runs the program on the machine.
 pub(crate) fn survey(program: &Program, settings: &Settings<'_>, machine: &Machine) -> Vec<Point> {
-    let mut collector = Collector { follower: Follower::new(machine), machine, points: Vec::new() };
+    let mut collector = Collector {
+        follower: Follower::new(machine),
+        machine,
+        points: Vec::new(),
+    };
     run(program, settings.dialect, &settings.setup, &mut collector);
     collector.points
 }

@@ -21,7 +21,11 @@ pub(crate) fn taut_string(s: &[f64], lower: &[f64], upper: &[f64]) -> Vec<f64> {
         let (bend, to) = next_bend(&s[..count], lower, upper, apex, from);
         for station in apex + 1..=bend {
             let share = (s[station] - s[apex]) / (s[bend] - s[apex]);
-            string.push(if station == bend { to } else { from + (to - from) * share });
+            string.push(if station == bend {
+                to
+            } else {
+                from + (to - from) * share
+            });
         }
         apex = bend;
     }
@@ -67,7 +71,11 @@ mod tests {
     #[test]
     fn without_walls_the_string_is_straight() {
         let wide = f64::INFINITY;
-        let string = taut_string(&[0.0, 1.0, 3.0, 4.0], &[0.0, -wide, -wide, 8.0], &[0.0, wide, wide, 8.0]);
+        let string = taut_string(
+            &[0.0, 1.0, 3.0, 4.0],
+            &[0.0, -wide, -wide, 8.0],
+            &[0.0, wide, wide, 8.0],
+        );
         assert_eq!(string, [0.0, 2.0, 6.0, 8.0]);
     }
 
@@ -81,7 +89,14 @@ mod tests {
 
     /// Random tubes: step lengths, centres, half-widths (some without walls).
     fn tubes() -> impl Strategy<Value = Vec<(f64, f64, f64)>> {
-        prop::collection::vec((0.001..2.0, -180.0..180.0, prop_oneof![4 => 0.0..60.0, 1 => Just(f64::INFINITY)]), 2..40)
+        prop::collection::vec(
+            (
+                0.001..2.0,
+                -180.0..180.0,
+                prop_oneof![4 => 0.0..60.0, 1 => Just(f64::INFINITY)],
+            ),
+            2..40,
+        )
     }
 
     /// Stations, lower and upper walls of a random tube, with closed ends.
@@ -104,7 +119,9 @@ mod tests {
     }
 
     fn peak(s: &[f64], values: &[f64]) -> f64 {
-        (1..s.len()).map(|i| ((values[i] - values[i - 1]) / (s[i] - s[i - 1])).abs()).fold(0.0, f64::max)
+        (1..s.len())
+            .map(|i| ((values[i] - values[i - 1]) / (s[i] - s[i - 1])).abs())
+            .fold(0.0, f64::max)
     }
 
     proptest! {

@@ -14,7 +14,11 @@ pub(crate) fn unwrap(values: &[f64], limits: Option<(f64, f64)>) -> Vec<i64> {
         };
         let before = values[i - 1] + 360.0 * kept as f64;
         let jump = value + 360.0 * kept as f64 - before;
-        let wish = if jump.abs() <= 180.0 + 1e-9 { kept } else { ((before - value) / 360.0).round() as i64 };
+        let wish = if jump.abs() <= 180.0 + 1e-9 {
+            kept
+        } else {
+            ((before - value) / 360.0).round() as i64
+        };
         turns.push(inside(value, wish, limits));
     }
     turns
@@ -31,7 +35,10 @@ fn inside(value: f64, wish: i64, limits: Option<(f64, f64)>) -> i64 {
 /// Number of steps of more than half a turn in `values` (deg) with `turns` added.
 pub(crate) fn long_way_steps(values: &[f64], turns: &[i64]) -> usize {
     let wound: Vec<f64> = values.iter().zip(turns).map(|(v, &k)| v + 360.0 * k as f64).collect();
-    wound.windows(2).filter(|pair| (pair[1] - pair[0]).abs() > 180.0 + 1e-9).count()
+    wound
+        .windows(2)
+        .filter(|pair| (pair[1] - pair[0]).abs() > 180.0 + 1e-9)
+        .count()
 }
 
 #[cfg(test)]
@@ -52,9 +59,17 @@ mod tests {
 
     #[test]
     fn limits_are_kept() {
-        assert_eq!(unwrap(&[350.0, 5.0], Some((-360.0, 360.0))), [0, 0], "365 would be outside");
+        assert_eq!(
+            unwrap(&[350.0, 5.0], Some((-360.0, 360.0))),
+            [0, 0],
+            "365 would be outside"
+        );
         assert_eq!(unwrap(&[350.0, 5.0], Some((-360.0, 400.0))), [0, 1]);
-        assert_eq!(unwrap(&[350.0, 500.0], Some((-30.0, 120.0))), [0, 0], "no winding is inside");
+        assert_eq!(
+            unwrap(&[350.0, 500.0], Some((-30.0, 120.0))),
+            [0, 0],
+            "no winding is inside"
+        );
     }
 
     proptest! {

@@ -2,11 +2,11 @@
 //!
 //! A statement ends with its line unless `$` continues it; a statement whose major word takes text (`PARTNO`,
 //! `PPRINT`) is that text to the end of its line.
+use crate::builder::Builder;
 use crate::error::SyntaxErrorKind;
 use crate::expression::is_one_of;
 use crate::lines::character;
 use crate::sink::Sink;
-use crate::builder::Builder;
 use crate::{LexOptions, TextRange, TokenKind};
 use logos::Logos;
 
@@ -62,7 +62,9 @@ enum Raw {
 }
 
 /// Major words whose record is text to the end of the line.
-const TEXT_WORDS: [&str; 8] = ["PARTNO", "PPRINT", "REMARK", "INSERT", "TEXT", "TITLES", "LETTER", "COMMENT"];
+const TEXT_WORDS: [&str; 8] = [
+    "PARTNO", "PPRINT", "REMARK", "INSERT", "TEXT", "TITLES", "LETTER", "COMMENT",
+];
 
 /// Lexes `source`, whose first byte stands at offset 0 of the file if `at_start`, into `out`.
 pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut Builder) {
@@ -74,7 +76,12 @@ pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut 
     while let Some(raw) = lexer.next() {
         let span = lexer.span();
         let start = span.start as u32;
-        let mut special = Special { source, start: span.start, end: span.end, out };
+        let mut special = Special {
+            source,
+            start: span.start,
+            end: span.end,
+            out,
+        };
         let end = match raw {
             Ok(Raw::Newline) => {
                 out.push(TokenKind::Newline, start);
@@ -181,7 +188,10 @@ impl Special<'_> {
     }
 
     fn behind_blanks(&self, at: usize) -> usize {
-        at + self.source[at..].iter().take_while(|&&byte| byte == b' ' || byte == b'\t').count()
+        at + self.source[at..]
+            .iter()
+            .take_while(|&&byte| byte == b' ' || byte == b'\t')
+            .count()
     }
 
     fn blank(&mut self, from: usize, to: usize) {
@@ -230,7 +240,10 @@ impl Special<'_> {
     fn unclosed_text(&mut self) -> usize {
         self.push(TokenKind::Text);
         let end = self.line_end(self.end);
-        self.out.errors.report(SyntaxErrorKind::UnclosedText, TextRange::new(self.start as u32, end as u32));
+        self.out.errors.report(
+            SyntaxErrorKind::UnclosedText,
+            TextRange::new(self.start as u32, end as u32),
+        );
         end
     }
 }

@@ -13,11 +13,13 @@ pub struct Block<'p> {
 /// The address of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Address {
-    /// One letter, upper case: `X`.
+    /// One letter, upper case: `X`; also `@` and `^` (polar words).
     Letter(u8),
     /// A letter with a number of its own before `=`: `A3=`, `S2=`, `R1=` (letter upper case, number).
     Indexed(u8, u16),
-    /// Several letters before `=`, digits included: `CR=`, `TURN=`, `MX1=`. The range is the name's text.
+    /// Anything longer, with the range of its text: several letters before `=`, digits and index included (`CR=`, `MX1=`,
+    /// `VAR5[R2]=`, `SPOS[1]=`), a parameter that is assigned (`#1=`, `#<name>=`, `#[#1+2]=`), and letters behind a comma
+    /// (`,R5` has the address `,R`: it is no R word).
     Named(TextRange),
 }
 
@@ -26,7 +28,7 @@ pub enum Address {
 pub enum Value {
     /// A number as written.
     Number(Decimal),
-    /// A call with one number: `IC(10)`, `DC(90)`, `AC(5)`, `ACP()`, `ACN()`: name's range, number.
+    /// A target around one plain number: `IC(10)`, `DC(90)`, `AC(5)`, `ACP()`, `ACN()`: name's range, number.
     Call(TextRange, Decimal),
     /// A quoted text: `T="DRILL"`.
     Text(TextRange),
@@ -54,9 +56,11 @@ pub struct Word {
 /// A name with or without arguments: `TRAORI`, `CYCLE800(1,"X",2)`, `GOTO 100`, `MSG("text")`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Call {
-    /// The name's text, digits included (`CYCLE800`).
+    /// The name's text, digits included (`CYCLE800`; but `GOTO` of `GOTO100`, `DO` of `DO1`).
     pub name: TextRange,
-    /// Inside of the parentheses, if there are any.
+    /// Inside of the parentheses, if there are any. Of a name without parentheses: the brackets behind it, with their marks
+    /// (`call [1] [2]`); the condition of `IF`, `WHILE`, `UNTIL`; the target of `GOTO`; the number of `DO1`; the text of
+    /// `CALL "NAME"`; the rest of the block behind `DEF`, `PROC`, `FOR`, `CASE`.
     pub arguments: Option<TextRange>,
     /// Bytes of the whole.
     pub range: TextRange,
@@ -121,13 +125,21 @@ impl<'p> Block<'p> {
     }
     /// Only the words.
     pub fn words(&self) -> impl Iterator<Item = Word> + use<'p> {
-        self.items().filter_map(|item| if let Item::Word(word) = item { Some(word) } else { None })
+        self.items()
+            .filter_map(|item| if let Item::Word(word) = item { Some(word) } else { None })
     }
     /// The block number as written (`N2930`), if there is one. Marks and labels may stand in front of it.
     pub fn number(&self) -> Option<TextRange> {
-        let first = self.items().find(|item| !matches!(item, Item::Skip(..) | Item::Comment(_)))?;
+        let first = self
+            .items()
+            .find(|item| !matches!(item, Item::Skip(..) | Item::Comment(_)))?;
         match first {
-            Item::Word(Word { address: Address::Letter(b'N'), value: Value::Number(_), range, .. }) => Some(range),
+            Item::Word(Word {
+                address: Address::Letter(b'N'),
+                value: Value::Number(_),
+                range,
+                ..
+            }) => Some(range),
             _ => None,
         }
     }

@@ -1,6 +1,6 @@
 //! What a lexer writes into: tokens, block starts and problems.
 use crate::scan::Scan;
-use crate::{LexOptions, Format, SyntaxError, TokenKind, TokenTable, items, record};
+use crate::{Format, LexOptions, SyntaxError, TokenKind, TokenTable, items, record};
 
 /// Tokens and blocks as they grow. A block is checked as soon as it is complete.
 #[derive(Default)]
@@ -34,7 +34,9 @@ impl Builder {
 
     /// Whether the block at work has nothing but blanks so far.
     pub(crate) fn block_is_empty(&self) -> bool {
-        self.table.kinds[self.first as usize..].iter().all(|&kind| kind == TokenKind::Blank)
+        self.table.kinds[self.first as usize..]
+            .iter()
+            .all(|&kind| kind == TokenKind::Blank)
     }
 
     /// Ends the block at work behind the last token, which ends at byte `end`.
@@ -61,7 +63,12 @@ impl Builder {
     fn check(&mut self, source: &[u8], options: LexOptions, end: u32) {
         self.odd = false;
         self.table.end = end;
-        let scan = Scan { source, table: &self.table, options, end: self.table.kinds.len() as u32 };
+        let scan = Scan {
+            source,
+            table: &self.table,
+            options,
+            end: self.table.kinds.len() as u32,
+        };
         match options.format {
             Format::Iso => items::check(scan, self.first, &mut self.errors),
             Format::Apt => record::check(scan, self.first, &mut self.errors),

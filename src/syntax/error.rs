@@ -6,7 +6,7 @@ use crate::TextRange;
 pub enum SyntaxErrorKind {
     /// A comment is opened and not closed. Range: the comment.
     UnclosedComment,
-    /// A comment opens inside a comment that has the same closing mark. Range: the inner opening.
+    /// A comment opens inside a comment that has the same closing mark; the comment ends at the first one. Range: the first inner opening.
     NestedComment,
     /// A character that belongs to no word. Range: the character(s).
     UnexpectedCharacter,
@@ -20,7 +20,7 @@ pub enum SyntaxErrorKind {
     DecimalComma,
     /// Blanks inside a number in a dialect that does not allow them. Range: the number.
     BlankInNumber,
-    /// `=` or an operator without a value behind it. Range: the operator.
+    /// `=`, an operator, `#` or an opening bracket without a value behind it. Range: that sign.
     MissingValue,
     /// A bracket or parenthesis without its partner. Range: the bracket.
     UnbalancedBracket,

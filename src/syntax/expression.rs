@@ -14,8 +14,8 @@ const TARGETS: [&str; 10] = ["AC", "IC", "DC", "ACP", "ACN", "CAC", "CIC", "CDC"
 
 /// Functions of one bracket that may follow a letter directly (`X SQRT[2]`).
 const FUNCTIONS: [&str; 20] = [
-    "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "ATAN2", "ABS", "SQRT", "SQR", "ROUND", "RND", "FIX", "FUP", "LN", "EXP",
-    "EXISTS", "BIN", "BCD", "POW",
+    "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "ATAN2", "ABS", "SQRT", "SQR", "ROUND", "RND", "FIX", "FUP", "LN",
+    "EXP", "EXISTS", "BIN", "BCD", "POW",
 ];
 
 /// Whether `text` is one of `words`, in upper or lower case.
@@ -32,8 +32,13 @@ impl Scan<'_> {
     /// The token behind the name that starts at `at`: `CYCLE800` and `VAR5B` are one name each.
     pub(crate) fn name_end(&self, at: TokenId) -> TokenId {
         let mut next = at + 1;
-        while matches!(self.kind(next), TokenKind::Number | TokenKind::Name | TokenKind::Letter | TokenKind::Word)
-            && self.text(next).iter().all(|&byte| byte.is_ascii_alphanumeric() || byte == b'_')
+        while matches!(
+            self.kind(next),
+            TokenKind::Number | TokenKind::Name | TokenKind::Letter | TokenKind::Word
+        ) && self
+            .text(next)
+            .iter()
+            .all(|&byte| byte.is_ascii_alphanumeric() || byte == b'_')
         {
             next += 1;
         }
@@ -47,8 +52,15 @@ impl Scan<'_> {
             (TokenKind::Star, TokenKind::Star)
             | (TokenKind::Equals | TokenKind::Less | TokenKind::Greater, TokenKind::Equals)
             | (TokenKind::Less, TokenKind::Greater | TokenKind::Less) => 2,
-            (TokenKind::Plus | TokenKind::Minus | TokenKind::Star | TokenKind::Slash, _)
-            | (TokenKind::Less | TokenKind::Greater, _) => 1,
+            (
+                TokenKind::Plus
+                | TokenKind::Minus
+                | TokenKind::Star
+                | TokenKind::Slash
+                | TokenKind::Less
+                | TokenKind::Greater,
+                _,
+            ) => 1,
             (TokenKind::Name, _) if is_one_of(self.text(at), &BINARY) => 1,
             _ => return None,
         };
@@ -70,7 +82,11 @@ impl Scan<'_> {
             TokenKind::BracketOpen => self.group(next, sink),
             TokenKind::Name => {
                 let end = self.name_end(next);
-                if self.kind(end) == TokenKind::BracketOpen { self.group(end, sink) } else { end }
+                if self.kind(end) == TokenKind::BracketOpen {
+                    self.group(end, sink)
+                } else {
+                    end
+                }
             }
             _ => {
                 sink.report(SyntaxErrorKind::MissingValue, self.range(at));
@@ -102,7 +118,11 @@ impl Scan<'_> {
     /// Behind an index `[..]` at `at`, if there is one.
     pub(crate) fn index(&self, at: TokenId, sink: &mut impl Sink) -> TokenId {
         let bracket = self.skip_blank(at);
-        if self.kind(bracket) == TokenKind::BracketOpen { self.group(bracket, sink) } else { at }
+        if self.kind(bracket) == TokenKind::BracketOpen {
+            self.group(bracket, sink)
+        } else {
+            at
+        }
     }
 
     /// Behind the exponent `EX-3` of a number (Sinumerik), if one stands at `at`.
@@ -144,11 +164,33 @@ impl Scan<'_> {
                 return if signs > at { Some(signs) } else { behind };
             };
             let operator = self.skip_blank(end);
-            let Some(next) = self.binary(operator) else { return Some(end) };
+            let Some(next) = self.binary(operator) else {
+                return Some(end);
+            };
             owner = self.span(operator, next);
             behind = Some(next);
             at = self.skip_blank(next);
         }
+    }
+
+    /// Whether a single `=` stands at `at`.
+    pub(crate) fn assigns(&self, at: TokenId) -> bool {
+        self.kind(at) == TokenKind::Equals && self.kind(at + 1) != TokenKind::Equals
+    }
+
+    /// Whether the next word of the block starts at `at`, behind a blank or with its own `=`: no operand then.
+    fn starts_word(&self, at: TokenId, equals: TokenId) -> bool {
+        let behind = match self.kind(at) {
+            TokenKind::Word
+                if at > equals + 1 && b"NGMXYZABCUWFSTDO".contains(&self.text(at)[0].to_ascii_uppercase()) =>
+            {
+                return true;
+            }
+            TokenKind::Word | TokenKind::Letter => at + 1,
+            TokenKind::Name => self.name_end(at),
+            _ => return false,
+        };
+        self.assigns(self.skip_blank(behind))
     }
 
     /// The value behind `=` at `equals`, its range, and the token behind it.
@@ -166,12 +208,21 @@ impl Scan<'_> {
         if let Some(found) = self.target(at) {
             return found;
         }
+        if self.starts_word(at, equals) {
+            sink.report(SyntaxErrorKind::MissingValue, self.range(equals));
+            let behind = TextRange::new(self.range(equals).end, self.range(equals).end);
+            return (Value::Missing, behind, equals + 1);
+        }
         match self.expression(at, self.range(equals), sink) {
             Some(end) => {
                 let range = self.span(at, end);
                 (Value::Expression(range), range, end)
             }
-            None => (Value::Missing, TextRange::new(self.range(equals).end, self.range(equals).end), equals + 1),
+            None => (
+                Value::Missing,
+                TextRange::new(self.range(equals).end, self.range(equals).end),
+                equals + 1,
+            ),
         }
     }
 
@@ -201,7 +252,10 @@ impl Scan<'_> {
         if end == at {
             return None;
         }
-        sink.report(SyntaxErrorKind::DecimalComma, TextRange::new(start, self.range(end - 1).end));
+        sink.report(
+            SyntaxErrorKind::DecimalComma,
+            TextRange::new(start, self.range(end - 1).end),
+        );
         Some(end)
     }
 
@@ -221,7 +275,9 @@ impl Scan<'_> {
         if self.kind(digits) != TokenKind::Number || self.kind(close) != TokenKind::ParenClose {
             return None;
         }
-        let Value::Number(number) = self.number(self.span(first, digits + 1), &mut crate::sink::Quiet) else { return None };
+        let Value::Number(number) = self.number(self.span(first, digits + 1), &mut crate::sink::Quiet) else {
+            return None;
+        };
         if self.binary(self.skip_blank(close + 1)).is_some() {
             return None;
         }

@@ -2,10 +2,10 @@
 //!
 //! The lexer alone decides where tokens end; what they mean together is decided by the items. Where a comment ends
 //! depends on the options, so the regular part stops at its mark and the loop takes the rest by hand.
+use crate::builder::Builder;
 use crate::error::SyntaxErrorKind;
 use crate::lines::character;
 use crate::sink::Sink;
-use crate::builder::Builder;
 use crate::{LexOptions, TextRange, TokenKind};
 use logos::Logos;
 
@@ -97,14 +97,20 @@ pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut 
             }
             Ok(raw) => {
                 out.odd = true;
-                match plain(raw) {
-                    Some(kind) => kind,
-                    None => {
-                        let length = Special { source, options, start: span.start, end: span.end, out }.lex(raw);
-                        lexer.bump(length - span.len());
-                        continue;
+                let Some(kind) = plain(raw) else {
+                    let (start, end) = (span.start, span.end);
+                    let length = Special {
+                        source,
+                        options,
+                        start,
+                        end,
+                        out,
                     }
-                }
+                    .lex(raw);
+                    lexer.bump(length - span.len());
+                    continue;
+                };
+                kind
             }
             Err(()) => {
                 out.odd = true;

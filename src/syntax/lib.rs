@@ -11,6 +11,7 @@ mod expression;
 mod iso;
 mod items;
 mod lines;
+mod names;
 mod number;
 mod options;
 mod program;

@@ -29,37 +29,59 @@ impl Decimal {
     /// `None` if `bytes` is anything else, or has more digits than can be held exactly.
     #[inline]
     pub fn parse(bytes: &[u8]) -> Option<Self> {
-        let (negative, mut at) = match bytes.first() {
-            Some(b'-') => (true, 1),
-            Some(b'+') => (false, 1),
-            _ => (false, 0),
-        };
+        match Self::parse_short(bytes) {
+            Some(number) => Some(number),
+            None => Self::parse_rare(bytes),
+        }
+    }
+
+    /// Reads a number of at most 18 digits without exponent; `None` for any other.
+    #[inline]
+    pub(crate) fn parse_short(bytes: &[u8]) -> Option<Self> {
+        let negative = bytes.first() == Some(&b'-');
+        let signed = negative || bytes.first() == Some(&b'+');
+        let unsigned = &bytes[usize::from(signed)..];
         let mut mantissa = 0u64;
-        let first = at;
-        at = digits(bytes, at, &mut mantissa);
-        let mut count = at - first;
-        let mut scale = 0usize;
-        let mut has_point = false;
-        if bytes.get(at) == Some(&b'.') {
-            has_point = true;
-            let point = at + 1;
-            at = digits(bytes, point, &mut mantissa);
-            scale = at - point;
-            count += scale;
+        // Position of the point, if it was met.
+        let mut point = usize::MAX;
+        for (at, &byte) in unsigned.iter().enumerate() {
+            let digit = byte.wrapping_sub(b'0');
+            if digit < 10 {
+                mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+            } else if byte == b'.' && point == usize::MAX {
+                point = at;
+            } else {
+                return None;
+            }
         }
-        if at == bytes.len() && count.wrapping_sub(1) < 18 {
-            let value = mantissa as i64;
-            return Some(Self { mantissa: if negative { -value } else { value }, scale: scale as i16, has_point });
+        let has_point = point != usize::MAX;
+        let digits = unsigned.len() - usize::from(has_point);
+        if digits.wrapping_sub(1) >= 18 {
+            return None;
         }
-        if count == 0 { None } else { Self::parse_rare(bytes) }
+        let scale = if has_point { digits - point } else { 0 };
+        let value = mantissa as i64;
+        let mantissa = if negative { -value } else { value };
+        Some(Self {
+            mantissa,
+            scale: scale as i16,
+            has_point,
+        })
     }
 
     /// Exponents, and digits that may not fit: checked at each step.
     #[cold]
     fn parse_rare(bytes: &[u8]) -> Option<Self> {
-        let mark = bytes.iter().position(|b| matches!(b, b'E' | b'e')).unwrap_or(bytes.len());
+        let mark = bytes
+            .iter()
+            .position(|b| matches!(b, b'E' | b'e'))
+            .unwrap_or(bytes.len());
         let (number, exponent) = bytes.split_at(mark);
-        let exponent = if exponent.is_empty() { 0 } else { parse_exponent(&exponent[1..])? };
+        let exponent = if exponent.is_empty() {
+            0
+        } else {
+            parse_exponent(&exponent[1..])?
+        };
         let (negative, number) = match number.first() {
             Some(b'-') => (true, &number[1..]),
             Some(b'+') => (false, &number[1..]),
@@ -78,10 +100,18 @@ impl Decimal {
             for &byte in whole.iter().chain(fraction) {
                 let digit = i64::from(byte.checked_sub(b'0').filter(|&d| d < 10)?);
                 value = value.checked_mul(10)?;
-                value = if negative { value.checked_sub(digit)? } else { value.checked_add(digit)? };
+                value = if negative {
+                    value.checked_sub(digit)?
+                } else {
+                    value.checked_add(digit)?
+                };
             }
             let scale = i16::try_from(i64::try_from(fraction.len()).ok()? - exponent).ok()?;
-            Some(Self { mantissa: value, scale, has_point: point.is_some() })
+            Some(Self {
+                mantissa: value,
+                scale,
+                has_point: point.is_some(),
+            })
         };
         // Zeros at the end of the fraction carry no value: a number that only fits without them is still exact.
         read(fraction).or_else(|| {
@@ -97,7 +127,11 @@ impl Decimal {
         if places < POWERS.len() && self.mantissa.unsigned_abs() <= EXACT {
             // Both operands are exact, so the one operation rounds correctly.
             let mantissa = self.mantissa as f64;
-            return if self.scale >= 0 { mantissa / POWERS[places] } else { mantissa * POWERS[places] };
+            return if self.scale >= 0 {
+                mantissa / POWERS[places]
+            } else {
+                mantissa * POWERS[places]
+            };
         }
         self.to_f64_rare()
     }
@@ -129,7 +163,11 @@ impl fmt::Display for Decimal {
         let digits = self.mantissa.unsigned_abs().to_string();
         let point = if self.has_point { "." } else { "" };
         if self.scale <= 0 {
-            let zeros = if self.mantissa == 0 { 0 } else { usize::from(self.scale.unsigned_abs()) };
+            let zeros = if self.mantissa == 0 {
+                0
+            } else {
+                usize::from(self.scale.unsigned_abs())
+            };
             return write!(f, "{sign}{digits}{:0<zeros$}{point}", "");
         }
         let places = usize::from(self.scale.unsigned_abs());
@@ -139,21 +177,16 @@ impl fmt::Display for Decimal {
     }
 }
 
-/// Reads digits from `at` into `value` (which wraps; the caller counts the digits) and returns where they end.
-#[inline]
-fn digits(bytes: &[u8], mut at: usize, value: &mut u64) -> usize {
-    while let Some(digit) = bytes.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
-        *value = value.wrapping_mul(10).wrapping_add(u64::from(digit));
-        at += 1;
-    }
-    at
-}
-
 fn parse_exponent(bytes: &[u8]) -> Option<i64> {
-    let digits = bytes.strip_prefix(b"-").or_else(|| bytes.strip_prefix(b"+")).unwrap_or(bytes);
+    let digits = bytes
+        .strip_prefix(b"-")
+        .or_else(|| bytes.strip_prefix(b"+"))
+        .unwrap_or(bytes);
     if digits.is_empty() || digits.len() > 6 || !digits.iter().all(u8::is_ascii_digit) {
         return None;
     }
-    let value = digits.iter().fold(0i64, |value, &digit| value * 10 + i64::from(digit - b'0'));
+    let value = digits
+        .iter()
+        .fold(0i64, |value, &digit| value * 10 + i64::from(digit - b'0'));
     Some(if bytes.starts_with(b"-") { -value } else { value })
 }

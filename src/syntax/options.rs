@@ -16,9 +16,9 @@ pub struct LexOptions {
     pub format: Format,
     /// `( ... )` is a comment (else it brackets arguments: `CYCLE81(1,2)`).
     pub paren_comment: bool,
-    /// `;` starts a comment that runs to the end of the line.
+    /// `;` starts a comment that runs to the end of the line (else it is a blank at the end of a line, and reported elsewhere).
     pub semicolon_comment: bool,
-    /// `/* ... */` is a comment, also over several lines.
+    /// `/* ... */` is a comment, also over several lines (else it is lexed as one on its line, and reported).
     pub slash_star_comment: bool,
     /// Blanks may stand inside a number (`X1 2` is X12, as RS274/NGC says); else that is reported as a bad number.
     pub blanks_in_numbers: bool,
@@ -27,6 +27,12 @@ pub struct LexOptions {
 impl Default for LexOptions {
     /// The common core: ISO words, all comment forms.
     fn default() -> Self {
-        Self { format: Format::Iso, paren_comment: true, semicolon_comment: true, slash_star_comment: true, blanks_in_numbers: false }
+        Self {
+            format: Format::Iso,
+            paren_comment: true,
+            semicolon_comment: true,
+            slash_star_comment: true,
+            blanks_in_numbers: false,
+        }
     }
 }

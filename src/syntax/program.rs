@@ -32,9 +32,18 @@ fn parse_up_to(source: Vec<u8>, options: LexOptions, limit: u32) -> Program {
     lex(&source[..length], options, true, &mut out);
     if length < source.len() {
         let range = TextRange::new(limit.saturating_sub(1), limit);
-        out.errors.push(SyntaxError { kind: SyntaxErrorKind::TooLarge, range });
+        out.errors.push(SyntaxError {
+            kind: SyntaxErrorKind::TooLarge,
+            range,
+        });
     }
-    Program { source, options, tokens: out.table, blocks: out.blocks, errors: out.errors }
+    Program {
+        source,
+        options,
+        tokens: out.table,
+        blocks: out.blocks,
+        errors: out.errors,
+    }
 }
 
 /// Lexes `source` with the lexer of its format.
@@ -80,7 +89,9 @@ impl Program {
         if offset > self.tokens.end {
             return None;
         }
-        let behind = self.blocks.partition_point(|&first| self.tokens.starts[first as usize] <= offset);
+        let behind = self
+            .blocks
+            .partition_point(|&first| self.tokens.starts[first as usize] <= offset);
         behind.checked_sub(1).map(|index| BlockId(index as u32))
     }
     /// The text of a range, where it is UTF-8; else with replacement characters.
@@ -95,13 +106,22 @@ impl Program {
     /// The tokens of a block.
     #[inline]
     pub(crate) fn block_tokens(&self, id: BlockId) -> Range<TokenId> {
-        let end = self.blocks.get(id.0 as usize + 1).copied().unwrap_or(self.tokens.kinds.len() as u32);
+        let end = self
+            .blocks
+            .get(id.0 as usize + 1)
+            .copied()
+            .unwrap_or(self.tokens.kinds.len() as u32);
         self.blocks[id.0 as usize]..end
     }
     /// A look at the tokens before `end`.
     #[inline]
     pub(crate) fn scan(&self, end: TokenId) -> Scan<'_> {
-        Scan { source: &self.source, table: &self.tokens, options: self.options, end }
+        Scan {
+            source: &self.source,
+            table: &self.tokens,
+            options: self.options,
+            end,
+        }
     }
 }
 

@@ -124,7 +124,11 @@ fn head(scan: &Scan<'_>, first: TokenId, sink: &mut impl Sink) -> Option<Head> {
         TokenKind::Number => sink.report(SyntaxErrorKind::BadRecord, scan.range(next)),
         _ => {}
     }
-    Some(Head { first, major, arguments: next })
+    Some(Head {
+        first,
+        major,
+        arguments: next,
+    })
 }
 
 /// Iterator over the arguments of a record.
@@ -139,14 +143,23 @@ struct Arguments<'p> {
 
 impl<'p> Arguments<'p> {
     fn new(scan: Scan<'p>, at: TokenId) -> Self {
-        Self { scan, at, separator: Some(TokenKind::Slash), any: false }
+        Self {
+            scan,
+            at,
+            separator: Some(TokenKind::Slash),
+            any: false,
+        }
     }
 
     /// The next argument; problems go to `sink`.
     fn step(&mut self, sink: &mut impl Sink) -> Option<AptArg> {
         loop {
             let at = significant(&self.scan, self.at);
-            let range = if at < self.scan.end { self.scan.range(at) } else { return self.finish(at, sink) };
+            let range = if at < self.scan.end {
+                self.scan.range(at)
+            } else {
+                return self.finish(at, sink);
+            };
             self.at = at + 1;
             match self.scan.kind(at) {
                 TokenKind::Newline => return self.finish(at, sink),
@@ -192,12 +205,11 @@ impl<'p> Arguments<'p> {
                     sink.report(SyntaxErrorKind::BadRecord, range);
                     return AptArg::Other(range);
                 }
-                match number(scan.bytes(range)) {
-                    Some(number) => AptArg::Number(number, range),
-                    None => {
-                        sink.report(SyntaxErrorKind::BadNumber, range);
-                        AptArg::Other(range)
-                    }
+                if let Some(number) = number(scan.bytes(range)) {
+                    AptArg::Number(number, range)
+                } else {
+                    sink.report(SyntaxErrorKind::BadNumber, range);
+                    AptArg::Other(range)
                 }
             }
             TokenKind::ParenOpen | TokenKind::BracketOpen => {
@@ -243,9 +255,20 @@ fn number(bytes: &[u8]) -> Option<Decimal> {
         return Some(number);
     }
     let digits = bytes.get(1..)?.trim_ascii_start();
-    if digits.len() + 1 == bytes.len() || !digits.first().is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.') {
+    if digits.len() + 1 == bytes.len()
+        || !digits
+            .first()
+            .is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')
+    {
         return None;
     }
     let number = Decimal::parse(digits)?;
-    Some(if bytes[0] == b'-' { Decimal { mantissa: -number.mantissa, ..number } } else { number })
+    Some(if bytes[0] == b'-' {
+        Decimal {
+            mantissa: -number.mantissa,
+            ..number
+        }
+    } else {
+        number
+    })
 }

@@ -12,14 +12,17 @@ impl Program {
     /// overlap; `None` if they are not, or reach outside.
     pub fn relex(&self, edits: &[TextEdit]) -> Option<Self> {
         let source = apply_edits(&self.source, edits)?;
-        let (Some(first), Some(last)) = (edits.first(), edits.last()) else { return Some(self.clone()) };
+        let (Some(first), Some(last)) = (edits.first(), edits.last()) else {
+            return Some(self.clone());
+        };
         if source.len() >= u32::MAX as usize || self.source.len() >= u32::MAX as usize {
             return Some(parse(source, self.options));
         }
         // The byte before may be a carriage return whose line feed comes or goes.
-        let (Some(from), Some(to)) =
-            (self.block_at(first.range.start.saturating_sub(1)), self.block_at(last.range.end))
-        else {
+        let (Some(from), Some(to)) = (
+            self.block_at(first.range.start.saturating_sub(1)),
+            self.block_at(last.range.end),
+        ) else {
             return Some(parse(source, self.options));
         };
         let mut blocks = 1;
@@ -35,9 +38,15 @@ impl Program {
     /// Bytes from the start of block `from` to the start of block `next` (or the end), before and after the edit.
     fn region(&self, source: &[u8], from: BlockId, next: usize) -> (TextRange, TextRange) {
         let start = self.tokens.starts[self.blocks[from.0 as usize] as usize];
-        let end = self.blocks.get(next).map_or(self.tokens.end, |&token| self.tokens.starts[token as usize]);
+        let end = self
+            .blocks
+            .get(next)
+            .map_or(self.tokens.end, |&token| self.tokens.starts[token as usize]);
         let behind = self.tokens.end - end;
-        (TextRange::new(start, end), TextRange::new(start, source.len() as u32 - behind))
+        (
+            TextRange::new(start, end),
+            TextRange::new(start, source.len() as u32 - behind),
+        )
     }
 
     /// The edited blocks from `from` to before `next`; `None` if they do not end with a line end of their own, so that
@@ -64,22 +73,41 @@ impl Program {
         for start in &mut tokens.starts[behind..] {
             *start = moved(*start);
         }
-        tokens.starts.splice(first..behind, out.table.starts.iter().map(|start| start + new.start));
+        tokens
+            .starts
+            .splice(first..behind, out.table.starts.iter().map(|start| start + new.start));
         tokens.end = source.len() as u32;
 
         let mut blocks = self.blocks[..from.0 as usize].to_vec();
         blocks.extend(out.blocks.iter().map(|token| token + first as u32));
         let shift = |token: u32| (token as usize - behind + first + out.table.len()) as u32;
-        blocks.extend(self.blocks[next.min(self.blocks.len())..].iter().map(|&token| shift(token)));
+        blocks.extend(
+            self.blocks[next.min(self.blocks.len())..]
+                .iter()
+                .map(|&token| shift(token)),
+        );
 
         let shifted = |error: &SyntaxError, by: &dyn Fn(u32) -> u32| SyntaxError {
             range: TextRange::new(by(error.range.start), by(error.range.end)),
             ..*error
         };
-        let before = self.errors.iter().filter(|error| error.range.start < old.start).copied();
+        let before = self
+            .errors
+            .iter()
+            .filter(|error| error.range.start < old.start)
+            .copied();
         let here = out.errors.iter().map(|error| shifted(error, &|at| at + new.start));
         let after = self.errors.iter().filter(|error| error.range.start >= old.end);
-        let errors = before.chain(here).chain(after.map(|error| shifted(error, &moved))).collect();
-        Self { source, options: self.options, tokens, blocks, errors }
+        let errors = before
+            .chain(here)
+            .chain(after.map(|error| shifted(error, &moved)))
+            .collect();
+        Self {
+            source,
+            options: self.options,
+            tokens,
+            blocks,
+            errors,
+        }
     }
 }

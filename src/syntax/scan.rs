@@ -20,7 +20,11 @@ impl<'p> Scan<'p> {
     /// Kind of token `at`; a line end where there is none.
     #[inline]
     pub(crate) fn kind(&self, at: TokenId) -> TokenKind {
-        if at < self.end { self.table.kinds[at as usize] } else { TokenKind::Newline }
+        if at < self.end {
+            self.table.kinds[at as usize]
+        } else {
+            TokenKind::Newline
+        }
     }
 
     /// Bytes of token `at`.
@@ -31,8 +35,16 @@ impl<'p> Scan<'p> {
 
     /// Bytes of the tokens `from..to`; empty at the start of `from` if there are none.
     pub(crate) fn span(&self, from: TokenId, to: TokenId) -> TextRange {
-        let start = if from < self.end { self.range(from).start } else { self.block_end() };
-        if to <= from { TextRange::new(start, start) } else { TextRange::new(start, self.range(to - 1).end) }
+        let start = if from < self.end {
+            self.range(from).start
+        } else {
+            self.block_end()
+        };
+        if to <= from {
+            TextRange::new(start, start)
+        } else {
+            TextRange::new(start, self.range(to - 1).end)
+        }
     }
 
     fn block_end(&self) -> u32 {
@@ -111,7 +123,12 @@ impl<'p> Scan<'p> {
     fn lacks_operand(&self, at: TokenId) -> bool {
         matches!(
             self.kind(at),
-            TokenKind::Plus | TokenKind::Minus | TokenKind::Star | TokenKind::Slash | TokenKind::Equals | TokenKind::Hash
+            TokenKind::Plus
+                | TokenKind::Minus
+                | TokenKind::Star
+                | TokenKind::Slash
+                | TokenKind::Equals
+                | TokenKind::Hash
         ) && self.range(at).end - self.range(at).start == 1
     }
 

@@ -15,13 +15,20 @@ impl Items<'_> {
             }
             // Block delete in the middle of a block: from here on, on controls that know it.
             TokenKind::Slash => {
-                let end = if scan.kind(at + 1) == TokenKind::Number { at + 2 } else { at + 1 };
+                let end = if scan.kind(at + 1) == TokenKind::Number {
+                    at + 2
+                } else {
+                    at + 1
+                };
                 self.silent(at, end)
             }
             // A checksum at the end of the block, as printers send it: `*57`.
             TokenKind::Star
                 if scan.kind(at + 1) == TokenKind::Number
-                    && matches!(scan.kind(scan.skip_blank(at + 2)), TokenKind::Newline | TokenKind::Comment) =>
+                    && matches!(
+                        scan.kind(scan.skip_blank(at + 2)),
+                        TokenKind::Newline | TokenKind::Comment
+                    ) =>
             {
                 self.silent(at, at + 2)
             }
@@ -80,7 +87,11 @@ impl Items<'_> {
         }
         let range = self.scan.span(from, end);
         let digits = self.scan.bytes(range).iter().any(u8::is_ascii_digit);
-        let kind = if digits { SyntaxErrorKind::NumberWithoutLetter } else { SyntaxErrorKind::UnexpectedCharacter };
+        let kind = if digits {
+            SyntaxErrorKind::NumberWithoutLetter
+        } else {
+            SyntaxErrorKind::UnexpectedCharacter
+        };
         sink.report(kind, range);
         self.silent(from, end)
     }

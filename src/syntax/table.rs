@@ -21,7 +21,10 @@ impl TextRange {
     }
     /// The smallest range that holds both.
     pub fn cover(self, other: Self) -> Self {
-        Self { start: self.start.min(other.start), end: self.end.max(other.end) }
+        Self {
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
     }
     /// Whether `offset` lies inside, the end included.
     pub fn touches(self, offset: u32) -> bool {

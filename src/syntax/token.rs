@@ -8,11 +8,12 @@ pub enum TokenKind {
     Blank,
     /// `\n`, `\r\n` or `\r`: ends a block (APT: unless continued).
     Newline,
-    /// A letter with its number in one piece: `G1`, `X-.5`, `x 1.5`.
+    /// A letter with its number in one piece: `G1`, `X-.5`, `x 1.5`; also `@1` and `^30` (polar words), and broken numbers (`X1.2.3`).
     Word,
-    /// A single letter without a number behind it: the `X` of `X=R1`, `X#1`, `X[1+2]`.
+    /// A single letter (or `@`, `^`) without a number behind it: the `X` of `X=R1`, `X#1`, `X[1+2]`.
     Letter,
-    /// Two or more letters (and `_`): `TRAORI`, `CYCLE` of `CYCLE800`, `GOTO`. APT: any identifier, digits included.
+    /// Two or more letters: `TRAORI`, `CYCLE` of `CYCLE800`, `GOTO`. With its digits where a `_` or a leading `$` shows that they
+    /// belong to it: `_X1_HOME`, `$P_AXN1`. Also the program name behind `%`. APT: any identifier, digits included.
     Name,
     /// A number that follows no letter directly.
     Number,
@@ -26,7 +27,7 @@ pub enum TokenKind {
     ParenOpen,
     /// `)` where it is not a comment
     ParenClose,
-    /// `#`
+    /// `#`, or a named parameter in one piece: `#<name>`
     Hash,
     /// `,`
     Comma,
@@ -38,7 +39,7 @@ pub enum TokenKind {
     Plus,
     /// `-`
     Minus,
-    /// `<`
+    /// `<`; behind the letter of an O word the whole name: `<name>` of `o<name> call`
     Less,
     /// `>`
     Greater,
@@ -46,7 +47,7 @@ pub enum TokenKind {
     Percent,
     /// `:`
     Colon,
-    /// `"..."` on one line
+    /// `"..."` or `'...'` on one line; an unclosed `"` reaches to the end of its line
     Text,
     /// A closed comment: `( ... )`, `; ...`, `/* ... */`, APT `$$ ...`.
     Comment,

@@ -96,7 +96,11 @@ impl Client {
     fn pump(&mut self) {
         let message = self.messages.recv_timeout(PATIENCE).expect("the server answers");
         match (message["method"].as_str(), message["id"].as_i64()) {
-            (Some("textDocument/publishDiagnostics"), _) => self.published.push(message["params"].clone()),
+            (Some("textDocument/publishDiagnostics"), _) => {
+                // Its status follows; an older one says nothing about it.
+                self.last_status = None;
+                self.published.push(message["params"].clone());
+            }
             (Some("trunnion/status"), _) => self.last_status = Some(message["params"].clone()),
             (Some(_), _) => {}
             (None, Some(id)) => drop(self.answers.insert(id, message)),

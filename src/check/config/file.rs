@@ -35,13 +35,21 @@ struct FileTool {
 }
 
 pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
-    let file: File = toml::from_str(text)
-        .map_err(|error| ConfigError { message: error.message().to_owned(), span: error.span() })?;
-    let mut config = Config { machine: file.machine, ..Config::default() };
+    let file: File = toml::from_str(text).map_err(|error| ConfigError {
+        message: error.message().to_owned(),
+        span: error.span(),
+    })?;
+    let mut config = Config {
+        machine: file.machine,
+        ..Config::default()
+    };
     if let Some(dialect) = file.dialect {
         if !trunnion_dialect::BUILTIN_NAMES.contains(&dialect.get_ref().as_str()) {
             let names = trunnion_dialect::BUILTIN_NAMES.join(", ");
-            return Err(at(&dialect, format!("no dialect is called `{}`; there are {names}", dialect.get_ref())));
+            return Err(at(
+                &dialect,
+                format!("no dialect is called `{}`; there are {names}", dialect.get_ref()),
+            ));
         }
         config.dialect = Some(dialect.into_inner());
     }
@@ -65,19 +73,30 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
 }
 
 fn at<T>(place: &Spanned<T>, message: impl Into<String>) -> ConfigError {
-    ConfigError { message: message.into(), span: Some(place.span()) }
+    ConfigError {
+        message: message.into(),
+        span: Some(place.span()),
+    }
 }
 
 fn rule_level(name: &Spanned<String>, level: &Spanned<String>) -> Result<(String, RuleLevel), ConfigError> {
     if crate::rule(name.get_ref()).is_none() {
-        return Err(at(name, format!("no rule is called `{}`; `trunnion rules` lists them", name.get_ref())));
+        return Err(at(
+            name,
+            format!("no rule is called `{}`; `trunnion rules` lists them", name.get_ref()),
+        ));
     }
     let value = match level.get_ref().as_str() {
         "allow" => RuleLevel::Allow,
         "info" => RuleLevel::At(Severity::Info),
         "warning" => RuleLevel::At(Severity::Warning),
         "error" => RuleLevel::At(Severity::Error),
-        other => return Err(at(level, format!("no level is called `{other}`: allow, info, warning or error"))),
+        other => {
+            return Err(at(
+                level,
+                format!("no level is called `{other}`: allow, info, warning or error"),
+            ));
+        }
     };
     Ok((name.get_ref().clone(), value))
 }
@@ -86,12 +105,19 @@ fn tolerance(name: &Spanned<String>, value: &Spanned<f64>) -> Result<(String, f6
     let key = name.get_ref().as_str();
     if TOLERANCES.iter().all(|(known, _)| *known != key) {
         let names: Vec<&str> = TOLERANCES.iter().map(|(known, _)| *known).collect();
-        return Err(at(name, format!("no tolerance is called `{key}`; there are {}", names.join(", "))));
+        return Err(at(
+            name,
+            format!("no tolerance is called `{key}`; there are {}", names.join(", ")),
+        ));
     }
     let number = *value.get_ref();
     let most = if key.starts_with("feed_drop") { 1.0 } else { f64::MAX };
     if !(0.0..=most).contains(&number) {
-        let range = if most == 1.0 { "from 0 to 1, a share of the programmed feed" } else { "0 or more" };
+        let range = if most == 1.0 {
+            "from 0 to 1, a share of the programmed feed"
+        } else {
+            "0 or more"
+        };
         return Err(at(value, format!("`{key}` must be {range}, not {number}")));
     }
     Ok((key.to_owned(), number))
@@ -111,21 +137,32 @@ fn declared_tool(entry: &Spanned<FileTool>) -> Result<Tool, ConfigError> {
             return Err(at(entry, format!("`{key}` must be 0 mm or more")));
         }
     }
-    Ok(Tool { number: tool.number, shape, diameter_mm: tool.diameter, length_mm: tool.length })
+    Ok(Tool {
+        number: tool.number,
+        shape,
+        diameter_mm: tool.diameter,
+        length_mm: tool.length,
+    })
 }
 
 fn work_offset(
     name: &Spanned<String>,
     values: &BTreeMap<Spanned<String>, Spanned<f64>>,
 ) -> Result<WorkOffset, ConfigError> {
-    let mut offset = WorkOffset { name: name.get_ref().clone(), values: [0.0; AXIS_LETTERS.len()] };
+    let mut offset = WorkOffset {
+        name: name.get_ref().clone(),
+        values: [0.0; AXIS_LETTERS.len()],
+    };
     for (letter, value) in values {
         let axis = match letter.get_ref().as_bytes() {
             [letter] => AxisLetter::new(*letter),
             _ => None,
         };
         let Some(axis) = axis else {
-            return Err(at(letter, format!("`{}` is no axis: X Y Z A B C U V W", letter.get_ref())));
+            return Err(at(
+                letter,
+                format!("`{}` is no axis: X Y Z A B C U V W", letter.get_ref()),
+            ));
         };
         if !value.get_ref().is_finite() {
             return Err(at(value, "a work offset is a number of mm or degrees"));
@@ -162,7 +199,10 @@ G54 = { X = 1, Y = 0, Z = -2.5 }
         let config = parse(WHOLE).unwrap();
         assert_eq!(config.machine.as_deref(), Some("mikron-ucp710"));
         assert_eq!(config.rules[0], ("feed-drop".to_owned(), RuleLevel::Allow));
-        assert_eq!(config.rules[1], ("pole-flip".to_owned(), RuleLevel::At(Severity::Error)));
+        assert_eq!(
+            config.rules[1],
+            ("pole-flip".to_owned(), RuleLevel::At(Severity::Error))
+        );
         assert_eq!(config.tolerances, [("tip".to_owned(), 0.02)]);
         assert_eq!(config.setup.tools[0].shape, Some(ToolShape::Ball));
         assert_eq!(config.setup.tools[0].length_mm, Some(80.5));
@@ -184,10 +224,17 @@ G54 = { X = 1, Y = 0, Z = -2.5 }
             ("[[tool]]\nnumber = 1\ndiametre = 3", "diametre"),
         ] {
             let error = parse(text).unwrap_err();
-            let span = error.span.clone().unwrap_or_else(|| panic!("{text}: {error} has no place"));
+            let span = error
+                .span
+                .clone()
+                .unwrap_or_else(|| panic!("{text}: {error} has no place"));
             assert_eq!(&text[span], wrong, "{text}: {error}");
         }
-        for text in ["[[tool]]\nnumber = 1\nshape = \"cone\"", "[[tool]]\nnumber = 1\n[[tool]]\nnumber = 1", "= 1"] {
+        for text in [
+            "[[tool]]\nnumber = 1\nshape = \"cone\"",
+            "[[tool]]\nnumber = 1\n[[tool]]\nnumber = 1",
+            "= 1",
+        ] {
             assert!(parse(text).unwrap_err().span.is_some(), "{text}");
         }
     }

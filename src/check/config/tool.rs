@@ -6,16 +6,24 @@ pub(super) const SHAPES: &str = "ball, flat or bull";
 
 /// Reads `shape:diameter[:corner radius]`, lengths in mm, for the tool in use: `ball:10`, `bull:16:2`.
 pub fn parse_tool_flag(text: &str) -> Result<Tool, String> {
-    let wanted = || format!("`{text}` is no tool: write shape:diameter[:corner radius] in mm, e.g. ball:10, flat:12, bull:16:2");
+    let wanted =
+        || format!("`{text}` is no tool: write shape:diameter[:corner radius] in mm, e.g. ball:10, flat:12, bull:16:2");
     let mut parts = text.split(':').map(str::trim);
-    let (Some(name), Some(diameter)) = (parts.next(), parts.next()) else { return Err(wanted()) };
+    let (Some(name), Some(diameter)) = (parts.next(), parts.next()) else {
+        return Err(wanted());
+    };
     let diameter: f64 = diameter.parse().map_err(|_| wanted())?;
     let corner = parts.next().map(str::parse::<f64>).transpose().map_err(|_| wanted())?;
     if parts.next().is_some() {
         return Err(wanted());
     }
     let shape = shape(name, Some(diameter), corner)?;
-    Ok(Tool { number: 0, shape: Some(shape), diameter_mm: Some(diameter), length_mm: None })
+    Ok(Tool {
+        number: 0,
+        shape: Some(shape),
+        diameter_mm: Some(diameter),
+        length_mm: None,
+    })
 }
 
 /// A shape from its name and sizes in mm, or what is wrong with it.
@@ -28,14 +36,18 @@ pub(super) fn shape(name: &str, diameter: Option<f64>, corner: Option<f64>) -> R
     match (name.to_ascii_lowercase().as_str(), corner) {
         ("ball", None) => Ok(ToolShape::Ball),
         ("flat", None) => Ok(ToolShape::Flat),
-        ("ball" | "flat", Some(_)) => Err(format!("a {name} tool has no corner radius of its own; write bull for one with a corner radius")),
+        ("ball" | "flat", Some(_)) => Err(format!(
+            "a {name} tool has no corner radius of its own; write bull for one with a corner radius"
+        )),
         ("bull", None) => Err("a bull tool needs its corner radius".to_owned()),
         ("bull", Some(radius)) => {
             let most = diameter.map_or(f64::INFINITY, |diameter| diameter / 2.0);
             if radius > 0.0 && radius <= most {
                 Ok(ToolShape::Bull(radius))
             } else {
-                Err(format!("a corner radius must be above 0 mm and at most half the diameter, not {radius}"))
+                Err(format!(
+                    "a corner radius must be above 0 mm and at most half the diameter, not {radius}"
+                ))
             }
         }
         _ => Err(format!("no tool shape is called `{name}`: {SHAPES}")),
@@ -49,13 +61,29 @@ mod tests {
     #[test]
     fn flags_are_read() {
         let tool = parse_tool_flag("ball:10").unwrap();
-        assert_eq!((tool.number, tool.shape, tool.diameter_mm), (0, Some(ToolShape::Ball), Some(10.0)));
+        assert_eq!(
+            (tool.number, tool.shape, tool.diameter_mm),
+            (0, Some(ToolShape::Ball), Some(10.0))
+        );
         assert_eq!(parse_tool_flag("BULL:16:2").unwrap().shape, Some(ToolShape::Bull(2.0)));
     }
 
     #[test]
     fn broken_flags_say_what_is_wanted() {
-        for text in ["", "ball", "ball:", "ball:x", "ball:-1", "ball:0", "ball:nan", "cone:10", "bull:10", "bull:10:6", "flat:10:1", "bull:10:1:1"] {
+        for text in [
+            "",
+            "ball",
+            "ball:",
+            "ball:x",
+            "ball:-1",
+            "ball:0",
+            "ball:nan",
+            "cone:10",
+            "bull:10",
+            "bull:10:6",
+            "flat:10:1",
+            "bull:10:1:1",
+        ] {
             assert!(parse_tool_flag(text).is_err(), "{text}");
         }
     }

@@ -6,7 +6,7 @@
 //! # Example
 //! ```gcode apt
 //! WIGGLE/1,2
-//! $$^^^^^^^^ apt-unknown-record: APT record WIGGLE is not known
+//! $$^^^^ apt-unknown-record: APT record WIGGLE is not known
 //! FINI
 //! ```
 //!
@@ -20,11 +20,14 @@
 //! Heuristic: a post-processor may know words that the table does not.
 //!
 //! # Sources
-//! ISO 4343 (post-processor commands); the table `grammar/dialects/apt.toml`.
+//! The table `grammar/dialects/apt.toml`.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Warning, guarantee: Guarantee::Heuristic, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Heuristic,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::AptUnknownRecord {

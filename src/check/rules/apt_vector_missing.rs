@@ -6,9 +6,10 @@
 //! # Example
 //! ```gcode apt
 //! MULTAX/ON
+//! FEDRAT/500
 //! GOTO/0,0,10,0,0,1
 //! GOTO/5,0,10
-//! $$^^^^^^^^^ apt-vector-missing: MULTAX is on, but GOTO has no tool vector
+//! $$   ^^^^^^ apt-vector-missing: MULTAX is on, but GOTO has no tool vector
 //! FINI
 //! ```
 //!
@@ -24,11 +25,14 @@
 //! Sound; the last vector is kept.
 //!
 //! # Sources
-//! APT part programming manuals, MULTAX; Trunnion's kinematics notes, section 12.6.
+//! Trunnion's kinematics notes, section 12.6 (MULTAX).
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::AptVectorMissing {

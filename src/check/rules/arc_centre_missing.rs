@@ -7,7 +7,7 @@
 //! ```gcode
 //! N10 G17 G0 X0 Y0
 //! N20 G2 X10 Y0 F300
-//! ;   ^^^^^^^^^^^^^^ arc-centre-missing: the arc has neither centre nor radius
+//! ;      ^^^ arc-centre-missing: the arc has neither centre nor radius
 //! ```
 //!
 //! # Use instead
@@ -20,11 +20,14 @@
 //! Sound.
 //!
 //! # Sources
-//! RS274/NGC interpreter, version 3, section 3.5.3 (arc at feed rate).
+//! The NIST RS274/NGC interpreter, version 3, on arcs at feed rate (G2, G3).
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::ArcCentreMissing {

@@ -7,7 +7,7 @@
 //! ```gcode
 //! N10 G17 G90 G0 X0 Y0
 //! N20 G2 X10 Y0 I4 J0 F300
-//! ;   ^^^^^^^^^^^^^^^^^^^^ arc-radius-mismatch: the arc starts 4 mm from its centre and ends 6 mm from it
+//! ;      ^^^ arc-radius-mismatch: the arc starts 4 mm from its centre and ends 6 mm from it
 //! ```
 //!
 //! # Use instead
@@ -23,26 +23,43 @@
 //! `arc_tolerance` of the dialect's table, with its source there.
 //!
 //! # Sources
-//! RS274/NGC interpreter, version 3, section 3.5.3 (arc at feed rate).
+//! The NIST RS274/NGC interpreter, version 3, on arcs at feed rate (G2, G3).
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     match fault.kind {
         FaultKind::ArcRadiusMismatch { start, end, tolerance } => {
-            out.report(fault.range, format!("the arc starts {} from its centre and ends {} from it", mm(start), mm(end)))
-                .note(format!("the end point is not on the circle; they may differ by {}", mm(tolerance)))
-                .help("correct the end point or the centre")
-                .value("radius_start_mm", start)
-                .value("radius_end_mm", end)
-                .value("limit_mm", tolerance);
+            out.report(
+                fault.range,
+                format!(
+                    "the arc starts {} from its centre and ends {} from it",
+                    mm(start),
+                    mm(end)
+                ),
+            )
+            .note(format!(
+                "the end point is not on the circle; they may differ by {}",
+                mm(tolerance)
+            ))
+            .help("correct the end point or the centre")
+            .value("radius_start_mm", start)
+            .value("radius_end_mm", end)
+            .value("limit_mm", tolerance);
         }
         FaultKind::ArcRadiusTooSmall { radius, half_chord } => {
             out.report(
                 fault.range,
-                format!("no circle of radius {} joins points that lie {} apart", mm(radius), mm(2.0 * half_chord)),
+                format!(
+                    "no circle of radius {} joins points that lie {} apart",
+                    mm(radius),
+                    mm(2.0 * half_chord)
+                ),
             )
             .note(format!("the radius must be at least half of that, {}", mm(half_chord)))
             .help("correct the end point or the radius")
@@ -61,7 +78,7 @@ mod tests {
     fn a_radius_too_small_for_its_chord() {
         let report = assert_drawn(
             "gcode",
-            "N10 G17 G90 G0 X0 Y0\nN20 G2 X10 Y0 R4 F300\n;   ^^^^^^^^^^^^^^^^^ arc-radius-mismatch: no circle of radius 4 mm joins points that lie 10 mm apart\n",
+            "N10 G17 G90 G0 X0 Y0\nN20 G2 X10 Y0 R4 F300\n;      ^^^ arc-radius-mismatch: no circle of radius 4 mm joins points that lie 10 mm apart\n",
         );
         assert_eq!(report.summary.errors, 1);
     }

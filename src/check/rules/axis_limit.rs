@@ -29,7 +29,11 @@
 use crate::prelude::*;
 use trunnion_machine::{AxisKind, Excess, limit_excess};
 
-pub(super) const RULE: Body = Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let mut found: Vec<Excess> = Vec::new();
@@ -38,7 +42,11 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         let axis = &view.machine.axes[excess.axis];
         let name = letter(axis.letter);
         let beyond = (excess.value - excess.limit).abs();
-        let inside = if excess.inside { " inside the block, while both ends are legal" } else { "" };
+        let inside = if excess.inside {
+            " inside the block, while both ends are legal"
+        } else {
+            ""
+        };
         let message = format!(
             "{name} reaches {}{inside}, {} beyond its limit of {}",
             joint(axis, excess.value),
@@ -47,14 +55,25 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         );
         let range = axis_word(out.program(), view.motion().block, axis.letter);
         let draft = out.report(range, message);
-        draft.note(format!("values are those of the joint, work offset and tool length included, on {}", view.machine.id));
-        draft.help("move the part, choose another posture, or correct the program").value_text("axis", name);
+        draft.note(format!(
+            "values are those of the joint, work offset and tool length included, on {}",
+            view.machine.id
+        ));
+        draft
+            .help("move the part, choose another posture, or correct the program")
+            .value_text("axis", name);
         match axis.kind {
             AxisKind::Linear => {
-                draft.value("value_mm", excess.value).value("limit_mm", excess.limit).value("excess_mm", beyond);
+                draft
+                    .value("value_mm", excess.value)
+                    .value("limit_mm", excess.limit)
+                    .value("excess_mm", beyond);
             }
             AxisKind::Rotary => {
-                draft.value("value_deg", deg(excess.value)).value("limit_deg", deg(excess.limit)).value("excess_deg", deg(beyond));
+                draft
+                    .value("value_deg", deg(excess.value))
+                    .value("limit_deg", deg(excess.limit))
+                    .value("excess_deg", deg(beyond));
             }
         }
         draft.merge(u64::from(axis.letter), beyond);
@@ -77,15 +96,21 @@ mod tests {
 
     #[test]
     fn the_limit_itself_is_legal_and_each_axis_has_its_own_run() {
-        assert_drawn("gcode mikron-ucp710", "N1 G0 X0 Y0 Z0 A120 C0\nN2 G0 A-30\nN3 G0 C99999\n");
         assert_drawn(
             "gcode mikron-ucp710",
-            "N1 G0 X0 Y0 Z0 A0 C0\nN2 G0 A-30.001\n;     ^^^^^^^ axis-limit: A reaches -30\n",
+            "N1 G0 X0 Y0 Z0 A120 C0\nN2 G0 A-30\nN3 G0 C99999\n",
+        );
+        assert_drawn(
+            "gcode mikron-ucp710",
+            "N1 G0 X0 Y0 Z0 A0 C0\nN2 G0 A-30.001\n;     ^^^^^^^^ axis-limit: A reaches -30\n",
         );
     }
 
     #[test]
     fn known_joints_are_judged_before_all_axes_are_positioned() {
-        assert_drawn("gcode mill-3axis", "N1 G0 X5000\n;     ^^^^^ axis-limit: X reaches 5000 mm\n");
+        assert_drawn(
+            "gcode mill-3axis",
+            "N1 G0 X5000\n;     ^^^^^ axis-limit: X reaches 5000 mm\n",
+        );
     }
 }

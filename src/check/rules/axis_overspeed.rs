@@ -34,8 +34,11 @@ use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 use trunnion_machine::AxisKind;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
 
 /// Relative room for rounding.
 const ROUNDING: f64 = 1e-9;
@@ -57,17 +60,28 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let at = feed.map_or_else(String::new, |feed| format!(" at F{}", number(feed)));
     let draft = out.report(
         range,
-        format!("{name} would have to run at {}{at}, it reaches {}", speed(axis, needed), speed(axis, limit.axis_limit)),
+        format!(
+            "{name} would have to run at {}{at}, it reaches {}",
+            speed(axis, needed),
+            speed(axis, limit.axis_limit)
+        ),
     );
     draft
-        .note(format!("the block can run at {} mm/min at most", number(limit.feed_mm_min)))
+        .note(format!(
+            "the block can run at {} mm/min at most",
+            number(limit.feed_mm_min)
+        ))
         .help("lower the feed in this block, or lead the tool axis so that the axis turns less")
         .value_text("axis", name.clone())
         .value_text("limiting_axis", name)
         .value("feed_limit_mm_min", limit.feed_mm_min);
     match axis.kind {
-        AxisKind::Linear => draft.value("value_mm_min", needed * 60.0).value("limit_mm_min", limit.axis_limit * 60.0),
-        AxisKind::Rotary => draft.value("value_deg_s", deg(needed)).value("limit_deg_s", deg(limit.axis_limit)),
+        AxisKind::Linear => draft
+            .value("value_mm_min", needed * 60.0)
+            .value("limit_mm_min", limit.axis_limit * 60.0),
+        AxisKind::Rotary => draft
+            .value("value_deg_s", deg(needed))
+            .value("limit_deg_s", deg(limit.axis_limit)),
     };
     if let Some(feed) = feed {
         draft.value("feed_mm_min", feed);
@@ -85,10 +99,16 @@ fn undeclared(view: &LegView<'_>, out: &mut Reporter<'_>) {
         if axis.max_speed.is_none() && start.joints[i] != end.joints[i] && out.once(u64::from(axis.letter)) {
             let range = axis_word(out.program(), view.motion().block, axis.letter);
             let name = letter(axis.letter);
-            out.report(range, format!("{} declares no speed for {name}: whether {name} is overrun is not known", view.machine.id))
-                .help("declare it in the machine file: dyn = { vmax = ... }, mm/s or deg/s")
-                .value_text("axis", name)
-                .unknown();
+            out.report(
+                range,
+                format!(
+                    "{} declares no speed for {name}: whether {name} is overrun is not known",
+                    view.machine.id
+                ),
+            )
+            .help("declare it in the machine file: dyn = { vmax = ... }, mm/s or deg/s")
+            .value_text("axis", name)
+            .unknown();
         }
     }
 }
@@ -108,7 +128,11 @@ mod tests {
         let found = |blocks| {
             let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", &program(blocks));
             let report = fixture.check().unwrap();
-            report.diagnostics.into_iter().filter(|d| d.rule == "axis-overspeed").collect::<Vec<_>>()
+            report
+                .diagnostics
+                .into_iter()
+                .filter(|d| d.rule == "axis-overspeed")
+                .collect::<Vec<_>>()
         };
         assert_eq!(found(8).len(), 8);
         let long = found(20);

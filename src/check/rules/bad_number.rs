@@ -19,11 +19,14 @@
 //! Sound: a number that is not reported here is held exactly as written.
 //!
 //! # Sources
-//! RS274/NGC interpreter, version 3, section 3.3.2.1 (numbers).
+//! The NIST RS274/NGC interpreter, version 3, on numbers.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Text(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Text(check),
+};
 
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     let text = out.text(error.range);

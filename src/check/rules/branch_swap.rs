@@ -8,8 +8,9 @@
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z50 A20 C0
-//! N30 G1 X1 A-20 C180 F500
-//! ;         ^^^^^^^^^ branch-swap: the posture changes
+//! N30 G1 X1 A-20 C180 F30
+//! ;         ^^^^^^^^^ branch-swap: the posture changes with 220 deg more rotary travel than needed
+//! ;              ^^^^ pole-flip: C turns 180 deg
 //! N40 M30
 //! ```
 //!
@@ -29,10 +30,14 @@
 //! `swap_excess`: rotary travel over the cheapest move of the same posture, 5 deg.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 5 (BRANCH-SWAP); the guide-vane paper of 2006, "swap at the limit".
+//! Trunnion's kinematics notes, section 5 (BRANCH-SWAP); the guide-vane paper of 2006 on swaps at an axis limit.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let excess = view.leg.rotary_excess;
@@ -42,7 +47,13 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let [first, second] = view.rotary_letters();
     let range = orientation_range(out.program(), view.motion().block);
     let [d1, d2] = view.leg.rotary_change;
-    let draft = out.report(range, format!("the posture changes with {} more rotary travel than needed", degrees(excess)));
+    let draft = out.report(
+        range,
+        format!(
+            "the posture changes with {} more rotary travel than needed",
+            degrees(excess)
+        ),
+    );
     draft
         .note(format!("{first} turns {} and {second} {}", degrees(d1), degrees(d2)))
         .help("give the rotary words of the posture before, or retract and swap out of the cut")
@@ -69,6 +80,9 @@ mod tests {
 
     #[test]
     fn the_same_posture_is_silent_however_far_it_turns() {
-        assert_drawn("gcode sinumerik-840d mikron-ucp710", "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 G0 A20 C180\nN40 M30\n");
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 G0 A20 C180\nN40 M30\n",
+        );
     }
 }

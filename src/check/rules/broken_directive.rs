@@ -23,14 +23,18 @@
 use crate::prelude::*;
 use trunnion_interp::Directive;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Program(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Program(check),
+};
 
 fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     for (range, directive) in overview.directives {
         match directive {
             Directive::Allow { rule, .. } if crate::rule(rule).is_none() => {
-                out.report(*range, format!("no rule is called `{rule}`")).help("`trunnion rules` lists them");
+                out.report(*range, format!("no rule is called `{rule}`"))
+                    .help("`trunnion rules` lists them");
             }
             Directive::Allow { rule, reason } if reason.trim().is_empty() => {
                 out.report(*range, format!("`allow {rule}` has no reason and is ignored"))

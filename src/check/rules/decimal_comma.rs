@@ -21,8 +21,11 @@
 //! ISO 6983-1 knows the point only; HEIDENHAIN Klartext writes both.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Text(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Text(check),
+};
 
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     if error.kind == SyntaxErrorKind::DecimalComma {

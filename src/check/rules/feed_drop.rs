@@ -34,18 +34,26 @@
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
+
+/// Relative room for rounding.
+const ROUNDING: f64 = 1e-9;
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if !view.motion().is_feed() {
         return;
     }
     let Some(limit) = view.feed_limit() else { return };
-    let Some(feed) = view.programmed_feed_mm_min().filter(|feed| *feed > 0.0) else { return };
+    let Some(feed) = view.programmed_feed_mm_min().filter(|feed| *feed > 0.0) else {
+        return;
+    };
     let share = limit.feed_mm_min / feed;
     let tolerances = &view.machine.tolerances;
-    if share >= tolerances.feed_drop_warning {
+    if share >= tolerances.feed_drop_warning * (1.0 - ROUNDING) {
         return;
     }
     let name = letter(view.machine.axes[limit.axis].letter);
@@ -53,7 +61,11 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let percent = number((share * 1000.0).round() / 10.0);
     let draft = out.report(
         range,
-        format!("the axes allow {} mm/min, {percent} % of the programmed {} mm/min", number(limit.feed_mm_min), number(feed)),
+        format!(
+            "the axes allow {} mm/min, {percent} % of the programmed {} mm/min",
+            number(limit.feed_mm_min),
+            number(feed)
+        ),
     );
     draft
         .note(format!("{name} limits the block"))
@@ -77,11 +89,19 @@ mod tests {
     #[test]
     fn below_eighty_percent_it_warns_below_thirty_it_is_an_error() {
         // C turns 9 deg in 1 mm at 120 deg/s: 800 mm/min
-        for (feed, severity) in [(1000, None), (1001, Some(Severity::Warning)), (2667, Some(Severity::Error))] {
+        for (feed, severity) in [
+            (1000, None),
+            (1001, Some(Severity::Warning)),
+            (2667, Some(Severity::Error)),
+        ] {
             let text = format!("TRAORI\nG0 X0 Y0 Z50 A30 C0\nG1 X1 C9 F{feed}\nM30\n");
             let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text);
             let report = fixture.check().unwrap();
-            let found = report.diagnostics.iter().find(|d| d.rule == "feed-drop").map(|d| d.severity);
+            let found = report
+                .diagnostics
+                .iter()
+                .find(|d| d.rule == "feed-drop")
+                .map(|d| d.severity);
             assert_eq!(found, severity, "F{feed}: {:?}", report.diagnostics);
         }
     }

@@ -24,14 +24,20 @@
 //! Trunnion's interface: what cannot be decided is unknown, and says what is missing.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Info, guarantee: Guarantee::Sound, level: Level::Program(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Info,
+    guarantee: Guarantee::Sound,
+    level: Level::Program(check),
+};
 
 fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     if overview.settings.machine.is_none() {
         let first = u32::from(!overview.program.source().is_empty());
-        out.report(TextRange::new(0, first), "no machine is named: axes, limits and speeds were not checked")
-            .help("name one: --machine NAME or FILE, or `machine = \"NAME\"` in trunnion.toml")
-            .unknown();
+        out.report(
+            TextRange::new(0, first),
+            "no machine is named: axes, limits and speeds were not checked",
+        )
+        .help("name one: --machine NAME or FILE, or `machine = \"NAME\"` in trunnion.toml")
+        .unknown();
     }
 }

@@ -17,14 +17,18 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound.
+//! Sound; told once per axis, with the number of blocks.
 //!
 //! # Sources
 //! The machine file.
 use crate::prelude::*;
 use trunnion_machine::NoStance;
 
-pub(super) const RULE: Body = Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if let Err(NoStance::NoSuchAxis(axis)) = view.leg.end {
@@ -35,6 +39,6 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             .note(format!("its axes are {}", axes.join(" ")))
             .help("name the machine that the program is for, or remove the word")
             .value_text("axis", name)
-            .merge(u64::from(axis), 0.0);
+            .merge_everywhere(u64::from(axis));
     }
 }

@@ -8,7 +8,7 @@
 //! ```gcode
 //! N10 G0 X0 Y0
 //! N20 G1 X10
-//! ;   ^^^^^^ missing-feed: a feed motion, but no feed is programmed
+//! ;      ^^^ missing-feed: a feed motion, but no feed is programmed
 //! ```
 //!
 //! # Use instead
@@ -22,18 +22,29 @@
 //! to be so.
 //!
 //! # Sources
-//! RS274/NGC interpreter, version 3, sections 2.1.2.5 (feed rate) and 3.5.19 (G93).
+//! The NIST RS274/NGC interpreter, version 3, on feed rate and inverse time (G93).
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    let FaultKind::MissingFeed { inverse_time, zero } = fault.kind else { return };
+    let FaultKind::MissingFeed { inverse_time, zero } = fault.kind else {
+        return;
+    };
     let (message, help) = match (zero, inverse_time) {
         (true, _) => ("a feed motion at a feed of zero or less", "write a feed above zero"),
-        (false, true) => ("a feed motion under G93 without its own F", "write F in each feed motion, or go back to G94"),
-        (false, false) => ("a feed motion, but no feed is programmed", "write F in this block or before it"),
+        (false, true) => (
+            "a feed motion under G93 without its own F",
+            "write F in each feed motion, or go back to G94",
+        ),
+        (false, false) => (
+            "a feed motion, but no feed is programmed",
+            "write F in this block or before it",
+        ),
     };
     out.report(fault.range, message).help(help).merge(u64::from(zero), 0.0);
 }
@@ -46,7 +57,7 @@ mod tests {
     fn consecutive_blocks_are_told_once() {
         let report = assert_drawn(
             "gcode",
-            "N10 G0 X0 Y0\nN20 G1 X10\n;   ^^^^^^ missing-feed: a feed motion, but no\nN30 X20\nN40 X30\nN50 X40 F100\n",
+            "N10 G0 X0 Y0\nN20 G1 X10\n;      ^^^ missing-feed: a feed motion, but no\nN30 X20\nN40 X30\nN50 X40 F100\n",
         );
         assert_eq!(report.diagnostics[0].count, 3);
     }

@@ -8,7 +8,7 @@
 //! ```gcode
 //! N10 G0 X0 Y0
 //! N20 M5
-//! ;   ^^ missing-program-end: the program ends without an end code
+//! ;^^^^^ missing-program-end: the program ends without an end code
 //! ```
 //!
 //! # Use instead
@@ -22,17 +22,22 @@
 //! Sound for the end codes of the dialect's table. An error on LinuxCNC, else a warning.
 //!
 //! # Sources
-//! RS274/NGC interpreter, version 3, section 3.6.1 (M2, M30); LinuxCNC, "Requirements for a G-code file".
+//! The NIST RS274/NGC interpreter, version 3, on program ending (M2, M30) and on files framed by `%`.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::MissingProgramEnd {
         let strict = out.dialect() == "linuxcnc";
         let draft = out.report(fault.range, "the program ends without an end code");
-        draft.note("the file may have been cut short").help("end the program with M30, or the code your control wants");
+        draft
+            .note("the file may have been cut short")
+            .help("end the program with M30, or the code your control wants");
         if strict {
             draft.severity(Severity::Error);
         }

@@ -19,15 +19,29 @@
 //! Sound for the groups of the dialect's table.
 //!
 //! # Sources
-//! RS274/NGC interpreter, version 3, section 3.4 (modal groups).
+//! The NIST RS274/NGC interpreter, version 3, on modal groups; the groups are those of the dialect's table.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    let FaultKind::GroupConflict { group, first, second, first_range } = &fault.kind else { return };
-    out.report(fault.range, format!("{second} contradicts {first}: both belong to the modal group `{group}`"))
-        .help("keep the one that is meant, or write them in two blocks")
-        .related(*first_range, format!("{first} is here"));
+    let FaultKind::GroupConflict {
+        group,
+        first,
+        second,
+        first_range,
+    } = &fault.kind
+    else {
+        return;
+    };
+    out.report(
+        fault.range,
+        format!("{second} contradicts {first}: both belong to the modal group `{group}`"),
+    )
+    .help("keep the one that is meant, or write them in two blocks")
+    .related(*first_range, format!("{first} is here"));
 }

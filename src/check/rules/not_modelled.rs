@@ -7,7 +7,7 @@
 //! # Example
 //! ```gcode sinumerik-840d
 //! N10 G0 X=R1+2
-//! ;      ^^^^^^ not-modelled: `R1+2` is not evaluated
+//! ;        ^^^^ not-modelled: not modelled: R1+2
 //! ```
 //!
 //! # Use instead
@@ -22,12 +22,22 @@
 //! Engineering judgement.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Info, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Info,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::NotModelled { what } = &fault.kind {
-        out.report(fault.range, format!("{what} is not modelled: what it does is not known"))
+        let short: String = what
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+            .chars()
+            .take(60)
+            .collect();
+        out.report(fault.range, format!("not modelled: {short}"))
             .note("positions that depend on it are unknown until the program gives them anew; nothing is checked from them")
             .unknown()
             .merge_everywhere(hash(what));
@@ -40,7 +50,7 @@ mod tests {
 
     #[test]
     fn one_cause_is_told_once_with_its_count() {
-        let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d", "X=R1\nG0 Y0\nX=R1\nM30\n");
+        let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d", "G0 X=R1\nY0\nX=R1\nM30\n");
         let report = fixture.check().unwrap();
         let found: Vec<_> = report.diagnostics.iter().filter(|d| d.rule == "not-modelled").collect();
         assert_eq!((found.len(), found[0].count), (1, 2));

@@ -6,7 +6,7 @@
 //!
 //! # Example
 //! ```gcode mikron-ucp710
-//! N10 G0 X30 Y0 Z0 A0 C0
+//! N10 G0 X30 Y0 Z0 A20 C0
 //! N20 G1 Y5 C40 F500
 //! ;   ^^^^^^^^^^^^^^ path-deviation: the tip leaves the programmed segment by
 //! N30 M30
@@ -15,7 +15,7 @@
 //! # Use instead
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N5 TRAORI
-//! N10 G0 X30 Y0 Z0 A0 C0
+//! N10 G0 X30 Y0 Z0 A20 C0
 //! N20 G1 Y5 C40 F500
 //! N30 M30
 //! ```
@@ -29,24 +29,34 @@
 //! `tip`: 0.01 mm.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 3 and 5 (KIN-TIP); the saddle-surface paper of 2004.
+//! Trunnion's kinematics notes, sections 3 and 5 (KIN-TIP).
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
+use trunnion_interp::MotionKind;
 
-pub(super) const RULE: Body = Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    if !view.motion().is_feed() || view.stances().is_none() {
+    // an arc without a known centre is told by the fault that took it
+    let lost = matches!(view.motion().kind, MotionKind::Arc(None));
+    if !view.motion().is_feed() || lost || view.stances().is_none() {
         return;
     }
     let tolerance = view.machine.tolerances.tip_mm;
     let range = |out: &Reporter<'_>| code_range(out.program(), view.motion().block);
     let Some(deviation) = view.deviation() else {
         let range = range(out);
-        out.report(range, "the tip's path is not modelled in this block: its deviation is not known")
-            .note("arcs while rotary axes move are not modelled")
-            .unknown()
-            .merge_everywhere(0);
+        out.report(
+            range,
+            "the tip's path is not modelled in this block: its deviation is not known",
+        )
+        .note("arcs while rotary axes move are not modelled")
+        .unknown()
+        .merge_everywhere(0);
         return;
     };
     if deviation.bound_mm <= tolerance {
@@ -54,27 +64,33 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     }
     let range = range(out);
     if deviation.sampled_mm > tolerance {
-        out.report(range, format!("the tip leaves the programmed segment by {}", mm(deviation.sampled_mm)))
-            .note(format!(
-                "farthest after {} % of the block; proven to be at most {}; allowed are {}",
-                number((deviation.at * 100.0).round()),
-                mm(deviation.bound_mm),
-                mm(tolerance)
-            ))
-            .help("switch tool centre point control on, or insert points")
-            .value("deviation_mm", deviation.sampled_mm)
-            .value("deviation_bound_mm", deviation.bound_mm)
-            .value("limit_mm", tolerance)
-            .merge_runs_over(SHORT_RUN, 1, deviation.sampled_mm);
+        out.report(
+            range,
+            format!("the tip leaves the programmed segment by {}", mm(deviation.sampled_mm)),
+        )
+        .note(format!(
+            "farthest after {} % of the block; proven to be at most {}; allowed are {}",
+            number((deviation.at * 100.0).round()),
+            mm(deviation.bound_mm),
+            mm(tolerance)
+        ))
+        .help("switch tool centre point control on, or insert points")
+        .value("deviation_mm", deviation.sampled_mm)
+        .value("deviation_bound_mm", deviation.bound_mm)
+        .value("limit_mm", tolerance)
+        .merge_runs_over(SHORT_RUN, 1, deviation.sampled_mm);
     } else {
         let found = format!("between {} and {}", mm(deviation.sampled_mm), mm(deviation.bound_mm));
-        out.report(range, format!("the tip's deviation is {found}: not proven to keep {}", mm(tolerance)))
-            .help("insert points, or allow a little more tolerance")
-            .value("deviation_mm", deviation.sampled_mm)
-            .value("deviation_bound_mm", deviation.bound_mm)
-            .value("limit_mm", tolerance)
-            .unknown()
-            .merge_runs_over(SHORT_RUN, 2, deviation.bound_mm);
+        out.report(
+            range,
+            format!("the tip's deviation is {found}: not proven to keep {}", mm(tolerance)),
+        )
+        .help("insert points, or allow a little more tolerance")
+        .value("deviation_mm", deviation.sampled_mm)
+        .value("deviation_bound_mm", deviation.bound_mm)
+        .value("limit_mm", tolerance)
+        .unknown()
+        .merge_runs_over(SHORT_RUN, 2, deviation.bound_mm);
     }
 }
 
@@ -84,7 +100,10 @@ mod tests {
 
     #[test]
     fn lines_without_rotary_motion_are_exact() {
-        assert_drawn("gcode mikron-ucp710", "N10 G0 X30 Y0 Z0 A20 C0\nN20 G1 Y200 F500\nN30 Y0\n");
+        assert_drawn(
+            "gcode mikron-ucp710",
+            "N10 G0 X30 Y0 Z0 A20 C0\nN20 G1 Y200 F500\nN30 Y0\n",
+        );
     }
 
     #[test]
@@ -93,10 +112,15 @@ mod tests {
             "gcode mikron-ucp710",
             "N10 G0 X30 Y0 Z0 A0 C0\nN20 G1 C10 F500\n;   ^^^^^^^^^^^ path-deviation: \n",
         );
-        let value = |key| report.diagnostics[0].values.iter().find_map(|(name, value)| match value {
-            crate::ValueKey::Number(value) if *name == key => Some(*value),
-            _ => None,
-        });
+        let value = |key| {
+            report.diagnostics[0]
+                .values
+                .iter()
+                .find_map(|(name, value)| match value {
+                    crate::ValueKey::Number(value) if *name == key => Some(*value),
+                    _ => None,
+                })
+        };
         assert!(value("deviation_bound_mm") >= value("deviation_mm"));
     }
 }

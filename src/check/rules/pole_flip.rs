@@ -8,12 +8,10 @@
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N2900 TRAORI
-//! N2910 G1 X-28.38197 Y-2.14469 Z59.86773 A2.042 C3.358 F2000
+//! N2910 G1 X-28.38197 Y-2.14469 Z59.86773 A2.042 C3.358 F1000
 //! N2920 G1 X-28.38474 Y-1.84041 Z59.90263 A1.047 C4.822
-//! N2930 G1 X-28.38709 Y-1.53565 Z59.93222 A0.081 C52.595
-//! ;                                       ^^^^^ feed-drop: 46.
-//! ;                                              ^^^^^^^ pole-flip: C turns 47.773 deg
-//! ;                                              ^^^^^^^ axis-overspeed: C
+//! N2930 G1 X-28.38709 Y-1.53565 Z59.93222 A0.081 C52.595 F40
+//! ;                                              ^^^^^^^ pole-flip: C turns 47.773 deg while the tool axis passes 0.081 deg
 //! N2940 M30
 //! ```
 //!
@@ -33,12 +31,15 @@
 //! `pole_cone`: 2 deg about the pole; `pole_angle`: 10 deg of the first rotary axis. An error where it turns 175 to 185 deg.
 //!
 //! # Sources
-//! The guide-vane paper of 2006 ("pole flick"); Trunnion's kinematics notes, section 5 (POLE-FLIP).
+//! The guide-vane paper of 2006 on the C axis near the singularity; Trunnion's kinematics notes, section 5 (POLE-FLIP).
 use crate::prelude::*;
 use trunnion_geometry::rad;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let tolerances = &view.machine.tolerances;
@@ -50,11 +51,16 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let axis = &view.machine.axes[view.machine.rotary[0]];
     let name = letter(axis.letter);
     let range = axis_word(out.program(), view.motion().block, axis.letter);
-    let message =
-        format!("{name} turns {} while the tool axis passes {} from the pole", degrees(turn), degrees(view.leg.pole_angle_min));
+    let message = format!(
+        "{name} turns {} while the tool axis passes {}",
+        degrees(turn),
+        past_pole(view.leg.pole_angle_min)
+    );
     let draft = out.report(range, message);
     draft
-        .note(format!("at the pole the tool axis is parallel to {name}: near it a small change of direction turns {name} far"))
+        .note(format!(
+            "at the pole the tool axis is parallel to {name}: near it a small change of direction turns {name} far"
+        ))
         .help("tilt the path away from the pole, or try `trunnion fix --rewrite smooth-pole`")
         .value_text("axis", name.clone())
         .value("rotary_change_deg", deg(turn))
@@ -64,11 +70,16 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         && limit.feed_mm_min.is_finite()
     {
         draft
-            .note(format!("no axis is overrun up to a feed of {} mm/min", number(limit.feed_mm_min)))
+            .note(format!(
+                "no axis is overrun up to a feed of {} mm/min",
+                number(limit.feed_mm_min)
+            ))
             .value("feed_limit_mm_min", limit.feed_mm_min);
     }
     if (rad(175.0)..=rad(185.0)).contains(&turn) {
-        draft.severity(Severity::Error).note("half a turn: the tool axis runs straight over the pole, or the posture is swapped");
+        draft
+            .severity(Severity::Error)
+            .note("half a turn: the tool axis runs straight over the pole, or the posture is swapped");
     }
 }
 

@@ -1,14 +1,14 @@
 //! A feed motion ends at a position that is not known.
 //!
 //! # Why
-//! Some axis was never positioned, so nobody can say where the joints are: limits, postures, speeds and the tip's path were
-//! not checked there. An axis that was not named is not taken to be at zero.
+//! Some axis was never positioned, or its position was lost where something is not modelled. Nobody can say where the joints
+//! are, so limits, postures, speeds and the tip's path were not checked there. An axis that was not named is not taken to be at zero.
 //!
 //! # Example
 //! ```gcode mikron-ucp710
 //! N10 G0 X0 Y0 Z50
 //! N20 G1 X10 F500
-//! ;   ^^^^^^^^^^^ position-unknown: A and C were never positioned
+//! ;   ^^^^^^^^^^^ position-unknown: the position of A and C is not known
 //! ```
 //!
 //! # Use instead
@@ -23,23 +23,38 @@
 //! # Sources
 //! Trunnion's interface: the position before the first motion is unknown, and nothing is checked from it.
 use crate::prelude::*;
+use trunnion_interp::AXIS_LETTERS;
 use trunnion_machine::NoStance;
 
-pub(super) const RULE: Body = Body { severity: Severity::Info, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Info,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let Err(NoStance::PositionUnknown(letters)) = &view.leg.end else { return };
+    let Err(NoStance::PositionUnknown(letters)) = &view.leg.end else {
+        return;
+    };
     if !view.motion().is_feed() {
         return;
     }
-    let names: Vec<String> = letters.chars().map(String::from).collect();
-    let (names, was) = match names.as_slice() {
-        [] => ("the position".to_owned(), "is not known"),
-        [one] => (one.clone(), "was never positioned"),
-        [most @ .., last] => (format!("{} and {last}", most.join(", ")), "were never positioned"),
+    let names: Vec<String> = AXIS_LETTERS
+        .iter()
+        .map(|axis| letter(*axis))
+        .filter(|axis| letters.contains(axis))
+        .collect();
+    let names = match names.as_slice() {
+        [] => "some axis".to_owned(),
+        [one] => one.clone(),
+        [most @ .., last] => format!("{} and {last}", most.join(", ")),
     };
     let range = code_range(out.program(), view.motion().block);
-    out.report(range, format!("{names} {was}: the joints of {} are unknown here", view.machine.id))
+    out.report(range, format!("the position of {names} is not known"))
+        .note(format!(
+            "it was never given, or lost where something is not modelled: the joints of {} are unknown here",
+            view.machine.id
+        ))
         .note("limits, postures, speeds and the tip's path are not checked until every axis has a position")
         .help(format!("position {names} before the first feed motion"))
         .unknown()
@@ -54,7 +69,7 @@ mod tests {
     fn rapids_at_the_start_are_normal_and_one_cause_is_told_once() {
         let report = assert_drawn(
             "gcode mikron-ucp710",
-            "N1 G0 X0 Y0\nN2 G0 Z50\nN3 G1 X10 F500\n;  ^^^^^^^^^^^ position-unknown: C and A were never\nN4 X20\nN5 G0 X0\nN6 G1 X5\n",
+            "N1 G0 X0 Y0\nN2 G0 Z50\nN3 G1 X10 F500\n;  ^^^^^^^^^^^ position-unknown: the position of A and C\nN4 X20\nN5 G0 X0\nN6 G1 X5\n",
         );
         assert_eq!(report.diagnostics[0].status, crate::Status::Unknown);
         assert_eq!(report.diagnostics[0].count, 3);

@@ -19,11 +19,14 @@
 //! Sound for words that a block may hold once; a warning on Fanuc, where the last one wins.
 //!
 //! # Sources
-//! RS274/NGC interpreter, version 3, section 3.3.3 (repeated items).
+//! The NIST RS274/NGC interpreter, version 3, on item repeats.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::RepeatedWord {
@@ -32,7 +35,9 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         let draft = out.report(fault.range, format!("`{text}` repeats a word of the block"));
         draft.help("remove the one that is not meant");
         if fanuc {
-            draft.severity(Severity::Warning).note("on this control the last one wins");
+            draft
+                .severity(Severity::Warning)
+                .note("on this control the last one wins");
         }
     }
 }
@@ -44,7 +49,10 @@ mod tests {
 
     #[test]
     fn on_fanuc_it_is_a_warning() {
-        let report = assert_drawn("gcode fanuc-30i", "N10 G0 X10. Y5. X20.\n;               ^^^^ repeated-word: \n");
+        let report = assert_drawn(
+            "gcode fanuc-30i",
+            "N10 G0 X10. Y5. X20.\n;               ^^^^ repeated-word: \n",
+        );
         assert_eq!(report.diagnostics[0].severity, Severity::Warning);
     }
 }

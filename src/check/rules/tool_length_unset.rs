@@ -6,8 +6,8 @@
 //!
 //! # Example
 //! ```gcode fanuc-30i
-//! N10 G43 H5 Z10.
-//! ;       ^^ tool-length-unset: the length of tool 5 is not declared and taken as zero
+//! N10 G0 G43 H5 Z10.
+//! ;      ^^^ tool-length-unset: the length of H5 is not declared and taken as zero
 //! ```
 //!
 //! # Use instead
@@ -20,14 +20,29 @@
 //! Trunnion's interface: lengths of tools are a setting, not a guess.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Info, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Info,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::ToolLengthUnset { tool } = &fault.kind {
-        out.report(fault.range, format!("the length of tool {tool} is not declared and taken as zero"))
-            .note("tool length is measured from the gauge point of the spindle to the tip, mm")
-            .help(format!("declare it in trunnion.toml: [[tool]] number = {tool}, length = ..."))
-            .merge_everywhere(hash(tool));
+        let digits = tool.trim_start_matches(|c: char| !c.is_ascii_digit());
+        let number = if digits.chars().all(|c| c.is_ascii_digit()) && !digits.is_empty() {
+            digits
+        } else {
+            "..."
+        };
+        let name = if tool == "T" { "the tool in use" } else { tool };
+        out.report(
+            fault.range,
+            format!("the length of {name} is not declared and taken as zero"),
+        )
+        .note("tool length is measured from the gauge point of the spindle to the tip, mm")
+        .help(format!(
+            "declare it in trunnion.toml: [[tool]] number = {number}, length = ..."
+        ))
+        .merge_everywhere(hash(tool));
     }
 }

@@ -6,9 +6,10 @@
 //!
 //! # Example
 //! ```gcode apt
+//! FEDRAT/500
 //! MULTAX/ON
 //! GOTO/0,0,10,0,0.6,0.9
-//! $$          ^^^^^^^^^ tool-vector-not-unit: the tool vector has length 1.082
+//! $$   ^^^^^^^^^^^^^^^^ tool-vector-not-unit: the tool vector has length 1.082
 //! FINI
 //! ```
 //!
@@ -30,8 +31,11 @@
 //! Trunnion's kinematics notes, section 2.3; the thresholds are engineering judgement.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Warning, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 /// Above this difference from 1 it is a warning.
 const WARNING: f64 = 1e-4;
@@ -39,7 +43,9 @@ const WARNING: f64 = 1e-4;
 const ERROR: f64 = 1e-2;
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    let FaultKind::VectorNotUnit { norm } = fault.kind else { return };
+    let FaultKind::VectorNotUnit { norm } = fault.kind else {
+        return;
+    };
     let off = (norm - 1.0).abs();
     if norm > 0.0 && off <= WARNING {
         return;
@@ -50,7 +56,10 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         "the tool vector has length 0 and no direction".to_owned()
     };
     let draft = out.report(fault.range, message);
-    draft.help("correct its components: the sum of their squares must be 1").value("norm", norm).merge(0, off);
+    draft
+        .help("correct its components: the sum of their squares must be 1")
+        .value("norm", norm)
+        .merge(0, off);
     if off > ERROR {
         draft.severity(Severity::Error);
     }
@@ -62,10 +71,18 @@ mod tests {
 
     #[test]
     fn two_thresholds() {
-        for (k, severity) in [("0.80009", None), ("0.801", Some(Severity::Warning)), ("0.82", Some(Severity::Error))] {
+        for (k, severity) in [
+            ("0.80009", None),
+            ("0.801", Some(Severity::Warning)),
+            ("0.82", Some(Severity::Error)),
+        ] {
             let text = format!("MULTAX/ON\nGOTO/0,0,10,0,0.6,{k}\nFINI\n");
             let report = crate::fixture::Fixture::parse("gcode apt", &text).check().unwrap();
-            let found = report.diagnostics.iter().find(|d| d.rule == "tool-vector-not-unit").map(|d| d.severity);
+            let found = report
+                .diagnostics
+                .iter()
+                .find(|d| d.rule == "tool-vector-not-unit")
+                .map(|d| d.severity);
             assert_eq!(found, severity, "{k}: {:?}", report.diagnostics);
         }
     }

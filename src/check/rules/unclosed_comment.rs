@@ -21,11 +21,14 @@
 //! Sound for the comment marks of the dialect.
 //!
 //! # Sources
-//! RS274/NGC interpreter, version 3, section 3.3.4 (comments and messages); LinuxCNC stops with "Unclosed comment found".
+//! The NIST RS274/NGC interpreter, version 3, on comments and messages.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Text(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Text(check),
+};
 
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     if error.kind == SyntaxErrorKind::UnclosedComment {

@@ -6,8 +6,8 @@
 //!
 //! # Example
 //! ```gcode
-//! N10 G198 X10
-//! ;   ^^^^ unknown-code: iso-6983 knows no code G198
+//! N10 G0 G198 X10
+//! ;      ^^^^ unknown-code: iso-6983 knows no code G198
 //! ```
 //!
 //! # Use instead
@@ -22,19 +22,29 @@
 //! The dialect tables in `grammar/dialects`.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    let FaultKind::UnknownCode { machine_builder } = fault.kind else { return };
+    let FaultKind::UnknownCode { machine_builder } = fault.kind else {
+        return;
+    };
     let text = out.text(fault.range);
     let dialect = out.dialect();
     if machine_builder {
-        out.report(fault.range, format!("{dialect} leaves {text} to the machine builder: what it does is not known"))
-            .note("it is taken to move nothing and to change nothing that is checked")
-            .help(format!("if it is harmless, say so: (trunnion: allow unknown-code because {text} only ...)"))
-            .unknown()
-            .merge_everywhere(hash(&text));
+        out.report(
+            fault.range,
+            format!("{dialect} leaves {text} to the machine builder: what it does is not known"),
+        )
+        .note("it is taken to move nothing and to change nothing that is checked")
+        .help(format!(
+            "if it is harmless, say so: (trunnion: allow unknown-code because {text} only ...)"
+        ))
+        .unknown()
+        .merge_everywhere(hash(&text));
     } else {
         out.report(fault.range, format!("{dialect} knows no code {text}"))
             .note("it is not run; what follows is checked as if it were not there")

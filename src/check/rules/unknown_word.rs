@@ -4,8 +4,9 @@
 //! A word that the control does not know stops it, or is skipped together with what was meant by it.
 //!
 //! # Example
-//! ```gcode iso-6983
-//! N10 G0 X10 #5=3
+//! ```gcode
+//! N10 G0 X10 SPEED=3
+//! ;          ^^^^^^^ unknown-word: iso-6983 has no meaning for `SPEED=3`
 //! ```
 //!
 //! # Use instead
@@ -20,8 +21,11 @@
 //! The dialect tables in `grammar/dialects`.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::UnknownWord {

@@ -6,6 +6,7 @@
 //! # Example
 //! ```gcode apt mikron-ucp710
 //! MULTAX/ON
+//! FEDRAT/500
 //! GOTO/0,0,10,0,0,1
 //! GOTO/0,0,10,0,0.6,-0.8
 //! $$          ^^^^^^^^^^ unreachable-orientation: no posture
@@ -15,6 +16,7 @@
 //! # Use instead
 //! ```gcode apt mikron-ucp710
 //! MULTAX/ON
+//! FEDRAT/500
 //! GOTO/0,0,10,0,0,1
 //! GOTO/0,0,10,0,0.6,0.8
 //! FINI
@@ -31,17 +33,30 @@
 use crate::prelude::*;
 use trunnion_machine::NoStance;
 
-pub(super) const RULE: Body = Body { severity: Severity::Error, guarantee: Guarantee::Sound, level: Level::Leg(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     match &view.leg.end {
         Err(NoStance::Unreachable(angle)) => {
             let range = orientation_range(out.program(), view.motion().block);
-            out.report(range, format!("no posture reaches this tool axis: it lies {} outside the reach", degrees(*angle)))
-                .note(format!("the rotary axes of {} sweep a cone that ends before it", view.machine.id))
-                .help("tilt the tool path, or set the part up differently")
-                .value("excess_deg", deg(*angle))
-                .merge(0, *angle);
+            out.report(
+                range,
+                format!(
+                    "no posture reaches this tool axis: it lies {} outside the reach",
+                    degrees(*angle)
+                ),
+            )
+            .note(format!(
+                "the rotary axes of {} sweep a cone that ends before it",
+                view.machine.id
+            ))
+            .help("tilt the tool path, or set the part up differently")
+            .value("excess_deg", deg(*angle))
+            .merge(0, *angle);
         }
         Err(NoStance::OutsideLimits { axis, value, limit }) => {
             let range = orientation_range(out.program(), view.motion().block);

@@ -21,14 +21,19 @@
 //! Trunnion's interface: where the part's zero lies in machine coordinates is a setting, not a guess.
 use crate::prelude::*;
 
-pub(super) const RULE: Body =
-    Body { severity: Severity::Info, guarantee: Guarantee::Sound, level: Level::Fault(check) };
+pub(super) const RULE: Body = Body {
+    severity: Severity::Info,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::WorkOffsetUnset { name } = &fault.kind {
         out.report(fault.range, format!("{name} is not declared and taken as zero"))
             .note("the part's zero is taken to lie at the machine's zero")
-            .help(format!("declare it in trunnion.toml: [work_offsets] {name} = {{ X = 0, Y = 0, Z = 0 }}"))
+            .help(format!(
+                "declare it in trunnion.toml: [work_offsets] {name} = {{ X = 0, Y = 0, Z = 0 }}"
+            ))
             .merge_everywhere(hash(name));
     }
 }

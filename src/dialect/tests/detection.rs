@@ -19,23 +19,19 @@ fn is(found: &(String, String), dialect: &str, reason: &str) {
 fn a_modeline_wins() {
     let said = "modeline comment in the program";
     is(
-        named(Some("a.mpf"), "%\n(trunnion: dialect fanuc-30i)\n", Some("linuxcnc")),
+        &named(Some("a.mpf"), "%\n(trunnion: dialect fanuc-30i)\n", Some("linuxcnc")),
         "fanuc-30i",
         said,
     );
     is(&content("; Trunnion:  dialect  LinuxCNC\r\nG0"), "linuxcnc", said);
     is(
-        content("N10 G0 X1 ;trunnion:dialect sinumerik-840d"),
+        &content("N10 G0 X1 ;trunnion:dialect sinumerik-840d"),
         "sinumerik-840d",
         said,
     );
     is(&content("$$ trunnion: dialect apt\n"), "apt", said);
     let late = format!("{}; trunnion: dialect apt\n", "\n".repeat(10));
-    assert_eq!(
-        content(&late).0,
-        "sinumerik-840d",
-        "line 11 is too late; only the `;` speaks"
-    );
+    assert_eq!(content(&late).0, "iso-6983", "line 11 is too late");
     assert_eq!(content(&late[1..]).0, "apt");
     for unknown in [
         "(trunnion: dialect klartext)",
@@ -71,21 +67,23 @@ fn then_the_extension() {
 }
 
 #[test]
-fn then_the_machine_then_the_content() {
+fn then_the_content_then_the_machine() {
     for name in ["a.nc", "a.tap", "a.txt", "a.gcode", "a", "a.", "", "a.7", "a.unheard"] {
         let name = Some(name);
+        let family = "the machine's control family sinumerik-840d";
+        is(&named(name, "G0 X1", Some("sinumerik-840d")), "sinumerik-840d", family);
         is(
-            named(name, "G43.4 H1", Some("sinumerik-840d")),
-            "sinumerik-840d",
-            "the machine's control family sinumerik-840d",
-        );
-        is(
-            named(name, "G43.4 H1", Some("generic")),
+            &named(name, "G43.4 H1", Some("sinumerik-840d")),
             "fanuc-30i",
             "content: G43.4 in line 1",
         );
         is(
-            named(name, "G0 X1", None),
+            &named(name, "G0 X1", Some("generic")),
+            "iso-6983",
+            "no sign of a particular control",
+        );
+        is(
+            &named(name, "G0 X1", None),
             "iso-6983",
             "no sign of a particular control",
         );
@@ -96,52 +94,67 @@ fn then_the_machine_then_the_content() {
 fn signs_in_the_content() {
     is(&content("%_N_PART_MPF\n"), "sinumerik-840d", "content: %_N_ in line 1");
     is(
-        content("G0 X1\nTRAORI\n"),
+        &content("G0 X1\nTRAORI\n"),
         "sinumerik-840d",
         "content: TRAORI in line 2",
     );
     is(
-        content("R1=5\nX=R1\n"),
+        &content("R1=5\nX=R1\n"),
         "sinumerik-840d",
         "content: a word with `=` in line 1",
     );
     is(
-        content("; roughing\nG1 X1 ; cut\n"),
-        "sinumerik-840d",
-        "content: a `;` comment in line 1",
+        &content("; roughing\nG1 X1 ; cut\n"),
+        "iso-6983",
+        "no sign of a particular control",
     );
     is(
-        content("%\nO0001 (PART)\nG0 X1\n"),
+        &content("G1 X1 (CIRCLE DIAMOND) ; TRAORI\nM5(R1=2)\n"),
+        "iso-6983",
+        "no sign of a particular control",
+    );
+    is(
+        &content("N10G54G710DIAMON\n"),
+        "sinumerik-840d",
+        "content: G710 in line 1",
+    );
+    is(
+        &content("%\nO0001 (PART)\nG0 X1\n"),
         "fanuc-30i",
         "content: a program number O in line 2",
     );
     is(
-        content("#1=5\nWHILE[#1 LT 9]DO1\nEND1\n"),
+        &content("#1=5\nWHILE[#1 LT 9]DO1\nEND1\n"),
         "fanuc-30i",
         "content: custom macro in line 2",
     );
     is(&content("o100 sub\n"), "linuxcnc", "content: an O-word in line 1");
     is(
-        content("o<move> call [1]\n"),
+        &content("o<move> call [1]\n"),
         "linuxcnc",
         "content: an O-word in line 1",
     );
     is(&content("G0 X#<x>\n"), "linuxcnc", "content: #< in line 1");
     is(
-        content("; note\no1 if [#1 GT 0]\n"),
+        &content("; note\no1 if [#1 GT 0]\n"),
         "linuxcnc",
         "content: an O-word in line 2",
     );
     is(
-        content("PARTNO / A\nGOTO / 1,2,3\n"),
+        &content("PARTNO / A\nGOTO / 1,2,3\n"),
         "apt",
         "content: PARTNO in line 1",
     );
     is(&content("$$ remark\n"), "apt", "content: a `$$` comment in line 1");
     is(
-        content("(TRAORI and R1=5)\nG0 X1\n"),
+        &content("(TRAORI and R1=5)\nG0 X1\n"),
         "iso-6983",
-        "no sign of a particular control",
+        "content: a comment in brackets in line 1",
+    );
+    is(
+        &content("/* Start */\nN0G5M3\n"),
+        "iso-6983",
+        "content: a `/*` comment in line 1",
     );
     is(&content(""), "iso-6983", "no sign of a particular control");
     is(&content("N10 GOTO 20\n"), "iso-6983", "no sign of a particular control");

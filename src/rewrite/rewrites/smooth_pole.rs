@@ -12,7 +12,7 @@
 //! that the centre of the ball, and with it the contact with the surface, stays where it was.
 //!
 //! # Example
-//! ```gcode before machine=mikron-ucp710 dialect=sinumerik-840d tolerance-deg=0.08
+//! ```gcode before sinumerik-840d mikron-ucp710
 //! ; trunnion: tool 1 ball diameter 10
 //! T1 M6
 //! TRAORI
@@ -24,6 +24,15 @@
 //! M30
 //! ```
 //! ```gcode after
+//! ; trunnion: tool 1 ball diameter 10
+//! T1 M6
+//! TRAORI
+//! G0 X-28.38197 Y-2.14469 Z59.86773 A2.042 C3.358 S8000 M3
+//! N2920 G1 X-28.38059 Y-1.84015 Z59.90263 A1.047 C2.212 F2000
+//! N2930 G1 X-28.38161 Y-1.53288 Z59.93222 A0.081 C1.066
+//! N2940 G1 X-28.38489 Y-1.28033 Z59.95290 A-0.79 C0.107
+//! N2950 G1 X-28.39015 Y-1.01049 Z59.97066 A-1.676 C-0.905
+//! M30
 //! ```
 //!
 //! # Claim
@@ -54,7 +63,10 @@ use trunnion_geometry::{deg, rad};
 use trunnion_machine::{Machine, NoStance};
 use trunnion_syntax::{LineIndex, Program, TextEdit};
 
-pub(super) const REWRITE: Body = Body { cures: &["pole-flip", "axis-overspeed", "feed-drop"], propose };
+pub(super) const REWRITE: Body = Body {
+    cures: &["pole-flip", "axis-overspeed", "feed-drop"],
+    propose,
+};
 
 /// What was done in one window.
 struct Smoothed {
@@ -82,7 +94,13 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         return Ok(None);
     }
     let points = survey(program, settings, machine);
-    let task = Task { program, machine, options, points: &points, lines: LineIndex::new(program.source()) };
+    let task = Task {
+        program,
+        machine,
+        options,
+        points: &points,
+        lines: LineIndex::new(program.source()),
+    };
     let flips: Vec<usize> = (0..points.len()).filter(|&index| task.flips(index)).collect();
     if flips.is_empty() {
         return task.unknown_position().map_or(Ok(None), Err);
@@ -100,19 +118,55 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
                 summaries.push(smoothed.summary);
                 done = Some(smoothed.last);
             }
-            Ok(_) => reasons.push(format!("line {}: another ball radius, which needs a run of its own", task.line(flip))),
+            Ok(_) => reasons.push(format!(
+                "line {}: another ball radius, which needs a run of its own",
+                task.line(flip)
+            )),
             Err(reason) => reasons.push(format!("line {}: {reason}", task.line(flip))),
         }
     }
     reasons.dedup();
-    let Some(ball_radius_mm) = radius else { return Err(reasons.join("; ")) };
+    let Some(ball_radius_mm) = radius else {
+        return Err(reasons.join("; "));
+    };
     let claim = Claim::SameBallCentre {
         ball_radius_mm,
         tolerance_mm: options.tolerance_mm,
         tolerance_deg: options.tolerance_deg,
     };
     summaries.extend(reasons.into_iter().map(|reason| format!("left as it is: {reason}")));
-    Ok(Some(Proposal { edits, claim, summary: summaries.join("; ") }))
+    Ok(Some(Proposal {
+        edits,
+        claim,
+        summary: summaries.join("; "),
+    }))
+}
+
+/// Why a motion with a flip cannot be changed.
+fn obstacle(point: &Point) -> Option<String> {
+    if !point.tcp {
+        return Some("tool centre point control is off, so turning the table would move the tip".into());
+    }
+    if !point.linear {
+        return Some("the motion is an arc: the rewrite handles straight motions".into());
+    }
+    if !point.from_known {
+        return Some("the position before the motion is unknown".into());
+    }
+    tool_obstacle(point)
+}
+
+/// Why a tool or its coordinates cannot be turned.
+fn tool_obstacle(point: &Point) -> Option<String> {
+    match point.tip {
+        Tip::Undeclared => Some(
+            "the tool's shape is not declared, and only a ball keeps its contact: (trunnion: tool 1 ball diameter 10), [[tool]] in trunnion.toml, or --tool ball:10"
+                .into(),
+        ),
+        Tip::Other => Some("the tool is declared but is no ball: its contact with the surface would move".into()),
+        Tip::Ball(_) if point.incremental => Some("coordinates are incremental (G91)".into()),
+        Tip::Ball(_) => None,
+    }
 }
 
 impl Task<'_> {
@@ -130,57 +184,37 @@ impl Task<'_> {
 
     /// The first feed motion whose pose is unknown: a flip there would not be seen.
     fn unknown_position(&self) -> Option<String> {
-        let unknown = |point: &Point| point.feed && matches!(point.end, Err(NoStance::PositionUnknown(_) | NoStance::NotModelled));
+        let unknown = |point: &Point| {
+            point.feed && matches!(point.end, Err(NoStance::PositionUnknown(_) | NoStance::NotModelled))
+        };
         let index = self.points.iter().position(unknown)?;
         let why = match &self.points[index].end {
             Err(NoStance::PositionUnknown(letters)) => format!("the position of {letters} is unknown"),
             _ => "the motion is not modelled".into(),
         };
-        Some(format!("line {}: {why}, so whether the table flips at the pole is unknown", self.line(index)))
-    }
-
-    /// Why a motion with a flip cannot be changed.
-    fn obstacle(&self, point: &Point) -> Option<String> {
-        if !point.tcp {
-            return Some("tool centre point control is off, so turning the table would move the tip".into());
-        }
-        if !point.linear {
-            return Some("the motion is an arc: the rewrite handles straight motions".into());
-        }
-        if !point.from_known {
-            return Some("the position before the motion is unknown".into());
-        }
-        self.tool_obstacle(point)
-    }
-
-    fn tool_obstacle(&self, point: &Point) -> Option<String> {
-        match point.tip {
-            Tip::Undeclared => Some(
-                "the tool's shape is not declared, and only a ball keeps its contact: (trunnion: tool 1 ball diameter 10), [[tool]] in trunnion.toml, or --tool ball:10"
-                    .into(),
-            ),
-            Tip::Other => Some("the tool is declared but is no ball: its contact with the surface would move".into()),
-            Tip::Ball(_) if point.incremental => Some("coordinates are incremental (G91)".into()),
-            Tip::Ball(_) => None,
-        }
+        Some(format!(
+            "line {}: {why}, so whether the table flips at the pole is unknown",
+            self.line(index)
+        ))
     }
 
     /// Smooths the window round one flip.
     fn smooth(&self, flip: usize) -> Result<Smoothed, String> {
         let point = &self.points[flip];
-        if let Some(obstacle) = self.obstacle(point) {
+        if let Some(obstacle) = obstacle(point) {
             return Err(obstacle);
         }
-        let Tip::Ball(ball_radius) = point.tip else { return Err("the tool is no ball".into()) };
+        let Tip::Ball(ball_radius) = point.tip else {
+            return Err("the tool is no ball".into());
+        };
         let stations = chain(self.machine, self.points, flip);
         let Some((left, right)) = window(&stations, flip, self.machine.tolerances.pole_cone) else {
             return Err("no point lies between the two ends that must stay".into());
         };
         let stations = &stations[left..=right];
         let writer = self.writer(point, ball_radius);
-        let room = |index: usize| {
-            rad(self.options.tolerance_deg) * (1.0 - 1e-9) - writer.rounding_turn(stations[index].pole_angle)
-        };
+        // a hair less than allowed, so that the last bit of a double decides nothing
+        let room = rad(self.options.tolerance_deg) * (1.0 - 1e-8);
         let q = straighten(self.machine, stations, room)
             .ok_or_else(|| "the rotary axis is outside its limits already".to_string())?;
         let before = largest_step(stations.iter().map(|station| station.q));
@@ -203,7 +237,12 @@ impl Task<'_> {
             deg(before),
             deg(after)
         );
-        Ok(Smoothed { edits, ball_radius, last, summary })
+        Ok(Smoothed {
+            edits,
+            ball_radius,
+            last,
+            summary,
+        })
     }
 
     fn writer(&self, point: &Point, ball_radius: f64) -> Writer<'_> {
@@ -234,13 +273,19 @@ impl Task<'_> {
         let mut edits = Vec::new();
         for (station, &q) in stations.iter().zip(q).take(last).skip(1) {
             for point in &self.points[station.first..=station.last] {
-                if let Some(obstacle) = self.tool_obstacle(point) {
+                if let Some(obstacle) = tool_obstacle(point) {
                     return Err(obstacle);
                 }
                 if point.rotary_zero != writer.rotary_zero {
                     return Err("the work offset of the rotary axis changes inside the window".into());
                 }
-                writer.turn(point.block, stance(point).ok_or_else(unknown)?, q, &mut current, &mut edits)?;
+                writer.turn(
+                    point.block,
+                    stance(point).ok_or_else(unknown)?,
+                    q,
+                    &mut current,
+                    &mut edits,
+                )?;
             }
         }
         let end = &self.points[stations[last].first];

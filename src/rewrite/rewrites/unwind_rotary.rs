@@ -5,7 +5,7 @@
 //! marks the part, in rapid it costs seconds and winds cables. `C361` is the same pose, two degrees away.
 //!
 //! # Example
-//! ```gcode before machine=mikron-ucp710 dialect=sinumerik-840d
+//! ```gcode before sinumerik-840d mikron-ucp710
 //! TRAORI
 //! G0 X10 Y0 Z50 A10 C350.000 S8000 M3
 //! N10 G1 X9 Y1 A10.5 C358.500 F1000
@@ -14,6 +14,12 @@
 //! M30
 //! ```
 //! ```gcode after
+//! TRAORI
+//! G0 X10 Y0 Z50 A10 C350.000 S8000 M3
+//! N10 G1 X9 Y1 A10.5 C358.500 F1000
+//! N20 X8 Y2 A11 C366.250
+//! N30 X7 Y3 A11.5 C374.000
+//! M30
 //! ```
 //!
 //! # Claim
@@ -41,7 +47,10 @@ use trunnion_geometry::deg;
 use trunnion_machine::{Limits, Machine};
 use trunnion_syntax::{Address, BlockId, LineIndex, Program, TextEdit, Value, Word};
 
-pub(super) const REWRITE: Body = Body { cures: &["axis-overspeed", "feed-drop", "path-deviation"], propose };
+pub(super) const REWRITE: Body = Body {
+    cures: &["axis-overspeed", "feed-drop", "path-deviation"],
+    propose,
+};
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
     let Some(machine) = settings.machine else {
@@ -60,12 +69,23 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         }
     }
     if edits.is_empty() {
-        return if reasons.is_empty() { Ok(None) } else { Err(reasons.join("; ")) };
+        return if reasons.is_empty() {
+            Ok(None)
+        } else {
+            Err(reasons.join("; "))
+        };
     }
     edits.sort_by_key(|edit| edit.range.start);
     summaries.extend(reasons.into_iter().map(|reason| format!("left as it is: {reason}")));
-    let claim = Claim::SamePoses { tolerance_mm: options.tolerance_mm, tolerance_deg: options.tolerance_deg };
-    Ok(Some(Proposal { edits, claim, summary: summaries.join("; ") }))
+    let claim = Claim::SamePoses {
+        tolerance_mm: options.tolerance_mm,
+        tolerance_deg: options.tolerance_deg,
+    };
+    Ok(Some(Proposal {
+        edits,
+        claim,
+        summary: summaries.join("; "),
+    }))
 }
 
 /// Edits for one rotary axis. `Ok(None)`: it never jumps.
@@ -77,9 +97,13 @@ fn unwind(
 ) -> Result<Option<(Vec<TextEdit>, String)>, String> {
     let axis = &machine.axes[joint];
     let letter = axis.letter;
-    let Some(column) = letter.checked_sub(b'A').map(usize::from).filter(|&column| column < 3) else { return Ok(None) };
-    let known: Vec<(BlockId, f64)> =
-        motions.iter().filter_map(|motion| Some((motion.block, motion.rotary[column]?))).collect();
+    let Some(column) = letter.checked_sub(b'A').map(usize::from).filter(|&column| column < 3) else {
+        return Ok(None);
+    };
+    let known: Vec<(BlockId, f64)> = motions
+        .iter()
+        .filter_map(|motion| Some((motion.block, motion.rotary[column]?)))
+        .collect();
     let values: Vec<f64> = known.iter().map(|&(_, value)| value).collect();
     let as_written = vec![0; values.len()];
     let before = long_way_steps(&values, &as_written);
@@ -95,20 +119,34 @@ fn unwind(
     let turns = unwrap(&values, limits);
     let after = long_way_steps(&values, &turns);
     if after >= before {
-        return Err(format!("{name} turns the long way round {before} times, and its limits leave no other way"));
+        return Err(format!(
+            "{name} turns the long way round {before} times, and its limits leave no other way"
+        ));
     }
     let mut edits = Vec::new();
     let mut last_edited = None;
     for (&(block, _), &turns) in known.iter().zip(&turns) {
         let word = words(program, block, letter).next();
-        let (Some(word), true) = (word, turns != 0 && last_edited != Some(block)) else { continue };
+        let (Some(word), true) = (word, turns != 0 && last_edited != Some(block)) else {
+            continue;
+        };
         let text = program.text(word.value_range);
-        let new_text = add_whole(&text, 360 * turns)
-            .ok_or_else(|| format!("line {}: {name}{text} is not a plain decimal number", line(program, block)))?;
-        edits.push(TextEdit { range: word.value_range, new_text });
+        let new_text = add_whole(&text, 360 * turns).ok_or_else(|| {
+            format!(
+                "line {}: {name}{text} is not a plain decimal number",
+                line(program, block)
+            )
+        })?;
+        edits.push(TextEdit {
+            range: word.value_range,
+            new_text,
+        });
         last_edited = Some(block);
     }
-    let summary = format!("{name}: {} of {before} turns of more than 180 deg now take the short way", before - after);
+    let summary = format!(
+        "{name}: {} of {before} turns of more than 180 deg now take the short way",
+        before - after
+    );
     Ok(Some((edits, summary)))
 }
 
@@ -116,18 +154,27 @@ fn unwind(
 fn refuse_what_is_not_literal(program: &Program, letter: u8, motions: &[ProgrammedMotion]) -> Result<(), String> {
     let name = char::from(letter);
     if let Some(motion) = motions.iter().find(|motion| motion.vector) {
-        return Err(format!("line {}: tool vectors are programmed, so the control chooses the turns", line(program, motion.block)));
+        return Err(format!(
+            "line {}: tool vectors are programmed, so the control chooses the turns",
+            line(program, motion.block)
+        ));
     }
     for motion in motions.iter().filter(|motion| motion.incremental) {
         if words(program, motion.block, letter).next().is_some() {
-            return Err(format!("line {}: {name} is incremental (G91)", line(program, motion.block)));
+            return Err(format!(
+                "line {}: {name} is incremental (G91)",
+                line(program, motion.block)
+            ));
         }
     }
     for block in program.blocks() {
         for word in words(program, block.id(), letter) {
             if !matches!(word.value, Value::Number(_)) {
                 let text = program.text(word.range);
-                return Err(format!("line {}: {text} is not a plain number", line(program, block.id())));
+                return Err(format!(
+                    "line {}: {text} is not a plain number",
+                    line(program, block.id())
+                ));
             }
         }
         if words(program, block.id(), letter).count() > 1 {
@@ -139,9 +186,14 @@ fn refuse_what_is_not_literal(program: &Program, letter: u8, motions: &[Programm
 
 /// The words of an axis in a block.
 fn words(program: &Program, block: BlockId, letter: u8) -> impl Iterator<Item = Word> {
-    program.block(block).words().filter(move |word| word.address == Address::Letter(letter))
+    program
+        .block(block)
+        .words()
+        .filter(move |word| word.address == Address::Letter(letter))
 }
 
 fn line(program: &Program, block: BlockId) -> u32 {
-    LineIndex::new(program.source()).line_column(program.source(), program.block(block).range().start).0
+    LineIndex::new(program.source())
+        .line_column(program.source(), program.block(block).range().start)
+        .0
 }

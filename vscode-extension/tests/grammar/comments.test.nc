@@ -3,7 +3,7 @@ N1 (tool 1, G0) G1 (left open
 ;  ^^^^^^^^^^^^ comment.block.parentheses.gcode
 ;               ^^ keyword.control.motion.gcode
 ;                  ^^^^^^^^^^ comment.block.parentheses.gcode
-; an open bracket ends with its line
+; the line after an open bracket is code again
 G0 X1 ; the rest G1
 ;<-- keyword.control.motion.gcode
 ;     ^^^^^^^^^^^^^ comment.line.semicolon.gcode

@@ -7,10 +7,10 @@ use trunnion_interp::{
 use trunnion_syntax::{Program, parse};
 
 #[derive(Default)]
-pub struct Log {
-    pub motions: Vec<Motion>,
-    pub faults: Vec<Fault>,
-    pub state: Option<ModalState>,
+pub(crate) struct Log {
+    pub(crate) motions: Vec<Motion>,
+    pub(crate) faults: Vec<Fault>,
+    pub(crate) state: Option<ModalState>,
 }
 
 impl Sink for Log {
@@ -25,7 +25,7 @@ impl Sink for Log {
     }
 }
 
-pub fn run_bytes(dialect: &str, source: &[u8], setup: &Setup) -> (Program, Log) {
+pub(crate) fn run_bytes(dialect: &str, source: &[u8], setup: &Setup) -> (Program, Log) {
     let dialect = builtin(dialect).expect("a built-in dialect");
     let program = parse(source.to_vec(), dialect.lex);
     let mut log = Log::default();
@@ -34,19 +34,19 @@ pub fn run_bytes(dialect: &str, source: &[u8], setup: &Setup) -> (Program, Log) 
 }
 
 /// Without a program end, so that tests need none: that fault is left out.
-pub fn run_text(dialect: &str, source: &str) -> Log {
+pub(crate) fn run_text(dialect: &str, source: &str) -> Log {
     let mut log = run_bytes(dialect, source.as_bytes(), &Setup::default()).1;
     log.faults.retain(|fault| fault.kind != FaultKind::MissingProgramEnd);
     log
 }
 
-pub fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.6}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-pub fn position(position: &Position) -> String {
+pub(crate) fn position(position: &Position) -> String {
     let mut text = String::new();
     for (axis, &letter) in AXIS_LETTERS.iter().enumerate() {
         if let Some(value) = position.get(axis) {
@@ -63,7 +63,7 @@ pub fn position(position: &Position) -> String {
 }
 
 /// `L X1 Y2 F100 tcp <0 0 1>`: kind, end, feed, what else is in force.
-pub fn line(motion: &Motion) -> String {
+pub(crate) fn line(motion: &Motion) -> String {
     let mut text = match motion.kind {
         MotionKind::Rapid => "R".to_owned(),
         MotionKind::Linear => "L".to_owned(),
@@ -101,11 +101,11 @@ pub fn line(motion: &Motion) -> String {
     text
 }
 
-pub fn lines(dialect: &str, source: &str) -> Vec<String> {
+pub(crate) fn lines(dialect: &str, source: &str) -> Vec<String> {
     run_text(dialect, source).motions.iter().map(line).collect()
 }
 
-pub fn faults(dialect: &str, source: &str) -> Vec<String> {
+pub(crate) fn faults(dialect: &str, source: &str) -> Vec<String> {
     let (program, log) = run_bytes(dialect, source.as_bytes(), &Setup::default());
     let end = FaultKind::MissingProgramEnd;
     log.faults
@@ -115,7 +115,7 @@ pub fn faults(dialect: &str, source: &str) -> Vec<String> {
         .collect()
 }
 
-pub fn fault_line(program: &Program, fault: &Fault) -> String {
+pub(crate) fn fault_line(program: &Program, fault: &Fault) -> String {
     format!(
         "{}: {}: {:?}",
         fault.block.0 + 1,
@@ -125,7 +125,7 @@ pub fn fault_line(program: &Program, fault: &Fault) -> String {
 }
 
 /// A file of the shared data; `None`, said aloud, where it is not there.
-pub fn shared(path: &str) -> Option<Vec<u8>> {
+pub(crate) fn shared(path: &str) -> Option<Vec<u8>> {
     let file = format!("{}/../../../shared/data/{path}", env!("CARGO_MANIFEST_DIR"));
     std::fs::read(&file)
         .map_err(|error| eprintln!("skipped: {path}: {error}"))

@@ -10,7 +10,11 @@ fn records(program: &Program) -> String {
         AptArg::Other(range) => format!("[{}]", text(range)),
     };
     let record = |block: trunnion_syntax::Block<'_>| match block.record() {
-        Some(record) => format!("{}/{}", text(record.major), record.args().map(argument).collect::<Vec<_>>().join(",")),
+        Some(record) => format!(
+            "{}/{}",
+            text(record.major),
+            record.args().map(argument).collect::<Vec<_>>().join(",")
+        ),
         None => String::new(),
     };
     program.blocks().map(record).collect::<Vec<_>>().join(" | ")
@@ -30,16 +34,36 @@ fn statements() {
         ("GOTO / 1, -2.5E-3,+.5\n", "GOTO/1,-0.0025,0.5", ""),
         ("goto/1,2,3,0,0,1", "goto/1,2,3,0,0,1", ""),
         ("RAPID\nRAPID/\nFINI ", "RAPID/ | RAPID/ | FINI/", ""),
-        ("CIRCLE / 1, 2,  $\r\n3, 4 $ more\n ,5\nGOTO/6", "CIRCLE/1,2,3,4,5 | GOTO/6", ""),
+        (
+            "CIRCLE / 1, 2,  $\r\n3, 4 $ more\n ,5\nGOTO/6",
+            "CIRCLE/1,2,3,4,5 | GOTO/6",
+            "",
+        ),
         ("SPINDL / RPM, 100.5,  CLW", "SPINDL/RPM,100.5,CLW", ""),
-        ("CYCLE/DEEP2,FEDTO,9.0,1STPECK,5.", "CYCLE/DEEP2,FEDTO,9.0,1STPECK,5.", ""),
+        (
+            "CYCLE/DEEP2,FEDTO,9.0,1STPECK,5.",
+            "CYCLE/DEEP2,FEDTO,9.0,1STPECK,5.",
+            "",
+        ),
         ("GOTO/- 5, + .5", "GOTO/-5,0.5", ""),
-        ("PARTNO / MFG0004 A, $$ B\nPPRINT", "PARTNO/[MFG0004 A, $$ B] | PPRINT/", ""),
-        ("PARTNO MY PART\nINSERT/Stock X30. (\nREMARK", "PARTNO/[MY PART] | INSERT/[Stock X30. (] | REMARK/", ""),
+        (
+            "PARTNO / MFG0004 A, $$ B\nPPRINT",
+            "PARTNO/[MFG0004 A, $$ B] | PPRINT/",
+            "",
+        ),
+        (
+            "PARTNO MY PART\nINSERT/Stock X30. (\nREMARK",
+            "PARTNO/[MY PART] | INSERT/[Stock X30. (] | REMARK/",
+            "",
+        ),
         ("$$ comment $\nGOTO/1 $$ end", " | GOTO/1", ""),
         ("$$-> CSYS / 1.0,  $\n   0.0, $\n 2.0\nGOTO/1", " | GOTO/1", ""),
         ("\n\n", " | ", ""),
-        ("TOOL PATH/MILL,TOOL,M1\nEND-OF-PATH", "TOOL PATH/MILL,TOOL,M1 | END-OF-PATH/", ""),
+        (
+            "TOOL PATH/MILL,TOOL,M1\nEND-OF-PATH",
+            "TOOL PATH/MILL,TOOL,M1 | END-OF-PATH/",
+            "",
+        ),
         ("P1 = POINT/1,2,3\nA = 5", "POINT/1,2,3 | A/[=],5", ""),
         ("L1=LINE/(POINT/1,(2)),P2", "LINE/[(POINT/1,(2))],P2", ""),
         ("LAB1) GOTO/1", "GOTO/1", ""),

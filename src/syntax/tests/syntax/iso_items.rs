@@ -24,7 +24,12 @@ fn words() {
         (CORE, "\n\n", " | ", ""),
         (CORE, "G1\r\nX2\rX3\n", "G=1 | X=2 | X=3", ""),
         (CORE, "\u{feff}G1", "G=1", ""),
-        (CORE, "X5\u{feff}", "X=5 other[\u{feff}]", "UnexpectedCharacter[\u{feff}]"),
+        (
+            CORE,
+            "X5\u{feff}",
+            "X=5 other[\u{feff}]",
+            "UnexpectedCharacter[\u{feff}]",
+        ),
         (CORE, "G1 X1 \u{1a}", "G=1 X=1", ""),
     ]);
 }
@@ -39,7 +44,12 @@ fn broken_words() {
         (CORE, "X. Y5", "X=!. Y=5", "BadNumber[.]"),
         (CORE, "X- Y5", "X=!- Y=5", "BadNumber[-]"),
         (CORE, "X--5 Y5", "X=!--5 Y=5", "BadNumber[--5]"),
-        (CORE, "X12345678901234567890", "X=!12345678901234567890", "BadNumber[12345678901234567890]"),
+        (
+            CORE,
+            "X12345678901234567890",
+            "X=!12345678901234567890",
+            "BadNumber[12345678901234567890]",
+        ),
         (CORE, "X1.0000000000000000000000", "X=1.", ""),
         (CORE, "X1,5 Y2", "X=!1,5 Y=2", "DecimalComma[1,5]"),
         (CORE, "X=1,5 Y2", "X=!1,5 Y=2", "DecimalComma[1,5]"),
@@ -57,32 +67,71 @@ fn broken_words() {
         (CORE, "X1)", "X=1 other[)]", "UnbalancedBracket[)]"),
         (CORE, "X1 [2]", "X=1 other[[2]]", "UnexpectedCharacter[[]"),
         (CORE, "X1, Y2", "X=1 <, Y>=2", ""),
-        (CORE, "X1 , 5", "X=1 other[,] other[5]", "UnexpectedCharacter[,] NumberWithoutLetter[5]"),
+        (
+            CORE,
+            "X1 , 5",
+            "X=1 other[,] other[5]",
+            "UnexpectedCharacter[,] NumberWithoutLetter[5]",
+        ),
     ]);
 }
 
 #[test]
 fn comments() {
     check(&[
-        (CORE, "G1 (rough) X1 ; rest (x", "G=1 comment[rough] X=1 comment[ rest (x]", ""),
+        (
+            CORE,
+            "G1 (rough) X1 ; rest (x",
+            "G=1 comment[rough] X=1 comment[ rest (x]",
+            "",
+        ),
         (CORE, "X1(a)Y2", "X=1 comment[a] Y=2", ""),
         (CORE, "/* start\nX1 */ X2\nX3", "comment[ start\nX1 ] X=2 | X=3", ""),
         (CORE, "G1 /**/ X2", "G=1 comment[] X=2", ""),
-        (CORE, "G1 (open\nX2", "G=1 comment[open] | X=2", "UnclosedComment[(open]"),
-        (CORE, "G1 /* open\nX2", "G=1 comment[ open\nX2]", "UnclosedComment[/* open\nX2]"),
+        (
+            CORE,
+            "G1 (open\nX2",
+            "G=1 comment[open] | X=2",
+            "UnclosedComment[(open]",
+        ),
+        (
+            CORE,
+            "G1 /* open\nX2",
+            "G=1 comment[ open\nX2]",
+            "UnclosedComment[/* open\nX2]",
+        ),
         (CORE, "/*/ X2", "comment[/ X2]", "UnclosedComment[/*/ X2]"),
-        (CORE, "(a (b) c) X1", "comment[a (b] call:c other[)] X=1", "NestedComment[(]"),
+        (
+            CORE,
+            "(a (b) cc) X1",
+            "comment[a (b] call:cc other[)] X=1",
+            "NestedComment[(]",
+        ),
         (CORE, "( commi;ent)", "comment[ commi;ent]", ""),
         (CORE, "; (x", "comment[ (x]", ""),
         (FANUC, "G1 X1 ;", "G=1 X=1", ""),
         (FANUC, "G1 ; X1", "G=1 comment[ X1]", "UnexpectedCharacter[;]"),
-        (FANUC, "/* start */ G1", "comment[ start ] G=1", "UnexpectedCharacter[/*]"),
-        (FANUC, "/* start\nG1", "comment[ start] | G=1", "UnexpectedCharacter[/*] UnclosedComment[/* start]"),
+        (
+            FANUC,
+            "/* start */ G1",
+            "comment[ start ] G=1",
+            "UnexpectedCharacter[/*]",
+        ),
+        (
+            FANUC,
+            "/* start\nG1",
+            "comment[ start] | G=1",
+            "UnexpectedCharacter[/*] UnclosedComment[/* start]",
+        ),
         (CORE, "X[1 (one) + 2]", "X={[1 (one) + 2]}", ""),
         (CORE, "(\u{fc}ber)", "comment[\u{fc}ber]", ""),
     ]);
     let inside = program("X[1 (one) + 2] (two)", CORE);
-    let all: Vec<_> = inside.blocks().flat_map(|block| block.comments()).map(|each| inside.text(each.inner)).collect();
+    let all: Vec<_> = inside
+        .blocks()
+        .flat_map(|block| block.comments())
+        .map(|each| inside.text(each.inner))
+        .collect();
     assert_eq!(all, ["one", "two"]);
 }
 
@@ -90,7 +139,12 @@ fn comments() {
 fn marks() {
     check(&[
         (CORE, "%", "percent[%]", ""),
-        (CORE, "%_N_2.5D-PART_MPF ; c", "percent[%_N_2.5D-PART_MPF] comment[ c]", ""),
+        (
+            CORE,
+            "%_N_2.5D-PART_MPF ; c",
+            "percent[%_N_2.5D-PART_MPF] comment[ c]",
+            "",
+        ),
         (CORE, "% MPF 100", "percent[% MPF 100]", ""),
         (CORE, "M30 %", "M=30 percent[%]", ""),
         (CORE, "M30 % X5", "M=30 percent[%] X=5", "UnexpectedCharacter[%]"),
@@ -104,8 +158,14 @@ fn marks() {
         (SINUMERIK, "LAST_CUT:", "label[LAST_CUT:]", ""),
         (SINUMERIK, "N120 _MM1: G1 Z10", "N=120 label[_MM1:] G=1 Z=10", ""),
         (SINUMERIK, "LBL1: X5", "label[LBL1:] X=5", ""),
+        (SINUMERIK, "GOTO1=5 DO2=6", "<GOTO1>=5 <DO2>=6", ""),
         (CORE, "G1 X5*57", "G=1 X=5 other[*57]", ""),
-        (CORE, "X1 : 5", "X=1 other[:] other[5]", "UnexpectedCharacter[:] NumberWithoutLetter[5]"),
+        (
+            CORE,
+            "X1 : 5",
+            "X=1 other[:] other[5]",
+            "UnexpectedCharacter[:] NumberWithoutLetter[5]",
+        ),
     ]);
 }
 
@@ -119,29 +179,66 @@ fn assignments() {
         (SINUMERIK, "C=DC(90) B=ACP( -.5 )", "C=DC(90) B=ACP(-0.5)", ""),
         (SINUMERIK, "C=DC(R1) B=IC(5)*2", "C={DC(R1)} B={IC(5)*2}", ""),
         (SINUMERIK, "T=\"DRILL\" D1", "T=\"DRILL\" D=1", ""),
-        (SINUMERIK, "T2=\"PARTOFF\" M1=4 S1=900", "T[2]=\"PARTOFF\" M[1]=4 S[1]=900", ""),
+        (
+            SINUMERIK,
+            "T2=\"PARTOFF\" M1=4 S1=900",
+            "T[2]=\"PARTOFF\" M[1]=4 S[1]=900",
+            "",
+        ),
         (SINUMERIK, "R1=5 R2=-5", "R[1]=5 R[2]=-5", ""),
         (SINUMERIK, "R7=R4-1", "R[7]={R4-1}", ""),
-        (SINUMERIK, "R6=360./R3 R9=R1*COS(R8)", "R[6]={360./R3} R[9]={R1*COS(R8)}", ""),
+        (
+            SINUMERIK,
+            "R6=360./R3 R9=R1*COS(R8)",
+            "R[6]={360./R3} R[9]={R1*COS(R8)}",
+            "",
+        ),
         (SINUMERIK, "R99999=1", "<R99999>=1", ""),
         (SINUMERIK, "R[R2+1]=3", "<R[R2+1]>=3", ""),
         (SINUMERIK, "VAR5[R2]=R2*2", "<VAR5[R2]>={R2*2}", ""),
-        (SINUMERIK, "MX1=5 _X_HOME=0 SPOS[1]=90", "<MX1>=5 <_X_HOME>=0 <SPOS[1]>=90", ""),
+        (
+            SINUMERIK,
+            "MX1=5 _X_HOME=0 SPOS[1]=90",
+            "<MX1>=5 <_X_HOME>=0 <SPOS[1]>=90",
+            "",
+        ),
         (SINUMERIK, "_X=$P_AXN1", "<_X>={$P_AXN1}", ""),
         (SINUMERIK, "R1=1.5EX-3 R2='HFF'", "R[1]={1.5EX-3} R[2]={'HFF'}", ""),
-        (SINUMERIK, "X=-R1 Y=NOT R2 AND 1 Z=3", "X={-R1} Y={NOT R2 AND 1} Z=3", ""),
+        (
+            SINUMERIK,
+            "X=-R1 Y=NOT R2 AND 1 Z=3",
+            "X={-R1} Y={NOT R2 AND 1} Z=3",
+            "",
+        ),
         (SINUMERIK, "R1=5==R2", "R[1]={5==R2}", ""),
         (CORE, "#1=5 #2 = #1+1.5 #3=-2", "<#1>=5 <#2>={#1+1.5} <#3>=-2", ""),
         (CORE, "#<name> = [#1 * 2] (c)", "<#<name>>={[#1 * 2]} comment[c]", ""),
-        (CORE, "#149=#[FUP[#[ROUND[#148]]]]", "<#149>={#[FUP[#[ROUND[#148]]]]}", ""),
+        (
+            CORE,
+            "#149=#[FUP[#[ROUND[#148]]]]",
+            "<#149>={#[FUP[#[ROUND[#148]]]]}",
+            "",
+        ),
         (CORE, "##1=5 #[#1+2]=6", "<##1>=5 <#[#1+2]>=6", ""),
-        (CORE, "X= Y2", "X={Y2}", ""),
+        (CORE, "X= Y2", "X=? Y=2", "MissingValue[=]"),
+        (
+            CORE,
+            "X= Y=2 R1=R2=3",
+            "X=? Y=2 R[1]=? R[2]=3",
+            "MissingValue[=] MissingValue[=]",
+        ),
+        (CORE, "X=Y2 R1 = R2 + R3", "X={Y2} R[1]={R2 + R3}", ""),
         (CORE, "X=", "X=?", "MissingValue[=]"),
         (CORE, "#1=#2+", "<#1>={#2+}", "MissingValue[+]"),
         (CORE, "#1=--", "<#1>={--}", "MissingValue[-]"),
         (CORE, "#1=[#2+]", "<#1>={[#2+]}", "MissingValue[+]"),
         (CORE, "#1=[]", "<#1>={[]}", "MissingValue[[]"),
-        (CORE, "#1=[#2+[3] (c)", "<#1>={[#2+[3]} comment[c]", "UnbalancedBracket[[]"),
+        (
+            CORE,
+            "#1=[#2+[3] (c)",
+            "<#1>={[#2+[3]} comment[c]",
+            "UnbalancedBracket[[]",
+        ),
         (CORE, "#1=[1)] X2", "<#1>={[1)]} X=2", "UnbalancedBracket[)]"),
         (CORE, "#=5", "<#>=5", "MissingValue[#]"),
         (CORE, "#1 X5", "other[#1] X=5", "UnexpectedCharacter[#1]"),
@@ -156,7 +253,12 @@ fn letters_with_expressions() {
         (CORE, "X[1+2]Y[-#2]F[20/3.14]", "X={[1+2]} Y={[-#2]} F={[20/3.14]}", ""),
         (CORE, "G1X[#<a> - 1]Z5", "G=1 X={[#<a> - 1]} Z=5", ""),
         (CORE, "x#<_ini[vars]x> y##2", "X={#<_ini[vars]x>} Y={##2}", ""),
-        (CORE, "X sqrt[2] Y-sin[30] Z EXISTS[#1]", "X={sqrt[2]} Y={-sin[30]} Z={EXISTS[#1]}", ""),
+        (
+            CORE,
+            "X sqrt[2] Y-sin[30] Z EXISTS[#1]",
+            "X={sqrt[2]} Y={-sin[30]} Z={EXISTS[#1]}",
+            "",
+        ),
         (CORE, "X ATAN[1]/[2] Y1", "X={ATAN[1]/[2]} Y=1", ""),
         (CORE, "XSIN[30]", "X={SIN[30]}", ""),
         (CORE, "T#3 ^[360/17]", "T={#3} ^={[360/17]}", ""),
@@ -171,7 +273,12 @@ fn letters_with_expressions() {
 fn o_words() {
     check(&[
         (CORE, "o100 sub", "O=100 call:sub", ""),
-        (CORE, "O<slot-0> call [1] [#2] (c)", "O={<slot-0>} call:call([1] [#2]) comment[c]", ""),
+        (
+            CORE,
+            "O<slot-0> call [1] [#2] (c)",
+            "O={<slot-0>} call:call([1] [#2]) comment[c]",
+            "",
+        ),
         (CORE, "o#<sub> call", "O={#<sub>} call:call", ""),
         (CORE, "O[#2 * 10] call", "O={[#2 * 10]} call:call", ""),
         (CORE, "o1 if [#1 GT 0] AND [#2]", "O=1 call:if([#1 GT 0] AND [#2])", ""),
@@ -184,17 +291,42 @@ fn o_words() {
 fn names() {
     check(&[
         (SINUMERIK, "TRAORI", "call:TRAORI", ""),
-        (SINUMERIK, "CYCLE800(1,\"X\",,2) X1", "call:CYCLE800(1,\"X\",,2) X=1", ""),
+        (
+            SINUMERIK,
+            "CYCLE800(1,\"X\",,2) X1",
+            "call:CYCLE800(1,\"X\",,2) X=1",
+            "",
+        ),
         (SINUMERIK, "CYCLE800()", "call:CYCLE800()", ""),
-        (SINUMERIK, "MCALL CYCLE81 (52,(1+2),)", "call:MCALL call:CYCLE81(52,(1+2),)", ""),
+        (
+            SINUMERIK,
+            "MCALL CYCLE81 (52,(1+2),)",
+            "call:MCALL call:CYCLE81(52,(1+2),)",
+            "",
+        ),
         (SINUMERIK, "MSG(\"a;b\") ;c", "call:MSG(\"a;b\") comment[c]", ""),
         (SINUMERIK, "CYCLE81(1,2", "call:CYCLE81(1,2)", "UnbalancedBracket[(]"),
         (SINUMERIK, "CALL \"PROBE\" X1", "call:CALL(\"PROBE\") X=1", ""),
         (SINUMERIK, "G0 SUPA Z=_Z_HOME D0", "G=0 call:SUPA Z={_Z_HOME} D=0", ""),
-        (SINUMERIK, "DEF REAL A_B=1, C_D=2 ; x", "call:DEF(REAL A_B=1, C_D=2) comment[ x]", ""),
-        (SINUMERIK, "PROC GROOVE(REAL XBOT, INT P)", "call:PROC(GROOVE(REAL XBOT, INT P))", ""),
+        (
+            SINUMERIK,
+            "DEF REAL A_B=1, C_D=2 ; x",
+            "call:DEF(REAL A_B=1, C_D=2) comment[ x]",
+            "",
+        ),
+        (
+            SINUMERIK,
+            "PROC GROOVE(REAL XBOT, INT P)",
+            "call:PROC(GROOVE(REAL XBOT, INT P))",
+            "",
+        ),
         (SINUMERIK, "FOR R1=1 TO 20", "call:FOR(R1=1 TO 20)", ""),
-        (SINUMERIK, "IF XNOW<=XBOT GOTOF LAST_CUT", "call:IF(XNOW<=XBOT) call:GOTOF(LAST_CUT)", ""),
+        (
+            SINUMERIK,
+            "IF XNOW<=XBOT GOTOF LAST_CUT",
+            "call:IF(XNOW<=XBOT) call:GOTOF(LAST_CUT)",
+            "",
+        ),
         (SINUMERIK, "IF (TYPTH)", "call:IF((TYPTH))", ""),
         (SINUMERIK, "WHILE R7<R3", "call:WHILE(R7<R3)", ""),
         (CORE, "IF[#150 EQ 2]GOTO900", "call:IF([#150 EQ 2]) call:GOTO(900)", ""),
@@ -208,13 +340,21 @@ fn names() {
         (CORE, "DPRNT[X#500[53]]", "call:DPRNT([X#500[53]])", ""),
         (CORE, "CYCLE800 (comment)", "call:CYCLE800 comment[comment]", ""),
         (SINUMERIK, "N10G18G90G95 DIAMON", "N=10 G=18 G=90 G=95 call:DIAMON", ""),
-        (SINUMERIK, "ID=1 WHENEVER $AA_IM[X]>5 DO M3", "<ID>=1 call:WHENEVER($AA_IM[X]>5) call:DO M=3", ""),
+        (
+            SINUMERIK,
+            "ID=1 WHENEVER $AA_IM[X]>5 DO M3",
+            "<ID>=1 call:WHENEVER($AA_IM[X]>5) call:DO M=3",
+            "",
+        ),
     ]);
 }
 
 #[test]
 fn block_numbers_are_found_behind_block_delete() {
     let program = program("/2 N2930 G1\n(c) N5.5\nG1 N10\nNX5\n\n", CORE);
-    let numbers: Vec<_> = program.blocks().map(|block| block.number().map(|range| program.text(range))).collect();
+    let numbers: Vec<_> = program
+        .blocks()
+        .map(|block| block.number().map(|range| program.text(range)))
+        .collect();
     assert_eq!(numbers, [Some("N2930".into()), Some("N5.5".into()), None, None, None]);
 }

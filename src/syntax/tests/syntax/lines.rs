@@ -18,7 +18,9 @@ fn all_line_ends_count() {
 fn columns_count_characters() {
     let text = "aä€😀b".as_bytes();
     let index = LineIndex::new(text);
-    let columns: Vec<u32> = (0..=text.len() as u32).map(|at| index.line_column(text, at).1).collect();
+    let columns: Vec<u32> = (0..=text.len() as u32)
+        .map(|at| index.line_column(text, at).1)
+        .collect();
     assert_eq!(columns, [1, 2, 2, 3, 3, 3, 4, 4, 4, 4, 5, 6]);
     let broken = b"\xE4\xF6x\xE2\x82";
     let index = LineIndex::new(broken);

@@ -5,11 +5,15 @@ use trunnion_syntax::{BlockId, Item, Program, TextRange, TokenKind, parse};
 
 fn inside(program: &Program, outer: TextRange, range: TextRange, what: &str) {
     let ordered = outer.start <= range.start && range.start <= range.end && range.end <= outer.end;
-    assert!(ordered, "{what} {range:?} inside {outer:?} of {:?}", program.text(outer));
+    assert!(
+        ordered,
+        "{what} {range:?} inside {outer:?} of {:?}",
+        program.text(outer)
+    );
 }
 
 /// All promises about ranges, on one program.
-pub fn check(program: &Program) {
+pub(crate) fn check(program: &Program) {
     let length = program.source().len() as u32;
     let mut at = 0;
     for id in 0..program.tokens().len() as u32 {
@@ -43,7 +47,10 @@ fn blocks(program: &Program) {
         for item in block.items() {
             let (whole, parts) = ranges(item);
             inside(program, range, whole, "item");
-            assert!(whole.start >= reached && whole.end > whole.start, "items follow each other: {item:?}");
+            assert!(
+                whole.start >= reached && whole.end > whole.start,
+                "items follow each other: {item:?}"
+            );
             reached = whole.end;
             for part in parts.into_iter().flatten() {
                 inside(program, whole, part, "part of an item");
@@ -63,7 +70,9 @@ fn blocks(program: &Program) {
             }
         }
         let _ = block.number();
-        block.comments().for_each(|comment| inside(program, comment.range, comment.inner, "inner text"));
+        block
+            .comments()
+            .for_each(|comment| inside(program, comment.range, comment.inner, "inner text"));
     }
     assert_eq!(at, program.source().len() as u32, "the blocks reach the end");
 }
@@ -71,7 +80,11 @@ fn blocks(program: &Program) {
 fn ranges(item: Item) -> (TextRange, [Option<TextRange>; 2]) {
     match item {
         Item::Word(word) => {
-            let address = if let trunnion_syntax::Address::Named(range) = word.address { Some(range) } else { None };
+            let address = if let trunnion_syntax::Address::Named(range) = word.address {
+                Some(range)
+            } else {
+                None
+            };
             (word.range, [Some(word.value_range), address])
         }
         Item::Call(call) => (call.range, [Some(call.name), call.arguments]),
@@ -81,14 +94,14 @@ fn ranges(item: Item) -> (TextRange, [Option<TextRange>; 2]) {
 }
 
 /// Checks one text under all options.
-pub fn check_all(source: &[u8]) {
+pub(crate) fn check_all(source: &[u8]) {
     for options in [CORE, SINUMERIK, FANUC, NGC, APT] {
         check(&parse(source.to_vec(), options));
     }
 }
 
 /// Texts made of the pieces that mean something together.
-pub fn pieces() -> impl Strategy<Value = Vec<u8>> {
+pub(crate) fn pieces() -> impl Strategy<Value = Vec<u8>> {
     let piece = prop_oneof![
         4 => proptest::sample::select(vec![
             "G1", "X1.5", "Y-.5", " ", "\n", "\r\n", "\r", "(", ")", "[", "]", "#", "#<a>", "=", "+", "-", "*", "/", "%", ":",
@@ -116,7 +129,9 @@ proptest! {
 
 #[test]
 fn deep_nesting_and_long_lines_take_linear_time_and_no_stack() {
-    for piece in ["[", "(", "#", "#<", "X[", "AB1", "-", "GOTO1", "/*", ")", "%", "X ", "'", "$", "GOTO/(", "1,", "o<", "IF1"] {
+    for piece in [
+        "[", "(", "#", "#<", "X[", "AB1", "-", "GOTO1", "/*", ")", "%", "X ", "'", "$", "GOTO/(", "1,", "o<", "IF1",
+    ] {
         let source = piece.repeat(60_000 / piece.len());
         check_all(source.as_bytes());
     }
@@ -124,8 +139,10 @@ fn deep_nesting_and_long_lines_take_linear_time_and_no_stack() {
 
 #[test]
 fn tokens_keep_their_kind_whatever_follows() {
-    let program = parse(b"G1X-.5 Y 2 (c) ;d".to_vec(), CORE);
-    let kinds: Vec<_> = (0..program.tokens().len() as u32).map(|id| program.tokens().kind(id)).collect();
     use TokenKind::{Blank, Comment, Word};
+    let program = parse(b"G1X-.5 Y 2 (c) ;d".to_vec(), CORE);
+    let kinds: Vec<_> = (0..program.tokens().len() as u32)
+        .map(|id| program.tokens().kind(id))
+        .collect();
     assert_eq!(kinds, [Word, Word, Blank, Word, Blank, Comment, Blank, Comment]);
 }

@@ -5,7 +5,10 @@ use proptest::prelude::*;
 use trunnion_syntax::{TextEdit, TextRange, apply_edits, parse};
 
 fn edit(start: u32, end: u32, text: &str) -> TextEdit {
-    TextEdit { range: TextRange::new(start, end), new_text: text.to_owned() }
+    TextEdit {
+        range: TextRange::new(start, end),
+        new_text: text.to_owned(),
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 use trunnion_syntax::{Address, Format, Item, LexOptions, Program, Value, Word, parse};
 
 /// All comment forms.
-pub const CORE: LexOptions = LexOptions {
+pub(crate) const CORE: LexOptions = LexOptions {
     format: Format::Iso,
     paren_comment: true,
     semicolon_comment: true,
@@ -10,28 +10,48 @@ pub const CORE: LexOptions = LexOptions {
     blanks_in_numbers: false,
 };
 /// Parentheses hold arguments, as on a Sinumerik.
-pub const SINUMERIK: LexOptions = LexOptions { paren_comment: false, ..CORE };
+pub(crate) const SINUMERIK: LexOptions = LexOptions {
+    paren_comment: false,
+    ..CORE
+};
 /// Blanks may stand in numbers, as RS274/NGC says.
-pub const NGC: LexOptions = LexOptions { blanks_in_numbers: true, ..CORE };
+pub(crate) const NGC: LexOptions = LexOptions {
+    blanks_in_numbers: true,
+    ..CORE
+};
 /// No comments but `( )`.
-pub const FANUC: LexOptions = LexOptions { semicolon_comment: false, slash_star_comment: false, ..CORE };
+pub(crate) const FANUC: LexOptions = LexOptions {
+    semicolon_comment: false,
+    slash_star_comment: false,
+    ..CORE
+};
 /// Records.
-pub const APT: LexOptions = LexOptions { format: Format::Apt, ..CORE };
+pub(crate) const APT: LexOptions = LexOptions {
+    format: Format::Apt,
+    ..CORE
+};
 
 /// Parses a text.
-pub fn program(source: &str, options: LexOptions) -> Program {
+pub(crate) fn program(source: &str, options: LexOptions) -> Program {
     parse(source.as_bytes().to_vec(), options)
 }
 
 /// All items, separated by a blank; blocks by ` | `.
-pub fn items(program: &Program) -> String {
+pub(crate) fn items(program: &Program) -> String {
     let block = |items: trunnion_syntax::Items<'_>| items.map(|item| show(program, item)).collect::<Vec<_>>().join(" ");
-    program.blocks().map(|each| block(each.items())).collect::<Vec<_>>().join(" | ")
+    program
+        .blocks()
+        .map(|each| block(each.items()))
+        .collect::<Vec<_>>()
+        .join(" | ")
 }
 
 /// All problems as `Kind[text]`.
-pub fn errors(program: &Program) -> String {
-    let all = program.errors().iter().map(|error| format!("{:?}[{}]", error.kind, program.text(error.range)));
+pub(crate) fn errors(program: &Program) -> String {
+    let all = program
+        .errors()
+        .iter()
+        .map(|error| format!("{:?}[{}]", error.kind, program.text(error.range)));
     all.collect::<Vec<_>>().join(" ")
 }
 
@@ -59,7 +79,11 @@ fn show_word(program: &Program, word: Word) -> String {
         Address::Named(range) => format!("<{}>", text(range)),
     };
     let written = text(word.value_range);
-    assert!(text(word.range).ends_with(&written), "the value {written} ends its word {}", text(word.range));
+    assert!(
+        text(word.range).ends_with(&written),
+        "the value {written} ends its word {}",
+        text(word.range)
+    );
     match word.value {
         Value::Number(number) => format!("{address}={number}"),
         Value::Call(name, number) => format!("{address}={}({number})", text(name)),

@@ -1,6 +1,6 @@
 //! Inside a block: bounds against dense sampling on random blocks of random machines with all orders of the chain.
-mod common;
-use common::{Random, motion, position, random_machine, words};
+use crate::common::{motion, position, words};
+use crate::random::{Random, random_machine};
 use trunnion_geometry::math::{cos, sin};
 use trunnion_geometry::{Vec3, arc::Arc, deg};
 use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Position};
@@ -21,15 +21,19 @@ fn ends(random: &mut Random, reach: f64, turn: f64) -> (Position, Position) {
     };
     let from = place(reach, 170.0, &[0.0; 5]);
     let to = place(reach * turn / 60.0, turn, &from);
-    let as_position =
-        |v: &[f64; 5]| position(&[(b'X', v[0]), (b'Y', v[1]), (b'Z', v[2]), (b'C', v[3]), (b'A', v[4])]);
+    let as_position = |v: &[f64; 5]| position(&[(b'X', v[0]), (b'Y', v[1]), (b'Z', v[2]), (b'C', v[3]), (b'A', v[4])]);
     (as_position(&from), as_position(&to))
 }
 
 /// Follows from the start to the end of a motion.
 fn leg(machine: &Machine, motion: &Motion) -> Option<Leg> {
     let mut follower = Follower::new(machine);
-    let at_start = Motion { end: motion.start, start: Position::default(), kind: MotionKind::Linear, ..*motion };
+    let at_start = Motion {
+        end: motion.start,
+        start: Position::default(),
+        kind: MotionKind::Linear,
+        ..*motion
+    };
     follower.follow(&at_start).end.ok()?;
     let leg = follower.follow(motion);
     leg.end.is_ok().then_some(leg)
@@ -44,7 +48,10 @@ fn between(from: &Joints, to: &Joints, t: f64) -> Joints {
 }
 
 fn joints_of(leg: &Leg) -> (Joints, Joints) {
-    (leg.start.expect("known").joints, leg.end.as_ref().expect("known").joints)
+    (
+        leg.start.expect("known").joints,
+        leg.end.as_ref().expect("known").joints,
+    )
 }
 
 #[test]
@@ -56,7 +63,10 @@ fn deviation_bound_is_proven_and_tight() {
         for _ in 0..8 {
             let turn = [0.05, 1.0, 20.0, 170.0][random.below(4)];
             let (start, end) = ends(&mut random, 300.0, turn);
-            let motion = Motion { tool_length_mm: random.range(0.0, 120.0), ..words(start, end) };
+            let motion = Motion {
+                tool_length_mm: random.range(0.0, 120.0),
+                ..words(start, end)
+            };
             let leg = leg(&machine, &motion).expect("all axes known");
             let found = tip_deviation(&machine, &leg, 0.01).expect("known");
             let (from, to) = joints_of(&leg);
@@ -74,7 +84,11 @@ fn deviation_bound_is_proven_and_tight() {
             assert!(found.sampled_mm <= found.bound_mm && (0.0..=1.0).contains(&found.at));
             if found.bound_mm > 0.01 {
                 above += 1;
-                assert!(found.bound_mm <= 1.2 * truth + 1e-4, "bound {} truth {truth}", found.bound_mm);
+                assert!(
+                    found.bound_mm <= 1.2 * truth + 1e-4,
+                    "bound {} truth {truth}",
+                    found.bound_mm
+                );
             }
         }
     }
@@ -104,8 +118,19 @@ fn with_arc(random: &mut Random, motion: &Motion) -> Motion {
     let turned = radial * cos(sweep) + normal.cross(&radial) * sin(sweep);
     let end = start + (turned - radial) * radius + normal * rise;
     let centre = start - radial * radius;
-    let arc = Arc { start, end, centre, normal, sweep, radius_start: radius, radius_end: radius };
-    let mut motion = Motion { kind: MotionKind::Arc(Some(arc)), ..*motion };
+    let arc = Arc {
+        start,
+        end,
+        centre,
+        normal,
+        sweep,
+        radius_start: radius,
+        radius_end: radius,
+    };
+    let mut motion = Motion {
+        kind: MotionKind::Arc(Some(arc)),
+        ..*motion
+    };
     for axis in 0..3 {
         motion.end.set(axis, end[axis]);
     }
@@ -118,7 +143,11 @@ type Along<'a> = Box<dyn Fn(f64) -> Joints + 'a>;
 /// A random leg with TCP or as an arc, and its joints at any moment from inverse kinematics or the words' meaning.
 fn curved<'a>(random: &mut Random, machine: &'a Machine, leg_out: &'a mut Option<Leg>, turn: f64) -> Option<Along<'a>> {
     let (start, end) = ends(random, 150.0, turn);
-    let mut motion = Motion { tcp: true, tool_length_mm: random.range(0.0, 80.0), ..words(start, end) };
+    let mut motion = Motion {
+        tcp: true,
+        tool_length_mm: random.range(0.0, 80.0),
+        ..words(start, end)
+    };
     let case = random.below(3);
     if case > 0 {
         motion = with_arc(random, &motion);
@@ -128,9 +157,7 @@ fn curved<'a>(random: &mut Random, machine: &'a Machine, leg_out: &'a mut Option
     let leg = leg_out.as_ref()?;
     let (from, to) = joints_of(leg);
     Some(match (case, motion.kind) {
-        (1, MotionKind::Arc(Some(arc))) => {
-            Box::new(move |t| tcp_joints(machine, leg, &|t| arc.point_at(t), t))
-        }
+        (1, MotionKind::Arc(Some(arc))) => Box::new(move |t| tcp_joints(machine, leg, &|t| arc.point_at(t), t)),
         (2, MotionKind::Arc(Some(arc))) => Box::new(move |t| {
             let mut joints = between(&from, &to, t);
             for (letter, value) in [b'X', b'Y', b'Z'].into_iter().zip((arc.point_at(t) - arc.start).iter()) {
@@ -155,7 +182,9 @@ fn feed_limit_holds_at_every_moment_and_is_tight() {
         for _ in 0..5 {
             let turn = [0.01, 0.5, 10.0, 60.0][random.below(4)];
             let mut leg = None;
-            let Some(along) = curved(&mut random, &machine, &mut leg, turn) else { continue };
+            let Some(along) = curved(&mut random, &machine, &mut leg, turn) else {
+                continue;
+            };
             let mut worst: f64 = 0.0;
             let step = 1e-5;
             for i in 0..=SAMPLES {
@@ -176,10 +205,22 @@ fn feed_limit_holds_at_every_moment_and_is_tight() {
             };
             judged += 1;
             linear += usize::from(machine.axes[found.axis].kind == AxisKind::Linear);
-            assert!(found.feed_mm_min <= truth * (1.0 + 1e-5), "limit {} truth {truth}", found.feed_mm_min);
-            assert!(found.feed_mm_min >= truth * (1.0 - 3e-3), "limit {} truth {truth}", found.feed_mm_min);
+            assert!(
+                found.feed_mm_min <= truth * (1.0 + 1e-5),
+                "limit {} truth {truth}",
+                found.feed_mm_min
+            );
+            assert!(
+                found.feed_mm_min >= truth * (1.0 - 3e-3),
+                "limit {} truth {truth}",
+                found.feed_mm_min
+            );
             let speed = found.axis_speed.expect("feed known");
-            assert!(speed > found.axis_limit, "{speed} at twice the limit of {}", found.axis_limit);
+            assert!(
+                speed > found.axis_limit,
+                "{speed} at twice the limit of {}",
+                found.axis_limit
+            );
             leg.motion.feed = Feed::PerMinute(truth * 0.1);
             let coarse = feed_limit(&machine, &leg).expect("limited");
             assert!(coarse.feed_mm_min <= truth * (1.0 + 1e-5) && coarse.feed_mm_min >= truth * 0.1);
@@ -202,7 +243,9 @@ fn excursions_inside_a_block_are_found_and_no_others() {
         for _ in 0..5 {
             let turn = [0.5, 10.0, 60.0][random.below(3)];
             let mut leg = None;
-            let Some(along) = curved(&mut random, &machine, &mut leg, turn) else { continue };
+            let Some(along) = curved(&mut random, &machine, &mut leg, turn) else {
+                continue;
+            };
             let extremes: Vec<[f64; 2]> = (0..machine.axes.len())
                 .map(|joint| {
                     let values = (0..=SAMPLES).map(|i| along(i as f64 / SAMPLES as f64)[joint]);
@@ -218,6 +261,10 @@ fn excursions_inside_a_block_are_found_and_no_others() {
                 }
                 let [low, high] = extremes[joint];
                 let bulge = high - from[joint].max(to[joint]);
+                // through a posture where the linear axes do not span space joints run away without end
+                if bulge > 1e4 {
+                    continue;
+                }
                 let saved = machine.axes[joint].limits;
                 // a limit between the ends and the peak, and one just above the peak
                 machine.axes[joint].limits = Limits::Range(low - 1000.0, high - 0.3 * bulge);
@@ -262,7 +309,10 @@ fn an_arc_with_moving_rotary_axes_is_not_modelled_without_tcp() {
     let start = position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', 100.0), (b'C', 0.0), (b'A', 0.0)]);
     let flat = with_arc(&mut random, &words(start, start));
     let still = leg(machine, &flat).expect("known");
-    assert_eq!(tip_deviation(machine, &still, 0.01).expect("an arc is an arc").bound_mm, 0.0);
+    assert_eq!(
+        tip_deviation(machine, &still, 0.01).expect("an arc is an arc").bound_mm,
+        0.0
+    );
     let mut turning = flat;
     turning.end.set(5, 10.0);
     let turning = leg(machine, &turning).expect("known");
@@ -271,6 +321,12 @@ fn an_arc_with_moving_rotary_axes_is_not_modelled_without_tcp() {
     no_centre.kind = MotionKind::Arc(None);
     (no_centre.start, no_centre.end) = (start, flat.end);
     let no_centre = leg(machine, &no_centre).expect("known");
-    assert_eq!((tip_deviation(machine, &no_centre, 0.01), feed_limit(machine, &no_centre)), (None, None));
+    assert_eq!(
+        (
+            tip_deviation(machine, &no_centre, 0.01),
+            feed_limit(machine, &no_centre)
+        ),
+        (None, None)
+    );
     assert_eq!(no_centre.motion.orientation, Orientation::Words);
 }

@@ -1,6 +1,5 @@
 //! The twenty published rows of paper guide-vane 2006 on the machine it describes: joints, feed limits, deviation without TCP.
-mod common;
-use common::{motion, position, vector, words};
+use crate::common::{motion, position, vector, words};
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Motion, Position};
 use trunnion_machine::{Follower, Leg, Machine, builtin, feed_limit, row, tip_deviation};
@@ -79,13 +78,23 @@ fn joints_are_the_published_ones() {
             let at_pole = printed[6] == 0.0;
             if !at_pole {
                 judged += 1;
-                assert!(off.abs() <= 0.0006, "strategy {} row {row}: C {c} for {}", strategy + 1, printed[7]);
+                assert!(
+                    off.abs() <= 0.0006,
+                    "strategy {} row {row}: C {c} for {}",
+                    strategy + 1,
+                    printed[7]
+                );
             }
             if (strategy, row) == (1, 2) {
                 // the printed 0.081 is the arc cosine of a rounded k
                 assert!((a - 0.0772).abs() <= 0.00005, "A {a}");
             } else {
-                assert!((a - printed[6]).abs() <= 0.0020, "strategy {} row {row}: A {a} for {}", strategy + 1, printed[6]);
+                assert!(
+                    (a - printed[6]).abs() <= 0.0020,
+                    "strategy {} row {row}: A {a} for {}",
+                    strategy + 1,
+                    printed[6]
+                );
             }
         }
     }
@@ -102,7 +111,10 @@ fn first_stance_is_nearest_zero_and_the_pole_keeps_c() {
     let at_pole = legs[2].end.as_ref().expect("reached");
     assert_eq!((at_pole.branch, at_pole.pole_angle), (0, 0.0));
     // A goes on through the pole: a crossing, not a swap
-    let signs: Vec<i8> = legs.iter().map(|leg| leg.end.as_ref().expect("reached").branch).collect();
+    let signs: Vec<i8> = legs
+        .iter()
+        .map(|leg| leg.end.as_ref().expect("reached").branch)
+        .collect();
     assert_eq!(signs, [-1, -1, 0, 1, 1]);
 }
 
@@ -135,13 +147,18 @@ fn feed_limits_under_tcp() {
         let legs = follow(&vectors(rows));
         let limits: Vec<_> = legs.iter().filter_map(|leg| feed_limit(machine(), leg)).collect();
         assert_eq!(limits.len(), 4);
-        let mut sorted: Vec<(f64, char)> =
-            limits.iter().map(|l| (l.feed_mm_min, char::from(machine().axes[l.axis].letter))).collect();
+        let mut sorted: Vec<(f64, char)> = limits
+            .iter()
+            .map(|l| (l.feed_mm_min, char::from(machine().axes[l.axis].letter)))
+            .collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         lowest.push(sorted);
     }
     let near = |found: (f64, char), feed: f64, axis: char| {
-        assert!((found.0 - feed).abs() <= 1.0 && found.1 == axis, "{found:?}, not {feed} by {axis}");
+        assert!(
+            (found.0 - feed).abs() <= 1.0 && found.1 == axis,
+            "{found:?}, not {feed} by {axis}"
+        );
     };
     near(lowest[1][0], 33.0, 'C');
     near(lowest[1][1], 46.0, 'C');
@@ -150,8 +167,18 @@ fn feed_limits_under_tcp() {
     near(lowest[0][0], 1640.0, 'A');
     // at the programmed 2000 mm/min the axis would have to run at these speeds (kinematics notes 1)
     let legs = follow(&vectors(&STRATEGIES[1]));
-    let speed = |row: usize| deg(feed_limit(machine(), &legs[row]).expect("limited").axis_speed.expect("feed known"));
-    assert!((speed(2) - 5201.0).abs() < 1.0 && (speed(3) - 7243.0).abs() < 1.0, "{} {}", speed(2), speed(3));
+    let speed = |row: usize| {
+        deg(feed_limit(machine(), &legs[row])
+            .expect("limited")
+            .axis_speed
+            .expect("feed known"))
+    };
+    assert!(
+        (speed(2) - 5201.0).abs() < 1.0 && (speed(3) - 7243.0).abs() < 1.0,
+        "{} {}",
+        speed(2),
+        speed(3)
+    );
 }
 
 /// The same poses as machine words, from inverse kinematics along the same postures.
@@ -185,24 +212,40 @@ fn deviation_without_tcp() {
             let (a, b) = (leg.end.as_ref().expect("known"), before.end.as_ref().expect("reached"));
             assert!((a.tip - b.tip).norm() < 1e-9 && (a.axis - b.axis).norm() < 1e-12);
         }
-        let found: Vec<_> = legs.iter().filter_map(|leg| tip_deviation(machine(), leg, 0.01)).collect();
+        let found: Vec<_> = legs
+            .iter()
+            .filter_map(|leg| tip_deviation(machine(), leg, 0.01))
+            .collect();
         assert_eq!(found.len(), 4);
         for deviation in &found {
             assert!(deviation.bound_mm >= deviation.sampled_mm);
         }
         let mut sampled: Vec<f64> = found.iter().map(|d| d.sampled_mm).collect();
-        let mut bound: Vec<f64> =
-            legs[1..].iter().map(|leg| row(machine(), leg).tip_deviation_mm.expect("known")).collect();
+        let mut bound: Vec<f64> = legs[1..]
+            .iter()
+            .map(|leg| row(machine(), leg).tip_deviation_mm.expect("known"))
+            .collect();
         sampled.sort_by(|a, b| b.total_cmp(a));
         bound.sort_by(|a, b| b.total_cmp(a));
         let mut wanted = expected[strategy].to_vec();
         wanted.sort_by(|a, b| b.total_cmp(a));
         for (i, value) in wanted.iter().enumerate() {
-            assert!((sampled[i] - value).abs() <= 0.001, "strategy {}: {sampled:?}", strategy + 1);
-            assert!((bound[i] - value).abs() <= 0.001, "strategy {}: {bound:?}", strategy + 1);
+            assert!(
+                (sampled[i] - value).abs() <= 0.001,
+                "strategy {}: {sampled:?}",
+                strategy + 1
+            );
+            assert!(
+                (bound[i] - value).abs() <= 0.001,
+                "strategy {}: {bound:?}",
+                strategy + 1
+            );
         }
         if strategy == 0 {
-            assert!(sampled[0] <= 0.0012 + 1e-4 && bound[0] <= 0.0012 + 0.001, "{sampled:?} {bound:?}");
+            assert!(
+                sampled[0] <= 0.0012 + 1e-4 && bound[0] <= 0.0012 + 0.001,
+                "{sampled:?} {bound:?}"
+            );
         }
     }
 }
@@ -221,7 +264,10 @@ fn rows_of_the_trace() {
     let first = row(machine(), &legs[0]);
     assert_eq!((first.motion, first.tcp, first.branch), ("linear", true, Some(-1)));
     assert_eq!(first.feed_mm_min, Some(2000.0));
-    assert_eq!((first.tip_deviation_mm, first.feed_limit_mm_min, first.limiting_axis), (None, None, None));
+    assert_eq!(
+        (first.tip_deviation_mm, first.feed_limit_mm_min, first.limiting_axis),
+        (None, None, None)
+    );
     let third = row(machine(), &legs[2]);
     assert!((third.feed_limit_mm_min.expect("known") - 46.0).abs() <= 1.0);
     assert_eq!(third.limiting_axis, Some('C'));
@@ -249,13 +295,22 @@ fn constants_are_the_files() {
         let apt: Vec<Vec<f64>> = apt
             .lines()
             .filter_map(|line| line.split_once('/'))
-            .map(|(_, numbers)| numbers.split(',').map(|n| n.trim().parse().expect("a number")).collect())
+            .map(|(_, numbers)| {
+                numbers
+                    .split(',')
+                    .map(|n| n.trim().parse().expect("a number"))
+                    .collect()
+            })
             .collect();
         let word = |line: &str, letter: char| -> Option<f64> {
-            line.split_whitespace().find_map(|w| w.strip_prefix(letter)).and_then(|n| n.parse().ok())
+            line.split_whitespace()
+                .find_map(|w| w.strip_prefix(letter))
+                .and_then(|n| n.parse().ok())
         };
-        let mpf: Vec<[f64; 2]> =
-            mpf.lines().filter_map(|line| Some([word(line, 'A')?, word(line, 'C')?])).collect();
+        let mpf: Vec<[f64; 2]> = mpf
+            .lines()
+            .filter_map(|line| Some([word(line, 'A')?, word(line, 'C')?]))
+            .collect();
         assert_eq!((apt.len(), mpf.len()), (5, 5));
         for (row, printed) in rows.iter().enumerate() {
             assert_eq!(apt[row], printed[..6]);

@@ -7,7 +7,7 @@ use trunnion::rewrite::{Attempt, Options, attempt, rewrite};
 use trunnion::{certify::Certificate, dialect, machine, syntax};
 
 /// The rows as machine words.
-pub const ROWS: &str = "N2910 G1 X-28.38197 Y-2.14469 Z59.86773 A2.042 C3.358
+pub(crate) const ROWS: &str = "N2910 G1 X-28.38197 Y-2.14469 Z59.86773 A2.042 C3.358
 N2920 G1 X-28.38474 Y-1.84041 Z59.90263 A1.047 C4.822
 N2930 G1 X-28.38709 Y-1.53565 Z59.93222 A0.081 C52.595
 N2940 G1 X-28.38873 Y-1.28023 Z59.95290 A-0.79 C-3.086
@@ -15,7 +15,7 @@ N2950 G1 X-28.39015 Y-1.01049 Z59.97066 A-1.676 C-0.905
 ";
 
 /// The rows as tool vectors.
-pub const VECTORS: &str = "GOTO / -28.38197, -2.14469, 59.86773, 0.002087,-0.035573, 0.999365
+pub(crate) const VECTORS: &str = "GOTO / -28.38197, -2.14469, 59.86773, 0.002087,-0.035573, 0.999365
 GOTO / -28.38474, -1.84041, 59.90263, 0.001538,-0.018231, 0.999833
 GOTO / -28.38709, -1.53565, 59.93222, 0.001071,-0.000819, 0.999999
 GOTO / -28.38873, -1.28023, 59.95290, 0.000744, 0.013799, 0.999905
@@ -23,47 +23,70 @@ GOTO / -28.39015, -1.01049, 59.97066, 0.000462, 0.029251, 0.999572
 ";
 
 /// A Sinumerik program round `rows`.
-pub fn sinumerik(rows: &str) -> String {
+pub(crate) fn sinumerik(rows: &str) -> String {
     format!("; guide vane\nTRAORI\nS8000 M3\nF2000\n{rows}TRAFOOF\nM30\n")
 }
 
 /// An APT program round `rows`.
-pub fn apt(rows: &str) -> String {
+pub(crate) fn apt(rows: &str) -> String {
     format!("PARTNO GUIDE VANE\nMULTAX/ON\nSPINDL/8000,CLW\nFEDRAT/2000,MMPM\n{rows}FINI\n")
 }
 
 /// A ball of 10 mm diameter, whatever its number.
-pub fn ball() -> Setup {
+pub(crate) fn ball() -> Setup {
     tool(ToolShape::Ball)
 }
 
 /// A tool of 10 mm diameter, whatever its number.
-pub fn tool(shape: ToolShape) -> Setup {
+pub(crate) fn tool(shape: ToolShape) -> Setup {
     Setup {
-        tools: vec![Tool { number: 0, shape: Some(shape), diameter_mm: Some(10.0), length_mm: None }],
+        tools: vec![Tool {
+            number: 0,
+            shape: Some(shape),
+            diameter_mm: Some(10.0),
+            length_mm: None,
+        }],
         work_offsets: Vec::new(),
     }
 }
 
 /// Settings for mikron-ucp710.
-pub fn settings(dialect: &str, setup: Setup) -> Settings<'static> {
+pub(crate) fn settings(dialect: &str, setup: Setup) -> Settings<'static> {
     let dialect = dialect::builtin(dialect).expect("a built-in dialect");
-    Settings { dialect, machine: machine::builtin("mikron-ucp710"), setup, rules: Vec::new() }
+    Settings {
+        dialect,
+        machine: machine::builtin("mikron-ucp710"),
+        setup,
+        rules: Vec::new(),
+    }
 }
 
 /// Runs a rewrite.
-pub fn run(name: &str, text: &str, settings: &Settings<'_>, options: &Options) -> Attempt {
+pub(crate) fn run(name: &str, text: &str, settings: &Settings<'_>, options: &Options) -> Attempt {
     let program = syntax::parse(text.as_bytes().to_vec(), settings.dialect.lex);
-    attempt(rewrite(name).expect("a rewrite of that name"), &program, settings, options)
+    attempt(
+        rewrite(name).expect("a rewrite of that name"),
+        &program,
+        settings,
+        options,
+    )
 }
 
 /// Runs smooth-pole with this tolerance.
-pub fn smooth(text: &str, settings: &Settings<'_>, tolerance_deg: f64) -> Attempt {
-    run("smooth-pole", text, settings, &Options { tolerance_deg, ..Options::default() })
+pub(crate) fn smooth(text: &str, settings: &Settings<'_>, tolerance_deg: f64) -> Attempt {
+    run(
+        "smooth-pole",
+        text,
+        settings,
+        &Options {
+            tolerance_deg,
+            ..Options::default()
+        },
+    )
 }
 
 /// The text after and the certificate of a rewrite that must succeed.
-pub fn certified(attempt: Attempt) -> (String, Certificate) {
+pub(crate) fn certified(attempt: Attempt) -> (String, Certificate) {
     match attempt {
         Attempt::Certified { after, certificate, .. } => {
             (String::from_utf8(after).expect("text stays UTF-8"), *certificate)
@@ -73,7 +96,7 @@ pub fn certified(attempt: Attempt) -> (String, Certificate) {
 }
 
 /// The reason of a rewrite that must be refused.
-pub fn refused(attempt: Attempt) -> String {
+pub(crate) fn refused(attempt: Attempt) -> String {
     match attempt {
         Attempt::Refused(reason) => reason,
         other => panic!("not refused: {other:?}"),

@@ -1,54 +1,7 @@
-//! Motions and machines for tests.
-#![expect(dead_code, reason = "each test file uses its own part")]
+//! Random numbers and random machines for tests.
 use std::fmt::Write;
 use trunnion_geometry::Vec3;
-use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_machine::{Machine, load};
-use trunnion_syntax::BlockId;
-
-/// A linear feed motion with nothing known.
-pub(crate) fn motion() -> Motion {
-    Motion {
-        block: BlockId(0),
-        kind: MotionKind::Linear,
-        start: Position::default(),
-        end: Position::default(),
-        orientation: Orientation::Words,
-        tcp: false,
-        great_circle: None,
-        feed: Feed::PerMinute(2000.0),
-        spindle_on: Some(true),
-        spindle_rpm: None,
-        zero: [0.0; 9],
-        tool_length_mm: 0.0,
-        machine_coordinates: false,
-        tool: None,
-    }
-}
-
-/// A position from letters and values (mm, deg).
-pub(crate) fn position(words: &[(u8, f64)]) -> Position {
-    let mut position = Position::default();
-    for &(letter, value) in words {
-        let axis = trunnion_interp::AxisLetter::new(letter).expect("an axis letter");
-        position.set(usize::from(axis.0), value);
-    }
-    position
-}
-
-/// A linear motion along words.
-pub(crate) fn words(start: Position, end: Position) -> Motion {
-    Motion { start, end, ..motion() }
-}
-
-/// A motion to a tip with a tool vector.
-pub(crate) fn vector(start: Position, tip: [f64; 3], axis: Vec3) -> Motion {
-    let mut end = start;
-    for (i, value) in tip.into_iter().enumerate() {
-        end.set(i, value);
-    }
-    Motion { start, end, orientation: Orientation::Vector(None, axis.normalize()), tcp: true, ..motion() }
-}
 
 /// Random numbers that are the same everywhere (splitmix64).
 pub(crate) struct Random(pub(crate) u64);
@@ -99,7 +52,11 @@ pub(crate) fn random_machine(random: &mut Random, straight: bool, tcp_orientatio
             order.insert(at, linear);
         }
         let mut text = String::from("schema = \"ncmachine/1\"\nname = \"random\"\n[spindle]\ntool_axis = [0, 0, 1]\n");
-        let gauge = Vec3::new(random.range(-50.0, 50.0), random.range(-50.0, 50.0), random.range(-50.0, 50.0));
+        let gauge = Vec3::new(
+            random.range(-50.0, 50.0),
+            random.range(-50.0, 50.0),
+            random.range(-50.0, 50.0),
+        );
         writeln!(text, "gauge_point = [{}, {}, {}]", gauge.x, gauge.y, gauge.z).expect("text");
         for axis in order {
             let letter = ["X", "Y", "Z", "C", "A"][axis];
@@ -116,14 +73,28 @@ pub(crate) fn random_machine(random: &mut Random, straight: bool, tcp_orientatio
             )
             .expect("text");
             if axis < 3 {
-                writeln!(text, "limits = [-2000, 2000]\ndyn = {{ vmax = {} }}", random.range(5.0, 500.0)).expect("text");
+                writeln!(
+                    text,
+                    "limits = [-2000, 2000]\ndyn = {{ vmax = {} }}",
+                    random.range(5.0, 500.0)
+                )
+                .expect("text");
             } else {
                 let point = random.direction() * random.range(0.0, 150.0);
-                writeln!(text, "point = [{}, {}, {}]\nlimits = \"unbounded\"", point.x, point.y, point.z).expect("text");
+                writeln!(
+                    text,
+                    "point = [{}, {}, {}]\nlimits = \"unbounded\"",
+                    point.x, point.y, point.z
+                )
+                .expect("text");
                 writeln!(text, "dyn = {{ vmax = {} }}", random.range(20.0, 500.0)).expect("text");
             }
         }
-        writeln!(text, "[control]\nfamily = \"generic\"\ntcp = {{ orientation = \"{tcp_orientation}\" }}").expect("text");
+        writeln!(
+            text,
+            "[control]\nfamily = \"generic\"\ntcp = {{ orientation = \"{tcp_orientation}\" }}"
+        )
+        .expect("text");
         match load("random", &text) {
             Ok(machine) => return machine,
             // unlucky directions (nearly parallel axes) are refused by the loader

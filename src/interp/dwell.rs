@@ -1,0 +1,49 @@
+//! Dwells: G4 with the words that its code reads.
+use crate::codes::Found;
+use crate::emit::hide;
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+use crate::{Feed, Motion, MotionKind};
+use trunnion_dialect::Action;
+
+impl Interpreter<'_> {
+    pub(crate) fn dwell(&self, codes: &[Found<'_>], words: &Words, report: &Report<'_>) -> Motion {
+        let seconds = self.dwell_seconds(codes, words).filter(|seconds| *seconds >= 0.0);
+        let position = self.state.position;
+        let feed = Feed::Unknown;
+        let kind = MotionKind::Dwell(seconds);
+        let mut motion = self.new_motion(kind, position, position, self.held_orientation(), feed, report);
+        if self.state.frame_unknown {
+            hide(&mut motion);
+        }
+        motion
+    }
+
+    /// Seconds of a dwell: from P, X, U or F as the code reads them, or from S turns of the spindle.
+    fn dwell_seconds(&self, codes: &[Found<'_>], words: &Words) -> Option<f64> {
+        let code = codes.iter().find(|found| found.code.action == Action::Dwell)?.code;
+        let reads = |word: &str| code.words.iter().any(|known| known == word);
+        let in_ms = |has_point: bool| {
+            if self.dialect.quirks.dwell_in_ms && !has_point {
+                1e-3
+            } else {
+                1.0
+            }
+        };
+        if let Some(p) = words.p.number().filter(|_| reads("P")) {
+            return Some(p.value * in_ms(p.has_point));
+        }
+        if let Some(f) = words.feed.number().filter(|_| reads("F")) {
+            return Some(f.value);
+        }
+        if let Some(turns) = words.speed.number().filter(|_| reads("S")) {
+            let rpm = self.state.spindle_rpm.filter(|&rpm| rpm > 0.0)?;
+            return Some(turns.value / rpm * 60.0);
+        }
+        let axis = [(0, "X"), (6, "U")]
+            .into_iter()
+            .find(|&(axis, word)| reads(word) && words.axes.get(axis).is_some());
+        let (axis, _) = axis?;
+        Some(words.axes.values[axis] * in_ms(words.axes.point & (1 << axis) != 0))
+    }
+}

@@ -1,0 +1,325 @@
+//! Reads the items of one ISO block in one pass, with the meaning that the dialect gives to letters and names.
+use crate::codes::Found;
+use crate::words::{Number, Reading, Said, Words, put};
+use crate::{AXIS_LETTERS, FaultKind};
+use trunnion_dialect::{Action, Code, CodeKind, Dialect, Role};
+use trunnion_syntax::{Address, Call, Decimal, Item, Program, SyntaxError, TextRange, Value, Word};
+
+/// A number, unless it is beyond what can be reckoned with.
+fn number(decimal: Decimal, range: TextRange) -> Said {
+    let value = decimal.to_f64();
+    if value.abs() <= LARGEST {
+        Said::Number(Number {
+            value,
+            has_point: decimal.has_point,
+            range,
+        })
+    } else {
+        Said::Unread
+    }
+}
+
+/// No coordinate, feed or number of a tool is larger; squares and sums stay finite.
+const LARGEST: f64 = 1e12;
+
+/// Ten times the number of a code, where that is whole: G43.4 is 434.
+fn tenths(decimal: Decimal) -> Option<u32> {
+    let mut mantissa = decimal.mantissa.checked_mul(10)?;
+    let mut scale = decimal.scale;
+    while scale > 0 {
+        if mantissa % 10 != 0 {
+            return None;
+        }
+        mantissa /= 10;
+        scale -= 1;
+    }
+    if scale < 0 {
+        return None;
+    }
+    u32::try_from(mantissa).ok()
+}
+
+/// Index of an axis letter, upper case, in [`AXIS_LETTERS`].
+fn axis_index(letter: u8) -> Option<usize> {
+    AXIS_LETTERS.iter().position(|&axis| axis == letter)
+}
+
+/// Reads one block: fills words and codes, reports what has no meaning.
+pub(crate) struct Reader<'a, 'd, F: FnMut(TextRange, FaultKind)> {
+    pub(crate) program: &'a Program,
+    pub(crate) dialect: &'d Dialect,
+    pub(crate) words: Words,
+    pub(crate) codes: &'a mut Vec<Found<'d>>,
+    pub(crate) report: F,
+}
+
+impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
+    /// Takes one item of the block.
+    pub(crate) fn take(&mut self, item: Item) {
+        if self.words.declares {
+            return;
+        }
+        match item {
+            Item::Word(word) => {
+                self.words.has_content = true;
+                self.word(&word);
+            }
+            Item::Call(call) => {
+                self.words.has_content = true;
+                self.call(&call);
+            }
+            Item::Percent(range) => {
+                if range.end - range.start <= 1 {
+                    self.words.percent = Some(range);
+                }
+            }
+            Item::Other(range) => self.other(range),
+            Item::Comment(_) | Item::Skip(..) | Item::Label(_) => {}
+        }
+    }
+
+    fn text(&self, range: TextRange) -> String {
+        self.program.text(range).trim().to_owned()
+    }
+
+    fn not_modelled(&mut self, range: TextRange) {
+        let what = self.text(range);
+        (self.report)(range, FaultKind::NotModelled { what });
+    }
+
+    fn word(&mut self, word: &Word) {
+        match word.address {
+            Address::Letter(letter) => self.letter_word(letter, word),
+            Address::Indexed(letter, index) => self.indexed_word(letter, index, word),
+            Address::Named(name) => self.named_word(name, word),
+        }
+    }
+
+    fn letter_word(&mut self, letter: u8, word: &Word) {
+        let Some(role) = self.dialect.role(letter) else {
+            (self.report)(word.range, FaultKind::UnknownWord);
+            return;
+        };
+        if !matches!(role, Role::G | Role::M) {
+            let bit = 1u32.checked_shl(u32::from(letter.wrapping_sub(b'A'))).unwrap_or(0);
+            if self.words.letters & bit != 0 {
+                (self.report)(word.range, FaultKind::RepeatedWord);
+            }
+            self.words.letters |= bit;
+        }
+        self.role_word(role, letter, word);
+    }
+
+    /// `CR=`, `TURN=`; `#1=` and names of the program's own are variables, which move nothing; `,R` and `,C` are corners.
+    fn named_word(&mut self, name: TextRange, word: &Word) {
+        let name = self.program.source().get(name.as_usize()).unwrap_or_default();
+        let variable = self.dialect.quirks.user_names || matches!(name.first(), Some(b'#' | b'$'));
+        match (self.dialect.named_role(name), name.first()) {
+            (Some(role), _) => self.role_word(role, b' ', word),
+            (None, Some(b',')) => self.role_word(Role::NotModelled, b' ', word),
+            _ if variable => self.words.has_values = true,
+            _ => (self.report)(word.range, FaultKind::UnknownWord),
+        }
+    }
+
+    /// `A3=`, `S2=`, `R1=`: first as a name of its own, then a further spindle, tool or function, else a variable.
+    fn indexed_word(&mut self, letter: u8, index: u16, word: &Word) {
+        let mut name = [0u8; 6];
+        name[0] = letter;
+        let mut digits = 1;
+        let mut divisor = 10_000;
+        while divisor > 0 {
+            if index >= divisor || divisor == 1 {
+                name[digits] = b'0' + (index / divisor % 10) as u8;
+                digits += 1;
+            }
+            divisor /= 10;
+        }
+        if let Some(role) = self.dialect.named_role(&name[..digits]) {
+            self.role_word(role, letter, word);
+            return;
+        }
+        match self.dialect.role(letter) {
+            Some(Role::Speed) => self.words.speed = Said::Unread,
+            Some(Role::Tool) => self.words.tool = Said::Unread,
+            Some(Role::M) => self.words.other_spindle = true,
+            Some(Role::ArcRadius | Role::Parameter | Role::Variable) => {
+                self.words.has_values = true;
+                return;
+            }
+            _ => {}
+        }
+        self.words.has_values = true;
+        self.not_modelled(word.range);
+    }
+
+    fn role_word(&mut self, role: Role, letter: u8, word: &Word) {
+        match role {
+            Role::BlockNumber => return,
+            Role::ProgramNumber => {
+                self.words.program_number = Some(word.range);
+                return;
+            }
+            Role::G => return self.code_word(CodeKind::G, word),
+            Role::M => return self.code_word(CodeKind::M, word),
+            _ => self.words.has_values = true,
+        }
+        match role {
+            Role::Axis => {
+                if let Some(axis) = axis_index(letter) {
+                    self.first(word);
+                    let said = self.said_place(word);
+                    put(&mut self.words.axes, axis, said);
+                } else {
+                    (self.report)(word.range, FaultKind::UnknownWord);
+                }
+            }
+            Role::ArcCentre => {
+                self.first(word);
+                let said = self.said_place(word);
+                put(&mut self.words.centre, usize::from(letter.wrapping_sub(b'I') % 3), said);
+            }
+            Role::ToolVector => {
+                self.first(word);
+                let said = self.said_place(word);
+                put(&mut self.words.vector, usize::from(letter.wrapping_sub(b'A') % 3), said);
+            }
+            Role::ArcRadius => {
+                self.first(word);
+                self.words.radius = self.said(word);
+            }
+            Role::ArcTurns => self.words.turns = self.said(word),
+            Role::Feed => self.words.feed = self.said(word),
+            Role::Speed => self.words.speed = self.said(word),
+            Role::Tool => self.words.tool = self.said(word),
+            Role::LengthOffset => self.words.length_offset = self.said(word),
+            Role::EdgeOffset => self.words.edge = self.said(word),
+            Role::Parameter if letter == b'P' => self.words.p = self.said(word),
+            Role::NotModelled => {
+                self.words.forgets_all = true;
+                self.not_modelled(word.range);
+            }
+            // a variable moves nothing; where it is used, that place is reported
+            _ => {}
+        }
+    }
+
+    fn first(&mut self, word: &Word) {
+        if self.words.first.is_none() {
+            self.words.first = Some(word.range);
+        }
+    }
+
+    /// A word that knows only numbers and names.
+    fn said(&mut self, word: &Word) -> Said {
+        match word.value {
+            Value::Number(decimal) => number(decimal, word.range),
+            Value::Text(range) => Said::Name(range),
+            Value::Missing | Value::Bad => Said::Unread,
+            Value::Expression(_) | Value::Call(..) => {
+                self.not_modelled(word.value_range);
+                Said::Unread
+            }
+        }
+    }
+
+    /// A word that also knows AC(), IC(), DC(), ACP(), ACN().
+    fn said_place(&mut self, word: &Word) -> (Said, Reading) {
+        if let Value::Call(name, decimal) = word.value {
+            let name = self.program.source().get(name.as_usize()).unwrap_or_default();
+            let reading = READINGS.iter().find(|(known, _)| name.eq_ignore_ascii_case(known));
+            if let Some(&(_, reading)) = reading {
+                return (number(decimal, word.range), reading);
+            }
+        }
+        (self.said(word), Reading::Modal)
+    }
+
+    fn code_word(&mut self, kind: CodeKind, word: &Word) {
+        let Value::Number(decimal) = word.value else {
+            if matches!(word.value, Value::Expression(_) | Value::Call(..) | Value::Text(_)) {
+                self.words.forgets_all = true;
+                self.not_modelled(word.range);
+            }
+            return;
+        };
+        let tenths = tenths(decimal);
+        let code = tenths.and_then(|tenths| match kind {
+            CodeKind::M => self.dialect.m(tenths),
+            _ => self.dialect.g(tenths),
+        });
+        if let Some(code) = code {
+            self.codes.push(Found {
+                code,
+                range: word.range,
+                with_arguments: false,
+            });
+            return;
+        }
+        let machine_builder = tenths.is_some_and(|tenths| self.dialect.builder_may_own(kind, tenths));
+        self.words.unknown_code |= kind == CodeKind::G;
+        (self.report)(word.range, FaultKind::UnknownCode { machine_builder });
+    }
+
+    fn call(&mut self, call: &Call) {
+        let Some(code) = self.name(call.name) else {
+            if std::mem::replace(&mut self.words.forgets_all, true) {
+                return;
+            }
+            let kind = if self.dialect.quirks.user_names {
+                FaultKind::NotModelled {
+                    what: self.text(call.range),
+                }
+            } else {
+                FaultKind::UnknownCode { machine_builder: false }
+            };
+            (self.report)(call.range, kind);
+            return;
+        };
+        if code.action == Action::Declaration {
+            self.words.declares = true;
+        }
+        let with_arguments = call.arguments.is_some_and(|inner| {
+            self.program
+                .source()
+                .get(inner.as_usize())
+                .is_some_and(|text| text.iter().any(|b| !b.is_ascii_whitespace()))
+        });
+        self.codes.push(Found {
+            code,
+            range: call.range,
+            with_arguments,
+        });
+    }
+
+    fn name(&self, range: TextRange) -> Option<&'d Code> {
+        let name = std::str::from_utf8(self.program.source().get(range.as_usize())?).ok()?;
+        self.dialect.name(name)
+    }
+
+    /// Text that is neither word nor name: an assignment or condition, unless the syntax has called it wrong already.
+    fn other(&mut self, range: TextRange) {
+        let overlaps = |error: &SyntaxError| error.range.start < range.end && range.start < error.range.end;
+        let errors = self.program.errors();
+        let from = errors.partition_point(|error| error.range.end <= range.start);
+        if errors[from..].iter().take(4).any(overlaps) {
+            return;
+        }
+        self.words.has_content = true;
+        self.words.has_values = true;
+        let source = self.program.source().get(range.as_usize()).unwrap_or_default();
+        let assigns = source.first() == Some(&b'#') && source.contains(&b'=');
+        if !assigns {
+            self.words.forgets_all = true;
+            self.not_modelled(range);
+        }
+    }
+}
+
+const READINGS: [(&[u8], Reading); 5] = [
+    (b"AC", Reading::Absolute),
+    (b"IC", Reading::Incremental),
+    (b"DC", Reading::Shortest),
+    (b"ACP", Reading::Positive),
+    (b"ACN", Reading::Negative),
+];

@@ -1,0 +1,102 @@
+//! Every complaint about a machine file: what it says and the place it points at.
+use crate::load;
+
+/// One fault per line: where the text goes, the text, what the error must point at, a part of its message. `axes`: the list of
+/// axes, `XYZ` being three sound linear ones; `head` and `tail`: lines before and after a sound list; `;;` is a new line.
+const FAULTS: &str = r#"
+head | nmae = "x" | nmae | unknown field `nmae`
+head | units = { length = "inch" } | "inch" | write "mm"
+head | units = { angle = "rad" } | "rad" | write "deg"
+head | units = { time = "min" } | "min" | write "s"
+head | spindle = { tool_axis = [0, 0, 2] } | [0, 0, 2] | [0.000000000, 0.000000000, 1.000000000]
+head | spindle = { tool_axis = [0, 0, 0] } | [0, 0, 0] | zero vector
+head | spindle = { gauge_point = [0, nan, 0] } | [0, nan, 0] | three numbers
+head | spindle = { gauge_point = [0, 0] } | [0, 0] | length 2
+axes | {letter="Q"} | "Q" | not an axis letter
+axes | {letter="XY"} | "XY" | not an axis letter
+axes | {letter="C"} | "C" | side =
+axes | {letter="X",side="tail"} | "tail" | unknown variant
+axes | {letter="X",dir=[1,1,0]} | [1,1,0] | [0.707106781, 0.707106781, 0.000000000]
+axes | {letter="X",sign=2} | 2 | sign must be 1
+axes | {letter="X",limits=[5,-5]} | [5,-5] | below the upper
+axes | {letter="X",limits=[0,inf]} | [0,inf] | finite
+axes | {letter="X",limits="none"} | "none" | "unbounded" or [min, max]
+axes | {letter="X",limits=[1,2,3]} | [1,2,3] | [min, max]
+axes | {letter="X",limit_margin=-1} | -1 | negative
+axes | {letter="X",resolution=0} | 0 | above zero
+axes | {letter="X",dyn={vmax=0}} | 0 | above zero
+axes | {letter="X",dyn={vmax=-1}} | -1 | above zero
+axes | {letter="X",dyn={vmax=nan}} | nan | a number
+axes | {letter="X",dyn={vmax="fast"}} | "fast" | invalid type
+axes | {letter="X",dyn={speed=1}} | speed | unknown field
+axes | {letter="X",dyn={kff=1.5}} | 1.5 | a share
+axes | {letter="A",side="head",mode="diameter"} | "diameter" | linear axis
+axes | XYZ,{letter="x"} | "x" | listed twice
+axes | XYZ,{letter="V",follow="U"} | "U" | not an axis of this machine
+axes | {letter="V",follow="V"} | "V" | cannot follow itself
+axes | XYZ,{letter="C",side="table"} | "C" | from workpiece to tool
+axes | {letter="X"},{letter="Z"} | [{letter="X"},{letter="Z"}] | there are X, Z
+axes |  | [] | there is none
+axes | {letter="X"},{letter="Y"},{letter="Z",dir=[0,1,0]} | [{letter="X"},{letter="Y"},{letter="Z",dir=[0,1,0]}] | span space
+axes | {letter="C",side="table"},{letter="A",side="table",dir=[0,0,-1]},XYZ | {letter="A",side="table",dir=[0,0,-1]} | C and A are parallel
+axes | {letter="A",side="table"},{letter="C",side="table"},XYZ | {letter="C",side="table"} | about the tool axis itself
+axes | {letter="C",side="table"},{letter="A",side="table"},{letter="B",side="table"},XYZ | {letter="B",side="table"} | at most 2
+tail | [control];;family = "siemens" | "siemens" | known: generic
+tail | [control];;rapid = "fast" | "fast" | unknown variant
+tail | [control];;tcp = { path = "round" } | "round" | known: tip-linear
+tail | [control];;tcp = { orientation = "round" } | "round" | unknown variant
+tail | [control];;branch = { order = ["move3"] } | "move3" | known: move1
+tail | [control];;branch = { range = { Q = [0, 1] } } | Q | not an axis
+tail | [control];;branch = { range = { A = [1, 1] } } | [1, 1] | below the upper
+tail | [control];;pole = { passing_type = 3 } | 3 | 1 and 2
+tail | [control];;pole = { action = "jump" } | "jump" | known: through
+tail | [control];;corner = { model = "round" } | "round" | known: axis-jump
+tail | [control];;planner = { block_time = -1 } | -1 | negative
+tail | [tolerances];;tip = -0.1 | -0.1 | above zero
+tail | [tolerances];;feed_drop = 2 | 2 | at most 1
+tail | [tolerances];;tipp = 1 | tipp | unknown field
+tail | [[body]];;carrier = "Q";;mesh = "a" | "Q" | carries nothing
+"#;
+
+const SCHEMA: &str = "schema = \"ncmachine/1\"\n";
+const XYZ: &str = "{letter=\"X\"},{letter=\"Y\"},{letter=\"Z\"}";
+
+fn file(place: &str, text: &str) -> String {
+    let sound = format!("axis = [{{letter=\"C\",side=\"table\"}},{{letter=\"A\",side=\"table\"}},{XYZ}]\n");
+    let text = text.replace(";;", "\n").replace("XYZ", XYZ);
+    match place {
+        "axes" => format!("{SCHEMA}axis = [{text}]\n"),
+        "head" => format!("{SCHEMA}{text}\n{sound}"),
+        _ => format!("{SCHEMA}{sound}{text}\n"),
+    }
+}
+
+#[test]
+fn every_fault_is_named_and_located() {
+    let mut seen = 0;
+    for line in FAULTS.lines().filter(|line| !line.is_empty()) {
+        let [place, text, span, message] = line.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("{line}")
+        };
+        let toml = file(place, text);
+        let error = load("bad", &toml).expect_err(line);
+        let range = error
+            .span
+            .clone()
+            .unwrap_or_else(|| panic!("no place for {error} in {line}"));
+        assert_eq!(&toml[range], span, "{error} in {line}");
+        assert!(error.message.contains(message), "{error} in {line}");
+        seen += 1;
+    }
+    assert!(seen > 50);
+}
+
+#[test]
+fn the_schema_comes_first() {
+    let missing = load("bad", "axis = []").expect_err("no schema");
+    assert!(missing.message.contains("missing field `schema`"), "{missing}");
+    let text = "schema = \"ncmachine/2\"\naxis=[]";
+    let other = load("bad", text).expect_err("another schema");
+    assert_eq!(&text[other.span.clone().expect("a place")], "\"ncmachine/2\"");
+    assert!(other.message.contains("reads \"ncmachine/1\""), "{other}");
+}

@@ -1,0 +1,142 @@
+//! How the rotary axes turn inside a block: evenly, or so that the tool axis runs on a great circle.
+//!
+//! Turns are sign times joint, rad; rates are per block.
+use crate::course::on_great_circle;
+use crate::{Leg, Machine, Orientations, PairConstants, Stance, orientations};
+use core::f64::consts::{PI, TAU};
+use trunnion_geometry::Vec3;
+use trunnion_geometry::math::{angle_between, atan2, cos, sin_cos};
+
+/// Tool axes nearer than this are one: nothing runs on a great circle, rad.
+const SAME_AXIS: f64 = 1e-12;
+
+/// How near the great circle's end must come to the block's end, rad.
+const ARRIVAL: f64 = 1e-6;
+
+/// Bounds over a piece of a block for the two rotary axes: rates and second derivatives.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SpinBounds {
+    pub(crate) rate: [f64; 2],
+    pub(crate) bend: [f64; 2],
+}
+
+/// The course of the rotary axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Spin<'a> {
+    /// At constant rates.
+    Even,
+    /// The tool axis runs on a great circle at a constant rate, in the start's posture.
+    GreatCircle(GreatCircle<'a>),
+}
+
+/// A great circle from the start's to the end's tool axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GreatCircle<'a> {
+    machine: &'a Machine,
+    pair: &'a PairConstants,
+    start: Vec3,
+    /// Unit vector at right angles to `start` in the circle's plane.
+    side: Vec3,
+    /// Angle of the whole block, rad.
+    angle: f64,
+    branch: i8,
+}
+
+impl<'a> Spin<'a> {
+    /// `None` where the tool axis should run on a great circle but the joints cannot follow it from start to end (the posture sign
+    /// changes, a joint arrives on another turn, the tool axis turns right round).
+    pub(crate) fn new(machine: &'a Machine, leg: &Leg, start: &Stance, end: &Stance) -> Option<Self> {
+        let angle = angle_between(&start.axis, &end.axis);
+        let Some(pair) = machine
+            .constants
+            .pair
+            .as_ref()
+            .filter(|_| on_great_circle(machine, &leg.motion))
+        else {
+            return Some(Self::Even);
+        };
+        if angle < SAME_AXIS {
+            return Some(Self::Even);
+        }
+        let side = end.axis - start.axis * start.axis.dot(&end.axis);
+        if angle > PI - ARRIVAL || start.branch != end.branch {
+            return None;
+        }
+        let circle = GreatCircle {
+            machine,
+            pair,
+            start: start.axis,
+            side: side.normalize(),
+            angle,
+            branch: start.branch,
+        };
+        let (from, to) = (start.rotary(machine), end.rotary(machine));
+        let arrives = circle.near(1.0, circle.joints(0.999_999_9, from)?)?;
+        let off = (arrives[0] - to[0]).abs().max((arrives[1] - to[1]).abs());
+        // coming near the end by the shorter way must be coming to the end
+        (off < ARRIVAL && (to[0] - from[0]).abs() < PI).then_some(Self::GreatCircle(circle))
+    }
+}
+
+impl GreatCircle<'_> {
+    /// Tool axis and its rate.
+    fn axis(&self, t: f64) -> (Vec3, Vec3) {
+        let (sin, cos) = sin_cos(self.angle * t);
+        (
+            self.start * cos + self.side * sin,
+            (self.side * cos - self.start * sin) * self.angle,
+        )
+    }
+
+    /// Rotary joints at t, on the turns nearest to `near`; `None` where there are none in this posture.
+    fn near(&self, t: f64, near: [f64; 2]) -> Option<[f64; 2]> {
+        let Orientations::Postures(postures) = orientations(self.machine, &self.axis(t).0) else {
+            return None;
+        };
+        let found = postures.iter().find(|solution| solution.branch == self.branch)?;
+        let turn = |i: usize| found.q[i] + TAU * ((near[i] - found.q[i]) / TAU).round();
+        Some([turn(0), turn(1)])
+    }
+
+    /// Rotary joints at t for a block that starts at `from`. The azimuth of a great circle turns by less than pi.
+    pub(crate) fn joints(&self, t: f64, from: [f64; 2]) -> Option<[f64; 2]> {
+        self.near(t, from)
+    }
+
+    /// Rates of the turns at t: with f = R1 e2, t1' = -(u'.f) / S and t2' = (u'.e1) / S. `f` is the second axis turned by the first.
+    pub(crate) fn rates(&self, t: f64, f: &Vec3) -> [f64; 2] {
+        let (u, rate) = self.axis(t);
+        let e1 = self.machine.constants.rotary[0].direction;
+        let s = e1.dot(&f.cross(&u));
+        [-rate.dot(f) / s, rate.dot(&e1) / s]
+    }
+
+    /// Bounds over a piece. The angle between u and e1 changes by at most `angle` per block, S^2 = D (1 - y^2) - (e1.u - c y)^2; second
+    /// derivatives from u'' = -angle^2 u, multiplied by f and by e1.
+    pub(crate) fn bounds(&self, from: f64, to: f64) -> SpinBounds {
+        let pair = self.pair;
+        let e1 = self.machine.constants.rotary[0].direction;
+        let u = self.axis(0.5 * (from + to)).0;
+        let middle = atan2(e1.cross(&u).norm(), e1.dot(&u));
+        let half = 0.5 * self.angle * (to - from) * (1.0 + 1e-9);
+        let (low, high) = ((middle - half).max(0.0), (middle + half).min(PI));
+        let rho2 = pair.d * (1.0 - pair.y * pair.y);
+        let s2 = |x: f64| rho2 - (x - pair.c * pair.y) * (x - pair.c * pair.y);
+        let s = s2(cos(low)).min(s2(cos(high))).max(0.0).sqrt() * (1.0 - 1e-9);
+        let w = self.angle;
+        let sine = if low < 0.5 * PI && high > 0.5 * PI {
+            1.0
+        } else {
+            let (l, h) = (sin_cos(low).0, sin_cos(high).0);
+            l.max(h)
+        };
+        let first = w / s;
+        let second = w * sine / s;
+        let bend1 = (w * w * pair.y.abs() + first * first * (pair.c.abs() + pair.y.abs()) + 2.0 * first * second) / s;
+        let bend2 = (w * w + second * second * (1.0 + (pair.c * pair.y).abs())) / s;
+        SpinBounds {
+            rate: [first, second],
+            bend: [bend1, bend2],
+        }
+    }
+}

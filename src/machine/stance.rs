@@ -1,0 +1,108 @@
+//! Where the machine stands between two blocks, and what it does in one.
+use crate::forward::Turn;
+use crate::{Joints, Machine};
+use trunnion_geometry::Vec3;
+use trunnion_interp::Motion;
+
+/// Where the machine stands between two blocks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stance {
+    /// Joint values, mm or rad.
+    pub joints: Joints,
+    /// Tip in the workpiece frame without work offset, i.e. in programmed coordinates, mm.
+    pub tip: Vec3,
+    /// Unit tool axis in the workpiece frame.
+    pub axis: Vec3,
+    /// S of the posture (see `Solution::branch`), signed.
+    pub s: f64,
+    /// +1, -1, 0 at the pole (|S| below 1e-9); 0 also for machines with fewer than two rotary axes.
+    pub branch: i8,
+    /// Angle between tool axis and first rotary axis (0..pi/2, the nearer end of the axis), rad; pi/2 for machines without two rotaries.
+    pub pole_angle: f64,
+    /// Tool length used, mm.
+    pub tool_length: f64,
+    /// Tip in the workpiece frame with the work offset, mm.
+    pub(crate) point: Vec3,
+    /// Sine and cosine of the turns of the two rotary axes (0, 1 for missing ones).
+    pub(crate) turns: [(f64, f64); 2],
+}
+
+impl Stance {
+    /// The rotary turns of this stance.
+    #[inline]
+    pub(crate) fn turns(&self, machine: &Machine) -> [Turn; 2] {
+        let rotary = &machine.constants.rotary;
+        let turn = |i: usize| Turn {
+            axis: rotary[i].direction,
+            sin: self.turns[i].0,
+            cos: self.turns[i].1,
+        };
+        [turn(0), turn(1)]
+    }
+    /// Tip in the workpiece frame with another tool length, mm.
+    #[inline]
+    pub(crate) fn point_with(&self, tool_length: f64) -> Vec3 {
+        if tool_length == self.tool_length {
+            self.point
+        } else {
+            self.point + self.axis * (self.tool_length - tool_length)
+        }
+    }
+    /// Rotary joints, workpiece side first, rad; 0 for missing ones.
+    #[inline]
+    pub(crate) fn rotary(&self, machine: &Machine) -> [f64; 2] {
+        rotary_joints(machine, &self.joints)
+    }
+}
+
+#[inline]
+fn rotary_joints(machine: &Machine, joints: &Joints) -> [f64; 2] {
+    let mut q = [0.0; 2];
+    for (slot, rotary) in q.iter_mut().zip(machine.constants.rotary()) {
+        *slot = joints[rotary.joint];
+    }
+    q
+}
+
+/// Why there is no stance.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoStance {
+    /// Some axis was never positioned (the letters).
+    PositionUnknown(String),
+    /// No posture reaches the tool axis; nearest reachable cone is this far, rad.
+    Unreachable(f64),
+    /// Postures exist, but none inside the limits of the rotary axes: the axis letter, the value nearest to legal and the limit it breaks, rad.
+    OutsideLimits {
+        /// Letter.
+        axis: u8,
+        /// rad.
+        value: f64,
+        /// rad.
+        limit: f64,
+    },
+    /// A motion that is not modelled.
+    NotModelled,
+    /// The program names an axis that the machine does not have.
+    NoSuchAxis(u8),
+}
+
+/// What the machine does in one motion.
+#[derive(Clone, Debug)]
+pub struct Leg {
+    /// The motion.
+    pub motion: Motion,
+    /// Before; `None`: unknown.
+    pub start: Option<Stance>,
+    /// After.
+    pub end: Result<Stance, NoStance>,
+    /// Joint values that are known even where the stance is not: value and bit mask (machine words without TCP).
+    pub known_joints: (Joints, u16),
+    /// Absolute increments of the rotary joints, rad (0 for missing).
+    pub rotary_change: [f64; 2],
+    /// Smallest pole angle within the block, rad (pi/2 where unknown).
+    pub pole_angle_min: f64,
+    /// Rotary excess over the cheapest move of the start's posture, rad, when the posture sign changes; else 0.
+    pub rotary_excess: f64,
+    /// Length of the tip path with TCP or vectors, of the programmed X Y Z path without, mm; 0 where it is not known.
+    pub length: f64,
+}

@@ -1,0 +1,124 @@
+//! Names: what TRAORI, CYCLE800(..), IF [..], GOTO 100, LABEL: and CR=5 are.
+use crate::expression::{is_function, is_one_of};
+use crate::items::{Items, Stage};
+use crate::sink::Sink;
+use crate::{Address, Call, Item, TextRange, TokenId, TokenKind, Value, Word};
+
+/// Names that own one operand without parentheses, even one that is glued on: `GOTO100`, `GOTOF LABEL`.
+const JUMPS: [&str; 4] = ["GOTO", "GOTOF", "GOTOB", "GOTOC"];
+
+/// Names that own a number, even one that is glued on: `DO1`.
+const NUMBERED: [&str; 3] = ["DO", "END", "LBL"];
+
+/// Names that own one expression: `IF R1>5`, `WHILE [#1 LT 2]`.
+const CONDITIONS: [&str; 7] = ["IF", "ELSEIF", "WHILE", "UNTIL", "EVERY", "WHEN", "WHENEVER"];
+
+/// Names that own the rest of the block: declarations, and loops with a syntax of their own.
+const DECLARATIONS: [&str; 7] = ["DEF", "PROC", "EXTERN", "CASE", "FOR", "DEFINE", "REDEF"];
+
+impl Items<'_> {
+    /// A name: label, assignment, jump, condition, declaration or call.
+    pub(crate) fn name(&mut self, at: TokenId, stage: Stage, sink: &mut impl Sink) -> Item {
+        let scan = self.scan;
+        let text = scan.text(at);
+        if let Some(item) = self.keyword(at, text, sink) {
+            return item;
+        }
+        let end = scan.name_end(at);
+        let next = scan.skip_blank(end);
+        if scan.kind(next) == TokenKind::Colon && stage <= Stage::Numbered {
+            return self.label(at, next + 1);
+        }
+        if scan.assigns(next) {
+            return self.assignment(at, Address::Named(scan.span(at, end)), next, sink);
+        }
+        if is_one_of(text, &DECLARATIONS) {
+            let stop = scan.trim(next, scan.end);
+            return self.call(at, end, next, (stop > next).then_some(stop));
+        }
+        match scan.kind(next) {
+            TokenKind::BracketOpen => self.bracketed(at, end, next, sink),
+            TokenKind::ParenOpen => {
+                let stop = scan.group(next, sink);
+                let closed = stop > next + 1 && scan.kind(stop - 1) == TokenKind::ParenClose;
+                let inner = TextRange::new(scan.range(next).end, scan.span(next, stop - u32::from(closed)).end);
+                self.at = stop;
+                Item::Call(Call {
+                    name: scan.span(at, end),
+                    arguments: Some(inner),
+                    range: scan.span(at, stop),
+                })
+            }
+            TokenKind::Text | TokenKind::Number => self.call(at, end, next, Some(next + 1)),
+            _ => self.call(at, end, next, None),
+        }
+    }
+
+    /// A jump or a condition: names that end where their letters end, whatever is glued on.
+    fn keyword(&mut self, at: TokenId, text: &[u8], sink: &mut impl Sink) -> Option<Item> {
+        let scan = self.scan;
+        let next = scan.skip_blank(at + 1);
+        let behind = if scan.kind(next) == TokenKind::Number {
+            scan.skip_blank(next + 1)
+        } else {
+            next
+        };
+        if scan.assigns(behind) || scan.kind(behind) == TokenKind::Colon {
+            // `LBL1:` and `DO1=5` are names like others.
+            return None;
+        }
+        let stop = if is_one_of(text, &JUMPS) {
+            if scan.kind(next) == TokenKind::ParenOpen {
+                None
+            } else {
+                scan.operand(next, sink)
+            }
+        } else if is_one_of(text, &NUMBERED) {
+            (scan.kind(next) == TokenKind::Number).then_some(next + 1)
+        } else if is_one_of(text, &CONDITIONS) {
+            scan.expression(at + 1, scan.range(at), sink)
+        } else {
+            return None;
+        };
+        Some(self.call(at, at + 1, next, stop))
+    }
+
+    /// The call of the name `at..end`, whose arguments, if any, are the tokens from `first` to before `stop`.
+    fn call(&mut self, at: TokenId, end: TokenId, first: TokenId, stop: Option<TokenId>) -> Item {
+        self.at = stop.unwrap_or(end);
+        let arguments = stop.map(|stop| self.scan.span(first, stop));
+        Item::Call(Call {
+            name: self.scan.span(at, end),
+            arguments,
+            range: self.scan.span(at, self.at),
+        })
+    }
+
+    /// A name with brackets: an element that is assigned (`A[1]=5`), a letter with a function glued on (`XSIN[30]`),
+    /// or a name with arguments (`call [1] [2]`).
+    fn bracketed(&mut self, at: TokenId, end: TokenId, open: TokenId, sink: &mut impl Sink) -> Item {
+        let scan = self.scan;
+        let text = scan.bytes(scan.span(at, end));
+        let mut stop = scan.group(open, sink);
+        let equals = scan.skip_blank(stop);
+        if scan.assigns(equals) {
+            return self.assignment(at, Address::Named(scan.span(at, stop)), equals, sink);
+        }
+        if is_function(&text[1..]) && !is_function(text) {
+            self.at = stop;
+            let range = scan.span(at, stop);
+            let value_range = TextRange::new(range.start + 1, range.end);
+            let address = Address::Letter(text[0].to_ascii_uppercase());
+            return Item::Word(Word {
+                address,
+                value: Value::Expression(value_range),
+                range,
+                value_range,
+            });
+        }
+        while scan.kind(scan.skip_blank(stop)) == TokenKind::BracketOpen {
+            stop = scan.group(scan.skip_blank(stop), sink);
+        }
+        self.call(at, end, open, Some(stop))
+    }
+}

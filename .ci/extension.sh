@@ -39,6 +39,7 @@ finish() {
 
 # The browser, and what code-server's native modules are compiled with.
 packages="chromium fonts-dejavu-core libkrb5-dev build-essential pkg-config curl util-linux"
+python3 -m pip --version >/dev/null 2>&1 || packages="$packages python3-pip"
 install_packages() {
   local sudo=
   [ "$(id -u)" -eq 0 ] || sudo="sudo -n"

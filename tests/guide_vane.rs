@@ -9,17 +9,36 @@ use trunnion::interp::{ModalState, Motion, Setup, Sink, run};
 use trunnion::machine::{Follower, Leg, Machine, Row, builtin as machine, row, tip_deviation};
 use trunnion::syntax::parse;
 
-/// A strategy's text with the given extension, or `None` (said aloud) where the data set is not there.
-#[expect(clippy::print_stderr, reason = "a test that is skipped says so")]
-fn data(strategy: u32, extension: &str) -> Option<String> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!(
-        "../shared/data/guide-vane-2006/strategy-{strategy}.{extension}"
-    ));
-    let text = std::fs::read_to_string(&path).ok();
-    if text.is_none() {
-        eprintln!("skipped: no {}", path.display());
+/// The five rows of a strategy: cut out of the sample program, and once more from the data set the samples were written
+/// around, where that is there (said aloud where it is not).
+#[expect(clippy::print_stderr, reason = "a test that skips a part says so")]
+fn excerpts(strategy: u32, extension: &str) -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |folder: &str| std::fs::read_to_string(root.join(format!("{folder}/strategy-{strategy}.{extension}")));
+    let sample = read("samples/programs/guide-vane").expect("the sample is there");
+    let mut found = vec![rows_of(&sample, extension)];
+    match read("../shared/data/guide-vane-2006") {
+        Ok(text) => found.push(text),
+        Err(_) => eprintln!("skipped: no data set for strategy-{strategy}.{extension}"),
     }
-    text
+    found
+}
+
+/// The printed rows of a sample: feed lines of the Sinumerik program, what stands between the dashes of the APT file.
+fn rows_of(sample: &str, extension: &str) -> String {
+    let rows: Vec<&str> = if extension == "mpf" {
+        sample.lines().filter(|line| line.contains(" G1 ")).collect()
+    } else {
+        let between = sample.split("$$ ---\n").nth(1).expect("the rows stand between dashes");
+        between.lines().collect()
+    };
+    assert_eq!(rows.len(), 5, "five rows");
+    rows.join("\n") + "\n"
+}
+
+/// Both notations of a strategy, paired by where they come from.
+fn both(strategy: u32) -> Vec<(String, String)> {
+    excerpts(strategy, "apt").into_iter().zip(excerpts(strategy, "mpf")).collect()
 }
 
 fn mikron() -> &'static Machine {

@@ -62,7 +62,6 @@ fn tool_vectors_of_strategy_2_give_the_published_steps() {
         let c = &certificate.rotary[0];
         assert_eq!(c.axis, "C");
         assert!(near(c.step_before_deg, 55.7, 0.05), "before {}", c.step_before_deg);
-        eprintln!("{tolerance} {}", c.step_after_deg);
         assert!(
             near(c.step_after_deg, step, 0.06),
             "at {tolerance}: {}",
@@ -300,6 +299,52 @@ fn inches_are_kept() {
     assert!(near(certificate.rotary[0].step_after_deg, 1.146, 0.01));
 }
 
+#[test]
+fn other_chains_and_work_offsets_keep_the_contact_too() {
+    let rows = ROWS.replace(" A", " B");
+    let on_ferrari = Settings {
+        machine: trunnion::machine::builtin("ferrari-bc"),
+        ..settings("sinumerik-840d", ball())
+    };
+    let (_, certificate) = certified(smooth(&sinumerik(&rows), &on_ferrari, 0.08));
+    assert!(
+        near(certificate.rotary[0].step_after_deg, 1.146, 0.001),
+        "{:?}",
+        certificate.rotary
+    );
+    assert!(certificate.worst.point_shift_mm.value < 1e-5);
+
+    let mut setup = ball();
+    let values = [10.0, 20.0, 30.0, 0.0, 0.0, 33.0, 0.0, 0.0, 0.0];
+    setup.work_offsets.push(trunnion::interp::WorkOffset {
+        name: "G54".into(),
+        values,
+    });
+    let (after, certificate) = certified(smooth(
+        &sinumerik(&format!("G54\n{ROWS}")),
+        &settings("sinumerik-840d", setup),
+        0.08,
+    ));
+    assert!(certificate.worst.point_shift_mm.value < 1e-5);
+    let plain = certified(smooth(&sinumerik(ROWS), &settings("sinumerik-840d", ball()), 0.08)).0;
+    let c = |text: &str| words(text).iter().map(|row| row[4]).collect::<Vec<_>>();
+    assert_eq!(c(&after), c(&plain), "the offset shifts joints, not words");
+}
+
+#[test]
+fn each_window_is_smoothed_and_lines_keep_their_ends() {
+    let settings = settings("sinumerik-840d", ball());
+    let away = "N3000 G1 X-28 Y0 Z60 A-12.5 C0\nN3010 X-28 Y1 Z60 A2.5 C1\n";
+    let text = sinumerik(&format!("{ROWS}{away}{}", ROWS.replace("N29", "N39"))).replace('\n', "\r\n");
+    let (after, certificate) = certified(smooth(&text, &settings, 0.08));
+    assert!(certificate.rotary[0].step_after_deg < 10.0);
+    assert_eq!(after.matches("\r\n").count(), text.matches("\r\n").count());
+    let inner = |number: &str| {
+        words(&after).len() == 12 && after.contains(number) && !after.contains(&format!("{number} G1 X-28.38709"))
+    };
+    assert!(inner("N2930") && inner("N3930"), "{after}");
+}
+
 fn unwind(text: &str) -> Attempt {
     run(
         "unwind-rotary",
@@ -393,7 +438,7 @@ fn fences(docs: &str) -> Vec<(String, String)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(64) })]
 
     /// A tool axis that wanders past the pole: what is proved keeps its promises, what is not is refused with a reason.
     #[test]
@@ -423,6 +468,26 @@ proptest! {
             }
             Attempt::Refused(reason) => prop_assert!(!reason.is_empty()),
             Attempt::NothingToDo => {}
+        }
+    }
+
+    /// Damaged programs: no panic, and what is proved is proved again.
+    #[test]
+    fn damaged_programs_do_no_harm(cuts in prop::collection::vec((0..400usize, prop::char::range(' ', '~')), 1..6), apt_format in any::<bool>()) {
+        let (text, dialect) = if apt_format { (apt(VECTORS), "apt") } else { (sinumerik(ROWS), "sinumerik-840d") };
+        let mut bytes = text.into_bytes();
+        for (at, with) in cuts {
+            let at = at % bytes.len();
+            bytes[at] = u8::try_from(with).expect("ASCII");
+        }
+        let text = String::from_utf8(bytes).expect("ASCII");
+        let settings = settings(dialect, ball());
+        for rewrite in rewrites() {
+            match run(rewrite.name, &text, &settings, &Options::default()) {
+                Attempt::Refused(reason) => prop_assert!(!reason.is_empty()),
+                Attempt::Certified { after, .. } => prop_assert_ne!(after, text.as_bytes()),
+                Attempt::NothingToDo => {}
+            }
         }
     }
 }

@@ -1,16 +1,24 @@
 //! Two legs of the same number, one of each program: what differs, in numbers.
-use crate::Claim;
 use crate::certificate::MotionChange;
 use crate::path::{Apart, Path, apart};
 use crate::rerun::Step;
-use crate::verdict::Stop;
-use trunnion_geometry::deg;
+use crate::{Claim, Outcome};
 use trunnion_geometry::math::angle_between;
-use trunnion_interp::Motion;
+use trunnion_geometry::{Vec3, deg};
+use trunnion_interp::{Motion, MotionKind};
 use trunnion_machine::{Leg, Machine, NoStance, Stance, forward};
 
 /// Forward kinematics may differ from the programmed pose by this much, mm and deg: more is a fault of this program, not a claim.
 const FORWARD_TOLERANCE: f64 = 1e-6;
+
+/// Where in the programs two legs stand.
+#[derive(Clone, Copy)]
+pub(crate) struct Place {
+    /// Index of the motion.
+    pub motion: usize,
+    /// Line in the program after.
+    pub line: u32,
+}
 
 /// What comparing two legs gave.
 pub(crate) enum Compared {
@@ -22,88 +30,237 @@ pub(crate) enum Compared {
     Changed(Box<MotionChange>),
 }
 
-/// Where in the programs two legs stand.
-#[derive(Clone, Copy)]
-pub(crate) struct Place {
-    /// Index of the motion.
-    pub motion: usize,
-    /// Line in the program after.
-    pub line: u32,
+/// Two legs under a claim.
+pub(crate) struct Pair<'a> {
+    /// The machine.
+    pub machine: &'a Machine,
+    /// The claim.
+    pub claim: &'a Claim,
+    /// Where.
+    pub at: Place,
+    /// In the program before.
+    pub before: &'a Step,
+    /// In the program after.
+    pub after: &'a Step,
 }
 
-/// Compares two legs under a claim.
-pub(crate) fn compare(
-    machine: &Machine,
-    claim: &Claim,
-    at: Place,
-    before: &Step,
-    after: &Step,
-) -> Result<Compared, Stop> {
-    let (old, new) = (&before.leg, &after.leg);
-    same_kind(claim, at, &old.motion, &new.motion)?;
-    let (was, is) = match (&old.end, &new.end) {
-        (Ok(was), Ok(is)) => (was, is),
-        (Err(_), Err(_)) if alike(old, new) => return Ok(Compared::UnknownAlike),
-        (Err(why), _) => return Err(unknown(at, "before", why)),
-        (_, Err(why)) => return Err(unknown(at, "after", why)),
-    };
-    if was == is && old.start == new.start && alike(old, new) {
-        return Ok(Compared::Same);
-    }
-    if let Claim::SameBallCentre { ball_radius_mm, .. } = claim {
-        same_ball(at, *ball_radius_mm, before, after)?;
-    }
-    let height = claim.point_height_mm();
-    let way = way_between(machine, claim, at, old, new, height)?;
-    let shift = |height: f64| ((is.tip + is.axis * height) - (was.tip + was.axis * height)).norm();
-    let rotary = machine
-        .rotary
-        .iter()
-        .map(|&joint| deg(is.joints[joint] - was.joints[joint]))
-        .collect();
-    let change = MotionChange {
-        motion: at.motion as u64,
-        line: at.line,
-        point_shift_mm: shift(height),
-        tip_shift_mm: shift(0.0),
-        axis_change_deg: deg(angle_between(&was.axis, &is.axis)),
-        rotary_change_deg: rotary,
-        path_sampled_mm: way.sampled_mm,
-        path_bound_mm: way.bound_mm,
-        path_axis_bound_deg: deg(way.bound_axis),
-    };
-    judge(claim, at, &change, &way, turns_change(machine, old, new))?;
-    Ok(Compared::Changed(Box::new(change)))
-}
+/// The stances of both programs at the same moment.
+type Both<'s> = (&'s Stance, &'s Stance);
 
-/// What must be equal whatever is claimed, and what must be equal in a rewrite.
-fn same_kind(claim: &Claim, at: Place, old: &Motion, new: &Motion) -> Result<(), Stop> {
-    let refuse = |what: &str| {
-        Err(Stop::refuted_at(
-            at.motion,
-            at.line,
-            format!("{what} differs between before and after"),
-        ))
-    };
-    if core::mem::discriminant(&old.kind) != core::mem::discriminant(&new.kind) {
-        return refuse("the kind of motion (rapid, line, arc, dwell)");
+impl Pair<'_> {
+    /// Compares. `Err` where the claim is refuted or cannot be decided.
+    pub(crate) fn compare(&self) -> Result<Compared, Outcome> {
+        self.same_kind()?;
+        let (old, new) = (&self.before.leg, &self.after.leg);
+        let alike = self.alike();
+        let (was, is) = match (&old.end, &new.end) {
+            (Ok(was), Ok(is)) => (was, is),
+            (Err(_), Err(_)) if alike => return Ok(Compared::UnknownAlike),
+            (Err(why), _) => return Err(self.no_pose("before", why)),
+            (_, Err(why)) => return Err(self.no_pose("after", why)),
+        };
+        if was == is && alike {
+            return Ok(Compared::Same);
+        }
+        self.same_ball()?;
+        let start = old.start.as_ref().zip(new.start.as_ref());
+        let way = if start.is_none() && alike {
+            Apart::default()
+        } else {
+            self.way(start, (was, is))?
+        };
+        let height = self.claim.point_height_mm();
+        let shift = |height: f64| ((is.tip + is.axis * height) - (was.tip + was.axis * height)).norm();
+        let rotary = self.machine.rotary.iter();
+        let change = MotionChange {
+            motion: self.at.motion as u64,
+            line: self.at.line,
+            point_shift_mm: shift(height),
+            tip_shift_mm: shift(0.0),
+            axis_change_deg: deg(angle_between(&was.axis, &is.axis)),
+            rotary_change_deg: rotary.map(|&joint| deg(is.joints[joint] - was.joints[joint])).collect(),
+            path_sampled_mm: way.sampled_mm,
+            path_bound_mm: way.bound_mm,
+            path_axis_bound_deg: deg(way.bound_axis),
+        };
+        self.judge_end(&change)?;
+        self.judge_way(&way, start, (was, is))?;
+        Ok(Compared::Changed(Box::new(change)))
     }
-    if old.zero != new.zero || old.machine_coordinates != new.machine_coordinates {
-        return refuse("the zero point");
+
+    fn refute<T>(&self, message: String) -> Result<T, Outcome> {
+        Err(Outcome::refuted_at(self.at.motion, self.at.line, message))
     }
-    if old.tool != new.tool || old.tool_length_mm != new.tool_length_mm {
-        return refuse("the tool or its length");
+
+    fn unknown(&self, message: &str) -> Outcome {
+        Outcome::unknown(format!("line {}: {message}", self.at.line))
     }
-    if !claim.is_rewrite() {
-        return Ok(());
+
+    fn no_pose(&self, which: &str, why: &NoStance) -> Outcome {
+        let why = match why {
+            NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown: program it before"),
+            NoStance::Unreachable(_) | NoStance::OutsideLimits { .. } => "the machine cannot reach the pose".into(),
+            NoStance::NotModelled => "the motion is not modelled".into(),
+            NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
+        };
+        self.unknown(&format!("in the program {which}, {why}"))
     }
-    if old.tcp != new.tcp || old.great_circle != new.great_circle {
-        return refuse("tool centre point control");
+
+    /// What must be equal whatever is claimed, and what must be equal in a rewrite.
+    fn same_kind(&self) -> Result<(), Outcome> {
+        let (old, new) = (&self.before.leg.motion, &self.after.leg.motion);
+        let dwells = matches!(old.kind, MotionKind::Dwell(_)) && old.kind != new.kind;
+        let differs = if core::mem::discriminant(&old.kind) != core::mem::discriminant(&new.kind) || dwells {
+            "the kind of motion (rapid, line, arc, dwell and its time)"
+        } else if old.zero != new.zero || old.machine_coordinates != new.machine_coordinates {
+            "the zero point"
+        } else if old.tool != new.tool || old.tool_length_mm != new.tool_length_mm {
+            "the tool or its length"
+        } else if !self.claim.is_rewrite() {
+            return Ok(());
+        } else if old.tcp != new.tcp || old.great_circle != new.great_circle {
+            "tool centre point control"
+        } else if process_differs(old, new) {
+            "feed or spindle"
+        } else {
+            return Ok(());
+        };
+        self.refute(format!("{differs} differs between before and after"))
     }
-    if process_differs(old, new) {
-        return refuse("feed or spindle");
+
+    /// Programmed alike, from a like state.
+    fn alike(&self) -> bool {
+        let (old, new) = (&self.before.leg, &self.after.leg);
+        old.start == new.start && old.known_joints == new.known_joints && old.motion == at_block_of(old, &new.motion)
     }
-    Ok(())
+
+    /// A ball of the claimed radius must be declared where the motion differs.
+    fn same_ball(&self) -> Result<(), Outcome> {
+        let Claim::SameBallCentre {
+            ball_radius_mm: radius, ..
+        } = self.claim
+        else {
+            return Ok(());
+        };
+        for step in [self.before, self.after] {
+            match step.ball_radius {
+                Some(declared) if declared == *radius => {}
+                Some(declared) => {
+                    return self.refute(format!(
+                        "the declared ball has a radius of {declared} mm, the claim says {radius} mm"
+                    ));
+                }
+                None => {
+                    return Err(
+                        self.unknown("no ball is declared for this motion: (trunnion: tool 1 ball diameter ...)")
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// How far the ways between the ends lie apart.
+    fn way(&self, start: Option<Both<'_>>, end: Both<'_>) -> Result<Apart, Outcome> {
+        let (old, new) = (&self.before.leg, &self.after.leg);
+        let Some((was, is)) = start else {
+            // straight from a position unknown to both: only the ends can be compared
+            let straight = matches!(old.motion.kind, MotionKind::Rapid | MotionKind::Linear);
+            let comparable = self.claim.is_rewrite() && straight && old.start.is_none() && new.start.is_none();
+            return if comparable {
+                Ok(Apart::default())
+            } else {
+                Err(self.unknown("the position before is unknown"))
+            };
+        };
+        if self.same_way((was, is), end) {
+            return Ok(Apart::default());
+        }
+        let height = self.claim.point_height_mm();
+        let before = Path::new(self.machine, old, was, end.0, height);
+        let after = Path::new(self.machine, new, is, end.1, height);
+        let (Some(before), Some(after)) = (before, after) else {
+            return Err(self.unknown("how far two different arcs lie apart is not modelled"));
+        };
+        Ok(apart(&before, &after))
+    }
+
+    /// Programmed alike but for the same whole turns of rotary axes at both ends: then the way is the same whatever its shape.
+    fn same_way(&self, start: Both<'_>, end: Both<'_>) -> bool {
+        let turned_only = |(was, is): Both<'_>| {
+            let off = |&joint: &usize| off_whole_turns(deg(is.joints[joint] - was.joints[joint]));
+            (was.tip - is.tip).norm() <= 1e-9 && self.machine.rotary.iter().all(|joint| off(joint) <= 1e-9)
+        };
+        let old = &self.before.leg;
+        let mut motion = at_block_of(old, &self.after.leg.motion);
+        for axis in 3..6 {
+            motion.start.values[axis] = old.motion.start.values[axis];
+            motion.end.values[axis] = old.motion.end.values[axis];
+        }
+        motion == old.motion && self.turns(start) == self.turns(end) && turned_only(start) && turned_only(end)
+    }
+
+    /// Whole turns between two stances, each rotary axis.
+    fn turns(&self, (was, is): Both<'_>) -> Vec<i64> {
+        let turns = |&joint: &usize| (deg(is.joints[joint] - was.joints[joint]) / 360.0).round() as i64;
+        self.machine.rotary.iter().map(turns).collect()
+    }
+
+    /// Holds the numbers at the block's end against the claim.
+    fn judge_end(&self, change: &MotionChange) -> Result<(), Outcome> {
+        let (mm, degrees) = self.claim.tolerances();
+        let point = if self.claim.point_height_mm() == 0.0 {
+            "tool tip"
+        } else {
+            "ball's centre"
+        };
+        if above(change.point_shift_mm, mm) {
+            let shift = change.point_shift_mm;
+            return self.refute(format!(
+                "the {point} shifts by {shift:.6} mm at the block's end, allowed is {mm} mm"
+            ));
+        }
+        if above(change.axis_change_deg, degrees) {
+            let turn = change.axis_change_deg;
+            return self.refute(format!(
+                "the tool axis turns by {turn:.6} deg at the block's end, allowed is {degrees} deg"
+            ));
+        }
+        let off = change
+            .rotary_change_deg
+            .iter()
+            .find(|&&value| above(off_whole_turns(value), degrees));
+        match off {
+            Some(value) if matches!(self.claim, Claim::SamePoses { .. }) => self.refute(format!(
+                "a rotary axis differs by {value:.6} deg, which is not a number of whole turns"
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// Holds what lies between the ends against the claim.
+    fn judge_way(&self, way: &Apart, start: Option<Both<'_>>, end: Both<'_>) -> Result<(), Outcome> {
+        let claimed = match self.claim {
+            Claim::SameBallCentre { .. } => false,
+            Claim::SamePoses { .. } => start.is_some_and(|start| self.turns(start) == self.turns(end)),
+            Claim::SameToolPath { .. } => true,
+        };
+        let (mm, degrees) = self.claim.tolerances();
+        let (sampled_axis, bound_axis) = (deg(way.sampled_axis), deg(way.bound_axis));
+        if claimed && (above(way.sampled_mm, mm) || above(sampled_axis, degrees)) {
+            return self.refute(format!(
+                "inside the block the tips lie {:.6} mm and the tool axes {sampled_axis:.6} deg apart; allowed are {mm} mm, {degrees} deg",
+                way.sampled_mm
+            ));
+        }
+        if claimed && (above(way.bound_mm, mm) || above(bound_axis, degrees)) {
+            return Err(self.unknown(&format!(
+                "the bounds of {:.6} mm and {bound_axis:.6} deg inside the block do not prove {mm} mm, {degrees} deg",
+                way.bound_mm
+            )));
+        }
+        Ok(())
+    }
 }
 
 /// Whether feed or spindle differ.
@@ -111,177 +268,17 @@ pub(crate) fn process_differs(old: &Motion, new: &Motion) -> bool {
     old.feed != new.feed || old.spindle_on != new.spindle_on || old.spindle_rpm != new.spindle_rpm
 }
 
-/// Programmed alike, from a like state. The block's number plays no part.
-fn alike(old: &Leg, new: &Leg) -> bool {
-    let new_motion = Motion {
-        block: old.motion.block,
-        ..new.motion
-    };
-    old.start == new.start && old.known_joints == new.known_joints && old.motion == new_motion
+/// A motion with the block of another leg, so that the block's number plays no part in a comparison.
+fn at_block_of(leg: &Leg, motion: &Motion) -> Motion {
+    Motion {
+        block: leg.motion.block,
+        ..*motion
+    }
 }
 
-fn unknown(at: Place, which: &str, why: &NoStance) -> Stop {
-    let why = match why {
-        NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown: program all axes before"),
-        NoStance::Unreachable(_) | NoStance::OutsideLimits { .. } => "the machine cannot reach the pose".into(),
-        NoStance::NotModelled => "the motion is not modelled".into(),
-        NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
-    };
-    Stop::unknown(format!("line {}: in the program {which}, {why}", at.line))
-}
-
-/// A ball of the claimed radius must be declared where the motion differs.
-fn same_ball(at: Place, radius: f64, before: &Step, after: &Step) -> Result<(), Stop> {
-    for step in [before, after] {
-        match step.ball_radius {
-            Some(declared) if declared == radius => {}
-            Some(declared) => {
-                let message = format!("the declared ball has a radius of {declared} mm, the claim says {radius} mm");
-                return Err(Stop::refuted_at(at.motion, at.line, message));
-            }
-            None => {
-                return Err(Stop::unknown(format!(
-                    "line {}: no ball tool is declared for this motion: (trunnion: tool 1 ball diameter ...) or --tool ball:D",
-                    at.line
-                )));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The difference of whole turns between the programs changes inside this motion.
-fn turns_change(machine: &Machine, old: &Leg, new: &Leg) -> bool {
-    let (Some(from), Some(to)) = (
-        shift_of(machine, old.start, new.start),
-        shift_of(machine, old.end.as_ref().ok().copied(), new.end.as_ref().ok().copied()),
-    ) else {
-        return false;
-    };
-    from != to
-}
-
-/// Whole turns between two stances, each rotary axis.
-fn shift_of(machine: &Machine, was: Option<Stance>, is: Option<Stance>) -> Option<Vec<i64>> {
-    let (was, is) = (was?, is?);
-    let turns = |&joint: &usize| (deg(is.joints[joint] - was.joints[joint]) / 360.0).round() as i64;
-    Some(machine.rotary.iter().map(turns).collect())
-}
-
-/// How far the ways between the ends lie apart.
-fn way_between(machine: &Machine, claim: &Claim, at: Place, old: &Leg, new: &Leg, height: f64) -> Result<Apart, Stop> {
-    let (was, is) = match (old.start, new.start) {
-        (Some(was), Some(is)) => (was, is),
-        (None, None) if alike(old, new) => return Ok(Apart::default()),
-        // both come from an unknown position; the ends are compared all the same
-        (None, None) if claim.is_rewrite() => return Ok(Apart::default()),
-        _ => {
-            return Err(Stop::unknown(format!(
-                "line {}: the position before this motion is unknown",
-                at.line
-            )));
-        }
-    };
-    let (Ok(was_end), Ok(is_end)) = (&old.end, &new.end) else {
-        return Ok(Apart::default());
-    };
-    if same_way(machine, old, new) {
-        return Ok(Apart::default());
-    }
-    let paths = Path::new(machine, old, was, *was_end, height).zip(Path::new(machine, new, is, *is_end, height));
-    let Some((before, after)) = paths else {
-        return Err(Stop::unknown(format!(
-            "line {}: how far two different arcs lie apart is not modelled",
-            at.line
-        )));
-    };
-    Ok(apart(&before, &after))
-}
-
-/// Programmed alike but for the same whole turns of rotary axes at both ends: then the way is the same whatever its shape.
-fn same_way(machine: &Machine, old: &Leg, new: &Leg) -> bool {
-    let mut motion = Motion {
-        block: old.motion.block,
-        ..new.motion
-    };
-    let ends = [
-        (old.start, new.start),
-        (old.end.as_ref().ok().copied(), new.end.as_ref().ok().copied()),
-    ];
-    let shifts = ends.map(|(was, is)| shift_of(machine, was, is));
-    if shifts[0].is_none() || shifts[0] != shifts[1] {
-        return false;
-    }
-    for (was, is) in ends {
-        let (Some(was), Some(is)) = (was, is) else { return false };
-        let off = |&joint: &usize| {
-            let change = deg(is.joints[joint] - was.joints[joint]);
-            (change - 360.0 * (change / 360.0).round()).abs()
-        };
-        if was.tip != is.tip && (was.tip - is.tip).norm() > 1e-9 || machine.rotary.iter().map(off).any(|off| off > 1e-9)
-        {
-            return false;
-        }
-    }
-    for axis in 3..6 {
-        motion.start.values[axis] = old.motion.start.values[axis];
-        motion.end.values[axis] = old.motion.end.values[axis];
-    }
-    motion == old.motion
-}
-
-/// Holds the numbers against the claim.
-fn judge(claim: &Claim, at: Place, change: &MotionChange, way: &Apart, turns_change: bool) -> Result<(), Stop> {
-    let (mm, degrees) = claim.tolerances();
-    let refuse = |message: String| Err(Stop::refuted_at(at.motion, at.line, message));
-    let point = if matches!(claim, Claim::SameBallCentre { .. }) {
-        "ball's centre"
-    } else {
-        "tool tip"
-    };
-    if above(change.point_shift_mm, mm) {
-        return refuse(format!(
-            "the {point} shifts by {:.6} mm at the block's end, allowed is {mm} mm",
-            change.point_shift_mm
-        ));
-    }
-    if above(change.axis_change_deg, degrees) {
-        return refuse(format!(
-            "the tool axis turns by {:.6} deg at the block's end, allowed is {degrees} deg",
-            change.axis_change_deg
-        ));
-    }
-    let bound_claimed = match claim {
-        Claim::SameBallCentre { .. } => return Ok(()),
-        Claim::SamePoses { .. } => {
-            for value in &change.rotary_change_deg {
-                let off = value - 360.0 * (value / 360.0).round();
-                if above(off.abs(), degrees) {
-                    return refuse(format!(
-                        "a rotary axis differs by {value:.6} deg, which is not a number of whole turns"
-                    ));
-                }
-            }
-            !turns_change
-        }
-        Claim::SameToolPath { .. } => true,
-    };
-    if bound_claimed && (above(way.sampled_mm, mm) || above(deg(way.sampled_axis), degrees)) {
-        return refuse(format!(
-            "inside the block the tips lie {:.6} mm apart and the tool axes {:.6} deg; allowed is {mm} mm and {degrees} deg",
-            way.sampled_mm,
-            deg(way.sampled_axis)
-        ));
-    }
-    if bound_claimed && (above(way.bound_mm, mm) || above(deg(way.bound_axis), degrees)) {
-        return Err(Stop::unknown(format!(
-            "line {}: the tips lie at most {:.6} mm apart and the tool axes {:.6} deg, which is not enough to prove {mm} mm and {degrees} deg",
-            at.line,
-            way.bound_mm,
-            deg(way.bound_axis)
-        )));
-    }
-    Ok(())
+/// Distance of an angle from the nearest number of whole turns, deg.
+fn off_whole_turns(degrees: f64) -> f64 {
+    (degrees - 360.0 * (degrees / 360.0).round()).abs()
 }
 
 /// Above the limit, or not a number.
@@ -290,17 +287,19 @@ fn above(value: f64, limit: f64) -> bool {
 }
 
 /// Distance of forward kinematics from the programmed pose at the end of a leg: mm, deg. `None` where no pose is known.
-pub(crate) fn forward_residual(machine: &Machine, at: Place, leg: &Leg) -> Result<Option<(f64, f64)>, Stop> {
+pub(crate) fn forward_residual(machine: &Machine, at: Place, leg: &Leg) -> Result<Option<(f64, f64)>, Outcome> {
     let Ok(stance) = &leg.end else { return Ok(None) };
     let pose = forward(machine, &stance.joints, stance.tool_length);
     let zero = &leg.motion.zero;
-    let tip = pose.tip - trunnion_geometry::Vec3::new(zero[0], zero[1], zero[2]);
-    let residual = ((tip - stance.tip).norm(), deg(angle_between(&pose.axis, &stance.axis)));
-    if above(residual.0, FORWARD_TOLERANCE) || above(residual.1, FORWARD_TOLERANCE) {
-        return Err(Stop::unknown(format!(
-            "line {}: forward kinematics of the joints misses the pose by {:e} mm and {:e} deg",
-            at.line, residual.0, residual.1
+    let (mm, degrees) = (
+        (pose.tip - Vec3::new(zero[0], zero[1], zero[2]) - stance.tip).norm(),
+        deg(angle_between(&pose.axis, &stance.axis)),
+    );
+    if above(mm, FORWARD_TOLERANCE) || above(degrees, FORWARD_TOLERANCE) {
+        let line = at.line;
+        return Err(Outcome::unknown(format!(
+            "line {line}: forward kinematics misses the pose by {mm:e} mm, {degrees:e} deg"
         )));
     }
-    Ok(Some(residual))
+    Ok(Some((mm, degrees)))
 }

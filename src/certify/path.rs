@@ -25,15 +25,19 @@ enum Interpolation {
 pub(crate) struct Path<'m> {
     machine: &'m Machine,
     interpolation: Interpolation,
-    start: Stance,
-    end: Stance,
+    /// Joints at both ends, mm or rad.
+    joints: [Joints; 2],
+    /// Tool axes at both ends.
+    axes: [Vec3; 2],
+    /// mm.
+    tool_length: f64,
     /// Distance of the followed point from the tip along the tool axis, mm.
     height: f64,
 }
 
 impl<'m> Path<'m> {
     /// The path of the point `height` mm above the tip. `None` where the way between the ends is not modelled: arcs, unknown motions.
-    pub(crate) fn new(machine: &'m Machine, leg: &Leg, start: Stance, end: Stance, height: f64) -> Option<Self> {
+    pub(crate) fn new(machine: &'m Machine, leg: &Leg, start: &Stance, end: &Stance, height: f64) -> Option<Self> {
         let motion = &leg.motion;
         let vectors = matches!(motion.orientation, trunnion_interp::Orientation::Vector(..));
         let interpolation = match motion.kind {
@@ -50,8 +54,9 @@ impl<'m> Path<'m> {
         Some(Self {
             machine,
             interpolation,
-            start,
-            end,
+            joints: [start.joints, end.joints],
+            axes: [start.axis, end.axis],
+            tool_length: end.tool_length,
             height,
         })
     }
@@ -59,18 +64,18 @@ impl<'m> Path<'m> {
     /// Point (mm) and tool axis at the share `t` of the motion, workpiece frame.
     fn at(&self, t: f64) -> (Vec3, Vec3) {
         let mut joints: Joints = [0.0; MAX_AXES];
-        for (joint, (from, to)) in joints.iter_mut().zip(self.start.joints.iter().zip(&self.end.joints)) {
+        for (joint, (from, to)) in joints.iter_mut().zip(self.joints[0].iter().zip(&self.joints[1])) {
             *joint = from + (to - from) * t;
         }
-        let pose = forward(self.machine, &joints, self.end.tool_length);
+        let pose = forward(self.machine, &joints, self.tool_length);
         let axis = match self.interpolation {
             Interpolation::Joints => return (pose.tip + pose.axis * self.height, pose.axis),
             Interpolation::TipStraight => pose.axis,
-            Interpolation::GreatCircle => great_circle(&self.start.axis, &self.end.axis, t),
+            Interpolation::GreatCircle => great_circle(&self.axes[0], &self.axes[1], t),
         };
         // the work offset cancels in every difference of two paths, but must be there beside joint paths
-        let from = forward(self.machine, &self.start.joints, self.end.tool_length).tip;
-        let to = forward(self.machine, &self.end.joints, self.end.tool_length).tip;
+        let from = forward(self.machine, &self.joints[0], self.tool_length).tip;
+        let to = forward(self.machine, &self.joints[1], self.tool_length).tip;
         (from + (to - from) * t + axis * self.height, axis)
     }
 
@@ -78,7 +83,7 @@ impl<'m> Path<'m> {
     fn bend(&self) -> (f64, f64) {
         let turn: f64 = self.turns().iter().map(|(_, change)| change).sum();
         let axis = match self.interpolation {
-            Interpolation::GreatCircle => angle_between(&self.start.axis, &self.end.axis),
+            Interpolation::GreatCircle => angle_between(&self.axes[0], &self.axes[1]),
             Interpolation::Joints | Interpolation::TipStraight => turn,
         };
         let axis = axis * axis;
@@ -91,7 +96,7 @@ impl<'m> Path<'m> {
     /// Rotary joints with the size of their change, rad.
     fn turns(&self) -> Vec<(usize, f64)> {
         let rotary = |joint: &usize| self.machine.axes[*joint].kind == AxisKind::Rotary;
-        let change = |joint: usize| (joint, (self.end.joints[joint] - self.start.joints[joint]).abs());
+        let change = |joint: usize| (joint, (self.joints[1][joint] - self.joints[0][joint]).abs());
         (0..self.machine.axes.len()).filter(rotary).map(change).collect()
     }
 
@@ -100,11 +105,11 @@ impl<'m> Path<'m> {
     /// at a distance of at most d adds w d to V and 2 w V + w^2 d to A. With two rotary axes this is Q of kinematics notes 3.
     fn joint_bend(&self) -> f64 {
         let machine = self.machine;
-        let length = self.end.tool_length - self.height;
+        let length = self.tool_length - self.height;
         let mut ends = [machine.gauge_point - machine.tool_axis * length; 2];
         let (mut speed, mut bend) = (0.0, 0.0);
         for (joint, axis) in machine.axes.iter().enumerate().rev() {
-            let values = [self.start.joints[joint], self.end.joints[joint]];
+            let values = [self.joints[0][joint], self.joints[1][joint]];
             let change = (values[1] - values[0]).abs();
             match axis.kind {
                 AxisKind::Linear => {
@@ -185,3 +190,6 @@ pub(crate) fn apart(before: &Path<'_>, after: &Path<'_>) -> Apart {
 fn chord_angle(chord: f64) -> f64 {
     2.0 * asin((0.5 * chord).min(1.0))
 }
+
+#[cfg(test)]
+mod tests;

@@ -3,11 +3,10 @@
 //! Both texts are parsed, run and followed again by floors 0 to 3. Each pair of motions is compared (`compare`), the ways between
 //! block ends are bounded (`path`), and the texts are compared byte by byte outside coordinate words (`text`).
 use crate::certificate::{MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextDigest, Worst, WorstChanges};
-use crate::compare::{Compared, Place, compare, forward_residual, process_differs};
+use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
 use crate::rerun::{Rerun, Step};
 use crate::text::text_change;
-use crate::verdict::Stop;
 use crate::{Certificate, Claim, Outcome};
 use trunnion_dialect::Dialect;
 use trunnion_geometry::deg;
@@ -26,7 +25,7 @@ pub fn certify(
 ) -> Outcome {
     match prove(before, after, dialect, machine, setup, claim) {
         Ok(certificate) => Outcome::Proved(Box::new(certificate)),
-        Err(stop) => stop.into(),
+        Err(outcome) => outcome,
     }
 }
 
@@ -43,7 +42,7 @@ pub fn recheck(
         .and_then(|()| prove(before, after, dialect, machine, setup, &certificate.claim))
     {
         Ok(fresh) => fresh,
-        Err(stop) => return stop.into(),
+        Err(outcome) => return outcome,
     };
     // the version is not a number of the proof: another version may check, but the seal keeps it as it was
     let fresh = Certificate {
@@ -52,7 +51,7 @@ pub fn recheck(
     }
     .sealed();
     match crate::difference::first_difference(certificate, &fresh) {
-        Some(message) => Stop::refuted(message).into(),
+        Some(message) => Outcome::refuted(message),
         None => Outcome::Proved(Box::new(fresh)),
     }
 }
@@ -65,14 +64,14 @@ fn inputs_match(
     dialect: &Dialect,
     machine: &Machine,
     setup: &Setup,
-) -> Result<(), Stop> {
+) -> Result<(), Outcome> {
     let refuse = |what: &str| {
-        Err(Stop::refuted(format!(
+        Err(Outcome::refuted(format!(
             "the certificate was made for {what}: its SHA-256 differs"
         )))
     };
     if certificate.schema != SCHEMA {
-        return Err(Stop::refuted(format!(
+        return Err(Outcome::refuted(format!(
             "schema: certificate says \"{}\", this program reads \"{SCHEMA}\"",
             certificate.schema
         )));
@@ -116,13 +115,13 @@ fn prove(
     machine: &Machine,
     setup: &Setup,
     claim: &Claim,
-) -> Result<Certificate, Stop> {
+) -> Result<Certificate, Outcome> {
     claim_makes_sense(claim)?;
     let old = parse(before.to_vec(), dialect.lex);
     let new = parse(after.to_vec(), dialect.lex);
     let text = text_change(&old, &new, dialect);
     if claim.is_rewrite() && !text.rest_identical {
-        return Err(Stop::refuted(
+        return Err(Outcome::refuted(
             "the texts differ in more than numbers of coordinate words",
         ));
     }
@@ -135,7 +134,7 @@ fn prove(
             (None, None) => break,
             (was, _) => {
                 let (which, shared) = (if was.is_some() { "before" } else { "after" }, proof.motions.total);
-                return Err(Stop::unknown(format!(
+                return Err(Outcome::unknown(format!(
                     "the program {which} has more motions than the other, which ends after {shared}: programs are compared motion by motion"
                 )));
             }
@@ -167,7 +166,7 @@ fn prove(
 }
 
 /// Tolerances and radius must be finite and not negative.
-fn claim_makes_sense(claim: &Claim) -> Result<(), Stop> {
+fn claim_makes_sense(claim: &Claim) -> Result<(), Outcome> {
     let (mm, degrees) = claim.tolerances();
     let fine = [mm, degrees, claim.point_height_mm()]
         .iter()
@@ -175,7 +174,7 @@ fn claim_makes_sense(claim: &Claim) -> Result<(), Stop> {
     if fine {
         Ok(())
     } else {
-        Err(Stop::refuted(
+        Err(Outcome::refuted(
             "claim: tolerances and radius must be finite and not negative",
         ))
     }
@@ -220,7 +219,7 @@ impl<'a> Proof<'a> {
             .0
     }
 
-    fn add(&mut self, was: &Step, is: &Step) -> Result<(), Stop> {
+    fn add(&mut self, was: &Step, is: &Step) -> Result<(), Outcome> {
         let at = Place {
             motion: self.motions.total as usize,
             line: self.line(is.leg.motion.block),
@@ -241,7 +240,14 @@ impl<'a> Proof<'a> {
             rotary.travel_before_deg += steps[0];
             rotary.travel_after_deg += steps[1];
         }
-        match compare(self.machine, self.claim, at, was, is)? {
+        let pair = Pair {
+            machine: self.machine,
+            claim: self.claim,
+            at,
+            before: was,
+            after: is,
+        };
+        match pair.compare()? {
             Compared::Same => {}
             Compared::UnknownAlike => self.motions.unknown += 1,
             Compared::Changed(change) => {
@@ -278,3 +284,6 @@ fn raise(worst: &mut Worst, value: f64, at: Place) {
         };
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -45,16 +45,7 @@ pub enum Outcome {
     Unknown(Gap),
 }
 
-/// Why a proof ended early.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Stop {
-    /// Refuted.
-    Refuted(Witness),
-    /// Unknown.
-    Unknown(Gap),
-}
-
-impl Stop {
+impl Outcome {
     /// Refuted by the texts or the certificate as a whole.
     pub(crate) fn refuted(message: impl Into<String>) -> Self {
         Self::Refuted(Witness {
@@ -78,14 +69,5 @@ impl Stop {
         Self::Unknown(Gap {
             message: message.into(),
         })
-    }
-}
-
-impl From<Stop> for Outcome {
-    fn from(stop: Stop) -> Self {
-        match stop {
-            Stop::Refuted(witness) => Self::Refuted(witness),
-            Stop::Unknown(gap) => Self::Unknown(gap),
-        }
     }
 }

@@ -1,5 +1,5 @@
 //! Where rules report to: wording is theirs; levels, suppression, block numbers and merging are done here.
-use crate::runs::{Log, Merge};
+use crate::runs::{Log, Merge, Repeat};
 use crate::suppress::Suppressions;
 use crate::{Diagnostic, RuleLevel, Severity, Status, ValueKey};
 use trunnion_syntax::{BlockId, Program, TextRange};
@@ -95,6 +95,36 @@ impl<'a> Reporter<'a> {
         &mut self.pending[last]
     }
 
+    /// True where consecutive blocks have this finding and one of them told worse: it is counted and need not be worded.
+    /// `key` and `badness` as in [`Draft::merge`].
+    pub fn repeats(&mut self, key: u64, badness: f64) -> bool {
+        self.repeats_as(self.severity, key, badness)
+    }
+
+    /// As [`Self::repeats`], for a finding with another severity than the rule's own.
+    pub fn repeats_as(&mut self, severity: Severity, key: u64, badness: f64) -> bool {
+        self.absorb(self.level.unwrap_or(severity), Status::Fail, key, badness)
+    }
+
+    /// As [`Self::repeats`], for a finding that could not be decided.
+    pub fn repeats_unknown(&mut self, key: u64, badness: f64) -> bool {
+        self.absorb(Severity::Info, Status::Unknown, key, badness)
+    }
+
+    fn absorb(&mut self, severity: Severity, status: Status, key: u64, badness: f64) -> bool {
+        let Some(block) = self.block else { return false };
+        let repeat = Repeat {
+            rule: self.name,
+            key,
+            badness,
+            severity,
+            status,
+            block,
+            sequence: self.sequence,
+        };
+        !self.suppressions.allows(self.name, block) && self.log.absorb(repeat)
+    }
+
     /// True the first time the running rule asks for `cause`, so that one cause is told once.
     pub fn once(&mut self, cause: u64) -> bool {
         let told = (self.name, cause);
@@ -139,12 +169,12 @@ impl<'a> Reporter<'a> {
                     .number()
                     .map(|range| program.text(range).into_owned());
             }
-            self.log.add(diagnostic, merge, self.sequence);
+            self.log.add(program, diagnostic, merge, self.sequence);
         }
     }
 
     pub(crate) fn finish(self) -> Vec<Diagnostic> {
-        self.log.finish()
+        self.log.finish(self.program)
     }
 
     fn inside(&self, range: TextRange) -> TextRange {

@@ -46,6 +46,13 @@ impl Suppressions {
 /// Whether a block has more than comments and the `%` that frames a tape.
 pub(crate) fn has_code(program: &Program, block: BlockId) -> bool {
     let view = program.block(block);
+    let text = &program.source()[view.range().as_usize()];
+    match text.iter().find(|byte| !byte.is_ascii_whitespace()) {
+        None => return false,
+        // a letter begins a word, a name or a record in either format
+        Some(byte) if byte.is_ascii_alphabetic() => return true,
+        Some(_) => {}
+    }
     view.record().is_some()
         || view
             .items()

@@ -16,6 +16,8 @@ pub(crate) struct AptState {
     pub(crate) axis: Option<Orientation>,
     /// The last vector could not be read, so no orientation is in force.
     pub(crate) axis_lost: bool,
+    /// CSYS is not the identity.
+    pub(crate) csys: bool,
 }
 
 /// An arc that waits for its end.
@@ -178,21 +180,42 @@ impl Interpreter<'_> {
     /// Records that only the dialect's table knows.
     fn other_record(&mut self, record: &Record<'_>, report: &mut Report<'_>) {
         let text = report.program.text(record.major).into_owned();
-        match self.dialect.name(&text).map(|code| code.action) {
-            Some(Action::NotModelled | Action::FrameChange | Action::CannedCycle | Action::SubprogramCall) => {
-                report.fault(record.range, FaultKind::NotModelled { what: text });
-                self.forget_position();
-                self.apt.circle = None;
+        let Some(code) = self.dialect.name(&text) else {
+            return report.fault(record.major, FaultKind::AptUnknownRecord);
+        };
+        let args = Args::new(record);
+        let program = report.program;
+        match code.action {
+            Action::FrameChange if args.has(program, "OFF") || args.has(program, "NOMORE") => {
+                let ended = self.memory.end_frame(code);
+                self.forget_if(ended);
             }
-            Some(_) => {}
-            None => report.fault(record.major, FaultKind::AptUnknownRecord),
+            Action::NotModelled | Action::FrameChange | Action::CannedCycle | Action::SubprogramCall => {
+                report.fault(record.range, FaultKind::NotModelled { what: text });
+                self.forget_everything_of(code.action);
+                if code.action == Action::FrameChange {
+                    self.memory.begin_frame(code, false);
+                }
+                self.apt.circle = None;
+                self.apt.axis_lost = true;
+            }
+            _ => {}
+        }
+        self.state.frame_unknown = self.memory.frame_unknown() || self.apt.csys;
+    }
+
+    fn forget_everything_of(&mut self, action: Action) {
+        if action == Action::SubprogramCall {
+            self.forget_everything();
+        } else {
+            self.forget_position();
         }
     }
 
     fn rapid(&mut self, report: &mut Report<'_>) {
-        if let Some(circle) = self.apt.circle.take() {
+        if self.apt.circle.take().is_some() {
             report.fault(
-                circle.range,
+                TextRange::default(),
                 FaultKind::NotModelled {
                     what: "CIRCLE followed by RAPID".to_owned(),
                 },
@@ -331,8 +354,9 @@ impl Interpreter<'_> {
                 },
             );
         }
-        if identity == self.state.frame_unknown {
-            self.state.frame_unknown = !identity;
+        if identity == self.apt.csys {
+            self.apt.csys = !identity;
+            self.state.frame_unknown = self.memory.frame_unknown() || self.apt.csys;
             self.forget_position();
         }
     }

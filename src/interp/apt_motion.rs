@@ -40,7 +40,9 @@ impl Interpreter<'_> {
         };
         match (delta, self.state.position.xyz()) {
             (Some(delta), Some(from)) => self.go(from + delta, None, args.range, report),
-            _ => self.unreadable_goto(report),
+            // from nowhere to nowhere: nothing is wrong with the record
+            (Some(_), None) => self.unknown_goto(self.held_orientation(), report),
+            (None, _) => self.unreadable_goto(report),
         }
     }
 
@@ -119,9 +121,7 @@ impl Interpreter<'_> {
         };
         let position = self.state.position;
         let kind = MotionKind::Dwell(seconds);
-        let mut motion = self.new_motion(kind, position, position, self.held_orientation(), Feed::Unknown, report);
-        motion.tcp = true;
-        motion
+        self.new_motion(kind, position, position, self.held_orientation(), Feed::Unknown, report)
     }
 
     fn at(&self, point: Vec3) -> Position {
@@ -137,16 +137,22 @@ impl Interpreter<'_> {
         let what = report.program.text(report.whole).into_owned();
         report.fault(TextRange::default(), FaultKind::NotModelled { what });
         self.apt.circle = None;
-        self.unknown_goto(report)
+        self.apt.axis_lost = true;
+        self.unknown_goto(Orientation::Words, report)
     }
 
-    fn unknown_goto(&mut self, report: &mut Report<'_>) -> Motion {
+    fn unknown_goto(&mut self, orientation: Orientation, report: &mut Report<'_>) -> Motion {
         let start = self.state.position;
         self.forget_position();
-        let (end, orientation) = (self.state.position, Orientation::Words);
-        let mut motion = self.new_motion(MotionKind::Unknown, start, end, orientation, Feed::Unknown, report);
-        motion.tcp = true;
-        motion
+        self.state.orientation = orientation;
+        self.new_motion(
+            MotionKind::Unknown,
+            start,
+            self.state.position,
+            orientation,
+            Feed::Unknown,
+            report,
+        )
     }
 
     /// The orientation of a GOTO: its vector, else the one in force, else straight along Z.
@@ -176,11 +182,7 @@ impl Interpreter<'_> {
         let cycle = self.state.motion == Some(Action::CannedCycle);
         self.memory.cutter_used = true;
         if cycle {
-            let mut motion = self.unknown_goto(report);
-            motion.start = start;
-            self.state.orientation = orientation;
-            motion.orientation = orientation;
-            return motion;
+            return self.unknown_goto(orientation, report);
         }
         let mut end = self.at(target);
         if let Orientation::Vector(..) = orientation {
@@ -196,7 +198,6 @@ impl Interpreter<'_> {
         self.state.motion = Some(if rapid { Action::Rapid } else { Action::Linear });
         let feed = self.goto_feed(kind, range, report);
         let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
-        motion.tcp = true;
         if self.state.frame_unknown {
             motion.start.known &= !LINEAR;
             motion.end.known &= !LINEAR;

@@ -63,6 +63,7 @@ impl Interpreter<'_> {
         if std::mem::take(&mut self.memory.cutter_used) {
             self.memory.cutter = None;
         }
+        self.forget_linear();
         self.memory.in_spindle = number.map_or(Chosen::Unread, Chosen::Number);
         self.state.tool = number;
         self.merge_tool();

@@ -149,22 +149,24 @@ impl<'d> Interpreter<'d> {
                 }
                 self.tcp_on(found.code, found.code.action == Action::TcpVectorOn);
             }
-            Action::TcpOff => self.tcp_off(),
+            Action::TcpOff => {
+                self.memory.end_frame(found.code);
+                self.tcp_off();
+            }
             Action::WorkOffset => self.work_offset(found, words, report),
             Action::WorkOffsetNone => self.set_zero(None, [0.0; 9]),
             Action::FrameReset => {
-                if self.memory.end_frame(found.code) {
-                    self.forget_position();
-                }
+                let ended = self.memory.end_frame(found.code);
+                self.forget_if(ended);
             }
             Action::FrameChange => self.frame_change(found, words, block, report),
             Action::CannedCycle => {
                 // MCALL with a cycle behind it begins, MCALL alone ends
                 let ends = found.code.kind == CodeKind::Name && !found.with_arguments && block.count == 1;
                 if ends {
-                    self.cycle_off(found.code)
+                    self.cycle_off(found.code);
                 } else {
-                    self.canned_cycle(found, block, report)
+                    self.canned_cycle(found, block, report);
                 }
             }
             Action::CycleOff => self.cycle_off(found.code),
@@ -292,9 +294,8 @@ impl<'d> Interpreter<'d> {
     fn frame_change(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
         let with_values = found.with_arguments || words.has_values;
         if found.code.kind == CodeKind::Name && !with_values {
-            if self.memory.end_frame(found.code) {
-                self.forget_position();
-            }
+            let ended = self.memory.end_frame(found.code);
+            self.forget_if(ended);
             return;
         }
         if !words.axes.any() && words.speed.is_said() && found.code.words.iter().any(|word| word == "S") {

@@ -5,7 +5,7 @@ use crate::codes::{BlockCodes, Found};
 use crate::reader::Reader;
 use crate::run::{Interpreter, Report, Sink};
 use crate::words::Words;
-use crate::{FaultKind, Feed, FeedMode, Motion, MotionKind, Orientation, Position};
+use crate::{FaultKind, Motion};
 use trunnion_dialect::Action;
 
 use trunnion_syntax::{Block, TextRange};

@@ -2,6 +2,7 @@
 use crate::{Orientation, Position, Tool, ToolShape};
 use std::sync::Arc;
 use trunnion_dialect::{Action, Dialect, Plane};
+use trunnion_syntax::Format;
 
 /// How F is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,7 +90,8 @@ impl ModalState {
             tool_prepared: None,
             tool_data: None,
             tool_length_mm: None,
-            tcp: false,
+            // CL data say where the tool's tip is
+            tcp: dialect.lex.format == Format::Apt,
             great_circle: None,
             vector_mode: false,
             multax: false,

@@ -20,6 +20,12 @@ impl Interpreter<'_> {
         self.state.position.known = 0;
         self.state.orientation = crate::Orientation::Words;
     }
+    /// Coordinates have changed their meaning, if so.
+    pub(crate) fn forget_if(&mut self, changed: bool) {
+        if changed {
+            self.forget_position();
+        }
+    }
     /// X Y Z U V W are not known any more.
     pub(crate) fn forget_linear(&mut self) {
         self.state.position.known &= !LINEAR;

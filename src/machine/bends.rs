@@ -102,7 +102,7 @@ impl<'c, 'm> PieceOfCourse<'c, 'm> {
             wanted.shift(&self.idle(&idle, index).back());
             self.turn(&mut wanted, index, Turn::undo);
         }
-        let tool = self.from_tool(&idle, segment);
+        let tool = self.tool_at(&idle, segment);
         let rows = constants.inverse_motion;
         let row = |i: usize| rows.row(i).norm();
         let rows = Vec3::new(row(0), row(1), row(2));
@@ -110,7 +110,7 @@ impl<'c, 'm> PieceOfCourse<'c, 'm> {
     }
 
     /// The tool point carried from the tool down to a segment.
-    fn from_tool(&self, idle: &([Vec3; 3], [Vec3; 3]), segment: usize) -> Carried {
+    fn tool_at(&self, idle: &([Vec3; 3], [Vec3; 3]), segment: usize) -> Carried {
         let count = self.course.constants().rotary_count;
         let mut tool = self.carry(self.course.tool, self.course.tool, 0.0, 0.0);
         for index in (segment..count).rev() {
@@ -144,11 +144,12 @@ impl<'c, 'm> PieceOfCourse<'c, 'm> {
             return nothing;
         };
         let change = inverse.norm() * spin * (self.ends[1] - self.ends[0]);
-        if !(change < 0.9) {
+        // not a number proves nothing either
+        if change.is_nan() || change >= 0.9 {
             return nothing;
         }
         let k = inverse.norm() / (1.0 - change);
-        let point = self.from_tool(&self.course.idle_shifts(), 0);
+        let point = self.tool_at(&self.course.idle_shifts(), 0);
         let [from, to] = self.tips();
         let mut wanted = self.carry(from, to, fastest, bend);
         wanted.shift(&Shift {

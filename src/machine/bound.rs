@@ -1,4 +1,6 @@
 //! The largest value of a function on 0..=1 with a proof: samples from below, a curvature bound from above, bisection in between.
+use core::cmp::Ordering;
+use std::collections::BinaryHeap;
 
 /// What is known of the largest value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,22 +37,55 @@ impl Piece {
     }
 }
 
-/// Most pieces that wait at a time: each halving leaves one, and 2^-40 of a block is below any resolution.
-const WAITING: usize = 44;
-
 /// Most samples; the bound stays sound when they run out, but may be loose.
-const SAMPLES: u32 = 50_000;
+const SAMPLES: u32 = 20_000;
 
-/// Finds the peak of `value` on 0..=1. `over` gives an upper bound on a piece; a piece is settled when `enough(its bound, largest
-/// sample so far, samples so far)`. A value that is not a number counts as infinite.
+/// A piece below this length is not halved further: beyond any resolution of a block.
+const SHORTEST: f64 = 1e-12;
+
+/// A piece that waits, ordered by its bound.
+#[derive(Clone, Copy)]
+struct Waiting {
+    bound: f64,
+    piece: Piece,
+}
+
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Waiting {}
+
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Waiting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.bound.total_cmp(&other.bound)
+    }
+}
+
+/// Not a number counts as infinite: nothing is known of it.
+fn known(value: f64) -> f64 {
+    if value.is_nan() { f64::INFINITY } else { value }
+}
+
+/// Finds the peak of `value` on 0..=1. `over` gives an upper bound on a piece; the search ends when `enough(largest bound, largest
+/// sample, samples so far)`. The piece with the largest bound is halved first, so that no piece is halved in vain.
 pub(crate) fn peak(
-    mut value: impl FnMut(f64) -> f64,
+    value: impl Fn(f64) -> f64,
     over: impl Fn(&Piece) -> f64,
     enough: impl Fn(f64, f64, u32) -> bool,
 ) -> Peak {
-    let mut value = |t: f64| {
-        let v = value(t);
-        if v.is_nan() { f64::INFINITY } else { v }
+    let value = |t: f64| known(value(t));
+    let bounded = |piece: Piece| Waiting {
+        bound: known(over(&piece)),
+        piece,
     };
     let whole = Piece {
         from: 0.0,
@@ -63,19 +98,14 @@ pub(crate) fn peak(
     } else {
         (whole.value_from, 0.0)
     };
-    let mut settled = sampled;
+    let mut top = bounded(whole);
     let mut samples = 2;
-    let mut waiting = [whole; WAITING];
-    let mut count = 1;
-    // once a piece has no finite bound the whole has none
-    while count > 0 && settled < f64::INFINITY {
-        count -= 1;
-        let piece = waiting[count];
-        let bound = over(&piece);
-        let bound = if bound.is_nan() { f64::INFINITY } else { bound };
-        if enough(bound, sampled, samples) || samples >= SAMPLES || count + 2 > WAITING || sampled == f64::INFINITY {
-            settled = settled.max(bound);
-            continue;
+    // grows only where the first bound does not settle the question
+    let mut waiting = BinaryHeap::new();
+    while !enough(top.bound, sampled, samples) {
+        let piece = top.piece;
+        if samples >= SAMPLES || sampled == f64::INFINITY || piece.to - piece.from < SHORTEST {
+            break;
         }
         let middle = 0.5 * (piece.from + piece.to);
         let v = value(middle);
@@ -83,30 +113,25 @@ pub(crate) fn peak(
         if v > sampled {
             (sampled, at) = (v, middle);
         }
-        let left = Piece {
+        waiting.push(bounded(Piece {
             to: middle,
             value_to: v,
             ..piece
-        };
-        let right = Piece {
+        }));
+        waiting.push(bounded(Piece {
             from: middle,
             value_from: v,
             ..piece
-        };
-        // the more promising half first: a high sample settles the rest sooner
-        let (later, sooner) = if piece.value_from > piece.value_to {
-            (right, left)
-        } else {
-            (left, right)
-        };
-        waiting[count] = later;
-        waiting[count + 1] = sooner;
-        count += 2;
+        }));
+        match waiting.pop() {
+            Some(next) => top = next,
+            None => break,
+        }
     }
     Peak {
         sampled,
         at,
-        bound: settled.max(sampled),
+        bound: top.bound.max(sampled),
     }
 }
 

@@ -43,13 +43,13 @@ impl<'m> Follower<'m> {
             named: 0,
             tip_words: false,
         };
-        Self::at(machine, state)
+        Self::at(machine, &state)
     }
     /// Going on from a remembered state.
-    pub(crate) fn at(machine: &'m Machine, state: State) -> Self {
+    pub(crate) fn at(machine: &'m Machine, state: &State) -> Self {
         Self {
             machine,
-            state,
+            state: *state,
             words: Words::new(machine),
         }
     }
@@ -81,20 +81,17 @@ impl<'m> Follower<'m> {
         state.known_joints = leg.known_joints;
         state.named = motion.end.known;
         state.tip_words = has_tip_words(motion);
-        match &leg.end {
-            Ok(stance) => {
-                state.rotary = stance.rotary(self.machine);
-                if stance.branch != 0 {
-                    state.sign = stance.branch;
-                }
+        if let Ok(stance) = &leg.end {
+            state.rotary = stance.rotary(self.machine);
+            if stance.branch != 0 {
+                state.sign = stance.branch;
             }
-            Err(_) => {
-                state.sign = 0;
-                for (slot, rotary) in state.rotary.iter_mut().zip(self.machine.constants.rotary()) {
-                    if leg.known_joints.1 & (1 << rotary.joint) != 0 {
-                        *slot = leg.known_joints.0[rotary.joint];
-                    }
-                }
+            return;
+        }
+        state.sign = 0;
+        for (slot, rotary) in state.rotary.iter_mut().zip(self.machine.constants.rotary()) {
+            if leg.known_joints.1 & (1 << rotary.joint) != 0 {
+                *slot = leg.known_joints.0[rotary.joint];
             }
         }
     }
@@ -170,14 +167,14 @@ impl<'m> Follower<'m> {
             return;
         }
         let lost = motion.start.known & !motion.end.known;
-        for joint in 0..self.words.count() {
+        for (joint, value) in joints.iter_mut().enumerate().take(self.words.count()) {
             let was_named = self.words.names(self.state.named, joint) && self.state.tip_words == tip_words;
             if missing & (1 << joint) != 0
                 && self.state.known_joints.1 & (1 << joint) != 0
                 && !self.words.names(lost, joint)
                 && !was_named
             {
-                joints[joint] = self.state.known_joints.0[joint];
+                *value = self.state.known_joints.0[joint];
                 *known |= 1 << joint;
             }
         }

@@ -16,6 +16,6 @@ impl<'m> Follower<'m> {
 
     /// Goes on from a check-point made on the same machine.
     pub fn resume(machine: &'m Machine, memory: &Memory) -> Self {
-        Self::at(machine, memory.state)
+        Self::at(machine, &memory.state)
     }
 }

@@ -26,7 +26,8 @@ const TIGHT: f64 = 1e-3;
 /// The worst moment inside the block. `None`: stance or path unknown, no length, or no axis that moves has a declared speed.
 ///
 /// Never above the true limit. Where the programmed feed is above it, it is within 1e-3 of the true limit; where the program stays
-/// below, a coarser bound may be given. Without TCP the joints run linearly and the feed is that of the programmed X Y Z path; with
+/// below, a coarser bound may be given; so it may on chains whose linear axes lie in different places, near postures where they hardly
+/// span space. Without TCP the joints run linearly and the feed is that of the programmed X Y Z path; with
 /// TCP (or vectors) the rotary joints run linearly and the linear joints' rates change within the block: samples of their exact rates
 /// and a bound of their second derivative (kinematics notes 3 and 4.1).
 pub fn feed_limit(machine: &Machine, leg: &Leg) -> Option<FeedLimit> {
@@ -137,8 +138,8 @@ impl<'c, 'm> Changing<'c, 'm> {
     /// Largest share and its slot.
     fn worst(&self, rates: &[f64; 5]) -> (f64, usize) {
         let mut worst = (0.0, 0);
-        for slot in 0..self.count {
-            let share = rates[slot].abs() * self.per_rate[slot];
+        for (slot, (rate, per_rate)) in rates.iter().zip(&self.per_rate).enumerate().take(self.count) {
+            let share = rate.abs() * per_rate;
             // not a number counts as infinite
             let share = if share.is_nan() { f64::INFINITY } else { share };
             if share > worst.0 {
@@ -236,9 +237,8 @@ pub fn block_duration_s(machine: &Machine, leg: &Leg) -> Option<f64> {
     let axes = axes_time(machine, leg);
     let programmed = match leg.motion.feed {
         Feed::Rapid => return axes.filter(|time| time.complete).map(|time| time.seconds),
-        Feed::Unknown => return None,
         Feed::InverseTime(per_minute) if per_minute > 0.0 => 60.0 / per_minute,
-        Feed::InverseTime(_) => return None,
+        Feed::InverseTime(_) | Feed::Unknown => return None,
         Feed::PerMinute(_) | Feed::PerRevolution(_) => {
             let feed = programmed_feed(leg).filter(|feed| *feed > 0.0)?;
             let way = if leg.length > 0.0 { leg.length } else { rotary_way(leg)? };

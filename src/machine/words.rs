@@ -89,7 +89,7 @@ impl Words {
         } else {
             (1.0, motion.tool_length_mm)
         };
-        for joint in 0..self.count {
+        for (joint, slot) in joints.iter_mut().enumerate().take(self.count) {
             let letter = usize::from(self.letter[joint]);
             if letter >= AXIS_LETTERS.len()
                 || position.known & (1 << letter) == 0
@@ -99,7 +99,7 @@ impl Words {
             }
             let word = position.values[letter] * self.scale[joint];
             let zero = motion.zero[letter] * self.zero_scale[joint] * offset;
-            joints[joint] = word + zero + self.per_length[joint] * length;
+            *slot = word + zero + self.per_length[joint] * length;
             known |= 1 << joint;
         }
         (joints, known)

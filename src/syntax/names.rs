@@ -49,7 +49,11 @@ impl Items<'_> {
                     range: scan.span(at, stop),
                 })
             }
-            TokenKind::Text | TokenKind::Number => self.call(at, end, next, Some(next + 1)),
+            TokenKind::Text => {
+                let stop = self.joined_text(next, sink);
+                self.call(at, end, next, stop)
+            }
+            TokenKind::Number => self.call(at, end, next, Some(next + 1)),
             _ => self.call(at, end, next, None),
         }
     }
@@ -68,10 +72,10 @@ impl Items<'_> {
             return None;
         }
         let stop = if is_one_of(text, &JUMPS) {
-            if scan.kind(next) == TokenKind::ParenOpen {
-                None
-            } else {
-                scan.operand(next, sink)
+            match scan.kind(next) {
+                TokenKind::ParenOpen => None,
+                TokenKind::Text => self.joined_text(next, sink),
+                _ => scan.operand(next, sink),
             }
         } else if is_one_of(text, &NUMBERED) {
             (scan.kind(next) == TokenKind::Number).then_some(next + 1)
@@ -81,6 +85,11 @@ impl Items<'_> {
             return None;
         };
         Some(self.call(at, at + 1, next, stop))
+    }
+
+    /// Behind the text at `at`, with what is joined to it: `"PART_"<<R1`.
+    fn joined_text(&self, at: TokenId, sink: &mut impl Sink) -> Option<TokenId> {
+        self.scan.expression(at, self.scan.range(at), sink)
     }
 
     /// The call of the name `at..end`, whose arguments, if any, are the tokens from `first` to before `stop`.

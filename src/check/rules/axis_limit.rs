@@ -40,8 +40,11 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     limit_excess(view.machine, view.leg, &mut found);
     for excess in found {
         let axis = &view.machine.axes[excess.axis];
-        let name = letter(axis.letter);
         let beyond = (excess.value - excess.limit).abs();
+        if out.repeats(u64::from(axis.letter), beyond) {
+            continue;
+        }
+        let name = letter(axis.letter);
         let inside = if excess.inside {
             " inside the block, while both ends are legal"
         } else {

@@ -54,6 +54,9 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return;
     }
     let axis = &view.machine.axes[limit.axis];
+    if out.repeats(u64::from(axis.letter), -limit.feed_mm_min) {
+        return;
+    }
     let name = letter(axis.letter);
     let range = axis_word(out.program(), view.motion().block, axis.letter);
     let feed = view.programmed_feed_mm_min();

@@ -56,6 +56,14 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if share >= tolerances.feed_drop_warning * (1.0 - ROUNDING) {
         return;
     }
+    let severity = if share < tolerances.feed_drop_error {
+        Severity::Error
+    } else {
+        Severity::Warning
+    };
+    if out.repeats_as(severity, 0, -limit.feed_mm_min) {
+        return;
+    }
     let name = letter(view.machine.axes[limit.axis].letter);
     let range = axis_word(out.program(), view.motion().block, b'F');
     let percent = number((share * 1000.0).round() / 10.0);
@@ -72,10 +80,8 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .help("lower the feed in this block, or lead the tool axis so that the axis moves less")
         .value("feed_mm_min", feed)
         .value("feed_limit_mm_min", limit.feed_mm_min)
-        .value_text("limiting_axis", name);
-    if share < tolerances.feed_drop_error {
-        draft.severity(Severity::Error);
-    }
+        .value_text("limiting_axis", name)
+        .severity(severity);
     if view.near_pole() {
         draft.fix("smooth-pole");
     }

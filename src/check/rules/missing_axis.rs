@@ -32,6 +32,9 @@ pub(super) const RULE: Body = Body {
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if let Err(NoStance::NoSuchAxis(axis)) = view.leg.end {
+        if out.repeats(u64::from(axis), 0.0) {
+            return;
+        }
         let range = axis_word(out.program(), view.motion().block, axis);
         let name = letter(axis);
         let axes: Vec<String> = view.machine.axes.iter().map(|axis| letter(axis.letter)).collect();

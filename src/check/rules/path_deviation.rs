@@ -49,6 +49,9 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let tolerance = view.machine.tolerances.tip_mm;
     let range = |out: &Reporter<'_>| code_range(out.program(), view.motion().block);
     let Some(deviation) = view.deviation() else {
+        if out.repeats_unknown(0, 0.0) {
+            return;
+        }
         let range = range(out);
         out.report(
             range,
@@ -60,6 +63,14 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return;
     };
     if deviation.bound_mm <= tolerance {
+        return;
+    }
+    let repeats = if deviation.sampled_mm > tolerance {
+        out.repeats(1, deviation.sampled_mm)
+    } else {
+        out.repeats_unknown(2, deviation.bound_mm)
+    };
+    if repeats {
         return;
     }
     let range = range(out);

@@ -36,7 +36,8 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let Err(NoStance::PositionUnknown(letters)) = &view.leg.end else {
         return;
     };
-    if !view.motion().is_feed() {
+    let cause = hash(letters);
+    if !view.motion().is_feed() || out.repeats_unknown(cause, 0.0) {
         return;
     }
     let names: Vec<String> = AXIS_LETTERS
@@ -58,7 +59,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .note("limits, postures, speeds and the tip's path are not checked until every axis has a position")
         .help(format!("position {names} before the first feed motion"))
         .unknown()
-        .merge_everywhere(hash(letters));
+        .merge_everywhere(cause);
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ import { chromium } from 'playwright-core';
 const { CHROMIUM, PORT, RUN } = process.env;
 const host = `127.0.0.1:${PORT}`;
 
-/** The folder the tests open: copies of the samples. */
+/** The folder the tests open: copies of the programs. */
 export const work = `${RUN}/work`;
 
 /** A path on the server's disk, as the workbench writes it. */

@@ -59,11 +59,11 @@ start() {
   return 1
 }
 
-# The workspace: copies of the samples, so that no test can change the originals, and each test file starts anew.
+# The workspace: copies of the programs, so that no test can change the originals, and each test file starts anew.
 workspace() {
   rm -rf "$RUN/work"
   mkdir -p "$RUN/work/.vscode"
-  cp "${TRUNNION_SAMPLES:-$extension/../samples/programs/guide-vane}"/strategy-2.* "$RUN/work/"
+  cp "$here"/programs/* "$RUN/work/"
   echo '{ "trunnion.machine": "mikron-ucp710" }' >"$RUN/work/.vscode/settings.json"
 }
 

@@ -1,4 +1,12 @@
 //! Programs and the motions and faults that they must give.
-#![expect(clippy::unwrap_used, reason = "a test may stop where its own text is wrong")]
-mod probe;
+#![expect(clippy::print_stderr, reason = "a test that finds no data says so")]
+mod apt;
+mod arcs;
+mod directives;
+mod faults;
+mod files;
+mod motions;
+mod orientation;
+mod properties;
 mod support;
+mod tools;

@@ -8,6 +8,7 @@ use trunnion_machine::{Follower, Leg, Machine, builtin, feed_limit, row, tip_dev
 type PrintedRow = [f64; 8];
 
 #[rustfmt::skip]
+#[expect(clippy::unreadable_literal, reason = "as printed")]
 const STRATEGIES: [[PrintedRow; 5]; 4] = [
     [
         [-28.39162, -0.59334, 59.98989, 0.000161, -0.034071, 0.999419, 1.953, 0.271],

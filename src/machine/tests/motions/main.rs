@@ -4,3 +4,4 @@ mod common;
 mod great_circle;
 mod guide_vane;
 mod random;
+mod states;

@@ -2,6 +2,7 @@
 use crate::lossless::pieces;
 use crate::show::{APT, CORE, SINUMERIK};
 use proptest::prelude::*;
+use proptest::sample::Index;
 use trunnion_syntax::{TextEdit, TextRange, apply_edits, parse};
 
 fn edit(start: u32, end: u32, text: &str) -> TextEdit {
@@ -46,14 +47,21 @@ fn edits_that_do_not_fit_are_refused() {
     assert_eq!(program.relex(&[]), Some(program.clone()));
 }
 
+/// Two places, and what comes between them.
+fn change() -> impl Strategy<Value = (Index, Index, String)> {
+    (any::<Index>(), any::<Index>(), "[GX1.;(*/$\\n\\r \\[]{0,4}")
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(3000))]
 
     #[test]
-    fn relex_equals_parse(source in pieces(), texts in proptest::collection::vec((any::<prop::sample::Index>(), any::<prop::sample::Index>(), "[GX1.;(*/$\\n\\r \\[]{0,4}"), 1..4)) {
-        let mut cuts: Vec<u32> = texts.iter().flat_map(|(a, b, _)| [a.index(source.len() + 1) as u32, b.index(source.len() + 1) as u32]).collect();
+    fn relex_equals_parse(source in pieces(), changes in proptest::collection::vec(change(), 1..4)) {
+        let places = changes.iter().flat_map(|(from, to, _)| [from, to]);
+        let mut cuts: Vec<u32> = places.map(|place| place.index(source.len() + 1) as u32).collect();
         cuts.sort_unstable();
-        let edits: Vec<TextEdit> = texts.iter().zip(cuts.chunks(2)).map(|((_, _, text), cut)| edit(cut[0], cut[1], text)).collect();
+        let pairs = changes.iter().zip(cuts.chunks(2));
+        let edits: Vec<TextEdit> = pairs.map(|((_, _, text), cut)| edit(cut[0], cut[1], text)).collect();
         let edited = apply_edits(&source, &edits).expect("sorted and inside");
         for options in [CORE, SINUMERIK, APT] {
             let after = parse(source.clone(), options).relex(&edits).expect("sorted and inside");

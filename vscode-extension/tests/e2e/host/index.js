@@ -59,6 +59,13 @@ const tests = {
     await settings.update('machine', 'mikron-ucp710', vscode.ConfigurationTarget.Workspace);
     await until('the flip again', () => flips(document.uri).length > 0);
   },
+  async 'a hover on a block shows text of the server'() {
+    const document = await show('strategy-2.mpf');
+    const found = await until('pole-flip', () => flips(document.uri)[0]);
+    const hovers = await vscode.commands.executeCommand('vscode.executeHoverProvider', document.uri, found.range.start);
+    const text = hovers.flatMap((hover) => hover.contents.map((part) => part.value ?? part)).join('\n');
+    assert.match(text, /52\.595/, `hover: ${text}`);
+  },
   async 'the quick fix smooth-pole is proved for a declared ball and cures the flip'() {
     const document = await show('strategy-2.mpf');
     const [flip] = await until('pole-flip', () => flips(document.uri).length > 0 && flips(document.uri));

@@ -1,0 +1,254 @@
+//! Lines, modes, units, feeds, dwells and offsets of ISO programs.
+use crate::support::{faults, line, lines, run_bytes, run_text};
+use trunnion_interp::{Setup, WorkOffset};
+
+#[test]
+fn modal_motion_and_unknown_start() {
+    let got = lines("iso-6983", "G0 Z5\nG1 X1 Y2 F100\nX3\nG0 Y0\nM30\nX9\n");
+    assert_eq!(got, ["R Z5", "L X1 Y2 Z5 F100", "L X3 Y2 Z5 F100", "R X3 Y0 Z5"]);
+}
+
+#[test]
+fn the_start_of_the_first_motion_is_unknown() {
+    let log = run_text("iso-6983", "G0 X1 Y2 Z3\n");
+    assert_eq!(log.motions[0].start.known, 0);
+    assert_eq!(log.motions[0].end.known, 0b111);
+}
+
+#[test]
+fn incremental_from_an_unknown_position_stays_unknown() {
+    let got = lines("iso-6983", "G91 G0 X5\nG90 X1\nG91 X5 Y1\n");
+    assert_eq!(got, ["R -", "R X1", "R X6"]);
+}
+
+#[test]
+fn coordinates_per_word() {
+    let got = lines(
+        "sinumerik-840d",
+        "G0 X10 Y10 Z10 C350\nG91 X1 Y=AC(3)\nG90 X=IC(-2) C=DC(10)\nC=ACN(20)\nC=ACP(10)\nC=DC(190)\n",
+    );
+    assert_eq!(
+        got,
+        [
+            "R X10 Y10 Z10 C350",
+            "R X11 Y3 Z10 C350",
+            "R X9 Y3 Z10 C370",
+            "R X9 Y3 Z10 C20",
+            "R X9 Y3 Z10 C370",
+            "R X9 Y3 Z10 C550",
+        ]
+    );
+}
+
+#[test]
+fn inch_scales_lengths_and_feeds_but_no_angles() {
+    let got = lines("iso-6983", "G20 G1 X1 C90 F10\nG21 X1 F10\n");
+    assert_eq!(got, ["L X25.4 C90 F254", "L X1 C90 F10"]);
+}
+
+#[test]
+fn sinumerik_g70_leaves_f_alone_and_g700_does_not() {
+    let got = lines("sinumerik-840d", "G70 G1 X1 F100\nG700 X2 F100\nG710 X2 F100\n");
+    assert_eq!(got, ["L X25.4 F100", "L X50.8 F2540", "L X2 F100"]);
+}
+
+#[test]
+fn feed_modes() {
+    let got = lines("linuxcnc", "G1 X1 F100\nG93 G1 X2 F4\nX3 F2\nG95 X4 F0.1\nG94 X5 F60\n");
+    assert_eq!(
+        got,
+        ["L X1 F100", "L X2 F1/4", "L X3 F1/2", "L X4 F0.1/rev", "L X5 F60"]
+    );
+}
+
+#[test]
+fn feed_spindle_and_tool_of_a_block_come_before_its_motion() {
+    let log = run_text("iso-6983", "X1 M3 T7 S500 M6 G1 F200\n");
+    let motion = &log.motions[0];
+    assert_eq!(line(motion), "L X1 F200");
+    assert_eq!(
+        (motion.tool, motion.spindle_on, motion.spindle_rpm),
+        (Some(7), Some(true), Some(500.0))
+    );
+    assert!(motion.is_engaged());
+}
+
+#[test]
+fn spindle_is_unknown_before_any_word() {
+    let log = run_text("iso-6983", "G1 X1 F1\nM5\nX2\nM4\nX3\n");
+    let on: Vec<_> = log.motions.iter().map(|motion| motion.spindle_on).collect();
+    assert_eq!(on, [None, Some(false), Some(true)]);
+}
+
+#[test]
+fn constant_cutting_speed_leaves_the_turns_unknown() {
+    let log = run_text("iso-6983", "S500 M3 G1 X1 F1\nG96 S180\nX2\nG97 S700\nX3\n");
+    let rpm: Vec<_> = log.motions.iter().map(|motion| motion.spindle_rpm).collect();
+    assert_eq!(rpm, [Some(500.0), None, Some(700.0)]);
+}
+
+#[test]
+fn dwells() {
+    assert_eq!(lines("linuxcnc", "G4 P1.5\n"), ["D1.5 -"]);
+    assert_eq!(
+        lines("fanuc-30i", "G4 P500\nG4 X2.5\nG4 X2500\n"),
+        ["D0.5 -", "D2.5 -", "D2.5 -"]
+    );
+    assert_eq!(
+        lines("sinumerik-840d", "G4 F0.5\nS60 M3\nG4 S30\n"),
+        ["D0.5 -", "D30 -"]
+    );
+    let log = run_text("sinumerik-840d", "F200 S1000\nG4 F0.5\nG4 S3\n");
+    let state = log.state.expect("a block ran");
+    assert_eq!(
+        (state.feed, state.spindle_rpm),
+        (Some(200.0), Some(1000.0)),
+        "the dwell's F and S are its own"
+    );
+}
+
+#[test]
+fn packed_lower_case_and_leading_zeros() {
+    assert_eq!(
+        lines("iso-6983", "n10g01x1y-.5f100\nG00Z+3.\n"),
+        ["L X1 Y-0.5 F100", "R X1 Y-0.5 Z3"]
+    );
+}
+
+#[test]
+fn skipped_blocks_run() {
+    assert_eq!(lines("iso-6983", "/G0 X1\n/2 G0 X2\n"), ["R X1", "R X2"]);
+}
+
+#[test]
+fn axis_words_without_a_motion_code() {
+    assert_eq!(lines("iso-6983", "X1\n"), ["U -"]);
+    assert_eq!(
+        faults("iso-6983", "X1\n"),
+        [r#"1: X1: NotModelled { what: "coordinates before any motion code" }"#]
+    );
+    assert_eq!(
+        lines("sinumerik-840d", "X1 F100\n"),
+        ["L X1 F100"],
+        "G1 is in force at the start"
+    );
+}
+
+fn offsets() -> Setup {
+    let offset = |name: &str, x: f64| {
+        let mut values = [0.0; 9];
+        values[0] = x;
+        WorkOffset {
+            name: name.to_owned(),
+            values,
+        }
+    };
+    Setup {
+        work_offsets: vec![offset("G54", 100.0), offset("G55", 130.0)],
+        ..Setup::default()
+    }
+}
+
+#[test]
+fn work_offsets_move_the_programmed_position() {
+    let (_, log) = run_bytes(
+        "sinumerik-840d",
+        b"G0 X1\nG54\nG0 Y1\nG55 G0 X0\nG500 Y2\nM30\n",
+        &offsets(),
+    );
+    let got: Vec<_> = log
+        .motions
+        .iter()
+        .map(|motion| (line(motion), motion.start.get(0), motion.zero[0]))
+        .collect();
+    let want = [
+        ("R X1", None, 0.0),
+        ("R X-99 Y1", Some(-99.0), 100.0),
+        ("R X0 Y1", Some(-129.0), 130.0),
+        ("R X130 Y2", Some(130.0), 0.0),
+    ];
+    let want: Vec<_> = want
+        .iter()
+        .map(|&(line, start, zero)| (line.to_owned(), start, zero))
+        .collect();
+    assert_eq!(got, want);
+    assert_eq!(log.faults, []);
+    assert_eq!(log.state.expect("a block ran").work_offset, None);
+}
+
+#[test]
+fn first_offset_is_in_force_from_the_start_where_the_control_says_so() {
+    let (_, log) = run_bytes("fanuc-30i", b"G0 X1\nM30\n", &offsets());
+    assert_eq!(log.motions[0].zero[0], 100.0);
+    assert_eq!(log.state.expect("a block ran").work_offset.as_deref(), Some("G54"));
+}
+
+#[test]
+fn machine_coordinates_hold_for_one_block() {
+    let (_, log) = run_bytes("fanuc-30i", b"G54 G0 X1 Y1 Z1\nG53 G0 X300\nY2\nM30\n", &offsets());
+    let got: Vec<_> = log.motions.iter().map(line).collect();
+    assert_eq!(got, ["R X1 Y1 Z1", "R X300 Y1 Z1 machine", "R X200 Y2 Z1"]);
+    let machine = &log.motions[1];
+    assert_eq!(
+        (machine.start.get(0), machine.zero, machine.tool_length_mm),
+        (Some(101.0), [0.0; 9], 0.0)
+    );
+}
+
+#[test]
+fn a_tool_change_may_move_the_linear_axes() {
+    assert_eq!(
+        lines("iso-6983", "G0 X1 Y2 Z3 A4\nT1 M6\nG0 X5\n"),
+        ["R X1 Y2 Z3 A4", "R X5 A4"]
+    );
+}
+
+#[test]
+fn what_is_not_modelled_is_forgotten() {
+    assert_eq!(
+        lines("fanuc-30i", "G0 X1 Y2 Z3\nG28 Z9\nX4\n"),
+        ["R X1 Y2 Z3", "U X1 Y2", "R X4 Y2"]
+    );
+    assert_eq!(
+        lines("linuxcnc", "G0 X1 Y2 Z3\nX#5\nY#<a>\nX1\n"),
+        ["R X1 Y2 Z3", "R Y2 Z3", "R Z3", "R X1 Z3"]
+    );
+    assert_eq!(
+        lines("sinumerik-840d", "G0 X1 Y2 Z3\nMYSUB(1)\nX1\nL20\nY1\n"),
+        ["R X1 Y2 Z3", "R X1", "R Y1"]
+    );
+    assert_eq!(
+        lines("iso-6983", "G0 X1 Y2 Z3\nG777 X5\nY3\n"),
+        ["R X1 Y2 Z3", "U Y2 Z3", "R Y3 Z3"]
+    );
+}
+
+#[test]
+fn cycles_run_until_they_end() {
+    let fanuc = "G0 X1 Y2 Z9\nG81 X1 Y2 Z-3 R1 F100\nX5\nG80\nX6\nG81 Z-1 R1\nG1 Z0 F50\n";
+    assert_eq!(
+        lines("fanuc-30i", fanuc),
+        ["R X1 Y2 Z9", "U -", "U -", "R X6", "U -", "L Z0 F50"]
+    );
+    let sinumerik = "G0 X1 Y2 Z9\nMCALL CYCLE81(5,0,2,-3)\nX5\nMCALL\nX6\n";
+    assert_eq!(lines("sinumerik-840d", sinumerik), ["R X1 Y2 Z9", "U -", "R X6"]);
+}
+
+#[test]
+fn frames_that_are_not_modelled_hide_the_position() {
+    let source = "G0 X1 Y2 Z3\nTRANS X10\nX5\nG1 Y6 F10\nG0 SUPA Z100\nTRANS\nZ4\nX1\n";
+    assert_eq!(
+        lines("sinumerik-840d", source),
+        ["R X1 Y2 Z3", "R -", "L - F10", "R Z100 machine", "R Z4", "R X1 Z4"]
+    );
+    let tilted = "G0 X1 Y2 Z3 A0\nG68.2 X0 Y0 Z0 I0 J30 K0\nX5 A30\nG69\nX6 Y7 Z8\n";
+    assert_eq!(lines("fanuc-30i", tilted), ["R X1 Y2 Z3 A0", "R A30", "R X6 Y7 Z8"]);
+}
+
+#[test]
+fn program_flow_is_not_followed() {
+    let source = "G0 X1 Y1\nIF R1>3 GOTOF END\nX2\nEND:\nY3\n";
+    assert_eq!(lines("sinumerik-840d", source), ["R X1 Y1", "R X2", "R X2 Y3"]);
+    let source = "G0 X1 Y1\nO100 CALL [1] [2]\nX2\n";
+    assert_eq!(lines("linuxcnc", source), ["R X1 Y1", "R X2"]);
+}

@@ -1,0 +1,259 @@
+//! What the follower knows and forgets: unknown positions, foreign axes, TCP switching, tool length, great circle, posture swaps.
+use crate::common::{motion, position, vector, words};
+use trunnion_geometry::{Vec3, deg};
+use trunnion_interp::{Feed, Motion, MotionKind, Position};
+use trunnion_machine::{Follower, Leg, Machine, NoStance, block_duration_s, builtin, feed_limit, row, tip_deviation};
+
+fn machine(name: &str) -> &'static Machine {
+    builtin(name).expect("built in")
+}
+
+fn mikron() -> &'static Machine {
+    machine("mikron-ucp710")
+}
+
+fn place(x: f64, y: f64, z: f64, a: f64, c: f64) -> Position {
+    position(&[(b'X', x), (b'Y', y), (b'Z', z), (b'A', a), (b'C', c)])
+}
+
+fn joint(leg: &Leg, letter: u8) -> f64 {
+    leg.end.as_ref().expect("known").joints[mikron().joint(letter).expect("axis")]
+}
+
+#[test]
+fn an_axis_that_was_never_positioned_is_unknown() {
+    let mut follower = Follower::new(mikron());
+    let to = position(&[(b'X', 1.0), (b'Y', 2.0), (b'Z', 3.0), (b'C', 90.0)]);
+    let leg = follower.follow(&words(Position::default(), to));
+    assert_eq!(leg.end, Err(NoStance::PositionUnknown("A".into())));
+    let trace = row(mikron(), &leg);
+    assert_eq!(trace.joints, [Some(90.0), None, Some(1.0), Some(2.0), Some(3.0)]);
+    assert_eq!(
+        (trace.tip_mm, trace.branch, trace.feed_limit_mm_min),
+        (None, None, None)
+    );
+    let mut tcp = words(to, to);
+    tcp.tcp = true;
+    let leg = follower.follow(&tcp);
+    assert_eq!(leg.end, Err(NoStance::PositionUnknown("A".into())));
+    // under TCP X Y Z are no joints
+    assert_eq!(row(mikron(), &leg).joints, [Some(90.0), None, None, None, None]);
+}
+
+#[test]
+fn a_three_axis_machine_needs_no_rotary_words() {
+    let mill = machine("mill-3axis");
+    let mut follower = Follower::new(mill);
+    let from = position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', 0.0)]);
+    let to = position(&[(b'X', 3.0), (b'Y', 4.0), (b'Z', 0.0)]);
+    assert!(follower.follow(&words(Position::default(), from)).end.is_ok());
+    let leg = follower.follow(&words(from, to));
+    assert_eq!(leg.length, 5.0);
+    assert_eq!(tip_deviation(mill, &leg, 0.01).expect("known").bound_mm, 0.0);
+    let trace = row(mill, &leg);
+    assert_eq!(
+        (trace.branch, trace.pole_angle_deg, trace.tip_mm),
+        (None, None, Some([3.0, 4.0, 0.0]))
+    );
+    assert!((trace.duration_s.expect("known") - 5.0 / 2000.0 * 60.0).abs() < 1e-12);
+    // the tool cannot lean
+    let leg = follower.follow(&vector(to, [0.0; 3], Vec3::new(0.0, 0.1, 1.0)));
+    assert!(matches!(leg.end, Err(NoStance::Unreachable(angle)) if (angle - 0.0997).abs() < 1e-4));
+}
+
+#[test]
+fn a_foreign_axis_is_reported_where_it_is_programmed() {
+    let mut follower = Follower::new(mikron());
+    let start = place(0.0, 0.0, 100.0, 0.0, 0.0);
+    let mut foreign = start;
+    foreign.set(4, 10.0);
+    assert!(follower.follow(&words(Position::default(), start)).end.is_ok());
+    let leg = follower.follow(&words(start, foreign));
+    assert_eq!(leg.end, Err(NoStance::NoSuchAxis(b'B')));
+    let mut next = foreign;
+    next.set(0, 5.0);
+    let leg = follower.follow(&words(foreign, next));
+    assert!(
+        leg.start.is_none() && leg.end.is_ok(),
+        "the word stands, but it is no news"
+    );
+}
+
+#[test]
+fn after_a_failure_the_position_is_unknown_until_it_is_given() {
+    let mut follower = Follower::new(mikron());
+    let up = vector(Position::default(), [0.0, 0.0, 50.0], Vec3::new(0.0, -0.1, 1.0));
+    assert!(follower.follow(&up).end.is_ok());
+    let down = vector(up.end, [0.0, 0.0, 50.0], Vec3::new(0.0, -0.1, -1.0));
+    assert!(matches!(
+        follower.follow(&down).end,
+        Err(NoStance::OutsideLimits { axis: b'A', .. })
+    ));
+    let leg = follower.follow(&vector(up.end, [1.0, 0.0, 50.0], Vec3::new(0.0, -0.1, 1.0)));
+    assert!(leg.start.is_none() && leg.end.is_ok());
+    assert_eq!((leg.rotary_change, leg.rotary_excess), ([0.0; 2], 0.0));
+    let unknown = Motion {
+        kind: MotionKind::Unknown,
+        ..words(up.end, Position::default())
+    };
+    assert_eq!(follower.follow(&unknown).end, Err(NoStance::NotModelled));
+    let dwell = Motion {
+        kind: MotionKind::Dwell(Some(1.0)),
+        ..motion()
+    };
+    assert_eq!(
+        follower.follow(&dwell).end,
+        Err(NoStance::PositionUnknown("CAXYZ".into()))
+    );
+}
+
+#[test]
+fn tcp_keeps_the_tip_and_gives_the_joints() {
+    let mut follower = Follower::new(mikron());
+    let start = place(10.0, 20.0, 50.0, 0.0, 0.0);
+    let tilted = place(10.0, 20.0, 50.0, 30.0, 40.0);
+    let tcp = |from: Position, to: Position| Motion {
+        tcp: true,
+        tool_length_mm: 60.0,
+        ..words(from, to)
+    };
+    follower.follow(&tcp(Position::default(), start));
+    let leg = follower.follow(&tcp(start, tilted));
+    let stance = leg.end.as_ref().expect("reached");
+    assert_eq!((stance.tip, leg.length), (Vec3::new(10.0, 20.0, 50.0), 0.0));
+    let pose = trunnion_machine::forward(mikron(), &stance.joints, 60.0);
+    assert!((pose.tip - stance.tip).norm() < 1e-12);
+    // TCP off, only Z programmed after the program forgot X and Y: they stay where the machine is
+    let mut lost = tilted;
+    lost.forget(0);
+    lost.forget(1);
+    let mut up = lost;
+    up.set(2, 200.0);
+    let off = Motion {
+        tool_length_mm: 60.0,
+        ..words(lost, up)
+    };
+    let leg = follower.follow(&off);
+    assert_eq!(joint(&leg, b'X'), stance.joints[mikron().joint(b'X').expect("axis")]);
+    assert_eq!(joint(&leg, b'Z'), 260.0);
+    assert!((deg(joint(&leg, b'C')) - 40.0).abs() < 1e-12);
+}
+
+#[test]
+fn rotary_axes_keep_the_posture_of_the_last_vector() {
+    let mut follower = Follower::new(mikron());
+    let tilt = vector(Position::default(), [0.0, 0.0, 50.0], Vec3::new(0.0, -0.5, 1.0));
+    let before = follower.follow(&tilt);
+    // TCP off: A and C were never words of the program, the machine still knows them
+    let home = position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', 300.0)]);
+    let leg = follower.follow(&words(tilt.end, home));
+    assert_eq!(joint(&leg, b'A'), joint(&before, b'A'));
+    assert_eq!(joint(&leg, b'Z'), 300.0);
+    // but what the program itself lost is lost
+    let mut named = home;
+    named.set(3, 10.0);
+    let leg = follower.follow(&words(home, named));
+    assert!((deg(joint(&leg, b'A')) - 10.0).abs() < 1e-12);
+    let leg = follower.follow(&words(home, home));
+    assert_eq!(leg.end, Err(NoStance::PositionUnknown("A".into())));
+}
+
+#[test]
+fn offsets_and_tool_length_move_the_joints() {
+    let mut follower = Follower::new(mikron());
+    let to = place(1.0, 2.0, 3.0, 10.0, 20.0);
+    let mut offset = words(Position::default(), to);
+    offset.zero = [100.0, 0.0, -50.0, 5.0, 0.0, -7.0, 0.0, 0.0, 0.0];
+    offset.tool_length_mm = 80.0;
+    let leg = follower.follow(&offset);
+    assert_eq!(
+        [joint(&leg, b'X'), joint(&leg, b'Y'), joint(&leg, b'Z')],
+        [101.0, 2.0, 33.0]
+    );
+    assert!((deg(joint(&leg, b'A')) - 15.0).abs() < 1e-12 && (deg(joint(&leg, b'C')) - 13.0).abs() < 1e-12);
+    let stance = leg.end.as_ref().expect("known");
+    let pose = trunnion_machine::forward(mikron(), &stance.joints, 80.0);
+    assert!((pose.tip - Vec3::new(100.0, 0.0, -50.0) - stance.tip).norm() < 1e-12);
+    let mut machine_words = offset;
+    machine_words.machine_coordinates = true;
+    let leg = follower.follow(&machine_words);
+    assert_eq!([joint(&leg, b'X'), joint(&leg, b'Z')], [1.0, 3.0]);
+    // at home the tip is what is programmed
+    let home = Motion {
+        tool_length_mm: 80.0,
+        ..words(to, place(1.0, 2.0, 3.0, 0.0, 0.0))
+    };
+    assert!((follower.follow(&home).end.expect("known").tip - Vec3::new(1.0, 2.0, 3.0)).norm() < 1e-12);
+}
+
+#[test]
+fn a_needless_change_of_posture_has_an_excess() {
+    let mut follower = Follower::new(mikron());
+    let tcp = |from: Position, to: Position| Motion {
+        tcp: true,
+        ..words(from, to)
+    };
+    let (start, swapped) = (place(0.0, 0.0, 50.0, 20.0, 10.0), place(5.0, 0.0, 50.0, -21.0, 190.0));
+    follower.follow(&tcp(Position::default(), start));
+    let leg = follower.follow(&tcp(start, swapped));
+    // D = 180 + 41, cheapest in the old posture: A 21 C 10
+    assert!(
+        (deg(leg.rotary_excess) - (221.0 - 1.0)).abs() < 1e-9,
+        "{}",
+        deg(leg.rotary_excess)
+    );
+    assert_eq!(leg.pole_angle_min, 0.0);
+    // straight through the pole: no excess
+    let leg = follower.follow(&tcp(swapped, place(10.0, 0.0, 50.0, 5.0, 190.0)));
+    assert_eq!(leg.rotary_excess, 0.0);
+    // by way of the pole: the sign before it counts
+    let on_pole = place(11.0, 0.0, 50.0, 0.0, 190.0);
+    follower.follow(&tcp(place(10.0, 0.0, 50.0, 5.0, 190.0), on_pole));
+    let leg = follower.follow(&tcp(on_pole, place(12.0, 0.0, 50.0, -5.0, 10.0)));
+    assert!(
+        (deg(leg.rotary_excess) - (185.0 - 5.0)).abs() < 1e-9,
+        "{}",
+        deg(leg.rotary_excess)
+    );
+}
+
+#[test]
+fn durations_follow_the_feed_and_the_slowest_axis() {
+    let mut follower = Follower::new(mikron());
+    let start = place(0.0, 0.0, 50.0, 0.0, 0.0);
+    follower.follow(&words(Position::default(), start));
+    let turn = Motion {
+        feed: Feed::PerMinute(600.0),
+        ..words(start, place(0.0, 0.0, 50.0, 0.0, 90.0))
+    };
+    let leg = follower.follow(&turn);
+    // rotary only: F is degrees per minute
+    assert!((block_duration_s(mikron(), &leg).expect("known") - 9.0).abs() < 1e-9);
+    assert_eq!(feed_limit(mikron(), &leg), None);
+    let fast = Motion {
+        feed: Feed::PerMinute(60_000.0),
+        ..words(turn.end, start)
+    };
+    // 90 degrees at 120 deg/s
+    assert!((block_duration_s(mikron(), &follower.follow(&fast)).expect("known") - 0.75).abs() < 1e-9);
+    let rapid = Motion {
+        kind: MotionKind::Rapid,
+        feed: Feed::Rapid,
+        ..words(start, place(100.0, 0.0, 50.0, 0.0, 240.0))
+    };
+    assert!((block_duration_s(mikron(), &follower.follow(&rapid)).expect("known") - 2.0).abs() < 1e-9);
+    let inverse_time = Motion {
+        feed: Feed::InverseTime(2.0),
+        ..words(rapid.end, place(110.0, 0.0, 50.0, 0.0, 240.0))
+    };
+    let leg = follower.follow(&inverse_time);
+    assert!((block_duration_s(mikron(), &leg).expect("known") - 30.0).abs() < 1e-9);
+    assert_eq!(row(mikron(), &leg).feed_mm_min, Some(20.0));
+    let no_feed = Motion {
+        feed: Feed::Unknown,
+        ..words(inverse_time.end, start)
+    };
+    let leg = follower.follow(&no_feed);
+    assert_eq!(block_duration_s(mikron(), &leg), None);
+    assert_eq!(feed_limit(mikron(), &leg).expect("limited").axis_speed, None);
+}

@@ -1,7 +1,7 @@
 #!/bin/bash
 # The VS Code extension: types, manifest, grammars, the packaged .vsix, and the .vsix in a real VS Code.
-# Needs Node 20 or newer, Python 3 with pip, and a built `trunnion` (TRUNNION_BIN, else target/release, else target/debug;
-# built here when there is none). Installs Debian packages when they are missing, and VS Code into
+# Needs Node 20 or newer, Python 3 with pip, and a built `trunnion` (TRUNNION_BIN, else the newer of target/release and
+# target/debug; built here when there is none). Installs Debian packages when they are missing, and VS Code into
 # ${TRUNNION_VSCODE_LAB:-$HOME/.cache/trunnion-vscode}, which is used again next time.
 set -uo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)

@@ -38,7 +38,10 @@ fn rows_of(sample: &str, extension: &str) -> String {
 
 /// Both notations of a strategy, paired by where they come from.
 fn both(strategy: u32) -> Vec<(String, String)> {
-    excerpts(strategy, "apt").into_iter().zip(excerpts(strategy, "mpf")).collect()
+    excerpts(strategy, "apt")
+        .into_iter()
+        .zip(excerpts(strategy, "mpf"))
+        .collect()
 }
 
 fn mikron() -> &'static Machine {
@@ -125,28 +128,24 @@ fn with_tcp(mpf: &str) -> String {
 #[test]
 fn joints_of_the_vectors_are_the_printed_words() {
     for strategy in 1..=4 {
-        let (Some(apt), Some(mpf)) = (data(strategy, "apt"), data(strategy, "mpf")) else {
-            return;
-        };
-        let rows = rows(&apt, "apt");
-        let (a, c) = (words(&mpf, 'A'), words(&mpf, 'C'));
-        assert_eq!((rows.len(), a.len(), c.len()), (5, 5, 5));
-        for (i, row) in rows.iter().enumerate() {
-            let turns = (joint(row, b'C') - c[i]) / 360.0;
-            let off = (turns - turns.round()).abs() * 360.0;
-            let pole = a[i] == 0.0;
-            assert!(
-                pole || off <= 0.0006 || (strategy, i) == (2, 2),
-                "strategy {strategy} row {i}: C off by {off}"
-            );
-            // the printed 0.081 comes from the arc cosine of a k rounded to six digits
-            let wanted = if (strategy, i) == (2, 2) { 0.0772 } else { a[i] };
-            let off = (joint(row, b'A') - wanted).abs();
-            assert!(
-                off <= 0.002,
-                "strategy {strategy} row {i}: A {} is not {wanted}",
-                joint(row, b'A')
-            );
+        for (apt, mpf) in both(strategy) {
+            let rows = rows(&apt, "apt");
+            let (a, c) = (words(&mpf, 'A'), words(&mpf, 'C'));
+            assert_eq!((rows.len(), a.len(), c.len()), (5, 5, 5));
+            for (i, row) in rows.iter().enumerate() {
+                let turns = (joint(row, b'C') - c[i]) / 360.0;
+                let off = (turns - turns.round()).abs() * 360.0;
+                let pole = a[i] == 0.0;
+                assert!(pole || off <= 0.0006, "strategy {strategy} row {i}: C off by {off}");
+                // the printed 0.081 comes from the arc cosine of a k rounded to six digits
+                let wanted = if (strategy, i) == (2, 2) { 0.0772 } else { a[i] };
+                let off = (joint(row, b'A') - wanted).abs();
+                assert!(
+                    off <= 0.002,
+                    "strategy {strategy} row {i}: A {} is not {wanted}",
+                    joint(row, b'A')
+                );
+            }
         }
     }
 }
@@ -155,68 +154,92 @@ fn joints_of_the_vectors_are_the_printed_words() {
 fn the_pole_flips_in_five_blocks_and_no_other() {
     let wanted: [&[&str]; 4] = [&[], &["N2930", "N2940"], &["N2480"], &["N1910", "N1920"]];
     for (strategy, blocks) in (1..=4).zip(wanted) {
-        let (Some(apt), Some(mpf)) = (data(strategy, "apt"), data(strategy, "mpf")) else {
-            return;
-        };
-        for text in [mpf.clone(), with_tcp(&mpf)] {
-            let found = found(&text, "sinumerik-840d", mikron());
-            let flips: Vec<&str> = of("pole-flip", &found).filter_map(|d| d.block.as_deref()).collect();
-            assert_eq!(flips, blocks, "strategy {strategy}");
-            assert_eq!(of("branch-swap", &found).count(), 0, "strategy {strategy}");
+        for (apt, mpf) in both(strategy) {
+            for text in [mpf.clone(), with_tcp(&mpf)] {
+                let found = found(&text, "sinumerik-840d", mikron());
+                let flips: Vec<&str> = of("pole-flip", &found).filter_map(|d| d.block.as_deref()).collect();
+                assert_eq!(flips, blocks, "strategy {strategy}");
+                assert_eq!(of("branch-swap", &found).count(), 0, "strategy {strategy}");
+            }
+            let found = found(&apt, "apt", mikron());
+            let lines: Vec<usize> = words(&mpf, 'N').iter().map(|n| *n as usize).collect();
+            let flips: Vec<String> = of("pole-flip", &found)
+                .map(|d| format!("N{}", lines[apt[..d.range.start as usize].matches('\n').count()]))
+                .collect();
+            assert_eq!(flips, blocks, "strategy {strategy} by vectors");
+            assert_eq!(of("branch-swap", &found).count(), 0, "strategy {strategy} by vectors");
         }
-        let found = found(&apt, "apt", mikron());
-        let lines: Vec<usize> = words(&mpf, 'N').iter().map(|n| *n as usize).collect();
-        let flips: Vec<String> = of("pole-flip", &found)
-            .map(|d| format!("N{}", lines[apt[..d.range.start as usize].matches('\n').count()]))
-            .collect();
-        assert_eq!(flips, blocks, "strategy {strategy} by vectors");
-        assert_eq!(of("branch-swap", &found).count(), 0, "strategy {strategy} by vectors");
     }
 }
 
 #[test]
 fn the_flips_carry_their_numbers() {
-    let Some(mpf) = data(2, "mpf") else { return };
-    let found = found(&with_tcp(&mpf), "sinumerik-840d", mikron());
-    let flips: Vec<&Diagnostic> = of("pole-flip", &found).collect();
-    assert!((value(flips[0], "rotary_change_deg") - 47.773).abs() < 1e-6);
-    assert!((value(flips[1], "rotary_change_deg") - 55.681).abs() < 1e-6);
-    let text = with_tcp(&mpf);
-    assert_eq!(&text[flips[0].range.as_usize()], "C52.595");
-    assert_eq!(flips[0].fixes, ["smooth-pole"]);
+    for mpf in excerpts(2, "mpf") {
+        let text = with_tcp(&mpf);
+        let found = found(&text, "sinumerik-840d", mikron());
+        let flips: Vec<&Diagnostic> = of("pole-flip", &found).collect();
+        assert!((value(flips[0], "rotary_change_deg") - 47.773).abs() < 1e-6);
+        assert!((value(flips[1], "rotary_change_deg") - 55.681).abs() < 1e-6);
+        assert_eq!(&text[flips[0].range.as_usize()], "C52.595");
+        assert_eq!(flips[0].fixes, ["smooth-pole"]);
+    }
+}
+
+#[test]
+fn the_whole_samples_flip_where_their_rows_do() {
+    let wanted: [&[&str]; 4] = [&[], &["N2930", "N2940"], &["N2480"], &["N1910", "N1920"]];
+    for (strategy, blocks) in (1..=4).zip(wanted) {
+        let path = format!("samples/programs/guide-vane/strategy-{strategy}.mpf");
+        let text =
+            std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).expect("the sample is there");
+        let found = found(&text, "sinumerik-840d", mikron());
+        let flips: Vec<&str> = of("pole-flip", &found).filter_map(|d| d.block.as_deref()).collect();
+        assert_eq!(flips, blocks, "strategy {strategy}");
+        for rule in [
+            "branch-swap",
+            "axis-limit",
+            "path-deviation",
+            "position-unknown",
+            "missing-feed",
+        ] {
+            let hits: Vec<&str> = of(rule, &found).map(|d| d.message.as_str()).collect();
+            assert!(hits.is_empty(), "strategy {strategy}: {rule}: {hits:?}");
+        }
+    }
 }
 
 #[test]
 fn the_lowest_reachable_feeds_are_the_papers() {
     let wanted: [(&[f64], &str); 4] = [(&[1640.0], "A"), (&[46.0, 33.0], "C"), (&[205.0], "C"), (&[355.0], "C")];
     for (strategy, (feeds, axis)) in (1..=4).zip(wanted) {
-        let Some(mpf) = data(strategy, "mpf") else { return };
-        let found = found(&with_tcp(&mpf), "sinumerik-840d", mikron());
-        let mut limits: Vec<f64> = of("axis-overspeed", &found)
-            .map(|d| value(d, "feed_limit_mm_min"))
-            .collect();
-        limits.sort_by(f64::total_cmp);
-        for feed in feeds {
+        for mpf in excerpts(strategy, "mpf") {
+            let found = found(&with_tcp(&mpf), "sinumerik-840d", mikron());
+            let mut limits: Vec<f64> = of("axis-overspeed", &found)
+                .map(|d| value(d, "feed_limit_mm_min"))
+                .collect();
+            limits.sort_by(f64::total_cmp);
+            for feed in feeds {
+                assert!(
+                    limits.iter().any(|limit| (limit - feed).abs() <= 1.0),
+                    "strategy {strategy}: {feed} not in {limits:?}"
+                );
+            }
+            let lowest = feeds.iter().copied().fold(f64::INFINITY, f64::min);
             assert!(
-                limits.iter().any(|limit| (limit - feed).abs() <= 1.0),
-                "strategy {strategy}: {feed} not in {limits:?}"
+                (limits[0] - lowest).abs() <= 1.0,
+                "strategy {strategy}: lowest is {}",
+                limits[0]
             );
+            let worst = of("axis-overspeed", &found)
+                .find(|d| value(d, "feed_limit_mm_min") == limits[0])
+                .expect("the lowest was found");
+            let letter = worst
+                .values
+                .iter()
+                .find(|(key, _)| *key == "limiting_axis")
+                .map(|(_, value)| value);
+            assert_eq!(letter, Some(&ValueKey::Text(axis.to_owned())), "strategy {strategy}");
         }
-        let lowest = feeds.iter().copied().fold(f64::INFINITY, f64::min);
-        assert!(
-            (limits[0] - lowest).abs() <= 1.0,
-            "strategy {strategy}: lowest is {}",
-            limits[0]
-        );
-        let worst = of("axis-overspeed", &found)
-            .find(|d| value(d, "feed_limit_mm_min") == limits[0])
-            .expect("the lowest was found");
-        let letter = worst
-            .values
-            .iter()
-            .find(|(key, _)| *key == "limiting_axis")
-            .map(|(_, value)| value);
-        assert_eq!(letter, Some(&ValueKey::Text(axis.to_owned())), "strategy {strategy}");
     }
 }
 
@@ -235,37 +258,38 @@ fn machine_words(mpf: &str) -> String {
 fn without_tcp_the_tip_leaves_its_path() {
     let wanted: [&[(usize, f64)]; 4] = [&[], &[(2, 2.4955), (3, 3.2292)], &[(3, 1.2926)], &[(1, 0.4086)]];
     for (strategy, blocks) in (1..=4).zip(wanted) {
-        let Some(mpf) = data(strategy, "mpf") else { return };
-        let text = machine_words(&mpf);
-        let found = found(&text, "sinumerik-840d", mikron());
-        for (block, deviation) in blocks {
-            let block = format!("N{block}");
-            let hit = of("path-deviation", &found)
-                .find(|d| d.block.as_deref() == Some(&block))
-                .unwrap_or_else(|| panic!("strategy {strategy} {block}: no path-deviation"));
-            let (sampled, bound) = (value(hit, "deviation_mm"), value(hit, "deviation_bound_mm"));
-            assert!(
-                (sampled - deviation).abs() <= 0.001,
-                "strategy {strategy} {block}: {sampled} is not {deviation}"
-            );
-            assert!(
-                bound >= sampled && bound <= sampled * 1.2,
-                "strategy {strategy} {block}: {bound} for {sampled}"
-            );
-        }
-        let worst = legs(&text, "sinumerik-840d")
-            .iter()
-            .filter(|leg| leg.start.is_some())
-            .map(|leg| {
-                tip_deviation(mikron(), leg, 0.0)
-                    .expect("lines are modelled")
-                    .sampled_mm
-            })
-            .fold(0.0, f64::max);
-        let most = blocks.iter().map(|(_, deviation)| *deviation).fold(0.0012, f64::max) + 0.001;
-        assert!(worst <= most, "strategy {strategy}: {worst}");
-        if blocks.is_empty() {
-            assert_eq!(of("path-deviation", &found).count(), 0, "strategy {strategy}");
+        for mpf in excerpts(strategy, "mpf") {
+            let text = machine_words(&mpf);
+            let found = found(&text, "sinumerik-840d", mikron());
+            for (block, deviation) in blocks {
+                let block = format!("N{block}");
+                let hit = of("path-deviation", &found)
+                    .find(|d| d.block.as_deref() == Some(&block))
+                    .unwrap_or_else(|| panic!("strategy {strategy} {block}: no path-deviation"));
+                let (sampled, bound) = (value(hit, "deviation_mm"), value(hit, "deviation_bound_mm"));
+                assert!(
+                    (sampled - deviation).abs() <= 0.001,
+                    "strategy {strategy} {block}: {sampled} is not {deviation}"
+                );
+                assert!(
+                    bound >= sampled && bound <= sampled * 1.2,
+                    "strategy {strategy} {block}: {bound} for {sampled}"
+                );
+            }
+            let worst = legs(&text, "sinumerik-840d")
+                .iter()
+                .filter(|leg| leg.start.is_some())
+                .map(|leg| {
+                    tip_deviation(mikron(), leg, 0.0)
+                        .expect("lines are modelled")
+                        .sampled_mm
+                })
+                .fold(0.0, f64::max);
+            let most = blocks.iter().map(|(_, deviation)| *deviation).fold(0.0012, f64::max) + 0.001;
+            assert!(worst <= most, "strategy {strategy}: {worst}");
+            if blocks.is_empty() {
+                assert_eq!(of("path-deviation", &found).count(), 0, "strategy {strategy}");
+            }
         }
     }
 }

@@ -1,7 +1,8 @@
 //! What rules look at: a leg with what is computed from it at most once, and the program as a whole.
 use crate::Settings;
 use core::cell::OnceCell;
-use trunnion_interp::{Directive, Feed, Motion};
+use trunnion_geometry::{deg, math};
+use trunnion_interp::{Directive, Feed, Motion, Orientation};
 use trunnion_machine::{Deviation, FeedLimit, Leg, Machine, Stance, feed_limit, tip_deviation};
 use trunnion_syntax::{Program, TextRange};
 
@@ -49,9 +50,61 @@ impl<'a> LegView<'a> {
         Some((self.leg.start.as_ref()?, self.leg.end.as_ref().ok()?))
     }
 
-    /// Highest feed of the block, see [`feed_limit`].
+    /// Highest feed of the block in its unit, see [`feed_limit`] and [`Self::feed_unit`].
     pub fn feed_limit(&self) -> Option<FeedLimit> {
-        *self.feed_limit.get_or_init(|| feed_limit(self.machine, self.leg))
+        *self
+            .feed_limit
+            .get_or_init(|| feed_limit(self.machine, self.leg).or_else(|| self.turning_limit()))
+    }
+
+    /// Whether X Y Z are the tip's in the workpiece frame: tool centre point control, or vectors.
+    pub fn leads_tip(&self) -> bool {
+        self.motion().tcp || matches!(self.motion().orientation, Orientation::Vector(..))
+    }
+
+    /// Whether F is meant in degrees: no X Y Z path, without tool centre point control (RS274/NGC on feed rate).
+    pub fn feed_in_degrees(&self) -> bool {
+        self.leg.length <= 0.0 && !self.leads_tip()
+    }
+
+    /// `mm/min` or `deg/min`.
+    pub fn feed_unit(&self) -> &'static str {
+        if self.feed_in_degrees() { "deg/min" } else { "mm/min" }
+    }
+
+    /// Length that F is meant along: of the path, mm, or of the turn, deg (root of the sum of squares, RS274/NGC).
+    fn way(&self) -> f64 {
+        if self.feed_in_degrees() {
+            let [first, second] = self.leg.rotary_change;
+            deg(math::hypot(first, second))
+        } else {
+            self.leg.length
+        }
+    }
+
+    /// Highest feed, deg/min, of a block in which only rotary axes turn.
+    fn turning_limit(&self) -> Option<FeedLimit> {
+        let way = self.way();
+        if !self.feed_in_degrees() || !self.motion().is_feed() || way <= 0.0 || self.stances().is_none() {
+            return None;
+        }
+        let mut slowest: Option<FeedLimit> = None;
+        for (axis, change) in self.machine.rotary.iter().zip(self.leg.rotary_change) {
+            let Some(axis_limit) = self.machine.axes[*axis].max_speed else {
+                continue;
+            };
+            let feed_mm_min = axis_limit * 60.0 * way / change;
+            if change > 0.0 && slowest.is_none_or(|limit| feed_mm_min < limit.feed_mm_min) {
+                let axis_speed = self.programmed_feed().map(|feed| change * feed / (60.0 * way));
+                slowest = Some(FeedLimit {
+                    feed_mm_min,
+                    axis: *axis,
+                    axis_speed,
+                    axis_limit,
+                });
+            }
+        }
+        slowest
     }
 
     /// Deviation of the tip path, see [`tip_deviation`].
@@ -61,13 +114,13 @@ impl<'a> LegView<'a> {
             .get_or_init(|| tip_deviation(self.machine, self.leg, self.machine.tolerances.tip_mm))
     }
 
-    /// Programmed feed along the path, mm/min; `None` where it is not known or the block is no feed motion.
-    /// Per revolution: times the spindle speed. Inverse time: length of the path times F (RS274/NGC, G93).
-    pub fn programmed_feed_mm_min(&self) -> Option<f64> {
+    /// Programmed feed in its unit ([`Self::feed_unit`]); `None` where it is not known or the block is no feed motion.
+    /// Per revolution: times the spindle speed. Inverse time: the way times F (RS274/NGC, G93).
+    pub fn programmed_feed(&self) -> Option<f64> {
         match self.motion().feed {
             Feed::PerMinute(feed) => Some(feed),
             Feed::PerRevolution(feed) => Some(feed * self.motion().spindle_rpm?),
-            Feed::InverseTime(per_minute) => Some(per_minute * self.leg.length),
+            Feed::InverseTime(per_minute) => Some(per_minute * self.way()),
             Feed::Unknown | Feed::Rapid => None,
         }
     }

@@ -21,6 +21,15 @@ pub(crate) fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
+/// A feed or speed: fewer digits than [`number`], since nobody sets more.
+pub(crate) fn rate(value: f64) -> String {
+    match value.abs() {
+        size if size >= 100.0 => format!("{value:.0}"),
+        size if size >= 10.0 => number((value * 10.0).round() / 10.0),
+        _ => number(value),
+    }
+}
+
 /// A length in mm.
 pub(crate) fn mm(value: f64) -> String {
     format!("{} mm", number(value))
@@ -51,8 +60,8 @@ pub(crate) fn joint(axis: &Axis, value: f64) -> String {
 /// A joint speed, mm/s or rad/s, in mm/min or deg/s.
 pub(crate) fn speed(axis: &Axis, value: f64) -> String {
     match axis.kind {
-        AxisKind::Linear => format!("{} mm/min", number(value * 60.0)),
-        AxisKind::Rotary => format!("{} deg/s", number(deg(value))),
+        AxisKind::Linear => format!("{} mm/min", rate(value * 60.0)),
+        AxisKind::Rotary => format!("{} deg/s", rate(deg(value))),
     }
 }
 

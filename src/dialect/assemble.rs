@@ -1,6 +1,6 @@
 //! From a table to a dialect: `extends`, ranges of codes, indexes, and every check that serde cannot make.
 use crate::code::sort_key;
-use crate::dialect::{ArcTolerance, G_SLOTS};
+use crate::dialect::{ArcTolerance, G_SLOTS, role_slot};
 use crate::schema::{ArcToleranceRow, CodeRow, DialectError, FormatRow, Lex, Table};
 use crate::{Code, CodeKind, Dialect, Role, builtin};
 use core::ops::{Range, RangeInclusive};
@@ -165,15 +165,17 @@ fn extensions(rows: &[Spanned<String>]) -> Result<Vec<String>, DialectError> {
 
 fn roles(rows: &BTreeMap<Spanned<String>, Role>, dialect: &mut Dialect) -> Result<(), DialectError> {
     for (letter, &role) in rows {
-        match letter.get_ref().as_bytes() {
-            [upper @ b'A'..=b'Z'] => dialect.roles[usize::from(upper - b'A')] = Some(role),
-            _ => {
-                return error(
-                    letter.span(),
-                    format!("`{}` is not one upper-case letter", letter.get_ref()),
-                );
-            }
-        }
+        let slot = match letter.get_ref().as_bytes() {
+            [one] => role_slot(*one),
+            _ => None,
+        };
+        let Some(slot) = slot else {
+            return error(
+                letter.span(),
+                format!("`{}` is not one upper-case letter, `@` or `^`", letter.get_ref()),
+            );
+        };
+        dialect.roles[slot] = Some(role);
     }
     Ok(())
 }

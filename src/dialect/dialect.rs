@@ -79,7 +79,8 @@ pub struct Dialect {
     pub(crate) m: Vec<u16>,
     /// Indexes into `codes` of the names, sorted by name.
     pub(crate) names: Vec<u16>,
-    pub(crate) roles: [Option<Role>; 26],
+    /// By letter, then `@` and `^`.
+    pub(crate) roles: [Option<Role>; 28],
     /// Roles of names with `=`, upper case: `CR`, `TURN`, `A3`.
     pub(crate) named: Vec<(String, Role)>,
     /// Facts that are neither letters nor codes.
@@ -127,9 +128,9 @@ impl Dialect {
         let fixed = if inch { self.arc.inch_mm } else { self.arc.mm };
         fixed.max((self.arc.relative * radius_mm).min(self.arc.relative_up_to * fixed))
     }
-    /// What a letter (upper case) means.
+    /// What a letter (upper case, or `@`, `^`) means.
     pub fn role(&self, letter: u8) -> Option<Role> {
-        *self.roles.get(usize::from(letter.wrapping_sub(b'A')))?
+        self.roles[role_slot(letter)?]
     }
     /// What a name before `=` means (`CR`, `TURN`, `A3`), ASCII case ignored. A letter with any number (`R#` in the table) is
     /// found when the very name is not.
@@ -174,7 +175,7 @@ impl Dialect {
             g: Vec::new(),
             m: Vec::new(),
             names: Vec::new(),
-            roles: [None; 26],
+            roles: [None; 28],
             named: Vec::new(),
             quirks: Quirks::default(),
         }
@@ -186,4 +187,14 @@ fn ignore_case(a: &str, b: &str) -> Ordering {
     a.bytes()
         .map(|b| b.to_ascii_uppercase())
         .cmp(b.bytes().map(|b| b.to_ascii_uppercase()))
+}
+
+/// Place of a letter in the table of roles.
+pub(crate) fn role_slot(letter: u8) -> Option<usize> {
+    match letter {
+        b'A'..=b'Z' => Some(usize::from(letter - b'A')),
+        b'@' => Some(26),
+        b'^' => Some(27),
+        _ => None,
+    }
 }

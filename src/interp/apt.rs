@@ -27,7 +27,6 @@ pub(crate) struct Circle {
     pub(crate) shape: Option<(Vec3, Vec3)>,
     /// mm, where it is written.
     pub(crate) radius: Option<f64>,
-    pub(crate) range: TextRange,
 }
 
 /// The arguments of a record: up to sixteen numbers in order, and the minor words.
@@ -132,12 +131,12 @@ impl Interpreter<'_> {
     /// Runs one APT record.
     pub(crate) fn step_apt(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
         let Some(record) = block.record() else { return };
-        self.has_content(block);
+        self.memory.last_content = Some(block.id());
         let motion = {
             let mut report = Report {
                 program: block.program(),
                 block: block.id(),
-                whole: record.range,
+                record: Some(record.range),
                 faults: &mut |fault| sink.fault(fault),
             };
             self.record(&record, &mut report)
@@ -236,7 +235,7 @@ impl Interpreter<'_> {
                 25.4
             }
             _ => {
-                let what = report.program.text(report.whole).into_owned();
+                let what = report.program.text(report.whole()).into_owned();
                 report.fault(TextRange::default(), FaultKind::NotModelled { what });
                 self.forget_position();
                 return;
@@ -275,7 +274,7 @@ impl Interpreter<'_> {
                 self.memory.feed_unread = false;
             }
             _ => {
-                let what = program.text(report.whole).into_owned();
+                let what = program.text(report.whole()).into_owned();
                 report.fault(TextRange::default(), FaultKind::NotModelled { what });
                 self.state.feed = None;
                 self.memory.feed_unread = true;

@@ -50,7 +50,7 @@ impl Interpreter<'_> {
     pub(crate) fn from(&mut self, args: &Args, report: &mut Report<'_>) {
         let numbers = args.numbers();
         if args.odd || !matches!(numbers.len(), 3 | 6) {
-            let what = report.program.text(report.whole).into_owned();
+            let what = report.program.text(report.whole()).into_owned();
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
             self.forget_position();
             return;
@@ -71,7 +71,7 @@ impl Interpreter<'_> {
                 self.apt.axis = Some(orientation);
             }
             _ => {
-                let what = report.program.text(report.whole).into_owned();
+                let what = report.program.text(report.whole()).into_owned();
                 report.fault(TextRange::default(), FaultKind::NotModelled { what });
                 self.state.orientation = Orientation::Words;
                 self.state.position.known &= !ROTARY;
@@ -94,16 +94,12 @@ impl Interpreter<'_> {
             .filter(|_| readable)
             .map(|axis| (Vec3::new(numbers[0], numbers[1], numbers[2]) * unit, axis));
         if shape.is_none() {
-            let what = report.program.text(report.whole).into_owned();
+            let what = report.program.text(report.whole()).into_owned();
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
         }
         let radius = numbers.get(6).filter(|_| readable).map(|radius| radius * unit);
         self.apt.rapid = false;
-        self.apt.circle = Some(Circle {
-            shape,
-            radius,
-            range: args.range,
-        });
+        self.apt.circle = Some(Circle { shape, radius });
     }
 
     /// DELAY/seconds, DELAY/turns,REV.
@@ -134,7 +130,7 @@ impl Interpreter<'_> {
 
     /// A motion whose target cannot be read.
     fn unreadable_goto(&mut self, report: &mut Report<'_>) -> Motion {
-        let what = report.program.text(report.whole).into_owned();
+        let what = report.program.text(report.whole()).into_owned();
         report.fault(TextRange::default(), FaultKind::NotModelled { what });
         self.apt.circle = None;
         self.apt.axis_lost = true;
@@ -213,7 +209,7 @@ impl Interpreter<'_> {
         let (centre, normal) = circle.shape?;
         let (start, end) = (start.xyz()?, end.xyz()?);
         let Some(arc) = Arc::from_centre(start, end, centre, normal, Turning::CounterClockwise, 0) else {
-            report.fault(circle.range, FaultKind::ArcCentreMissing);
+            report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
             return None;
         };
         let unit = self.state.length_unit_mm;

@@ -45,7 +45,7 @@ impl Interpreter<'_> {
                 })
             }
             _ => {
-                let what = report.program.text(report.whole).into_owned();
+                let what = report.program.text(report.whole()).into_owned();
                 report.fault(TextRange::default(), FaultKind::NotModelled { what });
                 None
             }

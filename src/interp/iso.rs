@@ -1,13 +1,11 @@
 //! ISO blocks to motions.
 
 use crate::codes::{BlockCodes, Found};
-
 use crate::reader::Reader;
 use crate::run::{Interpreter, Report, Sink};
 use crate::words::Words;
 use crate::{FaultKind, Motion};
 use trunnion_dialect::Action;
-
 use trunnion_syntax::{Block, TextRange};
 
 impl<'d> Interpreter<'d> {
@@ -19,12 +17,13 @@ impl<'d> Interpreter<'d> {
             let mut report = Report {
                 program: block.program(),
                 block: block.id(),
-                whole: block.range(),
+                record: None,
                 faults: &mut |fault| sink.fault(fault),
             };
-            let words = read(block, self.dialect, &mut codes, &mut report);
+            let mut words = Words::default();
+            read(block, self.dialect, &mut codes, &mut words, &mut report);
             if words.has_content {
-                self.has_content(block);
+                self.memory.last_content = Some(block.id());
             }
             self.percent(&words);
             if words.has_content && !self.state.ended {
@@ -124,18 +123,19 @@ fn read<'d>(
     block: &Block<'_>,
     dialect: &'d trunnion_dialect::Dialect,
     codes: &mut Vec<Found<'d>>,
+    words: &mut Words,
     report: &mut Report<'_>,
-) -> Words {
+) {
     let program = block.program();
+    let report = |range: TextRange, kind| report.fault(range, kind);
     let mut reader = Reader {
         program,
         dialect,
-        words: Words::default(),
+        words,
         codes,
-        report: |range: TextRange, kind| report.fault(range, kind),
+        report,
     };
     for item in block.items() {
         reader.take(item);
     }
-    reader.words
 }

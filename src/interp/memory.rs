@@ -1,7 +1,7 @@
 //! What an interpreter remembers beside the modal state: what was already said, and what made positions unknown.
 use std::sync::Arc;
 use trunnion_dialect::{Action, Code};
-use trunnion_syntax::{BlockId, TextRange};
+use trunnion_syntax::BlockId;
 
 use crate::Tool;
 
@@ -54,7 +54,7 @@ pub(crate) struct Memory<'d> {
     lengths_said: Vec<Box<str>>,
     offsets_said: Vec<Box<str>>,
     /// The last block with content, for a missing program end.
-    pub(crate) last_content: Option<(BlockId, TextRange)>,
+    pub(crate) last_content: Option<BlockId>,
     pub(crate) percent_seen: bool,
     /// A code or character that ends the program was seen.
     pub(crate) proper_end: bool,

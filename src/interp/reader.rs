@@ -39,23 +39,68 @@ fn tenths(decimal: Decimal) -> Option<u32> {
     u32::try_from(mantissa).ok()
 }
 
+/// Index in [`AXIS_LETTERS`] of each letter from A; `NO_AXIS` where it is none.
+const AXES: [u8; 26] = {
+    let mut axes = [NO_AXIS; 26];
+    let mut axis = 0;
+    while axis < AXIS_LETTERS.len() {
+        axes[(AXIS_LETTERS[axis] - b'A') as usize] = axis as u8;
+        axis += 1;
+    }
+    axes
+};
+const NO_AXIS: u8 = u8::MAX;
+
 /// Index of an axis letter, upper case, in [`AXIS_LETTERS`].
 fn axis_index(letter: u8) -> Option<usize> {
-    AXIS_LETTERS.iter().position(|&axis| axis == letter)
+    AXES.get(usize::from(letter.wrapping_sub(b'A')))
+        .filter(|&&axis| axis != NO_AXIS)
+        .map(|&axis| usize::from(axis))
 }
 
 /// Reads one block: fills words and codes, reports what has no meaning.
 pub(crate) struct Reader<'a, 'd, F: FnMut(TextRange, FaultKind)> {
     pub(crate) program: &'a Program,
     pub(crate) dialect: &'d Dialect,
-    pub(crate) words: Words,
+    pub(crate) words: &'a mut Words,
     pub(crate) codes: &'a mut Vec<Found<'d>>,
     pub(crate) report: F,
 }
 
 impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
     /// Takes one item of the block.
+    #[inline]
     pub(crate) fn take(&mut self, item: Item) {
+        if let Item::Word(word) = &item
+            && let (Address::Letter(letter), Value::Number(decimal)) = (word.address, word.value)
+            && self.plain_axis(letter, decimal, word)
+        {
+            return;
+        }
+        self.take_other(item);
+    }
+
+    /// The word that programs are full of, an axis with a number, without detours; false where it is another.
+    #[inline]
+    fn plain_axis(&mut self, letter: u8, decimal: Decimal, word: &Word) -> bool {
+        let Some(axis) = axis_index(letter) else { return false };
+        let value = decimal.to_f64();
+        let given = self.words.axes.given | self.words.axes.unread;
+        let plain = given & (1 << axis) == 0 && !self.words.declares && value.abs() <= LARGEST;
+        if !plain || self.dialect.role(letter) != Some(Role::Axis) {
+            return false;
+        }
+        self.words.has_content = true;
+        self.words.has_values = true;
+        self.words.letters |= 1 << (letter - b'A');
+        self.words.axes.values[axis] = value;
+        self.words.axes.given |= 1 << axis;
+        self.words.axes.point |= u16::from(decimal.has_point) << axis;
+        self.first(word);
+        true
+    }
+
+    fn take_other(&mut self, item: Item) {
         if self.words.declares {
             return;
         }

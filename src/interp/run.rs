@@ -3,7 +3,7 @@ use crate::codes::Found;
 use crate::memory::Memory;
 use crate::{Fault, FaultKind, ModalState, Motion, Setup};
 use trunnion_dialect::Dialect;
-use trunnion_syntax::{Block, BlockId, Format, Program, TextRange};
+use trunnion_syntax::{BlockId, Format, Program, TextRange};
 
 /// Receives what a run finds, in order.
 pub trait Sink {
@@ -34,16 +34,22 @@ pub struct Interpreter<'d> {
 pub(crate) struct Report<'a> {
     pub(crate) program: &'a Program,
     pub(crate) block: BlockId,
-    /// The block's bytes.
-    pub(crate) whole: TextRange,
+    /// Bytes of the record, in APT.
+    pub(crate) record: Option<TextRange>,
     pub(crate) faults: &'a mut dyn FnMut(Fault),
 }
 
 impl Report<'_> {
+    /// Bytes of the record or block in hand.
+    #[cold]
+    pub(crate) fn whole(&self) -> TextRange {
+        self.record.unwrap_or_else(|| self.program.block(self.block).range())
+    }
     /// A fact; an empty range stands for the whole block.
+    #[cold]
     pub(crate) fn fault(&mut self, range: TextRange, kind: FaultKind) {
         let range = if range == TextRange::default() {
-            self.whole
+            self.whole()
         } else {
             range
         };
@@ -96,18 +102,13 @@ impl<'d> Interpreter<'d> {
             }
         }
         if block.0 as usize + 1 == program.block_count() {
-            self.finish(sink);
+            self.finish(program, sink);
         }
     }
 
-    /// Remembers the block as the last one with content.
-    #[inline]
-    pub(crate) fn has_content(&mut self, block: &Block<'_>) {
-        self.memory.last_content = Some((block.id(), block.range()));
-    }
-
-    fn finish(&mut self, sink: &mut impl Sink) {
-        if let Some((block, range)) = self.memory.last_content.filter(|_| !self.memory.proper_end) {
+    fn finish(&mut self, program: &Program, sink: &mut impl Sink) {
+        if let Some(block) = self.memory.last_content.filter(|_| !self.memory.proper_end) {
+            let range = program.block(block).range();
             sink.fault(Fault {
                 block,
                 range,

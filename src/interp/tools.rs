@@ -133,7 +133,7 @@ impl Interpreter<'_> {
         match (edge, &self.memory.in_spindle) {
             (None, _) => {}
             (Some(_), Chosen::Number(0)) => self.set_length(None),
-            (edge, _) => self.edge_length(edge, report.whole, report),
+            (edge, _) => self.edge_length(edge, report.whole(), report),
         }
     }
 }

@@ -1,9 +1,11 @@
 //! How much the linear joints can bend inside a block: bounds of their rates and second derivatives, taken axis by axis along the chain
 //! (kinematics notes 3).
-use crate::course::{Course, Track};
+use crate::course::{Course, Track, on_great_circle};
 use crate::forward::Turn;
 use crate::spin::{Spin, SpinBounds};
+use crate::{Leg, Machine};
 use trunnion_geometry::{Mat3, Vec3};
+use trunnion_interp::MotionKind;
 
 impl Course<'_> {
     /// The bounds of [`Course::bends`] hold for the whole block at once and need not be asked for piece by piece.
@@ -30,6 +32,40 @@ impl Course<'_> {
             None => piece.mixed_bends(fastest, bend),
         }
     }
+}
+
+/// Rough bounds of rate and second derivative of every solved joint under TCP along a line, mm per block: distances from the rotary axes
+/// are bounded by distances from the origin, so that a block that is far from every limit is settled without turning a single point.
+/// `None` where the finer bounds must be asked (arcs, great circles, solved axes in different places, a quill).
+pub(crate) fn rough_bends(machine: &Machine, leg: &Leg) -> Option<(f64, f64)> {
+    let constants = &machine.constants;
+    let is_line = matches!(leg.motion.kind, MotionKind::Linear | MotionKind::Rapid);
+    if !is_line
+        || constants.shared_segment.is_none()
+        || constants.linear_count > 3
+        || on_great_circle(machine, &leg.motion)
+    {
+        return None;
+    }
+    let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
+    let row = if constants.cartesian.is_some() {
+        1.0
+    } else {
+        constants.inverse_motion.norm()
+    };
+    let tool = machine.gauge_point.norm() + end.tool_length.abs();
+    let centres: f64 = constants.rotary().iter().map(|rotary| 2.0 * rotary.point.norm()).sum();
+    let far = start
+        .point_with(end.tool_length)
+        .norm_squared()
+        .max(end.point.norm_squared())
+        .sqrt();
+    let radius = far + tool + centres;
+    let turned = leg.rotary_change[0] + leg.rotary_change[1];
+    Some((
+        row * (leg.length + turned * radius),
+        row * turned * (2.0 * leg.length + turned * radius),
+    ))
 }
 
 /// A piece of a course with what its bounds need: the turns at its ends and the bounds of their rates.

@@ -2,7 +2,7 @@
 //!
 //! t runs from 0 to 1 with the tip path (TCP) or with the joints (no TCP). Rates are per block (d/dt), mm or rad.
 use crate::follow::has_tip_words;
-use crate::forward::{Turn, segment_shifts};
+use crate::forward::Turn;
 use crate::spin::{Spin, SpinBounds};
 use crate::{Constants, Joints, Leg, Machine, Stance};
 use trunnion_geometry::Vec3;
@@ -119,11 +119,6 @@ impl<'a> Course<'a> {
         &self.machine.constants
     }
 
-    /// Whether some rotary axis moves.
-    pub(crate) fn turns_at_all(&self) -> bool {
-        self.change != [0.0; 2]
-    }
-
     /// Turns of the rotary axes at t; not a number where a great circle leaves the reach.
     pub(crate) fn turns(&self, t: f64) -> [Turn; 2] {
         if t <= 0.0 {
@@ -166,15 +161,6 @@ impl<'a> Course<'a> {
             },
             Spin::GreatCircle(circle) => circle.bounds(from, to),
         }
-    }
-
-    /// Shifts of the segments by all linear axes at start and end (joints run linearly).
-    pub(crate) fn shifts(&self) -> ([Vec3; 3], [Vec3; 3]) {
-        let constants = self.constants();
-        (
-            segment_shifts(constants, &self.start.joints),
-            segment_shifts(constants, &self.end.joints),
-        )
     }
 
     /// Shifts by the linear axes that inverse kinematics does not solve for, at start and end.

@@ -1,11 +1,11 @@
 //! How far the tip strays from the programmed segment inside a block: sampled value and proven bound.
-use crate::bends::{Carried, Shift};
 use crate::bound::{Piece, peak};
-use crate::course::{Course, Track};
-use crate::forward::Turn;
+use crate::follow::has_tip_words;
 use crate::inverse::place;
-use crate::{Leg, Machine};
+use crate::{Leg, Machine, Stance};
 use trunnion_geometry::Vec3;
+use trunnion_geometry::math::sin_cos;
+use trunnion_interp::MotionKind;
 
 /// Deviation of the tip path from the programmed segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,14 +42,19 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
         bound_mm: 0.0,
         at: 0.0,
     };
-    let course = Course::new(machine, leg)?;
-    if course.tip || !course.turns_at_all() {
+    let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
+    let is_arc = match leg.motion.kind {
+        MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => return None,
+        MotionKind::Arc(Some(_)) => true,
+        MotionKind::Rapid | MotionKind::Linear => false,
+    };
+    if leg.rotary_change == [0.0; 2] || has_tip_words(&leg.motion) {
         return Some(none);
     }
-    if let Track::Arc(_) = course.track {
+    if is_arc {
         return None;
     }
-    let path = TipPath::new(&course);
+    let path = TipPath::new(machine, start, end);
     let tolerance = tolerance_mm.max(0.0);
     let at_once = path.bend * 0.125 + path.rounding;
     if at_once <= tolerance {
@@ -74,8 +79,13 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
 }
 
 /// The tip path W(t) in the workpiece frame while all joints run linearly, and the segment it should follow.
-struct TipPath<'c, 'm> {
-    course: &'c Course<'m>,
+struct TipPath<'a> {
+    machine: &'a Machine,
+    start: &'a Stance,
+    tool: Vec3,
+    /// Turns of the rotary axes at the start and what the block adds, rad.
+    angles: [f64; 2],
+    change: [f64; 2],
     shifts: [Vec3; 3],
     ways: [Vec3; 3],
     from: Vec3,
@@ -87,52 +97,67 @@ struct TipPath<'c, 'm> {
     rounding: f64,
 }
 
-impl<'c, 'm> TipPath<'c, 'm> {
-    fn new(course: &'c Course<'m>) -> Self {
-        let (start, end) = course.shifts();
-        let constants = &course.machine.constants;
-        let count = constants.rotary_count;
-        let [turns_start, turns_end] = [course.start.turns(course.machine), course.end.turns(course.machine)];
-        let mut tip = Carried {
-            start: course.tool,
-            end: course.tool,
-            rate: 0.0,
-            bend: 0.0,
-            length: 1.0,
-        };
-        let shift = |i: usize| Shift {
-            start: start[i],
-            end: end[i],
-            rate: (end[i] - start[i]).norm(),
-        };
-        let spin = course.spin_bounds(0.0, 1.0).rate;
-        let mut size = course.tool.norm();
-        tip.shift(&shift(count));
-        for index in (0..count).rev() {
-            let centre = constants.rotary[index].point;
-            tip.turn(
-                (spin[index], 0.0),
-                &centre,
-                &turns_start[index],
-                &turns_end[index],
-                Turn::apply,
-            );
-            tip.shift(&shift(index));
-            size += centre.norm();
+impl<'a> TipPath<'a> {
+    fn new(machine: &'a Machine, start: &'a Stance, end: &Stance) -> Self {
+        let constants = &machine.constants;
+        let tool = machine.gauge_point - machine.tool_axis * end.tool_length;
+        let (mut shifts, mut ways) = ([Vec3::zeros(); 3], [Vec3::zeros(); 3]);
+        for linear in constants.linear() {
+            let (from, to) = (start.joints[linear.joint], end.joints[linear.joint]);
+            shifts[linear.segment] += linear.motion * from;
+            ways[linear.segment] += linear.motion * (to - from);
         }
-        size += start.iter().chain(&end).map(Vec3::norm).sum::<f64>();
-        let chord = tip.end - tip.start;
+        let (mut angles, mut change) = ([0.0; 2], [0.0; 2]);
+        for (index, rotary) in constants.rotary().iter().enumerate() {
+            angles[index] = rotary.sign * start.joints[rotary.joint];
+            change[index] = rotary.sign * end.joints[rotary.joint] - angles[index];
+        }
+        let from = start.point_with(end.tool_length);
+        let chord = end.point - from;
         let length2 = chord.norm_squared();
-        Self {
-            course,
-            shifts: start,
-            ways: [end[0] - start[0], end[1] - start[1], end[2] - start[2]],
-            from: tip.start,
+        let mut path = Self {
+            machine,
+            start,
+            tool,
+            angles,
+            change,
+            shifts,
+            ways,
+            from,
             chord,
             per_chord: if length2 > 0.0 { 1.0 / length2 } else { 0.0 },
-            bend: tip.bend * (1.0 + 1e-9),
-            rounding: size * ROUNDING,
+            bend: 0.0,
+            rounding: 0.0,
+        };
+        path.bound();
+        path
+    }
+
+    /// Works out `bend` and `rounding`, axis by axis from the tool to the workpiece: turning a point with rate v and second derivative at
+    /// most a by D adds D r to v and 2 D v + D^2 r to a, r its largest distance from the axis: at an end, or above the chord by a / 8.
+    /// Before the axis nearest the tool the point runs straight; after the axis nearest the workpiece it is the tip itself, and a turn
+    /// keeps distances from its axis: with two rotary axes no point needs to be turned. Source: kinematics notes 3.
+    fn bound(&mut self) {
+        let rotary = self.machine.constants.rotary();
+        let count = rotary.len();
+        let (mut rate, mut bend) = (self.ways[count].norm(), 0.0);
+        let arm = self.tool + self.shifts[count];
+        let mut size = arm.abs().sum() + self.shifts[0].abs().sum() + self.from.abs().sum() + self.chord.abs().sum();
+        for (index, axis) in rotary.iter().enumerate().rev() {
+            let (from, way) = if index + 1 == count {
+                (arm, self.ways[count])
+            } else {
+                (self.from - self.shifts[0], self.chord - self.ways[0])
+            };
+            let off = |arm: &Vec3| axis.direction.cross(arm).norm_squared();
+            let radius = off(&(from - axis.point)).max(off(&(from - axis.point + way))).sqrt() + bend * 0.125;
+            let turned = self.change[index].abs();
+            bend += 2.0 * turned * rate + turned * turned * radius;
+            rate += turned * radius + self.ways[index].norm();
+            size += axis.point.abs().sum() + self.shifts[index].abs().sum() + self.ways[index].abs().sum();
         }
+        self.bend = bend * (1.0 + 1e-9);
+        self.rounding = size * ROUNDING;
     }
 
     /// Distance of W(t) from the segment, mm.
@@ -140,13 +165,17 @@ impl<'c, 'm> TipPath<'c, 'm> {
         if t <= 0.0 || t >= 1.0 {
             return 0.0;
         }
-        let shifts = [
-            self.shifts[0] + self.ways[0] * t,
-            self.shifts[1] + self.ways[1] * t,
-            self.shifts[2] + self.ways[2] * t,
-        ];
-        let course = self.course;
-        let off = place(&course.machine.constants, &course.turns(t), &shifts, &course.tool) - self.from;
+        let mut shifts = self.shifts;
+        for (shift, way) in shifts.iter_mut().zip(&self.ways) {
+            *shift += way * t;
+        }
+        let mut turns = self.start.turns(self.machine);
+        for (index, turn) in turns.iter_mut().enumerate() {
+            if self.change[index] != 0.0 {
+                (turn.sin, turn.cos) = sin_cos(self.angles[index] + self.change[index] * t);
+            }
+        }
+        let off = place(&self.machine.constants, &turns, &shifts, &self.tool) - self.from;
         let share = (off.dot(&self.chord) * self.per_chord).clamp(0.0, 1.0);
         (off - self.chord * share).norm()
     }

@@ -60,27 +60,36 @@ impl<'m> Follower<'m> {
 
     /// Moves the machine. What cannot be followed leaves it at an unknown position until the program gives one again.
     pub fn follow(&mut self, motion: &Motion) -> Leg {
-        let start = self.state.stance;
-        let end = match motion.kind {
-            MotionKind::Dwell(_) => start.ok_or_else(|| NoStance::PositionUnknown(self.unknown())),
-            MotionKind::Unknown => {
-                self.state.known_joints.1 = 0;
-                Err(NoStance::NotModelled)
-            }
-            MotionKind::Arc(_) if self.words.diameters => Err(NoStance::NotModelled),
-            MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(_) => self.arrive(motion, start.as_ref()),
+        let mut leg = Leg {
+            motion: *motion,
+            start: self.state.stance,
+            end: Err(NoStance::NotModelled),
+            known_joints: self.state.known_joints,
+            rotary_change: [0.0; 2],
+            pole_angle_min: FRAC_PI_2,
+            rotary_excess: 0.0,
+            length: 0.0,
         };
-        let leg = self.leg(motion, start, end);
-        self.remember(motion, &leg);
+        match motion.kind {
+            MotionKind::Dwell(_) => leg.end = leg.start.ok_or_else(|| self.unknown(leg.known_joints.1)),
+            MotionKind::Unknown => leg.known_joints.1 = 0,
+            MotionKind::Arc(_) if self.words.diameters => leg.known_joints.1 = 0,
+            MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(_) => {
+                leg.end = self.arrive(motion, leg.start.as_ref(), &mut leg.known_joints);
+            }
+        }
+        self.measure(&mut leg);
+        self.remember(&leg);
         leg
     }
 
-    fn remember(&mut self, motion: &Motion, leg: &Leg) {
+    #[inline]
+    fn remember(&mut self, leg: &Leg) {
         let state = &mut self.state;
         state.stance = leg.end.as_ref().ok().copied();
         state.known_joints = leg.known_joints;
-        state.named = motion.end.known;
-        state.tip_words = has_tip_words(motion);
+        state.named = leg.motion.end.known;
+        state.tip_words = has_tip_words(&leg.motion);
         if let Ok(stance) = &leg.end {
             state.rotary = stance.rotary(self.machine);
             if stance.branch != 0 {
@@ -96,39 +105,43 @@ impl<'m> Follower<'m> {
         }
     }
 
-    /// The stance at the end of a motion.
-    fn arrive(&mut self, motion: &Motion, start: Option<&Stance>) -> Result<Stance, NoStance> {
+    /// The stance at the end of a motion; `into` takes the joints that are known even where there is no stance.
+    #[inline]
+    fn arrive(&self, motion: &Motion, start: Option<&Stance>, into: &mut (Joints, u16)) -> Result<Stance, NoStance> {
         let tip_words = has_tip_words(motion);
-        let (mut joints, mut known) = self.words.joints(motion, &motion.end, tip_words);
-        self.keep(motion, start, tip_words, (&mut joints, &mut known));
-        self.state.known_joints = (joints, known);
+        *into = self.words.joints(motion, &motion.end, tip_words);
+        if into.1 != self.words.all() {
+            self.keep(motion, start, into);
+        }
+        if let (true, Some(start)) = (self.words.wraps, start) {
+            self.words.wrap(self.machine, motion, &start.joints, &mut into.0);
+        }
         if let Some(letter) = self.words.foreign(motion) {
             return Err(NoStance::NoSuchAxis(letter));
         }
         if !tip_words {
-            if known != self.words.all() {
-                return Err(NoStance::PositionUnknown(self.unknown()));
+            if into.1 != self.words.all() {
+                return Err(self.unknown(into.1));
             }
-            return Ok(self.stand(motion, joints, start, None));
+            return Ok(self.stand(motion, &into.0, start, None));
         }
         if let Orientation::Vector(_, axis) = motion.orientation {
             let length = axis.norm();
-            if !(length > 1e-6 && length.is_finite()) {
+            if !(1e-6..f64::INFINITY).contains(&length) {
                 return Err(NoStance::NotModelled);
             }
             let q = choose(self.machine, &(axis / length), self.state.rotary)?;
             for (value, rotary) in q.iter().zip(self.machine.constants.rotary()) {
-                joints[rotary.joint] = *value;
-                known |= 1 << rotary.joint;
+                into.0[rotary.joint] = *value;
+                into.1 |= 1 << rotary.joint;
             }
-            self.state.known_joints = (joints, known);
         }
+        let known = into.1 | self.solved();
         let tip = self.tip(motion, start);
-        let unknown = self.words.all() & !known & !self.solved();
-        let Some(tip) = tip.filter(|_| unknown == 0) else {
-            return Err(NoStance::PositionUnknown(self.unknown_tip(motion, tip.is_some())));
+        let Some(tip) = tip.filter(|_| known == self.words.all()) else {
+            return Err(self.unknown_tip(motion, tip.is_some(), known));
         };
-        let mut stance = self.stand(motion, joints, start, Some(tip));
+        let mut stance = self.stand(motion, &into.0, start, Some(tip));
         let turns = stance.turns(self.machine);
         inverse_turned(self.machine, &turns, &mut stance.joints, &tip, stance.tool_length)
             .ok_or(NoStance::NotModelled)?;
@@ -141,7 +154,7 @@ impl<'m> Follower<'m> {
         if let Some(point) = self.words.point(&motion.end) {
             return Some(point + zero_point(motion));
         }
-        let stance = start.filter(|_| self.keeps(motion, true))?;
+        let stance = start.filter(|_| self.keeps(motion))?;
         let zero = zero_point(motion);
         let mut tip = stance.point_with(motion.tool_length_mm);
         for letter in 0..3 {
@@ -154,28 +167,28 @@ impl<'m> Follower<'m> {
         Some(tip)
     }
 
-    /// Whether coordinates that the program does not know can be taken from the machine's stance: their last value came from a
-    /// vector, or TCP was switched since.
-    fn keeps(&self, motion: &Motion, tip_words: bool) -> bool {
-        self.state.tip_words != tip_words || self.state.named & XYZ & !motion.end.known == 0
+    /// Whether X Y Z that the program does not know can be taken from the machine's stance: it never named them, or it forgot them
+    /// because TCP was switched (but not because it lost its whole position).
+    fn keeps(&self, motion: &Motion) -> bool {
+        let lost = self.state.named & !motion.start.known;
+        lost & XYZ == 0 || (self.state.tip_words != has_tip_words(motion) && lost & !XYZ == 0)
     }
 
     /// Joints that no word names keep what the machine knows of them, unless the program itself lost their position.
-    fn keep(&self, motion: &Motion, start: Option<&Stance>, tip_words: bool, (joints, known): (&mut Joints, &mut u16)) {
-        let missing = self.words.all() & !*known;
-        if missing == 0 || start.is_none() {
+    fn keep(&self, motion: &Motion, start: Option<&Stance>, into: &mut (Joints, u16)) {
+        if start.is_none() {
             return;
         }
-        let lost = motion.start.known & !motion.end.known;
-        for (joint, value) in joints.iter_mut().enumerate().take(self.words.count()) {
-            let was_named = self.words.names(self.state.named, joint) && self.state.tip_words == tip_words;
-            if missing & (1 << joint) != 0
-                && self.state.known_joints.1 & (1 << joint) != 0
-                && !self.words.names(lost, joint)
-                && !was_named
-            {
+        let keeps = self.keeps(motion);
+        let lost = (self.state.named | motion.start.known) & !motion.end.known;
+        for (joint, value) in into.0.iter_mut().enumerate().take(self.words.count()) {
+            let bit = 1 << joint;
+            let is_lost =
+                self.words.names(lost, joint) && !(keeps && self.words.names(XYZ & !motion.start.known, joint));
+            let solved = has_tip_words(motion) && self.solved() & bit != 0;
+            if into.1 & bit == 0 && self.state.known_joints.1 & bit != 0 && !is_lost && !solved {
                 *value = self.state.known_joints.0[joint];
-                *known |= 1 << joint;
+                into.1 |= bit;
             }
         }
     }
@@ -189,12 +202,12 @@ impl<'m> Follower<'m> {
             .fold(0, |mask, &index| mask | 1 << constants.linear[index].joint)
     }
 
-    /// Letters of the joints whose position is unknown.
-    fn unknown(&self) -> String {
-        self.letters(!self.state.known_joints.1)
+    /// The joints outside the mask are unknown.
+    fn unknown(&self, known: u16) -> NoStance {
+        NoStance::PositionUnknown(self.letters(!known))
     }
 
-    fn unknown_tip(&self, motion: &Motion, tip_known: bool) -> String {
+    fn unknown_tip(&self, motion: &Motion, tip_known: bool, known: u16) -> NoStance {
         let mut letters = String::new();
         if !tip_known {
             letters.extend(
@@ -205,7 +218,7 @@ impl<'m> Follower<'m> {
                     .map(|(_, c)| c),
             );
         }
-        letters + &self.letters(!self.state.known_joints.1 & !self.solved())
+        NoStance::PositionUnknown(letters + &self.letters(!known))
     }
 
     fn letters(&self, joints: u16) -> String {
@@ -217,7 +230,7 @@ impl<'m> Follower<'m> {
 
     /// A stance with the given joints (without `tip`) or with the given rotary joints and tip (linear joints left to be solved).
     #[inline]
-    fn stand(&self, motion: &Motion, joints: Joints, start: Option<&Stance>, tip: Option<Vec3>) -> Stance {
+    fn stand(&self, motion: &Motion, joints: &Joints, start: Option<&Stance>, tip: Option<Vec3>) -> Stance {
         let machine = self.machine;
         let constants = &machine.constants;
         let mut turns = [Turn::NONE; 2];
@@ -242,7 +255,7 @@ impl<'m> Follower<'m> {
         };
         let point = tip.unwrap_or_else(|| {
             let tool = machine.gauge_point - machine.tool_axis * tool_length;
-            place(constants, &turns, &segment_shifts(constants, &joints), &tool)
+            place(constants, &turns, &segment_shifts(constants, joints), &tool)
         });
         let (axis, s, branch, pole_angle) = if let Some(pair) = &constants.pair {
             let w = turns[1].apply(&machine.tool_axis);
@@ -257,7 +270,7 @@ impl<'m> Follower<'m> {
             (turns[0].apply(&machine.tool_axis), 0.0, 0, FRAC_PI_2)
         };
         Stance {
-            joints,
+            joints: *joints,
             tip: point - zero_point(motion),
             axis,
             s,
@@ -270,39 +283,28 @@ impl<'m> Follower<'m> {
     }
 
     /// What happens between start and end.
-    fn leg(&self, motion: &Motion, start: Option<Stance>, end: Result<Stance, NoStance>) -> Leg {
-        let mut leg = Leg {
-            motion: *motion,
-            start,
-            end,
-            known_joints: self.state.known_joints,
-            rotary_change: [0.0; 2],
-            pole_angle_min: FRAC_PI_2,
-            rotary_excess: 0.0,
-            length: 0.0,
-        };
-        leg.length = self.length(&leg);
-        let Ok(end) = &leg.end else { return leg };
+    #[inline]
+    fn measure(&self, leg: &mut Leg) {
+        leg.length = self.length(leg);
+        let Ok(end) = &leg.end else { return };
         leg.known_joints = (end.joints, self.words.all());
         leg.pole_angle_min = end.pole_angle;
-        let Some(start) = &leg.start else { return leg };
+        let Some(start) = &leg.start else { return };
         let (from, to) = (start.rotary(self.machine), end.rotary(self.machine));
         leg.rotary_change = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
         let constants = &self.machine.constants;
-        if let Some(pair) = &constants.pair {
-            leg.pole_angle_min = if crate::course::on_great_circle(self.machine, motion) {
-                let ends = start.pole_angle.min(end.pole_angle);
-                pole::pole_angle_min_great_circle(self.machine, &start.axis, &end.axis, ends)
-            } else {
-                pole::pole_angle_min(constants, pair, (from[1], start.pole_angle), (to[1], end.pole_angle))
-            };
-            if self.state.sign * end.branch < 0 {
-                let cheapest = cheapest_in_posture(self.machine, &end.axis, self.state.sign, from);
-                let total = leg.rotary_change[0] + leg.rotary_change[1];
-                leg.rotary_excess = cheapest.map_or(0.0, |least| (total - least).max(0.0));
-            }
+        let Some(pair) = &constants.pair else { return };
+        leg.pole_angle_min = if crate::course::on_great_circle(self.machine, &leg.motion) {
+            let ends = start.pole_angle.min(end.pole_angle);
+            pole::pole_angle_min_great_circle(self.machine, &start.axis, &end.axis, ends)
+        } else {
+            pole::pole_angle_min(constants, pair, (from[1], start.pole_angle), (to[1], end.pole_angle))
+        };
+        if self.state.sign * end.branch < 0 {
+            let cheapest = cheapest_in_posture(self.machine, &end.axis, self.state.sign, from);
+            let total = leg.rotary_change[0] + leg.rotary_change[1];
+            leg.rotary_excess = cheapest.map_or(0.0, |least| (total - least).max(0.0));
         }
-        leg
     }
 
     /// Length of the tip path (TCP) or of the programmed X Y Z path, mm; 0 where it is not known.

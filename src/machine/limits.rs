@@ -1,8 +1,11 @@
 //! Joints outside their travel, at the end of a block or inside it.
+use crate::bends::rough_bends;
 use crate::bound::{Piece, peak};
-use crate::course::{Course, Track};
+use crate::course::Course;
+use crate::follow::has_tip_words;
 use crate::spin::Spin;
 use crate::{Leg, Limits, Machine};
+use trunnion_interp::MotionKind;
 
 /// One joint outside its travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,11 +43,36 @@ pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) {
             });
         }
     }
-    if let Some(course) = Course::new(machine, leg)
-        && bends(&course)
+    if may_bend(machine, leg)
+        && let Some(course) = Course::new(machine, leg)
     {
         inside(&course, out);
     }
+}
+
+/// Whether linear joints can run otherwise than straight, and far enough to leave their travel between the ends.
+fn may_bend(machine: &Machine, leg: &Leg) -> bool {
+    let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
+        return false;
+    };
+    if matches!(leg.motion.kind, MotionKind::Arc(_)) {
+        return true;
+    }
+    if leg.rotary_change == [0.0; 2] || !has_tip_words(&leg.motion) {
+        return false;
+    }
+    let Some((_, bend)) = rough_bends(machine, leg) else {
+        return true;
+    };
+    let room = |index: &usize| {
+        let joint = machine.constants.linear[*index].joint;
+        let (from, to) = (start.joints[joint], end.joints[joint]);
+        match machine.axes[joint].limits {
+            Limits::Unbounded => f64::INFINITY,
+            Limits::Range(low, high) => (high - from.max(to)).min(from.min(to) - low),
+        }
+    };
+    machine.constants.solved.iter().any(|index| room(index) < bend * 0.125)
 }
 
 /// The limit that a value breaks.
@@ -57,11 +85,6 @@ fn broken(limits: Limits, value: f64) -> Option<f64> {
     } else {
         None
     }
-}
-
-/// Whether joints can run otherwise than straight.
-fn bends(course: &Course<'_>) -> bool {
-    matches!(course.track, Track::Arc(_)) || (course.tip && course.turns_at_all())
 }
 
 /// Joints that leave their travel between two legal ends.

@@ -1,9 +1,10 @@
 //! How fast a block can run, and how long it takes.
+use crate::bends::rough_bends;
 use crate::bound::{Piece, peak};
-use crate::course::Course;
+use crate::course::{Course, on_great_circle};
 use crate::follow::has_tip_words;
 use crate::spin::Spin;
-use crate::{AxisKind, Leg, Machine};
+use crate::{AxisKind, Leg, Machine, Stance};
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, MotionKind};
 
@@ -55,18 +56,38 @@ impl Load {
 
 /// `enough_mm_min`: a feed from which on a coarse answer does.
 fn limit(machine: &Machine, leg: &Leg, enough_mm_min: f64) -> Option<FeedLimit> {
+    let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
     if leg.length <= 0.0 {
         return None;
     }
-    let course = Course::new(machine, leg)?;
-    let (_, slowest_tip, _) = course.track.bounds();
-    // rates are per block; the track's slowest moment carries the feed (a spiral's speed differs a little along it)
-    let slowest = if slowest_tip > 0.0 { slowest_tip } else { leg.length };
-    let coarse = slowest * 60.0 / enough_mm_min;
-    let mut worst = constant_load(&course);
-    let above = worst.map_or(0.0, |load| load.share());
-    if let Some(load) = changing_load(&course, above, coarse)? {
-        worst = Some(load);
+    let changes = Changes::of(machine, leg)?;
+    let mut worst = constant_load(machine, (start, end), changes);
+    let mut slowest = leg.length;
+    if changes != Changes::Nothing {
+        let above = worst.map_or(0.0, |load| load.share());
+        let rough = rough_bends(machine, leg).map(|(rate, _)| fastest_share(machine, rate));
+        match rough {
+            // the linear axes cannot be the worst
+            Some(Some(load)) if load.share() <= above => {}
+            Some(Some(load)) if load.share() <= leg.length * 60.0 / enough_mm_min => worst = Some(load),
+            Some(None) => {}
+            _ => {
+                let course = Course::new(machine, leg)?;
+                if matches!(course.spin, Spin::Even) {
+                    // also where the tool axis stands still on its great circle
+                    worst = constant_load(machine, (start, end), Changes::Solved);
+                }
+                let above = worst.map_or(0.0, |load| load.share());
+                // rates are per block; the track's slowest moment carries the feed (a spiral's speed differs a little along it)
+                let (_, slowest_tip, _) = course.track.bounds();
+                if slowest_tip > 0.0 {
+                    slowest = slowest_tip;
+                }
+                if let Some(load) = changing_load(&course, above, slowest * 60.0 / enough_mm_min)? {
+                    worst = Some(load);
+                }
+            }
+        }
     }
     let worst = worst?;
     let feed = programmed_feed(leg);
@@ -78,26 +99,67 @@ fn limit(machine: &Machine, leg: &Leg, enough_mm_min: f64) -> Option<FeedLimit> 
     })
 }
 
-/// Whether a joint runs at a constant rate: linear axes that inverse kinematics does not solve for, rotary ones off the great circle.
-fn is_constant(course: &Course<'_>, joint: usize) -> bool {
-    match course.machine.axes[joint].kind {
-        AxisKind::Rotary => matches!(course.spin, Spin::Even),
-        AxisKind::Linear => {
-            let constants = &course.machine.constants;
-            constants
-                .solved
-                .iter()
-                .all(|&index| constants.linear[index].joint != joint)
+/// The load of the solved linear axis with the lowest speed limit at the given rate; `None` where no such limit is declared.
+fn fastest_share(machine: &Machine, rate: f64) -> Option<Load> {
+    let joints = machine
+        .constants
+        .solved
+        .map(|index| machine.constants.linear[index].joint);
+    let loads = joints.iter().filter_map(|&axis| {
+        Some(Load {
+            axis,
+            limit: machine.axes[axis].max_speed?,
+            rate,
+        })
+    });
+    loads.min_by(|a, b| a.limit.total_cmp(&b.limit))
+}
+
+/// Which joints' rates change within a block.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Changes {
+    /// Joints run straight.
+    Nothing,
+    /// The linear joints that inverse kinematics solves for.
+    Solved,
+    /// These and the rotary ones: great circle.
+    All,
+}
+
+impl Changes {
+    /// `None` where the path is not known.
+    fn of(machine: &Machine, leg: &Leg) -> Option<Self> {
+        match leg.motion.kind {
+            MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => return None,
+            MotionKind::Rapid | MotionKind::Linear if !has_tip_words(&leg.motion) => return Some(Self::Nothing),
+            MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(Some(_)) => {}
         }
+        Some(if on_great_circle(machine, &leg.motion) {
+            Self::All
+        } else {
+            Self::Solved
+        })
     }
 }
 
 /// The worst of the axes that run at a constant rate.
-fn constant_load(course: &Course<'_>) -> Option<Load> {
+fn constant_load(machine: &Machine, (start, end): (&Stance, &Stance), changes: Changes) -> Option<Load> {
+    let constants = &machine.constants;
+    let is_solved = |joint: usize| {
+        constants
+            .solved
+            .iter()
+            .any(|&index| constants.linear[index].joint == joint)
+    };
     let mut worst: Option<Load> = None;
-    for (joint, axis) in course.machine.axes.iter().enumerate() {
-        let rate = (course.end.joints[joint] - course.start.joints[joint]).abs();
-        if let (true, Some(limit)) = (rate > 0.0 && is_constant(course, joint), axis.max_speed) {
+    for (joint, axis) in machine.axes.iter().enumerate() {
+        let constant = match (changes, axis.kind) {
+            (Changes::Nothing, _) | (Changes::Solved, AxisKind::Rotary) => true,
+            (Changes::All, AxisKind::Rotary) => false,
+            (_, AxisKind::Linear) => !is_solved(joint),
+        };
+        let rate = (end.joints[joint] - start.joints[joint]).abs();
+        if let (true, Some(limit)) = (constant && rate > 0.0, axis.max_speed) {
             let load = Load {
                 axis: joint,
                 limit,
@@ -250,13 +312,6 @@ pub fn block_duration_s(machine: &Machine, leg: &Leg) -> Option<f64> {
 
 /// Length of a block in which only rotary axes move, in degrees; `None` where the stances are not known.
 fn rotary_way(leg: &Leg) -> Option<f64> {
-    if let (Some(from), Some(to)) = (leg.motion.start.xyz(), leg.motion.end.xyz())
-        && from == to
-        && !has_tip_words(&leg.motion)
-        && leg.start.is_none()
-    {
-        return None;
-    }
     leg.start.as_ref()?;
     leg.end.as_ref().ok()?;
     let [a, b] = leg.rotary_change.map(deg);

@@ -46,7 +46,6 @@ impl<'a> Spin<'a> {
     /// `None` where the tool axis should run on a great circle but the joints cannot follow it from start to end (the posture sign
     /// changes, a joint arrives on another turn, the tool axis turns right round).
     pub(crate) fn new(machine: &'a Machine, leg: &Leg, start: &Stance, end: &Stance) -> Option<Self> {
-        let angle = angle_between(&start.axis, &end.axis);
         let Some(pair) = machine
             .constants
             .pair
@@ -55,6 +54,7 @@ impl<'a> Spin<'a> {
         else {
             return Some(Self::Even);
         };
+        let angle = angle_between(&start.axis, &end.axis);
         if angle < SAME_AXIS {
             return Some(Self::Even);
         }

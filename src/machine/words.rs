@@ -1,6 +1,6 @@
 //! Axis words to joint values: what a program's coordinates mean for the joints of a machine.
-use crate::{AxisKind, Joints, MAX_AXES, Machine};
-use core::f64::consts::PI;
+use crate::{AxisKind, Joints, MAX_AXES, Machine, Wrap};
+use core::f64::consts::{PI, TAU};
 use trunnion_geometry::Vec3;
 use trunnion_interp::{AXIS_LETTERS, Motion, Position};
 
@@ -26,6 +26,8 @@ pub(crate) struct Words {
     point_scale: Vec3,
     /// Whether words of some axis are diameters.
     pub(crate) diameters: bool,
+    /// Whether words of some rotary axis are not taken literally.
+    pub(crate) wraps: bool,
 }
 
 impl Words {
@@ -39,12 +41,14 @@ impl Words {
             foreign: (1 << AXIS_LETTERS.len()) - 1,
             point_scale: Vec3::new(1.0, 1.0, 1.0),
             diameters: false,
+            wraps: false,
         };
         for (joint, axis) in machine.axes.iter().enumerate().take(MAX_AXES) {
             let diameter = axis.extra.diameter && axis.kind == AxisKind::Linear;
             words.zero_scale[joint] = if axis.kind == AxisKind::Rotary { PI / 180.0 } else { 1.0 };
             words.scale[joint] = if diameter { 0.5 } else { words.zero_scale[joint] };
             words.diameters |= diameter;
+            words.wraps |= axis.kind == AxisKind::Rotary && axis.extra.wrap != Wrap::Literal;
             if let Some(index) = AXIS_LETTERS.iter().position(|&letter| letter == axis.letter) {
                 words.letter[joint] = index as u8;
                 words.foreign &= !(1 << index);
@@ -103,6 +107,33 @@ impl Words {
             known |= 1 << joint;
         }
         (joints, known)
+    }
+
+    /// The turns that a control adds to rotary words it does not take literally, from where the machine stands: the shortest way (M126), or
+    /// the way that the word's sign says to the word's amount (LinuxCNC wrapped rotary axes). A word that stays as it was moves nothing.
+    pub(crate) fn wrap(&self, machine: &Machine, motion: &Motion, from: &Joints, joints: &mut Joints) {
+        for rotary in machine.constants.rotary() {
+            let joint = rotary.joint;
+            let letter = usize::from(self.letter[joint]);
+            let wrap = machine.axes[joint].extra.wrap;
+            let word = (letter < AXIS_LETTERS.len()).then(|| motion.end.get(letter)).flatten();
+            let (Some(word), false) = (word, wrap == Wrap::Literal) else {
+                continue;
+            };
+            let (before, target) = (from[joint], joints[joint]);
+            joints[joint] = if motion.start.get(letter) == Some(word) {
+                before
+            } else if wrap == Wrap::Shortest {
+                target + TAU * ((before - target) / TAU).round()
+            } else {
+                let amount = target + (word.abs() - word) * self.scale[joint];
+                if word.is_sign_negative() {
+                    before - (before - amount).rem_euclid(TAU)
+                } else {
+                    before + (amount - before).rem_euclid(TAU)
+                }
+            };
+        }
     }
 
     /// X, Y, Z of a position in mm, if all three are known.

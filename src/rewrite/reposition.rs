@@ -1,10 +1,10 @@
 //! A tool pose turned about the rotary axis nearest the workpiece and written back into its block, the ball's centre kept.
-use crate::slots::{Scheme, Slot, Slots, insert_word, slots};
+use crate::slots::{Scheme, Slot, Slots, Styles, insert_word, slots};
 use crate::style::NumberStyle;
-use trunnion_geometry::math::angle_between;
+use trunnion_geometry::math::{angle_between, atan2};
 use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_machine::{Machine, Stance, forward};
-use trunnion_syntax::{BlockId, Program, TextEdit};
+use trunnion_syntax::{Block, BlockId, Program, TextEdit};
 
 /// What is the same for all points of a window.
 pub(crate) struct Writer<'a> {
@@ -15,7 +15,7 @@ pub(crate) struct Writer<'a> {
     /// Which words are written.
     pub scheme: Scheme,
     /// How the program writes them.
-    pub styles: [Option<NumberStyle>; 6],
+    pub styles: Styles,
     /// mm per programmed length unit.
     pub unit_mm: f64,
     /// Radius of the ball, mm.
@@ -39,6 +39,8 @@ struct Number {
 struct Orientation {
     /// The tool axis the numbers say.
     axis: Vec3,
+    /// The rotary joint that gives it, rad.
+    q: f64,
     /// Coordinate and number.
     numbers: Vec<(usize, Number)>,
 }
@@ -56,7 +58,8 @@ impl Writer<'_> {
     }
 
     /// Writes the pose of `stance`, turned so that the rotary joint is `q` (rad), into its block. `current` holds the coordinates
-    /// in force before the block in the program after, and those after it on return.
+    /// in force before the block in the program after, and those after it on return. Gives the rotary joint that is
+    /// written, rad: `q` but for rounding.
     pub(crate) fn turn(
         &self,
         block: BlockId,
@@ -64,11 +67,12 @@ impl Writer<'_> {
         q: f64,
         current: &mut [f64; 4],
         edits: &mut Vec<TextEdit>,
-    ) -> Result<(), String> {
+    ) -> Result<f64, String> {
         let view = self.program.block(block);
         let slots = slots(self.program, &view, self.scheme)?;
         let Orientation {
             axis,
+            q,
             numbers: orientation,
         } = self.orientation(stance, q, &slots)?;
         let tip = (stance.tip + (stance.axis - axis) * self.ball_radius) / self.unit_mm;
@@ -82,8 +86,8 @@ impl Writer<'_> {
         let written = Vec3::new(numbers[0].1.value, numbers[1].1.value, numbers[2].1.value) * self.unit_mm;
         self.verify(stance, &written, &axis)?;
         numbers.extend(orientation);
-        self.edit(&slots, numbers, current, edits)?;
-        Ok(())
+        self.edit(&view, &slots, numbers, current, edits)?;
+        Ok(q)
     }
 
     /// Makes the block say the pose of `stance` as it is, whatever was in force before.
@@ -94,7 +98,8 @@ impl Writer<'_> {
         current: &mut [f64; 4],
         edits: &mut Vec<TextEdit>,
     ) -> Result<(), String> {
-        let slots = slots(self.program, &self.program.block(block), self.scheme)?;
+        let view = self.program.block(block);
+        let slots = slots(self.program, &view, self.scheme)?;
         let programmed = self.programmed(stance);
         // a vector in force stays in force; a rotary word may have to be said again
         let words = if self.scheme.count() == 4 { 4 } else { 3 };
@@ -111,7 +116,7 @@ impl Writer<'_> {
                 None => numbers.push((index, self.number(index, value, None)?)),
             }
         }
-        self.edit(&slots, numbers, current, edits)
+        self.edit(&view, &slots, numbers, current, edits)
     }
 
     /// The orientation nearest to the rotary joint `q` (rad) that can be written and is turned by no more than allowed.
@@ -137,6 +142,7 @@ impl Writer<'_> {
             let written = rad(number.value + self.rotary_zero);
             return Ok(Orientation {
                 axis: at(written),
+                q: written,
                 numbers: vec![(3, number)],
             });
         }
@@ -165,8 +171,17 @@ impl Writer<'_> {
         let (_, _, numbers, axis) = best.ok_or("the tool vector would round to zero")?;
         Ok(Orientation {
             axis,
+            q: q + self.azimuth_between(&at(q), &axis),
             numbers: (3..).zip(numbers.map(Number::clone)).collect(),
         })
+    }
+
+    /// By how much the rotary joint turns from one tool axis to another beside it, rad.
+    fn azimuth_between(&self, from: &Vec3, to: &Vec3) -> f64 {
+        let axis = &self.machine.axes[self.machine.rotary[0]];
+        let e = axis.direction;
+        let (from, to) = (from - e * e.dot(from), to - e * e.dot(to));
+        axis.sign * atan2(e.dot(&from.cross(&to)), from.dot(&to))
     }
 
     /// The tool axis is not turned farther than it may, with room for the last bit of a double.
@@ -228,6 +243,7 @@ impl Writer<'_> {
     /// Edits that make the block say `numbers`: a number that differs is replaced, a missing word is inserted if another value is in force.
     fn edit(
         &self,
+        block: &Block<'_>,
         slots: &Slots,
         numbers: Vec<(usize, Number)>,
         current: &mut [f64; 4],
@@ -244,7 +260,7 @@ impl Writer<'_> {
                 None => {
                     let rounding = self.styles[index].map_or(0.0, |style| style.rounding());
                     if (number.value - current[index.min(3)]).abs() > 0.5 * rounding {
-                        found.push(self.insertion(slots, index, &number.text)?);
+                        found.push(self.insertion(block, index, &number.text)?);
                     }
                 }
             }
@@ -258,12 +274,11 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn insertion(&self, slots: &Slots, index: usize, text: &str) -> Result<TextEdit, String> {
-        let name = self.scheme.name(index);
-        if self.scheme == Scheme::Goto {
-            return Err("GOTO with fewer than three numbers".into());
-        }
-        insert_word(self.program, slots, index, &format!("{name}{text}"))
-            .ok_or_else(|| format!("the block has no coordinate beside which {name} could be written"))
+    fn insertion(&self, block: &Block<'_>, index: usize, text: &str) -> Result<TextEdit, String> {
+        let edit = self
+            .scheme
+            .letter(index)
+            .and_then(|letter| insert_word(self.program, block, letter, text));
+        edit.ok_or_else(|| format!("{} is left out, and there is no place for it", self.scheme.name(index)))
     }
 }

@@ -64,7 +64,17 @@ impl Scheme {
         if matches!(self, Self::Rotary(_)) { 4 } else { 6 }
     }
 
-    /// The word's name, for inserting one and for messages.
+    /// The axis letter of a coordinate; `None` for components of a vector.
+    pub(crate) fn letter(self, index: usize) -> Option<u8> {
+        match (self, index) {
+            (Self::Goto, _) => None,
+            (_, 0..=2) => Some(b"XYZ"[index]),
+            (Self::Rotary(letter), _) => Some(letter),
+            _ => None,
+        }
+    }
+
+    /// The word's name, for messages.
     pub(crate) fn name(self, index: usize) -> String {
         match (self, index) {
             (_, 0..=2) => char::from(b"XYZ"[index]).to_string(),
@@ -117,8 +127,11 @@ pub(crate) fn slots(program: &Program, block: &Block<'_>, scheme: Scheme) -> Res
     Ok(slots)
 }
 
-/// How the program writes each coordinate of a scheme.
-pub(crate) fn styles(program: &Program, scheme: Scheme) -> [Option<NumberStyle>; 6] {
+/// How a program writes each coordinate of a scheme.
+pub(crate) type Styles = [Option<NumberStyle>; 6];
+
+/// Learns how the program writes each coordinate of a scheme.
+pub(crate) fn styles(program: &Program, scheme: Scheme) -> Styles {
     let mut texts: [Vec<TextRange>; 6] = Default::default();
     for block in program.blocks() {
         if scheme == Scheme::Goto {
@@ -146,24 +159,35 @@ pub(crate) fn styles(program: &Program, scheme: Scheme) -> [Option<NumberStyle>;
     })
 }
 
-/// An edit that inserts the word `text` (letter and number) as coordinate `index` of a block that has other coordinates.
-/// `None` if it has none.
-pub(crate) fn insert_word(program: &Program, slots: &Slots, index: usize, text: &str) -> Option<TextEdit> {
-    let (earlier, later) = slots.split_at(index);
-    if let Some(slot) = earlier.iter().rev().flatten().next() {
-        let at = slot.word.end;
-        let blank = blank_before(program, slot.word.start);
-        return Some(TextEdit {
-            range: TextRange::new(at, at),
-            new_text: format!("{blank}{text}"),
-        });
+/// An edit that inserts the word of an axis (letter, and its number as text) into an ISO block, in the order X Y Z A B C among the
+/// axis words that are there. `None` if there is none.
+pub(crate) fn insert_word(program: &Program, block: &Block<'_>, letter: u8, number: &str) -> Option<TextEdit> {
+    let order = |letter: u8| b"XYZABC".iter().position(|&axis| axis == letter);
+    let mine = order(letter)?;
+    let (mut before, mut after) = (None, None);
+    for word in block.words() {
+        let Address::Letter(other) = word.address else { continue };
+        match order(other) {
+            Some(place) if place < mine => before = Some(word.range),
+            Some(_) if after.is_none() => after = Some(word.range),
+            _ => {}
+        }
     }
-    let slot = later.iter().flatten().next()?;
-    let at = slot.word.start;
-    let blank = blank_before(program, at);
+    let name = char::from(letter);
+    let (at, new_text) = match (before, after) {
+        (Some(range), _) => (
+            range.end,
+            format!("{}{name}{number}", blank_before(program, range.start)),
+        ),
+        (None, Some(range)) => (
+            range.start,
+            format!("{name}{number}{}", blank_before(program, range.start)),
+        ),
+        (None, None) => return None,
+    };
     Some(TextEdit {
         range: TextRange::new(at, at),
-        new_text: format!("{text}{blank}"),
+        new_text,
     })
 }
 

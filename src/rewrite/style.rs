@@ -17,7 +17,8 @@ impl NumberStyle {
     /// Learns from numbers as written. `None` when there is none, or none that is a plain decimal.
     pub(crate) fn learn<'t>(texts: impl Iterator<Item = &'t str>) -> Option<Self> {
         let mut style: Option<Self> = None;
-        let (mut fewest, mut whole_without_point, mut bare_point) = (usize::MAX, false, false);
+        let (mut fewest, mut zero_ended) = (usize::MAX, 0);
+        let (mut whole_without_point, mut bare_point) = (false, false);
         for text in texts {
             let digits = text.trim_start_matches(['+', '-']);
             if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit() || b == b'.') {
@@ -27,6 +28,9 @@ impl NumberStyle {
             whole_without_point |= !digits.contains('.');
             bare_point |= digits.ends_with('.');
             fewest = fewest.min(fraction.len());
+            if fraction.ends_with('0') {
+                zero_ended = zero_ended.max(fraction.len());
+            }
             let known = style.get_or_insert(Self {
                 decimals: 0,
                 trims: false,
@@ -37,7 +41,7 @@ impl NumberStyle {
             known.leading_zero &= !whole.is_empty();
         }
         style.map(|known| Self {
-            trims: fewest < known.decimals,
+            trims: fewest < known.decimals && zero_ended < known.decimals,
             whole_point: bare_point || !whole_without_point,
             ..known
         })
@@ -137,6 +141,13 @@ mod tests {
         let y = style(&["0.00000", "60.00000"]);
         assert_eq!(y.write(-0.000_001, false), "0.00000");
         assert_eq!(y.write(-2.144_69, false), "-2.14469");
+        let with_header = style(&["0", "100", "59.95290"]);
+        assert_eq!(
+            with_header.write(1.5, false),
+            "1.50000",
+            "whole numbers in a header do not make zeros superfluous"
+        );
+        assert_eq!(style(&["10.0", "2.125"]).write(1.5, false), "1.5");
     }
 
     #[test]

@@ -1,12 +1,14 @@
 #!/bin/bash
 # Packages the extension with a `trunnion` program inside: scripts/package.sh [OUT.vsix]
-# The program: TRUNNION_BIN, else ../target/release/trunnion, else ../target/debug/trunnion.
+# The program: TRUNNION_BIN, else the newer of ../target/release/trunnion and ../target/debug/trunnion.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 program=${TRUNNION_BIN:-}
 for candidate in ../target/release/trunnion ../target/debug/trunnion; do
-  if [ -z "$program" ] && [ -x "$candidate" ]; then program=$candidate; fi
+  if [ -z "${TRUNNION_BIN:-}" ] && [ -x "$candidate" ] && { [ -z "$program" ] || [ "$candidate" -nt "$program" ]; }; then
+    program=$candidate
+  fi
 done
 if [ -z "$program" ] || [ ! -x "$program" ]; then
   echo "package: no trunnion program (${program:-build one with: cargo build --release})" >&2
@@ -15,6 +17,7 @@ fi
 
 target=$(node -p 'process.platform + "-" + process.arch')
 out=${1:-trunnion-$target.vsix}
+echo "package: with $program"
 rm -rf server && mkdir server
 cp "$program" server/trunnion
 strip server/trunnion 2>/dev/null || true # smaller; where there is no strip it is only larger

@@ -32,7 +32,8 @@
 //! Trunnion's kinematics notes, sections 4.1 and 5 (VEL-AXIS).
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
-use trunnion_machine::AxisKind;
+use trunnion_interp::{Feed, MotionKind};
+use trunnion_machine::{Axis, AxisKind};
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
@@ -48,18 +49,21 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return;
     }
     undeclared(view, out);
-    let Some(limit) = view.feed_limit() else { return };
-    let Some(needed) = limit.axis_speed else { return };
+    let judged = view.feed_limit().and_then(|limit| Some((limit, limit.axis_speed?)));
+    let Some((limit, needed)) = judged else {
+        return undecided(view, out);
+    };
     if needed <= limit.axis_limit * (1.0 + ROUNDING) {
         return;
     }
     let axis = &view.machine.axes[limit.axis];
-    if out.repeats(u64::from(axis.letter), -limit.feed_mm_min) {
+    let key = u64::from(axis.letter) + 256 * u64::from(view.feed_in_degrees());
+    if out.repeats(key, -limit.feed_mm_min) {
         return;
     }
     let name = letter(axis.letter);
     let range = axis_word(out.program(), view.motion().block, axis.letter);
-    let feed = view.programmed_feed_mm_min();
+    let feed = view.programmed_feed();
     let at = feed.map_or_else(String::new, |feed| format!(" at F{}", number(feed)));
     let draft = out.report(
         range,
@@ -71,13 +75,14 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     );
     draft
         .note(format!(
-            "the block can run at {} mm/min at most",
-            number(limit.feed_mm_min)
+            "the block can run at {} {} at most",
+            rate(limit.feed_mm_min),
+            view.feed_unit()
         ))
-        .help("lower the feed in this block, or lead the tool axis so that the axis turns less")
+        .help("lower the feed in this block, or lead the tool so that the axis moves less")
         .value_text("axis", name.clone())
         .value_text("limiting_axis", name)
-        .value("feed_limit_mm_min", limit.feed_mm_min);
+        .value(feed_keys(view)[1], limit.feed_mm_min);
     match axis.kind {
         AxisKind::Linear => draft
             .value("value_mm_min", needed * 60.0)
@@ -87,12 +92,48 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             .value("limit_deg_s", deg(limit.axis_limit)),
     };
     if let Some(feed) = feed {
-        draft.value("feed_mm_min", feed);
+        draft.value(feed_keys(view)[0], feed);
     }
     if view.near_pole() {
         draft.fix("smooth-pole");
     }
-    draft.merge_runs_over(SHORT_RUN, u64::from(axis.letter), -limit.feed_mm_min);
+    draft.merge_runs_over(SHORT_RUN, key, -limit.feed_mm_min);
+}
+
+/// Keys of the programmed and of the highest feed, with their unit.
+pub(super) fn feed_keys(view: &LegView<'_>) -> [&'static str; 2] {
+    if view.feed_in_degrees() {
+        ["feed_deg_min", "feed_limit_deg_min"]
+    } else {
+        ["feed_mm_min", "feed_limit_mm_min"]
+    }
+}
+
+/// A block whose speed cannot be told although its ends and its feed are known: told once per cause.
+fn undecided(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let Some((start, end)) = view.stances() else { return };
+    let declared = |(i, axis): (usize, &Axis)| axis.max_speed.is_some() && start.joints[i] != end.joints[i];
+    if !view.machine.axes.iter().enumerate().any(declared) {
+        return;
+    }
+    let why = match (view.motion().feed, view.motion().kind) {
+        // the faults that took the feed or the arc's centre are told by their own rules
+        (Feed::Unknown | Feed::Rapid, _) | (_, MotionKind::Arc(None)) => return,
+        (Feed::PerRevolution(_), _) if view.motion().spindle_rpm.is_none() => {
+            "the feed is per revolution and the spindle speed is not known"
+        }
+        _ if view.leg.length <= 0.0 => {
+            "the tip stands still while rotary axes turn: what F means then is the control's own affair"
+        }
+        _ => "the motion is not modelled",
+    };
+    if out.repeats_unknown(hash(why), 0.0) {
+        return;
+    }
+    let range = code_range(out.program(), view.motion().block);
+    out.report(range, format!("whether an axis is overrun is not known: {why}"))
+        .unknown()
+        .merge_everywhere(hash(why));
 }
 
 /// An axis that moves but has no declared speed cannot be judged: told once per axis.
@@ -118,6 +159,44 @@ fn undeclared(view: &LegView<'_>, out: &mut Reporter<'_>) {
 
 #[cfg(test)]
 mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn where_only_rotary_axes_turn_the_feed_is_in_degrees() {
+        let text = "N10 G0 X0 Y0 Z50 A30 C0\nN20 G1 C90 F7200\nN30 C180 F7300\n";
+        let report = crate::fixture::Fixture::parse("gcode mikron-ucp710", text)
+            .check()
+            .unwrap();
+        let found: Vec<_> = report
+            .diagnostics
+            .iter()
+            .filter(|d| d.rule == "axis-overspeed")
+            .collect();
+        assert_eq!((found.len(), found[0].block.as_deref()), (1, Some("N30")));
+        assert_eq!(found[0].notes, ["the block can run at 7200 deg/min at most"]);
+        assert!(
+            found[0]
+                .values
+                .contains(&("feed_deg_min", crate::ValueKey::Number(7300.0)))
+        );
+    }
+
+    #[test]
+    fn a_standing_tip_under_tcp_is_unknown_once() {
+        let report = assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A30 C0\nN30 G1 C90 F500\n;   ^^^^^^^^^^^ axis-overspeed: whether an axis is overrun is not known: the tip stands\nN40 C0\nN50 M30\n",
+        );
+        assert_eq!(report.diagnostics[0].count, 2);
+    }
+
+    #[test]
+    fn feed_per_revolution_needs_the_spindle() {
+        assert_drawn(
+            "gcode mill-3axis",
+            "N10 G0 X0 Y0 Z50\nN20 G95 G1 X10 F0.1\n;   ^^^^^^^^^^^^^^^ axis-overspeed: whether an axis is overrun is not known: the feed is per revolution\nN30 S1000 M3\nN40 X0\n",
+        );
+    }
 
     /// `blocks` feed motions in each of which C turns 9 deg in 1 mm.
     fn program(blocks: u32) -> String {

@@ -31,6 +31,7 @@
 //!
 //! # Sources
 //! Trunnion's kinematics notes, sections 4.1 and 5 (FEED-DROP).
+use super::axis_overspeed::feed_keys;
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 
@@ -48,7 +49,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return;
     }
     let Some(limit) = view.feed_limit() else { return };
-    let Some(feed) = view.programmed_feed_mm_min().filter(|feed| *feed > 0.0) else {
+    let Some(feed) = view.programmed_feed().filter(|feed| *feed > 0.0) else {
         return;
     };
     let share = limit.feed_mm_min / feed;
@@ -61,31 +62,33 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     } else {
         Severity::Warning
     };
-    if out.repeats_as(severity, 0, -limit.feed_mm_min) {
+    let key = u64::from(view.feed_in_degrees());
+    if out.repeats_as(severity, key, -limit.feed_mm_min) {
         return;
     }
     let name = letter(view.machine.axes[limit.axis].letter);
     let range = axis_word(out.program(), view.motion().block, b'F');
+    let (unit, keys) = (view.feed_unit(), feed_keys(view));
     let percent = number((share * 1000.0).round() / 10.0);
     let draft = out.report(
         range,
         format!(
-            "the axes allow {} mm/min, {percent} % of the programmed {} mm/min",
-            number(limit.feed_mm_min),
+            "the axes allow {} {unit}, {percent} % of the programmed {} {unit}",
+            rate(limit.feed_mm_min),
             number(feed)
         ),
     );
     draft
         .note(format!("{name} limits the block"))
         .help("lower the feed in this block, or lead the tool axis so that the axis moves less")
-        .value("feed_mm_min", feed)
-        .value("feed_limit_mm_min", limit.feed_mm_min)
+        .value(keys[0], feed)
+        .value(keys[1], limit.feed_mm_min)
         .value_text("limiting_axis", name)
         .severity(severity);
     if view.near_pole() {
         draft.fix("smooth-pole");
     }
-    draft.merge_runs_over(SHORT_RUN, 0, -limit.feed_mm_min);
+    draft.merge_runs_over(SHORT_RUN, key, -limit.feed_mm_min);
 }
 
 #[cfg(test)]

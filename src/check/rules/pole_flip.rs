@@ -32,6 +32,7 @@
 //!
 //! # Sources
 //! The guide-vane paper of 2006 on the C axis near the singularity; Trunnion's kinematics notes, section 5 (POLE-FLIP).
+use super::axis_overspeed::feed_keys;
 use crate::prelude::*;
 use trunnion_geometry::rad;
 
@@ -71,10 +72,11 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     {
         draft
             .note(format!(
-                "no axis is overrun up to a feed of {} mm/min",
-                number(limit.feed_mm_min)
+                "no axis is overrun up to a feed of {} {}",
+                rate(limit.feed_mm_min),
+                view.feed_unit()
             ))
-            .value("feed_limit_mm_min", limit.feed_mm_min);
+            .value(feed_keys(view)[1], limit.feed_mm_min);
     }
     if (rad(175.0)..=rad(185.0)).contains(&turn) {
         draft

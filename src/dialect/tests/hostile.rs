@@ -37,6 +37,16 @@ fn a_table_of_ones_own_extends_a_built_in_one() {
 }
 
 #[test]
+fn the_table_in_the_readme_loads() {
+    let readme = include_str!("../../../grammar/README.md");
+    let table = readme.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let dialect = load(table).unwrap();
+    assert_eq!(dialect.g(434).unwrap().source, "manual, volume 2");
+    assert!(dialect.quirks.first_offset_at_start);
+    assert!((dialect.arc_limit_mm(20.0, false) - 0.02).abs() < 1e-12);
+}
+
+#[test]
 fn unknown_keys_and_values() {
     refused_with("colour = \"red\"\n", "unknown field `colour`", "colour");
     refused_with(
@@ -148,7 +158,7 @@ fn base_names_letters_and_lists() {
     refused_with("remove = [\"G01\"]\n", "leading zero", "\"G01\"");
     refused_with("builder-codes = [\"TRAORI\"]\n", "only G and M", "\"TRAORI\"");
     refused_with("extensions = [\".nc\"]\n", "without dot", "\".nc\"");
-    refused_with("[roles]\nx = \"axis\"\n", "upper-case letter", "x");
+    refused_with("[roles]\nx = \"axis\"\n", "one upper-case letter", "x");
     refused_with("[roles]\nXY = \"axis\"\n", "upper-case letter", "XY");
     refused_with("[addresses]\n\"AB#\" = \"axis\"\n", "AB#", "AB#");
     refused_with("[addresses]\n\"\" = \"axis\"\n", "upper-case name", "");

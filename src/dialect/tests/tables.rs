@@ -151,6 +151,9 @@ fn controls_differ_where_their_manuals_do() {
     assert_eq!(action("sinumerik-840d", "G600"), None);
     assert_eq!(dialect("sinumerik-840d").role(b'R'), Some(Role::Variable));
     assert_eq!(dialect("fanuc-30i").role(b'R'), Some(Role::ArcRadius));
+    assert_eq!(dialect("linuxcnc").role(b'@'), Some(Role::NotModelled));
+    assert_eq!(dialect("iso-6983").role(b'@'), None);
+    assert_eq!(dialect("iso-6983").role(b'x'), None);
     assert_eq!(dialect("apt").lex.format, Format::Apt);
     assert!(!dialect("sinumerik-840d").lex.paren_comment);
     assert!(dialect("linuxcnc").lex.blanks_in_numbers);
@@ -196,8 +199,8 @@ fn arcs_are_judged_as_the_control_does() {
     assert!((linuxcnc.arc_limit_mm(1000.0, false) - 1.0).abs() < 1e-9);
     assert!((linuxcnc.arc_limit_mm(1e6, false) - 2.8284).abs() < 1e-9);
     let core = dialect("iso-6983");
-    assert!((core.arc_limit_mm(1000.0, false) - 0.002).abs() < 1e-12);
-    assert!((core.arc_limit_mm(1000.0, true) - 0.005_08).abs() < 1e-12);
+    assert!((core.arc_limit_mm(1000.0, false) - 0.005).abs() < 1e-12);
+    assert!((core.arc_limit_mm(1000.0, true) - 0.0127).abs() < 1e-12);
     let sinumerik = dialect("sinumerik-840d");
     assert!((sinumerik.arc_limit_mm(5.0, false) - 0.01).abs() < 1e-12);
     assert!((sinumerik.arc_limit_mm(50.0, false) - 0.05).abs() < 1e-12);
@@ -211,6 +214,8 @@ fn builders_own_what_the_control_leaves_them() {
     assert!(dialect("sinumerik-840d").builder_may_own(CodeKind::M, 1000));
     assert!(!dialect("sinumerik-840d").builder_may_own(CodeKind::M, 300));
     assert!(!dialect("iso-6983").builder_may_own(CodeKind::M, 0));
+    assert!(dialect("iso-6983").builder_may_own(CodeKind::M, 620));
+    assert!(!dialect("linuxcnc").builder_may_own(CodeKind::M, 2000));
 }
 
 #[test]

@@ -53,7 +53,7 @@
 //! kinematics notes 6 (R3) and 12.3 (taut string).
 use super::Body;
 use crate::reposition::Writer;
-use crate::slots::{Scheme, styles};
+use crate::slots::{Scheme, Styles, styles};
 use crate::stations::{Station, chain, largest_step, stance, straighten, window};
 use crate::survey::{Point, Tip, survey};
 use crate::{Options, Proposal};
@@ -74,7 +74,17 @@ struct Smoothed {
     ball_radius: f64,
     /// Index of the window's last point.
     last: usize,
-    summary: String,
+    /// Lines of the ends.
+    lines: (u32, u32),
+    /// Largest step of the rotary axis before and after, deg.
+    steps: (f64, f64),
+}
+
+/// What was worked out for one window and serves the next.
+#[derive(Default)]
+struct Memory {
+    chain: Vec<Station>,
+    styles: Vec<(Scheme, Styles)>,
 }
 
 /// What is the same for all windows.
@@ -105,18 +115,18 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
     if flips.is_empty() {
         return task.unknown_position().map_or(Ok(None), Err);
     }
+    let mut memory = Memory::default();
     let mut done: Option<usize> = None;
     let mut radius = None;
-    let (mut edits, mut summaries, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut windows, mut reasons) = (Vec::new(), Vec::new());
     for flip in flips {
         if done.is_some_and(|last| flip <= last) {
             continue;
         }
-        match task.smooth(flip) {
+        match task.smooth(flip, &mut memory) {
             Ok(smoothed) if *radius.get_or_insert(smoothed.ball_radius) == smoothed.ball_radius => {
-                edits.extend(smoothed.edits);
-                summaries.push(smoothed.summary);
                 done = Some(smoothed.last);
+                windows.push(smoothed);
             }
             Ok(_) => reasons.push(format!(
                 "line {}: another ball radius, which needs a run of its own",
@@ -125,21 +135,60 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
             Err(reason) => reasons.push(format!("line {}: {reason}", task.line(flip))),
         }
     }
-    reasons.dedup();
     let Some(ball_radius_mm) = radius else {
-        return Err(reasons.join("; "));
+        return Err(some_of(&reasons));
     };
     let claim = Claim::SameBallCentre {
         ball_radius_mm,
         tolerance_mm: options.tolerance_mm,
         tolerance_deg: options.tolerance_deg,
     };
-    summaries.extend(reasons.into_iter().map(|reason| format!("left as it is: {reason}")));
+    let letter = char::from(machine.axes[machine.rotary[0]].letter);
+    let mut summary = summary(&windows, letter);
+    if !reasons.is_empty() {
+        summary.push_str("; left as it is: ");
+        summary.push_str(&some_of(&reasons));
+    }
     Ok(Some(Proposal {
-        edits,
+        edits: windows.into_iter().flat_map(|window| window.edits).collect(),
         claim,
-        summary: summaries.join("; "),
+        summary,
     }))
+}
+
+/// What was done, in one line.
+fn summary(windows: &[Smoothed], letter: char) -> String {
+    let worst = windows.iter().fold((0.0f64, 0.0f64), |worst, w| {
+        (worst.0.max(w.steps.0), worst.1.max(w.steps.1))
+    });
+    let (first, last) = windows
+        .first()
+        .zip(windows.last())
+        .map_or((0, 0), |(a, b)| (a.lines.0, b.lines.1));
+    let count = if windows.len() > 1 {
+        format!(" in {} windows", windows.len())
+    } else {
+        String::new()
+    };
+    format!(
+        "lines {first} to {last}{count}: largest step of {letter} {:.3} -> {:.3} deg",
+        worst.0, worst.1
+    )
+}
+
+/// The first three reasons, and how many there are beyond.
+fn some_of(reasons: &[String]) -> String {
+    let mut text = reasons
+        .iter()
+        .take(3)
+        .map(String::as_str)
+        .collect::<Vec<_>>()
+        .join("; ");
+    if reasons.len() > 3 {
+        text.push_str("; and more like these: ");
+        text.push_str(&(reasons.len() - 3).to_string());
+    }
+    text
 }
 
 /// Why a motion with a flip cannot be changed.
@@ -169,6 +218,11 @@ fn tool_obstacle(point: &Point) -> Option<String> {
     }
 }
 
+/// Axis letters with commas between them.
+fn in_words(letters: &str) -> String {
+    letters.chars().map(String::from).collect::<Vec<_>>().join(", ")
+}
+
 impl Task<'_> {
     /// The rule pole-flip fires here.
     fn flips(&self, index: usize) -> bool {
@@ -189,7 +243,7 @@ impl Task<'_> {
         };
         let index = self.points.iter().position(unknown)?;
         let why = match &self.points[index].end {
-            Err(NoStance::PositionUnknown(letters)) => format!("the position of {letters} is unknown"),
+            Err(NoStance::PositionUnknown(letters)) => format!("the position of {} is unknown", in_words(letters)),
             _ => "the motion is not modelled".into(),
         };
         Some(format!(
@@ -199,7 +253,7 @@ impl Task<'_> {
     }
 
     /// Smooths the window round one flip.
-    fn smooth(&self, flip: usize) -> Result<Smoothed, String> {
+    fn smooth(&self, flip: usize, memory: &mut Memory) -> Result<Smoothed, String> {
         let point = &self.points[flip];
         if let Some(obstacle) = obstacle(point) {
             return Err(obstacle);
@@ -207,12 +261,17 @@ impl Task<'_> {
         let Tip::Ball(ball_radius) = point.tip else {
             return Err("the tool is no ball".into());
         };
-        let stations = chain(self.machine, self.points, flip);
-        let Some((left, right)) = window(&stations, flip, self.machine.tolerances.pole_cone) else {
+        let covers = memory.chain.first().is_some_and(|station| station.first <= flip)
+            && memory.chain.last().is_some_and(|station| flip <= station.last);
+        if !covers {
+            memory.chain = chain(self.machine, self.points, flip);
+        }
+        let stations = &memory.chain;
+        let Some((left, right)) = window(stations, flip, self.machine.tolerances.pole_cone) else {
             return Err("no point lies between the two ends that must stay".into());
         };
         let stations = &stations[left..=right];
-        let writer = self.writer(point, ball_radius);
+        let writer = self.writer(point, ball_radius, &mut memory.styles);
         // a hair less than allowed, so that the last bit of a double decides nothing
         let room = rad(self.options.tolerance_deg) * (1.0 - 1e-8);
         let q = straighten(self.machine, stations, room)
@@ -227,35 +286,37 @@ impl Task<'_> {
                 deg(after)
             ));
         }
-        let edits = self.write(&writer, stations, &q)?;
-        let letter = char::from(self.machine.axes[self.machine.rotary[0]].letter);
+        let (edits, written) = self.write(&writer, stations, &q)?;
         let last = stations[stations.len() - 1].first;
-        let summary = format!(
-            "lines {} to {}: largest step of {letter} {:.3} -> {:.3} deg",
-            self.line(stations[0].last),
-            self.line(last),
-            deg(before),
-            deg(after)
-        );
+        let steps = (deg(before), deg(largest_step(written.iter().copied())));
+        let lines = (self.line(stations[0].last), self.line(last));
         Ok(Smoothed {
             edits,
             ball_radius,
             last,
-            summary,
+            lines,
+            steps,
         })
     }
 
-    fn writer(&self, point: &Point, ball_radius: f64) -> Writer<'_> {
+    fn writer(&self, point: &Point, ball_radius: f64, known: &mut Vec<(Scheme, Styles)>) -> Writer<'_> {
         let scheme = if point.vector {
             Scheme::of_vector(self.program, &self.program.block(point.block))
         } else {
             Scheme::Rotary(self.machine.axes[self.machine.rotary[0]].letter)
         };
+        let styles = if let Some(&(_, styles)) = known.iter().find(|(of, _)| *of == scheme) {
+            styles
+        } else {
+            let found = styles(self.program, scheme);
+            known.push((scheme, found));
+            found
+        };
         Writer {
             program: self.program,
             machine: self.machine,
             scheme,
-            styles: styles(self.program, scheme),
+            styles,
             unit_mm: point.unit_mm,
             ball_radius,
             rotary_zero: point.rotary_zero,
@@ -264,32 +325,44 @@ impl Task<'_> {
         }
     }
 
-    /// Edits for all points between the ends, and for what the last one takes over from them.
-    fn write(&self, writer: &Writer<'_>, stations: &[Station], q: &[f64]) -> Result<Vec<TextEdit>, String> {
+    /// Edits for all points between the ends, and for what the last one takes over from them; and the rotary joint as written, rad,
+    /// each station.
+    fn write(&self, writer: &Writer<'_>, stations: &[Station], q: &[f64]) -> Result<(Vec<TextEdit>, Vec<f64>), String> {
         let unknown = || "a position inside the window is unknown".to_string();
         let last = stations.len() - 1;
         let start = stance(&self.points[stations[0].last]).ok_or_else(unknown)?;
         let mut current = writer.programmed(start);
         let mut edits = Vec::new();
+        let mut written = vec![stations[0].q];
         for (station, &q) in stations.iter().zip(q).take(last).skip(1) {
-            for point in &self.points[station.first..=station.last] {
+            for (index, point) in self
+                .points
+                .iter()
+                .enumerate()
+                .take(station.last + 1)
+                .skip(station.first)
+            {
                 if let Some(obstacle) = tool_obstacle(point) {
                     return Err(obstacle);
                 }
                 if point.rotary_zero != writer.rotary_zero {
                     return Err("the work offset of the rotary axis changes inside the window".into());
                 }
-                writer.turn(
+                let q = writer.turn(
                     point.block,
                     stance(point).ok_or_else(unknown)?,
                     q,
                     &mut current,
                     &mut edits,
                 )?;
+                if index == station.first {
+                    written.push(q);
+                }
             }
         }
+        written.push(stations[last].q);
         let end = &self.points[stations[last].first];
         writer.restore(end.block, stance(end).ok_or_else(unknown)?, &mut current, &mut edits)?;
-        Ok(edits)
+        Ok((edits, written))
     }
 }

@@ -1,6 +1,6 @@
 #!/bin/bash
 # The packaged extension with the real server in a real VS Code: tests/e2e/run.sh
-# Needs: npm ci done here, chromium, python3, and a built `trunnion` (TRUNNION_BIN, else ../target/release or debug).
+# Needs: npm ci done here, chromium, python3, and a built `trunnion` (TRUNNION_BIN, else the newer of ../target/release and debug).
 # TRUNNION_VSCODE_LAB: where VS Code is installed (kept). TRUNNION_SHOTS: where the screenshots go.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

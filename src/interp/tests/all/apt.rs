@@ -89,7 +89,7 @@ fn circle_faults() {
     );
     assert_eq!(
         with("CIRCLE/0,0,0,0,0,1,10\nRAPID\nGOTO/0,10,0"),
-        [r#"3: 0,0,0,0,0,1,10: NotModelled { what: "CIRCLE followed by RAPID" }"#]
+        [r#"4: RAPID: NotModelled { what: "CIRCLE followed by RAPID" }"#]
     );
     assert_eq!(with("CIRCLE/C1\nGOTO/0,10,0").len(), 1);
     assert_eq!(

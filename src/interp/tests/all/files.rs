@@ -106,11 +106,7 @@ fn fanuc_and_siemens_posts_agree() {
     });
     let [Some(fanuc), Some(siemens)] = runs else { return };
     let targets = |log: &crate::support::Log| -> Vec<String> {
-        log.motions
-            .iter()
-            .filter(|motion| motion.tcp)
-            .map(|motion| line(motion))
-            .collect()
+        log.motions.iter().filter(|motion| motion.tcp).map(line).collect()
     };
     let (fanuc, siemens) = (targets(&fanuc), targets(&siemens));
     assert!(fanuc.len() > 44_000, "{}", fanuc.len());

@@ -1,5 +1,6 @@
 //! Programs and the motions and faults that they must give.
 #![expect(clippy::print_stderr, reason = "a test that finds no data says so")]
+#![expect(clippy::format_push_string, reason = "texts of tests are short")]
 mod apt;
 mod arcs;
 mod directives;

@@ -177,6 +177,15 @@ fn work_offsets_move_the_programmed_position() {
 }
 
 #[test]
+fn additional_work_offsets_are_named_with_their_p() {
+    let (_, log) = run_bytes("fanuc-30i", b"G54.1 P3\nG0 X1\nM30\n", &offsets());
+    let unset = trunnion_interp::FaultKind::WorkOffsetUnset {
+        name: "G54.1 P3".to_owned(),
+    };
+    assert_eq!(log.faults.iter().map(|fault| &fault.kind).collect::<Vec<_>>(), [&unset]);
+}
+
+#[test]
 fn first_offset_is_in_force_from_the_start_where_the_control_says_so() {
     let (_, log) = run_bytes("fanuc-30i", b"G0 X1\nM30\n", &offsets());
     assert_eq!(log.motions[0].zero[0], 100.0);

@@ -257,3 +257,99 @@ fn durations_follow_the_feed_and_the_slowest_axis() {
     assert_eq!(block_duration_s(mikron(), &leg), None);
     assert_eq!(feed_limit(mikron(), &leg).expect("limited").axis_speed, None);
 }
+
+/// The joints of C, degrees, for a sequence of C words on a machine whose control reads them in the given way.
+fn wrapped(wrap: &str, words_c: &[f64]) -> Vec<f64> {
+    let source = trunnion_machine::builtin_source("mikron-ucp710").expect("built in");
+    let text = source.replacen("wrap = \"literal\"", &format!("wrap = \"{wrap}\""), 1);
+    assert!(wrap == "literal" || text != source);
+    let machine = trunnion_machine::load("wrapped", &text).expect("valid");
+    let mut follower = Follower::new(&machine);
+    let mut start = Position::default();
+    let mut found = Vec::new();
+    for &c in words_c {
+        let end = place(0.0, 0.0, 50.0, 10.0, c);
+        found.push(joint(&follower.follow(&words(start, end)), b'C'));
+        start = end;
+    }
+    found.into_iter().map(|c| (deg(c) * 1e6).round() / 1e6).collect()
+}
+
+#[test]
+fn rotary_words_are_read_as_the_control_reads_them() {
+    // kinematics notes 8: with M126 350 to 10 is +20 and 10 to 340 is -30; without, -340 and +330
+    assert_eq!(wrapped("literal", &[350.0, 10.0, 340.0]), [350.0, 10.0, 340.0]);
+    assert_eq!(wrapped("shortest", &[350.0, 10.0, 340.0]), [350.0, 370.0, 340.0]);
+    // the sign is the direction: 10 upwards, 10 downwards, the same word again, 350 downwards
+    assert_eq!(
+        wrapped("modulo-sign", &[350.0, 10.0, -10.0, -10.0, -350.0]),
+        [350.0, 370.0, 370.0, 370.0, 350.0]
+    );
+}
+
+#[test]
+fn no_motion_makes_it_panic_or_hang() {
+    let mut random = crate::random::Random(9);
+    let odd = [
+        0.0,
+        -0.0,
+        f64::NAN,
+        f64::INFINITY,
+        1e300,
+        -1e18,
+        1e-300,
+        90.0,
+        180.0,
+        86_391.963,
+    ];
+    for name in trunnion_machine::BUILTIN_MACHINES {
+        let machine = machine(name);
+        let mut follower = Follower::new(machine);
+        let mut out = Vec::new();
+        for _ in 0..400 {
+            let mut value = || {
+                if random.below(3) == 0 {
+                    odd[random.below(odd.len())]
+                } else {
+                    random.range(-200.0, 200.0)
+                }
+            };
+            let mut any = Motion { ..motion() };
+            for axis in 0..9 {
+                any.start.set(axis, value());
+                any.end.set(axis, value());
+            }
+            any.tool_length_mm = value();
+            let axis = Vec3::new(value(), value(), value());
+            let arc = trunnion_geometry::arc::Arc {
+                start: Vec3::new(value(), value(), value()),
+                end: Vec3::new(value(), value(), value()),
+                centre: Vec3::new(value(), value(), value()),
+                normal: Vec3::new(value(), value(), value()),
+                sweep: value(),
+                radius_start: value(),
+                radius_end: value(),
+            };
+            any.tcp = random.below(2) == 0;
+            any.great_circle = [None, Some(true), Some(false)][random.below(3)];
+            any.end.known = [0x1ff, 0x2f, 0x1f, 0x7][random.below(4)];
+            if random.below(3) == 0 {
+                any.orientation = trunnion_interp::Orientation::Vector(None, axis);
+            }
+            any.kind = match random.below(6) {
+                0 => MotionKind::Rapid,
+                1 => MotionKind::Arc(Some(arc)),
+                2 => MotionKind::Arc(None),
+                _ => MotionKind::Linear,
+            };
+            let leg = follower.follow(&any);
+            let trace = row(machine, &leg);
+            assert_eq!(trace.joints.len(), machine.axes.len());
+            trunnion_machine::limit_excess(machine, &leg, &mut out);
+            out.clear();
+            if let Some(deviation) = tip_deviation(machine, &leg, 0.01) {
+                assert!(deviation.bound_mm.is_nan() || deviation.bound_mm >= deviation.sampled_mm);
+            }
+        }
+    }
+}

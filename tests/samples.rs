@@ -1,0 +1,182 @@
+//! The sample programs are what samples/README.md says of them.
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+type Found = BTreeSet<(u64, String)>;
+
+fn programs(folder: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("samples/programs")
+        .join(folder);
+    let mut all: Vec<PathBuf> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    all.sort();
+    all
+}
+
+/// Verdict of the command line, and the rules with their lines.
+fn check(program: &Path, machine: Option<&str>) -> (String, Found, Value) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_trunnion"));
+    command.args(["check", "--format", "json"]).arg(program);
+    if let Some(machine) = machine {
+        command.args(["--machine", machine]);
+    }
+    let output = command.output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let json: Value =
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}: {text}", program.display()));
+    let file = json["files"][0].clone();
+    let found = file["diagnostics"].as_array().unwrap().iter();
+    let found = found
+        .map(|one| (one["line"].as_u64().unwrap(), one["rule"].as_str().unwrap().to_owned()))
+        .collect();
+    (file["verdict"].as_str().unwrap().to_owned(), found, file)
+}
+
+/// What the comments `expect RULE RULE` of a program announce for the lines behind them.
+fn expected(program: &Path) -> Found {
+    let text = std::fs::read_to_string(program).unwrap();
+    let mut expected = Found::new();
+    for (i, line) in text.lines().enumerate() {
+        let comment = line.trim_start_matches(['(', ';', '$', ' ']);
+        if let Some(rules) = comment.strip_prefix("expect ") {
+            let rules = rules.trim_end_matches(')').split_whitespace();
+            expected.extend(rules.map(|rule| (i as u64 + 2, rule.to_owned())));
+        }
+    }
+    expected
+}
+
+#[test]
+fn good_programs_pass_and_bad_ones_fail_where_they_say() {
+    let all = programs("rules");
+    assert_eq!(all.len(), 10);
+    for program in all {
+        let (verdict, found, _) = check(&program, None);
+        assert_eq!(found, expected(&program), "{}", program.display());
+        let bad = program.to_str().unwrap().contains("-bad");
+        assert_eq!(
+            (verdict.as_str(), found.is_empty()),
+            if bad { ("fail", false) } else { ("pass", true) }
+        );
+    }
+}
+
+fn data(folder: &str) -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../shared/data")
+        .join(folder);
+    folder.is_dir().then_some(folder)
+}
+
+fn holds(program: &Path, printed: &[u8]) -> bool {
+    std::fs::read(program)
+        .unwrap()
+        .windows(printed.len())
+        .any(|part| part == printed)
+}
+
+#[test]
+#[expect(clippy::print_stderr, reason = "a test that is skipped says so")]
+fn printed_blocks_are_kept_byte_for_byte() {
+    let (Some(vanes), Some(pocket)) = (data("guide-vane-2006"), data("pocket-1999")) else {
+        eprintln!("skipped: no data of the papers beside the project");
+        return;
+    };
+    for program in programs("guide-vane") {
+        let printed = std::fs::read(vanes.join(program.file_name().unwrap())).unwrap();
+        assert!(holds(&program, &printed), "{}", program.display());
+    }
+    let printed = std::fs::read(pocket.join("pocket.nc")).unwrap();
+    assert!(holds(&programs("pocket")[0], &printed));
+}
+
+#[test]
+fn guide_vanes_flip_where_the_paper_prints_it() {
+    // strategy: blocks with a pole flip, lowest reachable feed
+    let known: [(&str, &[&str], f64); 4] = [
+        ("strategy-1.mpf", &[], 1640.0),
+        ("strategy-2.mpf", &["N2930", "N2940"], 33.0),
+        ("strategy-3.mpf", &["N2480"], 205.0),
+        ("strategy-4.mpf", &["N1910", "N1920"], 355.0),
+    ];
+    for (name, flips, feed) in known {
+        let program = programs("guide-vane")
+            .into_iter()
+            .find(|path| path.ends_with(name))
+            .unwrap();
+        let (_, _, file) = check(&program, Some("mikron-ucp710"));
+        let all = file["diagnostics"].as_array().unwrap();
+        let of = |rule: &str| {
+            all.iter()
+                .filter(|one| one["rule"] == rule)
+                .cloned()
+                .collect::<Vec<Value>>()
+        };
+        let blocks: Vec<String> = of("pole-flip")
+            .iter()
+            .map(|one| one["block"].as_str().unwrap().to_owned())
+            .collect();
+        assert_eq!(blocks, flips, "{name}");
+        let feeds = of("axis-overspeed")
+            .into_iter()
+            .map(|one| one["values"]["feed_limit_mm_min"].as_f64().unwrap());
+        let lowest = feeds.fold(f64::INFINITY, f64::min);
+        assert!((lowest - feed).abs() <= 1.0, "{name}: {lowest}");
+        let expected = ["pole-flip", "pole-crossing", "axis-overspeed", "feed-drop"];
+        assert!(
+            all.iter().all(|one| expected.contains(&one["rule"].as_str().unwrap())),
+            "{name}: {all:#?}"
+        );
+    }
+}
+
+#[test]
+fn both_notations_of_a_guide_vane_find_the_same() {
+    let all = programs("guide-vane");
+    for strategy in 1..=4 {
+        let rules = |extension: &str| {
+            let program = all
+                .iter()
+                .find(|path| path.ends_with(format!("strategy-{strategy}.{extension}")))
+                .unwrap();
+            let (verdict, found, _) = check(program, Some("mikron-ucp710"));
+            let mut rules: Vec<String> = found.into_iter().map(|(_, rule)| rule).collect();
+            rules.sort();
+            (verdict, rules)
+        };
+        assert_eq!(rules("mpf"), rules("apt"), "strategy {strategy}");
+    }
+}
+
+#[test]
+fn the_pocket_runs_on_three_axes() {
+    let (verdict, found, file) = check(&programs("pocket")[0], Some("mill-3axis"));
+    assert_eq!((verdict.as_str(), found), ("pass", Found::new()));
+    // 1405 of the printed blocks move, and three around them
+    assert_eq!(file["motions"], 1408);
+}
+
+#[test]
+fn every_sample_is_named_in_the_readme() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples");
+    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
+    let machines = std::fs::read_dir(root.join("machines"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    for path in ["rules", "guide-vane", "pocket"]
+        .into_iter()
+        .flat_map(programs)
+        .chain(machines)
+    {
+        let name = path.strip_prefix(&root).unwrap().to_str().unwrap().to_owned();
+        assert!(
+            readme.contains(&name),
+            "samples/README.md does not say where {name} comes from"
+        );
+    }
+}

@@ -24,12 +24,20 @@ fn main() {
     fs::write(&path, &text).expect("the temporary folder is writable");
     let megabytes = text.len() as f64 / 1e6;
     println!("five-axis program: {BLOCKS} blocks, {megabytes:.1} MB; best of {RUNS} runs, one core\n");
-    println!("{:34} {:>9} {:>12} {:>9} {:>14}", "stage (each with those above)", "us/block", "blocks/s", "MB/s", "x newline count");
+    println!(
+        "{:34} {:>9} {:>12} {:>9} {:>14}",
+        "stage (each with those above)", "us/block", "blocks/s", "MB/s", "x newline count"
+    );
     let newline = time(|| memchr::memchr_iter(b'\n', &text).count());
     line("newline count (memchr)", newline, newline, megabytes);
     let dialect = builtin("linuxcnc").expect("built in");
     let machine = machine::builtin("mikron-ucp710").expect("built in");
-    line("parse into the stored table", time(|| parse(text.clone(), dialect.lex)), newline, megabytes);
+    line(
+        "parse into the stored table",
+        time(|| parse(text.clone(), dialect.lex)),
+        newline,
+        megabytes,
+    );
     let setup = Setup::default();
     let program = parse(text.clone(), dialect.lex);
     let folded = time(|| run(&program, dialect, &setup, &mut Nothing));
@@ -37,11 +45,20 @@ fn main() {
     line("+ fold into motions", parsed + folded, newline, megabytes);
     let followed = time(|| follow(&program, machine));
     line("+ follow the machine", parsed + followed, newline, megabytes);
-    let settings = Settings { dialect, machine: Some(machine), setup: Setup::default(), rules: Vec::new() };
+    let settings = Settings {
+        dialect,
+        machine: Some(machine),
+        setup: Setup::default(),
+        rules: Vec::new(),
+    };
     let full = time(|| check(&parse(text.clone(), dialect.lex), &settings));
     line("parse and full check", full, newline, megabytes);
     let report = check(&program, &settings);
-    println!("\nfindings: {} in {} motions", report.diagnostics.len(), report.summary.motions);
+    println!(
+        "\nfindings: {} in {} motions",
+        report.diagnostics.len(),
+        report.summary.motions
+    );
     drop((program, text));
     let child = Command::new(env::current_exe().expect("this program"))
         .env("TRUNNION_BENCH_MEMORY_OF", &path)
@@ -57,14 +74,26 @@ fn memory_child(path: &std::ffi::OsStr) {
     let size = text.len() as f64;
     let dialect = builtin("linuxcnc").expect("built in");
     let machine = machine::builtin("mikron-ucp710").expect("built in");
-    let settings = Settings { dialect, machine: Some(machine), setup: Setup::default(), rules: Vec::new() };
+    let settings = Settings {
+        dialect,
+        machine: Some(machine),
+        setup: Setup::default(),
+        rules: Vec::new(),
+    };
     black_box(check(&parse(text, dialect.lex), &settings));
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let peak = status.lines().find_map(|l| l.strip_prefix("VmHWM:")).and_then(|v| v.trim().strip_suffix(" kB"));
+    let peak = status
+        .lines()
+        .find_map(|l| l.strip_prefix("VmHWM:"))
+        .and_then(|v| v.trim().strip_suffix(" kB"));
     match peak.and_then(|kb| kb.trim().parse::<f64>().ok()) {
         Some(kb) => {
             let bytes = kb * 1024.0;
-            println!("peak memory of reading, parsing and checking: {:.1} MB, {:.2} x the file (limit 8 x)", bytes / 1e6, bytes / size);
+            println!(
+                "peak memory of reading, parsing and checking: {:.1} MB, {:.2} x the file (limit 8 x)",
+                bytes / 1e6,
+                bytes / size
+            );
         }
         None => println!("peak memory: not known on this system"),
     }
@@ -117,9 +146,8 @@ fn follow(program: &Program, machine: &Machine) {
 /// The program's text.
 fn five_axis(blocks: usize) -> String {
     use trunnion::geometry::math::{atan2, cos, sin};
-    let mut out = String::from(
-        "%\n(5-AXIS)\nG21 G90 G17 G40 G80\nT1 M6\nS12000 M3\nG54\nG0 X0 Y0 Z50 A0 C0\nG1 Z10 F2000\n",
-    );
+    let mut out =
+        String::from("%\n(5-AXIS)\nG21 G90 G17 G40 G80\nT1 M6\nS12000 M3\nG54\nG0 X0 Y0 Z50 A0 C0\nG1 Z10 F2000\n");
     let (row, step) = (2000, 0.05);
     let mut previous = 0.0_f64;
     for i in 0..blocks {

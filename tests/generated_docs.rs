@@ -46,7 +46,13 @@ fn list() -> String {
         "<!-- made from the headers in src/check/rules -->\n# Rules\n\n| rule | severity | what it finds |\n|---|---|---|\n",
     );
     for rule in rules() {
-        let _ = writeln!(text, "| [{0}]({0}.md) | {1} | {2} |", rule.name, severity(rule), rule.summary());
+        let _ = writeln!(
+            text,
+            "| [{0}]({0}.md) | {1} | {2} |",
+            rule.name,
+            severity(rule),
+            rule.summary()
+        );
     }
     text
 }

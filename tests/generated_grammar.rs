@@ -22,8 +22,8 @@ fn dialects(format: Format) -> Vec<&'static Dialect> {
 fn fresh(name: &str, text: &str) {
     let path = file(name);
     if std::env::var_os("UPDATE").is_some() {
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, text).unwrap();
+        std::fs::create_dir_all(path.parent().expect("there")).expect("there");
+        std::fs::write(&path, text).expect("there");
     }
     let there = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
@@ -45,9 +45,9 @@ fn apt_grammar_is_fresh() {
 
 #[test]
 fn grammars_know_the_codes_of_the_tables() {
-    let grammar: serde_json::Value = serde_json::from_str(&textmate(&dialects(Format::Iso))).unwrap();
+    let grammar: serde_json::Value = serde_json::from_str(&textmate(&dialects(Format::Iso))).expect("there");
     assert_eq!(grammar["scopeName"], "source.gcode");
-    let codes = grammar["repository"]["codes"]["patterns"].as_array().unwrap();
+    let codes = grammar["repository"]["codes"]["patterns"].as_array().expect("a list");
     let expressions: String = codes.iter().filter_map(|pattern| pattern["match"].as_str()).collect();
     for part in [
         r"43(?:\.[124589])?",
@@ -62,13 +62,13 @@ fn grammars_know_the_codes_of_the_tables() {
     for part in ["TRAORI|", "CYCLE832|", "ENDWHILE|", r"|GOTO\\d*|"] {
         assert!(names.contains(part), "{part}");
     }
-    let apt: serde_json::Value = serde_json::from_str(&textmate(&dialects(Format::Apt))).unwrap();
+    let apt: serde_json::Value = serde_json::from_str(&textmate(&dialects(Format::Apt))).expect("there");
     assert_eq!(apt["scopeName"], "source.apt");
     assert!(apt.to_string().contains("TOOL PATH"));
 }
 
 #[test]
 fn no_dialect_still_makes_a_grammar() {
-    let grammar: serde_json::Value = serde_json::from_str(&textmate(&[])).unwrap();
+    let grammar: serde_json::Value = serde_json::from_str(&textmate(&[])).expect("there");
     assert!(grammar["repository"]["codes"].to_string().contains("(?!)"));
 }

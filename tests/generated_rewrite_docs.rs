@@ -28,14 +28,14 @@ fn page(rewrite: &Rewrite) -> String {
 }
 
 fn list() -> String {
-    let mut text = String::from(
-        "<!-- made from the headers in src/rewrite/rewrites -->\n# Rewrites\n\n| rewrite | what it does |\n|---|---|\n",
-    );
-    for rewrite in rewrites() {
+    let head =
+        "<!-- made from the headers in src/rewrite/rewrites -->\n# Rewrites\n\n| rewrite | what it does |\n|---|---|\n";
+    let row = |rewrite: &&Rewrite| {
         let summary = rewrite.docs.lines().next().unwrap_or_default();
-        text.push_str(&format!("| [{0}]({0}.md) | {summary} |\n", rewrite.name));
-    }
-    text
+        format!("| [{0}]({0}.md) | {summary} |\n", rewrite.name)
+    };
+    let rows: Vec<String> = rewrites().iter().map(row).collect();
+    format!("{head}{}", rows.concat())
 }
 
 #[test]

@@ -29,27 +29,36 @@ fn with_rule<'a>(diagnostics: &'a [Value], rule: &str) -> Vec<&'a Value> {
 
 #[test]
 fn a_pole_flip_is_underlined_where_c_is_written() {
-    let mut client = Client::start(json!({ "machine": "mikron-ucp710" }));
+    let mut client = Client::start(&json!({ "machine": "mikron-ucp710" }));
     client.open(URI, STRATEGY_2);
     let diagnostics = client.diagnostics(URI, 1);
     let flips = with_rule(&diagnostics, "pole-flip");
-    let words: Vec<&str> = flips.iter().map(|d| lsp_client::text_of(STRATEGY_2, &d["range"])).collect();
+    let words: Vec<&str> = flips
+        .iter()
+        .map(|d| lsp_client::text_of(STRATEGY_2, &d["range"]))
+        .collect();
     assert_eq!(words, ["C52.595", "C-3.086"]);
-    assert!(flips[0]["message"].as_str().unwrap().contains("47.773"), "{}", flips[0]["message"]);
+    assert!(
+        flips[0]["message"].as_str().expect("there").contains("47.773"),
+        "{}",
+        flips[0]["message"]
+    );
     client.finish();
 }
 
 #[test]
 fn an_edit_is_judged_with_its_version() {
-    let mut client = Client::start(json!({ "machine": "mikron-ucp710" }));
+    let mut client = Client::start(&json!({ "machine": "mikron-ucp710" }));
     client.open(URI, STRATEGY_2);
     client.diagnostics(URI, 1);
-    let start = STRATEGY_2.find("C52.595").unwrap();
+    let start = STRATEGY_2.find("C52.595").expect("there");
     client.edit(URI, 2, STRATEGY_2, start..start + "C52.595".len(), "C4.9");
     let diagnostics = client.diagnostics(URI, 2);
     let changed = STRATEGY_2.replace("C52.595", "C4.9");
-    let words: Vec<&str> =
-        with_rule(&diagnostics, "pole-flip").iter().map(|d| lsp_client::text_of(&changed, &d["range"])).collect();
+    let words: Vec<&str> = with_rule(&diagnostics, "pole-flip")
+        .iter()
+        .map(|d| lsp_client::text_of(&changed, &d["range"]))
+        .collect();
     assert_eq!(words, Vec::<&str>::new(), "8 degrees are no flip");
     client.notify("textDocument/didClose", json!({ "textDocument": { "uri": URI } }));
     assert_eq!(client.any_diagnostics(URI), Vec::<Value>::new(), "closing clears");
@@ -58,42 +67,68 @@ fn an_edit_is_judged_with_its_version() {
 
 #[test]
 fn hover_tells_joints_posture_and_reachable_feed() {
-    let mut client = Client::start(json!({ "machine": "mikron-ucp710" }));
+    let mut client = Client::start(&json!({ "machine": "mikron-ucp710" }));
     client.open(URI, STRATEGY_2);
-    let at = position(STRATEGY_2, STRATEGY_2.find("C52.595").unwrap());
-    let hover = client.request("textDocument/hover", json!({ "textDocument": { "uri": URI }, "position": at }));
-    let text = hover["result"]["contents"]["value"].as_str().unwrap().to_owned();
-    for part in ["mikron-ucp710", "52.5950 deg", "reachable feed 46 mm/min, limited by C", "posture \u{2212}", "2000.0 mm/min"] {
+    let at = position(STRATEGY_2, STRATEGY_2.find("C52.595").expect("there"));
+    let hover = client.request(
+        "textDocument/hover",
+        json!({ "textDocument": { "uri": URI }, "position": at }),
+    );
+    let text = hover["result"]["contents"]["value"].as_str().expect("there").to_owned();
+    for part in [
+        "mikron-ucp710",
+        "52.5950 deg",
+        "reachable feed 46 mm/min, limited by C",
+        "posture \u{2212}",
+        "2000.0 mm/min",
+    ] {
         assert!(text.contains(part), "{part} is missing in\n{text}");
     }
-    let at = position(STRATEGY_2, STRATEGY_2.find("TRAORI").unwrap());
-    let hover = client.request("textDocument/hover", json!({ "textDocument": { "uri": URI }, "position": at }));
-    let text = hover["result"]["contents"]["value"].as_str().unwrap();
+    let at = position(STRATEGY_2, STRATEGY_2.find("TRAORI").expect("there"));
+    let hover = client.request(
+        "textDocument/hover",
+        json!({ "textDocument": { "uri": URI }, "position": at }),
+    );
+    let text = hover["result"]["contents"]["value"].as_str().expect("there");
     assert!(text.contains("TRAORI") && text.contains("TCP on"), "{text}");
     client.finish();
 }
 
 #[test]
 fn a_quick_fix_is_offered_when_proved_and_refused_with_its_reason() {
-    let mut client = Client::start(json!({ "machine": "mikron-ucp710" }));
+    let mut client = Client::start(&json!({ "machine": "mikron-ucp710" }));
     client.open(URI, STRATEGY_2);
     let diagnostics = client.diagnostics(URI, 1);
     let flip = with_rule(&diagnostics, "pole-flip")[0].clone();
-    let ask = |uri: &str| {
-        json!({ "textDocument": { "uri": uri }, "range": flip["range"], "context": { "diagnostics": [flip] } })
-    };
+    let ask = |uri: &str| json!({ "textDocument": { "uri": uri }, "range": flip["range"], "context": { "diagnostics": [flip] } });
     let answer = client.request("textDocument/codeAction", ask(URI));
-    let refused = answer["result"].as_array().unwrap().iter().find(|a| a["title"].to_string().contains("smooth-pole"));
-    let reason = refused.expect("listed")["disabled"]["reason"].as_str().expect("refused: no tool shape is declared");
+    let refused = answer["result"]
+        .as_array()
+        .expect("there")
+        .iter()
+        .find(|a| a["title"].to_string().contains("smooth-pole"));
+    let reason = refused.expect("listed")["disabled"]["reason"]
+        .as_str()
+        .expect("refused: no tool shape is declared");
     assert!(reason.contains("tool"), "{reason}");
 
-    let declared = STRATEGY_2.replace("guide vane, tilted by 5 deg about X", "trunnion: tool 1 ball diameter 10     ");
+    let declared = STRATEGY_2.replace(
+        "guide vane, tilted by 5 deg about X",
+        "trunnion: tool 1 ball diameter 10     ",
+    );
     let uri = "untitled:/declared.mpf";
     client.open(uri, &declared);
     client.diagnostics(uri, 1);
     let answer = client.request("textDocument/codeAction", ask(uri));
-    let fix = answer["result"].as_array().unwrap().iter().find(|a| a["title"].to_string().contains("smooth-pole"));
-    let edits = fix.expect("offered")["edit"]["changes"][uri].as_array().expect("edits").clone();
+    let fix = answer["result"]
+        .as_array()
+        .expect("there")
+        .iter()
+        .find(|a| a["title"].to_string().contains("smooth-pole"));
+    let edits = fix.expect("offered")["edit"]["changes"][uri]
+        .as_array()
+        .expect("edits")
+        .clone();
     let fixed = lsp_client::apply(&declared, &edits);
     client.change_all(uri, 2, &fixed);
     let after = client.diagnostics(uri, 2);
@@ -105,22 +140,31 @@ fn a_quick_fix_is_offered_when_proved_and_refused_with_its_reason() {
 fn utf16_and_utf8_clients_see_the_same_place() {
     let text = "(\u{1f527}\u{e4}) G1 X1 F100 G999\nM30\n";
     for (encodings, character) in [(json!(["utf-16"]), 17), (json!(["utf-8", "utf-16"]), 20)] {
-        let mut client = Client::start_with(json!({ "dialect": "linuxcnc" }), &encodings);
+        let mut client = Client::start_with(&json!({ "dialect": "linuxcnc" }), &encodings);
         client.open("untitled:/a.ngc", text);
         let diagnostics = client.diagnostics("untitled:/a.ngc", 1);
         let unknown = with_rule(&diagnostics, "unknown-code");
-        assert_eq!(unknown[0]["range"]["start"], json!({ "line": 0, "character": character }));
+        assert_eq!(
+            unknown[0]["range"]["start"],
+            json!({ "line": 0, "character": character })
+        );
         client.finish();
     }
 }
 
 #[test]
 fn settings_that_cannot_be_used_are_said_and_can_be_mended() {
-    let mut client = Client::start(json!({ "machine": "no-such-machine" }));
+    let mut client = Client::start(&json!({ "machine": "no-such-machine" }));
     client.open(URI, STRATEGY_2);
     let diagnostics = client.diagnostics(URI, 1);
     assert_eq!(diagnostics.len(), 1);
-    assert!(diagnostics[0]["message"].as_str().unwrap().contains("mikron-ucp710"), "names what there is");
+    assert!(
+        diagnostics[0]["message"]
+            .as_str()
+            .expect("there")
+            .contains("mikron-ucp710"),
+        "names what there is"
+    );
     client.notify(
         "workspace/didChangeConfiguration",
         json!({ "settings": { "trunnion": { "machine": "mikron-ucp710" } } }),
@@ -128,7 +172,10 @@ fn settings_that_cannot_be_used_are_said_and_can_be_mended() {
     let diagnostics = client.diagnostics(URI, 1);
     assert_eq!(with_rule(&diagnostics, "pole-flip").len(), 2);
     let status = client.last_status.clone().expect("a status was sent");
-    assert_eq!((status["machine"].as_str(), status["verdict"].as_str()), (Some("mikron-ucp710"), Some("fail")));
+    assert_eq!(
+        (status["machine"].as_str(), status["verdict"].as_str()),
+        (Some("mikron-ucp710"), Some("fail"))
+    );
     client.finish();
 }
 
@@ -136,12 +183,14 @@ fn settings_that_cannot_be_used_are_said_and_can_be_mended() {
 /// request must have been answered.
 #[test]
 fn edits_requests_and_cancels_interleaved_leave_the_right_text() {
-    let mut client = Client::start(json!({ "machine": "mikron-ucp710" }));
+    let mut client = Client::start(&json!({ "machine": "mikron-ucp710" }));
     let mut text = STRATEGY_2.to_owned();
     client.open(URI, &text);
     let mut seed = 20_261_121_u64;
     let mut random = move |n: usize| {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (seed >> 33) as usize % n.max(1)
     };
     let mut open_requests = Vec::new();
@@ -158,7 +207,10 @@ fn edits_requests_and_cancels_interleaved_leave_the_right_text() {
         text.replace_range(start..end, new);
         if random(3) == 0 {
             let at = position(&text, random(text.len()));
-            let id = client.send_request("textDocument/hover", json!({ "textDocument": { "uri": URI }, "position": at }));
+            let id = client.send_request(
+                "textDocument/hover",
+                json!({ "textDocument": { "uri": URI }, "position": at }),
+            );
             open_requests.push(id);
             if random(2) == 0 {
                 client.notify("$/cancelRequest", json!({ "id": id }));
@@ -180,7 +232,7 @@ fn edits_requests_and_cancels_interleaved_leave_the_right_text() {
 
 #[test]
 fn exit_without_shutdown_is_an_error() {
-    let mut client = Client::start(json!({}));
+    let mut client = Client::start(&json!({}));
     client.notify("exit", Value::Null);
     assert_eq!(client.wait(), Some(1));
 }

@@ -30,7 +30,10 @@ impl Random {
 
 fn samples() -> Vec<(PathBuf, Vec<u8>)> {
     fn walk(folder: &Path, out: &mut Vec<(PathBuf, Vec<u8>)>) {
-        let mut entries: Vec<_> = fs::read_dir(folder).expect("samples").map(|e| e.expect("readable").path()).collect();
+        let mut entries: Vec<_> = fs::read_dir(folder)
+            .expect("samples")
+            .map(|e| e.expect("readable").path())
+            .collect();
         entries.sort();
         for path in entries {
             if path.is_dir() {
@@ -41,14 +44,39 @@ fn samples() -> Vec<(PathBuf, Vec<u8>)> {
         }
     }
     let mut out = Vec::new();
-    walk(&Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/programs"), &mut out);
+    walk(
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join("samples/programs"),
+        &mut out,
+    );
     out
 }
 
 fn mutate(random: &mut Random, source: &[u8]) -> Vec<u8> {
     const SCRAPS: [&[u8]; 24] = [
-        b"(", b")", b";", b"\n", b"\r\n", b"G2", b"X", b"#1", b"[", b"=", b"A3=", b"IC(", b"$", b"/", b"\"", b"\0",
-        b"\xff\xfe", b"99999999999999999999", b"-.", b"1e400", b"GOTO/", b"G43.5", b"TRAORI", b"\xc3\xa4",
+        b"(",
+        b")",
+        b";",
+        b"\n",
+        b"\r\n",
+        b"G2",
+        b"X",
+        b"#1",
+        b"[",
+        b"=",
+        b"A3=",
+        b"IC(",
+        b"$",
+        b"/",
+        b"\"",
+        b"\0",
+        b"\xff\xfe",
+        b"99999999999999999999",
+        b"-.",
+        b"1e400",
+        b"GOTO/",
+        b"G43.5",
+        b"TRAORI",
+        b"\xc3\xa4",
     ];
     let mut out = source.to_vec();
     for _ in 0..=random.below(4) {
@@ -81,12 +109,23 @@ fn examine(name: &str, text: Vec<u8>, dialect: &'static Dialect, machine: usize)
     }
     assert_eq!(at, source.len(), "{name}: tokens tile the file");
     let machine = builtin(BUILTIN_MACHINES[machine % BUILTIN_MACHINES.len()]);
-    let settings = Settings { dialect, machine, setup: Setup::default(), rules: Vec::new() };
+    let settings = Settings {
+        dialect,
+        machine,
+        setup: Setup::default(),
+        rules: Vec::new(),
+    };
     let report = check(&program, &settings);
     let lines = LineIndex::new(source);
     for d in &report.diagnostics {
-        for range in [d.range, d.last].into_iter().chain(d.related.iter().map(|(range, _)| *range)) {
-            assert!(range.start <= range.end && range.end as usize <= source.len(), "{name}: {d:?}");
+        for range in [d.range, d.last]
+            .into_iter()
+            .chain(d.related.iter().map(|(range, _)| *range))
+        {
+            assert!(
+                range.start <= range.end && range.end as usize <= source.len(),
+                "{name}: {d:?}"
+            );
             let (line, column) = lines.line_column(source, range.start);
             assert!(line >= 1 && column >= 1);
         }
@@ -102,7 +141,11 @@ fn ten_thousand_mutations_of_the_samples() {
     for i in 0..MUTATIONS {
         // Of the long pocket program a piece at random: it is 1407 times the same kind of block.
         let (path, source) = &samples[random.below(samples.len())];
-        let from = if source.len() > 6000 { random.below(source.len() - 3000) } else { 0 };
+        let from = if source.len() > 6000 {
+            random.below(source.len() - 3000)
+        } else {
+            0
+        };
         let until = source.len().min(from + 6000);
         let text = mutate(&mut random, &source[from..until]);
         let dialect = detect(path.file_name().and_then(|n| n.to_str()), &text, None).dialect;
@@ -113,19 +156,39 @@ fn ten_thousand_mutations_of_the_samples() {
 #[test]
 fn rewrites_of_mutated_strips_are_certified_or_refused() {
     let samples = samples();
-    let strips: Vec<_> = samples.iter().filter(|(p, _)| p.to_string_lossy().contains("strategy-")).collect();
+    let strips: Vec<_> = samples
+        .iter()
+        .filter(|(p, _)| p.to_string_lossy().contains("strategy-"))
+        .collect();
     assert!(strips.len() >= 8);
     let mut random = Random(7);
     let machine = builtin("mikron-ucp710");
     let (mut certified, mut refused) = (0, 0);
     for i in 0..400 {
         let (path, source) = strips[i % strips.len()];
-        let text = if i < strips.len() { source.clone() } else { mutate(&mut random, source) };
+        let text = if i < strips.len() {
+            source.clone()
+        } else {
+            mutate(&mut random, source)
+        };
         let dialect = detect(path.file_name().and_then(|n| n.to_str()), &text, None).dialect;
         let program = parse(text, dialect.lex);
-        let settings = Settings { dialect, machine, setup: Setup::default(), rules: Vec::new() };
+        let settings = Settings {
+            dialect,
+            machine,
+            setup: Setup::default(),
+            rules: Vec::new(),
+        };
         for rewrite in rewrites() {
-            match attempt(rewrite, &program, &settings, &Options { tolerance_mm: 0.001, tolerance_deg: 0.08 }) {
+            match attempt(
+                rewrite,
+                &program,
+                &settings,
+                &Options {
+                    tolerance_mm: 0.001,
+                    tolerance_deg: 0.08,
+                },
+            ) {
                 Attempt::NothingToDo => {}
                 Attempt::Refused(reason) => {
                     assert!(!reason.is_empty());
@@ -135,5 +198,8 @@ fn rewrites_of_mutated_strips_are_certified_or_refused() {
             }
         }
     }
-    assert!(certified > 0 && refused > 0, "both happen: {certified} certified, {refused} refused");
+    assert!(
+        certified > 0 && refused > 0,
+        "both happen: {certified} certified, {refused} refused"
+    );
 }

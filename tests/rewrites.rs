@@ -1,11 +1,13 @@
 //! Rewrites on the published guide-vane rows, on hard cases, and on random chains.
 mod strategy_2;
 
-use proptest::prelude::*;
-use strategy_2::{ROWS, VECTORS, apt, ball, certified, refused, run, settings, sinumerik, smooth, tool};
+use strategy_2::{
+    ROWS, VECTORS, apt, axis, ball, certified, largest_c_step, refused, settings, sinumerik, smooth, tool, turned,
+    words,
+};
 use trunnion::check::{Settings, Status, ValueKey, check};
 use trunnion::interp::{Setup, ToolShape};
-use trunnion::rewrite::{Attempt, Options, rewrites};
+use trunnion::rewrite::Attempt;
 use trunnion::syntax::parse;
 
 fn near(value: f64, wanted: f64, within: f64) -> bool {
@@ -20,38 +22,6 @@ fn found(text: &str, settings: &Settings<'_>, rule: &str) -> Vec<Vec<(&'static s
         .into_iter()
         .filter(|found| found.rule == rule && found.status == Status::Fail);
     fails.map(|found| found.values).collect()
-}
-
-/// Numbers of the words X Y Z A C of each row.
-fn words(text: &str) -> Vec<[f64; 5]> {
-    let rows = text.lines().filter(|line| line.contains(" G1 "));
-    rows.map(|line| {
-        "XYZAC"
-            .bytes()
-            .map(|letter| {
-                let word = line
-                    .split_whitespace()
-                    .find(|word| word.as_bytes()[0] == letter)
-                    .expect("all words are there");
-                word[1..].parse().expect("a number")
-            })
-            .collect::<Vec<f64>>()
-            .try_into()
-            .expect("five words")
-    })
-    .collect()
-}
-
-/// Tool axis of the Mikron for A and C in deg.
-fn axis(a: f64, c: f64) -> [f64; 3] {
-    let (a, c) = (a.to_radians(), c.to_radians());
-    [a.sin() * c.sin(), -a.sin() * c.cos(), a.cos()]
-}
-
-fn largest_c_step(rows: &[[f64; 5]]) -> f64 {
-    rows.windows(2)
-        .map(|pair| (pair[1][4] - pair[0][4]).abs())
-        .fold(0.0, f64::max)
 }
 
 #[test]
@@ -100,11 +70,7 @@ fn machine_words_of_strategy_2_give_what_their_rounded_a_allows() {
         for (was, is) in before.iter().zip(&after) {
             assert_eq!(was[3], is[3], "A stays");
             let (u, v) = (axis(was[3], was[4]), axis(is[3], is[4]));
-            let chord = (0..3).map(|i| (u[i] - v[i]).powi(2)).sum::<f64>().sqrt();
-            assert!(
-                2.0 * (chord / 2.0).asin().to_degrees() <= tolerance,
-                "tool axis turns too far"
-            );
+            assert!(turned(was, is) <= tolerance, "tool axis turns too far");
             for i in 0..3 {
                 assert!(near(is[i], was[i] + 5.0 * (u[i] - v[i]), 6e-6), "P' = P + r (u - u')");
             }
@@ -221,11 +187,11 @@ impl Coordinate for str {
 }
 
 fn head(count: usize) -> String {
-    ROWS.lines().take(count).map(|line| format!("{line}\n")).collect()
+    ROWS.split_inclusive('\n').take(count).collect()
 }
 
 fn tail(skip: usize) -> String {
-    ROWS.lines().skip(skip).map(|line| format!("{line}\n")).collect()
+    ROWS.split_inclusive('\n').skip(skip).collect()
 }
 
 #[test]
@@ -245,9 +211,8 @@ fn an_approach_and_a_retract_do_not_become_part_of_the_window() {
         format!("G0 X-28.38197 Y-2.14469 Z79.86773 A2.042 C3.358\nG1 Z62.86773 F500\n{ROWS}G1 Z80 F5000\nG0 Z100\n");
     let after = certified(smooth(&sinumerik(&framed), &settings, 0.08)).0;
     let framed: String = after
-        .lines()
+        .split_inclusive('\n')
         .filter(|line| line.starts_with("N29"))
-        .map(|line| format!("{line}\n"))
         .collect();
     assert_eq!(words(&framed), alone);
 }
@@ -357,152 +322,5 @@ fn the_samples_are_smoothed_between_their_first_and_last_row() {
         let changed = before.lines().zip(after.lines()).filter(|(was, is)| was != is).count();
         assert_eq!(changed, 3, "{file}");
         assert_eq!(certificate.motions.changed, 4, "{file}");
-    }
-}
-
-fn unwind(text: &str) -> Attempt {
-    run(
-        "unwind-rotary",
-        text,
-        &settings("sinumerik-840d", Setup::default()),
-        &Options::default(),
-    )
-}
-
-#[test]
-fn a_rotary_jump_is_unwound() {
-    let text = sinumerik(
-        "G1 X0 Y0 Z50 A10 C350.000\nX1 A10.5 C358.5\nX2 A11 C6.25\nX3 ; comment\nX4 A11.5 C-346.000\nX5 C340\n",
-    );
-    let (after, certificate) = certified(unwind(&text));
-    let expected = text
-        .replace("C6.25", "C366.25")
-        .replace("C-346.000", "C374.000")
-        .replace("C340", "C340");
-    assert_eq!(after, expected);
-    assert!(near(certificate.rotary[0].step_before_deg, 686.0, 1e-6));
-    assert!(near(certificate.rotary[0].step_after_deg, 34.0, 1e-6));
-    assert!(
-        certificate
-            .changes
-            .iter()
-            .all(|change| near(change.rotary_change_deg[0] % 360.0, 0.0, 1e-9))
-    );
-    assert!(certificate.worst.axis_change_deg.value < 1e-9);
-    assert!(matches!(unwind(&after), Attempt::NothingToDo));
-}
-
-#[test]
-fn unwinding_refuses_what_is_not_literal() {
-    for (rows, why) in [
-        ("G1 X0 Y0 Z50 A10 C350\nX2 C=DC(5)\nX3 C4\n", "plain number"),
-        ("G1 X0 Y0 Z50 A10 C350\nX2 C5\nG91 X1 C1\nG90\n", "G91"),
-    ] {
-        let reason = refused(unwind(&sinumerik(rows)));
-        assert!(reason.contains(why), "{reason}");
-    }
-}
-
-#[test]
-fn every_rewrites_example_holds() {
-    for rewrite in rewrites() {
-        let fences = fences(rewrite.docs);
-        let [(info, before), (_, after)] = fences.as_slice() else {
-            panic!("{}: one before and one after fence expected", rewrite.name);
-        };
-        let known = |word: &&str| trunnion::dialect::BUILTIN_NAMES.contains(word);
-        let dialect = info.split_whitespace().find(known).expect("a dialect");
-        let settings = settings(dialect, Setup::default());
-        let options = Options::default();
-        assert_eq!(
-            &certified(run(rewrite.name, before, &settings, &options)).0,
-            after,
-            "{}",
-            rewrite.name
-        );
-        for heading in ["# Why", "# Example", "# Claim", "# Traps", "# Sources"] {
-            assert!(
-                rewrite.docs.contains(&format!("\n{heading}\n")),
-                "{}: {heading} is missing",
-                rewrite.name
-            );
-        }
-    }
-}
-
-/// Fences of a header: info string and text.
-fn fences(docs: &str) -> Vec<(String, String)> {
-    let mut fences: Vec<(String, String)> = Vec::new();
-    let mut inside = false;
-    for line in docs.lines() {
-        match line.strip_prefix("```") {
-            Some(info) if !inside => {
-                inside = true;
-                fences.push((info.to_owned(), String::new()));
-            }
-            Some(_) => inside = false,
-            None if inside => {
-                let (_, text) = fences.last_mut().expect("a fence is open");
-                text.push_str(line);
-                text.push('\n');
-            }
-            None => {}
-        }
-    }
-    fences
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(64) })]
-
-    /// A tool axis that wanders past the pole: what is proved keeps its promises, what is not is refused with a reason.
-    #[test]
-    fn random_chains_near_the_pole_keep_the_promise(
-        path in prop::collection::vec((-1.9..1.9f64, -60.0..60.0f64), 3..12),
-        tolerance in 0.01..0.3f64,
-    ) {
-        let mut rows = String::from("N1 G1 X0.00000 Y0.00000 Z50.00000 A4.500 C0.000\n");
-        for (i, (a, c)) in path.iter().enumerate() {
-            rows.push_str(&format!("N{} G1 X{:.5} Y{:.5} Z50.00000 A{a:.3} C{c:.3}\n", i + 2, 0.2 * i as f64 + 0.3, 0.1 * a));
-        }
-        rows.push_str("N99 G1 X9.00000 Y0.00000 Z50.00000 A-4.500 C2.000\n");
-        let settings = settings("sinumerik-840d", ball());
-        match smooth(&sinumerik(&rows), &settings, tolerance) {
-            Attempt::Certified { after, certificate, .. } => {
-                let (before, after) = (words(&rows), words(&String::from_utf8(after).expect("UTF-8")));
-                prop_assert!(certificate.worst.axis_change_deg.value <= tolerance);
-                let travel = |rows: &[[f64; 5]]| rows.windows(2).map(|w| (w[1][4] - w[0][4]).abs()).sum::<f64>();
-                prop_assert!(travel(&after) <= travel(&before) + 0.01);
-                prop_assert!(largest_c_step(&after) <= largest_c_step(&before) + 0.002);
-                for (was, is) in before.iter().zip(&after) {
-                    let (u, v) = (axis(was[3], was[4]), axis(is[3], is[4]));
-                    let chord = (0..3).map(|i| (u[i] - v[i]).powi(2)).sum::<f64>().sqrt();
-                    prop_assert!(2.0 * (chord / 2.0).asin().to_degrees() <= tolerance + 1e-9);
-                    prop_assert_eq!(was[3], is[3]);
-                }
-            }
-            Attempt::Refused(reason) => prop_assert!(!reason.is_empty()),
-            Attempt::NothingToDo => {}
-        }
-    }
-
-    /// Damaged programs: no panic, and what is proved is proved again.
-    #[test]
-    fn damaged_programs_do_no_harm(cuts in prop::collection::vec((0..400usize, prop::char::range(' ', '~')), 1..6), apt_format in any::<bool>()) {
-        let (text, dialect) = if apt_format { (apt(VECTORS), "apt") } else { (sinumerik(ROWS), "sinumerik-840d") };
-        let mut bytes = text.into_bytes();
-        for (at, with) in cuts {
-            let at = at % bytes.len();
-            bytes[at] = u8::try_from(with).expect("ASCII");
-        }
-        let text = String::from_utf8(bytes).expect("ASCII");
-        let settings = settings(dialect, ball());
-        for rewrite in rewrites() {
-            match run(rewrite.name, &text, &settings, &Options::default()) {
-                Attempt::Refused(reason) => prop_assert!(!reason.is_empty()),
-                Attempt::Certified { after, .. } => prop_assert_ne!(after, text.as_bytes()),
-                Attempt::NothingToDo => {}
-            }
-        }
     }
 }

@@ -11,8 +11,8 @@ fn programs(folder: &str) -> Vec<PathBuf> {
         .join("samples/programs")
         .join(folder);
     let mut all: Vec<PathBuf> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").path())
         .collect();
     all.sort();
     all
@@ -25,21 +25,26 @@ fn check(program: &Path, machine: Option<&str>) -> (String, Found, Value) {
     if let Some(machine) = machine {
         command.args(["--machine", machine]);
     }
-    let output = command.output().unwrap();
-    let text = String::from_utf8(output.stdout).unwrap();
+    let output = command.output().expect("the program runs");
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
     let json: Value =
         serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}: {text}", program.display()));
     let file = json["files"][0].clone();
-    let found = file["diagnostics"].as_array().unwrap().iter();
+    let found = file["diagnostics"].as_array().expect("a list").iter();
     let found = found
-        .map(|one| (one["line"].as_u64().unwrap(), one["rule"].as_str().unwrap().to_owned()))
+        .map(|one| {
+            (
+                one["line"].as_u64().expect("a number"),
+                one["rule"].as_str().expect("a text").to_owned(),
+            )
+        })
         .collect();
-    (file["verdict"].as_str().unwrap().to_owned(), found, file)
+    (file["verdict"].as_str().expect("a text").to_owned(), found, file)
 }
 
 /// What the comments `expect RULE RULE` of a program announce for the lines behind them.
 fn expected(program: &Path) -> Found {
-    let text = std::fs::read_to_string(program).unwrap();
+    let text = std::fs::read_to_string(program).expect("there");
     let mut expected = Found::new();
     for (i, line) in text.lines().enumerate() {
         let comment = line.trim_start_matches(['(', ';', '$', ' ']);
@@ -58,7 +63,7 @@ fn good_programs_pass_and_bad_ones_fail_where_they_say() {
     for program in all {
         let (verdict, found, _) = check(&program, None);
         assert_eq!(found, expected(&program), "{}", program.display());
-        let bad = program.to_str().unwrap().contains("-bad");
+        let bad = program.to_str().expect("UTF-8").contains("-bad");
         assert_eq!(
             (verdict.as_str(), found.is_empty()),
             if bad { ("fail", false) } else { ("pass", true) }
@@ -75,7 +80,7 @@ fn data(folder: &str) -> Option<PathBuf> {
 
 fn holds(program: &Path, printed: &[u8]) -> bool {
     std::fs::read(program)
-        .unwrap()
+        .expect("there")
         .windows(printed.len())
         .any(|part| part == printed)
 }
@@ -88,10 +93,10 @@ fn printed_blocks_are_kept_byte_for_byte() {
         return;
     };
     for program in programs("guide-vane") {
-        let printed = std::fs::read(vanes.join(program.file_name().unwrap())).unwrap();
+        let printed = std::fs::read(vanes.join(program.file_name().expect("there"))).expect("there");
         assert!(holds(&program, &printed), "{}", program.display());
     }
-    let printed = std::fs::read(pocket.join("pocket.nc")).unwrap();
+    let printed = std::fs::read(pocket.join("pocket.nc")).expect("there");
     assert!(holds(&programs("pocket")[0], &printed));
 }
 
@@ -108,9 +113,9 @@ fn guide_vanes_flip_where_the_paper_prints_it() {
         let program = programs("guide-vane")
             .into_iter()
             .find(|path| path.ends_with(name))
-            .unwrap();
+            .expect("there");
         let (_, _, file) = check(&program, Some("mikron-ucp710"));
-        let all = file["diagnostics"].as_array().unwrap();
+        let all = file["diagnostics"].as_array().expect("a list");
         let of = |rule: &str| {
             all.iter()
                 .filter(|one| one["rule"] == rule)
@@ -119,17 +124,18 @@ fn guide_vanes_flip_where_the_paper_prints_it() {
         };
         let blocks: Vec<String> = of("pole-flip")
             .iter()
-            .map(|one| one["block"].as_str().unwrap().to_owned())
+            .map(|one| one["block"].as_str().expect("a text").to_owned())
             .collect();
         assert_eq!(blocks, flips, "{name}");
         let feeds = of("axis-overspeed")
             .into_iter()
-            .map(|one| one["values"]["feed_limit_mm_min"].as_f64().unwrap());
+            .map(|one| one["values"]["feed_limit_mm_min"].as_f64().expect("a number"));
         let lowest = feeds.fold(f64::INFINITY, f64::min);
         assert!((lowest - feed).abs() <= 1.0, "{name}: {lowest}");
         let expected = ["pole-flip", "pole-crossing", "axis-overspeed", "feed-drop"];
         assert!(
-            all.iter().all(|one| expected.contains(&one["rule"].as_str().unwrap())),
+            all.iter()
+                .all(|one| expected.contains(&one["rule"].as_str().expect("a text"))),
             "{name}: {all:#?}"
         );
     }
@@ -143,7 +149,7 @@ fn both_notations_of_a_guide_vane_find_the_same() {
             let program = all
                 .iter()
                 .find(|path| path.ends_with(format!("strategy-{strategy}.{extension}")))
-                .unwrap();
+                .expect("there");
             let (verdict, found, _) = check(program, Some("mikron-ucp710"));
             let mut rules: Vec<String> = found.into_iter().map(|(_, rule)| rule).collect();
             rules.sort();
@@ -164,16 +170,21 @@ fn the_pocket_runs_on_three_axes() {
 #[test]
 fn every_sample_is_named_in_the_readme() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("samples");
-    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
+    let readme = std::fs::read_to_string(root.join("README.md")).expect("there");
     let machines = std::fs::read_dir(root.join("machines"))
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
+        .expect("there")
+        .map(|entry| entry.expect("an entry").path());
     for path in ["rules", "guide-vane", "pocket"]
         .into_iter()
         .flat_map(programs)
         .chain(machines)
     {
-        let name = path.strip_prefix(&root).unwrap().to_str().unwrap().to_owned();
+        let name = path
+            .strip_prefix(&root)
+            .expect("there")
+            .to_str()
+            .expect("UTF-8")
+            .to_owned();
         assert!(
             readme.contains(&name),
             "samples/README.md does not say where {name} comes from"

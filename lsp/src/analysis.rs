@@ -50,9 +50,20 @@ pub(crate) fn analyse(
         Ok(resolved) => {
             let program = trunnion_syntax::parse(text.as_bytes().to_vec(), resolved.dialect.lex);
             let session = Session::new(&program, &resolved.settings(), cancelled)?;
-            Ok(Judged { program, resolved, session })
+            Ok(Judged {
+                program,
+                resolved,
+                session,
+            })
         }
     };
     let starts = line_starts(&text);
-    Some(Analysed { uri, version, text, starts, outcome, took: begun.elapsed() })
+    Some(Analysed {
+        uri,
+        version,
+        text,
+        starts,
+        outcome,
+        took: begun.elapsed(),
+    })
 }

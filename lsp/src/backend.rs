@@ -2,11 +2,7 @@
 //!
 //! Notification handlers contain no `.await`: tower-lsp polls handlers in wire order, so nothing yields before the event
 //! is in the inbox and edits cannot overtake each other.
-use crate::{
-    event::Event,
-    outbox,
-    owner::Owner,
-};
+use crate::{event::Event, outbox, owner::Owner};
 use std::sync::{
     Arc,
     atomic::{AtomicBool, Ordering},
@@ -63,8 +59,11 @@ pub(crate) fn wants_utf8(params: &InitializeParams) -> bool {
 #[tower_lsp::async_trait]
 impl LanguageServer for Backend {
     async fn initialize(&self, params: InitializeParams) -> Result<InitializeResult> {
-        let encoding =
-            if wants_utf8(&params) { PositionEncodingKind::UTF8 } else { PositionEncodingKind::UTF16 };
+        let encoding = if wants_utf8(&params) {
+            PositionEncodingKind::UTF8
+        } else {
+            PositionEncodingKind::UTF16
+        };
         self.post(Event::Initialize(Box::new(params)));
         Ok(InitializeResult {
             capabilities: ServerCapabilities {
@@ -95,16 +94,26 @@ impl LanguageServer for Backend {
 
     async fn did_open(&self, params: DidOpenTextDocumentParams) {
         let document = params.text_document;
-        self.post(Event::Open { uri: document.uri, version: document.version, text: document.text });
+        self.post(Event::Open {
+            uri: document.uri,
+            version: document.version,
+            text: document.text,
+        });
     }
 
     async fn did_change(&self, params: DidChangeTextDocumentParams) {
         let document = params.text_document;
-        self.post(Event::Change { uri: document.uri, version: document.version, changes: params.content_changes });
+        self.post(Event::Change {
+            uri: document.uri,
+            version: document.version,
+            changes: params.content_changes,
+        });
     }
 
     async fn did_close(&self, params: DidCloseTextDocumentParams) {
-        self.post(Event::Close { uri: params.text_document.uri });
+        self.post(Event::Close {
+            uri: params.text_document.uri,
+        });
     }
 
     async fn did_change_configuration(&self, params: DidChangeConfigurationParams) {

@@ -18,16 +18,30 @@ pub(crate) fn code_actions(
     params: &CodeActionParams,
     encoding: Encoding,
 ) -> Option<Vec<CodeActionOrCommand>> {
-    let Ok(judged) = &analysed.outcome else { return Some(Vec::new()) };
-    let wanted = params.context.only.as_ref().is_none_or(|kinds| kinds.contains(&CodeActionKind::QUICKFIX));
+    let Ok(judged) = &analysed.outcome else {
+        return Some(Vec::new());
+    };
+    let wanted = params
+        .context
+        .only
+        .as_ref()
+        .is_none_or(|kinds| kinds.contains(&CodeActionKind::QUICKFIX));
     if !wanted {
         return Some(Vec::new());
     }
     let start = offset(&analysed.text, &analysed.starts, params.range.start, encoding) as u32;
     let end = offset(&analysed.text, &analysed.starts, params.range.end, encoding) as u32;
-    let touched = judged.session.report.diagnostics.iter().filter(|d| d.range.start <= end && start <= d.range.end);
+    let touched = judged
+        .session
+        .report
+        .diagnostics
+        .iter()
+        .filter(|d| d.range.start <= end && start <= d.range.end);
     let names: BTreeSet<&'static str> = touched.flat_map(|d| d.fixes.iter().copied()).collect();
-    let actions = names.into_iter().filter_map(rewrite).filter_map(|r| action(analysed, r, encoding));
+    let actions = names
+        .into_iter()
+        .filter_map(rewrite)
+        .filter_map(|r| action(analysed, r, encoding));
     Some(actions.map(CodeActionOrCommand::CodeAction).collect())
 }
 
@@ -39,7 +53,12 @@ fn action(analysed: &Analysed, rewrite: &Rewrite, encoding: Encoding) -> Option<
         diagnostics: Some(cured(analysed, rewrite, encoding)),
         ..CodeAction::default()
     };
-    match attempt(rewrite, &judged.program, &judged.resolved.settings(), &Options::default()) {
+    match attempt(
+        rewrite,
+        &judged.program,
+        &judged.resolved.settings(),
+        &Options::default(),
+    ) {
         Attempt::NothingToDo => None,
         Attempt::Refused(reason) => Some(CodeAction {
             title: format!("{}: not offered: {reason}", rewrite.name),
@@ -69,5 +88,8 @@ fn action(analysed: &Analysed, rewrite: &Rewrite, encoding: Encoding) -> Option<
 /// The findings of the document that the rewrite cures.
 fn cured(analysed: &Analysed, rewrite: &Rewrite, encoding: Encoding) -> Vec<Diagnostic> {
     let cures = |d: &Diagnostic| matches!(&d.code, Some(NumberOrString::String(code)) if rewrite.cures.contains(&code.as_str()));
-    to_proto::diagnostics(analysed, encoding).into_iter().filter(cures).collect()
+    to_proto::diagnostics(analysed, encoding)
+        .into_iter()
+        .filter(cures)
+        .collect()
 }

@@ -5,7 +5,8 @@ use tokio::sync::oneshot;
 use tower_lsp::{
     jsonrpc::Result,
     lsp_types::{
-        CodeActionOrCommand, CodeActionParams, Hover, HoverParams, InitializeParams, TextDocumentContentChangeEvent, Url,
+        CodeActionOrCommand, CodeActionParams, Hover, HoverParams, InitializeParams, TextDocumentContentChangeEvent,
+        Url,
     },
 };
 
@@ -16,7 +17,11 @@ pub(crate) enum Event {
     /// A document opens.
     Open { uri: Url, version: i32, text: String },
     /// A document changes.
-    Change { uri: Url, version: i32, changes: Vec<TextDocumentContentChangeEvent> },
+    Change {
+        uri: Url,
+        version: i32,
+        changes: Vec<TextDocumentContentChangeEvent>,
+    },
     /// A document closes.
     Close { uri: Url },
     /// New settings of the client.
@@ -30,5 +35,8 @@ pub(crate) enum Event {
     /// A hover.
     Hover(HoverParams, oneshot::Sender<Result<Option<Hover>>>),
     /// Quick fixes.
-    CodeAction(Box<CodeActionParams>, oneshot::Sender<Result<Option<Vec<CodeActionOrCommand>>>>),
+    CodeAction(
+        Box<CodeActionParams>,
+        oneshot::Sender<Result<Option<Vec<CodeActionOrCommand>>>>,
+    ),
 }

@@ -17,7 +17,10 @@ pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding)
     let at = offset(&analysed.text, &analysed.starts, position, encoding) as u32;
     let id = judged.program.block_at(at)?;
     let block = judged.program.block(id);
-    if judged.program.source()[block.range().as_usize()].iter().all(u8::is_ascii_whitespace) {
+    if judged.program.source()[block.range().as_usize()]
+        .iter()
+        .all(u8::is_ascii_whitespace)
+    {
         return None;
     }
     let mut text = String::new();
@@ -26,11 +29,16 @@ pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding)
         let _ = writeln!(text, "{}\n\n---\n", code.hover());
         shown = word;
     }
-    let info = judged.session.describe(&judged.program, &judged.resolved.settings(), id);
+    let info = judged
+        .session
+        .describe(&judged.program, &judged.resolved.settings(), id);
     modal(&mut text, &info.after);
     motion(&mut text, &info, judged.resolved.machine.as_ref());
     Some(Hover {
-        contents: HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value: text }),
+        contents: HoverContents::Markup(MarkupContent {
+            kind: MarkupKind::Markdown,
+            value: text,
+        }),
         range: Some(range(&analysed.text, &analysed.starts, shown, encoding)),
     })
 }
@@ -40,13 +48,19 @@ fn code_at<'a>(judged: &'a Judged, block: &Block<'_>, at: u32) -> Option<(&'a Co
     let dialect = judged.resolved.dialect;
     if let Some(record) = block.record() {
         let on = record.major.touches(at);
-        return on.then(|| dialect.name(&judged.program.text(record.major)).map(|code| (code, record.major))).flatten();
+        return on
+            .then(|| {
+                dialect
+                    .name(&judged.program.text(record.major))
+                    .map(|code| (code, record.major))
+            })
+            .flatten();
     }
     block.items().find_map(|item| match item {
         Item::Word(word) if word.range.touches(at) => code_of(dialect, &word).map(|code| (code, word.range)),
-        Item::Call(call) if call.name.touches(at) => {
-            dialect.name(&judged.program.text(call.name)).map(|code| (code, call.name))
-        }
+        Item::Call(call) if call.name.touches(at) => dialect
+            .name(&judged.program.text(call.name))
+            .map(|code| (code, call.name)),
         _ => None,
     })
 }
@@ -77,16 +91,23 @@ fn modal(text: &mut String, state: &ModalState) {
         (Some(false), _) => "off".into(),
         (None, _) => "unknown".into(),
     };
-    let tool = state.tool.map_or_else(|| "unknown".to_owned(), |tool| format!("T{tool}"));
+    let tool = state
+        .tool
+        .map_or_else(|| "unknown".to_owned(), |tool| format!("T{tool}"));
     let mode = if state.tcp { "on: the tip is programmed" } else { "off" };
     let sense = if state.incremental { "incremental" } else { "absolute" };
     let unit = if state.length_unit_mm == 1.0 { "mm" } else { "inch" };
-    let _ = writeln!(text, "**In force** feed {feed}, spindle {speed}, tool {tool}, {sense}, {unit}, TCP {mode}\n");
+    let _ = writeln!(
+        text,
+        "**In force** feed {feed}, spindle {speed}, tool {tool}, {sense}, {unit}, TCP {mode}\n"
+    );
 }
 
 fn motion(text: &mut String, info: &BlockInfo, machine: Option<&Machine>) {
     let Some(machine) = machine else {
-        text.push_str("No machine is named: joints are not known (set `trunnion.machine`, or `machine` in trunnion.toml).\n");
+        text.push_str(
+            "No machine is named: joints are not known (set `trunnion.machine`, or `machine` in trunnion.toml).\n",
+        );
         return;
     };
     for row in &info.rows {
@@ -118,14 +139,21 @@ fn facts(text: &mut String, row: &Row) {
             1.. => "posture +",
             _ => "posture \u{2212}",
         };
-        let pole = row.pole_angle_deg.map_or_else(String::new, |angle| format!(", {angle:.4} deg from the pole"));
+        let pole = row
+            .pole_angle_deg
+            .map_or_else(String::new, |angle| format!(", {angle:.4} deg from the pole"));
         let _ = writeln!(text, "* {posture}{pole}");
     }
     if let Some(bound) = row.tip_deviation_mm {
-        let _ = writeln!(text, "* tip leaves the programmed line by at most {bound:.4} mm (proven)");
+        let _ = writeln!(
+            text,
+            "* tip leaves the programmed line by at most {bound:.4} mm (proven)"
+        );
     }
     if let Some(limit) = row.feed_limit_mm_min {
-        let axis = row.limiting_axis.map_or_else(String::new, |axis| format!(", limited by {axis}"));
+        let axis = row
+            .limiting_axis
+            .map_or_else(String::new, |axis| format!(", limited by {axis}"));
         let _ = writeln!(text, "* reachable feed {limit:.0} mm/min{axis}");
     }
     if let Some(time) = row.duration_s {

@@ -29,7 +29,11 @@ const CONCURRENCY: usize = 256;
 /// Runs the language server on standard input and output until the client says exit or closes the stream.
 /// Returns the exit status: 0 after `shutdown`, else 1.
 pub fn serve() -> i32 {
-    let Ok(runtime) = tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build() else {
+    let Ok(runtime) = tokio::runtime::Builder::new_multi_thread()
+        .worker_threads(2)
+        .enable_all()
+        .build()
+    else {
         return 2;
     };
     let shutdown = Arc::new(AtomicBool::new(false));

@@ -102,21 +102,19 @@ impl Owner {
                 self.ask(&at, answer, move |a| Ok(hover::hover(a, position, encoding)));
             }
             Event::CodeAction(params, answer) => {
-                let at =
-                    TextDocumentPositionParams::new(params.text_document.clone(), params.range.start);
+                let at = TextDocumentPositionParams::new(params.text_document.clone(), params.range.start);
                 let encoding = self.encoding;
-                self.ask(&at, answer, move |a| Ok(code_action::code_actions(a, &params, encoding)));
+                self.ask(&at, answer, move |a| {
+                    Ok(code_action::code_actions(a, &params, encoding))
+                });
             }
         }
     }
 
-    fn change(
-        &mut self,
-        uri: &Url,
-        version: i32,
-        changes: Vec<tower_lsp::lsp_types::TextDocumentContentChangeEvent>,
-    ) {
-        let Some(document) = self.documents.get_mut(uri) else { return };
+    fn change(&mut self, uri: &Url, version: i32, changes: Vec<tower_lsp::lsp_types::TextDocumentContentChangeEvent>) {
+        let Some(document) = self.documents.get_mut(uri) else {
+            return;
+        };
         document.change(version, changes, self.encoding);
         let (pause, inbox, uri) = (document.pause(), self.inbox.clone(), uri.clone());
         self.drop_stale(&uri, version);
@@ -148,7 +146,9 @@ impl Owner {
     }
 
     fn start_analysis(&mut self, uri: &Url) {
-        let Some(document) = self.documents.get_mut(uri) else { return };
+        let Some(document) = self.documents.get_mut(uri) else {
+            return;
+        };
         let (uri, version, text) = (uri.clone(), document.version, Arc::clone(&document.text));
         let (newest, overrides, inbox) = (Arc::clone(&document.newest), self.overrides.clone(), self.inbox.clone());
         self.runtime.spawn_blocking(move || {
@@ -163,7 +163,9 @@ impl Owner {
 
     /// Takes an analysis, publishes it, and answers who waited for it.
     fn take(&mut self, analysed: &Arc<Analysed>) {
-        let Some(document) = self.documents.get_mut(&analysed.uri) else { return };
+        let Some(document) = self.documents.get_mut(&analysed.uri) else {
+            return;
+        };
         if document.version != analysed.version {
             return;
         }
@@ -204,7 +206,11 @@ impl Owner {
             None => reply(None),
             Some(document) if document.is_fresh() => reply(document.analysed.clone()),
             Some(document) => {
-                let waiting = Waiting { uri: uri.clone(), version: document.version, answer: Box::new(reply) };
+                let waiting = Waiting {
+                    uri: uri.clone(),
+                    version: document.version,
+                    answer: Box::new(reply),
+                };
                 self.waiting.push(waiting);
             }
         }

@@ -25,8 +25,12 @@ pub(crate) fn line_starts(text: &str) -> Vec<u32> {
 
 /// Byte offset of a position; beyond the end of a line or text it is that end.
 pub(crate) fn offset(text: &str, starts: &[u32], position: Position, encoding: Encoding) -> usize {
-    let Some(&start) = starts.get(position.line as usize) else { return text.len() };
-    let end = starts.get(position.line as usize + 1).map_or(text.len(), |&next| next as usize);
+    let Some(&start) = starts.get(position.line as usize) else {
+        return text.len();
+    };
+    let end = starts
+        .get(position.line as usize + 1)
+        .map_or(text.len(), |&next| next as usize);
     let line = text[start as usize..end].trim_end_matches(['\n', '\r']);
     let mut units = 0;
     for (at, character) in line.char_indices() {
@@ -44,10 +48,15 @@ pub(crate) fn position(text: &str, starts: &[u32], offset: usize, encoding: Enco
     while !text.is_char_boundary(offset) {
         offset -= 1;
     }
-    let line = starts.partition_point(|&start| start as usize <= offset).saturating_sub(1);
+    let line = starts
+        .partition_point(|&start| start as usize <= offset)
+        .saturating_sub(1);
     let start = starts.get(line).copied().unwrap_or(0) as usize;
     let character = text[start..offset].chars().map(|c| units_of(c, encoding)).sum();
-    Position { line: line as u32, character }
+    Position {
+        line: line as u32,
+        character,
+    }
 }
 
 /// LSP range of a range of bytes.
@@ -80,7 +89,14 @@ mod tests {
         assert_eq!(offset(text, &starts, at, Encoding::Utf16), g);
         assert_eq!(position(text, &starts, g, Encoding::Utf8).character, g as u32);
         let past = Position { line: 0, character: 99 };
-        assert_eq!(offset(text, &starts, past, Encoding::Utf16), 11, "clamped before the line end");
-        assert_eq!(offset(text, &starts, Position { line: 9, character: 0 }, Encoding::Utf16), text.len());
+        assert_eq!(
+            offset(text, &starts, past, Encoding::Utf16),
+            11,
+            "clamped before the line end"
+        );
+        assert_eq!(
+            offset(text, &starts, Position { line: 9, character: 0 }, Encoding::Utf16),
+            text.len()
+        );
     }
 }

@@ -9,5 +9,10 @@ pub(crate) fn overrides(value: &Value) -> Overrides {
         let text = own.get(key).and_then(Value::as_str).map(str::trim);
         text.filter(|t| !t.is_empty()).map(str::to_owned)
     };
-    Overrides { machine: text("machine"), dialect: text("dialect"), tool: text("tool"), ..Overrides::default() }
+    Overrides {
+        machine: text("machine"),
+        dialect: text("dialect"),
+        tool: text("tool"),
+        ..Overrides::default()
+    }
 }

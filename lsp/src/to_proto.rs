@@ -3,6 +3,7 @@ use crate::{
     analysis::Analysed,
     position::{Encoding, range},
 };
+use std::fmt::Write;
 use tower_lsp::lsp_types::{
     Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString, Position, Range,
 };
@@ -24,7 +25,10 @@ pub(crate) fn diagnostics(analysed: &Analysed, encoding: Encoding) -> Vec<Diagno
     let all = &judged.session.report.diagnostics;
     let mut out: Vec<Diagnostic> = all.iter().take(MOST).map(|d| one(analysed, d, encoding)).collect();
     if let Some(more @ 1..) = all.len().checked_sub(MOST) {
-        let text = format!("{more} more findings are not shown here; `trunnion check` lists all {}", all.len());
+        let text = format!(
+            "{more} more findings are not shown here; `trunnion check` lists all {}",
+            all.len()
+        );
         out.push(plain("too-many-findings", DiagnosticSeverity::INFORMATION, text));
     }
     out
@@ -49,7 +53,8 @@ fn one(analysed: &Analysed, d: &trunnion_check::Diagnostic, encoding: Encoding) 
     }
     if d.count > 1 {
         let last = place(d.last).start.line + 1;
-        message.push_str(&format!(" ({} blocks in a row, to line {last})", d.count));
+        // Writing into a String cannot fail.
+        let _ = write!(message, " ({} blocks in a row, to line {last})", d.count);
     }
     for more in d.notes.iter().chain(&d.help) {
         message.push('\n');

@@ -201,7 +201,11 @@ impl<'a> Pass<'a> {
         } else {
             None
         };
-        let diagnostics = self.reporter.finish();
+        let mut reporter = self.reporter;
+        if let Some(follower) = &self.follower {
+            reporter.word_worst(follower.machine(), &self.legs);
+        }
+        let diagnostics = reporter.finish();
         let mut summary = self.summary;
         for diagnostic in &diagnostics {
             let count = match (diagnostic.status, diagnostic.severity) {

@@ -1,7 +1,9 @@
 //! Merging: the same finding in consecutive blocks becomes one diagnostic at the first of them, with the worst values.
 use crate::place::code_range;
+use crate::view::LegView;
 use crate::{Diagnostic, Severity, Status};
 use std::collections::BTreeMap;
+use trunnion_machine::Leg;
 use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// Runs of findings that differ in their numbers are reported block by block up to this many blocks.
@@ -37,6 +39,23 @@ struct Run {
     worst: TextRange,
     /// The last block, where it was only counted.
     last: Option<BlockId>,
+    /// The worst leg, where it is not worded yet.
+    unworded: Option<Box<Kept>>,
+}
+
+/// A leg that is worded once its run has ended: most blocks of a long run are not the worst of it.
+pub(crate) struct Kept {
+    pub(crate) leg: Leg,
+    pub(crate) posture_before: i8,
+}
+
+/// A run that has ended and waits for its words.
+pub(crate) struct Unworded {
+    pub(crate) rule: &'static str,
+    pub(crate) key: u64,
+    pub(crate) status: Status,
+    pub(crate) kept: Box<Kept>,
+    run: Run,
 }
 
 /// A finding that is not worded yet, because its run may have worse to tell.
@@ -51,12 +70,15 @@ pub(crate) struct Repeat {
     pub(crate) sequence: u64,
 }
 
+/// Rule, key, and whether it is unknown.
+type Place = (&'static str, u64, bool);
+
 /// Collects diagnostics and merges runs.
 #[derive(Default)]
 pub(crate) struct Log {
-    /// By rule, key and whether it is unknown.
-    open: BTreeMap<(&'static str, u64, bool), Run>,
+    open: BTreeMap<Place, Run>,
     closed: Vec<Diagnostic>,
+    ended: Vec<Unworded>,
     /// Per rule: how many are listed, and the rest.
     listed: BTreeMap<&'static str, (u32, Option<Diagnostic>)>,
 }
@@ -92,9 +114,10 @@ impl Log {
                 merged: false,
                 worst,
                 last: None,
+                unworded: None,
             },
         ) {
-            ended.close(program, &mut self.closed);
+            self.close(place, ended, program);
         }
     }
 
@@ -119,8 +142,8 @@ impl Log {
         None
     }
 
-    /// Counts a finding without wording it: true where its run is merged already and has told worse.
-    pub(crate) fn absorb(&mut self, repeat: Repeat) -> bool {
+    /// Counts a finding without wording it: true where its run is merged already. Where it is the worst so far its leg is kept.
+    pub(crate) fn absorb(&mut self, repeat: Repeat, view: &LegView<'_>) -> bool {
         let place = (repeat.rule, repeat.key, repeat.status == Status::Unknown);
         let Some(run) = self.open.get_mut(&place) else {
             return false;
@@ -131,19 +154,62 @@ impl Log {
         let [(badness, whole)] = run.items.as_mut_slice() else {
             return false;
         };
-        if repeat.badness > *badness || repeat.severity > whole.severity {
-            return false;
+        if repeat.badness > *badness {
+            *badness = repeat.badness;
+            let kept = Kept {
+                leg: view.leg.clone(),
+                posture_before: view.posture_before,
+            };
+            match &mut run.unworded {
+                Some(old) => **old = kept,
+                None => run.unworded = Some(Box::new(kept)),
+            }
         }
+        whole.severity = whole.severity.max(repeat.severity);
         whole.count += 1;
         run.sequence = repeat.sequence;
         run.last = Some(repeat.block);
         true
     }
 
+    fn close(&mut self, place: Place, mut run: Run, program: &Program) {
+        match run.unworded.take() {
+            Some(kept) => {
+                let status = if place.2 { Status::Unknown } else { Status::Fail };
+                self.ended.push(Unworded {
+                    rule: place.0,
+                    key: place.1,
+                    status,
+                    kept,
+                    run,
+                });
+            }
+            None => run.close(program, &mut self.closed),
+        }
+    }
+
+    /// Ends all runs; those that wait for words are given away, to come back by [`Self::worded`].
+    pub(crate) fn end(&mut self, program: &Program) -> Vec<Unworded> {
+        for (place, run) in core::mem::take(&mut self.open) {
+            self.close(place, run, program);
+        }
+        core::mem::take(&mut self.ended)
+    }
+
+    /// Takes the words of a run's worst leg.
+    pub(crate) fn worded(&mut self, unworded: Unworded, words: Option<Diagnostic>, program: &Program) {
+        let mut run = unworded.run;
+        if let (Some(words), [(_, whole)]) = (words, run.items.as_mut_slice()) {
+            run.worst = words.range;
+            whole.take_words(words);
+        }
+        run.close(program, &mut self.closed);
+    }
+
     /// All diagnostics, sorted by place, then rule.
     pub(crate) fn finish(mut self, program: &Program) -> Vec<Diagnostic> {
-        for run in self.open.into_values() {
-            run.close(program, &mut self.closed);
+        for unworded in self.end(program) {
+            self.worded(unworded, None, program);
         }
         for mut rest in self.listed.into_values().filter_map(|(_, rest)| rest) {
             rest.message = format!(
@@ -157,6 +223,25 @@ impl Log {
         self.closed
             .sort_by(|a, b| (a.range, a.rule, &a.message).cmp(&(b.range, b.rule, &b.message)));
         self.closed
+    }
+}
+
+impl Diagnostic {
+    /// Says what `worse` says; place, count and severity stay.
+    fn take_words(&mut self, worse: Self) {
+        self.message = worse.message;
+        self.notes = worse.notes;
+        self.help = worse.help;
+        self.values = worse.values;
+        self.take_fixes(worse.fixes);
+    }
+
+    fn take_fixes(&mut self, fixes: Vec<&'static str>) {
+        for fix in fixes {
+            if !self.fixes.contains(&fix) {
+                self.fixes.push(fix);
+            }
+        }
     }
 }
 
@@ -174,19 +259,14 @@ impl Run {
             for (other, next) in items {
                 whole.count += next.count;
                 whole.last = next.last;
+                whole.severity = whole.severity.max(next.severity);
                 if other > badness {
                     badness = other;
                     self.worst = next.range;
-                    whole.message = next.message;
-                    whole.notes = next.notes;
-                    whole.help = next.help;
-                    whole.values = next.values;
-                }
-                whole.severity = whole.severity.max(next.severity);
-                for fix in next.fixes {
-                    if !whole.fixes.contains(&fix) {
-                        whole.fixes.push(fix);
-                    }
+                    self.unworded = None;
+                    whole.take_words(next);
+                } else {
+                    whole.take_fixes(next.fixes);
                 }
             }
             self.items.push((badness, whole));
@@ -207,131 +287,4 @@ impl Run {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use trunnion_syntax::{LexOptions, parse};
-
-    fn empty() -> Program {
-        parse(Vec::new(), LexOptions::default())
-    }
-
-    fn finding(at: u32, message: &str) -> Diagnostic {
-        let range = TextRange::new(at * 10, at * 10 + 3);
-        Diagnostic {
-            rule: "axis-limit",
-            severity: Severity::Error,
-            status: Status::Fail,
-            range,
-            block: None,
-            message: message.to_owned(),
-            notes: Vec::new(),
-            help: None,
-            values: Vec::new(),
-            fixes: Vec::new(),
-            related: Vec::new(),
-            count: 1,
-            last: range,
-        }
-    }
-
-    fn merge(key: u64, badness: f64, show: usize) -> Merge {
-        Merge {
-            key,
-            badness,
-            show,
-            everywhere: false,
-        }
-    }
-
-    #[test]
-    fn consecutive_findings_become_one_with_the_worst() {
-        let program = empty();
-        let mut log = Log::default();
-        log.add(&program, finding(1, "a"), Some(merge(1, 1.0, 1)), 1);
-        log.add(&program, finding(2, "b"), Some(merge(1, 3.0, 1)), 2);
-        log.add(&program, finding(3, "c"), Some(merge(1, 2.0, 1)), 3);
-        let found = log.finish(&program);
-        assert_eq!(found.len(), 1);
-        assert_eq!((found[0].count, found[0].range.start, found[0].last.start), (3, 10, 30));
-        assert_eq!(found[0].message, "b");
-        assert_eq!(found[0].related[0].0.start, 20);
-    }
-
-    #[test]
-    fn a_gap_or_another_axis_starts_anew() {
-        let program = empty();
-        let mut log = Log::default();
-        log.add(&program, finding(1, "a"), Some(merge(1, 1.0, 1)), 1);
-        log.add(&program, finding(2, "b"), Some(merge(2, 1.0, 1)), 2);
-        log.add(&program, finding(4, "c"), Some(merge(1, 1.0, 1)), 4);
-        assert_eq!(log.finish(&program).len(), 3);
-    }
-
-    #[test]
-    fn short_runs_are_shown_block_by_block() {
-        let program = empty();
-        let mut log = Log::default();
-        for at in 1..=8 {
-            log.add(&program, finding(at, "a"), Some(merge(1, 1.0, 8)), u64::from(at));
-        }
-        assert_eq!(log.finish(&program).len(), 8);
-        let program = empty();
-        let mut log = Log::default();
-        for at in 1..=9 {
-            log.add(
-                &program,
-                finding(at, "a"),
-                Some(merge(1, f64::from(at), 8)),
-                u64::from(at),
-            );
-        }
-        let found = log.finish(&program);
-        assert_eq!((found.len(), found[0].count, found[0].related[0].0.start), (1, 9, 90));
-    }
-
-    #[test]
-    fn events_are_never_merged() {
-        let program = empty();
-        let mut log = Log::default();
-        log.add(&program, finding(1, "a"), None, 1);
-        log.add(&program, finding(2, "b"), None, 2);
-        assert_eq!(log.finish(&program).len(), 2);
-    }
-
-    #[test]
-    fn what_is_counted_without_words_moves_the_end() {
-        let program = parse(b"G0 X0\nX1\nX2\nX3\n".to_vec(), LexOptions::default());
-        let mut log = Log::default();
-        log.add(&program, finding(0, "a"), Some(merge(1, 5.0, 1)), 1);
-        let repeat = |badness, severity, sequence| Repeat {
-            rule: "axis-limit",
-            key: 1,
-            badness,
-            severity,
-            status: Status::Fail,
-            block: BlockId(2),
-            sequence,
-        };
-        assert!(!log.absorb(repeat(6.0, Severity::Error, 2)), "worse must be worded");
-        assert!(!log.absorb(repeat(4.0, Severity::Error, 3)), "not consecutive");
-        assert!(log.absorb(repeat(4.0, Severity::Error, 2)));
-        assert!(log.absorb(repeat(4.0, Severity::Warning, 3)));
-        let found = log.finish(&program);
-        assert_eq!((found.len(), found[0].count), (1, 3));
-        assert_eq!(found[0].last, TextRange::new(9, 11));
-    }
-
-    #[test]
-    fn a_file_of_noise_is_not_listed_to_its_end() {
-        let program = empty();
-        let mut log = Log::default();
-        for at in 0..LISTED + 5 {
-            log.add(&program, finding(at, "a"), None, u64::from(at));
-        }
-        let found = log.finish(&program);
-        assert_eq!(found.len(), LISTED as usize + 1);
-        let rest = &found[LISTED as usize];
-        assert_eq!(rest.count, 5);
-        assert!(rest.message.starts_with("5 more findings"), "{}", rest.message);
-    }
-}
+mod tests;

@@ -1,7 +1,10 @@
 //! Where rules report to: wording is theirs; levels, suppression, block numbers and merging are done here.
+use crate::rule::LegRule;
 use crate::runs::{Log, Merge, Repeat};
 use crate::suppress::Suppressions;
+use crate::view::LegView;
 use crate::{Diagnostic, RuleLevel, Severity, Status, ValueKey};
+use trunnion_machine::Machine;
 use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// A rule in the list with the level the settings give it.
@@ -29,6 +32,8 @@ pub struct Reporter<'a> {
     sequence: u64,
     pending: Vec<Draft>,
     told: Vec<(&'static str, u64)>,
+    /// A rule words a leg it has found before.
+    wording: bool,
 }
 
 /// A finding while its rule still words it.
@@ -51,6 +56,7 @@ impl<'a> Reporter<'a> {
             sequence: 0,
             pending: Vec::new(),
             told: Vec::new(),
+            wording: false,
         }
     }
 
@@ -95,26 +101,27 @@ impl<'a> Reporter<'a> {
         &mut self.pending[last]
     }
 
-    /// True where consecutive blocks have this finding and one of them told worse: it is counted and need not be worded.
+    /// True where consecutive blocks have this finding already: it is counted, and worded later should it stay the worst.
     /// `key` and `badness` as in [`Draft::merge`].
-    pub fn repeats(&mut self, key: u64, badness: f64) -> bool {
-        self.repeats_as(self.severity, key, badness)
+    pub fn repeats(&mut self, view: &LegView<'_>, key: u64, badness: f64) -> bool {
+        self.repeats_as(self.severity, view, key, badness)
     }
 
     /// As [`Self::repeats`], for a finding with another severity than the rule's own.
-    pub fn repeats_as(&mut self, severity: Severity, key: u64, badness: f64) -> bool {
-        self.absorb(self.level.unwrap_or(severity), Status::Fail, key, badness)
+    pub fn repeats_as(&mut self, severity: Severity, view: &LegView<'_>, key: u64, badness: f64) -> bool {
+        self.absorb(self.level.unwrap_or(severity), Status::Fail, view, key, badness)
     }
 
     /// As [`Self::repeats`], for a finding that could not be decided.
-    pub fn repeats_unknown(&mut self, key: u64, badness: f64) -> bool {
-        self.absorb(Severity::Info, Status::Unknown, key, badness)
+    pub fn repeats_unknown(&mut self, view: &LegView<'_>, key: u64, badness: f64) -> bool {
+        self.absorb(Severity::Info, Status::Unknown, view, key, badness)
     }
 
-    fn absorb(&mut self, severity: Severity, status: Status, key: u64, badness: f64) -> bool {
+    fn absorb(&mut self, severity: Severity, status: Status, view: &LegView<'_>, key: u64, badness: f64) -> bool {
         let Some(block) = self.block else { return false };
+        let rule = self.name;
         let repeat = Repeat {
-            rule: self.name,
+            rule,
             key,
             badness,
             severity,
@@ -122,7 +129,29 @@ impl<'a> Reporter<'a> {
             block,
             sequence: self.sequence,
         };
-        !self.suppressions.allows(self.name, block) && self.log.absorb(repeat)
+        !self.wording && !self.suppressions.allows(rule, block) && self.log.absorb(repeat, view)
+    }
+
+    /// Words the worst legs of runs that only kept them.
+    pub(crate) fn word_worst(&mut self, machine: &Machine, rules: &[Active<LegRule>]) {
+        for unworded in self.log.end(self.program) {
+            let kept = &unworded.kept;
+            let mut words = None;
+            if let Some(rule) = rules.iter().find(|rule| rule.name == unworded.rule) {
+                let view = LegView::new(machine, &kept.leg, kept.posture_before);
+                self.enter(rule, Some(kept.leg.motion.block), 0);
+                self.wording = true;
+                (rule.run)(&view, self);
+                self.wording = false;
+                let mut drafts = self.pending.drain(..);
+                let own = |draft: &Draft| {
+                    draft.diagnostic.status == unworded.status
+                        && draft.merge.is_some_and(|merge| merge.key == unworded.key)
+                };
+                words = drafts.find(own).map(|draft| draft.diagnostic);
+            }
+            self.log.worded(unworded, words, self.program);
+        }
     }
 
     /// True the first time the running rule asks for `cause`, so that one cause is told once.

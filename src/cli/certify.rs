@@ -15,17 +15,16 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     let after = load::read(&command.after)?;
     let before = loaded.program.source();
     let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
-    let outcome = match &command.certificate {
-        Some(file) => {
-            let text = std::fs::read_to_string(file).map_err(|e| Failure::io(file, "read the certificate", &e))?;
-            let certificate = Certificate::from_json(&text).map_err(|e| Failure::file(file, e))?;
-            recheck(&certificate, before, &after, dialect, machine, setup)
-        }
-        None => {
-            let claim =
-                Claim::SameToolPath { tolerance_mm: command.tolerance_mm, tolerance_deg: command.tolerance_deg };
-            certify(before, &after, dialect, machine, setup, &claim)
-        }
+    let outcome = if let Some(file) = &command.certificate {
+        let text = std::fs::read_to_string(file).map_err(|e| Failure::io(file, "read the certificate", &e))?;
+        let certificate = Certificate::from_json(&text).map_err(|e| Failure::file(file, e))?;
+        recheck(&certificate, before, &after, dialect, machine, setup)
+    } else {
+        let claim = Claim::SameToolPath {
+            tolerance_mm: command.tolerance_mm,
+            tolerance_deg: command.tolerance_deg,
+        };
+        certify(before, &after, dialect, machine, setup, &claim)
     };
     let mut out = std::io::stdout().lock();
     match outcome {

@@ -37,7 +37,11 @@ pub(super) struct Checked {
 pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
     let files = walk::programs(&command.paths)?;
     let format = command.format.unwrap_or_else(|| {
-        if std::io::stdout().is_terminal() { CheckFormat::Pretty } else { CheckFormat::Short }
+        if std::io::stdout().is_terminal() {
+            CheckFormat::Pretty
+        } else {
+            CheckFormat::Short
+        }
     });
     let bar = progress(global, files.len());
     let results: Vec<Result<Checked, Failure>> = files
@@ -61,7 +65,9 @@ pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
         }
     }
     if global.verbose {
-        checked.iter().for_each(|file| remark(false, &file.explanation));
+        for file in &checked {
+            remark(false, &file.explanation);
+        }
     }
     let mut out = std::io::stdout().lock();
     let found = checked.iter().any(|file| file.found);

@@ -16,7 +16,9 @@ pub(super) fn explain(command: &Explain) -> Result<Done, Failure> {
     let name = command.name.to_ascii_lowercase();
     let docs = rule(&name).map(|r| r.docs).or_else(|| rewrite(&name).map(|r| r.docs));
     let Some(docs) = docs else {
-        return Err(Failure::new(format!("no rule or rewrite is named `{name}`; `trunnion rules` lists them")));
+        return Err(Failure::new(format!(
+            "no rule or rewrite is named `{name}`; `trunnion rules` lists them"
+        )));
     };
     let mut out = std::io::stdout().lock();
     writeln!(out, "{name}\n{}\n\n{}", "=".repeat(name.len()), docs.trim_end())?;
@@ -40,16 +42,32 @@ pub(super) fn rules_list(command: &Rules) -> Result<Done, Failure> {
             .iter()
             .map(|r| json!({ "name": r.name, "cures": r.cures, "summary": summary(r.docs) }))
             .collect();
-        write_json(&mut out, &json!({ "schema": "trunnion-rules/1", "rules": list, "rewrites": fixes }))?;
+        write_json(
+            &mut out,
+            &json!({ "schema": "trunnion-rules/1", "rules": list, "rewrites": fixes }),
+        )?;
         return Ok(Done::Clean);
     }
     writeln!(out, "Rules (`trunnion explain NAME` for the page):")?;
     for r in rules() {
-        writeln!(out, "  {:26} {:8} {:10} {}", r.name, short::severity(r.severity), guarantee(r.guarantee), summary(r.docs))?;
+        writeln!(
+            out,
+            "  {:26} {:8} {:10} {}",
+            r.name,
+            short::severity(r.severity),
+            guarantee(r.guarantee),
+            summary(r.docs)
+        )?;
     }
     writeln!(out, "\nRewrites:")?;
     for r in rewrites() {
-        writeln!(out, "  {:26} cures {:28} {}", r.name, r.cures.join(", "), summary(r.docs))?;
+        writeln!(
+            out,
+            "  {:26} cures {:28} {}",
+            r.name,
+            r.cures.join(", "),
+            summary(r.docs)
+        )?;
     }
     Ok(Done::Clean)
 }

@@ -13,11 +13,19 @@ pub(crate) struct Failure {
 impl Failure {
     /// A failure without a place.
     pub(crate) fn new(message: impl Into<String>) -> Self {
-        Self { place: String::new(), message: message.into(), broken_pipe: false }
+        Self {
+            place: String::new(),
+            message: message.into(),
+            broken_pipe: false,
+        }
     }
     /// A failure of a file as a whole.
     pub(crate) fn file(path: &Path, message: impl Display) -> Self {
-        Self { place: format!("{}: ", path.display()), message: message.to_string(), broken_pipe: false }
+        Self {
+            place: format!("{}: ", path.display()),
+            message: message.to_string(),
+            broken_pipe: false,
+        }
     }
     /// A failure of reading or writing a file.
     pub(crate) fn io(path: &Path, doing: &str, error: &io::Error) -> Self {
@@ -36,8 +44,16 @@ impl Failure {
 
 impl From<LoadError> for Failure {
     fn from(error: LoadError) -> Self {
-        let place = if error.place.is_empty() { String::new() } else { format!("{}: ", error.place) };
-        Self { place, message: error.message, broken_pipe: false }
+        let place = if error.place.is_empty() {
+            String::new()
+        } else {
+            format!("{}: ", error.place)
+        };
+        Self {
+            place,
+            message: error.message,
+            broken_pipe: false,
+        }
     }
 }
 
@@ -53,7 +69,10 @@ impl From<io::Error> for Failure {
 }
 
 /// A remark on standard error, unless `quiet`.
-#[expect(clippy::print_stderr, reason = "remarks go to standard error so that standard output stays data")]
+#[expect(
+    clippy::print_stderr,
+    reason = "remarks go to standard error so that standard output stays data"
+)]
 pub(crate) fn remark(quiet: bool, text: &str) {
     if !quiet {
         eprintln!("{text}");

@@ -27,12 +27,17 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
     let loaded = load::load(global, &command.file)?;
     loaded.machine_or_fail("fix")?;
     if load::is_stdin(&command.file) && command.write {
-        return Err(Failure::new("--write needs a file; standard input cannot be replaced (use -o FILE)"));
+        return Err(Failure::new(
+            "--write needs a file; standard input cannot be replaced (use -o FILE)",
+        ));
     }
     let options = options(command)?;
     let chosen = choose(command, &loaded)?;
     if chosen.is_empty() {
-        remark(global.quiet, &format!("{}: nothing is reported that a rewrite cures", loaded.name));
+        remark(
+            global.quiet,
+            &format!("{}: nothing is reported that a rewrite cures", loaded.name),
+        );
     }
     let before = loaded.program.source().to_vec();
     let name = loaded.name.clone();
@@ -71,7 +76,9 @@ fn options(command: &Fix) -> Result<Options, Failure> {
     };
     let good = |value: f64| value.is_finite() && value > 0.0;
     if !good(options.tolerance_mm) || !good(options.tolerance_deg) {
-        return Err(Failure::new("--tolerance-mm and --tolerance-deg must be positive numbers"));
+        return Err(Failure::new(
+            "--tolerance-mm and --tolerance-deg must be positive numbers",
+        ));
     }
     Ok(options)
 }
@@ -90,18 +97,33 @@ fn choose(command: &Fix, loaded: &Loaded) -> Result<Vec<&'static Rewrite>, Failu
 }
 
 fn apply_all(global: &Global, mut loaded: Loaded, chosen: &[&'static Rewrite], options: &Options) -> Outcome {
-    let mut outcome = Outcome { after: loaded.program.source().to_vec(), applied: Vec::new(), refused: false };
+    let mut outcome = Outcome {
+        after: loaded.program.source().to_vec(),
+        applied: Vec::new(),
+        refused: false,
+    };
     for rewrite in chosen {
         match attempt(rewrite, &loaded.program, &loaded.resolved.settings(), options) {
             Attempt::NothingToDo => {
-                remark(global.quiet, &format!("{}: {}: nothing to do", loaded.name, rewrite.name));
+                remark(
+                    global.quiet,
+                    &format!("{}: {}: nothing to do", loaded.name, rewrite.name),
+                );
             }
             Attempt::Refused(reason) => {
                 outcome.refused = true;
                 remark(false, &format!("{}: {}: refused: {reason}", loaded.name, rewrite.name));
             }
-            Attempt::Certified { after, certificate, summary, .. } => {
-                remark(global.quiet, &format!("{}: {}: proved: {summary}", loaded.name, rewrite.name));
+            Attempt::Certified {
+                after,
+                certificate,
+                summary,
+                ..
+            } => {
+                remark(
+                    global.quiet,
+                    &format!("{}: {}: proved: {summary}", loaded.name, rewrite.name),
+                );
                 outcome.applied.push((rewrite.name, *certificate));
                 loaded.program = trunnion_syntax::parse(after.clone(), loaded.resolved.dialect.lex);
                 outcome.after = after;
@@ -117,7 +139,10 @@ fn print_diff(name: &str, before: &[u8], after: &[u8]) -> Result<(), Failure> {
     }
     let diff = TextDiff::from_lines(before, after);
     let mut out = std::io::stdout().lock();
-    diff.unified_diff().context_radius(2).header(&format!("a/{name}"), &format!("b/{name}")).to_writer(&mut out)?;
+    diff.unified_diff()
+        .context_radius(2)
+        .header(&format!("a/{name}"), &format!("b/{name}"))
+        .to_writer(&mut out)?;
     Ok(())
 }
 

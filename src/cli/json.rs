@@ -134,7 +134,11 @@ pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, outcome:
                 .iter()
                 .map(|(range, message)| {
                     let (line, column) = place(range.start);
-                    Related { line, column, message: message.clone() }
+                    Related {
+                        line,
+                        column,
+                        message: message.clone(),
+                    }
                 })
                 .collect(),
         }
@@ -154,7 +158,10 @@ pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, outcome:
 
 /// Writes the document of all files.
 pub(super) fn write(out: &mut impl Write, checked: Vec<Checked>) -> Result<(), Failure> {
-    let mut summary = Summary { files: checked.len() as u64, ..Summary::default() };
+    let mut summary = Summary {
+        files: checked.len() as u64,
+        ..Summary::default()
+    };
     let machine = checked.first().and_then(|file| file.machine.clone());
     let machine = machine.filter(|first| checked.iter().all(|file| file.machine.as_ref() == Some(first)));
     for file in &checked {

@@ -29,7 +29,10 @@ impl Loaded {
     pub(crate) fn explanation(&self) -> String {
         let r = &self.resolved;
         let machine = r.machine.as_ref().map_or("none", |m| m.id.as_str());
-        let config = r.config_path.as_ref().map_or_else(|| "none".to_owned(), |p| p.display().to_string());
+        let config = r
+            .config_path
+            .as_ref()
+            .map_or_else(|| "none".to_owned(), |p| p.display().to_string());
         format!(
             "{}: dialect {} ({}); machine {machine} ({}); settings {config}",
             self.name, r.dialect.name, r.dialect_reason, r.machine_reason
@@ -57,7 +60,10 @@ pub(crate) fn is_stdin(path: &Path) -> bool {
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     if is_stdin(path) {
         let mut bytes = Vec::new();
-        std::io::stdin().lock().read_to_end(&mut bytes).map_err(|error| Failure::io(path, "read standard input", &error))?;
+        std::io::stdin()
+            .lock()
+            .read_to_end(&mut bytes)
+            .map_err(|error| Failure::io(path, "read standard input", &error))?;
         return Ok(bytes);
     }
     if path.is_dir() {
@@ -72,6 +78,14 @@ pub(crate) fn load(global: &Global, path: &Path) -> Result<Loaded, Failure> {
     let stdin = is_stdin(path);
     let resolved = resolve((!stdin).then_some(path), &source, &overrides(global))?;
     let program = trunnion_syntax::parse(source, resolved.dialect.lex);
-    let name = if stdin { "<stdin>".to_owned() } else { path.display().to_string() };
-    Ok(Loaded { name, program, resolved })
+    let name = if stdin {
+        "<stdin>".to_owned()
+    } else {
+        path.display().to_string()
+    };
+    Ok(Loaded {
+        name,
+        program,
+        resolved,
+    })
 }

@@ -32,7 +32,11 @@ pub(super) fn run(_global: &Global, command: &Machine) -> Result<Done, Failure> 
         MachineCommand::Check { name, poses } => {
             let machine = find_machine(name, None)?;
             let result = self_test(&machine, *poses, 20_261_121);
-            writeln!(out, "{}: forward(inverse(pose)) on {} random poses", machine.id, result.poses)?;
+            writeln!(
+                out,
+                "{}: forward(inverse(pose)) on {} random poses",
+                machine.id, result.poses
+            )?;
             writeln!(out, "  worst tool tip residual   {:.3e} mm", result.worst_tip_mm)?;
             writeln!(out, "  worst tool axis residual  {:.3e} rad", result.worst_axis)?;
             writeln!(out, "  true posture not found    {} times", result.posture_missing)?;

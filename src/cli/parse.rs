@@ -21,7 +21,11 @@ pub(super) fn run(global: &Global, command: &Parse) -> Result<Done, Failure> {
         (false, ListFormat::Json) => write_json(&mut out, &tree_json(&loaded))?,
     }
     out.flush()?;
-    Ok(if loaded.program.errors().is_empty() { Done::Clean } else { Done::Found })
+    Ok(if loaded.program.errors().is_empty() {
+        Done::Clean
+    } else {
+        Done::Found
+    })
 }
 
 fn tokens_text(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure> {
@@ -63,7 +67,12 @@ fn tree_text(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure> {
     }
     for error in loaded.program.errors() {
         let (line, column) = lines.line_column(loaded.program.source(), error.range.start);
-        writeln!(out, "problem {line}:{column} {:?} {:?}", error.kind, loaded.program.text(error.range))?;
+        writeln!(
+            out,
+            "problem {line}:{column} {:?} {:?}",
+            error.kind,
+            loaded.program.text(error.range)
+        )?;
     }
     Ok(())
 }
@@ -85,13 +94,13 @@ fn tree_json(loaded: &Loaded) -> Value {
 
 fn errors_json(loaded: &Loaded) -> Vec<Value> {
     let errors = loaded.program.errors().iter();
-    errors.map(|e| json!({ "kind": format!("{:?}", e.kind), "start": e.range.start, "end": e.range.end })).collect()
+    errors
+        .map(|e| json!({ "kind": format!("{:?}", e.kind), "start": e.range.start, "end": e.range.end }))
+        .collect()
 }
 
 fn items_json(loaded: &Loaded, block: &Block<'_>) -> Vec<Value> {
-    let node = |kind: &str, range: TextRange| {
-        json!({ "kind": kind, "start": range.start, "end": range.end, "text": loaded.program.text(range) })
-    };
+    let node = |kind: &str, range: TextRange| json!({ "kind": kind, "start": range.start, "end": range.end, "text": loaded.program.text(range) });
     let mut nodes = Vec::new();
     if let Some(record) = block.record() {
         nodes.push(node("major", record.major));

@@ -4,7 +4,7 @@ use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
     SourceSpan, SpanContents,
 };
-use std::fmt;
+use std::fmt::{self, Write};
 use trunnion_check::{Report, Severity, Status, Verdict};
 use trunnion_syntax::{LineIndex, TextRange};
 
@@ -15,8 +15,15 @@ const LONGEST_LINE: usize = 240;
 
 /// The findings of one file; at most `limit` of them (0: all), and a line that counts the rest.
 pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: usize, color: bool) -> String {
-    let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
-    let handler = GraphicalReportHandler::new_themed(theme).with_width(110).with_context_lines(CONTEXT).with_links(false);
+    let theme = if color {
+        GraphicalTheme::unicode()
+    } else {
+        GraphicalTheme::unicode_nocolor()
+    };
+    let handler = GraphicalReportHandler::new_themed(theme)
+        .with_width(110)
+        .with_context_lines(CONTEXT)
+        .with_links(false);
     let shown = if limit == 0 { report.diagnostics.len() } else { limit };
     let mut out = String::new();
     for d in report.diagnostics.iter().take(shown) {
@@ -24,7 +31,7 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
         let finding = Finding { d, excerpt };
         // Writing into a String cannot fail; a rendering error must not hide the finding, so its one-line form stands in.
         if handler.render_report(&mut out, &finding).is_err() {
-            out.push_str(&format!("{}[{}] {}\n", short::severity(d.severity), d.rule, d.message));
+            let _ = writeln!(out, "{}[{}] {}", short::severity(d.severity), d.rule, d.message);
         }
         out.push('\n');
     }
@@ -39,7 +46,11 @@ pub(super) fn verdict_line(file: &Checked, color: bool) -> String {
         Verdict::Fail => ("FAIL", "31"),
         Verdict::Unknown => ("UNKNOWN", "33"),
     };
-    let word = if color { format!("\u{1b}[1;{code}m{word}\u{1b}[0m") } else { word.to_owned() };
+    let word = if color {
+        format!("\u{1b}[1;{code}m{word}\u{1b}[0m")
+    } else {
+        word.to_owned()
+    };
     let s = &file.summary;
     let machine = file.machine.as_deref().unwrap_or("no machine");
     format!(
@@ -73,8 +84,16 @@ impl std::error::Error for Finding<'_> {}
 
 impl Diagnostic for Finding<'_> {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        let unknown = if self.d.status == Status::Unknown { ", not decided" } else { "" };
-        Some(Box::new(format!("{}[{}]{unknown}", short::severity(self.d.severity), self.d.rule)))
+        let unknown = if self.d.status == Status::Unknown {
+            ", not decided"
+        } else {
+            ""
+        };
+        Some(Box::new(format!(
+            "{}[{}]{unknown}",
+            short::severity(self.d.severity),
+            self.d.rule
+        )))
     }
     fn severity(&self) -> Option<miette::Severity> {
         Some(match self.d.severity {
@@ -98,7 +117,10 @@ impl Diagnostic for Finding<'_> {
     }
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let label = self.d.block.as_ref().map(|block| format!("in block {block}"));
-        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(label, self.excerpt.span))))
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(
+            label,
+            self.excerpt.span,
+        ))))
     }
 }
 
@@ -141,7 +163,13 @@ impl Excerpt {
         }
         let data = printable(&source[start..end]);
         let span = SourceSpan::new((from - start).into(), (until - from).min(data.len()));
-        Self { name: loaded.name.clone(), data, span, line: first, column }
+        Self {
+            name: loaded.name.clone(),
+            data,
+            span,
+            line: first,
+            column,
+        }
     }
 }
 
@@ -173,7 +201,7 @@ impl SourceCode for Excerpt {
             return Err(MietteError::OutOfBounds);
         }
         let whole = SourceSpan::new(0.into(), self.data.len());
-        let lines = self.data.iter().filter(|&&b| b == b'\n').count() + 1;
+        let lines = self.data.split(|&b| b == b'\n').count();
         Ok(Box::new(MietteSpanContents::new_named(
             self.name.clone(),
             &self.data,

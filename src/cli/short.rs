@@ -10,7 +10,14 @@ pub(super) fn short(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: 
     let shown = if limit == 0 { report.diagnostics.len() } else { limit };
     for d in report.diagnostics.iter().take(shown) {
         let (line, column) = lines.line_column(loaded.program.source(), d.range.start);
-        let _ = write!(out, "{}:{line}:{column}: {}[{}] {}", loaded.name, severity(d.severity), d.rule, d.message);
+        let _ = write!(
+            out,
+            "{}:{line}:{column}: {}[{}] {}",
+            loaded.name,
+            severity(d.severity),
+            d.rule,
+            d.message
+        );
         if d.count > 1 {
             let (last, _) = lines.line_column(loaded.program.source(), d.last.start);
             let _ = write!(out, " ({} blocks, to line {last})", d.count);

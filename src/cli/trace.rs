@@ -12,8 +12,23 @@ use trunnion_machine::{Follower, Machine, Row, row};
 use trunnion_syntax::{BlockId, LineIndex};
 
 const COLUMNS: [&str; 17] = [
-    "line", "block", "motion", "tcp", "x_mm", "y_mm", "z_mm", "i", "j", "k", "feed_mm_min", "duration_s", "branch",
-    "pole_angle_deg", "tip_deviation_mm", "feed_limit_mm_min", "limiting_axis",
+    "line",
+    "block",
+    "motion",
+    "tcp",
+    "x_mm",
+    "y_mm",
+    "z_mm",
+    "i",
+    "j",
+    "k",
+    "feed_mm_min",
+    "duration_s",
+    "branch",
+    "pole_angle_deg",
+    "tip_deviation_mm",
+    "feed_limit_mm_min",
+    "limiting_axis",
 ];
 
 /// Runs `trace`.
@@ -34,14 +49,25 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
         error: None,
         faults: 0,
     };
-    trunnion_interp::run(&loaded.program, loaded.resolved.dialect, &loaded.resolved.setup, &mut tracer);
+    trunnion_interp::run(
+        &loaded.program,
+        loaded.resolved.dialect,
+        &loaded.resolved.setup,
+        &mut tracer,
+    );
     if let Some(failure) = tracer.error {
         return Err(failure);
     }
     let problems = tracer.faults + loaded.program.errors().len();
     tracer.writer.finish()?;
     if problems > 0 {
-        remark(global.quiet, &format!("{}: {problems} problems in the program; see `trunnion check`", loaded.name));
+        remark(
+            global.quiet,
+            &format!(
+                "{}: {problems} problems in the program; see `trunnion check`",
+                loaded.name
+            ),
+        );
     }
     Ok(Done::Clean)
 }
@@ -76,7 +102,9 @@ impl<W: Write> Sink for Tracer<'_, W> {
 fn place(loaded: &Loaded, lines: &LineIndex, id: BlockId) -> (u32, String) {
     let block = loaded.program.block(id);
     let (line, _) = lines.line_column(loaded.program.source(), block.range().start);
-    let number = block.number().map_or_else(String::new, |range| loaded.program.text(range).into_owned());
+    let number = block
+        .number()
+        .map_or_else(String::new, |range| loaded.program.text(range).into_owned());
     (line, number)
 }
 
@@ -88,7 +116,10 @@ enum Rows<W: Write> {
 
 impl<W: Write> Rows<W> {
     fn new(format: TraceFormat, mut out: W, machine: &Machine) -> Result<Self, Failure> {
-        let joints = machine.axes.iter().map(|axis| format!("joint_{}", char::from(axis.letter.to_ascii_lowercase())));
+        let joints = machine
+            .axes
+            .iter()
+            .map(|axis| format!("joint_{}", char::from(axis.letter.to_ascii_lowercase())));
         let names: Vec<String> = COLUMNS.iter().map(|&name| name.to_owned()).chain(joints).collect();
         match format {
             TraceFormat::Csv => {
@@ -99,7 +130,11 @@ impl<W: Write> Rows<W> {
             TraceFormat::Json => {
                 let id = serde_json::to_string(&machine.id).unwrap_or_default();
                 write!(out, "{{\"schema\":\"trunnion-trace/1\",\"machine\":{id},\"rows\":[")?;
-                Ok(Self::Json { out, names, first: true })
+                Ok(Self::Json {
+                    out,
+                    names,
+                    first: true,
+                })
             }
         }
     }
@@ -147,9 +182,20 @@ fn cells(line: u32, block: &str, row: &Row) -> Vec<Value> {
     ];
     cells.extend((0..3).map(|i| part(row.tip_mm, i)));
     cells.extend((0..3).map(|i| part(row.axis, i)));
-    cells.extend([number(row.feed_mm_min), number(row.duration_s), row.branch.map_or(Value::Null, |b| json!(b))]);
-    cells.extend([number(row.pole_angle_deg), number(row.tip_deviation_mm), number(row.feed_limit_mm_min)]);
-    cells.push(row.limiting_axis.map_or(Value::Null, |letter| json!(letter.to_string())));
+    cells.extend([
+        number(row.feed_mm_min),
+        number(row.duration_s),
+        row.branch.map_or(Value::Null, |b| json!(b)),
+    ]);
+    cells.extend([
+        number(row.pole_angle_deg),
+        number(row.tip_deviation_mm),
+        number(row.feed_limit_mm_min),
+    ]);
+    cells.push(
+        row.limiting_axis
+            .map_or(Value::Null, |letter| json!(letter.to_string())),
+    );
     cells.extend(row.joints.iter().map(|&joint| number(joint)));
     cells
 }

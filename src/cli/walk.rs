@@ -14,7 +14,12 @@ pub(crate) fn programs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
         let before = files.len();
         for entry in WalkDir::new(path).sort_by_file_name() {
             let entry = entry.map_err(|error| Failure::file(path, error))?;
-            if entry.file_type().is_file() && entry.file_name().to_str().is_some_and(trunnion_dialect::is_program_file_name) {
+            if entry.file_type().is_file()
+                && entry
+                    .file_name()
+                    .to_str()
+                    .is_some_and(trunnion_dialect::is_program_file_name)
+            {
                 files.push(entry.into_path());
             }
         }
@@ -22,7 +27,9 @@ pub(crate) fn programs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
             let known = trunnion_dialect::program_extensions().join(" .");
             return Err(Failure::file(
                 path,
-                format!("no program in this directory (looked for .{known}); name the file itself if it ends otherwise"),
+                format!(
+                    "no program in this directory (looked for .{known}); name the file itself if it ends otherwise"
+                ),
             ));
         }
     }

@@ -19,7 +19,7 @@ pub struct Deviation {
 }
 
 /// Where sample and bound are this near, mm, more samples say nothing more.
-const CLOSE_MM: f64 = 2e-4;
+const CLOSE_MM: f64 = 2e-5;
 
 /// Samples spent on closeness; beyond them a bound of [`RATIO`] times the sample is enough.
 const CLOSE_SAMPLES: u32 = 256;

@@ -10,8 +10,8 @@ mod choice;
 mod constants;
 mod control;
 mod course;
-mod deviation;
 mod describe;
+mod deviation;
 mod follow;
 mod formula;
 mod forward;
@@ -41,7 +41,8 @@ mod spec_tests;
 
 pub use builtin::{BUILTIN_MACHINES, builtin, builtin_source};
 pub use chain::{
-    Axis, AxisExtra, AxisKind, Body, Control, Gantry, Joints, Limits, MAX_AXES, Machine, RapidPath, Side, Tolerances, Wrap,
+    Axis, AxisExtra, AxisKind, Body, Control, Gantry, Joints, Limits, MAX_AXES, Machine, RapidPath, Side, Tolerances,
+    Wrap,
 };
 pub use constants::{Constants, LinearAxis, PairConstants, RotaryAxis};
 pub use describe::{AxisDescription, Description, describe};

@@ -38,7 +38,7 @@ pub struct Row {
 }
 
 /// Deviations up to this need no tighter bound in a trace, mm.
-const TRACE_TOLERANCE_MM: f64 = 2e-4;
+const TRACE_TOLERANCE_MM: f64 = 5e-5;
 
 /// The row of a leg. Branch and pole angle are empty for machines without two rotary axes, deviation and feed limit where nothing moves
 /// along a path (dwell) or where they are not known.

@@ -14,24 +14,39 @@ pub struct LoadError {
 impl LoadError {
     /// Without a place.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { place: String::new(), message: message.into() }
+        Self {
+            place: String::new(),
+            message: message.into(),
+        }
     }
     /// Of a file as a whole.
     pub fn file(path: &Path, message: impl fmt::Display) -> Self {
-        Self { place: path.display().to_string(), message: message.to_string() }
+        Self {
+            place: path.display().to_string(),
+            message: message.to_string(),
+        }
     }
     /// At a byte of a text file; without `span`, of the file as a whole.
     pub fn at(path: &Path, text: &str, span: Option<&std::ops::Range<usize>>, message: impl fmt::Display) -> Self {
-        let Some(span) = span else { return Self::file(path, message) };
+        let Some(span) = span else {
+            return Self::file(path, message);
+        };
         let offset = span.start.min(text.len()) as u32;
         let (line, column) = LineIndex::new(text.as_bytes()).line_column(text.as_bytes(), offset);
-        Self { place: format!("{}:{line}:{column}", path.display()), message: message.to_string() }
+        Self {
+            place: format!("{}:{line}:{column}", path.display()),
+            message: message.to_string(),
+        }
     }
 }
 
 impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.place.is_empty() { f.write_str(&self.message) } else { write!(f, "{}: {}", self.place, self.message) }
+        if self.place.is_empty() {
+            f.write_str(&self.message)
+        } else {
+            write!(f, "{}: {}", self.place, self.message)
+        }
     }
 }
 

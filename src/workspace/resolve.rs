@@ -69,27 +69,46 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let mut rules = config.rules.clone();
     for rule in &overrides.allow {
         if trunnion_check::rule(rule).is_none() {
-            return Err(LoadError::new(format!("--allow {rule}: no such rule; `trunnion rules` lists them")));
+            return Err(LoadError::new(format!(
+                "--allow {rule}: no such rule; `trunnion rules` lists them"
+            )));
         }
         rules.push((rule.clone(), RuleLevel::Allow));
     }
     let mut setup = config.setup.clone();
     if let Some(flag) = &overrides.tool {
-        setup.tools.push(parse_tool_flag(flag).map_err(|error| LoadError::new(format!("--tool {flag}: {error}")))?);
+        setup
+            .tools
+            .push(parse_tool_flag(flag).map_err(|error| LoadError::new(format!("--tool {flag}: {error}")))?);
     }
     let machine = machine.map(|machine| config.machine_with_tolerances(&machine));
-    Ok(Resolved { dialect, dialect_reason, machine, machine_reason, config_path, setup, rules })
+    Ok(Resolved {
+        dialect,
+        dialect_reason,
+        machine,
+        machine_reason,
+        config_path,
+        setup,
+        rules,
+    })
 }
 
 /// `--config`, or `trunnion.toml` in the program's folder (standard input: the current one) or above.
 fn config_for(path: Option<&Path>, overrides: &Overrides) -> Result<(Config, Option<PathBuf>), LoadError> {
     let found = match &overrides.config {
         Some(file) => Some(file.clone()),
-        None => std::path::absolute(path.unwrap_or(Path::new("-"))).ok().and_then(|path| {
-            path.ancestors().skip(1).map(|folder| folder.join("trunnion.toml")).find(|file| file.is_file())
-        }),
+        None => std::path::absolute(path.unwrap_or(Path::new("-")))
+            .ok()
+            .and_then(|path| {
+                path.ancestors()
+                    .skip(1)
+                    .map(|folder| folder.join("trunnion.toml"))
+                    .find(|file| file.is_file())
+            }),
     };
-    let Some(file) = found else { return Ok((Config::default(), None)) };
+    let Some(file) = found else {
+        return Ok((Config::default(), None));
+    };
     let text = std::fs::read_to_string(&file)
         .map_err(|error| LoadError::file(&file, format!("cannot read the settings: {error}")))?;
     let config =
@@ -107,10 +126,16 @@ fn machine_for(
         return Ok((Some(find_machine(name, None)?), "named by the user".into()));
     }
     if let Some(name) = &mode.machine {
-        return Ok((Some(find_machine(name, None)?), "modeline comment in the program".into()));
+        return Ok((
+            Some(find_machine(name, None)?),
+            "modeline comment in the program".into(),
+        ));
     }
     if let Some(name) = &config.machine {
-        return Ok((Some(find_machine(name, config_path.and_then(Path::parent))?), "trunnion.toml".into()));
+        return Ok((
+            Some(find_machine(name, config_path.and_then(Path::parent))?),
+            "trunnion.toml".into(),
+        ));
     }
     Ok((None, "none is named".into()))
 }
@@ -132,7 +157,9 @@ fn dialect_for(
         let Some(name) = name else { continue };
         let Some(dialect) = trunnion_dialect::builtin(name) else {
             let known = trunnion_dialect::BUILTIN_NAMES.join(", ");
-            return Err(LoadError::new(format!("no dialect is named `{name}` ({reason}); known are {known}")));
+            return Err(LoadError::new(format!(
+                "no dialect is named `{name}` ({reason}); known are {known}"
+            )));
         };
         return Ok((dialect, reason.to_owned()));
     }

@@ -2,38 +2,38 @@
 use serde_json::{Value, json};
 use std::{
     collections::HashMap,
-    io::{BufRead, BufReader, Read, Write},
+    io::{BufRead, BufReader, Write},
     process::{Child, ChildStdin, Command, Stdio},
     sync::mpsc::{Receiver, channel},
     time::Duration,
 };
 
 /// A hang, not a slow machine.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
-pub struct Client {
+pub(crate) struct Client {
     child: Child,
     input: Option<ChildStdin>,
     messages: Receiver<Value>,
     next: i64,
     answers: HashMap<i64, Value>,
     published: Vec<Value>,
-    pub last_status: Option<Value>,
+    pub(crate) last_status: Option<Value>,
 }
 
 impl Client {
-    pub fn start(options: Value) -> Self {
+    pub(crate) fn start(options: &Value) -> Self {
         Self::start_with(options, &json!(["utf-16"]))
     }
 
-    pub fn start_with(options: Value, encodings: &Value) -> Self {
+    pub(crate) fn start_with(options: &Value, encodings: &Value) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_trunnion"))
             .arg("lsp")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
             .expect("the server starts");
-        let output = BufReader::new(child.stdout.take().unwrap());
+        let output = BufReader::new(child.stdout.take().expect("piped"));
         let (sender, messages) = channel();
         std::thread::spawn(move || {
             let mut output = output;
@@ -57,7 +57,10 @@ impl Client {
         let params = json!({ "processId": null, "rootUri": null, "capabilities": capabilities,
                              "initializationOptions": options });
         let answer = client.request("initialize", params);
-        assert_eq!(answer["result"]["capabilities"]["textDocumentSync"]["change"], 2, "incremental sync");
+        assert_eq!(
+            answer["result"]["capabilities"]["textDocumentSync"]["change"], 2,
+            "incremental sync"
+        );
         client.notify("initialized", json!({}));
         client
     }
@@ -69,7 +72,7 @@ impl Client {
         input.flush().expect("the server reads");
     }
 
-    pub fn notify(&mut self, method: &str, params: Value) {
+    pub(crate) fn notify(&mut self, method: &str, params: Value) {
         let mut message = json!({ "jsonrpc": "2.0", "method": method });
         if !params.is_null() {
             message["params"] = params;
@@ -77,7 +80,7 @@ impl Client {
         self.send(&message);
     }
 
-    pub fn send_request(&mut self, method: &str, params: Value) -> i64 {
+    pub(crate) fn send_request(&mut self, method: &str, params: Value) -> i64 {
         self.next += 1;
         let id = self.next;
         let mut message = json!({ "jsonrpc": "2.0", "id": id, "method": method });
@@ -88,7 +91,7 @@ impl Client {
         id
     }
 
-    pub fn request(&mut self, method: &str, params: Value) -> Value {
+    pub(crate) fn request(&mut self, method: &str, params: Value) -> Value {
         let id = self.send_request(method, params);
         self.answer(id)
     }
@@ -108,7 +111,7 @@ impl Client {
         }
     }
 
-    pub fn answer(&mut self, id: i64) -> Value {
+    pub(crate) fn answer(&mut self, id: i64) -> Value {
         loop {
             if let Some(answer) = self.answers.remove(&id) {
                 return answer;
@@ -118,9 +121,12 @@ impl Client {
     }
 
     /// The findings of a version of a document (older versions are passed over).
-    pub fn diagnostics(&mut self, uri: &str, version: i64) -> Vec<Value> {
+    pub(crate) fn diagnostics(&mut self, uri: &str, version: i64) -> Vec<Value> {
         loop {
-            let at = self.published.iter().position(|p| p["uri"] == uri && p["version"] == version);
+            let at = self
+                .published
+                .iter()
+                .position(|p| p["uri"] == uri && p["version"] == version);
             if let Some(at) = at {
                 let found = self.published[at]["diagnostics"].as_array().expect("a list").clone();
                 self.published.drain(..=at);
@@ -135,21 +141,28 @@ impl Client {
     }
 
     /// The next findings published without a version.
-    pub fn any_diagnostics(&mut self, uri: &str) -> Vec<Value> {
+    pub(crate) fn any_diagnostics(&mut self, uri: &str) -> Vec<Value> {
         loop {
-            if let Some(at) = self.published.iter().position(|p| p["uri"] == uri && p["version"].is_null()) {
-                return self.published.remove(at)["diagnostics"].as_array().expect("a list").clone();
+            if let Some(at) = self
+                .published
+                .iter()
+                .position(|p| p["uri"] == uri && p["version"].is_null())
+            {
+                return self.published.remove(at)["diagnostics"]
+                    .as_array()
+                    .expect("a list")
+                    .clone();
             }
             self.pump();
         }
     }
 
-    pub fn open(&mut self, uri: &str, text: &str) {
+    pub(crate) fn open(&mut self, uri: &str, text: &str) {
         let document = json!({ "uri": uri, "languageId": "gcode", "version": 1, "text": text });
         self.notify("textDocument/didOpen", json!({ "textDocument": document }));
     }
 
-    pub fn edit(&mut self, uri: &str, version: i64, before: &str, bytes: std::ops::Range<usize>, new: &str) {
+    pub(crate) fn edit(&mut self, uri: &str, version: i64, before: &str, bytes: std::ops::Range<usize>, new: &str) {
         let range = json!({ "start": position(before, bytes.start), "end": position(before, bytes.end) });
         self.notify(
             "textDocument/didChange",
@@ -158,7 +171,7 @@ impl Client {
         );
     }
 
-    pub fn change_all(&mut self, uri: &str, version: i64, text: &str) {
+    pub(crate) fn change_all(&mut self, uri: &str, version: i64, text: &str) {
         self.notify(
             "textDocument/didChange",
             json!({ "textDocument": { "uri": uri, "version": version }, "contentChanges": [{ "text": text }] }),
@@ -166,14 +179,14 @@ impl Client {
     }
 
     /// Clean shutdown: the answer to `shutdown`, then status 0 though the pipe stays open.
-    pub fn finish(mut self) {
+    pub(crate) fn finish(mut self) {
         let answer = self.request("shutdown", Value::Null);
         assert!(answer.get("error").is_none(), "{answer}");
         self.notify("exit", Value::Null);
         assert_eq!(self.wait(), Some(0));
     }
 
-    pub fn wait(&mut self) -> Option<i32> {
+    pub(crate) fn wait(&mut self) -> Option<i32> {
         for _ in 0..600 {
             if let Some(status) = self.child.try_wait().expect("a child of ours") {
                 return status.code();
@@ -213,7 +226,7 @@ fn read_frame(output: &mut impl BufRead) -> Option<Value> {
 }
 
 /// UTF-16 position of a byte; `\n`, `\r\n` and `\r` end lines.
-pub fn position(text: &str, byte: usize) -> Value {
+pub(crate) fn position(text: &str, byte: usize) -> Value {
     let mut byte = byte;
     while !text.is_char_boundary(byte) {
         byte -= 1;
@@ -225,8 +238,8 @@ pub fn position(text: &str, byte: usize) -> Value {
 }
 
 fn byte(text: &str, position: &Value) -> usize {
-    let line = position["line"].as_u64().unwrap() as usize;
-    let character = position["character"].as_u64().unwrap() as usize;
+    let line = position["line"].as_u64().expect("a number") as usize;
+    let character = position["character"].as_u64().expect("a number") as usize;
     let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();
     let mut units = 0;
     for (at, c) in text[start..].char_indices() {
@@ -238,17 +251,17 @@ fn byte(text: &str, position: &Value) -> usize {
     text.len()
 }
 
-pub fn text_of<'a>(text: &'a str, range: &Value) -> &'a str {
+pub(crate) fn text_of<'a>(text: &'a str, range: &Value) -> &'a str {
     &text[byte(text, &range["start"])..byte(text, &range["end"])]
 }
 
 /// The text after the edits of a workspace edit.
-pub fn apply(text: &str, edits: &[Value]) -> String {
+pub(crate) fn apply(text: &str, edits: &[Value]) -> String {
     let mut spans: Vec<_> = edits
         .iter()
         .map(|e| {
             let range = byte(text, &e["range"]["start"])..byte(text, &e["range"]["end"]);
-            (range, e["newText"].as_str().unwrap())
+            (range, e["newText"].as_str().expect("a text"))
         })
         .collect();
     spans.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));

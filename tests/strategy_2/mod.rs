@@ -2,6 +2,7 @@
 //! with them.
 #![allow(dead_code, reason = "each test file uses its part")]
 use trunnion::check::Settings;
+use trunnion::geometry::{Vec3, deg, math, rad};
 use trunnion::interp::{Setup, Tool, ToolShape};
 use trunnion::rewrite::{Attempt, Options, attempt, rewrite};
 use trunnion::{certify::Certificate, dialect, machine, syntax};
@@ -101,4 +102,42 @@ pub(crate) fn refused(attempt: Attempt) -> String {
         Attempt::Refused(reason) => reason,
         other => panic!("not refused: {other:?}"),
     }
+}
+
+/// Numbers of the words X Y Z A C of each row.
+pub(crate) fn words(text: &str) -> Vec<[f64; 5]> {
+    let rows = text.lines().filter(|line| line.contains(" G1 "));
+    rows.map(|line| {
+        "XYZAC"
+            .bytes()
+            .map(|letter| {
+                let word = line
+                    .split_whitespace()
+                    .find(|word| word.as_bytes()[0] == letter)
+                    .expect("all words are there");
+                word[1..].parse().expect("a number")
+            })
+            .collect::<Vec<f64>>()
+            .try_into()
+            .expect("five words")
+    })
+    .collect()
+}
+
+/// Tool axis of the Mikron for A and C in deg.
+pub(crate) fn axis(a: f64, c: f64) -> Vec3 {
+    let ((sin_a, cos_a), (sin_c, cos_c)) = (math::sin_cos(rad(a)), math::sin_cos(rad(c)));
+    Vec3::new(sin_a * sin_c, -sin_a * cos_c, cos_a)
+}
+
+/// Angle between the tool axes of two rows, deg.
+pub(crate) fn turned(was: &[f64; 5], is: &[f64; 5]) -> f64 {
+    deg(math::angle_between(&axis(was[3], was[4]), &axis(is[3], is[4])))
+}
+
+/// Largest step of C between rows, deg.
+pub(crate) fn largest_c_step(rows: &[[f64; 5]]) -> f64 {
+    rows.windows(2)
+        .map(|pair| (pair[1][4] - pair[0][4]).abs())
+        .fold(0.0, f64::max)
 }

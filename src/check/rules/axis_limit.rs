@@ -41,7 +41,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     for excess in found {
         let axis = &view.machine.axes[excess.axis];
         let beyond = (excess.value - excess.limit).abs();
-        if out.repeats(u64::from(axis.letter), beyond) {
+        if out.repeats(view, u64::from(axis.letter), beyond) {
             continue;
         }
         let name = letter(axis.letter);

@@ -58,7 +58,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     }
     let axis = &view.machine.axes[limit.axis];
     let key = u64::from(axis.letter) + 256 * u64::from(view.feed_in_degrees());
-    if out.repeats(key, -limit.feed_mm_min) {
+    if out.repeats(view, key, -limit.feed_mm_min) {
         return;
     }
     let name = letter(axis.letter);
@@ -127,7 +127,7 @@ fn undecided(view: &LegView<'_>, out: &mut Reporter<'_>) {
         }
         _ => "the motion is not modelled",
     };
-    if out.repeats_unknown(hash(why), 0.0) {
+    if out.repeats_unknown(view, hash(why), 0.0) {
         return;
     }
     let range = code_range(out.program(), view.motion().block);
@@ -219,5 +219,45 @@ mod tests {
         assert_eq!(found(8).len(), 8);
         let long = found(20);
         assert_eq!((long.len(), long[0].count), (1, 20));
+    }
+
+    #[test]
+    fn the_worst_of_a_long_run_is_worded_wherever_it_lies() {
+        use core::fmt::Write;
+        // the fewer mm for 9 deg of C, the lower the feed: worst in block 15
+        let mut text = String::from("TRAORI\nG0 X0 Y0 Z50 A30 C0\n");
+        let mut x = 0.0;
+        for i in 1..=20_i32 {
+            x += 0.5 + f64::from((i - 15).abs()) / 100.0;
+            let _ = writeln!(text, "N{i} G1 X{x:.3} C{} F1000", 9 * i);
+        }
+        let report = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text)
+            .check()
+            .unwrap();
+        for rule in ["axis-overspeed", "feed-drop"] {
+            let found: Vec<_> = report.diagnostics.iter().filter(|d| d.rule == rule).collect();
+            assert_eq!(
+                (found.len(), found[0].count, found[0].block.as_deref()),
+                (1, 20, Some("N1"))
+            );
+            let limit = found[0].values.iter().find_map(|(key, value)| match value {
+                crate::ValueKey::Number(limit) if *key == "feed_limit_mm_min" => Some(*limit),
+                _ => None,
+            });
+            assert!((limit.unwrap() - 400.0).abs() < 0.5, "{rule}: {limit:?}");
+            let worst = found[0].related[0].0;
+            assert!(
+                text[..worst.start as usize].lines().last().unwrap().starts_with("N15 "),
+                "{rule}"
+            );
+            assert!(
+                text[..found[0].last.start as usize]
+                    .lines()
+                    .last()
+                    .unwrap()
+                    .starts_with("N20 "),
+                "{rule}"
+            );
+        }
     }
 }

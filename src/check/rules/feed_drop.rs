@@ -63,7 +63,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         Severity::Warning
     };
     let key = u64::from(view.feed_in_degrees());
-    if out.repeats_as(severity, key, -limit.feed_mm_min) {
+    if out.repeats_as(severity, view, key, -limit.feed_mm_min) {
         return;
     }
     let name = letter(view.machine.axes[limit.axis].letter);

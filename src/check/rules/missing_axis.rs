@@ -32,7 +32,7 @@ pub(super) const RULE: Body = Body {
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if let Err(NoStance::NoSuchAxis(axis)) = view.leg.end {
-        if out.repeats(u64::from(axis), 0.0) {
+        if out.repeats(view, u64::from(axis), 0.0) {
             return;
         }
         let range = axis_word(out.program(), view.motion().block, axis);

@@ -49,7 +49,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let tolerance = view.machine.tolerances.tip_mm;
     let range = |out: &Reporter<'_>| code_range(out.program(), view.motion().block);
     let Some(deviation) = view.deviation() else {
-        if out.repeats_unknown(0, 0.0) {
+        if out.repeats_unknown(view, 0, 0.0) {
             return;
         }
         let range = range(out);
@@ -66,9 +66,9 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return;
     }
     let repeats = if deviation.sampled_mm > tolerance {
-        out.repeats(1, deviation.sampled_mm)
+        out.repeats(view, 1, deviation.sampled_mm)
     } else {
-        out.repeats_unknown(2, deviation.bound_mm)
+        out.repeats_unknown(view, 2, deviation.bound_mm)
     };
     if repeats {
         return;

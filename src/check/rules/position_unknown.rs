@@ -37,7 +37,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return;
     };
     let cause = hash(letters);
-    if !view.motion().is_feed() || out.repeats_unknown(cause, 0.0) {
+    if !view.motion().is_feed() || out.repeats_unknown(view, cause, 0.0) {
         return;
     }
     let names: Vec<String> = AXIS_LETTERS

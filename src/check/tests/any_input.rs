@@ -14,10 +14,10 @@ fn settings(dialect: usize, machine: &str) -> Settings<'static> {
     }
 }
 
-fn judge(source: Vec<u8>, dialect: usize) {
+fn judge(source: &[u8], dialect: usize) {
     for machine in ["mikron-ucp710", "mill-3axis", "none"] {
         let settings = settings(dialect, machine);
-        let program = trunnion_syntax::parse(source.clone(), settings.dialect.lex);
+        let program = trunnion_syntax::parse(source.to_vec(), settings.dialect.lex);
         let report = check(&program, &settings);
         let end = source.len() as u32;
         for found in &report.diagnostics {
@@ -55,16 +55,16 @@ fn examples() -> Vec<u8> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(96))]
+    #![proptest_config(ProptestConfig::with_cases(300))]
 
     #[test]
     fn random_bytes(source in proptest::collection::vec(any::<u8>(), 0..400), dialect in 0usize..4) {
-        judge(source, dialect);
+        judge(&source, dialect);
     }
 
     #[test]
     fn random_words(source in "((N[0-9]{1,3} )?[GMXYZACFSTDHIJKR][-]?[0-9]{0,4}[.]?[0-9]{0,3}[ \n;(/=]){0,60}", dialect in 0usize..4) {
-        judge(source.into_bytes(), dialect);
+        judge(source.as_bytes(), dialect);
     }
 
     #[test]
@@ -79,6 +79,6 @@ proptest! {
             }
         }
         source.truncate(20_000);
-        judge(source, dialect);
+        judge(&source, dialect);
     }
 }

@@ -49,8 +49,8 @@
 //! - Shank and holder turn with the tool axis, by at most the tolerance.
 //!
 //! # Sources
-//! Singularity paper of the seed set on five-axis guide vanes, 2006 (the circle i^2 + j^2 = 1 - k^2 and P' = P + r (u - u')); Trunnion's
-//! kinematics notes 6 (R3) and 12.3 (taut string).
+//! The guide-vane paper of 2006 (deformation on the circle i^2 + j^2 = 1 - k^2); Trunnion's kinematics notes 1 (003:
+//! P' = P + r (u - u')), 6 (R3) and 12.3 (taut string).
 use super::Body;
 use crate::reposition::Writer;
 use crate::slots::{Scheme, Styles, styles};

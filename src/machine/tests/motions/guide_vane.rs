@@ -243,10 +243,8 @@ fn deviation_without_tcp() {
             );
         }
         if strategy == 0 {
-            assert!(
-                sampled[0] <= 0.0012 + 1e-4 && bound[0] <= 0.0012 + 0.001,
-                "{sampled:?} {bound:?}"
-            );
+            // 0.0012 in print; the bound closes to 2e-5
+            assert!(bound[0] > 0.0011 && bound[0] <= 0.00123, "{bound:?}");
         }
     }
 }

@@ -1,0 +1,104 @@
+//! Runs of findings, put together by hand.
+use super::*;
+use trunnion_syntax::{LexOptions, parse};
+
+fn empty() -> Program {
+    parse(Vec::new(), LexOptions::default())
+}
+
+fn finding(at: u32, message: &str) -> Diagnostic {
+    let range = TextRange::new(at * 10, at * 10 + 3);
+    Diagnostic {
+        rule: "axis-limit",
+        severity: Severity::Error,
+        status: Status::Fail,
+        range,
+        block: None,
+        message: message.to_owned(),
+        notes: Vec::new(),
+        help: None,
+        values: Vec::new(),
+        fixes: Vec::new(),
+        related: Vec::new(),
+        count: 1,
+        last: range,
+    }
+}
+
+fn merge(key: u64, badness: f64, show: usize) -> Merge {
+    Merge {
+        key,
+        badness,
+        show,
+        everywhere: false,
+    }
+}
+
+#[test]
+fn consecutive_findings_become_one_with_the_worst() {
+    let program = empty();
+    let mut log = Log::default();
+    log.add(&program, finding(1, "a"), Some(merge(1, 1.0, 1)), 1);
+    log.add(&program, finding(2, "b"), Some(merge(1, 3.0, 1)), 2);
+    log.add(&program, finding(3, "c"), Some(merge(1, 2.0, 1)), 3);
+    let found = log.finish(&program);
+    assert_eq!(found.len(), 1);
+    assert_eq!((found[0].count, found[0].range.start, found[0].last.start), (3, 10, 30));
+    assert_eq!(found[0].message, "b");
+    assert_eq!(found[0].related[0].0.start, 20);
+}
+
+#[test]
+fn a_gap_or_another_axis_starts_anew() {
+    let program = empty();
+    let mut log = Log::default();
+    log.add(&program, finding(1, "a"), Some(merge(1, 1.0, 1)), 1);
+    log.add(&program, finding(2, "b"), Some(merge(2, 1.0, 1)), 2);
+    log.add(&program, finding(4, "c"), Some(merge(1, 1.0, 1)), 4);
+    assert_eq!(log.finish(&program).len(), 3);
+}
+
+#[test]
+fn short_runs_are_shown_block_by_block() {
+    let program = empty();
+    let mut log = Log::default();
+    for at in 1..=8 {
+        log.add(&program, finding(at, "a"), Some(merge(1, 1.0, 8)), u64::from(at));
+    }
+    assert_eq!(log.finish(&program).len(), 8);
+    let program = empty();
+    let mut log = Log::default();
+    for at in 1..=9 {
+        log.add(
+            &program,
+            finding(at, "a"),
+            Some(merge(1, f64::from(at), 8)),
+            u64::from(at),
+        );
+    }
+    let found = log.finish(&program);
+    assert_eq!((found.len(), found[0].count, found[0].related[0].0.start), (1, 9, 90));
+}
+
+#[test]
+fn events_are_never_merged() {
+    let program = empty();
+    let mut log = Log::default();
+    log.add(&program, finding(1, "a"), None, 1);
+    log.add(&program, finding(2, "b"), None, 2);
+    assert_eq!(log.finish(&program).len(), 2);
+}
+
+#[test]
+fn a_file_of_noise_is_not_listed_to_its_end() {
+    let program = empty();
+    let mut log = Log::default();
+    for at in 0..LISTED + 5 {
+        log.add(&program, finding(at, "a"), None, u64::from(at));
+    }
+    let found = log.finish(&program);
+    assert_eq!(found.len(), LISTED as usize + 1);
+    let rest = &found[LISTED as usize];
+    assert_eq!(rest.count, 5);
+    assert!(rest.message.starts_with("5 more findings"), "{}", rest.message);
+}

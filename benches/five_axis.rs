@@ -3,6 +3,7 @@
 //!
 //! The program is a serpentine over a bumpy surface with the tool axis on its normal, as rotary words A (tilt about X)
 //! and C (about Z): `G1 X Y Z A C` on each line, with a real singularity where the surface is level.
+#![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 use std::{env, fmt::Write, fs, hint::black_box, process::Command, time::Instant};
 use trunnion::{
     check::{Settings, check},
@@ -16,10 +17,10 @@ const BLOCKS: usize = 1_000_000;
 const RUNS: usize = 5;
 
 fn main() {
-    let path = env::temp_dir().join(format!("trunnion-five-axis-{}.ngc", std::process::id()));
     if let Some(path) = env::var_os("TRUNNION_BENCH_MEMORY_OF") {
         return memory_child(&path);
     }
+    let path = env::temp_dir().join(format!("trunnion-five-axis-{}.ngc", std::process::id()));
     let text = five_axis(BLOCKS).into_bytes();
     fs::write(&path, &text).expect("the temporary folder is writable");
     let megabytes = text.len() as f64 / 1e6;

@@ -1,4 +1,5 @@
 //! The list of rules, alphabetical. A rule is one file in `rules/`; its name stands in two lists here.
+mod ambiguous_implicit_decimal;
 mod apt_unknown_record;
 mod apt_vector_missing;
 mod arc_centre_missing;
@@ -55,6 +56,7 @@ macro_rules! table {
 }
 
 static RULES: &[&Rule] = table![
+    ambiguous_implicit_decimal,
     apt_unknown_record,
     apt_vector_missing,
     arc_centre_missing,
@@ -134,6 +136,7 @@ mod tests {
             FaultKind::ArcCentreMissing,
             FaultKind::VectorNotUnit { norm: 0.0 },
             FaultKind::AptUnknownRecord,
+            FaultKind::AmbiguousDecimal,
             FaultKind::AptVectorMissing,
             FaultKind::NotModelled { what: text() },
             FaultKind::WorkOffsetUnset { name: text() },

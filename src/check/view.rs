@@ -135,6 +135,14 @@ impl<'a> LegView<'a> {
         })
     }
 
+    /// Whether a rotary axis turns by more than half a turn, so that a whole turn less may reach the same place.
+    pub fn turns_far(&self) -> bool {
+        self.leg
+            .rotary_change
+            .iter()
+            .any(|change| *change > core::f64::consts::PI)
+    }
+
     /// Whether the block comes into the pole's cone on a machine with two rotary axes.
     pub fn near_pole(&self) -> bool {
         self.machine.rotary.len() == 2 && self.leg.pole_angle_min < self.machine.tolerances.pole_cone

@@ -36,6 +36,8 @@ pub struct Quirks {
     pub last_code_wins: bool,
     /// A number may follow a name directly (`DO1`, `GOTO900`).
     pub numbers_follow_names: bool,
+    /// A coordinate without a decimal point is millimetres or least increments, as a parameter of the control says (Fanuc).
+    pub whole_numbers_ambiguous: bool,
 }
 
 /// How far the radii of an arc's start and end may differ.

@@ -73,6 +73,9 @@ pub enum FaultKind {
         /// Tool or offset number as written.
         tool: String,
     },
+    /// A coordinate other than zero has no decimal point, in a dialect where a parameter of the control decides what that means.
+    /// It is read as mm (or inch, degrees) as written. Range: the word.
+    AmbiguousDecimal,
     /// The program has no end code.
     MissingProgramEnd,
 }

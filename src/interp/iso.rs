@@ -5,8 +5,8 @@ use crate::reader::Reader;
 use crate::run::{Interpreter, Report, Sink};
 use crate::words::Words;
 use crate::{FaultKind, Motion};
-use trunnion_dialect::Action;
-use trunnion_syntax::{Block, TextRange};
+use trunnion_dialect::{Action, Role};
+use trunnion_syntax::{Address, Block, TextRange, Value};
 
 impl<'d> Interpreter<'d> {
     /// Runs one ISO block. Blocks with `/` run as if the switch for skipping were off.
@@ -107,6 +107,9 @@ impl<'d> Interpreter<'d> {
             Some(Action::Rapid | Action::Linear | Action::ArcClockwise | Action::ArcCounterClockwise)
                 if !unmodelled =>
             {
+                if self.dialect.quirks.whole_numbers_ambiguous {
+                    self.whole_numbers(words, report);
+                }
                 Some(self.modelled_motion(words, block, report))
             }
             _ if unmodelled || modal.is_some() => Some(self.unknown_motion(words, report)),
@@ -115,6 +118,33 @@ impl<'d> Interpreter<'d> {
                 report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
                 Some(self.unknown_motion(words, report))
             }
+        }
+    }
+
+    /// Tells the first coordinate, centre or radius of a block whose missing decimal point makes its size ambiguous.
+    fn whole_numbers(&self, words: &Words, report: &mut Report<'_>) {
+        let radius = words.radius.number().is_some_and(|r| !r.has_point);
+        if !radius && words.axes.all_pointed() && words.centre.all_pointed() {
+            return;
+        }
+        let size = |word: &trunnion_syntax::Word| {
+            let Address::Letter(letter) = word.address else {
+                return false;
+            };
+            let role = self.dialect.role(letter);
+            let Value::Number(number) = word.value else {
+                return false;
+            };
+            let sized = match role {
+                Some(Role::Axis | Role::ArcRadius) => true,
+                // under G43.5 I J K are a direction
+                Some(Role::ArcCentre) => !self.state.vector_mode,
+                _ => false,
+            };
+            sized && !number.has_point && number.mantissa != 0
+        };
+        if let Some(word) = report.program.block(report.block).words().find(size) {
+            report.fault(word.range, FaultKind::AmbiguousDecimal);
         }
     }
 }

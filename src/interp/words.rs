@@ -81,6 +81,10 @@ impl<const N: usize> Places<N> {
     pub(crate) fn get(&self, place: usize) -> Option<f64> {
         (self.given & (1 << place) != 0).then(|| self.values[place])
     }
+    /// Whether every number is written with a decimal point.
+    pub(crate) fn all_pointed(&self) -> bool {
+        self.given & !self.point == 0
+    }
     fn put(&mut self, place: usize, number: Number) {
         self.values[place] = number.value;
         self.given |= 1 << place;

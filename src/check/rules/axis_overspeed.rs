@@ -97,6 +97,9 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if view.near_pole() {
         draft.fix("smooth-pole");
     }
+    if view.turns_far() {
+        draft.fix("unwind-rotary");
+    }
     draft.merge_runs_over(SHORT_RUN, key, -limit.feed_mm_min);
 }
 
@@ -259,5 +262,23 @@ mod tests {
                 "{rule}"
             );
         }
+    }
+
+    #[test]
+    fn fixes_are_offered_where_they_may_help() {
+        let fixes = |words: &str| {
+            let text = format!("TRAORI\nG0 X0 Y0 Z50 A30 C0\nG1 {words} F2000\nM30\n");
+            let report = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text)
+                .check()
+                .unwrap();
+            report
+                .diagnostics
+                .iter()
+                .find(|d| d.rule == "axis-overspeed")
+                .map(|d| d.fixes.clone())
+        };
+        assert_eq!(fixes("X1 C90"), Some(vec![]));
+        assert_eq!(fixes("X1 C350"), Some(vec!["unwind-rotary"]));
+        assert_eq!(fixes("X1 C90 A-1"), Some(vec!["smooth-pole"]));
     }
 }

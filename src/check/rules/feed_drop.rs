@@ -88,6 +88,9 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if view.near_pole() {
         draft.fix("smooth-pole");
     }
+    if view.turns_far() {
+        draft.fix("unwind-rotary");
+    }
     draft.merge_runs_over(SHORT_RUN, key, -limit.feed_mm_min);
 }
 

@@ -75,21 +75,25 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     }
     let range = range(out);
     if deviation.sampled_mm > tolerance {
-        out.report(
+        let draft = out.report(
             range,
             format!("the tip leaves the programmed segment by {}", mm(deviation.sampled_mm)),
-        )
-        .note(format!(
-            "farthest after {} % of the block; proven to be at most {}; allowed are {}",
-            number((deviation.at * 100.0).round()),
-            mm(deviation.bound_mm),
-            mm(tolerance)
-        ))
-        .help("switch tool centre point control on, or insert points")
-        .value("deviation_mm", deviation.sampled_mm)
-        .value("deviation_bound_mm", deviation.bound_mm)
-        .value("limit_mm", tolerance)
-        .merge_runs_over(SHORT_RUN, 1, deviation.sampled_mm);
+        );
+        draft
+            .note(format!(
+                "farthest after {} % of the block; proven to be at most {}; allowed are {}",
+                number((deviation.at * 100.0).round()),
+                mm(deviation.bound_mm),
+                mm(tolerance)
+            ))
+            .help("switch tool centre point control on, or insert points")
+            .value("deviation_mm", deviation.sampled_mm)
+            .value("deviation_bound_mm", deviation.bound_mm)
+            .value("limit_mm", tolerance)
+            .merge_runs_over(SHORT_RUN, 1, deviation.sampled_mm);
+        if view.turns_far() {
+            draft.fix("unwind-rotary");
+        }
     } else {
         let found = format!("between {} and {}", mm(deviation.sampled_mm), mm(deviation.bound_mm));
         out.report(

@@ -178,7 +178,7 @@ fn work_offsets_move_the_programmed_position() {
 
 #[test]
 fn additional_work_offsets_are_named_with_their_p() {
-    let (_, log) = run_bytes("fanuc-30i", b"G54.1 P3\nG0 X1\nM30\n", &offsets());
+    let (_, log) = run_bytes("fanuc-30i", b"G54.1 P3\nG0 X1.\nM30\n", &offsets());
     let unset = trunnion_interp::FaultKind::WorkOffsetUnset {
         name: "G54.1 P3".to_owned(),
     };

@@ -55,14 +55,14 @@ fn vectors_need_tool_centre_point_control() {
 
 #[test]
 fn vectors_by_ijk_under_g43_5() {
-    let source = "G43.5 H0\nG1 X0 Y0 Z0 I0 J0 K1 F100\nX1 I0.6 J0 K0.81\nG49\nG0 X5\n";
+    let source = "G43.5 H0\nG1 X0 Y0 Z0 I0 J0 K1 F100\nX1. I0.6 J0 K0.81\nG49\nG0 X5.\n";
     assert_eq!(
         lines("fanuc-30i", source)[..1],
         ["L X0 Y0 Z0 F100 tcp <0 0 1>".to_owned()],
     );
     let got = faults("fanuc-30i", source);
     assert_eq!(got.len(), 1);
-    assert!(got[0].starts_with("3: X1: VectorNotUnit { norm: 1.008"), "{got:?}");
+    assert!(got[0].starts_with("3: X1.: VectorNotUnit { norm: 1.008"), "{got:?}");
     assert_eq!(
         lines("fanuc-30i", source)[2],
         "R X5",

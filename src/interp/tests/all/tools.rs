@@ -80,7 +80,7 @@ fn d_gives_the_length_of_the_tool_in_use() {
 
 #[test]
 fn missing_lengths_are_said_once() {
-    let got = faults("fanuc-30i", "G43 H9 G0 Z1\nG43 H9 Z2\nG43 H8 Z3\n");
+    let got = faults("fanuc-30i", "G43 H9 G0 Z1.\nG43 H9 Z2.\nG43 H8 Z3.\n");
     assert_eq!(
         got,
         [
@@ -137,7 +137,7 @@ fn what_is_declared_about_the_tool_in_use() {
 fn a_declaration_counts_for_blocks_before_it() {
     let log = run_text(
         "fanuc-30i",
-        "G43 H3 G0 Z1\n(trunnion: tool 3 ball diameter 10 length 80)\n",
+        "G43 H3 G0 Z1.\n(trunnion: tool 3 ball diameter 10 length 80)\n",
     );
     assert_eq!(log.motions[0].tool_length_mm, 80.0);
     assert_eq!(log.faults, []);

@@ -1,0 +1,46 @@
+//! A coordinate has no decimal point, on a control where a parameter decides what that means.
+//!
+//! # Why
+//! `X10` is 10 mm on one machine and 0.010 mm on the next, with the same control. The program reads the same on both.
+//!
+//! # Example
+//! ```gcode fanuc-30i
+//! N10 G21 G90 G94
+//! N20 G1 X10 Y5. F200
+//! ;      ^^^ ambiguous-implicit-decimal: `X10` has no decimal point
+//! N30 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode fanuc-30i
+//! N10 G21 G90 G94
+//! N20 G1 X10. Y5. F200
+//! N30 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound for coordinates, arc centres and radii that are written as numbers other than zero. Consecutive blocks are told once, and
+//! only the first such word of a block.
+//!
+//! # Sources
+//! FANUC Series 30i parameter manual: parameter 3401, bit 0 (DPI).
+use crate::prelude::*;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    if fault.kind == FaultKind::AmbiguousDecimal {
+        let text = out.text(fault.range);
+        out.report(
+            fault.range,
+            format!("`{text}` has no decimal point: its size hangs on a parameter of the control"),
+        )
+        .note("parameter 3401 bit 0 (DPI): 0 counts least increments (0.001 mm), 1 counts millimetres; millimetres are taken here")
+        .help(format!("write `{text}.`"))
+        .merge(0, 0.0);
+    }
+}

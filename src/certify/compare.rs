@@ -101,6 +101,12 @@ impl Pair<'_> {
             NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown: program it before"),
             NoStance::Unreachable(_) | NoStance::OutsideLimits { .. } => "the machine cannot reach the pose".into(),
             NoStance::NotModelled => "the motion is not modelled".into(),
+            NoStance::RotaryOffset(letter) => {
+                format!(
+                    "a work offset in {} under tool centre point control is not modelled",
+                    char::from(*letter)
+                )
+            }
             NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
         };
         self.unknown(&format!("in the program {which}, {why}"))
@@ -114,6 +120,10 @@ impl Pair<'_> {
             "the kind of motion (rapid, line, arc, dwell and its time)"
         } else if old.zero != new.zero || old.machine_coordinates != new.machine_coordinates {
             "the zero point"
+        } else if self.before.work_offset != self.after.work_offset {
+            "the work offset"
+        } else if self.before.compensation != self.after.compensation {
+            "the side of the cutter radius compensation"
         } else if old.tool != new.tool || old.tool_length_mm != new.tool_length_mm {
             "the tool or its length"
         } else if !self.claim.is_rewrite() {

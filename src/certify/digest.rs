@@ -39,7 +39,10 @@ pub(crate) fn machine_digest(machine: &Machine) -> String {
         "{} great circle {}",
         machine.control.family, machine.control.tcp_great_circle
     );
+    // thresholds of rules decide nothing here, but the pole cone bounds windows, and all of it is the model of the control
+    let _ = writeln!(facts, "{:?} {:?}", machine.control, machine.tolerances);
     for axis in &machine.axes {
+        let _ = writeln!(facts, "{axis:?}");
         let _ = writeln!(
             facts,
             "{} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",

@@ -10,6 +10,7 @@ mod digest;
 mod path;
 mod recheck;
 mod rerun;
+mod side;
 mod text;
 mod verdict;
 

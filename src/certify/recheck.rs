@@ -6,6 +6,7 @@ use crate::certificate::{MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextDi
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
 use crate::rerun::{Rerun, Step};
+use crate::side;
 use crate::text::text_change;
 use crate::{Certificate, Claim, Outcome};
 use trunnion_dialect::Dialect;
@@ -140,6 +141,7 @@ fn prove(
             }
         }
     }
+    same_sides((&old, &old_steps.sides), (&new, &new_steps.sides), dialect)?;
     Ok(Certificate {
         schema: SCHEMA.into(),
         tool_version: env!("CARGO_PKG_VERSION").into(),
@@ -163,6 +165,39 @@ fn prove(
         seal_sha256: String::new(),
     }
     .sealed())
+}
+
+/// What the programs say beside their motions must be the same, word for word, at the same motions: nothing else proves it alike.
+fn same_sides(
+    (old, before): (&Program, &[side::Side]),
+    (new, after): (&Program, &[side::Side]),
+    dialect: &Dialect,
+) -> Result<(), Outcome> {
+    for i in 0..before.len().max(after.len()) {
+        let (was, is) = (before.get(i), after.get(i));
+        let said = |program: &Program, side: Option<&side::Side>| {
+            side.map(|side| (side.motions, side::text(program, dialect, side)))
+        };
+        let (was_said, is_said) = (said(old, was), said(new, is));
+        if was_said == is_said {
+            continue;
+        }
+        let place = |program: &Program, side: Option<&side::Side>| match side {
+            Some(side) => {
+                let start = program.block(side.block).range().start;
+                let (line, _) = LineIndex::new(program.source()).line_column(program.source(), start);
+                let text: String = side::text(program, dialect, side).chars().take(40).collect();
+                format!("line {line} says `{}`", text.trim_end())
+            }
+            None => "nothing more is said".to_owned(),
+        };
+        return Err(Outcome::unknown(format!(
+            "what is not modelled, tools, M words and calls are compared word for word, and differ: before, {}; after, {}",
+            place(old, was),
+            place(new, is)
+        )));
+    }
+    Ok(())
 }
 
 /// Tolerances and radius must be finite and not negative.

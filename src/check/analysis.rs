@@ -97,12 +97,21 @@ pub(crate) fn analyse(program: &Program, settings: &Settings<'_>, at_check_point
     let directives = directives(program);
     let suppressions = Suppressions::new(program, &directives);
     let mut pass = Pass::new(program, settings, &suppressions);
-    pass.read_text(program);
-    pass.read_whole(&Overview {
-        program,
-        settings,
-        directives: &directives,
-    });
+    let unreadable = crate::rules::is_utf16(program.source());
+    let told = unreadable && pass.tell_utf16();
+    if !unreadable {
+        pass.read_text(program);
+    }
+    if !told {
+        pass.read_whole(&Overview {
+            program,
+            settings,
+            directives: &directives,
+        });
+    }
+    if unreadable {
+        return Some(pass.finish());
+    }
 
     let mut interpreter = Interpreter::new(settings.dialect, &settings.setup);
     for id in (0..program.block_count() as u32).map(BlockId) {
@@ -171,6 +180,17 @@ impl<'a> Pass<'a> {
         }
     }
 
+    /// Says that the file is UTF-16; false where the rule that says so is allowed.
+    fn tell_utf16(&mut self) -> bool {
+        let Some(rule) = self.text.iter().find(|rule| rule.name == "syntax-error") else {
+            return false;
+        };
+        self.reporter.enter(rule, None, 0);
+        crate::rules::report_utf16(&mut self.reporter);
+        self.reporter.leave();
+        true
+    }
+
     fn read_whole(&mut self, overview: &Overview<'_>) {
         for rule in &self.whole {
             self.reporter.enter(rule, None, 0);
@@ -187,7 +207,7 @@ impl<'a> Pass<'a> {
             (rule.run)(&view, &mut self.reporter);
             self.reporter.leave();
         }
-        self.time.add(&view);
+        self.time.add(&view, self.reporter.dialect());
         match &leg.end {
             Ok(end) if end.branch != 0 => self.posture = end.branch,
             Ok(_) => {}

@@ -32,6 +32,8 @@ pub struct Config {
     pub tolerances: Vec<(String, f64)>,
     /// `[[tool]]`, `[work_offsets]`.
     pub setup: Setup,
+    /// Axis letters in `[work_offsets]` with their bytes in the file.
+    pub offset_axes: Vec<(u8, core::ops::Range<usize>)>,
 }
 
 /// Why `trunnion.toml` cannot be used.
@@ -78,6 +80,21 @@ impl Config {
     /// Reads the text of a `trunnion.toml`.
     pub fn parse(toml: &str) -> Result<Self, ConfigError> {
         file::parse(toml)
+    }
+
+    /// Whether the machine that the file names has every axis the file's work offsets name.
+    ///
+    /// # Errors
+    /// The first axis it lacks, with its place.
+    pub fn check_axes(&self, machine: &Machine) -> Result<(), ConfigError> {
+        let lacks = |letter: u8| machine.axes.iter().all(|axis| axis.letter != letter);
+        match self.offset_axes.iter().find(|(letter, _)| lacks(*letter)) {
+            None => Ok(()),
+            Some((letter, span)) => Err(ConfigError {
+                message: format!("{} has no axis {}", machine.id, char::from(*letter)),
+                span: Some(span.clone()),
+            }),
+        }
     }
 
     /// The machine with this file's tolerances in place of its own.

@@ -10,6 +10,7 @@
 //! `;^` stands for a width of 1 or 2 there.
 use crate::{Report, RuleLevel, Settings, check};
 use trunnion_interp::Setup;
+use trunnion_machine::Machine;
 use trunnion_syntax::LineIndex;
 
 /// Rules that say what a fragment lacks; they are silent in fixtures that do not draw them.
@@ -35,7 +36,7 @@ pub struct Drawn {
 pub struct Fixture {
     /// Name of a built-in dialect.
     pub dialect: String,
-    /// Name of a built-in machine, if any.
+    /// Name of a built-in machine, if any; `NAME+clamp` is one whose first rotary axis has `clamp = true`.
     pub machine: Option<String>,
     /// The program without caret lines.
     pub program: String,
@@ -72,10 +73,7 @@ impl Fixture {
     /// Checks the program; `Err` says that dialect or machine do not exist.
     pub fn check(&self) -> Result<Report, String> {
         let dialect = trunnion_dialect::builtin(&self.dialect).ok_or_else(|| format!("no dialect {}", self.dialect))?;
-        let machine = match &self.machine {
-            Some(name) => Some(trunnion_machine::builtin(name).ok_or_else(|| format!("no machine {name}"))?),
-            None => None,
-        };
+        let machine = self.machine.as_deref().map(machine).transpose()?;
         let drawn = |rule: &&&str| self.drawn.iter().any(|drawn| drawn.rule == **rule);
         let rules = QUIET
             .iter()
@@ -87,7 +85,7 @@ impl Fixture {
             &program,
             &Settings {
                 dialect,
-                machine,
+                machine: machine.as_ref(),
                 setup: Setup::default(),
                 rules,
             },
@@ -151,6 +149,18 @@ impl Fixture {
         found.sort();
         found
     }
+}
+
+/// A built-in machine; `NAME+KEY` has `KEY = true` added to its first rotary axis.
+fn machine(name: &str) -> Result<Machine, String> {
+    let none = || format!("no machine {name}");
+    let Some((builtin, key)) = name.split_once('+') else {
+        return trunnion_machine::builtin(name).cloned().ok_or_else(none);
+    };
+    let source = trunnion_machine::builtin_source(builtin).ok_or_else(none)?;
+    let kind = "kind = \"rotary\"";
+    let more = source.replacen(kind, &format!("{kind}\n{key} = true"), 1);
+    trunnion_machine::load(builtin, &more).map_err(|error| error.message)
 }
 
 fn list(findings: &[Drawn]) -> String {

@@ -10,7 +10,9 @@ mod bad_number;
 mod branch_swap;
 mod broken_directive;
 mod decimal_comma;
+mod empty_program;
 mod feed_drop;
+mod machine_not_used;
 mod machine_unset;
 mod missing_axis;
 mod missing_feed;
@@ -30,6 +32,8 @@ mod unknown_code;
 mod unknown_word;
 mod unreachable_orientation;
 mod work_offset_unset;
+
+pub(crate) use syntax_error::{is_utf16, report_utf16};
 
 use crate::Rule;
 use crate::header;
@@ -67,7 +71,9 @@ static RULES: &[&Rule] = table![
     branch_swap,
     broken_directive,
     decimal_comma,
+    empty_program,
     feed_drop,
+    machine_not_used,
     machine_unset,
     missing_axis,
     missing_feed,

@@ -70,9 +70,19 @@ impl<'a> Reporter<'a> {
         self.dialect
     }
 
-    /// The text of a range.
+    /// The text of a range to be quoted: its first 40 characters, and `...` where there are more.
     pub fn text(&self, range: TextRange) -> String {
-        self.program.text(range).into_owned()
+        const MOST: usize = 40;
+        // a character has at most 4 bytes; one cut in two at the end lies behind the last that is shown
+        let some = TextRange::new(
+            range.start,
+            range.end.min(range.start.saturating_add(4 * MOST as u32 + 4)),
+        );
+        let text = self.program.text(some);
+        match text.char_indices().nth(MOST) {
+            Some((end, _)) => format!("{}...", &text[..end]),
+            None => text.into_owned(),
+        }
     }
 
     /// Starts a finding; the message says what is wrong, in one sentence with numbers and units.

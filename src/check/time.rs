@@ -23,8 +23,12 @@ impl Default for CycleTime {
 
 impl CycleTime {
     /// Adds a block. One that leads from an unknown to a known position counts nothing: nothing is known of it.
-    pub(crate) fn add(&mut self, view: &LegView<'_>) {
+    pub(crate) fn add(&mut self, view: &LegView<'_>, dialect: &str) {
         if !self.known {
+            return;
+        }
+        if view.feed_is_ambiguous(dialect) {
+            self.known = false;
             return;
         }
         if let MotionKind::Dwell(seconds) = view.motion().kind {

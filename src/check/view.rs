@@ -1,10 +1,17 @@
 //! What rules look at: a leg with what is computed from it at most once, and the program as a whole.
 use crate::Settings;
 use core::cell::OnceCell;
+use core::f64::consts::TAU;
 use trunnion_geometry::{deg, math};
 use trunnion_interp::{Directive, Feed, Motion, Orientation};
-use trunnion_machine::{Deviation, FeedLimit, Leg, Machine, Stance, feed_limit, tip_deviation};
+use trunnion_machine::{
+    Deviation, Excess, FeedLimit, Leg, Limits, Machine, Orientations, Stance, feed_limit, orientations, tip_deviation,
+    windings,
+};
 use trunnion_syntax::{Program, TextRange};
+
+/// Joint motion that is rounding only, rad or mm.
+pub(crate) const NO_TURN: f64 = 1e-9;
 
 /// The program as a whole.
 pub struct Overview<'a> {
@@ -65,6 +72,29 @@ impl<'a> LegView<'a> {
     /// Whether F is meant in degrees: no X Y Z path, without tool centre point control (RS274/NGC on feed rate).
     pub fn feed_in_degrees(&self) -> bool {
         self.leg.length <= 0.0 && !self.leads_tip()
+    }
+
+    /// Whether linear and rotary axes move together under an F whose meaning a parameter of the control decides: mm/min of
+    /// X Y Z, or of the root of mm2 + deg2. RS274/NGC (LinuxCNC) and Sinumerik (geometry axes) say which; tool centre point
+    /// control means the tip, inverse time a duration.
+    pub fn feed_is_ambiguous(&self, dialect: &str) -> bool {
+        let motion = self.motion();
+        let tip = self.leads_tip() && !motion.machine_coordinates;
+        if tip || self.leg.length <= 0.0 || !self.rotary_turns() {
+            return false;
+        }
+        let by_way = matches!(motion.feed, Feed::PerMinute(_) | Feed::PerRevolution(_));
+        let says_which = match dialect {
+            "fanuc-30i" => false,
+            "iso-6983" => matches!(self.machine.control.family.as_str(), "linuxcnc" | "sinumerik-840d"),
+            _ => true,
+        };
+        by_way && !says_which
+    }
+
+    /// Whether a rotary joint turns, by more than rounding.
+    pub fn rotary_turns(&self) -> bool {
+        self.leg.rotary_change.iter().any(|change| *change > NO_TURN)
     }
 
     /// `mm/min` or `deg/min`.
@@ -132,6 +162,40 @@ impl<'a> LegView<'a> {
                 .rotary
                 .get(i)
                 .map_or('-', |at| char::from(self.machine.axes[*at].letter))
+        })
+    }
+
+    /// The limit that the posture before would break in every winding at the end of this block, where the posture changes:
+    /// the limit forces the change. `None` where it does not.
+    pub fn forced_swap(&self) -> Option<Excess> {
+        let (start, end) = self.stances()?;
+        if self.posture_before * end.branch >= 0 {
+            return None;
+        }
+        let Orientations::Postures(postures) = orientations(self.machine, &end.axis) else {
+            return None;
+        };
+        let same = postures.iter().find(|posture| posture.branch == self.posture_before)?;
+        self.machine.rotary.iter().zip(same.q).find_map(|(&axis, q)| {
+            let Limits::Range(low, high) = self.machine.axes[axis].limits else {
+                return None;
+            };
+            if !windings(self.machine, axis, q, start.joints[axis]).is_empty() {
+                return None;
+            }
+            let below = q + TAU * ((high - q) / TAU).floor();
+            let above = below + TAU;
+            let (value, limit) = if low - below <= above - high {
+                (below, low)
+            } else {
+                (above, high)
+            };
+            Some(Excess {
+                axis,
+                value,
+                limit,
+                inside: false,
+            })
         })
     }
 

@@ -127,7 +127,7 @@ fn check_file(global: &Global, command: &Check, format: CheckFormat, path: &Path
 }
 
 /// Whether the exit status is 1.
-fn is_found(report: &Report, deny: Severity, strict: bool) -> bool {
+pub(super) fn is_found(report: &Report, deny: Severity, strict: bool) -> bool {
     use trunnion_check::Status;
     report.diagnostics.iter().any(|d| match d.status {
         Status::Fail => d.severity >= deny,

@@ -69,6 +69,10 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
             ),
         );
     }
+    let report = trunnion_check::check(&loaded.program, &loaded.resolved.settings());
+    if super::check::is_found(&report, global.deny.severity(), global.strict) {
+        return Ok(Done::Found);
+    }
     Ok(Done::Clean)
 }
 

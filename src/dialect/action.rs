@@ -93,6 +93,9 @@ pub enum Action {
     PathMode,
     /// Recognised, but its motion or its effect on the position is not modelled: what follows is unknown.
     NotModelled,
+    /// Recognised, moves nothing and changes no position, but what it does change (what F counts for, limits) is not modelled: said
+    /// once. A G code of this kind uses up the coordinates of its block.
+    NotFollowed,
     /// Moves, turns, mirrors or scales the coordinates in a way that is not modelled (G68.2, G92, CYCLE800, TRANS): machine
     /// positions are unknown from here on, until a [`Action::FrameReset`] of the same group. A name without arguments and
     /// without words in its block (`TRANS`, `CYCLE800()`) resets.
@@ -155,6 +158,8 @@ pub enum Role {
     Parameter,
     /// A variable of the program (R1=): no motion; its value is not followed.
     Variable,
+    /// Recognised; it moves nothing, but what it changes (posture, feed limit) is not modelled: said once.
+    NotFollowed,
     /// Recognised, but it changes the path or calls a program in a way that is not modelled (RND=, CHF=, A2=, L20).
     NotModelled,
 }

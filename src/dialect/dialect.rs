@@ -38,6 +38,11 @@ pub struct Quirks {
     pub numbers_follow_names: bool,
     /// A coordinate without a decimal point is millimetres or least increments, as a parameter of the control says (Fanuc).
     pub whole_numbers_ambiguous: bool,
+    /// Parameters up to this number (`#5000`) are the program's own; those above are the control's: offsets, positions, tools.
+    pub own_parameters_to: u32,
+    /// Machine data decide whether a block in machine coordinates is without the tool's length (Sinumerik 10760 MN_G53_TOOLCORR);
+    /// else it is without.
+    pub machine_data_suppress_length: bool,
 }
 
 /// How far the radii of an arc's start and end may differ.

@@ -180,11 +180,17 @@ impl Interpreter<'_> {
     fn other_record(&mut self, record: &Record<'_>, report: &mut Report<'_>) {
         let text = report.program.text(record.major).into_owned();
         let Some(code) = self.dialect.name(&text) else {
-            return report.fault(record.major, FaultKind::AptUnknownRecord);
+            report.fault(record.major, FaultKind::AptUnknownRecord);
+            return self.unknown_record(text, report);
         };
         let args = Args::new(record);
         let program = report.program;
         match code.action {
+            _ if record.is("INSERT") => {
+                let what = "INSERT: text for the machine is not read".to_owned();
+                report.fault(record.range, FaultKind::NotModelled { what });
+                self.lose_place();
+            }
             Action::FrameChange if args.has(program, "OFF") || args.has(program, "NOMORE") => {
                 let ended = self.memory.end_frame(code);
                 self.forget_if(ended);
@@ -201,6 +207,22 @@ impl Interpreter<'_> {
             _ => {}
         }
         self.state.frame_unknown = self.memory.frame_unknown() || self.apt.csys;
+    }
+
+    /// A record without meaning may move the tool or the coordinates: neither is known until the end of the program.
+    fn unknown_record(&mut self, what: String, report: &mut Report<'_>) {
+        report.fault(report.whole(), FaultKind::NotModelled { what });
+        self.lose_place();
+        self.memory.hide_for_good();
+        self.state.frame_unknown = true;
+    }
+
+    /// Where the tool is, and along which axis, is not known until a GOTO says so.
+    fn lose_place(&mut self) {
+        self.forget_position();
+        self.apt.circle = None;
+        self.apt.axis = None;
+        self.apt.axis_lost = true;
     }
 
     fn forget_everything_of(&mut self, action: Action) {

@@ -1,7 +1,7 @@
 //! APT motions: FROM, GOTO, GODLTA, CIRCLE, DELAY.
 use crate::apt::{Args, Circle};
 use crate::arc::mismatch;
-use crate::offsets::{LINEAR, ROTARY};
+use crate::offsets::ROTARY;
 use crate::run::{Interpreter, Report};
 use crate::{FaultKind, Feed, FeedMode, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
@@ -59,6 +59,10 @@ impl Interpreter<'_> {
         if numbers.len() == 6 {
             let vector = Vec3::new(numbers[3], numbers[4], numbers[5]);
             self.state.orientation = self.unit_vector(vector, true, args.range, report);
+            self.apt.axis_lost = self.state.orientation == Orientation::Words;
+        } else if self.state.orientation == Orientation::Words && !self.state.multax && !self.apt.axis_lost {
+            // as for GOTO: straight along Z while MULTAX is off
+            self.state.orientation = Orientation::Vector(None, Vec3::z());
         }
     }
 
@@ -141,14 +145,12 @@ impl Interpreter<'_> {
         let start = self.state.position;
         self.forget_position();
         self.state.orientation = orientation;
-        self.new_motion(
-            MotionKind::Unknown,
-            start,
-            self.state.position,
-            orientation,
-            Feed::Unknown,
-            report,
-        )
+        let end = self.state.position;
+        let mut motion = self.new_motion(MotionKind::Unknown, start, end, orientation, Feed::Unknown, report);
+        if self.state.frame_unknown {
+            self.hide(&mut motion);
+        }
+        motion
     }
 
     /// The orientation of a GOTO: its vector, else the one in force, else straight along Z.
@@ -195,12 +197,7 @@ impl Interpreter<'_> {
         let feed = self.goto_feed(kind, range, report);
         let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
         if self.state.frame_unknown {
-            motion.start.known &= !LINEAR;
-            motion.end.known &= !LINEAR;
-            motion.orientation = Orientation::Words;
-            if let MotionKind::Arc(arc) = &mut motion.kind {
-                *arc = None;
-            }
+            self.hide(&mut motion);
         }
         motion
     }

@@ -1,7 +1,9 @@
 //! What the codes of a block change, in the order in which a control acts on them.
+use crate::offsets::ROTARY;
 use crate::run::{Interpreter, Report};
+use crate::tcp::tcp_variant;
 use crate::words::{Said, Words};
-use crate::{FaultKind, FeedMode, Orientation};
+use crate::{FaultKind, FeedMode};
 use trunnion_dialect::{Action, Code, CodeKind, Plane};
 use trunnion_syntax::TextRange;
 
@@ -144,10 +146,16 @@ impl<'d> Interpreter<'d> {
                 self.set_length(None);
             }
             Action::TcpOn | Action::TcpVectorOn => {
+                let unread = tcp_variant(found, words, report);
                 if words.length_offset.is_said() || found.code.words.iter().any(|word| word == "H") {
                     self.length_on(words.length_offset, found.range, report);
                 }
                 self.tcp_on(found.code, found.code.action == Action::TcpVectorOn);
+                if let Some(what) = unread {
+                    report.fault(found.range, FaultKind::NotModelled { what });
+                    self.memory.begin_frame(found.code, true);
+                    self.forget_position();
+                }
             }
             Action::TcpOff => {
                 self.memory.end_frame(found.code);
@@ -170,6 +178,13 @@ impl<'d> Interpreter<'d> {
                 }
             }
             Action::CycleOff => self.cycle_off(found.code),
+            Action::NotFollowed => {
+                block.takes_coordinates |= found.code.kind == CodeKind::G;
+                // a limit of the speed alone
+                if found.code.kind == CodeKind::Name || words.axes.any() {
+                    not_modelled(found, report);
+                }
+            }
             Action::SubprogramCall => {
                 block.not_modelled = true;
                 not_modelled(found, report);
@@ -205,8 +220,13 @@ impl<'d> Interpreter<'d> {
     }
 
     fn speed_word(&mut self, codes: &[Found<'_>], words: &Words) {
-        // G92 S and the like limit the speed
-        let limit = || codes.iter().any(|found| found.code.action == Action::FrameChange) && !words.axes.any();
+        // G92 S, G26 S and the like limit the speed
+        let limits = |found: &Found<'_>| match found.code.action {
+            Action::FrameChange => !words.axes.any(),
+            Action::NotFollowed => found.code.kind == CodeKind::G,
+            _ => false,
+        };
+        let limit = || codes.iter().any(limits);
         if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
             self.state.spindle_rpm = words
                 .speed
@@ -221,32 +241,6 @@ impl<'d> Interpreter<'d> {
         if !std::mem::replace(&mut self.memory.compensation_said, true) {
             let what = "cutter radius compensation: path is the programmed one".to_owned();
             report.fault(found.range, FaultKind::NotModelled { what });
-        }
-    }
-
-    fn tcp_on(&mut self, code: &'d Code, vectors: bool) {
-        if !self.state.tcp {
-            self.forget_linear();
-        }
-        self.state.tcp = true;
-        self.state.vector_mode = vectors;
-        self.memory.tcp_group = code.group.as_deref();
-    }
-
-    /// Ends tool centre point control: X Y Z change their meaning, and rotary axes that were set by a vector are not known.
-    pub(crate) fn tcp_off(&mut self) {
-        if self.state.tcp {
-            self.forget_linear();
-        }
-        self.state.tcp = false;
-        self.state.vector_mode = false;
-        self.state.orientation = Orientation::Words;
-    }
-
-    /// G43 and G49 end a tool centre point control that is a code of their own group (G43.4).
-    fn end_tcp_of_group(&mut self, code: &Code) {
-        if self.state.tcp && code.group.is_some() && code.group.as_deref() == self.memory.tcp_group {
-            self.tcp_off();
         }
     }
 
@@ -304,6 +298,9 @@ impl<'d> Interpreter<'d> {
         block.takes_coordinates = true;
         not_modelled(found, report);
         self.memory.begin_frame(found.code, false);
+        if (words.axes.given | words.axes.unread) & ROTARY != 0 {
+            self.memory.frame_turns_axes(found.code);
+        }
         self.forget_position();
     }
 

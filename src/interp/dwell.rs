@@ -1,6 +1,5 @@
 //! Dwells: G4 with the words that its code reads.
 use crate::codes::Found;
-use crate::emit::hide;
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
 use crate::{Feed, Motion, MotionKind};
@@ -14,7 +13,7 @@ impl Interpreter<'_> {
         let kind = MotionKind::Dwell(seconds);
         let mut motion = self.new_motion(kind, position, position, self.held_orientation(), feed, report);
         if self.state.frame_unknown {
-            hide(&mut motion);
+            self.hide(&mut motion);
         }
         motion
     }

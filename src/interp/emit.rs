@@ -17,6 +17,9 @@ impl Interpreter<'_> {
         }
         let mut end = start;
         self.targets(&words.axes, block.machine_coordinates, &mut end);
+        if block.machine_coordinates {
+            self.suppressed_length(words, &mut end, report);
+        }
         let kind = match self.state.motion {
             Some(Action::Rapid) => MotionKind::Rapid,
             Some(Action::ArcClockwise) => self.arc(words, start, end, Turning::Clockwise, report),
@@ -38,13 +41,11 @@ impl Interpreter<'_> {
         let feed = self.feed_of(kind, words, report);
         let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
-            motion.zero = [0.0; 9];
-            motion.tool_length_mm = 0.0;
             motion.machine_coordinates = true;
             motion.tcp = false;
         }
         if frame_hides {
-            hide(&mut motion);
+            self.hide(&mut motion);
         }
         motion
     }
@@ -58,6 +59,23 @@ impl Interpreter<'_> {
         position.values[2] += sign * self.state.tool_length_mm.unwrap_or(0.0);
         if self.state.tcp || self.state.frame_unknown {
             position.known &= !LINEAR;
+        }
+        if self.memory.rotary_unknown() {
+            position.known &= !ROTARY;
+        }
+    }
+
+    /// G53, G153 and SUPA of a Sinumerik: machine data 10760 MN_G53_TOOLCORR decides whether they suppress the tool's length too.
+    /// With D0 there is none.
+    fn suppressed_length(&self, words: &Words, end: &mut Position, report: &mut Report<'_>) {
+        let linear = (words.axes.given | words.axes.unread) & LINEAR;
+        let length = self.state.tool_length_mm;
+        let active = length.is_some_and(|length| length != 0.0 || self.memory.tool_data_written);
+        if self.dialect.quirks.machine_data_suppress_length && active && linear != 0 {
+            let what = "SUPA with tool length (MN_G53_TOOLCORR)";
+            let kind = FaultKind::NotModelled { what: what.to_owned() };
+            report.fault(words.first.unwrap_or_default(), kind);
+            end.known &= !linear;
         }
     }
 
@@ -187,6 +205,23 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Under a frame that is not modelled X Y Z and vectors say nothing about the machine; rotary axes neither where it moves them.
+    pub(crate) fn hide(&self, motion: &mut Motion) {
+        let hidden = if self.memory.rotary_unknown() {
+            LINEAR | ROTARY
+        } else {
+            LINEAR
+        };
+        motion.start.known &= !hidden;
+        motion.end.known &= !hidden;
+        if let MotionKind::Arc(arc) = &mut motion.kind {
+            *arc = None;
+        }
+        if let Orientation::Vector(..) = motion.orientation {
+            motion.orientation = Orientation::Words;
+        }
+    }
+
     /// A motion that is not modelled: the axes that it names, and in a cycle the plane's third axis, are not known after it.
     pub(crate) fn unknown_motion(&mut self, words: &Words, report: &Report<'_>) -> Motion {
         let start = self.state.position;
@@ -208,21 +243,9 @@ impl Interpreter<'_> {
             report,
         );
         if self.state.frame_unknown {
-            hide(&mut motion);
+            self.hide(&mut motion);
         }
         motion
-    }
-}
-
-/// Under a frame that is not modelled X Y Z and vectors say nothing about the machine.
-pub(crate) fn hide(motion: &mut Motion) {
-    motion.start.known &= !LINEAR;
-    motion.end.known &= !LINEAR;
-    if let MotionKind::Arc(arc) = &mut motion.kind {
-        *arc = None;
-    }
-    if let Orientation::Vector(..) = motion.orientation {
-        motion.orientation = Orientation::Words;
     }
 }
 

@@ -77,6 +77,9 @@ impl<'d> Interpreter<'d> {
         if words.forgets_all {
             self.forget_position();
         }
+        if words.writes_system {
+            self.system_changed();
+        }
         if block.end {
             self.state.ended = true;
             self.memory.proper_end = true;

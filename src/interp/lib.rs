@@ -20,6 +20,8 @@ mod orientation;
 mod reader;
 mod run;
 mod setup;
+mod system;
+mod tcp;
 mod tools;
 mod words;
 

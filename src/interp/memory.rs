@@ -24,12 +24,16 @@ struct Frame<'d> {
     key: &'d str,
     /// Any modelled code of the group ends it; else only a frame reset.
     any_code_ends: bool,
+    /// Rotary coordinates are hidden too.
+    rotary: bool,
 }
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Memory<'d> {
     frames: Vec<Frame<'d>>,
+    /// Data of tools were written by the program: no length is known.
+    pub(crate) tool_data_written: bool,
     /// The group of the code that switched tool centre point control on.
     pub(crate) tcp_group: Option<&'d str>,
     /// F has a value that is not evaluated.
@@ -68,8 +72,33 @@ impl<'d> Memory<'d> {
     pub(crate) fn begin_frame(&mut self, code: &'d Code, any_code_ends: bool) {
         let key = Self::key(code);
         if !self.frames.iter().any(|frame| frame.key == key) {
-            self.frames.push(Frame { key, any_code_ends });
+            self.frames.push(Frame {
+                key,
+                any_code_ends,
+                rotary: false,
+            });
         }
+    }
+    /// The frame that the code has begun moves rotary coordinates too.
+    pub(crate) fn frame_turns_axes(&mut self, code: &Code) {
+        let key = code.group.as_deref().unwrap_or(&code.id);
+        for frame in self.frames.iter_mut().filter(|frame| frame.key == key) {
+            frame.rotary = true;
+        }
+    }
+    /// From here on positions, rotary ones too, are unknown until the end of the program.
+    pub(crate) fn hide_for_good(&mut self) {
+        // no group has a name with a blank in it
+        self.frames.retain(|frame| frame.key != "for good");
+        self.frames.push(Frame {
+            key: "for good",
+            any_code_ends: false,
+            rotary: true,
+        });
+    }
+    /// Whether rotary coordinates say nothing about the machine.
+    pub(crate) fn rotary_unknown(&self) -> bool {
+        self.frames.iter().any(|frame| frame.rotary)
     }
     /// Ends the frame of a code's group; whether there was one.
     pub(crate) fn end_frame(&mut self, code: &Code) -> bool {

@@ -112,9 +112,10 @@ pub struct Motion {
     pub spindle_on: Option<bool>,
     /// Spindle speed, 1/min.
     pub spindle_rpm: Option<f64>,
-    /// Work offset to add, mm / deg, order of [`AXIS_LETTERS`] (zero for machine coordinates).
+    /// Work offset in force, mm / deg, order of [`AXIS_LETTERS`]; to be added unless the words are machine coordinates.
     pub zero: [f64; 9],
-    /// Length of the tool that is compensated, mm: G43 H / active D / TCP. Zero when off or undeclared.
+    /// Length of the tool that is compensated, mm: G43 H / active D / TCP. Zero when off or undeclared. In force also where the words are
+    /// machine coordinates, which it does not shift.
     pub tool_length_mm: f64,
     /// Programmed under G53: machine coordinates.
     pub machine_coordinates: bool,

@@ -1,5 +1,6 @@
 //! Reads the items of one ISO block in one pass, with the meaning that the dialect gives to letters and names.
 use crate::codes::Found;
+use crate::system::{SystemWrite, system_write};
 use crate::words::{Number, Reading, Said, Words, put};
 use crate::{AXIS_LETTERS, FaultKind};
 use trunnion_dialect::{Action, Code, CodeKind, Dialect, Role};
@@ -158,12 +159,29 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
     /// `CR=`, `TURN=`; `#1=` and names of the program's own are variables, which move nothing; `,R` and `,C` are corners.
     fn named_word(&mut self, name: TextRange, word: &Word) {
         let name = self.program.source().get(name.as_usize()).unwrap_or_default();
+        self.system_word(name, word.range);
         let variable = self.dialect.quirks.user_names || matches!(name.first(), Some(b'#' | b'$'));
-        match (self.dialect.named_role(name), name.first()) {
+        // FL[X]= and PO[X]= are FL and PO of an axis
+        let stem = name.split(|byte| *byte == b'[').next().unwrap_or_default().trim_ascii();
+        match (self.dialect.named_role(stem), name.first()) {
+            (Some(Role::NotFollowed), _) => {
+                let what = String::from_utf8_lossy(stem).to_ascii_uppercase();
+                self.words.has_values = true;
+                (self.report)(word.range, FaultKind::NotModelled { what });
+            }
             (Some(role), _) => self.role_word(role, b' ', word),
             (None, Some(b',')) => self.role_word(Role::NotModelled, b' ', word),
             _ if variable => self.words.has_values = true,
             _ => (self.report)(word.range, FaultKind::UnknownWord),
+        }
+    }
+
+    /// An assignment to a variable of the control.
+    fn system_word(&mut self, name: &[u8], range: TextRange) {
+        let write = system_write(self.dialect, name);
+        if write != SystemWrite::Nothing {
+            self.words.writes_system |= write == SystemWrite::Meaning;
+            self.not_modelled(range);
         }
     }
 
@@ -354,7 +372,10 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         self.words.has_values = true;
         let source = self.program.source().get(range.as_usize()).unwrap_or_default();
         let assigns = source.first() == Some(&b'#') && source.contains(&b'=');
-        if !assigns {
+        if assigns {
+            let name = source.split(|byte| *byte == b'=').next().unwrap_or_default();
+            self.system_word(name, range);
+        } else {
             self.words.forgets_all = true;
             self.not_modelled(range);
         }

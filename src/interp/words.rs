@@ -119,6 +119,8 @@ pub(crate) struct Words {
     pub(crate) forgets_all: bool,
     /// `M1=4`: a function for a spindle by number, which may or may not be the one with the tool.
     pub(crate) other_spindle: bool,
+    /// Zero points or tools of the control are written: from here on coordinates say nothing about the machine.
+    pub(crate) writes_system: bool,
     /// A G code without meaning stands in the block.
     pub(crate) unknown_code: bool,
     /// `%` without a name.

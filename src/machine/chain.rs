@@ -230,6 +230,8 @@ pub struct Machine {
     pub gantries: Vec<Gantry>,
     /// Rigid bodies.
     pub bodies: Vec<Body>,
+    /// What the file declares and nothing honours yet, one sentence each: rules that depend on it judge without it.
+    pub not_used: Vec<String>,
 }
 
 impl Machine {

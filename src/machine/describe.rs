@@ -1,5 +1,6 @@
 //! A machine in words and numbers, for people: chain, signs, limits, speeds, tool axis formula, reach and pole.
 use crate::formula::tool_axis_formula;
+use crate::text::{direction, number, triple};
 use crate::{Axis, AxisKind, Limits, Machine, Orientations, RapidPath, Side, orientations, windings};
 use trunnion_geometry::math::atan2;
 use trunnion_geometry::{Vec3, deg};
@@ -54,6 +55,8 @@ pub struct Description {
     pub pole: String,
     /// What is known of the control.
     pub control: Vec<String>,
+    /// What the file declares and nothing honours yet.
+    pub not_used: Vec<String>,
     /// Thresholds: name, value and unit.
     pub tolerances: Vec<(&'static str, f64, &'static str)>,
     /// Where the numbers come from.
@@ -73,6 +76,7 @@ pub fn describe(machine: &Machine) -> Description {
         reach: reach(machine),
         pole: pole(machine),
         control: control(machine),
+        not_used: machine.not_used.clone(),
         tolerances: vec![
             ("tip", tolerances.tip_mm, "mm"),
             ("orientation", deg(tolerances.orientation), "deg"),
@@ -98,6 +102,14 @@ impl Description {
                 "  {}  {} axis on the {}: {}",
                 axis.letter, axis.kind, axis.side, axis.sentence
             ));
+            let point = axis.point.map_or_else(String::new, |point| {
+                format!(", point {} mm", triple(&Vec3::from(point)))
+            });
+            lines.push(format!(
+                "     sign {:+}, direction {}{point}",
+                axis.sign,
+                triple(&Vec3::from(axis.direction))
+            ));
             lines.push(format!("     {}; {}", axis.limits, axis.speed));
             lines.extend(axis.notes.iter().map(|note| format!("     {note}")));
         }
@@ -116,6 +128,11 @@ impl Description {
             lines.push(format!("Pole: {}", self.pole));
         }
         lines.extend(self.control.iter().map(|line| format!("Control: {line}")));
+        lines.extend(
+            self.not_used
+                .iter()
+                .map(|line| format!("Declared, not used yet: {line}")),
+        );
         let limits: Vec<String> = self
             .tolerances
             .iter()
@@ -216,12 +233,15 @@ fn notes(axis: &Axis, unit: &str, plain: impl Fn(f64) -> f64) -> Vec<String> {
         ));
     }
     if let Some(margin) = extra.limit_margin {
-        notes.push(format!("warns {} {unit} before a limit", number(plain(margin))));
+        notes.push(format!(
+            "warns {} {unit} before a limit (declared, not used yet)",
+            number(plain(margin))
+        ));
     }
     let flags = [
-        (extra.clamp, "clamped while cutting"),
-        (extra.cable, "winds up a cable"),
-        (extra.spindle, "also a spindle"),
+        (extra.clamp, "clamped while cutting (declared, not used yet)"),
+        (extra.cable, "winds up a cable (declared, not used yet)"),
+        (extra.spindle, "also a spindle (declared, not used yet)"),
         (extra.diameter, "words are diameters"),
     ];
     notes.extend(flags.iter().filter(|(set, _)| *set).map(|(_, text)| (*text).to_owned()));
@@ -339,13 +359,15 @@ fn control(machine: &Machine) -> Vec<String> {
     match control.rapid {
         RapidPath::Undeclared => {}
         RapidPath::Synchronous => lines.push("in rapid motions all axes arrive together".to_owned()),
-        RapidPath::Dogleg => lines.push("in rapid motions each axis runs at its own speed".to_owned()),
+        RapidPath::Dogleg => {
+            lines.push("in rapid motions each axis runs at its own speed (declared, not used yet)".to_owned());
+        }
     }
     lines.extend(
         control
             .branch_rule
             .iter()
-            .map(|rule| format!("picks postures by the rule {rule:?}")),
+            .map(|rule| format!("picks postures by the rule {rule:?} (declared, not used yet)")),
     );
     lines.extend(machine.gantries.iter().map(|gantry| {
         format!(
@@ -355,33 +377,4 @@ fn control(machine: &Machine) -> Vec<String> {
         )
     }));
     lines
-}
-
-/// `+Z` for a coordinate direction, else its three components.
-pub(crate) fn direction(vector: &Vec3) -> String {
-    for (index, name) in ["X", "Y", "Z"].into_iter().enumerate() {
-        let unit = Vec3::ith(index, 1.0);
-        if (vector - unit).norm() < 1e-12 {
-            return format!("+{name}");
-        }
-        if (vector + unit).norm() < 1e-12 {
-            return format!("-{name}");
-        }
-    }
-    triple(vector)
-}
-
-fn triple(vector: &Vec3) -> String {
-    format!("({}, {}, {})", number(vector.x), number(vector.y), number(vector.z))
-}
-
-/// At most six decimals, no trailing zeros, no negative zero.
-pub(crate) fn number(value: f64) -> String {
-    let text = format!("{value:.6}");
-    let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" {
-        "0".to_owned()
-    } else {
-        short.to_owned()
-    }
 }

@@ -12,35 +12,39 @@ head | spindle = { tool_axis = [0, 0, 2] } | [0, 0, 2] | [0.000000000, 0.0000000
 head | spindle = { tool_axis = [0, 0, 0] } | [0, 0, 0] | zero vector
 head | spindle = { gauge_point = [0, nan, 0] } | [0, nan, 0] | three numbers
 head | spindle = { gauge_point = [0, 0] } | [0, 0] | length 2
-axes | {letter="Q"} | "Q" | not an axis letter
+axes | {letter="Q", sign=1} | "Q" | not an axis letter
 axes | {letter="XY"} | "XY" | not an axis letter
-axes | {letter="C"} | "C" | side =
-axes | {letter="X",side="tail"} | "tail" | unknown variant
-axes | {letter="X",dir=[1,1,0]} | [1,1,0] | [0.707106781, 0.707106781, 0.000000000]
+axes | {letter="C", sign=1} | "C" | side =
+axes | {letter="X", sign=1,side="tail"} | "tail" | unknown variant
+axes | {letter="X", sign=1,dir=[1,1,0]} | [1,1,0] | [0.707106781, 0.707106781, 0.000000000]
 axes | {letter="X",sign=2} | 2 | sign must be 1
-axes | {letter="X",limits=[5,-5]} | [5,-5] | below the upper
-axes | {letter="X",limits=[0,inf]} | [0,inf] | finite
-axes | {letter="X",limits="none"} | "none" | "unbounded" or [min, max]
-axes | {letter="X",limits=[1,2,3]} | [1,2,3] | [min, max]
-axes | {letter="X",limit_margin=-1} | -1 | negative
-axes | {letter="X",resolution=0} | 0 | above zero
-axes | {letter="X",dyn={vmax=0}} | 0 | above zero
-axes | {letter="X",dyn={vmax=-1}} | -1 | above zero
-axes | {letter="X",dyn={vmax=nan}} | nan | a number
-axes | {letter="X",dyn={vmax="fast"}} | "fast" | invalid type
-axes | {letter="X",dyn={speed=1}} | speed | unknown field
-axes | {letter="X",dyn={kff=1.5}} | 1.5 | a share
-axes | {letter="A",side="head",mode="diameter"} | "diameter" | linear axis
-axes | XYZ,{letter="x"} | "x" | listed twice
+axes | {letter="X", sign=1,limits=[5,-5]} | [5,-5] | below the upper
+axes | {letter="X", sign=1,limits=[0,inf]} | [0,inf] | finite
+axes | {letter="X", sign=1,limits="none"} | "none" | "unbounded" or [min, max]
+axes | {letter="X", sign=1,limits=[1,2,3]} | [1,2,3] | [min, max]
+axes | {letter="X", sign=1,limit_margin=-1} | -1 | negative
+axes | {letter="X", sign=1,resolution=0} | 0 | above zero
+axes | {letter="X", sign=1,dyn={vmax=0}} | 0 | above zero
+axes | {letter="X", sign=1,dyn={vmax=-1}} | -1 | above zero
+axes | {letter="X", sign=1,dyn={vmax=nan}} | nan | a number
+axes | {letter="X", sign=1,dyn={vmax="fast"}} | "fast" | invalid type
+axes | {letter="X", sign=1,dyn={speed=1}} | speed | unknown field
+axes | {letter="X", sign=1,dyn={kff=1.5}} | 1.5 | a share
+axes | {letter="A", sign=1,side="head",mode="diameter"} | "diameter" | linear axis
+axes | XYZ,{letter="X", sign=-1} | "X" | listed twice
+axes | {letter="x", sign=1} | "x" | write "X"
+axes | XYZ,{letter="V",follow="y"} | "y" | write "Y"
+axes | {letter="X"} | "X" | say sign = 1 (ISO 841
+axes | {letter="C",side="table"} | "C" | sign = -1 (turned round) explicitly
 axes | XYZ,{letter="V",follow="U"} | "U" | not an axis of this machine
 axes | {letter="V",follow="V"} | "V" | cannot follow itself
-axes | XYZ,{letter="C",side="table"} | "C" | from workpiece to tool
-axes | {letter="X"},{letter="Z"} | [{letter="X"},{letter="Z"}] | there are X, Z
+axes | XYZ,{letter="C", sign=1,side="table"} | "C" | from workpiece to tool
+axes | {letter="X", sign=1},{letter="Z", sign=1} | [{letter="X", sign=1},{letter="Z", sign=1}] | there are X, Z
 axes |  | [] | there is none
-axes | {letter="X"},{letter="Y"},{letter="Z",dir=[0,1,0]} | [{letter="X"},{letter="Y"},{letter="Z",dir=[0,1,0]}] | span space
-axes | {letter="C",side="table"},{letter="A",side="table",dir=[0,0,-1]},XYZ | {letter="A",side="table",dir=[0,0,-1]} | C and A are parallel
-axes | {letter="A",side="table"},{letter="C",side="table"},XYZ | {letter="C",side="table"} | about the tool axis itself
-axes | {letter="C",side="table"},{letter="A",side="table"},{letter="B",side="table"},XYZ | {letter="B",side="table"} | at most 2
+axes | {letter="X", sign=1},{letter="Y", sign=1},{letter="Z", sign=1,dir=[0,1,0]} | [{letter="X", sign=1},{letter="Y", sign=1},{letter="Z", sign=1,dir=[0,1,0]}] | span space
+axes | {letter="C", sign=1,side="table"},{letter="A", sign=1,side="table",dir=[0,0,-1]},XYZ | {letter="A", sign=1,side="table",dir=[0,0,-1]} | C and A are parallel
+axes | {letter="A", sign=1,side="table"},{letter="C", sign=1,side="table"},XYZ | {letter="C", sign=1,side="table"} | about the tool axis itself
+axes | {letter="C", sign=1,side="table"},{letter="A", sign=1,side="table"},{letter="B", sign=1,side="table"},XYZ | {letter="B", sign=1,side="table"} | at most 2
 tail | [control];;family = "siemens" | "siemens" | known: generic
 tail | [control];;rapid = "fast" | "fast" | unknown variant
 tail | [control];;tcp = { path = "round" } | "round" | known: tip-linear
@@ -59,10 +63,11 @@ tail | [[body]];;carrier = "Q";;mesh = "a" | "Q" | carries nothing
 "#;
 
 const SCHEMA: &str = "schema = \"ncmachine/1\"\n";
-const XYZ: &str = "{letter=\"X\"},{letter=\"Y\"},{letter=\"Z\"}";
+const XYZ: &str = "{letter=\"X\", sign=1},{letter=\"Y\", sign=1},{letter=\"Z\", sign=1}";
 
 fn file(place: &str, text: &str) -> String {
-    let sound = format!("axis = [{{letter=\"C\",side=\"table\"}},{{letter=\"A\",side=\"table\"}},{XYZ}]\n");
+    let sound =
+        format!("axis = [{{letter=\"C\", sign=1,side=\"table\"}},{{letter=\"A\", sign=1,side=\"table\"}},{XYZ}]\n");
     let text = text.replace(";;", "\n").replace("XYZ", XYZ);
     match place {
         "axes" => format!("{SCHEMA}axis = [{text}]\n"),

@@ -7,7 +7,7 @@ use crate::words::{Words, XYZ, zero_point};
 use crate::{Joints, Leg, MAX_AXES, Machine, NoStance, Stance};
 use core::f64::consts::FRAC_PI_2;
 use trunnion_geometry::Vec3;
-use trunnion_interp::{Motion, MotionKind, Orientation};
+use trunnion_interp::{Motion, MotionKind, Orientation, Position};
 
 /// What a follower remembers between two motions.
 #[derive(Clone, Copy, Debug)]
@@ -60,9 +60,41 @@ impl<'m> Follower<'m> {
 
     /// Moves the machine. What cannot be followed leaves it at an unknown position until the program gives one again.
     pub fn follow(&mut self, motion: &Motion) -> Leg {
+        let given = self.state.stance.is_none() && self.begin(motion);
+        let mut leg = self.step(motion);
+        leg.start_given = given;
+        leg
+    }
+
+    /// Takes the stance that the program tells without a motion (APT FROM): tip and tool vector where the motion starts. The posture
+    /// is chosen as at a first motion. `false` where there is no such stance.
+    fn begin(&mut self, motion: &Motion) -> bool {
+        let Orientation::Vector(Some(axis), _) = motion.orientation else {
+            return false;
+        };
+        if motion.start.xyz().is_none() || matches!(motion.kind, MotionKind::Dwell(_) | MotionKind::Unknown) {
+            return false;
+        }
+        let before = self.state;
+        let known = self.step(&Motion {
+            kind: MotionKind::Rapid,
+            start: Position::default(),
+            end: motion.start,
+            orientation: Orientation::Vector(None, axis),
+            ..*motion
+        });
+        if known.end.is_err() {
+            self.state = before;
+        }
+        known.end.is_ok()
+    }
+
+    #[inline]
+    fn step(&mut self, motion: &Motion) -> Leg {
         let mut leg = Leg {
             motion: *motion,
             start: self.state.stance,
+            start_given: false,
             end: Err(NoStance::NotModelled),
             known_joints: self.state.known_joints,
             rotary_change: [0.0; 2],
@@ -124,6 +156,9 @@ impl<'m> Follower<'m> {
                 return Err(self.unknown(into.1));
             }
             return Ok(self.stand(motion, &into.0, start, None));
+        }
+        if let Some(letter) = self.words.turned_frame(self.machine, motion) {
+            return Err(NoStance::RotaryOffset(letter));
         }
         if let Orientation::Vector(_, axis) = motion.orientation {
             let length = axis.norm();
@@ -248,11 +283,8 @@ impl<'m> Follower<'m> {
                 _ => Turn::new(constants, index, joints[rotary.joint]),
             };
         }
-        let tool_length = if motion.machine_coordinates {
-            0.0
-        } else {
-            motion.tool_length_mm
-        };
+        // the tool hangs in the spindle also where the words are machine coordinates
+        let tool_length = motion.tool_length_mm;
         let point = tip.unwrap_or_else(|| {
             let tool = machine.gauge_point - machine.tool_axis * tool_length;
             place(constants, &turns, &segment_shifts(constants, joints), &tool)
@@ -271,7 +303,7 @@ impl<'m> Follower<'m> {
         };
         Stance {
             joints: *joints,
-            tip: point - zero_point(motion),
+            tip: point - Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2]),
             axis,
             s,
             branch,
@@ -319,10 +351,25 @@ impl<'m> Follower<'m> {
                 }
                 match (self.words.point(&motion.start), self.words.point(&motion.end)) {
                     (Some(from), Some(to)) => (to - from).norm(),
-                    _ => 0.0,
+                    _ => self.joint_length(leg),
                 }
             }
         }
+    }
+
+    /// Length of the X Y Z path by the joints of these letters, mm, where the program does not know all coordinates but the machine
+    /// knows the joints; else 0.
+    fn joint_length(&self, leg: &Leg) -> f64 {
+        let both = self.state.known_joints.1 & leg.known_joints.1;
+        let mut way = Vec3::zeros();
+        for (letter, joint) in self.machine.joint_of_letter.iter().take(3).enumerate() {
+            let Some(joint) = joint.map(usize::from) else { continue };
+            if both & (1 << joint) == 0 {
+                return 0.0;
+            }
+            way[letter] = leg.known_joints.0[joint] - self.state.known_joints.0[joint];
+        }
+        way.norm()
     }
 }
 

@@ -11,7 +11,7 @@ use trunnion_geometry::{Vec3, deg, rad};
 /// A table-table machine of two given rotary axes below X Y Z.
 fn pair(first: &str, second: &str) -> Machine {
     let text = format!(
-        "schema = \"ncmachine/1\"\naxis = [{first}, {second}, {{letter=\"X\"}}, {{letter=\"Y\"}}, {{letter=\"Z\"}}]"
+        "schema = \"ncmachine/1\"\naxis = [{first}, {second}, {{letter=\"X\", sign=1}}, {{letter=\"Y\", sign=1}}, {{letter=\"Z\", sign=1}}]"
     );
     load("pair", &text).expect("a machine")
 }
@@ -38,11 +38,11 @@ fn assert_row(machine: &Machine, axis: [f64; 3], rows: &[[f64; 2]]) {
     }
 }
 
-const C: &str = "{letter=\"C\", side=\"table\"}";
+const C: &str = "{letter=\"C\", sign=1, side=\"table\"}";
 
 #[test]
 fn rows_of_the_notes() {
-    let ac = pair(C, "{letter=\"A\", side=\"table\"}");
+    let ac = pair(C, "{letter=\"A\", sign=1, side=\"table\"}");
     assert_row(
         &ac,
         [2.087e-3, -35.573e-3, 0.999_365],
@@ -50,11 +50,17 @@ fn rows_of_the_notes() {
     );
     let u = [0.3, 0.4, 0.866_025];
     assert_row(&ac, u, &[[143.1301, 30.0], [-36.8699, -30.0]]);
-    let bc = pair(C, "{letter=\"B\", side=\"table\"}");
+    let bc = pair(C, "{letter=\"B\", sign=1, side=\"table\"}");
     assert_row(&bc, u, &[[53.1301, 30.0], [-126.8699, -30.0]]);
-    let ab = pair("{letter=\"A\", side=\"table\"}", "{letter=\"B\", side=\"table\"}");
+    let ab = pair(
+        "{letter=\"A\", sign=1, side=\"table\"}",
+        "{letter=\"B\", sign=1, side=\"table\"}",
+    );
     assert_row(&ab, u, &[[-24.7913, 17.4576], [155.2087, 162.5424]]);
-    let nutating = pair(C, "{letter=\"B\", side=\"table\", dir=[0, 0.70710678, 0.70710678]}");
+    let nutating = pair(
+        C,
+        "{letter=\"B\", sign=1, side=\"table\", dir=[0, 0.70710678, 0.70710678]}",
+    );
     // printed as (.5, .5, .70711): the exact vector is meant, the rounded one gives 65.5300
     assert_row(
         &nutating,
@@ -137,7 +143,7 @@ fn fewer_rotary_axes() {
     assert!(matches!(orientations(mill, &tilted), Orientations::Unreachable(off) if (off - 0.01).abs() < 1e-12));
     let four = load(
         "four",
-        "schema = \"ncmachine/1\"\naxis = [{letter=\"A\", side=\"table\"}, {letter=\"X\"}, {letter=\"Y\"}, {letter=\"Z\"}]",
+        "schema = \"ncmachine/1\"\naxis = [{letter=\"A\", sign=1, side=\"table\"}, {letter=\"X\", sign=1}, {letter=\"Y\", sign=1}, {letter=\"Z\", sign=1}]",
     )
     .expect("a machine");
     let u = rotate(&Vec3::x(), 0.7, &Vec3::z());
@@ -205,7 +211,10 @@ fn odd_numbers_do_not_panic() {
 
 #[test]
 fn just_outside_the_reach_counts_as_its_edge() {
-    let nutating = pair(C, "{letter=\"B\", side=\"table\", dir=[0, 0.70710678, 0.70710678]}");
+    let nutating = pair(
+        C,
+        "{letter=\"B\", sign=1, side=\"table\", dir=[0, 0.70710678, 0.70710678]}",
+    );
     let beyond = |by: f64| rotate(&Vec3::y(), FRAC_PI_2 + by, &Vec3::z());
     assert!(
         matches!(orientations(&nutating, &beyond(REACH_TOLERANCE * 0.9)), Orientations::Postures(p) if p.len() == 1)

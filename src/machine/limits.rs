@@ -4,7 +4,7 @@ use crate::bound::{Piece, peak};
 use crate::course::Course;
 use crate::follow::has_tip_words;
 use crate::spin::Spin;
-use crate::{Leg, Limits, Machine};
+use crate::{Joints, Leg, Limits, Machine};
 use trunnion_interp::MotionKind;
 
 /// One joint outside its travel.
@@ -16,7 +16,7 @@ pub struct Excess {
     pub value: f64,
     /// The limit it breaks, mm or rad.
     pub limit: f64,
-    /// Whether it happens inside the block while both ends are legal.
+    /// Whether it happens inside the block while both ends are legal on this axis.
     pub inside: bool,
 }
 
@@ -26,27 +26,58 @@ const SLACK: f64 = 1e-6;
 /// How near sample and bound are brought, mm, where a limit is broken inside a block.
 const CLOSE_MM: f64 = 1e-3;
 
-/// All joints outside their travel in this leg. At the end: the known joints, also where the stance is not known. Inside the block
-/// (while both ends are legal): linear joints under TCP or along arcs, and rotary ones on a great circle, by the bound of kinematics
-/// notes 3 and bisection; other joints run straight from end to end and cannot leave their travel in between.
+/// All joints outside their travel in this leg, each limit once with the worst value. At the end: the known joints, also
+/// where the stance is not known; at a start that the program gave without a motion, all of them. Inside the block, whatever its ends
+/// are: linear joints under TCP or along arcs, and rotary ones on a great circle, by the bound of kinematics notes 3 and bisection;
+/// other joints run straight from end to end, so that an end is their worst. A joint that only returns from beyond its limit is not
+/// named again: the block before named it.
 pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) {
-    let (joints, known) = (&leg.known_joints.0, leg.known_joints.1);
-    for (axis, entry) in machine.axes.iter().enumerate() {
-        if known & (1 << axis) != 0
-            && let Some(limit) = broken(entry.limits, joints[axis])
-        {
-            out.push(Excess {
-                axis,
-                value: joints[axis],
-                limit,
-                inside: false,
-            });
-        }
+    if let (true, Some(start)) = (leg.start_given, &leg.start) {
+        ends(machine, &start.joints, u16::MAX, out);
     }
+    let (joints, known) = (&leg.known_joints.0, leg.known_joints.1);
+    ends(machine, joints, known, out);
     if may_bend(machine, leg)
         && let Some(course) = Course::new(machine, leg)
     {
         inside(&course, out);
+    }
+}
+
+/// The joints of a mask that stand outside their travel.
+fn ends(machine: &Machine, joints: &Joints, known: u16, out: &mut Vec<Excess>) {
+    for (axis, entry) in machine.axes.iter().enumerate() {
+        if known & (1 << axis) != 0
+            && let Some(limit) = broken(entry.limits, joints[axis])
+        {
+            add(
+                out,
+                Excess {
+                    axis,
+                    value: joints[axis],
+                    limit,
+                    inside: false,
+                },
+            );
+        }
+    }
+}
+
+/// Adds what is found, or puts it in the place of what is less far beyond the same limit.
+fn add(out: &mut Vec<Excess>, found: Excess) {
+    match out
+        .iter_mut()
+        .find(|known| known.axis == found.axis && known.limit == found.limit)
+    {
+        Some(known) if known.beyond() >= found.beyond() => {}
+        Some(known) => *known = found,
+        None => out.push(found),
+    }
+}
+
+impl Excess {
+    fn beyond(&self) -> f64 {
+        (self.value - self.limit).abs()
     }
 }
 
@@ -87,7 +118,7 @@ fn broken(limits: Limits, value: f64) -> Option<f64> {
     }
 }
 
-/// Joints that leave their travel between two legal ends.
+/// Joints that are further outside their travel between the ends than at them.
 fn inside(course: &Course<'_>, out: &mut Vec<Excess>) {
     let constants = &course.machine.constants;
     let (_, whole) = course.bends(0.0, 1.0);
@@ -130,9 +161,7 @@ fn judge(
     let limits = course.machine.axes[axis].limits;
     let Limits::Range(low, high) = limits else { return };
     let (from, to) = (course.start.joints[axis], course.end.joints[axis]);
-    if broken(limits, from).is_some() || broken(limits, to).is_some() {
-        return;
-    }
+    let both_legal = broken(limits, from).is_none() && broken(limits, to).is_none();
     for (sign, limit) in [(1.0, high), (-1.0, low)] {
         let over = |q: f64| sign * (q - limit);
         let whole = Piece {
@@ -141,7 +170,9 @@ fn judge(
             value_from: over(from),
             value_to: over(to),
         };
-        if bound(&whole) <= SLACK {
+        // what the ends reach is told already, here or by the block before
+        let told = over(from).max(over(to)).max(0.0) + SLACK;
+        if bound(&whole) <= told {
             continue;
         }
         let found = peak(
@@ -155,15 +186,18 @@ fn judge(
                 }
             },
             &bound,
-            |bound, sampled, _| bound <= SLACK || (sampled > SLACK && bound <= sampled + CLOSE_MM),
+            |bound, sampled, _| bound <= told || (sampled > told && bound <= sampled + CLOSE_MM),
         );
-        if found.sampled > SLACK && found.sampled.is_finite() {
-            out.push(Excess {
-                axis,
-                value: limit + sign * found.sampled,
-                limit,
-                inside: true,
-            });
+        if found.sampled > told && found.sampled.is_finite() {
+            add(
+                out,
+                Excess {
+                    axis,
+                    value: limit + sign * found.sampled,
+                    limit,
+                    inside: both_legal,
+                },
+            );
         }
     }
 }

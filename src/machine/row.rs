@@ -1,6 +1,7 @@
 //! One row of a trace: what the machine does in one motion, in the units people read.
 use crate::follow::has_tip_words;
 use crate::speed::feed_limit_tight;
+use crate::words::Words;
 use crate::{AxisKind, Leg, Machine, block_duration_s, tip_deviation};
 use trunnion_geometry::deg;
 use trunnion_interp::{Feed, MotionKind};
@@ -15,9 +16,9 @@ pub struct Row {
     pub motion: &'static str,
     /// TCP on.
     pub tcp: bool,
-    /// Tip in the workpiece frame.
+    /// Tip in the workpiece frame, without work offset; empty also under a work offset that turns a rotary axis.
     pub tip_mm: Option<[f64; 3]>,
-    /// Tool axis.
+    /// Tool axis; empty also under a work offset that turns a rotary axis.
     pub axis: Option<[f64; 3]>,
     /// Programmed feed.
     pub feed_mm_min: Option<f64>,
@@ -45,6 +46,8 @@ const TRACE_TOLERANCE_MM: f64 = 5e-5;
 pub fn row(machine: &Machine, leg: &Leg) -> Row {
     let motion = &leg.motion;
     let stance = leg.end.as_ref().ok();
+    // an offset in a rotary axis turns the workpiece frame in a way that is not modelled
+    let in_frame = stance.filter(|_| Words::new(machine).turned_frame(machine, motion).is_none());
     let posture = stance.filter(|_| machine.constants.pair.is_some());
     let limit = feed_limit_tight(machine, leg).filter(|limit| limit.feed_mm_min.is_finite());
     let axes = machine.axes.iter().enumerate();
@@ -64,8 +67,8 @@ pub fn row(machine: &Machine, leg: &Leg) -> Row {
             MotionKind::Unknown => "unknown",
         },
         tcp: has_tip_words(motion),
-        tip_mm: stance.map(|s| s.tip.into()),
-        axis: stance.map(|s| s.axis.into()),
+        tip_mm: in_frame.map(|s| s.tip.into()),
+        axis: in_frame.map(|s| s.axis.into()),
         feed_mm_min: match motion.feed {
             _ if !motion.is_feed() => None,
             Feed::PerMinute(feed) => Some(feed),

@@ -50,11 +50,13 @@ mode = "diameter"
 dyn = { vmax = 500, amax = 5000, jmax = 50000, kv = 33 }
 [[axis]]
 letter = "Y"
+sign = 1
 [[axis]]
 letter = "V"
 follow = "Y"
 [[axis]]
 letter = "Z"
+sign = 1
 [control]
 family = "sinumerik-840d"
 tcp = { path = "tip-linear", orientation = "great-circle", feed = "tip" }
@@ -143,31 +145,58 @@ fn every_key_is_read() {
     );
 }
 
+/// What is declared and honoured by nothing is said, in the machine and in its description; nothing of the kind is in the samples.
+#[test]
+fn what_is_not_used_is_said() {
+    let machine = load("everything", EVERYTHING).expect("valid");
+    for (start, count) in [
+        ("clamp on A: whether A moves while clamped", 1),
+        ("[control] branch: postures are chosen by the generic rule", 1),
+        ("[control] pole: ", 1),
+        ("[control] rapid", 1),
+        ("cable on C", 1),
+    ] {
+        let said = |line: &&String| line.starts_with(start);
+        assert_eq!(machine.not_used.iter().filter(said).count(), count, "{start}");
+    }
+    let lines = describe(&machine).lines();
+    for sentence in &machine.not_used {
+        assert!(
+            lines.contains(&format!("Declared, not used yet: {sentence}")),
+            "{sentence}"
+        );
+    }
+    assert_eq!(
+        builtin("mikron-ucp710").expect("embedded").not_used,
+        Vec::<String>::new()
+    );
+}
+
 /// The compact forms of kinematics notes 7.
 #[test]
 fn compact_chains_load() {
     let head_head = r#"schema = "ncmachine/1"
-axis = [ {letter="X",kind="linear",side="table",dir=[1,0,0]}, {letter="Y",kind="linear",side="head",dir=[0,1,0]}, {letter="Z",kind="linear",side="head",dir=[0,0,1]},
-  {letter="C",kind="rotary",side="head",dir=[0,0,1],point=[0,0,250],limits=[-360,360]}, {letter="A",kind="rotary",side="head",dir=[1,0,0],point=[0,0,250],limits=[-110,110]} ]"#;
+axis = [ {letter="X", sign=1,kind="linear",side="table",dir=[1,0,0]}, {letter="Y", sign=1,kind="linear",side="head",dir=[0,1,0]}, {letter="Z", sign=1,kind="linear",side="head",dir=[0,0,1]},
+  {letter="C", sign=1,kind="rotary",side="head",dir=[0,0,1],point=[0,0,250],limits=[-360,360]}, {letter="A", sign=1,kind="rotary",side="head",dir=[1,0,0],point=[0,0,250],limits=[-110,110]} ]"#;
     let fork = load("fork", head_head).expect("valid");
     assert_eq!(fork.constants.shared_segment, Some(0));
     let result = crate::self_test(&fork, 500, 3);
     assert!(result.posture_missing == 0 && result.worst_tip_mm < 1e-10, "{result:?}");
     let nutating = r#"schema = "ncmachine/1"
-axis = [ {letter="C",side="table"}, {letter="B",side="table",dir=[0,0.70710678,-0.70710678],point=[0,0,-120],limits=[0,180]},
-  {letter="X"}, {letter="Y"}, {letter="Z"}, {letter="W"} ]"#;
+axis = [ {letter="C", sign=1,side="table"}, {letter="B", sign=1,side="table",dir=[0,0.70710678,-0.70710678],point=[0,0,-120],limits=[0,180]},
+  {letter="X", sign=1}, {letter="Y", sign=1}, {letter="Z", sign=1}, {letter="W", sign=1} ]"#;
     let quill = load("quill", nutating).expect("valid");
     let result = crate::self_test(&quill, 500, 3);
     assert!(result.posture_missing == 0 && result.worst_tip_mm < 1e-10, "{result:?}");
 }
 
 const HEAD: &str = "schema = \"ncmachine/1\"\n";
-const XYZ: &str = "{letter=\"X\"},{letter=\"Y\"},{letter=\"Z\"}";
+const XYZ: &str = "{letter=\"X\", sign=1},{letter=\"Y\", sign=1},{letter=\"Z\", sign=1}";
 
 #[test]
 fn a_direction_within_rounding_gets_length_one() {
     let text = format!(
-        "{HEAD}axis = [{{letter=\"C\",side=\"table\"}},{{letter=\"B\",side=\"table\",dir=[0,0.7071068,0.7071068]}},{XYZ}]"
+        "{HEAD}axis = [{{letter=\"C\", sign=1,side=\"table\"}},{{letter=\"B\", sign=1,side=\"table\",dir=[0,0.7071068,0.7071068]}},{XYZ}]"
     );
     let machine = load("ok", &text).expect("valid");
     assert!((machine.axes[1].direction.norm() - 1.0).abs() < 1e-15);

@@ -27,7 +27,7 @@ const TIGHT: f64 = 1e-3;
 /// The worst moment inside the block. `None`: stance or path unknown, no length, or no axis that moves has a declared speed.
 ///
 /// Never above the true limit. Where the programmed feed is above it, it is within 1e-3 of the true limit; where the program stays
-/// below, a coarser bound may be given; so it may on chains whose linear axes lie in different places, near postures where they hardly
+/// below, a coarser bound with any of the linear axes may be given, which settles that no axis is overrun and no more; so it may on chains whose linear axes lie in different places, near postures where they hardly
 /// span space. Without TCP the joints run linearly and the feed is that of the programmed X Y Z path; with
 /// TCP (or vectors) the rotary joints run linearly and the linear joints' rates change within the block: samples of their exact rates
 /// and a bound of their second derivative (kinematics notes 3 and 4.1).
@@ -35,8 +35,8 @@ pub fn feed_limit(machine: &Machine, leg: &Leg) -> Option<FeedLimit> {
     limit(machine, leg, programmed_feed(leg).unwrap_or(f64::INFINITY))
 }
 
-/// [`feed_limit`], always within 1e-3.
-pub(crate) fn feed_limit_tight(machine: &Machine, leg: &Leg) -> Option<FeedLimit> {
+/// [`feed_limit`], always within 1e-3: the number to print.
+pub fn feed_limit_tight(machine: &Machine, leg: &Leg) -> Option<FeedLimit> {
     limit(machine, leg, f64::INFINITY)
 }
 
@@ -131,7 +131,10 @@ impl Changes {
     fn of(machine: &Machine, leg: &Leg) -> Option<Self> {
         match leg.motion.kind {
             MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => return None,
-            MotionKind::Rapid | MotionKind::Linear if !has_tip_words(&leg.motion) => return Some(Self::Nothing),
+            // along a line with standing rotary axes the linear joints run straight as well, also under TCP
+            MotionKind::Rapid | MotionKind::Linear if !has_tip_words(&leg.motion) || leg.rotary_change == [0.0; 2] => {
+                return Some(Self::Nothing);
+            }
             MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(Some(_)) => {}
         }
         Some(if on_great_circle(machine, &leg.motion) {
@@ -251,7 +254,12 @@ fn changing_load(course: &Course<'_>, above: f64, coarse: f64) -> Option<Option<
     if share <= above {
         return Some(None);
     }
-    if slope == 0.0 || share <= coarse {
+    if slope == 0.0 {
+        // constant rates need no bound
+        let (share, slot) = axes.at(0.5);
+        return Some(if share <= above { None } else { axes.load(slot, share) });
+    }
+    if share <= coarse {
         return Some(axes.load(slot, share));
     }
     let at_once = course.bends_at_once();

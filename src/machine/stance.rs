@@ -9,7 +9,7 @@ use trunnion_interp::Motion;
 pub struct Stance {
     /// Joint values, mm or rad.
     pub joints: Joints,
-    /// Tip in the workpiece frame without work offset, i.e. in programmed coordinates, mm.
+    /// Tip in the workpiece frame without work offset, i.e. in programmed coordinates (also after a motion in machine coordinates), mm.
     pub tip: Vec3,
     /// Unit tool axis in the workpiece frame.
     pub axis: Vec3,
@@ -84,6 +84,9 @@ pub enum NoStance {
     NotModelled,
     /// The program names an axis that the machine does not have.
     NoSuchAxis(u8),
+    /// A work offset turns the axis with this letter while X Y Z are tip coordinates: how a control turns the workpiece frame with it
+    /// differs, so that no joint follows from the words for certain.
+    RotaryOffset(u8),
 }
 
 /// What the machine does in one motion.
@@ -93,6 +96,8 @@ pub struct Leg {
     pub motion: Motion,
     /// Before; `None`: unknown.
     pub start: Option<Stance>,
+    /// The start was told by the program (APT FROM), not reached by a motion: no leg before this one ends there.
+    pub start_given: bool,
     /// After.
     pub end: Result<Stance, NoStance>,
     /// Joint values that are known even where the stance is not: value and bit mask (machine words without TCP).
@@ -103,6 +108,7 @@ pub struct Leg {
     pub pole_angle_min: f64,
     /// Rotary excess over the cheapest move of the start's posture, rad, when the posture sign changes; else 0.
     pub rotary_excess: f64,
-    /// Length of the tip path with TCP or vectors, of the programmed X Y Z path without, mm; 0 where it is not known.
+    /// Length of the tip path with TCP or vectors, of the programmed X Y Z path without, mm; 0 where it is not known. A
+    /// coordinate that the program does not know at the start (first words after TCP was switched) counts with the way of its joint.
     pub length: f64,
 }

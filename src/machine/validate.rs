@@ -96,11 +96,18 @@ pub(crate) fn unit_vector(name: &str, triple: &Triple) -> Result<Vec3, Fault> {
     Ok(if norm == 1.0 { vector } else { unit })
 }
 
-/// The upper case letter of an axis.
+/// The letter of an axis, which must be written in upper case.
 fn letter(word: &Word) -> Result<u8, Fault> {
     let text = word.get_ref();
     match text.as_bytes() {
-        [byte] if AXIS_LETTERS.contains(&byte.to_ascii_uppercase()) => Ok(byte.to_ascii_uppercase()),
+        [byte] if AXIS_LETTERS.contains(byte) => Ok(*byte),
+        [byte] if AXIS_LETTERS.contains(&byte.to_ascii_uppercase()) => {
+            let upper = char::from(byte.to_ascii_uppercase());
+            Err(Fault {
+                message: format!("{text:?}: axis letters are written in upper case; write \"{upper}\""),
+                span: word.span(),
+            })
+        }
         _ => {
             let message = format!("{text:?} is not an axis letter; use one of X Y Z A B C U V W");
             Err(Fault {
@@ -168,7 +175,19 @@ pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
         None => Vec3::zeros(),
     };
     let sign = match &raw.sign {
-        None => 1.0,
+        // an axis that mirrors another one is no joint and has no formula
+        None if raw.follow.is_some() => 1.0,
+        None => {
+            let message = format!(
+                "axis {} declares no sign: say sign = 1 (ISO 841: a positive word moves the tool positively relative to the part) or \
+                 sign = -1 (turned round) explicitly",
+                char::from(letter)
+            );
+            return Err(Fault {
+                message,
+                span: raw.letter.span(),
+            });
+        }
         Some(number) if number.get_ref().abs() == 1.0 => *number.get_ref(),
         Some(number) => {
             let message =

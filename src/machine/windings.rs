@@ -4,8 +4,10 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{atan2, rotate};
 
-/// How far outside a limit a rotary value may lie and still count as on it, rad (rounding of the solver, far below any resolution).
-const LIMIT_SLACK: f64 = 1e-9;
+/// How far outside a limit a rotary value may lie and still count as on it, rad: 1e-5 deg. Posts write tool vectors with seven digits;
+/// what they round away turns a tool axis by up to 5e-8 rad per component, and must not drive the machine to another posture. A value
+/// taken so is set to the limit itself.
+const LIMIT_SLACK: f64 = 1e-5 * core::f64::consts::PI / 180.0;
 
 /// The windings of a rotary value that lie inside the limits and nearest to a wanted value; reads as a slice, nearest first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +24,7 @@ impl core::ops::Deref for Windings {
 }
 
 /// The values q + 2 pi m inside the limits of axis `axis` (joint index), nearest to `near` first, at most three; empty when no winding
-/// is legal or when the axis is missing. All in rad. Source: kinematics notes 2.3.
+/// is legal or when the axis is missing. A value 1e-5 deg or less beyond a limit becomes the limit. All in rad. Source: kinematics notes 2.3.
 pub fn windings(machine: &Machine, axis: usize, q: f64, near: f64) -> Windings {
     let mut found = Windings {
         values: [0.0; 3],
@@ -46,7 +48,12 @@ pub fn windings(machine: &Machine, axis: usize, q: f64, near: f64) -> Windings {
     let centre = nearest.clamp(lowest, highest);
     for turns in [centre, centre - 1.0, centre + 1.0] {
         if turns >= lowest && turns <= highest {
-            found.values[found.count] = if turns == 0.0 { q } else { q + TAU * turns };
+            let value = if turns == 0.0 { q } else { q + TAU * turns };
+            found.values[found.count] = match limits {
+                Limits::Unbounded => value,
+                // validated at load: min < max
+                Limits::Range(min, max) => value.clamp(min, max),
+            };
             found.count += 1;
         }
     }

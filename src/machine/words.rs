@@ -82,6 +82,14 @@ impl Words {
             .map(|letter| AXIS_LETTERS[letter])
     }
 
+    /// The letter of a rotary axis that the active work offset turns.
+    pub(crate) fn turned_frame(&self, machine: &Machine, motion: &Motion) -> Option<u8> {
+        machine.constants.rotary().iter().find_map(|rotary| {
+            let letter = usize::from(self.letter[rotary.joint]);
+            (letter < AXIS_LETTERS.len() && motion.zero[letter] != 0.0).then(|| AXIS_LETTERS[letter])
+        })
+    }
+
     /// Joint values of the position's words: joint = word + zero, linear joints shifted by the tool length along the tool axis at home
     /// (unless the words are tip coordinates: then only rotary words are joints). The mask says which joints are known.
     #[inline]

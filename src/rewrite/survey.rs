@@ -67,6 +67,7 @@ impl Sink for Collector<'_> {
             .and_then(|&joint| self.machine.axes.get(joint))
             .map(|axis| axis.letter);
         let zero = letter
+            .filter(|_| !motion.machine_coordinates)
             .and_then(trunnion_interp::AxisLetter::new)
             .map_or(0.0, |axis| motion.zero[usize::from(axis.0)]);
         self.points.push(Point {
@@ -126,7 +127,8 @@ pub(crate) struct ProgrammedMotion {
 
 impl Sink for Programmed {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
-        let rotary = [3, 4, 5].map(|axis| motion.end.get(axis).map(|value| value + motion.zero[axis]));
+        let share = if motion.machine_coordinates { 0.0 } else { 1.0 };
+        let rotary = [3, 4, 5].map(|axis| motion.end.get(axis).map(|value| value + share * motion.zero[axis]));
         self.motions.push(ProgrammedMotion {
             block: motion.block,
             rotary,

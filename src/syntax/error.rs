@@ -28,7 +28,8 @@ pub enum SyntaxErrorKind {
     UnclosedText,
     /// APT: a statement is continued by `$` at the end of the file. Range: the `$`.
     DanglingContinuation,
-    /// APT: a statement does not begin with a major word, or a comma or slash stands where it may not. Range: that place.
+    /// APT: a statement does not begin with a major word, a comma or slash stands where it may not (range: that place), or GOTO has
+    /// not the 3, 6 or 7 numbers of a point, a tool axis and a feed (range: the statement).
     BadRecord,
     /// The file is larger than 4 GiB: only the part before is parsed. Range: its last byte.
     TooLarge,

@@ -38,9 +38,29 @@ struct Head {
 
 /// Reports every problem of the statement that starts at token `first`.
 pub(crate) fn check(scan: Scan<'_>, first: TokenId, errors: &mut Vec<SyntaxError>) {
+    let before = errors.len();
     let Some(head) = head(&scan, first, errors) else { return };
     let mut arguments = Arguments::new(scan, head.arguments);
-    while arguments.step(errors).is_some() {}
+    let (mut numbers, mut others) = (0, 0);
+    while let Some(argument) = arguments.step(errors) {
+        match argument {
+            AptArg::Number(..) => numbers += 1,
+            _ => others += 1,
+        }
+    }
+    let major = scan.span(head.major.0, head.major.1);
+    // a point, with a tool axis and a feed at will; what is not a number may stand for several
+    if others == 0
+        && errors.len() == before
+        && !matches!(numbers, 3 | 4 | 6 | 7)
+        && scan.bytes(major).eq_ignore_ascii_case(b"GOTO")
+    {
+        let range = scan.span(head.first, scan.trim(head.first, scan.end));
+        errors.push(SyntaxError {
+            kind: SyntaxErrorKind::BadRecord,
+            range,
+        });
+    }
 }
 
 impl<'p> Record<'p> {

@@ -60,9 +60,10 @@ impl Resolved {
 /// # Errors
 /// A file that cannot be read or is not valid, an unknown name; each with its place.
 pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Result<Resolved, LoadError> {
-    let (config, config_path) = config_for(path, overrides)?;
+    let (config, config_file) = config_for(path, overrides)?;
+    let config_path = config_file.as_ref().map(|(path, _)| path.clone());
     let mode = trunnion_dialect::modeline(source);
-    let (machine, machine_reason) = machine_for(overrides, &mode, &config, config_path.as_deref())?;
+    let (machine, machine_reason) = machine_for(overrides, &mode, &config, config_file.as_ref())?;
     let family = machine.as_ref().map(|m| m.control.family.as_str());
     let file_name = path.and_then(Path::file_name).and_then(|name| name.to_str());
     let (dialect, dialect_reason) = dialect_for(overrides, &mode, &config, file_name, source, family)?;
@@ -93,8 +94,8 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     })
 }
 
-/// `--config`, or `trunnion.toml` in the program's folder (standard input: the current one) or above.
-fn config_for(path: Option<&Path>, overrides: &Overrides) -> Result<(Config, Option<PathBuf>), LoadError> {
+/// The settings and their file with its text: `--config`, or `trunnion.toml` in the program's folder (standard input: the current one) or above.
+fn config_for(path: Option<&Path>, overrides: &Overrides) -> Result<(Config, Option<(PathBuf, String)>), LoadError> {
     let found = match &overrides.config {
         Some(file) => Some(file.clone()),
         None => std::path::absolute(path.unwrap_or(Path::new("-")))
@@ -113,14 +114,14 @@ fn config_for(path: Option<&Path>, overrides: &Overrides) -> Result<(Config, Opt
         .map_err(|error| LoadError::file(&file, format!("cannot read the settings: {error}")))?;
     let config =
         Config::parse(&text).map_err(|error| LoadError::at(&file, &text, error.span.as_ref(), &error.message))?;
-    Ok((config, Some(file)))
+    Ok((config, Some((file, text))))
 }
 
 fn machine_for(
     overrides: &Overrides,
     mode: &Modeline,
     config: &Config,
-    config_path: Option<&Path>,
+    config_file: Option<&(PathBuf, String)>,
 ) -> Result<(Option<Machine>, String), LoadError> {
     if let Some(name) = &overrides.machine {
         return Ok((Some(find_machine(name, None)?), "named by the user".into()));
@@ -132,10 +133,12 @@ fn machine_for(
         ));
     }
     if let Some(name) = &config.machine {
-        return Ok((
-            Some(find_machine(name, config_path.and_then(Path::parent))?),
-            "trunnion.toml".into(),
-        ));
+        let folder = config_file.and_then(|(path, _)| path.parent());
+        let machine = find_machine(name, folder)?;
+        if let (Err(error), Some((path, text))) = (config.check_axes(&machine), config_file) {
+            return Err(LoadError::at(path, text, error.span.as_ref(), &error.message));
+        }
+        return Ok((Some(machine), "trunnion.toml".into()));
     }
     Ok((None, "none is named".into()))
 }

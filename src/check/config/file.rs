@@ -24,11 +24,11 @@ struct File {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FileTool {
-    number: u32,
-    shape: Option<String>,
-    diameter: Option<f64>,
-    corner_radius: Option<f64>,
-    length: Option<f64>,
+    number: Spanned<u32>,
+    shape: Option<Spanned<String>>,
+    diameter: Option<Spanned<f64>>,
+    corner_radius: Option<Spanned<f64>>,
+    length: Option<Spanned<f64>>,
     /// Read, kept for the collision floor to come; no check uses it yet.
     #[serde(rename = "holder")]
     _holder: Option<toml::Value>,
@@ -62,11 +62,18 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     for entry in file.tool {
         let tool = declared_tool(&entry)?;
         if config.setup.tools.iter().any(|known| known.number == tool.number) {
-            return Err(at(&entry, format!("tool {} is declared twice", tool.number)));
+            return Err(at(
+                &entry.get_ref().number,
+                format!("tool {} is declared twice", tool.number),
+            ));
         }
         config.setup.tools.push(tool);
     }
     for (name, values) in file.work_offsets {
+        let axes = values
+            .keys()
+            .filter_map(|axis| Some((*axis.get_ref().as_bytes().first()?, axis.span())));
+        config.offset_axes.extend(axes);
         config.setup.work_offsets.push(work_offset(&name, &values)?);
     }
     Ok(config)
@@ -125,30 +132,61 @@ fn tolerance(name: &Spanned<String>, value: &Spanned<f64>) -> Result<(String, f6
 
 fn declared_tool(entry: &Spanned<FileTool>) -> Result<Tool, ConfigError> {
     let tool = entry.get_ref();
-    let shape = match &tool.shape {
-        Some(name) => Some(tool::shape(name, tool.diameter, tool.corner_radius).map_err(|message| at(entry, message))?),
-        None if tool.corner_radius.is_some() => {
-            return Err(at(entry, "a corner radius needs a shape: shape = \"bull\""));
-        }
-        None => None,
-    };
-    for (key, value) in [("diameter", tool.diameter), ("length", tool.length)] {
-        if value.is_some_and(|value| !value.is_finite() || value < 0.0) {
-            return Err(at(entry, format!("`{key}` must be 0 mm or more")));
+    let value = |number: &Option<Spanned<f64>>| number.as_ref().map(|number| *number.get_ref());
+    for (key, number) in [("diameter", &tool.diameter), ("length", &tool.length)] {
+        if let Some(number) = number
+            && !(number.get_ref().is_finite() && *number.get_ref() >= 0.0)
+        {
+            return Err(at(number, format!("`{key}` must be 0 mm or more")));
         }
     }
+    let (diameter, corner) = (value(&tool.diameter), value(&tool.corner_radius));
+    let shape =
+        match (&tool.shape, &tool.corner_radius) {
+            (Some(name), _) => Some(tool::shape(name.get_ref(), diameter, corner).map_err(
+                |(part, message)| match (part, &tool.diameter, &tool.corner_radius) {
+                    (tool::Part::Diameter, Some(diameter), _) => at(diameter, message),
+                    (tool::Part::CornerRadius, _, Some(corner)) => at(corner, message),
+                    _ => at(name, message),
+                },
+            )?),
+            (None, Some(corner)) => {
+                return Err(at(corner, "a corner radius needs a shape: shape = \"bull\""));
+            }
+            (None, None) => None,
+        };
     Ok(Tool {
-        number: tool.number,
+        number: *tool.number.get_ref(),
         shape,
-        diameter_mm: tool.diameter,
-        length_mm: tool.length,
+        diameter_mm: diameter,
+        length_mm: value(&tool.length),
     })
+}
+
+/// Whether some dialect has a settable work offset of this name, as the interpreter spells it.
+fn is_work_offset(name: &str) -> bool {
+    let name = name.to_ascii_uppercase();
+    let number = |text: &str| -> Option<u32> {
+        let digits = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit()) && !text.starts_with('0');
+        if digits { text.parse().ok() } else { None }
+    };
+    let Some(code) = name.strip_prefix('G') else {
+        return false;
+    };
+    if let Some(further) = code.strip_prefix("54.1 P") {
+        return number(further).is_some();
+    }
+    matches!(code, "59.1" | "59.2" | "59.3") || number(code).is_some_and(|code| matches!(code, 54..=59 | 505..=599))
 }
 
 fn work_offset(
     name: &Spanned<String>,
     values: &BTreeMap<Spanned<String>, Spanned<f64>>,
 ) -> Result<WorkOffset, ConfigError> {
+    if !is_work_offset(name.get_ref()) {
+        let known = "G54 to G59, G59.1 to G59.3, G54.1 P1 and so on, G505 to G599";
+        return Err(at(name, format!("`{}` is no work offset: {known}", name.get_ref())));
+    }
     let mut offset = WorkOffset {
         name: name.get_ref().clone(),
         values: [0.0; AXIS_LETTERS.len()],
@@ -221,7 +259,17 @@ G54 = { X = 1, Y = 0, Z = -2.5 }
             ("dialect = \"klingon\"", "\"klingon\""),
             ("[work_offsets]\nG54 = { Q = 1 }", "Q"),
             ("[work_offsets]\nG54 = { X = nan }", "nan"),
+            ("[work_offsets]\nG643 = { X = 1 }", "G643"),
+            ("[work_offsets]\n\"G54.1\" = { X = 1 }", "\"G54.1\""),
             ("[[tool]]\nnumber = 1\ndiametre = 3", "diametre"),
+            ("[[tool]]\nnumber = 1\nlength = -3", "-3"),
+            ("[[tool]]\nnumber = 1\nshape = \"cone\"", "\"cone\""),
+            ("[[tool]]\nnumber = 1\nshape = \"ball\"\ndiameter = 0", "0"),
+            (
+                "[[tool]]\nnumber = 1\nshape = \"bull\"\ndiameter = 8\ncorner_radius = 5",
+                "5",
+            ),
+            ("[[tool]]\nnumber = 1\n[[tool]]\nlength = 2\nnumber = 1", "1"),
         ] {
             let error = parse(text).unwrap_err();
             let span = error
@@ -230,12 +278,39 @@ G54 = { X = 1, Y = 0, Z = -2.5 }
                 .unwrap_or_else(|| panic!("{text}: {error} has no place"));
             assert_eq!(&text[span], wrong, "{text}: {error}");
         }
+        assert!(parse("= 1").unwrap_err().span.is_some());
+    }
+
+    #[test]
+    fn errors_in_a_tool_are_not_told_at_the_start_of_the_file() {
         for text in [
-            "[[tool]]\nnumber = 1\nshape = \"cone\"",
-            "[[tool]]\nnumber = 1\n[[tool]]\nnumber = 1",
-            "= 1",
+            "[[tool]]\nlength = 1",
+            "x = 1\n[[tool]]\nnumber = -1",
+            "[[tool]]\nnumber = \"a\"",
         ] {
-            assert!(parse(text).unwrap_err().span.is_some(), "{text}");
+            assert!(parse(text).unwrap_err().span.is_some_and(|span| span.end > 0), "{text}");
         }
+    }
+
+    #[test]
+    fn work_offsets_of_all_dialects_are_known() {
+        for name in ["G54", "g59", "G59.3", "G54.1 P12", "G505", "G599"] {
+            assert!(is_work_offset(name), "{name}");
+        }
+        for name in [
+            "G53", "G500", "G60", "G643", "G600", "G59.4", "G54.1 P", "G54.1 P0", "54", "G054", "X",
+        ] {
+            assert!(!is_work_offset(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn an_axis_that_the_machine_lacks_has_its_place() {
+        let text = "[work_offsets]\nG54 = { X = 1, A = 2 }";
+        let config = parse(text).unwrap();
+        let machine = |name| trunnion_machine::builtin(name).unwrap();
+        assert_eq!(config.check_axes(machine("mikron-ucp710")), Ok(()));
+        let error = config.check_axes(machine("mill-3axis")).unwrap_err();
+        assert_eq!(&text[error.span.unwrap()], "A");
     }
 }

@@ -17,7 +17,7 @@ pub fn parse_tool_flag(text: &str) -> Result<Tool, String> {
     if parts.next().is_some() {
         return Err(wanted());
     }
-    let shape = shape(name, Some(diameter), corner)?;
+    let shape = shape(name, Some(diameter), corner).map_err(|(_, message)| message)?;
     Ok(Tool {
         number: 0,
         shape: Some(shape),
@@ -26,31 +26,43 @@ pub fn parse_tool_flag(text: &str) -> Result<Tool, String> {
     })
 }
 
-/// A shape from its name and sizes in mm, or what is wrong with it.
-pub(super) fn shape(name: &str, diameter: Option<f64>, corner: Option<f64>) -> Result<ToolShape, String> {
+/// What of a tool is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// The shape's name, or what it needs.
+    Shape,
+    /// The diameter.
+    Diameter,
+    /// The corner radius.
+    CornerRadius,
+}
+
+/// A shape from its name and sizes in mm, or which part is wrong and why.
+pub(super) fn shape(name: &str, diameter: Option<f64>, corner: Option<f64>) -> Result<ToolShape, (Part, String)> {
     if let Some(diameter) = diameter
         && !(diameter > 0.0 && diameter.is_finite())
     {
-        return Err(format!("a tool's diameter must be above 0 mm, not {diameter}"));
+        let message = format!("a tool's diameter must be above 0 mm, not {diameter}");
+        return Err((Part::Diameter, message));
     }
     match (name.to_ascii_lowercase().as_str(), corner) {
         ("ball", None) => Ok(ToolShape::Ball),
         ("flat", None) => Ok(ToolShape::Flat),
-        ("ball" | "flat", Some(_)) => Err(format!(
-            "a {name} tool has no corner radius of its own; write bull for one with a corner radius"
+        ("ball" | "flat", Some(_)) => Err((
+            Part::CornerRadius,
+            format!("a {name} tool has no corner radius of its own; write bull for one with a corner radius"),
         )),
-        ("bull", None) => Err("a bull tool needs its corner radius".to_owned()),
+        ("bull", None) => Err((Part::Shape, "a bull tool needs its corner radius".to_owned())),
         ("bull", Some(radius)) => {
             let most = diameter.map_or(f64::INFINITY, |diameter| diameter / 2.0);
             if radius > 0.0 && radius <= most {
                 Ok(ToolShape::Bull(radius))
             } else {
-                Err(format!(
-                    "a corner radius must be above 0 mm and at most half the diameter, not {radius}"
-                ))
+                let message = format!("a corner radius must be above 0 mm and at most half the diameter, not {radius}");
+                Err((Part::CornerRadius, message))
             }
         }
-        _ => Err(format!("no tool shape is called `{name}`: {SHAPES}")),
+        _ => Err((Part::Shape, format!("no tool shape is called `{name}`: {SHAPES}"))),
     }
 }
 

@@ -1,12 +1,13 @@
 //! An APT record is not known.
 //!
 //! # Why
-//! It is skipped. If it moves the tool or changes how later records are meant, what follows is judged wrongly.
+//! It is skipped. It may move the tool or change how later records are meant, so positions are unknown from there on.
 //!
 //! # Example
 //! ```gcode apt
 //! WIGGLE/1,2
 //! $$^^^^ apt-unknown-record: APT record WIGGLE is not known
+//! $$^^^^^^^^ not-modelled: not modelled: WIGGLE
 //! FINI
 //! ```
 //!
@@ -34,7 +35,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         let text = out.text(fault.range);
         let major: String = text.split('/').next().unwrap_or_default().trim().to_owned();
         out.report(fault.range, format!("APT record {major} is not known"))
-            .note("it is skipped")
+            .note("it is skipped; it may move the tool or the coordinates, so positions are unknown from here on")
             .help("check its spelling; if it matters only to the post-processor, allow it with a comment")
             .merge(hash(&major), 0.0);
     }

@@ -22,6 +22,7 @@
 //! # Sources
 //! The NIST RS274/NGC interpreter, version 3, on arcs at feed rate (G2, G3).
 use crate::prelude::*;
+use trunnion_syntax::{Address, BlockId, Program, Value, Word};
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
@@ -31,7 +32,54 @@ pub(super) const RULE: Body = Body {
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::ArcCentreMissing {
-        out.report(fault.range, "the arc has neither centre nor radius")
-            .help("write the centre words of the plane (G17: I J, G18: K I, G19: J K), or a radius");
+        let (message, help) = cause(out.program(), fault.block);
+        out.report(fault.range, message).help(help);
+    }
+}
+
+/// What the block lacks, by the words it has, and what to do.
+fn cause(program: &Program, block: BlockId) -> (&'static str, &'static str) {
+    let view = program.block(block);
+    let words = || view.record().is_none().then(|| view.words()).into_iter().flatten();
+    let is_radius = |address: Address| match address {
+        Address::Letter(letter) => letter == b'R',
+        Address::Named(range) => program.bytes(range).eq_ignore_ascii_case(b"CR"),
+        Address::Indexed(..) => false,
+    };
+    let is_centre = |word: &Word| matches!(word.address, Address::Letter(b'I' | b'J' | b'K'));
+    let is_zero =
+        |word: Word| matches!(word.value, Value::Number(number) | Value::Call(_, number) if number.to_f64() == 0.0);
+    if words().any(|word| is_radius(word.address)) {
+        return (
+            "the arc ends where it starts: a radius cannot describe a full circle",
+            "write the centre words of the plane (G17: I J, G18: K I, G19: J K)",
+        );
+    }
+    let help = "write the distances from the arc's start to its centre (G17: I J, G18: K I, G19: J K)";
+    match words().filter(is_centre).count() {
+        0 => (
+            "the arc has neither centre nor radius",
+            "write the centre words of the plane (G17: I J, G18: K I, G19: J K), or a radius",
+        ),
+        _ if words().filter(is_centre).all(is_zero) => ("the arc's centre lies at its start: there is no circle", help),
+        1 => ("the arc's centre lacks a coordinate of the plane", help),
+        _ => ("the arc's centre lies at its start: there is no circle", help),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn what_is_there_is_not_said_to_be_missing() {
+        assert_drawn(
+            "gcode",
+            "N10 G17 G90 G0 X0 Y0\nN20 G2 X0 Y0 R5 F300\n;      ^^ arc-centre-missing: the arc ends where it starts: a radius cannot describe a full circle\n",
+        );
+        assert_drawn(
+            "gcode",
+            "N10 G17 G90 G0 X0 Y0\nN20 G2 X10 Y0 I0 J0 F300\n;      ^^^ arc-centre-missing: the arc's centre lies at its start\n",
+        );
     }
 }

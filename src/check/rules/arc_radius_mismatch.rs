@@ -63,7 +63,8 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             )
             .note(format!("the radius must be at least half of that, {}", mm(half_chord)))
             .help("correct the end point or the radius")
-            .value("value_mm", radius)
+            .value("radius_mm", radius)
+            .value("chord_mm", 2.0 * half_chord)
             .value("limit_mm", half_chord);
         }
         _ => {}

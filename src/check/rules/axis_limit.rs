@@ -41,7 +41,9 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     for excess in found {
         let axis = &view.machine.axes[excess.axis];
         let beyond = (excess.value - excess.limit).abs();
-        if out.repeats(view, u64::from(axis.letter), beyond) {
+        // the lower limit behind the upper one is another finding, however near the blocks
+        let key = u64::from(axis.letter) + 256 * u64::from(excess.value > excess.limit);
+        if out.repeats(view, key, beyond) {
             continue;
         }
         let name = letter(axis.letter);
@@ -79,7 +81,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
                     .value("excess_deg", deg(beyond));
             }
         }
-        draft.merge(u64::from(axis.letter), beyond);
+        draft.merge(key, beyond);
     }
 }
 
@@ -106,6 +108,27 @@ mod tests {
         assert_drawn(
             "gcode mikron-ucp710",
             "N1 G0 X0 Y0 Z0 A0 C0\nN2 G0 A-30.001\n;     ^^^^^^^^ axis-limit: A reaches -30\n",
+        );
+    }
+
+    #[test]
+    fn the_lower_limit_is_told_beside_the_upper_one() {
+        let text = "TRAORI\nG1 X0 Y0 Z0 A121 C0 F600\nG1 X10 A122 C1\nG1 X20 A-31\n";
+        let report = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", text)
+            .check()
+            .unwrap();
+        let found: Vec<_> = report
+            .diagnostics
+            .iter()
+            .filter(|d| d.rule == "axis-limit")
+            .map(|d| (d.message.as_str(), d.count))
+            .collect();
+        assert_eq!(
+            found,
+            [
+                ("A reaches 122 deg, 2 deg beyond its limit of 120 deg", 2),
+                ("A reaches -31 deg, 1 deg beyond its limit of -30 deg", 1)
+            ]
         );
     }
 

@@ -23,7 +23,10 @@
 //!
 //! # Guarantee
 //! Sound for axes with a declared speed, at the worst moment inside the block; an axis that moves without a declared speed is
-//! reported as unknown, once. Up to 8 consecutive blocks are reported one by one, longer runs as one with their worst.
+//! reported as unknown, once. Where linear and rotary axes move together without tool centre point control and a parameter of
+//! the control says whether F counts along X Y Z or along all axes (Fanuc and its like), silence holds for both; where an axis
+//! is overrun in the reading along X Y Z, the fastest, this rule says unknown, once, and `feed-drop` is silent. Up to 8
+//! consecutive blocks are reported one by one, longer runs as one with their worst.
 //!
 //! # Thresholds
 //! `vmax` of each axis in the machine file.
@@ -32,6 +35,7 @@
 //! Trunnion's kinematics notes, sections 4.1 and 5 (VEL-AXIS).
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
+use crate::view::NO_TURN;
 use trunnion_interp::{Feed, MotionKind};
 use trunnion_machine::{Axis, AxisKind};
 
@@ -55,6 +59,9 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     };
     if needed <= limit.axis_limit * (1.0 + ROUNDING) {
         return;
+    }
+    if view.feed_is_ambiguous(out.dialect()) {
+        return ambiguous(view, out);
     }
     let axis = &view.machine.axes[limit.axis];
     let key = u64::from(axis.letter) + 256 * u64::from(view.feed_in_degrees());
@@ -94,7 +101,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if let Some(feed) = feed {
         draft.value(feed_keys(view)[0], feed);
     }
-    if view.near_pole() {
+    if view.near_pole() && view.forced_swap().is_none() {
         draft.fix("smooth-pole");
     }
     if view.turns_far() {
@@ -112,10 +119,28 @@ pub(super) fn feed_keys(view: &LegView<'_>) -> [&'static str; 2] {
     }
 }
 
+/// The fastest reading of F overruns an axis, another one may not.
+fn ambiguous(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let cause = hash("ambiguous feed");
+    if out.repeats_unknown(view, cause, 0.0) {
+        return;
+    }
+    let range = code_range(out.program(), view.motion().block);
+    out.report(
+        range,
+        "F with linear and rotary axes moving together: this control may count mm/min of X Y Z or sqrt(mm2+deg2); not judged",
+    )
+    .note("counted along X Y Z an axis is overrun here; a parameter of the control says what F means")
+    .help("switch tool centre point control on, or program inverse time (G93)")
+    .unknown()
+    .merge_everywhere(cause);
+}
+
 /// A block whose speed cannot be told although its ends and its feed are known: told once per cause.
 fn undecided(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let Some((start, end)) = view.stances() else { return };
-    let declared = |(i, axis): (usize, &Axis)| axis.max_speed.is_some() && start.joints[i] != end.joints[i];
+    let moves = |i: usize| (start.joints[i] - end.joints[i]).abs() > NO_TURN;
+    let declared = |(i, axis): (usize, &Axis)| axis.max_speed.is_some() && moves(i);
     if !view.machine.axes.iter().enumerate().any(declared) {
         return;
     }
@@ -125,9 +150,10 @@ fn undecided(view: &LegView<'_>, out: &mut Reporter<'_>) {
         (Feed::PerRevolution(_), _) if view.motion().spindle_rpm.is_none() => {
             "the feed is per revolution and the spindle speed is not known"
         }
-        _ if view.leg.length <= 0.0 => {
+        _ if view.leg.length <= 0.0 && view.rotary_turns() => {
             "the tip stands still while rotary axes turn: what F means then is the control's own affair"
         }
+        _ if view.leg.length <= 0.0 => "linear axes move although X Y Z stay: how far F counts there is not known",
         _ => "the motion is not modelled",
     };
     if out.repeats_unknown(view, hash(why), 0.0) {
@@ -191,6 +217,53 @@ mod tests {
             "N10 TRAORI\nN20 G0 X0 Y0 Z50 A30 C0\nN30 G1 C90 F500\n;   ^^^^^^^^^^^ axis-overspeed: whether an axis is overrun is not known: the tip stands\nN40 C0\nN50 M30\n",
         );
         assert_eq!(report.diagnostics[0].count, 2);
+    }
+
+    #[test]
+    fn linear_and_rotary_axes_together_are_unknown_where_a_parameter_says_what_f_means() {
+        let found = |info: &str, last: &str| {
+            let second = if info.contains("ferrari") { 'B' } else { 'A' };
+            let text = format!("N10 G17 G21 G90 G94\nN20 G0 X0.1 Y0.1 Z50. {second}30. C0.1\n{last}\nN50 M30\n");
+            let report = crate::fixture::Fixture::parse(info, &text).check().unwrap();
+            assert!(report.diagnostics.iter().all(|d| d.rule != "feed-drop") || report.summary.unknown == 0);
+            report
+                .diagnostics
+                .into_iter()
+                .filter(|d| d.rule == "axis-overspeed")
+                .map(|d| (d.status, d.count))
+                .collect::<Vec<_>>()
+        };
+        let fast = "N30 G1 X1. C9. F9000.\nN40 X2. C20.";
+        assert_eq!(
+            found("gcode fanuc-30i mikron-ucp710", fast),
+            [(crate::Status::Unknown, 2)]
+        );
+        assert_eq!(found("gcode ferrari-bc", fast), [(crate::Status::Unknown, 2)]);
+        assert_eq!(
+            found("gcode linuxcnc mikron-ucp710", fast),
+            [(crate::Status::Fail, 1), (crate::Status::Fail, 1)]
+        );
+        // along all axes the block only takes longer: what keeps the limits along X Y Z keeps them anyway
+        assert_eq!(found("gcode fanuc-30i mikron-ucp710", "N30 G1 X1. C9. F300."), []);
+    }
+
+    #[test]
+    fn switching_tool_centre_point_control_off_is_no_standing_tip() {
+        for end in [
+            "TRAFOOF\nN40 G1 X0 Y0 Z50 F500",
+            "TRAFOOF\nN40 G1 X10 F500",
+            "TRAFOOF\nN40 G1 Z50 A30 C0 F500",
+        ] {
+            let text = format!("N10 TRAORI\nN20 G0 X0 Y0 Z50 A30 C0\nN30 {end}\nN50 M30\n");
+            let report = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text)
+                .check()
+                .unwrap();
+            assert!(
+                report.diagnostics.iter().all(|d| !d.message.contains("stands still")),
+                "{:?}",
+                report.diagnostics
+            );
+        }
     }
 
     #[test]

@@ -57,9 +57,23 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     draft
         .note(format!("{first} turns {} and {second} {}", degrees(d1), degrees(d2)))
         .help("give the rotary words of the posture before, or retract and swap out of the cut")
+        .value("rotary_change_second_deg", deg(d2))
         .value("rotary_excess_deg", deg(excess))
         .value("rotary_change_deg", deg(d1))
         .value("pole_angle_deg", deg(view.leg.pole_angle_min));
+    if let Some(beyond) = view.forced_swap() {
+        let name = letter(view.machine.axes[beyond.axis].letter);
+        draft
+            .note(format!(
+                "the posture before would need {name} = {}, outside its limit of {}",
+                degrees(beyond.value),
+                degrees(beyond.limit)
+            ))
+            .help("retract and swap out of the cut, or set the part up so that the limit is not met")
+            .value_text("axis", name)
+            .value("value_deg", deg(beyond.value))
+            .value("limit_deg", deg(beyond.limit));
+    }
     if !view.motion().is_feed() {
         draft.severity(Severity::Info);
     }
@@ -76,6 +90,23 @@ mod tests {
             "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 G0 X1 A-20 C180\n;         ^^^^^^^^^ branch-swap: \nN40 M30\n",
         );
         assert_eq!(report.diagnostics[0].severity, crate::Severity::Info);
+    }
+
+    #[test]
+    fn a_limit_that_forces_the_swap_is_named() {
+        // A -20, then A -40 at the same C would be needed: A ends at -30
+        let text = "N10 TRAORI\nN20 G0 X0 Y0 Z50 A-20 C0\nN30 G1 X50 A40 C180 F30\nN40 M30\n";
+        let report = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", text)
+            .check()
+            .unwrap();
+        let found = report.diagnostics.iter().find(|d| d.rule == "branch-swap").unwrap();
+        assert_eq!(
+            found.notes[1],
+            "the posture before would need A = -40 deg, outside its limit of -30 deg"
+        );
+        assert!(!found.help.as_deref().unwrap().contains("posture before"));
+        let flip = report.diagnostics.iter().find(|d| d.rule == "pole-flip").unwrap();
+        assert!(flip.fixes.is_empty() && !flip.help.as_deref().unwrap().contains("smooth-pole"));
     }
 
     #[test]

@@ -57,6 +57,10 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if share >= tolerances.feed_drop_warning * (1.0 - ROUNDING) {
         return;
     }
+    // told by axis-overspeed: the axis that drops the feed is overrun at the programmed one
+    if view.feed_is_ambiguous(out.dialect()) {
+        return;
+    }
     let severity = if share < tolerances.feed_drop_error {
         Severity::Error
     } else {
@@ -83,9 +87,10 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .help("lower the feed in this block, or lead the tool axis so that the axis moves less")
         .value(keys[0], feed)
         .value(keys[1], limit.feed_mm_min)
+        .value("share_percent", share * 100.0)
         .value_text("limiting_axis", name)
         .severity(severity);
-    if view.near_pole() {
+    if view.near_pole() && view.forced_swap().is_none() {
         draft.fix("smooth-pole");
     }
     if view.turns_far() {

@@ -35,7 +35,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .collect::<Vec<_>>()
             .join(" ")
             .chars()
-            .take(60)
+            .take(40)
             .collect();
         out.report(fault.range, format!("not modelled: {short}"))
             .note("positions that depend on it are unknown until the program gives them anew; nothing is checked from them")

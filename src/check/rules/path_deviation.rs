@@ -90,6 +90,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             .value("deviation_mm", deviation.sampled_mm)
             .value("deviation_bound_mm", deviation.bound_mm)
             .value("limit_mm", tolerance)
+            .value("farthest_at_percent", deviation.at * 100.0)
             .merge_runs_over(SHORT_RUN, 1, deviation.sampled_mm);
         if view.turns_far() {
             draft.fix("unwind-rotary");

@@ -35,6 +35,7 @@
 use super::axis_overspeed::feed_keys;
 use crate::prelude::*;
 use trunnion_geometry::rad;
+use trunnion_machine::feed_limit_tight;
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
@@ -62,12 +63,18 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .note(format!(
             "at the pole the tool axis is parallel to {name}: near it a small change of direction turns {name} far"
         ))
-        .help("tilt the path away from the pole, or try `trunnion fix --rewrite smooth-pole`")
         .value_text("axis", name.clone())
         .value("rotary_change_deg", deg(turn))
-        .value("pole_angle_deg", deg(view.leg.pole_angle_min))
-        .fix("smooth-pole");
-    if let Some(limit) = view.feed_limit()
+        .value("pole_angle_deg", deg(view.leg.pole_angle_min));
+    if view.forced_swap().is_some() {
+        draft.help("tilt the path away from the pole, or retract and swap the posture out of the cut");
+    } else {
+        draft
+            .help("tilt the path away from the pole, or try `trunnion fix --rewrite smooth-pole`")
+            .fix("smooth-pole");
+    }
+    // the number is printed: not the coarse bound that settles whether an axis is overrun
+    if let Some(limit) = feed_limit_tight(view.machine, view.leg).or_else(|| view.feed_limit())
         && limit.feed_mm_min.is_finite()
     {
         draft

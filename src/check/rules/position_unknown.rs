@@ -3,6 +3,7 @@
 //! # Why
 //! Some axis was never positioned, or its position was lost where something is not modelled. Nobody can say where the joints
 //! are, so limits, postures, speeds and the tip's path were not checked there. An axis that was not named is not taken to be at zero.
+//! A work offset in a rotary axis under tool centre point control is reported the same way: controls differ in what it does to X Y Z.
 //!
 //! # Example
 //! ```gcode mikron-ucp710
@@ -33,8 +34,10 @@ pub(super) const RULE: Body = Body {
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let Err(NoStance::PositionUnknown(letters)) = &view.leg.end else {
-        return;
+    let letters = match &view.leg.end {
+        Err(NoStance::PositionUnknown(letters)) => letters,
+        Err(NoStance::RotaryOffset(axis)) => return rotary_offset(*axis, view, out),
+        _ => return,
     };
     let cause = hash(letters);
     if !view.motion().is_feed() || out.repeats_unknown(view, cause, 0.0) {
@@ -62,9 +65,59 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .merge_everywhere(cause);
 }
 
+/// A work offset turns the workpiece frame: told once for each axis.
+fn rotary_offset(axis: u8, view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let cause = u64::from(axis);
+    if !view.motion().is_feed() || out.repeats_unknown(view, cause, 0.0) {
+        return;
+    }
+    let name = letter(axis);
+    let range = code_range(out.program(), view.motion().block);
+    out.report(range, format!("the position of X, Y and Z is not known: the work offset turns {name}"))
+        .note(format!(
+            "whether X Y Z of the tip turn with an offset in {name} depends on the control: the joints of {} are unknown here",
+            view.machine.id
+        ))
+        .note("limits, postures, speeds and the tip's path are not checked here")
+        .help(format!("put the turn of {name} into the program instead of the work offset"))
+        .unknown()
+        .merge_everywhere(cause);
+}
+
 #[cfg(test)]
 mod tests {
     use crate::fixture::assert_drawn;
+
+    #[test]
+    fn an_offset_in_a_rotary_axis_is_told_once_under_tcp() {
+        let text = "G55\nTRAORI\nG1 X10 Y10 Z0 A0 C0 F1000\nX20\n";
+        let dialect = trunnion_dialect::builtin("sinumerik-840d").unwrap();
+        let mut setup = trunnion_interp::Setup::default();
+        setup.work_offsets.push(trunnion_interp::WorkOffset {
+            name: "G55".into(),
+            values: [0.0, 0.0, 0.0, 0.0, 0.0, 90.0, 0.0, 0.0, 0.0],
+        });
+        let report = crate::check(
+            &trunnion_syntax::parse(text.into(), dialect.lex),
+            &crate::Settings {
+                dialect,
+                machine: trunnion_machine::builtin("mikron-ucp710"),
+                setup,
+                rules: Vec::new(),
+            },
+        );
+        let found: Vec<_> = report
+            .diagnostics
+            .iter()
+            .filter(|d| d.rule == "position-unknown")
+            .collect();
+        assert_eq!((found.len(), found[0].count), (1, 2));
+        assert!(
+            found[0].message.ends_with("the work offset turns C"),
+            "{}",
+            found[0].message
+        );
+    }
 
     #[test]
     fn rapids_at_the_start_are_normal_and_one_cause_is_told_once() {

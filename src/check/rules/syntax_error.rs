@@ -78,3 +78,61 @@ fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     };
     out.report(error.range, message).help(help);
 }
+
+/// How many bytes decide whether a file is UTF-16.
+const LOOKED_AT: usize = 1024;
+
+/// Whether a file is UTF-16: by its byte order mark, or because at its beginning each second byte is NUL and no other is.
+pub(crate) fn is_utf16(source: &[u8]) -> bool {
+    if source.starts_with(&[0xFF, 0xFE]) || source.starts_with(&[0xFE, 0xFF]) {
+        return true;
+    }
+    let pairs = &source.as_chunks::<2>().0[..source.len().min(LOOKED_AT) / 2];
+    let nul_is = |low: usize| pairs.iter().all(|pair| pair[low] != 0 && pair[1 - low] == 0);
+    pairs.len() > 1 && (nul_is(0) || nul_is(1))
+}
+
+/// Says that a file is UTF-16, in place of a problem for each of its bytes.
+pub(crate) fn report_utf16(out: &mut Reporter<'_>) {
+    out.report(TextRange::new(0, 2), "this file is UTF-16; save it as UTF-8 or ASCII")
+        .note("controls read one byte for a character; nothing was checked");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_utf16;
+    use crate::fixture::Fixture;
+
+    #[test]
+    fn utf_16_is_one_finding() {
+        let mut text = String::from("\0");
+        text.extend("G0 X1 Y2\r\nM30\r\n".chars().flat_map(|c| [c, '\0']));
+        for text in [text[1..].to_owned(), text] {
+            let report = Fixture::parse("gcode mill-3axis", &text).check().unwrap();
+            let found: Vec<_> = report
+                .diagnostics
+                .iter()
+                .map(|d| (d.rule, d.message.as_str()))
+                .collect();
+            if text.len() % 2 == 0 {
+                assert_eq!(
+                    found,
+                    [("syntax-error", "this file is UTF-16; save it as UTF-8 or ASCII")]
+                );
+            }
+        }
+        assert!(is_utf16(b"\xFF\xFEG\x000\0") && is_utf16(b"\xFE\xFF\0G\x000") && is_utf16(b"\0G\x000\0 "));
+        for text in [&b""[..], b"\0\0\0\0", b"G0", b"G\0", b"G0 X1\n\0\0"] {
+            assert!(!is_utf16(text), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn a_long_piece_of_text_is_not_quoted_in_full() {
+        let text = format!("G0 X{}.1.2\n", "1".repeat(5000));
+        let report = Fixture::parse("gcode mill-3axis", &text).check().unwrap();
+        let found = report.diagnostics.iter().find(|d| d.rule == "bad-number").unwrap();
+        assert_eq!(found.message, format!("`{}...` is not a number", "1".repeat(40)));
+        assert!(report.diagnostics.iter().all(|d| d.message.len() < 200));
+    }
+}

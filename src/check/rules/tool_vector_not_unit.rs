@@ -51,7 +51,13 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         return;
     }
     let message = if norm > 0.0 {
-        format!("the tool vector has length {}, not 1", number(norm))
+        // near 1 the digits that differ must be seen
+        let length = if off > ERROR {
+            number(norm)
+        } else {
+            format!("{norm:.6}")
+        };
+        format!("the tool vector has length {length}, not 1")
     } else {
         "the tool vector has length 0 and no direction".to_owned()
     };
@@ -68,6 +74,14 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_digits_that_differ_are_told() {
+        let text = "MULTAX/ON\nGOTO/0,0,10,0,0,1.00025\nFINI\n";
+        let report = crate::fixture::Fixture::parse("gcode apt", text).check().unwrap();
+        let found = report.diagnostics.iter().find(|d| d.rule == "tool-vector-not-unit");
+        assert_eq!(found.unwrap().message, "the tool vector has length 1.000250, not 1");
+    }
 
     #[test]
     fn two_thresholds() {

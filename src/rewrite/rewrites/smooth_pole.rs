@@ -239,11 +239,18 @@ impl Task<'_> {
     /// The first feed motion whose pose is unknown: a flip there would not be seen.
     fn unknown_position(&self) -> Option<String> {
         let unknown = |point: &Point| {
-            point.feed && matches!(point.end, Err(NoStance::PositionUnknown(_) | NoStance::NotModelled))
+            let unknown = |why: &NoStance| {
+                matches!(
+                    why,
+                    NoStance::PositionUnknown(_) | NoStance::NotModelled | NoStance::RotaryOffset(_)
+                )
+            };
+            point.feed && point.end.as_ref().is_err_and(unknown)
         };
         let index = self.points.iter().position(unknown)?;
         let why = match &self.points[index].end {
             Err(NoStance::PositionUnknown(letters)) => format!("the position of {} is unknown", in_words(letters)),
+            Err(NoStance::RotaryOffset(letter)) => format!("the work offset turns {}", char::from(*letter)),
             _ => "the motion is not modelled".into(),
         };
         Some(format!(

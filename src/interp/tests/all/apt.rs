@@ -174,8 +174,58 @@ fn records_that_are_not_modelled() {
         "after a turn of the table the axis of the tool in the part is not known"
     );
     let got = faults("apt", source);
-    assert_eq!(got.last().map(String::as_str), Some("7: FROBNI: AptUnknownRecord"));
-    assert_eq!(got.len(), 3, "{got:?}");
+    assert_eq!(
+        got[2..],
+        [
+            "7: FROBNI: AptUnknownRecord",
+            r#"7: FROBNI/1: NotModelled { what: "FROBNI" }"#
+        ]
+    );
+}
+
+#[test]
+fn after_an_unknown_record_nothing_is_known() {
+    for record in ["TRANSL/0,0,5", "HEAD/1", "MOVE/1,2,3", "X=5", "P1=POINT/1,2,3"] {
+        let source = format!("FEDRAT/1\nGOTO/1,2,3\n{record}\nGODLTA/1,1,1\nGOTO/4,5,6,0,0,1\n");
+        assert_eq!(
+            lines("apt", &source),
+            ["L X1 Y2 Z3 F1 tcp <0 0 1>", "U - tcp", "L - F1 tcp"],
+            "{record}"
+        );
+        assert_eq!(faults("apt", &source).len(), 2, "{record}");
+    }
+    let source = "FEDRAT/1\nGOTO/1,2,3\nINSERT G0 X5\nGODLTA/1,1,1\nGOTO/4,5,6,0,0,1\n";
+    assert_eq!(
+        lines("apt", source),
+        ["L X1 Y2 Z3 F1 tcp <0 0 1>", "U - tcp", "L X4 Y5 Z6 F1 tcp <0 0 1>"]
+    );
+    assert_eq!(
+        faults("apt", source),
+        [r#"3: INSERT G0 X5: NotModelled { what: "INSERT: text for the machine is not read" }"#]
+    );
+    let harmless = "FEDRAT/1\nGOTO/1,2,3\nPPRINT/A\nREMARK B\nSEQNO/10\nOPSKIP/ON\nGODLTA/1,1,1\n";
+    assert_eq!(lines("apt", harmless)[1], "L X2 Y3 Z4 F1 tcp <0 0 1>");
+    assert_eq!(faults("apt", harmless), [""; 0]);
+}
+
+#[test]
+fn from_is_where_the_next_motion_starts() {
+    let start = |source: &str| {
+        let motion = run_text("apt", source).motions[0];
+        let vector = if let trunnion_interp::Orientation::Vector(start, _) = motion.orientation {
+            start.map(|v| [v.x, v.y, v.z])
+        } else {
+            None
+        };
+        (motion.start.xyz().map(|p| [p.x, p.y, p.z]), vector)
+    };
+    let at = Some([1.0, 2.0, 30.0]);
+    assert_eq!(
+        start("MULTAX/ON\nFROM/1,2,30,1,0,0\nGOTO/0,0,0,0,0,1\n"),
+        (at, Some([1.0, 0.0, 0.0]))
+    );
+    assert_eq!(start("FROM/1,2,30\nGOTO/0,0,0\n"), (at, Some([0.0, 0.0, 1.0])));
+    assert_eq!(start("MULTAX/ON\nFROM/1,2,30\nGOTO/0,0,0,0,0,1\n"), (at, None));
 }
 
 #[test]

@@ -144,3 +144,45 @@ fn every_fault_lies_in_its_block() {
         }
     }
 }
+
+#[test]
+fn what_is_recognised_but_not_followed_is_said() {
+    let what = |dialect: &str, source: &str| -> Vec<String> {
+        let log = run_bytes(dialect, source.as_bytes(), &Setup::default()).1;
+        let unmodelled = log.faults.into_iter().filter_map(|fault| match fault.kind {
+            FaultKind::NotModelled { what } => Some(what),
+            _ => None,
+        });
+        unmodelled.collect()
+    };
+    assert_eq!(
+        what("sinumerik-840d", "TRAORI\nG0 X1 A3=0 B3=0 C3=1 STAT=1 TU=2\n"),
+        ["STAT", "TU"]
+    );
+    assert_eq!(
+        what("sinumerik-840d", "FGROUP(X,Y,A)\nFGREF[A]=10\nFL[X]=500\n"),
+        ["FGROUP", "FGREF", "FL"]
+    );
+    assert_eq!(
+        what("sinumerik-840d", "TRAORI\nTRAFOOF\nTRAORI()\nTRAORI(1)\n"),
+        [""; 0]
+    );
+    assert_eq!(
+        what("sinumerik-840d", "TRAORI(2)\nTRAORI(1,0,0,1)\n"),
+        ["TRAORI(2)", "TRAORI(1,0,0,1)"]
+    );
+    assert_eq!(what("fanuc-30i", "G43.4 H1 P1\nG43.4 H1\n"), ["G43.4 with P"]);
+    assert_eq!(what("fanuc-30i", "G43.5 H1 Q2\n"), ["G43.5 with Q"]);
+    let limits = "G0 X1 Y2\nG25 X-100 Y-50\nG26 S3000\nX3\n";
+    assert_eq!(what("sinumerik-840d", limits), ["G25"]);
+    let log = run_bytes("sinumerik-840d", limits.as_bytes(), &Setup::default()).1;
+    let lines: Vec<_> = log.motions.iter().map(crate::support::line).collect();
+    assert_eq!(lines, ["R X1 Y2", "R X3 Y2"], "limits are no targets");
+    assert_eq!(log.motions[1].spindle_rpm, None, "the limit is no speed");
+}
+
+#[test]
+fn a_transformation_that_is_not_known_hides_the_position() {
+    let got = crate::support::lines("sinumerik-840d", "TRAORI(2)\nG0 X1 Y2 Z3 A4\nTRAFOOF\nX5\n");
+    assert_eq!(got, ["R A4 tcp", "R X5 A4"]);
+}

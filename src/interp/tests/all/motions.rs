@@ -199,8 +199,9 @@ fn machine_coordinates_hold_for_one_block() {
     assert_eq!(got, ["R X1 Y1 Z1", "R X300 Y1 Z1 machine", "R X200 Y2 Z1"]);
     let machine = &log.motions[1];
     assert_eq!(
-        (machine.start.get(0), machine.zero, machine.tool_length_mm),
-        (Some(101.0), [0.0; 9], 0.0)
+        (machine.start.get(0), machine.machine_coordinates, machine.zero[0]),
+        // the work offset stays in force, though these words are not meant from it
+        (Some(101.0), true, 100.0)
     );
 }
 
@@ -252,6 +253,62 @@ fn frames_that_are_not_modelled_hide_the_position() {
     );
     let tilted = "G0 X1 Y2 Z3 A0\nG68.2 X0 Y0 Z0 I0 J30 K0\nX5 A30\nG69\nX6 Y7 Z8\n";
     assert_eq!(lines("fanuc-30i", tilted), ["R X1 Y2 Z3 A0", "R A30", "R X6 Y7 Z8"]);
+}
+
+#[test]
+fn writing_zero_points_and_tools_of_the_control_hides_the_position() {
+    for write in [
+        "$P_PFRAME=CTRANS(X,1000)",
+        "$P_UIFR[1,X,TR]=200",
+        "$TC_DP3[1,1]=350",
+        "$AA_OFF[X]=1",
+    ] {
+        let source = format!("G0 X1 Y2 Z3 A4\n{write}\nG0 X5 A6\nTRANS\nX6 A7\nSUPA Z9 A8\n");
+        assert_eq!(
+            lines("sinumerik-840d", &source),
+            ["R X1 Y2 Z3 A4", "R -", "R -", "R Z9 A8 machine"],
+            "{write}"
+        );
+        let got = faults("sinumerik-840d", &source);
+        assert_eq!(got, [format!("2: {write}: NotModelled {{ what: {write:?} }}")]);
+    }
+    for (dialect, write) in [
+        ("linuxcnc", "#5221=100"),
+        ("linuxcnc", "#[#1+5000]=100"),
+        ("fanuc-30i", "#5203=100."),
+        ("fanuc-30i", "#2001=100."),
+        ("fanuc-30i", "#7001=100."),
+    ] {
+        let source = format!("G0 X1. Y2. Z3. A4.\n{write}\nG0 X5. A6.\n");
+        assert_eq!(lines(dialect, &source), ["R X1 Y2 Z3 A4", "R -"], "{write}");
+        assert_eq!(faults(dialect, &source).len(), 1, "{write}");
+    }
+    let own = [
+        ("linuxcnc", "#1=2", 0),
+        ("linuxcnc", "#2001=5", 0),
+        ("linuxcnc", "#<depth>=5", 0),
+        ("fanuc-30i", "#101=2.", 0),
+        ("fanuc-30i", "#3000=1", 1),
+        ("sinumerik-840d", "R1=5", 0),
+        ("sinumerik-840d", "$AC_MARKER[0]=1", 1),
+    ];
+    for (dialect, write, said) in own {
+        let source = format!("G0 X1. Y2. Z3. A4.\n{write}\nG0 X5. A6.\n");
+        assert_eq!(lines(dialect, &source)[1], "R X5 Y2 Z3 A6", "{write}");
+        assert_eq!(faults(dialect, &source).len(), said, "{write}");
+    }
+}
+
+#[test]
+fn a_tool_whose_data_are_written_has_no_known_length_under_supa() {
+    let source = "T1 M6\n$TC_DP3[1,1]=350\nG0 SUPA Z9\nG0 SUPA Z9 D0\n";
+    assert_eq!(lines("sinumerik-840d", source), ["R - machine", "R Z9 machine"]);
+}
+
+#[test]
+fn a_frame_with_rotary_words_hides_rotary_axes_too() {
+    let source = "G0 X1 A4\nTRANS A10\nG0 X5 A6\nTRANS\nA7\n";
+    assert_eq!(lines("sinumerik-840d", source), ["R X1 A4", "R -", "R A7"]);
 }
 
 #[test]

@@ -1,5 +1,5 @@
 //! Tool centre point control, vectors, and where the position is lost by them.
-use crate::support::{faults, line, lines, run_bytes, run_text};
+use crate::support::{fault_line, faults, line, lines, run_bytes, run_text};
 use trunnion_interp::{Orientation, Setup, Tool};
 
 #[test]
@@ -101,13 +101,27 @@ fn machine_coordinates_under_tcp_are_without_tcp() {
         tools: vec![tool],
         ..Setup::default()
     };
-    let (_, log) = run_bytes(
-        "sinumerik-840d",
-        b"T1 M6\nTRAORI\nG0 X1 Y1 Z1 A0 C0\nSUPA G0 Z500\nX2\nM30\n",
-        &setup,
+    let run = |block: &str| {
+        let source = format!("T1 M6\nTRAORI\nG0 X1 Y1 Z1 A0 C0\n{block}\nX2\nM30\n");
+        let (program, log) = run_bytes("sinumerik-840d", source.as_bytes(), &setup);
+        let lines: Vec<_> = log.motions.iter().map(line).collect();
+        let faults: Vec<_> = log.faults.iter().map(|fault| fault_line(&program, fault)).collect();
+        (lines, faults)
+    };
+    let (lines, faults) = run("SUPA G0 Z500 D0");
+    assert_eq!(
+        lines,
+        ["R X1 Y1 Z1 A0 C0 tcp", "R Z500 A0 C0 machine", "R X2 A0 C0 tcp"]
     );
-    let got: Vec<_> = log.motions.iter().map(line).collect();
-    assert_eq!(got, ["R X1 Y1 Z1 A0 C0 tcp", "R Z500 A0 C0 machine", "R X2 A0 C0 tcp"]);
-    let lengths: Vec<_> = log.motions.iter().map(|motion| motion.tool_length_mm).collect();
-    assert_eq!(lengths, [80.0, 0.0, 80.0]);
+    assert_eq!(faults, [""; 0]);
+    // machine data decide whether the length is suppressed too
+    let (lines, faults) = run("SUPA G0 Z500");
+    assert_eq!(lines, ["R X1 Y1 Z1 A0 C0 tcp", "R A0 C0 machine", "R X2 A0 C0 tcp"]);
+    assert_eq!(
+        faults,
+        [r#"4: Z500: NotModelled { what: "SUPA with tool length (MN_G53_TOOLCORR)" }"#]
+    );
+    let (lines, faults) = run("SUPA G0 A10");
+    assert_eq!(lines[1], "R A10 C0 machine", "no length along a rotary axis");
+    assert_eq!(faults, [""; 0]);
 }

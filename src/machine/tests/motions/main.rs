@@ -4,4 +4,5 @@ mod common;
 mod great_circle;
 mod guide_vane;
 mod random;
+mod review;
 mod states;

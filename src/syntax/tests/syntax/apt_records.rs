@@ -31,12 +31,12 @@ fn check(rows: &[(&str, &str, &str)]) {
 #[test]
 fn statements() {
     check(&[
-        ("GOTO / 1, -2.5E-3,+.5\n", "GOTO/1,-0.0025,0.5", ""),
+        ("GODLTA / 1, -2.5E-3,+.5\n", "GODLTA/1,-0.0025,0.5", ""),
         ("goto/1,2,3,0,0,1", "goto/1,2,3,0,0,1", ""),
         ("RAPID\nRAPID/\nFINI ", "RAPID/ | RAPID/ | FINI/", ""),
         (
-            "CIRCLE / 1, 2,  $\r\n3, 4 $ more\n ,5\nGOTO/6",
-            "CIRCLE/1,2,3,4,5 | GOTO/6",
+            "CIRCLE / 1, 2,  $\r\n3, 4 $ more\n ,5\nGODLTA/6",
+            "CIRCLE/1,2,3,4,5 | GODLTA/6",
             "",
         ),
         ("SPINDL / RPM, 100.5,  CLW", "SPINDL/RPM,100.5,CLW", ""),
@@ -45,7 +45,7 @@ fn statements() {
             "CYCLE/DEEP2,FEDTO,9.0,1STPECK,5.",
             "",
         ),
-        ("GOTO/- 5, + .5", "GOTO/-5,0.5", ""),
+        ("GODLTA/- 5, + .5", "GODLTA/-5,0.5", ""),
         (
             "PARTNO / MFG0004 A, $$ B\nPPRINT",
             "PARTNO/[MFG0004 A, $$ B] | PPRINT/",
@@ -56,8 +56,8 @@ fn statements() {
             "PARTNO/[MY PART] | INSERT/[Stock X30. (] | REMARK/",
             "",
         ),
-        ("$$ comment $\nGOTO/1 $$ end", " | GOTO/1", ""),
-        ("$$-> CSYS / 1.0,  $\n   0.0, $\n 2.0\nGOTO/1", " | GOTO/1", ""),
+        ("$$ comment $\nGODLTA/1 $$ end", " | GODLTA/1", ""),
+        ("$$-> CSYS / 1.0,  $\n   0.0, $\n 2.0\nGODLTA/1", " | GODLTA/1", ""),
         ("\n\n", " | ", ""),
         (
             "TOOL PATH/MILL,TOOL,M1\nEND-OF-PATH",
@@ -66,8 +66,8 @@ fn statements() {
         ),
         ("P1 = POINT/1,2,3\nA = 5", "POINT/1,2,3 | A/[=],5", ""),
         ("L1=LINE/(POINT/1,(2)),P2", "LINE/[(POINT/1,(2))],P2", ""),
-        ("LAB1) GOTO/1", "GOTO/1", ""),
-        ("GOTO/X*2,3", "GOTO/X,[*],2,3", ""),
+        ("LAB1) GODLTA/1", "GODLTA/1", ""),
+        ("GODLTA/X*2,3", "GODLTA/X,[*],2,3", ""),
         ("LOADTL/1,'a,b'", "LOADTL/1,['a,b']", ""),
     ]);
 }
@@ -88,6 +88,15 @@ fn broken_statements() {
         ("GOTO/1,2)", "GOTO/1,2,[)]", "UnbalancedBracket[)]"),
         ("GOTO/1,$", "GOTO/1", "BadRecord[,] DanglingContinuation[$]"),
         ("GOTO/1,?ä", "GOTO/1,[?ä]", "UnexpectedCharacter[?ä]"),
+        ("GOTO/", "GOTO/", "BadRecord[GOTO/]"),
+        ("GOTO/10,0", "GOTO/10,0", "BadRecord[GOTO/10,0]"),
+        (
+            "LAB) goto/1,2,3,4,5 $$ c",
+            "goto/1,2,3,4,5",
+            "BadRecord[goto/1,2,3,4,5]",
+        ),
+        ("GOTO/P1", "GOTO/P1", ""),
+        ("GOTO/1,2,3,4,5,6,7", "GOTO/1,2,3,4,5,6,7", ""),
         ("PAINT/\"A", "PAINT/[\"A]", "UnclosedText[\"A]"),
     ]);
 }

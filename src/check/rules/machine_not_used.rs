@@ -1,0 +1,70 @@
+//! The machine file declares something that no check reads.
+//!
+//! # Why
+//! Who declares that an axis is clamped, or how a control treats the pole, expects it to be checked. A verdict must not pass over it.
+//!
+//! # Example
+//! The machine file has `clamp = true` at an axis.
+//!
+//! ```gcode mikron-ucp710+clamp
+//! N10 G0 X0 Y0 Z0 A0 C0
+//! ;^ machine-not-used: the machine file of mikron-ucp710 says more than is checked: clamp on
+//! N20 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode mikron-ucp710
+//! N10 G0 X0 Y0 Z0 A0 C0
+//! N20 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound; each such fact is told once per file, at its first byte.
+//!
+//! # Sources
+//! Trunnion's interface: what cannot be decided is unknown, and says what is missing.
+use crate::prelude::*;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Info,
+    guarantee: Guarantee::Sound,
+    level: Level::Program(check),
+};
+
+fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
+    let Some(machine) = overview.settings.machine else {
+        return;
+    };
+    let first = u32::from(!overview.program.source().is_empty());
+    for fact in &machine.not_used {
+        out.report(
+            TextRange::new(0, first),
+            format!("the machine file of {} says more than is checked: {fact}", machine.id),
+        )
+        .help("take it out of the machine file, or allow this rule where it does not matter")
+        .unknown();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::Fixture;
+    use crate::{Severity, Verdict};
+
+    #[test]
+    fn a_declared_clamp_is_never_passed_over() {
+        let text = "G0 X0 Y0 Z0 A0 C0\nM30\n";
+        for (info, verdict) in [
+            ("mikron-ucp710", Verdict::Pass),
+            ("mikron-ucp710+clamp", Verdict::Unknown),
+        ] {
+            let report = Fixture::parse(&format!("gcode {info}"), text).check().unwrap();
+            assert_eq!(
+                report.verdict(Severity::Error),
+                verdict,
+                "{info}: {:?}",
+                report.diagnostics
+            );
+        }
+    }
+}

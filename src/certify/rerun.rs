@@ -1,5 +1,5 @@
 //! A program run again, one leg at a time: text, dialect and machine in, legs out, nothing kept.
-use crate::side::{Side, of_fault, text};
+use crate::side::{Side, Told, of_fault, text};
 use std::collections::VecDeque;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Setup, Sink, ToolShape};
@@ -56,9 +56,9 @@ impl Sink for Legs<'_> {
     }
     fn fault(&mut self, fault: Fault) {
         match of_fault(&fault.kind) {
-            None => {}
-            Some(None) => self.whole = true,
-            Some(Some(name)) => {
+            Told::Nothing => {}
+            Told::Block => self.whole = true,
+            Told::Unset(name) => {
                 self.unset.push_str(&name);
                 self.unset.push(' ');
             }

@@ -19,18 +19,28 @@ pub(crate) struct Side {
     pub unset: String,
 }
 
-/// What a fault means for a comparison: `None`, nothing; `Some(None)`, the whole block counts; `Some(Some(name))`, the name does.
-pub(crate) fn of_fault(kind: &FaultKind) -> Option<Option<String>> {
+/// What a fault means for a comparison.
+pub(crate) enum Told {
+    /// The motion holds all there is.
+    Nothing,
+    /// The whole block counts.
+    Block,
+    /// What is taken as zero counts by its name.
+    Unset(String),
+}
+
+/// What a fault means for a comparison. Faults not named here make their block count: better too many.
+pub(crate) fn of_fault(kind: &FaultKind) -> Told {
     match kind {
         FaultKind::MissingFeed { .. }
         | FaultKind::ArcRadiusMismatch { .. }
         | FaultKind::ArcRadiusTooSmall { .. }
         | FaultKind::VectorNotUnit { .. }
         | FaultKind::AmbiguousDecimal
-        | FaultKind::MissingProgramEnd => None,
-        FaultKind::WorkOffsetUnset { name } => Some(Some(name.clone())),
-        FaultKind::ToolLengthUnset { tool } => Some(Some(tool.clone())),
-        _ => Some(None),
+        | FaultKind::MissingProgramEnd => Told::Nothing,
+        FaultKind::WorkOffsetUnset { name } => Told::Unset(name.clone()),
+        FaultKind::ToolLengthUnset { tool } => Told::Unset(tool.clone()),
+        _ => Told::Block,
     }
 }
 

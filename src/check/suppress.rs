@@ -87,4 +87,12 @@ mod tests {
         let found: Vec<&str> = report.diagnostics.iter().map(|found| found.rule).collect();
         assert_eq!(found, ["broken-directive", "repeated-word"]);
     }
+
+    #[test]
+    fn it_does_not_reach_back_to_blocks_before() {
+        assert_drawn(
+            "gcode",
+            "G0 X0 X1\n;     ^^ repeated-word: \nG0 X0 X1 (trunnion: allow repeated-word because the first is a marker)\n",
+        );
+    }
 }

@@ -2,16 +2,20 @@
 use trunnion_geometry::deg;
 use trunnion_machine::{Axis, AxisKind};
 
+/// How many decimals of a value matter: about four digits in all.
+fn decimals(value: f64) -> usize {
+    match value.abs() {
+        size if size >= 1000.0 => 0,
+        size if size >= 100.0 => 1,
+        size if size >= 0.1 => 3,
+        size if size >= 0.001 => 4,
+        _ => 6,
+    }
+}
+
 /// A number with about four digits that matter and no trailing zeros.
 pub(crate) fn number(value: f64) -> String {
-    let size = value.abs();
-    let decimals = match size {
-        _ if size >= 1000.0 => 0,
-        _ if size >= 100.0 => 1,
-        _ if size >= 0.1 => 3,
-        _ if size >= 0.001 => 4,
-        _ => 6,
-    };
+    let decimals = decimals(value);
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.')
@@ -28,6 +32,26 @@ pub(crate) fn rate(value: f64) -> String {
         size if size >= 10.0 => number((value * 10.0).round() / 10.0),
         _ => number(value),
     }
+}
+
+/// A highest feed, positive: rounded down, so that what is said is never more than what holds.
+pub(crate) fn highest_rate(value: f64) -> String {
+    let step = match value {
+        _ if value >= 100.0 => 1.0,
+        _ if value >= 10.0 => 0.1,
+        _ => return number(value),
+    };
+    // the quotient of a value that is a whole number of steps may come out a little low
+    number(((value / step) * (1.0 + 1e-12)).floor() * step)
+}
+
+/// An upper bound in mm, positive: rounded up, so that what is said is never below what is proven.
+pub(crate) fn bound_mm(value: f64) -> String {
+    let mut scale = 1.0;
+    for _ in 0..decimals(value) {
+        scale *= 10.0;
+    }
+    format!("{} mm", number(((value * scale) * (1.0 - 1e-12)).ceil() / scale))
 }
 
 /// A length in mm.
@@ -96,5 +120,23 @@ mod tests {
         ] {
             assert_eq!(number(value), text);
         }
+    }
+}
+
+#[cfg(test)]
+mod rounding {
+    use super::{bound_mm, highest_rate};
+
+    #[test]
+    fn bounds_are_said_on_the_safe_side() {
+        assert_eq!(bound_mm(29.304_259_4), "29.305 mm");
+        assert_eq!(bound_mm(340.005), "340.1 mm");
+        assert_eq!(bound_mm(1000.2), "1001 mm");
+        assert_eq!(bound_mm(0.25), "0.25 mm");
+        assert_eq!(highest_rate(707.975), "707");
+        assert_eq!(highest_rate(46.149), "46.1");
+        assert_eq!(highest_rate(33.199), "33.1");
+        assert_eq!(highest_rate(600.0), "600");
+        assert_eq!(highest_rate(20.1), "20.1");
     }
 }

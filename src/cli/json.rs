@@ -80,6 +80,7 @@ impl Serialize for Values {
         let mut map = serializer.serialize_map(Some(self.0.len()))?;
         for (key, value) in &self.0 {
             match value {
+                ValueKey::Number(number) if key.contains("bound") => map.serialize_entry(key, &tidy_up(*number))?,
                 ValueKey::Number(number) => map.serialize_entry(key, &tidy(*number))?,
                 ValueKey::Text(text) => map.serialize_entry(key, text)?,
             }
@@ -91,6 +92,12 @@ impl Serialize for Values {
 /// Rounded to a millionth of its unit: what lies below is arithmetic, not information.
 pub(super) fn tidy(value: f64) -> f64 {
     let rounded = (value * 1e6).round() / 1e6;
+    if rounded.is_finite() { rounded + 0.0 } else { value }
+}
+
+/// As [`tidy`], but never below the value: for proven upper bounds.
+fn tidy_up(value: f64) -> f64 {
+    let rounded = (value * 1e6).ceil() / 1e6;
     if rounded.is_finite() { rounded + 0.0 } else { value }
 }
 

@@ -232,6 +232,8 @@ pub struct Machine {
     pub bodies: Vec<Body>,
     /// What the file declares and nothing honours yet, one sentence each: rules that depend on it judge without it.
     pub not_used: Vec<String>,
+    /// Those of `not_used` that could change a verdict of the rules there are: with them nothing passes.
+    pub not_judged: Vec<String>,
 }
 
 impl Machine {

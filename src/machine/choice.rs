@@ -229,4 +229,21 @@ mod tests {
         let least = cheapest_in_posture(mikron(), &axis, -1, [0.0, rad(10.0)]).expect("two postures");
         assert!((deg(least) - 230.0).abs() < 1e-3, "{}", deg(least));
     }
+
+    /// Both postures of one tool axis: C 10 A 20 and C -170 A -20. Coming from A -15 a slow A takes the far way of C.
+    #[test]
+    fn the_slowest_axis_decides_not_the_longest_way() {
+        let axis = trunnion_geometry::math::rotate(
+            &Vec3::z(),
+            rad(10.0),
+            &trunnion_geometry::math::rotate(&Vec3::x(), rad(20.0), &Vec3::z()),
+        );
+        let mut machine = mikron().clone();
+        let q = |machine: &Machine| choose(machine, &axis, [0.0, rad(-15.0)]).expect("reachable").map(deg);
+        let [c, a] = [machine.joint(b'C').expect("C"), machine.joint(b'A').expect("A")];
+        (machine.axes[c].max_speed, machine.axes[a].max_speed) = (Some(1.0), Some(1.0));
+        assert_near(q(&machine), [10.0, 20.0]);
+        (machine.axes[c].max_speed, machine.axes[a].max_speed) = (Some(100.0), Some(1.0));
+        assert_near(q(&machine), [-170.0, -20.0]);
+    }
 }

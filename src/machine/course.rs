@@ -137,7 +137,7 @@ impl<'a> Course<'a> {
             angles = [rotary[0].sign * joints[0], rotary[1].sign * joints[1]];
         }
         for (index, turn) in turns.iter_mut().enumerate() {
-            if self.change[index] != 0.0 {
+            if self.change[index] != 0.0 || matches!(self.spin, Spin::GreatCircle(_)) {
                 (turn.sin, turn.cos) = sin_cos(angles[index]);
             }
         }

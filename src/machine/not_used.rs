@@ -21,6 +21,20 @@ pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
     out
 }
 
+/// Those that could change a verdict of the rules there are: what moves, and which way, is not what is judged.
+pub(crate) fn not_judged(raw: &RawMachine) -> Vec<String> {
+    let decisive = [
+        "clamp on",
+        "follow on",
+        "[control] branch",
+        "[control] pole",
+        "[control] rapid",
+    ];
+    let mut all = not_used(raw);
+    all.retain(|text| decisive.iter().any(|start| text.starts_with(start)));
+    all
+}
+
 fn of_axis(axis: &RawAxis, out: &mut Vec<String>) {
     let letter = axis.letter.get_ref();
     let mut say = |set: bool, text: String| {

@@ -1,6 +1,6 @@
 //! The machine file (TOML, schema `ncmachine/1`, kinematics notes 7): read, checked, turned into mm, rad and s, with clear errors.
 use crate::control::control;
-use crate::not_used::not_used;
+use crate::not_used::{not_judged, not_used};
 use crate::raw::{Number, RawBody, RawMachine, RawTolerances, RawUnits};
 use crate::validate::{Fault, axis, gantry, point, positive, unit_vector};
 use crate::{Axis, AxisKind, Body, Constants, Gantry, MAX_AXES, Machine, Side, Tolerances};
@@ -83,6 +83,7 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
         .collect();
     Ok(Machine {
         not_used: not_used(raw),
+        not_judged: not_judged(raw),
         id: id.to_owned(),
         name: raw.name.clone().unwrap_or_else(|| id.to_owned()),
         tool_axis,

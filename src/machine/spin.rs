@@ -140,3 +140,84 @@ impl GreatCircle<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{GreatCircle, Spin};
+    use crate::{BUILTIN_MACHINES, Follower, Machine, builtin};
+    use trunnion_geometry::Vec3;
+    use trunnion_geometry::math::rotate;
+    use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Position};
+
+    fn rates(machine: &Machine, circle: &GreatCircle<'_>, t: f64, from: [f64; 2]) -> [f64; 2] {
+        let [first, second] = &machine.constants.rotary;
+        let q = circle.joints(t, from).expect("in reach");
+        circle.rates(t, &rotate(&first.direction, first.sign * q[0], &second.direction))
+    }
+
+    /// Rates and their changes at many moments against the bounds of pieces of the block.
+    #[test]
+    fn rates_on_a_great_circle_stay_below_their_bounds() {
+        let mut judged = 0;
+        for (name, tilt, to) in BUILTIN_MACHINES.iter().flat_map(|name| {
+            [(0.2, 0.9), (0.6, 0.9), (1.0, 0.9), (0.2, 0.1), (0.5, 0.1)].map(|(tilt, to)| (name, tilt, to))
+        }) {
+            let mut machine = builtin(name).expect("built in").clone();
+            machine.control.tcp_great_circle = true;
+            let Some(_) = machine.constants.pair else { continue };
+            let e1 = machine.constants.rotary[0].direction;
+            let side = if e1.x.abs() < 0.5 { Vec3::x() } else { Vec3::y() };
+            let vector = |azimuth: f64, tilt: f64| rotate(&e1, azimuth, &rotate(&side, tilt, &e1));
+            let mut follower = Follower::new(&machine);
+            let mut end = Position::default();
+            (0..3).for_each(|axis| end.set(axis, 0.0));
+            let mut go = |axis: Vec3| {
+                follower.follow(&Motion {
+                    block: trunnion_syntax::BlockId(0),
+                    kind: MotionKind::Linear,
+                    start: end,
+                    end,
+                    orientation: Orientation::Vector(None, axis),
+                    tcp: true,
+                    great_circle: Some(true),
+                    feed: Feed::PerMinute(1.0),
+                    spindle_on: None,
+                    spindle_rpm: None,
+                    zero: [0.0; 9],
+                    tool_length_mm: 0.0,
+                    machine_coordinates: false,
+                    tool: None,
+                })
+            };
+            go(vector(0.1, tilt));
+            // the last two run straight away from the pole
+            let leg = go(vector(to, tilt + 0.3));
+            let (Some(start), Ok(stop)) = (&leg.start, &leg.end) else {
+                continue;
+            };
+            let Some(Spin::GreatCircle(circle)) = Spin::new(&machine, &leg, start, stop) else {
+                continue;
+            };
+            let from = start.rotary(&machine);
+            for piece in 0..8 {
+                let (low, high) = (f64::from(piece) / 8.0, f64::from(piece + 1) / 8.0);
+                let bounds = circle.bounds(low, high);
+                for step in 0..=20 {
+                    let t = low + (high - low) * f64::from(step) / 20.0;
+                    let (now, h) = (rates(&machine, &circle, t, from), 1e-5);
+                    let [before, after] = [t - h, t + h].map(|t| rates(&machine, &circle, t, from));
+                    for i in 0..2 {
+                        let bend = (after[i] - before[i]).abs() / (2.0 * h);
+                        assert!(
+                            now[i].abs() <= bounds.rate[i] * (1.0 + 1e-9),
+                            "{name} {t}: {now:?} {bounds:?}"
+                        );
+                        assert!(bend <= bounds.bend[i] * 1.001 + 1e-6, "{name} {t}: {bend} {bounds:?}");
+                        judged += 1;
+                    }
+                }
+            }
+        }
+        assert!(judged > 500, "{judged}");
+    }
+}

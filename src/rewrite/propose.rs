@@ -157,3 +157,66 @@ fn no_new_errors(rewrite: &Rewrite, program: &Program, after: &[u8], settings: &
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trunnion_machine::Limits;
+    use trunnion_syntax::{Address, TextEdit};
+
+    /// Proposes other numbers for all C words.
+    fn every_c(program: &Program, number: fn(f64) -> f64) -> Proposal {
+        let words = program.blocks().flat_map(|block| block.words().collect::<Vec<_>>());
+        let edits = words
+            .filter(|word| word.address == Address::Letter(b'C'))
+            .map(|word| TextEdit {
+                range: word.value_range,
+                new_text: number(program.text(word.value_range).parse().expect("a number")).to_string(),
+            })
+            .collect();
+        Proposal {
+            edits,
+            claim: Claim::SamePoses {
+                tolerance_mm: 1e-6,
+                tolerance_deg: 1e-6,
+            },
+            summary: String::new(),
+        }
+    }
+
+    fn refusal(propose: fn(&Program, &Settings<'_>, &Options) -> Result<Option<Proposal>, String>) -> String {
+        let mut machine = trunnion_machine::builtin("mikron-ucp710").expect("built in").clone();
+        let c = machine.joint(b'C').expect("C");
+        machine.axes[c].limits = Limits::Range(-2.0, 20.0);
+        let settings = Settings {
+            dialect: trunnion_dialect::builtin("sinumerik-840d").expect("built in"),
+            machine: Some(&machine),
+            setup: trunnion_interp::Setup::default(),
+            rules: Vec::new(),
+        };
+        let text = "TRAORI\nG0 X0 Y0 Z50 A10 C0\nG1 X1 C5 F100\nX2 C3\nM30\n";
+        let program = parse(text.as_bytes().to_vec(), settings.dialect.lex);
+        let rewrite = Rewrite {
+            name: "every-c",
+            docs: "",
+            cures: &[],
+            propose,
+        };
+        match attempt(&rewrite, &program, &settings, &Options::default()) {
+            Attempt::Refused(reason) => reason,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// What is proved may still be worse: more turning, or an axis outside its travel.
+    #[test]
+    fn a_proved_rewrite_that_makes_things_worse_is_refused() {
+        let more = refusal(|program, _, _| Ok(Some(every_c(program, |c| if c == 5.0 { 365.0 } else { c }))));
+        assert!(more.contains("of C would grow"), "{more}");
+        let outside = refusal(|program, _, _| Ok(Some(every_c(program, |c| c - 720.0))));
+        assert!(
+            outside.contains("it would make an error") && outside.contains("axis-limit"),
+            "{outside}"
+        );
+    }
+}

@@ -92,3 +92,19 @@ proptest! {
         prop_assert!((from + (to - from) * t - at).norm() <= path.bend().0 / 8.0 + 1e-9);
     }
 }
+
+/// The followed point runs along Z through the axis of A while A turns: 2 D V is all that bends its way.
+#[test]
+fn a_point_that_runs_outward_bends_twice() {
+    let machine = builtin("mikron-ucp710").expect("built in");
+    let (mut from, mut to) = ([0.0; MAX_AXES], [0.0; MAX_AXES]);
+    (from[1], from[4], to[1], to[4]) = (-1.0 / 36.0, -1.0, 1.0 / 36.0, 1.0);
+    let path = path(machine, &[from, to], Interpolation::Joints, 40.0);
+    let ((from, _), (to, _), (middle, _)) = (path.at(0.0), path.at(1.0), path.at(0.5));
+    let sag = ((from + to) * 0.5 - middle).norm();
+    assert!(
+        sag > 8.7 && sag <= path.bend().0 / 8.0,
+        "{sag} mm, bound {}",
+        path.bend().0 / 8.0
+    );
+}

@@ -139,4 +139,21 @@ mod tests {
             "N1 G0 X5000\n;     ^^^^^ axis-limit: X reaches 5000 mm\n",
         );
     }
+
+    #[test]
+    fn what_lies_below_is_told_as_a_distance_and_the_lowest_is_the_worst() {
+        let report = assert_drawn(
+            "gcode mikron-ucp710",
+            "N1 G0 X0 Y0 Z0 A0 C0\nN2 G0 A-31\n;     ^^^^ axis-limit: A reaches -33 deg, 3 deg beyond its limit of -30 deg\nN3 A-33\nN4 A-32\n",
+        );
+        assert_eq!(report.diagnostics[0].count, 3);
+    }
+
+    #[test]
+    fn a_legal_block_between_ends_the_run() {
+        assert_drawn(
+            "gcode mill-3axis",
+            "N1 G0 X0 Y0 Z0\nN2 G0 X5000\n;     ^^^^^ axis-limit: X reaches 5000 mm\nN3 X0\nN4 X6000\n;  ^^^^^ axis-limit: X reaches 6000 mm\n",
+        );
+    }
 }

@@ -83,7 +83,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     draft
         .note(format!(
             "the block can run at {} {} at most",
-            rate(limit.feed_mm_min),
+            highest_rate(limit.feed_mm_min),
             view.feed_unit()
         ))
         .help("lower the feed in this block, or lead the tool so that the axis moves less")

@@ -83,7 +83,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             .note(format!(
                 "farthest after {} % of the block; proven to be at most {}; allowed are {}",
                 number((deviation.at * 100.0).round()),
-                mm(deviation.bound_mm),
+                bound_mm(deviation.bound_mm),
                 mm(tolerance)
             ))
             .help("switch tool centre point control on, or insert points")
@@ -96,7 +96,11 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             draft.fix("unwind-rotary");
         }
     } else {
-        let found = format!("between {} and {}", mm(deviation.sampled_mm), mm(deviation.bound_mm));
+        let found = format!(
+            "between {} and {}",
+            mm(deviation.sampled_mm),
+            bound_mm(deviation.bound_mm)
+        );
         out.report(
             range,
             format!("the tip's deviation is {found}: not proven to keep {}", mm(tolerance)),

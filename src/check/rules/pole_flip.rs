@@ -80,7 +80,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         draft
             .note(format!(
                 "no axis is overrun up to a feed of {} {}",
-                rate(limit.feed_mm_min),
+                highest_rate(limit.feed_mm_min),
                 view.feed_unit()
             ))
             .value(feed_keys(view)[1], limit.feed_mm_min);

@@ -11,3 +11,4 @@ mod orientation;
 mod properties;
 mod support;
 mod tools;
+mod words;

@@ -127,7 +127,8 @@ mod tests {
     fn a_long_run_of_warnings_with_one_error_is_an_error() {
         // C turns 9 deg in each mm at 120 deg/s: 800 mm/min; the error comes where the allowed feed is the same
         let feed = |i| if i == 11 { 4000 } else { 1600 };
-        let rows: String = (1..=12).map(|i| format!("X{i} C{} F{}\n", 9 * i, feed(i))).collect();
+        let row = |i| format!("X{i} C{} F{}\n", 9 * i, feed(i));
+        let rows = (1..=12).map(row).collect::<Vec<_>>().concat();
         let text = format!("TRAORI\nG0 X0 Y0 Z50 A30 C0\nG1 F1600\n{rows}M30\n");
         let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text);
         let report = fixture.check().unwrap();

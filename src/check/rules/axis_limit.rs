@@ -37,7 +37,17 @@ pub(super) const RULE: Body = Body {
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let mut found: Vec<Excess> = Vec::new();
-    limit_excess(view.machine, view.leg, &mut found);
+    let settled = limit_excess(view.machine, view.leg, &mut found);
+    if !settled && found.is_empty() && out.once(0) {
+        let range = orientation_range(out.program(), view.motion().block);
+        out.report(
+            range,
+            "the way of the axes between the ends of this block is not known: whether one leaves its travel is not proven",
+        )
+        .note("the tool axis passes over the pole, or the block is an arc without a centre")
+        .help("keep the tool axis off the pole, or program the block in smaller steps")
+        .unknown();
+    }
     for excess in found {
         let axis = &view.machine.axes[excess.axis];
         let beyond = (excess.value - excess.limit).abs();
@@ -97,6 +107,20 @@ mod tests {
         );
         assert_eq!(report.diagnostics[0].count, 3);
         assert_eq!(report.diagnostics[0].related.len(), 1);
+    }
+
+    #[test]
+    fn a_way_over_the_pole_that_is_not_known_is_no_pass() {
+        let text = "TRAORI\nORIVECT\nG0 X0 Y0 Z200 A-25 C0\nG0 X10 A60 C0\nG0 X20 A61\nM30\n";
+        let fixture = crate::fixture::Fixture::parse("gcode sinumerik-840d mikron-ucp710", text);
+        let report = fixture.check().unwrap();
+        let unknown = |d: &&crate::Diagnostic| d.rule == "axis-limit" && d.status == crate::Status::Unknown;
+        assert_eq!(
+            report.diagnostics.iter().filter(unknown).count(),
+            1,
+            "{:?}",
+            report.diagnostics
+        );
     }
 
     #[test]

@@ -32,15 +32,16 @@ const CLOSE_MM: f64 = 1e-3;
 /// other joints run straight from end to end, so that an end is their worst. A joint that only returns from beyond its limit is not
 /// named again: the block before named it.
 ///
-/// False where what happens between the ends is not known (a great circle over the pole, an arc without a centre): what is
-/// found is then true, and what is not found is not proven.
+/// False where what happens between the ends is not known (a great circle over the pole): what is found is then true, and
+/// what is not found is not proven.
 pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) -> bool {
     if let (true, Some(start)) = (leg.start_given, &leg.start) {
         ends(machine, &start.joints, u16::MAX, out);
     }
     let (joints, known) = (&leg.known_joints.0, leg.known_joints.1);
     ends(machine, joints, known, out);
-    if !may_bend(machine, leg) {
+    // an arc that does not exist has no way between its ends: it is a fault of the program, told as one
+    if leg.motion.kind == MotionKind::Arc(None) || !may_bend(machine, leg) {
         return true;
     }
     let Some(course) = Course::new(machine, leg) else {

@@ -44,7 +44,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             range,
             "the way of the axes between the ends of this block is not known: whether one leaves its travel is not proven",
         )
-        .note("the tool axis passes over the pole, or the block is an arc without a centre")
+        .note("the tool axis passes over the pole, where the first rotary axis jumps")
         .help("keep the tool axis off the pole, or program the block in smaller steps")
         .unknown();
     }

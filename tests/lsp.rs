@@ -81,6 +81,8 @@ fn hover_tells_joints_posture_and_reachable_feed() {
         "reachable feed 46 mm/min, limited by C",
         "posture \u{2212}",
         "2000.0 mm/min",
+        "**pole-flip**",
+        "trunnion explain pole-flip",
     ] {
         assert!(text.contains(part), "{part} is missing in\n{text}");
     }

@@ -29,6 +29,10 @@ pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding)
         let _ = writeln!(text, "{}\n\n---\n", code.hover());
         shown = word;
     }
+    for rule in rules_at(judged, at) {
+        text.push_str(&rule);
+        text.push_str("\n---\n\n");
+    }
     let info = judged
         .session
         .describe(&judged.program, &judged.resolved.settings(), id);
@@ -41,6 +45,25 @@ pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding)
         }),
         range: Some(range(&analysed.text, &analysed.starts, shown, encoding)),
     })
+}
+
+/// The first part of the pages of the rules whose findings touch the cursor: what the rule finds, and why that matters.
+fn rules_at(judged: &Judged, at: u32) -> Vec<String> {
+    let mut names: Vec<&str> = Vec::new();
+    for found in judged.session.report.diagnostics.iter().filter(|d| d.range.touches(at)) {
+        if !names.contains(&found.rule) {
+            names.push(found.rule);
+        }
+    }
+    let page = |name: &str| {
+        let docs = trunnion_check::rule(name)?.docs;
+        let end = docs.find("# Example").unwrap_or(docs.len());
+        let opening = docs[..end].trim_end().replace("# Why\n", "");
+        Some(format!(
+            "**{name}** {opening}\n\n`trunnion explain {name}` prints the whole page.\n"
+        ))
+    };
+    names.into_iter().filter_map(page).collect()
 }
 
 /// The code the cursor is on.

@@ -1,11 +1,9 @@
 //! docs/rules is made from the rules' headers. `UPDATE=1 cargo test --test generated_docs` writes it anew.
-use std::fmt::Write;
-use std::path::{Path, PathBuf};
-use trunnion::check::{Guarantee, Rule, Severity, rules};
+mod generated_pages;
 
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/rules")
-}
+use generated_pages::assert_fresh;
+use std::fmt::Write;
+use trunnion::check::{Guarantee, Rule, Severity, rules};
 
 fn severity(rule: &Rule) -> &'static str {
     match rule.severity {
@@ -64,31 +62,5 @@ fn rule_pages_are_fresh() {
         .map(|rule| (format!("{}.md", rule.name), page(rule)))
         .collect();
     wanted.push(("README.md".to_owned(), list()));
-    let update = std::env::var_os("UPDATE").is_some();
-    if update {
-        std::fs::create_dir_all(folder()).expect("docs/rules can be made");
-    }
-    let mut stale = Vec::new();
-    for (name, text) in &wanted {
-        let path = folder().join(name);
-        if std::fs::read_to_string(&path).ok().as_ref() == Some(text) {
-            continue;
-        }
-        if update {
-            std::fs::write(&path, text).expect("docs/rules can be written");
-        } else {
-            stale.push(name.clone());
-        }
-    }
-    for entry in std::fs::read_dir(folder()).expect("docs/rules is there").flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        if wanted.iter().all(|(known, _)| *known != name) {
-            stale.push(format!("{name} (no rule of that name)"));
-        }
-    }
-    assert!(
-        stale.is_empty(),
-        "stale: {}; run UPDATE=1 cargo test --test generated_docs",
-        stale.join(", ")
-    );
+    assert_fresh("docs/rules", &wanted, "generated_docs");
 }

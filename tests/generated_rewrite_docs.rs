@@ -1,10 +1,9 @@
 //! docs/rewrites is made from the rewrites' headers. `UPDATE=1 cargo test --test generated_rewrite_docs` writes it anew.
-use std::path::{Path, PathBuf};
-use trunnion::rewrite::{Rewrite, rewrites};
+mod generated_pages;
 
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/rewrites")
-}
+use generated_pages::assert_fresh;
+use std::path::Path;
+use trunnion::rewrite::{Rewrite, rewrites};
 
 fn page(rewrite: &Rewrite) -> String {
     let body = rewrite.docs.replace("\n# ", "\n## ");
@@ -45,33 +44,7 @@ fn rewrite_pages_are_fresh() {
         .map(|rewrite| (format!("{}.md", rewrite.name), page(rewrite)))
         .collect();
     wanted.push(("README.md".to_owned(), list()));
-    let update = std::env::var_os("UPDATE").is_some();
-    if update {
-        std::fs::create_dir_all(folder()).expect("docs/rewrites can be made");
-    }
-    let mut stale = Vec::new();
-    for (name, text) in &wanted {
-        let path = folder().join(name);
-        if std::fs::read_to_string(&path).ok().as_ref() == Some(text) {
-            continue;
-        }
-        if update {
-            std::fs::write(&path, text).expect("docs/rewrites can be written");
-        } else {
-            stale.push(name.clone());
-        }
-    }
-    for entry in std::fs::read_dir(folder()).expect("docs/rewrites is there").flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        if wanted.iter().all(|(known, _)| *known != name) {
-            stale.push(format!("{name} (no rewrite of that name)"));
-        }
-    }
-    assert!(
-        stale.is_empty(),
-        "stale: {}; run UPDATE=1 cargo test --test generated_rewrite_docs",
-        stale.join(", ")
-    );
+    assert_fresh("docs/rewrites", &wanted, "generated_rewrite_docs");
 }
 
 #[test]

@@ -124,12 +124,9 @@ fn random_chains_and_poses() {
         posture_missing: 0,
     };
     let (mut solved, mut flat) = (0, 0);
-    let mut machine = random_machine(&mut random);
     while solved < result.poses {
+        let mut machine = random_machine(&mut random);
         machine.gauge_point = random_unit(&mut random) * random.between(0.0, 300.0);
-        if solved % 2 == 0 {
-            machine = random_machine(&mut random);
-        }
         let mut joints = [0.0; MAX_AXES];
         for (joint, axis) in joints.iter_mut().zip(&machine.axes) {
             let reach = if axis.kind == AxisKind::Rotary { PI } else { 300.0 };

@@ -282,6 +282,7 @@ pub(crate) fn process_differs(old: &Motion, new: &Motion) -> bool {
 fn at_block_of(leg: &Leg, motion: &Motion) -> Motion {
     Motion {
         block: leg.motion.block,
+        chain: leg.motion.chain,
         ..*motion
     }
 }

@@ -189,6 +189,7 @@ impl Interpreter<'_> {
         let state = &self.state;
         Motion {
             block: report.block,
+            chain: self.chain,
             kind,
             start,
             end,

@@ -1,9 +1,86 @@
 //! Facts about what is wrong with a program's meaning. Words for people are made by the check floor.
 use trunnion_syntax::{BlockId, TextRange};
 
+/// The sort of mistake for which a control refuses a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Refusal {
+    /// The text is no block of the language.
+    Syntax,
+    /// A number is malformed or out of range for its word.
+    Number,
+    /// An expression is malformed or has no value (division by zero, root of a negative number).
+    Expression,
+    /// A variable that has no value or does not exist, or may not be written.
+    Variable,
+    /// A label, sequence number or O-word that is not there or there twice.
+    Label,
+    /// A subprogram that is not there.
+    Subprogram,
+    /// Control structures that do not fit together.
+    Structure,
+    /// Codes that exclude each other.
+    GroupConflict,
+    /// A word is there twice.
+    RepeatedWord,
+    /// A word that nothing in the block uses, or that may not be there.
+    UnusedWord,
+    /// A word is missing that a code needs.
+    MissingWord,
+    /// A code that the control does not know.
+    UnknownCode,
+    /// A word that the control does not know.
+    UnknownWord,
+    /// Feed or spindle speed is missing or zero.
+    Feed,
+    /// An arc's radius does not fit.
+    ArcRadius,
+    /// An arc without centre or radius, or with both.
+    ArcCentre,
+    /// Cutter radius compensation is impossible or used wrongly.
+    Compensation,
+    /// A canned cycle is used wrongly.
+    CannedCycle,
+    /// The program's end is missing.
+    ProgramEnd,
+    /// Anything else: offsets, planes, tools, probing.
+    Other,
+}
+
 /// What is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FaultKind {
+    /// The control refuses the block, or would.
+    Rejected {
+        /// Why, by sort: rules choose by it.
+        refusal: Refusal,
+        /// A sentence for people: what is wrong and what to do, with numbers and units.
+        message: String,
+        /// The control's own alarm number or message, where known.
+        alarm: Option<String>,
+    },
+    /// A loop or chain of calls did not end within the bounds of the run. Range: the line that opens the loop.
+    EndlessLoop {
+        /// Executed blocks when it was given up.
+        blocks: u64,
+    },
+    /// A called program was not found.
+    MissingSubprogram {
+        /// As written.
+        name: String,
+        /// Folders that were searched.
+        searched: Vec<String>,
+    },
+    /// A condition, jump or call whose outcome depends on something unknown: what runs after it is not followed.
+    NotDecided {
+        /// What is unknown, e.g. `#5061 (result of probing)`.
+        what: String,
+    },
+    /// The program itself says that it stops here with an alarm (`#3000=1(TEXT)`, `(ABORT,TEXT)`, SETAL), where the run proves that
+    /// it is reached.
+    ProgramAlarm {
+        /// Its text.
+        message: String,
+    },
     /// The dialect knows no such code. Text as written is at the range. `machine_builder`: an M code a builder may own.
     UnknownCode {
         /// True for M codes that the control leaves to the machine builder.

@@ -26,8 +26,8 @@ mod tools;
 mod words;
 
 pub use directive::{Directive, directives};
-pub use fault::{Fault, FaultKind};
+pub use fault::{Fault, FaultKind, Refusal};
 pub use modal::{FeedMode, ModalState};
-pub use motion::{AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position};
+pub use motion::{AXIS_LETTERS, AxisLetter, ChainId, Feed, Frame, Motion, MotionKind, Orientation, Position};
 pub use run::{Interpreter, Sink, run};
-pub use setup::{Setup, Tool, ToolShape, WorkOffset};
+pub use setup::{Files, Library, Limits, Loaded, Setup, Tool, ToolShape, WorkOffset};

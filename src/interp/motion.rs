@@ -89,11 +89,33 @@ pub enum MotionKind {
     Unknown,
 }
 
+/// The chain of calls and loops that led to a motion; [`ChainId::MAIN`] in the main program outside of any call.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ChainId(pub u32);
+
+impl ChainId {
+    /// The main program, outside of any call.
+    pub const MAIN: Self = Self(0);
+}
+
+/// One call in a chain, outermost first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// The file that calls; empty for the main program.
+    pub file: String,
+    /// Line of the call, from 1.
+    pub line: u32,
+    /// What is called, as written: `o100 call [1]`, `M98 P1000`, `G65 P9010`.
+    pub what: String,
+}
+
 /// One motion as programmed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
-    /// The block where it ends.
+    /// The block where it ends: of the main program. For a motion inside another file the block of the call that led there.
     pub block: BlockId,
+    /// How it came about; [`crate::Interpreter::chain`] tells the calls.
+    pub chain: ChainId,
     /// Kind.
     pub kind: MotionKind,
     /// Programmed coordinates before, without work offset.

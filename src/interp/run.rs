@@ -1,7 +1,7 @@
 //! The fold: a program's blocks through the modal state.
 use crate::codes::Found;
 use crate::memory::Memory;
-use crate::{Fault, FaultKind, ModalState, Motion, Setup};
+use crate::{ChainId, Fault, FaultKind, Frame, ModalState, Motion, Setup};
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{BlockId, Format, Program, TextRange};
 
@@ -28,6 +28,10 @@ pub struct Interpreter<'d> {
     /// Codes of the block in hand: kept only for its storage.
     pub(crate) codes: Vec<Found<'d>>,
     pub(crate) apt: crate::apt::AptState,
+    /// The block that [`Self::advance`] runs next.
+    next_block: u32,
+    /// The calls in which the block in hand runs.
+    pub(crate) chain: ChainId,
 }
 
 /// Where facts about the block in hand go.
@@ -71,6 +75,8 @@ impl<'d> Interpreter<'d> {
             memory: Memory::default(),
             codes: Vec::new(),
             apt: crate::apt::AptState::default(),
+            next_block: 0,
+            chain: ChainId::MAIN,
         };
         if dialect.quirks.first_offset_at_start {
             let first = setup
@@ -106,6 +112,23 @@ impl<'d> Interpreter<'d> {
         }
     }
 
+    /// Runs the next block in the order in which the control runs them; the block, or `None` when nothing is left to run.
+    pub fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
+        let block = BlockId(self.next_block);
+        if self.next_block as usize >= program.block_count() {
+            return None;
+        }
+        self.next_block += 1;
+        self.step(program, block, sink);
+        Some(block)
+    }
+
+    /// The calls that led to a motion, outermost first; empty in the main program.
+    pub fn chain(&self, chain: ChainId) -> Vec<Frame> {
+        let _ = chain;
+        Vec::new()
+    }
+
     fn finish(&mut self, program: &Program, sink: &mut impl Sink) {
         if let Some(block) = self.memory.last_content.filter(|_| !self.memory.proper_end) {
             let range = program.block(block).range();
@@ -121,8 +144,7 @@ impl<'d> Interpreter<'d> {
 /// Runs a whole program.
 pub fn run(program: &Program, dialect: &Dialect, setup: &Setup, sink: &mut impl Sink) {
     let mut interpreter = Interpreter::new(dialect, setup);
-    for id in 0..program.block_count() as u32 {
-        interpreter.step(program, BlockId(id), sink);
-        sink.block_done(BlockId(id), &interpreter);
+    while let Some(block) = interpreter.advance(program, sink) {
+        sink.block_done(block, &interpreter);
     }
 }

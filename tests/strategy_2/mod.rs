@@ -48,6 +48,7 @@ pub(crate) fn tool(shape: ToolShape) -> Setup {
             length_mm: None,
         }],
         work_offsets: Vec::new(),
+        ..Setup::default()
     }
 }
 

@@ -7,6 +7,7 @@ use trunnion_syntax::BlockId;
 pub(crate) fn motion() -> Motion {
     Motion {
         block: BlockId(0),
+        chain: trunnion_interp::ChainId::MAIN,
         kind: MotionKind::Linear,
         start: Position::default(),
         end: Position::default(),

@@ -218,6 +218,7 @@ fn another_zero_tool_length_or_dwell_is_another_path() {
     let setup = Setup {
         tools: vec![tool(1, 10.0), tool(2, 10.0), tool(3, 30.0)],
         work_offsets: vec![offset("G54", 0.0), offset("G55", 5.0)],
+        ..Setup::default()
     };
     for (before, after, why) in [
         ("G54 G0 X1.", "G55 G0 X1.", "the zero point"),

@@ -240,6 +240,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             Role::ArcCentre => {
                 self.first(word);
                 let said = self.said_place(word);
+                self.words.by_letter.keep(letter, said.0);
                 put(&mut self.words.centre, usize::from(letter.wrapping_sub(b'I') % 3), said);
             }
             Role::ToolVector => {
@@ -249,15 +250,23 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             }
             Role::ArcRadius => {
                 self.first(word);
-                self.words.radius = self.said(word);
+                self.words.radius = self.kept(letter, word);
             }
-            Role::ArcTurns => self.words.turns = self.said(word),
-            Role::Feed => self.words.feed = self.said(word),
-            Role::Speed => self.words.speed = self.said(word),
-            Role::Tool => self.words.tool = self.said(word),
-            Role::LengthOffset => self.words.length_offset = self.said(word),
-            Role::EdgeOffset => self.words.edge = self.said(word),
-            Role::Parameter if letter == b'P' => self.words.p = self.said(word),
+            Role::ArcTurns => self.words.turns = self.kept(letter, word),
+            Role::Feed => self.words.feed = self.kept(letter, word),
+            Role::Speed => self.words.speed = self.kept(letter, word),
+            Role::Tool => self.words.tool = self.kept(letter, word),
+            Role::LengthOffset => self.words.length_offset = self.kept(letter, word),
+            Role::EdgeOffset => self.words.edge = self.kept(letter, word),
+            Role::Parameter if letter == b'P' => self.words.p = self.kept(letter, word),
+            // nobody may read the others: what is not evaluated is no news
+            Role::Parameter => {
+                let said = match word.value {
+                    Value::Number(decimal) => number(decimal, word.range),
+                    _ => Said::Unread,
+                };
+                self.words.by_letter.keep(letter, said);
+            }
             Role::NotModelled => {
                 self.words.forgets_all = true;
                 self.not_modelled(word.range);
@@ -271,6 +280,13 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         if self.words.first.is_none() {
             self.words.first = Some(word.range);
         }
+    }
+
+    /// A word that knows only numbers and names, kept by its letter too.
+    fn kept(&mut self, letter: u8, word: &Word) -> Said {
+        let said = self.said(word);
+        self.words.by_letter.keep(letter, said);
+        said
     }
 
     /// A word that knows only numbers and names.

@@ -92,6 +92,53 @@ impl<const N: usize> Places<N> {
     }
 }
 
+/// The words of a block by their letters. Axes stand in [`Words::axes`]; [`Words::letter`] looks at both.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Letters {
+    values: [f64; 26],
+    ranges: [TextRange; 26],
+    /// A number is there (A is bit 0).
+    given: u32,
+    /// A word is there, its value is not known.
+    unread: u32,
+    /// Written with a decimal point.
+    point: u32,
+}
+
+impl Letters {
+    /// Keeps what the word of an upper-case letter says; other addresses have no place here.
+    pub(crate) fn keep(&mut self, letter: u8, said: Said) {
+        let place = usize::from(letter.wrapping_sub(b'A'));
+        if place >= self.values.len() {
+            return;
+        }
+        match said {
+            Said::Nothing => {}
+            Said::Number(number) => {
+                self.values[place] = number.value;
+                self.ranges[place] = number.range;
+                self.given |= 1 << place;
+                self.point |= u32::from(number.has_point) << place;
+            }
+            Said::Name(_) | Said::Unread => self.unread |= 1 << place,
+        }
+    }
+    fn get(&self, place: usize) -> Said {
+        let bit = 1u32 << place;
+        if self.given & bit != 0 {
+            Said::Number(Number {
+                value: self.values[place],
+                has_point: self.point & bit != 0,
+                range: self.ranges[place],
+            })
+        } else if self.unread & bit != 0 {
+            Said::Unread
+        } else {
+            Said::Nothing
+        }
+    }
+}
+
 /// The words of one block.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Words {
@@ -105,8 +152,10 @@ pub(crate) struct Words {
     pub(crate) tool: Said,
     pub(crate) length_offset: Said,
     pub(crate) edge: Said,
-    /// P, the only parameter that a modelled code reads (dwell, turns of an arc).
+    /// P: dwell, turns of an arc, number of a work offset.
     pub(crate) p: Said,
+    /// Words by letter: parameters of codes (L, P, Q, R, K ...) and all others that are no axes.
+    pub(crate) by_letter: Letters,
     /// The first word that is a coordinate, centre, radius or vector component.
     pub(crate) first: Option<TextRange>,
     /// A word with a letter beside N, O, G, M: distinguishes `TRANS X1` from `TRANS`.
@@ -129,6 +178,34 @@ pub(crate) struct Words {
     pub(crate) has_content: bool,
     /// Letters seen (A is bit 0).
     pub(crate) letters: u32,
+}
+
+impl Words {
+    /// What the word of an upper-case letter says, whatever its role: L, P, Q, K of a cycle as well as X. G, M, N and O are not
+    /// kept. The range of a coordinate is not kept: it is empty.
+    #[allow(dead_code, reason = "read by the codes that take parameters")]
+    pub(crate) fn letter(&self, letter: u8) -> Said {
+        let Some(place) = letter.checked_sub(b'A').filter(|place| *place < 26) else {
+            return Said::Nothing;
+        };
+        let kept = self.by_letter.get(usize::from(place));
+        if kept.is_said() {
+            return kept;
+        }
+        let Some(axis) = crate::AxisLetter::new(letter).map(|axis| usize::from(axis.0)) else {
+            return Said::Nothing;
+        };
+        let bit = 1u16 << axis;
+        match self.axes.get(axis) {
+            Some(value) => Said::Number(Number {
+                value,
+                has_point: self.axes.point & bit != 0,
+                range: TextRange::default(),
+            }),
+            None if self.axes.unread & bit != 0 => Said::Unread,
+            None => Said::Nothing,
+        }
+    }
 }
 
 /// How a coordinate is meant.

@@ -174,6 +174,7 @@ mod tests {
             let mut go = |axis: Vec3| {
                 follower.follow(&Motion {
                     block: trunnion_syntax::BlockId(0),
+                    chain: trunnion_interp::ChainId::MAIN,
                     kind: MotionKind::Linear,
                     start: end,
                     end,

@@ -1,1 +1,19 @@
 //! Floor 2: what a LinuxCNC program does, to the letter: bytes to canonical calls, or to the error the control gives.
+//!
+//! It knows neither dialect tables nor machines. A value that is not known (the start position in a check, a probed point)
+//! is NaN and stays so through all arithmetic.
+mod block;
+mod canon;
+mod engine;
+mod error;
+mod setup;
+mod source;
+mod state;
+
+pub use block::{Block, G_GROUPS, M_GROUPS};
+pub use canon::{Canon, Coolant, MotionMode, Pose, Side, SpindleTurn, Stop, SyncedFeed};
+pub use engine::{At, ChainId, Engine, Frame, Sink, Step};
+pub use error::{Class, Error, Problem};
+pub use setup::{Files, Ini, Limits, Loaded, Parameters, Setup, Start, ToolEntry, ToolTable};
+pub use source::{FileId, Source};
+pub use state::{DistanceMode, FeedMode, Plane, RetractMode, SpindleMode, State, Units};

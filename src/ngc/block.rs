@@ -1,0 +1,123 @@
+//! The values of one line, in fixed places: what the line says, evaluated, without effect yet.
+use trunnion_syntax::TextRange;
+
+/// Modal groups of G codes; a block holds at most one code of each.
+pub const G_GROUPS: usize = 17;
+/// Modal groups of M codes.
+pub const M_GROUPS: usize = 11;
+
+/// No code of a group.
+const NONE: i16 = -1;
+
+/// One line, evaluated. Codes are ten times their number (G38.2 is 382; M codes are whole: M6 is 6).
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// The line's bytes.
+    pub range: TextRange,
+    /// By modal group as LinuxCNC numbers them (0: non-modal, 1: motion, 2: plane, 3: distance, 4: arc distance, 5: feed mode, 6: units,
+    /// 7: cutter compensation, 8: tool length, 10: retract, 12: coordinate system, 13: path control, 14: spindle mode, 15: lathe
+    /// diameter mode, 16: G92.x); -1 where there is none.
+    pub g: [i16; G_GROUPS],
+    /// Range of the code of each group.
+    pub g_range: [TextRange; G_GROUPS],
+    /// M codes by group (4: stopping, 5: digital I/O, 6: tool change, 7: spindle, 8: coolant, 9: overrides, 10: user-defined).
+    pub m: [i16; M_GROUPS],
+    /// Range of the code of each group.
+    pub m_range: [TextRange; M_GROUPS],
+    /// How many M codes.
+    pub m_count: u8,
+    /// The motion code that applies to the block: the one given, or the modal one where axis words ask for it; -1 for none.
+    pub motion: i16,
+    /// Values of the words A-Z without G, M, N, O; index = letter - A.
+    pub words: [f64; 26],
+    /// Bit per letter: the word is there.
+    pub given: u32,
+    /// Start of each word's bytes and end; valid where given.
+    pub ranges: [TextRange; 26],
+    /// Polar radius `@`, programmed units.
+    pub radius: Option<f64>,
+    /// Polar angle `^`, degrees.
+    pub angle: Option<f64>,
+    /// Spindle number `$`; `None`: not given.
+    pub spindle: Option<i32>,
+    /// The sequence number N, if there is one.
+    pub number: Option<f64>,
+}
+
+impl Block {
+    /// An empty block.
+    pub fn new() -> Self {
+        Self {
+            range: TextRange::default(),
+            g: [NONE; G_GROUPS],
+            g_range: [TextRange::default(); G_GROUPS],
+            m: [NONE; M_GROUPS],
+            m_range: [TextRange::default(); M_GROUPS],
+            m_count: 0,
+            motion: NONE,
+            words: [0.0; 26],
+            given: 0,
+            ranges: [TextRange::default(); 26],
+            radius: None,
+            angle: None,
+            spindle: None,
+            number: None,
+        }
+    }
+    /// Makes it empty again without touching what needs not be touched.
+    pub fn clear(&mut self, range: TextRange) {
+        self.range = range;
+        self.g = [NONE; G_GROUPS];
+        self.m = [NONE; M_GROUPS];
+        self.m_count = 0;
+        self.motion = NONE;
+        self.given = 0;
+        self.radius = None;
+        self.angle = None;
+        self.spindle = None;
+        self.number = None;
+    }
+    /// The value of a word, upper-case letter.
+    #[inline]
+    pub fn word(&self, letter: u8) -> Option<f64> {
+        let place = letter - b'A';
+        (self.given & (1 << place) != 0).then(|| self.words[usize::from(place)])
+    }
+    /// Whether a word is there, upper-case letter.
+    #[inline]
+    pub fn has(&self, letter: u8) -> bool {
+        self.given & (1 << (letter - b'A')) != 0
+    }
+    /// Bytes of a word, or of the whole line where it is not there.
+    pub fn range_of(&self, letter: u8) -> TextRange {
+        if self.has(letter) {
+            self.ranges[usize::from(letter - b'A')]
+        } else {
+            self.range
+        }
+    }
+    /// The code of a G group, if there is one.
+    #[inline]
+    pub fn g_code(&self, group: usize) -> Option<i16> {
+        (self.g[group] != NONE).then(|| self.g[group])
+    }
+    /// The code of an M group, if there is one.
+    #[inline]
+    pub fn m_code(&self, group: usize) -> Option<i16> {
+        (self.m[group] != NONE).then(|| self.m[group])
+    }
+    /// Whether any axis word X Y Z A B C U V W (or a polar word) is there.
+    #[inline]
+    pub fn has_axes(&self) -> bool {
+        self.given & AXES != 0 || self.radius.is_some() || self.angle.is_some()
+    }
+}
+
+/// Bits of A B C U V W X Y Z.
+const AXES: u32 = 0b111 | (0b11_1111 << 20);
+
+impl Default for Block {
+    fn default() -> Self {
+        Self::new()
+    }
+}

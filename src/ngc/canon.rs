@@ -1,0 +1,182 @@
+//! Canonical calls: what the interpreter tells the machine to do. Lengths are in the units in force (see [`Canon::Units`]), in
+//! the coordinates of the program: G5x, G92, tool offset and XY rotation are told by calls of their own and not added.
+use crate::{Plane, Units};
+use std::sync::Arc;
+
+/// X Y Z A B C U V W.
+pub type Pose = [f64; 9];
+
+/// Which way the spindle turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpindleTurn {
+    /// M3.
+    Clockwise,
+    /// M4.
+    CounterClockwise,
+    /// M5.
+    Stop,
+}
+
+/// Coolant switches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coolant {
+    /// M7.
+    MistOn,
+    /// M9.
+    MistOff,
+    /// M8.
+    FloodOn,
+    /// M9.
+    FloodOff,
+}
+
+/// Stops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// M0, M60.
+    Program,
+    /// M1.
+    Optional,
+    /// M2, M30.
+    End,
+}
+
+/// Cutter compensation side, told by comments of the interpreter.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Side {
+    /// G40.
+    #[default]
+    Off,
+    /// G41.
+    Left,
+    /// G42.
+    Right,
+}
+
+/// Path control.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MotionMode {
+    /// G61.
+    ExactPath,
+    /// G61.1.
+    ExactStop,
+    /// G64 with tolerance P, program units.
+    Continuous(f64),
+}
+
+/// Feed coupled to the spindle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SyncedFeed {
+    /// Units per revolution.
+    pub per_revolution: f64,
+    /// Whether it couples position or velocity (G95).
+    pub velocity: bool,
+}
+
+/// One canonical call.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Canon {
+    /// Units of lengths from here on.
+    Units(Units),
+    /// Coordinate system 1-9 and its offset.
+    G5xOffset(i32, Pose),
+    /// G92 / G52 offset.
+    G92Offset(Pose),
+    /// Rotation of the coordinate system about Z, deg.
+    XyRotation(f64),
+    /// What F is measured along.
+    FeedReference,
+    /// The interpreter was reset.
+    Reset,
+    /// Working plane.
+    Plane(Plane),
+    /// A comment of the program, or the interpreter's own remark on a modal change (text begins `interpreter: `).
+    Comment(Arc<[u8]>),
+    /// Text for the operator: `(MSG,...)`, `(DEBUG,...)`.
+    Message(Arc<[u8]>),
+    /// Text printed by `(PRINT,...)`: goes to standard output or error of the control, not to the operator.
+    Print(Arc<[u8]>),
+    /// `(LOG,...)`, `(LOGOPEN,...)`, `(LOGAPPEND,...)`, `(LOGCLOSE)`, `(PROBEOPEN ...)`, `(PROBECLOSE)`: the text as written.
+    Log(Arc<[u8]>),
+    /// F in units/min; 0 where feed is inverse time before its first motion.
+    FeedRate(f64),
+    /// Mode of a spindle's feed: spindle, mode (0: per minute or inverse time, 1: per revolution).
+    FeedMode(i32, i32),
+    /// Path control.
+    MotionMode(MotionMode),
+    /// Tolerance of merging collinear moves, units.
+    NaiveCamTolerance(f64),
+    /// Rapid to a pose.
+    Traverse(Pose),
+    /// Feed to a pose.
+    Feed(Pose),
+    /// An arc or helix in the working plane.
+    Arc {
+        /// First and second coordinate of the plane at the end (XY: X, Y; ZX: Z, X; YZ: Y, Z).
+        end: [f64; 2],
+        /// Centre, the same coordinates.
+        centre: [f64; 2],
+        /// Full turns plus one, positive counter-clockwise; never 0.
+        turns: i32,
+        /// Coordinate along the plane's axis at the end.
+        axis_end: f64,
+        /// A B C U V W at the end.
+        others: [f64; 6],
+    },
+    /// A NURBS curve in the working plane (G5, G5.1, G5.2): degree plus one, control points (x, y, weight), and knots where the program
+    /// gives them.
+    Nurbs {
+        /// Order: degree + 1.
+        order: u32,
+        /// First and second coordinate of the plane, weight.
+        points: Arc<[[f64; 3]]>,
+        /// Empty: the control's own clamped uniform knots.
+        knots: Arc<[f64]>,
+        /// Pose at the end.
+        end: Pose,
+    },
+    /// Straight probing toward a pose: kind 2-5 of G38.n.
+    Probe(u8, Pose),
+    /// The probe is to be read: the point where it touched is known to the machine only.
+    ProbeResult,
+    /// Rigid tapping to X Y Z and back, with the ratio of the way back.
+    RigidTap([f64; 3], f64),
+    /// Feed couples to the spindle.
+    StartSync(SyncedFeed),
+    /// Coupling ends.
+    StopSync,
+    /// Dwell, s.
+    Dwell(f64),
+    /// Spindle number, 1/min or surface speed (see [`Canon::SpindleMode`]).
+    SpindleSpeed(i32, f64),
+    /// Spindle number, css maximum (0: plain turns per minute; otherwise G96 with this ceiling in 1/min).
+    SpindleMode(i32, f64),
+    /// Spindle number, direction.
+    Spindle(i32, SpindleTurn),
+    /// Spindle number, angle deg, direction 0-2.
+    OrientSpindle(i32, f64, i32),
+    /// Waits for the orientation, at most so many seconds.
+    WaitOrient(i32, f64),
+    /// Coolant.
+    Coolant(Coolant),
+    /// T.
+    SelectTool(i32),
+    /// M6: the pocket or tool that is changed in.
+    ChangeTool(i32),
+    /// M61.
+    ChangeToolNumber(i32),
+    /// Tool offset in force.
+    ToolOffset(Pose),
+    /// A tool table entry is written (G10 L1, L10, L11): pocket, tool number, offset, diameter, front angle, back angle, orientation.
+    SetToolEntry(i32, i32, Pose, f64, f64, f64, i32),
+    /// Override switches M48-M53: text as `rs274` names the call, and whether on.
+    Override(&'static str, bool),
+    /// Digital or analog output, input wait, user M code: the call as `rs274` prints it.
+    Auxiliary(String),
+    /// M100-M199 with P and Q.
+    UserCode(i32, f64, f64),
+    /// Stops and end.
+    Stop(Stop),
+    /// Pallet shuttle.
+    PalletShuttle,
+}

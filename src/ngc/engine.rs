@@ -1,0 +1,79 @@
+//! The engine: one line after the other, in the order in which the control runs them.
+use crate::{Block, Canon, Error, FileId, Setup, Source, State};
+use std::sync::Arc;
+
+/// A chain of calls; 0: the main program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ChainId(pub u32);
+
+/// One call in a chain.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// File of the call.
+    pub file: FileId,
+    /// Line of the call, from 0.
+    pub line: u32,
+    /// As written, or the name that is called.
+    pub what: String,
+}
+
+/// Where a call comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct At {
+    /// File.
+    pub file: FileId,
+    /// Line, from 0.
+    pub line: u32,
+    /// Calls that led there.
+    pub chain: ChainId,
+}
+
+/// Receives what a run does, in order.
+pub trait Sink {
+    /// A canonical call; `state` is what is in force after the part of the line that made it.
+    fn call(&mut self, call: &Canon, at: At, state: &State);
+    /// A line was refused. `main`: the first error, where the control stops; further ones are of the same line.
+    fn error(&mut self, error: &Error, at: At);
+}
+
+/// What a step did.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step {
+    /// One line was run.
+    Line,
+    /// The program has ended (M2, M30, `%`), or the file has: then an error was told before.
+    Ended,
+    /// The line was refused; `Engine::step` may be called to go on with the next line as if it had not been there.
+    Refused,
+    /// A condition, call or jump depends on something unknown: what runs next is not known.
+    Undecided(String),
+    /// The bounds are used up; line that opens the innermost loop or call.
+    OutOfFuel(At),
+}
+
+/// The interpreter between two lines. Cloning it makes a check-point.
+#[derive(Clone)]
+pub struct Engine {
+    pub(crate) setup: Arc<Setup>,
+    pub(crate) files: Vec<Arc<Source>>,
+    /// What is in force.
+    pub state: State,
+    /// The line in hand: kept for its storage.
+    pub(crate) block: Block,
+}
+
+impl Engine {
+    /// At the start of a program.
+    pub fn new(main: Arc<Source>, setup: &Setup) -> Self {
+        Self {
+            setup: Arc::new(setup.clone()),
+            files: vec![main],
+            state: State::new(setup.start == crate::Start::Unknown),
+            block: Block::new(),
+        }
+    }
+    /// Tells a canonical call. While cutter compensation holds moves back, calls wait behind them in order.
+    pub(crate) fn emit(&mut self, call: Canon, at: At, sink: &mut dyn Sink) {
+        sink.call(&call, at, &self.state);
+    }
+}

@@ -1,0 +1,108 @@
+//! What a program is run with: INI values, tool table, parameters, other files, bounds.
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// What is known at the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Start {
+    /// Everything is zero, as `rs274` starts.
+    #[default]
+    Zero,
+    /// Nothing is known of the position; parameters that outlive a program are unknown where no parameter file declares them.
+    Unknown,
+}
+
+/// A program that another one calls.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// Where it was found.
+    pub path: String,
+    /// Its bytes.
+    pub bytes: Arc<[u8]>,
+}
+
+/// Finds programs that a program calls.
+pub trait Files: Send + Sync {
+    /// The program of a name (`name`, without folder; the implementor tries extensions), or the folders that were searched.
+    ///
+    /// # Errors
+    /// The folders that were searched.
+    fn load(&self, name: &str) -> Result<Loaded, Vec<String>>;
+}
+
+/// Bounds of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Executed lines.
+    pub blocks: u64,
+    /// Nested calls.
+    pub depth: u32,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            blocks: 10_000_000,
+            depth: 10,
+        }
+    }
+}
+
+/// Values of an INI file: section, key.
+#[derive(Clone, Debug, Default)]
+pub struct Ini {
+    /// Upper case is kept as written; the last of equal keys of a section is not used: the first counts.
+    pub values: BTreeMap<(String, String), String>,
+}
+
+/// A row of the tool table.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ToolEntry {
+    /// T.
+    pub number: i32,
+    /// P.
+    pub pocket: i32,
+    /// X Y Z A B C U V W, machine units.
+    pub offset: [f64; 9],
+    /// D, machine units.
+    pub diameter: f64,
+    /// I, deg.
+    pub front_angle: f64,
+    /// J, deg.
+    pub back_angle: f64,
+    /// Q, 0-9.
+    pub orientation: i32,
+}
+
+/// The tool table. Row 0 is the spindle.
+#[derive(Clone, Debug, Default)]
+pub struct ToolTable {
+    /// Rows in file order behind row 0.
+    pub rows: Vec<ToolEntry>,
+}
+
+/// Numbered parameters by index: those that a parameter file declares.
+#[derive(Clone, Debug, Default)]
+pub struct Parameters {
+    /// Index and value, ascending.
+    pub values: Vec<(u32, f64)>,
+}
+
+/// What a program is run with.
+#[derive(Clone, Default)]
+pub struct Setup {
+    /// What is known at the start.
+    pub start: Start,
+    /// INI values.
+    pub ini: Ini,
+    /// Tool table.
+    pub tools: ToolTable,
+    /// Parameter file.
+    pub parameters: Parameters,
+    /// Called programs.
+    pub files: Option<Arc<dyn Files>>,
+    /// Bounds.
+    pub limits: Limits,
+    /// Lines that begin with `/` are skipped (the switch of the panel).
+    pub block_delete: bool,
+}

@@ -1,0 +1,228 @@
+//! What is in force between lines.
+use crate::{MotionMode, Pose, Side};
+
+/// Length units.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Units {
+    /// G20.
+    Inch,
+    /// G21.
+    Millimetre,
+}
+
+impl Units {
+    /// mm per unit.
+    pub fn mm(self) -> f64 {
+        match self {
+            Self::Inch => 25.4,
+            Self::Millimetre => 1.0,
+        }
+    }
+}
+
+/// Working plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plane {
+    /// G17.
+    Xy,
+    /// G18.
+    Xz,
+    /// G19.
+    Yz,
+    /// G17.1.
+    Uv,
+    /// G18.1.
+    Uw,
+    /// G19.1.
+    Vw,
+}
+
+/// How coordinates are meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DistanceMode {
+    /// G90, G90.1.
+    Absolute,
+    /// G91, G91.1.
+    Incremental,
+}
+
+/// How F is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeedMode {
+    /// G93.
+    InverseTime,
+    /// G94.
+    PerMinute,
+    /// G95.
+    PerRevolution,
+}
+
+/// Where canned cycles retract to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RetractMode {
+    /// G98.
+    OldZ,
+    /// G99.
+    RPlane,
+}
+
+/// How S is meant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpindleMode {
+    /// G97.
+    ConstantRpm,
+    /// G96 with the highest 1/min.
+    ConstantSurface(f64),
+}
+
+/// What is in force between lines. Lengths are in the units in force unless said otherwise.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// Units.
+    pub units: Units,
+    /// Plane.
+    pub plane: Plane,
+    /// G90 / G91.
+    pub distance: DistanceMode,
+    /// G90.1 / G91.1.
+    pub arc_distance: DistanceMode,
+    /// G93-G95.
+    pub feed_mode: FeedMode,
+    /// F, units/min (or units/rev under G95).
+    pub feed_rate: f64,
+    /// Motion code in force, ten times its number; -1 before the first, 800 for G80.
+    pub motion: i16,
+    /// Last motion code, for canned cycles that lean on it.
+    pub last_motion: i16,
+    /// Where the program is: program coordinates X Y Z A B C U V W, without compensation of the cutter radius.
+    pub current: Pose,
+    /// Where the tool is under cutter compensation: program coordinates of the centre (first, second of the plane are what counts).
+    pub compensated: Pose,
+    /// G92 / G52 offset.
+    pub axis_offset: Pose,
+    /// Offset of the coordinate system in force.
+    pub origin_offset: Pose,
+    /// 1-9.
+    pub origin_index: i32,
+    /// Rotation of the coordinate system in force, deg.
+    pub rotation_xy: f64,
+    /// Tool offset in force.
+    pub tool_offset: Pose,
+    /// G98 / G99.
+    pub retract: RetractMode,
+    /// Modal words of canned cycles.
+    pub cycle: CycleWords,
+    /// Compensation side.
+    pub side: Side,
+    /// Compensation radius, units.
+    pub radius: f64,
+    /// The tool's edge orientation under lathe compensation, 0-9.
+    pub orientation: i32,
+    /// No compensated move was made yet since G41/G42.
+    pub first_compensated: bool,
+    /// G7: X words are diameters.
+    pub lathe_diameter: bool,
+    /// G96 / G97 per spindle.
+    pub spindle_mode: [SpindleMode; 8],
+    /// S per spindle.
+    pub speed: [f64; 8],
+    /// 0: stopped, 1: clockwise, -1: counter-clockwise; per spindle.
+    pub turning: [i8; 8],
+    /// Spindle of `$`.
+    pub active_spindle: usize,
+    /// Coolant.
+    pub mist: bool,
+    /// Coolant.
+    pub flood: bool,
+    /// G61, G61.1, G64.
+    pub motion_mode: MotionMode,
+    /// Q of G64.
+    pub naive_tolerance: f64,
+    /// T: tool number that was selected, -1 for none.
+    pub selected_tool: i32,
+    /// Pocket (row) of the selected tool.
+    pub selected_pocket: i32,
+    /// Tool in the spindle, 0 for none.
+    pub tool: i32,
+    /// Override switches (M48-M53).
+    pub feed_override: bool,
+    /// See above.
+    pub speed_override: bool,
+    /// See above.
+    pub adaptive_feed: bool,
+    /// See above.
+    pub feed_hold: bool,
+    /// The last probing has touched.
+    pub probed: bool,
+    /// Length of a line for G93, program end etc. was reached.
+    pub ended: bool,
+}
+
+/// Words that canned cycles keep between their lines.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CycleWords {
+    /// R plane.
+    pub r: f64,
+    /// Bottom, absolute, along the plane's axis.
+    pub cc: f64,
+    /// I of G76, G87.
+    pub i: f64,
+    /// J of G87.
+    pub j: f64,
+    /// K of G87.
+    pub k: f64,
+    /// Repeats.
+    pub l: i32,
+    /// Dwell, s.
+    pub p: f64,
+    /// Peck.
+    pub q: f64,
+}
+
+impl State {
+    /// As `rs274` starts: millimetres, XY plane, everything zero; `unknown`: the position is NaN instead.
+    pub fn new(unknown: bool) -> Self {
+        let position = [if unknown { f64::NAN } else { 0.0 }; 9];
+        Self {
+            units: Units::Millimetre,
+            plane: Plane::Xy,
+            distance: DistanceMode::Absolute,
+            arc_distance: DistanceMode::Incremental,
+            feed_mode: FeedMode::PerMinute,
+            feed_rate: 0.0,
+            motion: 800,
+            last_motion: 0,
+            current: position,
+            compensated: position,
+            axis_offset: [0.0; 9],
+            origin_offset: [0.0; 9],
+            origin_index: 1,
+            rotation_xy: 0.0,
+            tool_offset: [0.0; 9],
+            retract: RetractMode::OldZ,
+            cycle: CycleWords::default(),
+            side: Side::Off,
+            radius: 0.0,
+            orientation: 0,
+            first_compensated: true,
+            lathe_diameter: false,
+            spindle_mode: [SpindleMode::ConstantRpm; 8],
+            speed: [0.0; 8],
+            turning: [0; 8],
+            active_spindle: 0,
+            mist: false,
+            flood: false,
+            motion_mode: MotionMode::Continuous(0.0),
+            naive_tolerance: 0.0,
+            selected_tool: -1,
+            selected_pocket: -1,
+            tool: 0,
+            feed_override: true,
+            speed_override: true,
+            adaptive_feed: false,
+            feed_hold: false,
+            probed: false,
+            ended: false,
+        }
+    }
+}

@@ -6,7 +6,7 @@ use crate::builder::Builder;
 use crate::error::SyntaxErrorKind;
 use crate::lines::character;
 use crate::sink::Sink;
-use crate::{LexOptions, TextRange, TokenKind};
+use crate::{LexOptions, TextRange, TokenKind, plain};
 use logos::Logos;
 
 #[derive(Logos, Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,16 +72,35 @@ enum Raw {
 }
 
 /// Words longer than this may have more digits than a decimal holds, and are looked at again.
-const SHORT_WORD: usize = 19;
+pub(crate) const SHORT_WORD: usize = 19;
 
 /// Lexes `source`, whose first byte stands at offset 0 of the file if `at_start`, into `out`.
 pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut Builder) {
+    lex_with(source, options, at_start, out, plain::lex);
+}
+
+/// The same by the general rules alone: what the fast way is compared with.
+#[cfg(test)]
+pub(crate) fn lex_by_rules(source: &[u8], options: LexOptions, at_start: bool, out: &mut Builder) {
+    lex_with(source, options, at_start, out, |_, at, _, _| at);
+}
+
+fn lex_with(
+    source: &[u8],
+    options: LexOptions,
+    at_start: bool,
+    out: &mut Builder,
+    fast: impl Fn(&[u8], usize, LexOptions, &mut Builder) -> usize,
+) {
     let mut lexer = Raw::lexer(source);
     if at_start && source.starts_with(b"\xEF\xBB\xBF") {
         out.push(TokenKind::Blank, 0);
         lexer.bump(3);
     }
-    while let Some(raw) = lexer.next() {
+    loop {
+        let behind = lexer.span().end;
+        lexer.bump(fast(source, behind, options, out) - behind);
+        let Some(raw) = lexer.next() else { break };
         let span = lexer.span();
         let start = span.start as u32;
         let kind = match raw {
@@ -97,7 +116,7 @@ pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut 
             }
             Ok(raw) => {
                 out.odd = true;
-                let Some(kind) = plain(raw) else {
+                let Some(kind) = settled(raw) else {
                     let (start, end) = (span.start, span.end);
                     let length = Special {
                         source,
@@ -125,7 +144,7 @@ pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut 
 }
 
 /// The kinds that need no second look.
-fn plain(raw: Raw) -> Option<TokenKind> {
+fn settled(raw: Raw) -> Option<TokenKind> {
     Some(match raw {
         Raw::Blank => TokenKind::Blank,
         Raw::Newline => TokenKind::Newline,

@@ -14,6 +14,7 @@ mod lines;
 mod names;
 mod number;
 mod options;
+mod plain;
 mod program;
 mod record;
 mod relex;

@@ -51,6 +51,7 @@ fn main() {
         machine: Some(machine),
         setup: Setup::default(),
         rules: Vec::new(),
+        port_to: Vec::new(),
     };
     let full = time(|| check(&parse(text.clone(), dialect.lex), &settings));
     line("parse and full check", full, newline, megabytes);
@@ -80,6 +81,7 @@ fn memory_child(path: &std::ffi::OsStr) {
         machine: Some(machine),
         setup: Setup::default(),
         rules: Vec::new(),
+        port_to: Vec::new(),
     };
     black_box(check(&parse(text, dialect.lex), &settings));
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -2,8 +2,10 @@
 pub use trunnion_certify as certify;
 pub use trunnion_check as check;
 pub use trunnion_dialect as dialect;
+pub use trunnion_formula as formula;
 pub use trunnion_geometry as geometry;
 pub use trunnion_interp as interp;
 pub use trunnion_machine as machine;
+pub use trunnion_ngc as ngc;
 pub use trunnion_rewrite as rewrite;
 pub use trunnion_syntax as syntax;

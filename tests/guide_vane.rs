@@ -60,6 +60,7 @@ fn found(text: &str, name: &str, machine: &Machine) -> Vec<Diagnostic> {
         machine: Some(machine),
         setup: Setup::default(),
         rules: Vec::new(),
+        port_to: Vec::new(),
     };
     check(&program, &settings).diagnostics
 }

@@ -114,6 +114,7 @@ fn examine(name: &str, text: Vec<u8>, dialect: &'static Dialect, machine: usize)
         machine,
         setup: Setup::default(),
         rules: Vec::new(),
+        port_to: Vec::new(),
     };
     let report = check(&program, &settings);
     let lines = LineIndex::new(source);
@@ -178,6 +179,7 @@ fn rewrites_of_mutated_strips_are_certified_or_refused() {
             machine,
             setup: Setup::default(),
             rules: Vec::new(),
+            port_to: Vec::new(),
         };
         for rewrite in rewrites() {
             match attempt(

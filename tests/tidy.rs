@@ -8,21 +8,26 @@ use trunnion::rewrite::rewrites;
 const FLOORS: &[(&str, u32)] = &[
     ("trunnion-geometry", 0),
     ("trunnion-syntax", 0),
+    ("trunnion-formula", 1),
     ("trunnion-dialect", 1),
-    ("trunnion-interp", 2),
-    ("trunnion-machine", 3),
-    ("trunnion-certify", 4),
-    ("trunnion-check", 5),
-    ("trunnion-rewrite", 6),
-    ("trunnion-workspace", 6),
-    ("trunnion-lsp", 7),
-    ("trunnion", 8),
+    ("trunnion-ngc", 2),
+    ("trunnion-interp", 3),
+    ("trunnion-machine", 4),
+    ("trunnion-certify", 5),
+    ("trunnion-check", 6),
+    ("trunnion-layout", 6),
+    ("trunnion-rewrite", 7),
+    ("trunnion-workspace", 7),
+    ("trunnion-lsp", 8),
+    ("trunnion", 9),
 ];
 
 /// What a crate must not reach, directly or through others of the workspace.
 const FORBIDDEN: &[(&str, &[&str])] = &[
     ("trunnion-syntax", &["nalgebra", "serde", "toml", "trunnion-geometry"]),
     ("trunnion-geometry", &["trunnion-syntax", "serde", "toml"]),
+    ("trunnion-formula", &["serde", "toml"]),
+    ("trunnion-ngc", &["serde", "toml", "trunnion-dialect"]),
     ("trunnion-certify", &["trunnion-check", "trunnion-rewrite"]),
     (
         "trunnion-check",

@@ -36,6 +36,9 @@ pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding)
     let info = judged
         .session
         .describe(&judged.program, &judged.resolved.settings(), id);
+    if !info.runs {
+        text.push_str("This block is not run: the program ends before it, or every way leads past it.\n\n");
+    }
     modal(&mut text, &info.after);
     motion(&mut text, &info, judged.resolved.machine.as_ref());
     Some(Hover {

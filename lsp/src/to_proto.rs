@@ -54,7 +54,11 @@ fn one(analysed: &Analysed, d: &trunnion_check::Diagnostic, encoding: Encoding) 
     if d.count > 1 {
         let last = place(d.last).start.line + 1;
         // Writing into a String cannot fail.
-        let _ = write!(message, " ({} blocks in a row, to line {last})", d.count);
+        let _ = if d.last == d.range {
+            write!(message, " ({} times)", d.count)
+        } else {
+            write!(message, " ({} blocks, to line {last})", d.count)
+        };
     }
     for more in d.notes.iter().chain(&d.help) {
         message.push('\n');

@@ -22,8 +22,11 @@ pub struct Certificate {
     pub dialect: NamedDigest,
     /// The machine: id, and digest of its chain, limits, speeds and control.
     pub machine: NamedDigest,
-    /// Digest of tools and work offsets the programs were run with, declarations outside the texts.
+    /// Digest of tools, work offsets and bounds the programs were run with, declarations outside the texts.
     pub setup_sha256: String,
+    /// Programs that were called, by name, with the digest of their text, or `missing`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub library: Vec<NamedDigest>,
     /// The claim.
     pub claim: Claim,
     /// How the texts differ.

@@ -60,9 +60,9 @@ pub(crate) fn machine_digest(machine: &Machine) -> String {
     hex_sha256(facts.as_bytes())
 }
 
-/// Digest of tools and work offsets.
+/// Digest of tools, work offsets and bounds; called programs are noted one by one.
 pub(crate) fn setup_digest(setup: &Setup) -> String {
-    hex_sha256(format!("{:?}\n{:?}", setup.tools, setup.work_offsets).as_bytes())
+    hex_sha256(format!("{:?}\n{:?}\n{:?}", setup.tools, setup.work_offsets, setup.limits).as_bytes())
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ mod claim;
 mod compare;
 mod difference;
 mod digest;
+mod library;
 mod path;
 mod recheck;
 mod rerun;

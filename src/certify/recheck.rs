@@ -5,10 +5,12 @@
 use crate::certificate::{MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextDigest, Worst, WorstChanges};
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
+use crate::library::Recorder;
 use crate::rerun::{Rerun, Step};
 use crate::side;
 use crate::text::text_change;
 use crate::{Certificate, Claim, Outcome};
+use std::collections::VecDeque;
 use trunnion_dialect::Dialect;
 use trunnion_geometry::deg;
 use trunnion_interp::Setup;
@@ -127,11 +129,20 @@ fn prove(
         ));
     }
     let mut proof = Proof::new(machine, claim, &new);
-    let mut old_steps = Rerun::new(&old, dialect, machine, setup);
-    let mut new_steps = Rerun::new(&new, dialect, machine, setup);
+    let (recorded, library) = Recorder::wrap(setup);
+    let mut old_steps = Rerun::new(&old, dialect, machine, &recorded);
+    let mut new_steps = Rerun::new(&new, dialect, machine, &recorded);
     loop {
         match (old_steps.next(), new_steps.next()) {
-            (Some(was), Some(is)) => proof.add(&was, &is)?,
+            (Some(was), Some(is)) => {
+                proof.add(&was, &is)?;
+                same_sides(
+                    (&old, &mut old_steps.sides),
+                    (&new, &mut new_steps.sides),
+                    dialect,
+                    false,
+                )?;
+            }
             (None, None) => break,
             (was, _) => {
                 let (which, shared) = (if was.is_some() { "before" } else { "after" }, proof.motions.total);
@@ -141,7 +152,13 @@ fn prove(
             }
         }
     }
-    same_sides((&old, &old_steps.sides), (&new, &new_steps.sides), dialect)?;
+    same_sides(
+        (&old, &mut old_steps.sides),
+        (&new, &mut new_steps.sides),
+        dialect,
+        true,
+    )?;
+    followed(&old_steps, &new_steps, text.rest_identical, (&old, &new))?;
     Ok(Certificate {
         schema: SCHEMA.into(),
         tool_version: env!("CARGO_PKG_VERSION").into(),
@@ -156,6 +173,7 @@ fn prove(
             sha256: machine_digest(machine),
         },
         setup_sha256: setup_digest(setup),
+        library: library.map(|library| library.loaded()).unwrap_or_default(),
         claim: claim.clone(),
         text,
         motions: proof.motions,
@@ -167,14 +185,46 @@ fn prove(
     .sealed())
 }
 
-/// What the programs say beside their motions must be the same, word for word, at the same motions: nothing else proves it alike.
-fn same_sides(
-    (old, before): (&Program, &[side::Side]),
-    (new, after): (&Program, &[side::Side]),
-    dialect: &Dialect,
+/// Both programs were run to their ends, and every block that differs ran: what did not run is not compared.
+fn followed(
+    old: &Rerun<'_>,
+    new: &Rerun<'_>,
+    same_blocks: bool,
+    (before, after): (&Program, &Program),
 ) -> Result<(), Outcome> {
-    for i in 0..before.len().max(after.len()) {
-        let (was, is) = (before.get(i), after.get(i));
+    for (which, run) in [("before", old), ("after", new)] {
+        if let Some(why) = run.broken() {
+            return Err(Outcome::unknown(format!(
+                "the program {which} was not followed to its end, {why}"
+            )));
+        }
+    }
+    if !same_blocks {
+        return Ok(());
+    }
+    for (was, is) in before.blocks().zip(after.blocks()) {
+        let same = before.source()[was.range().as_usize()] == after.source()[is.range().as_usize()];
+        if !(same || old.has_run(was.id()) && new.has_run(is.id())) {
+            let (line, _) = LineIndex::new(after.source()).line_column(after.source(), is.range().start);
+            return Err(Outcome::unknown(format!(
+                "line {line} differs, and never runs: nothing was compared there"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// What the programs say beside their motions must be the same, word for word, at the same motions: nothing else proves it alike.
+/// What both have said so far is compared and dropped; at the end nothing may be left.
+fn same_sides(
+    (old, before): (&Program, &mut VecDeque<side::Side>),
+    (new, after): (&Program, &mut VecDeque<side::Side>),
+    dialect: &Dialect,
+    at_end: bool,
+) -> Result<(), Outcome> {
+    while !(before.is_empty() && after.is_empty()) && (at_end || !before.is_empty() && !after.is_empty()) {
+        let (was, is) = (before.pop_front(), after.pop_front());
+        let (was, is) = (was.as_ref(), is.as_ref());
         let said = |program: &Program, side: Option<&side::Side>| {
             side.map(|side| (side.motions, side::text(program, dialect, side)))
         };

@@ -4,17 +4,21 @@ use std::collections::VecDeque;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Setup, Sink, ToolShape};
 use trunnion_machine::{Follower, Leg, Machine};
-use trunnion_syntax::{BlockId, Program};
+use trunnion_syntax::{BlockId, LineIndex, Program};
+
+/// More blocks that speak, without a motion between them, are not kept for comparison.
+const MOST_SIDES: usize = 1_000_000;
 
 /// Runs a program leg by leg.
 pub(crate) struct Rerun<'a> {
     program: &'a Program,
     interpreter: Interpreter<'a>,
-    next_block: u32,
+    /// Bit by bit: the blocks that ran.
+    ran: Vec<u64>,
     dialect: &'a Dialect,
     motions: u64,
-    /// What the blocks that ran say beside their motions, in order; only those that say something.
-    pub sides: Vec<Side>,
+    /// What the blocks that ran say beside their motions, in order; only those that say something and are not compared yet.
+    pub sides: VecDeque<Side>,
     legs: Legs<'a>,
 }
 
@@ -37,6 +41,8 @@ struct Legs<'a> {
     /// Of the block that runs: it says more than its motions.
     whole: bool,
     unset: String,
+    /// Where and why the program is not followed to its end.
+    broken: Option<(BlockId, String)>,
 }
 
 impl Sink for Legs<'_> {
@@ -58,6 +64,10 @@ impl Sink for Legs<'_> {
         match of_fault(&fault.kind) {
             Told::Nothing => {}
             Told::Block => self.whole = true,
+            Told::End(why) => {
+                self.whole = true;
+                self.broken.get_or_insert((fault.block, why));
+            }
             Told::Unset(name) => {
                 self.unset.push_str(&name);
                 self.unset.push(' ');
@@ -72,21 +82,49 @@ impl<'a> Rerun<'a> {
         Self {
             program,
             interpreter: Interpreter::new(dialect, setup),
-            next_block: 0,
+            ran: vec![0; program.block_count().div_ceil(64)],
             dialect,
             motions: 0,
-            sides: Vec::new(),
+            sides: VecDeque::new(),
             legs: Legs {
                 follower: Follower::new(machine),
                 waiting: VecDeque::new(),
                 whole: false,
                 unset: String::new(),
+                broken: None,
             },
         }
     }
 
-    fn run(&mut self, block: BlockId) {
-        self.interpreter.step(self.program, block, &mut self.legs);
+    /// Whether a block of the program ran.
+    pub(crate) fn has_run(&self, block: BlockId) -> bool {
+        let word = self.ran.get(block.0 as usize / 64);
+        word.is_some_and(|word| word >> (block.0 % 64) & 1 == 1)
+    }
+
+    /// Why the program was not followed to its end, with the line.
+    pub(crate) fn broken(&self) -> Option<String> {
+        let (block, why) = self.legs.broken.as_ref()?;
+        let source = self.program.source();
+        let start = self.program.block(*block).range().start;
+        let (line, _) = LineIndex::new(source).line_column(source, start);
+        Some(format!("line {line}: {why}"))
+    }
+
+    /// Runs the next block in the control's order; false at the end.
+    fn run(&mut self) -> bool {
+        if self.sides.len() > MOST_SIDES {
+            let block = self.sides.back().map_or(BlockId(0), |side| side.block);
+            let why = format!("more than {MOST_SIDES} blocks without a motion");
+            self.legs.broken.get_or_insert((block, why));
+            return false;
+        }
+        let Some(block) = self.interpreter.advance(self.program, &mut self.legs) else {
+            return false;
+        };
+        if let Some(word) = self.ran.get_mut(block.0 as usize / 64) {
+            *word |= 1 << (block.0 % 64);
+        }
         let side = Side {
             motions: self.motions,
             block,
@@ -95,8 +133,9 @@ impl<'a> Rerun<'a> {
         };
         self.motions += self.legs.waiting.len() as u64;
         if !text(self.program, self.dialect, &side).is_empty() {
-            self.sides.push(side);
+            self.sides.push_back(side);
         }
+        true
     }
 }
 
@@ -104,10 +143,10 @@ impl Iterator for Rerun<'_> {
     type Item = Step;
 
     fn next(&mut self) -> Option<Step> {
-        while self.legs.waiting.is_empty() && (self.next_block as usize) < self.program.block_count() {
-            let block = BlockId(self.next_block);
-            self.next_block += 1;
-            self.run(block);
+        while self.legs.waiting.is_empty() {
+            if !self.run() {
+                return None;
+            }
         }
         self.legs.waiting.pop_front()
     }

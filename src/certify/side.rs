@@ -27,6 +27,8 @@ pub(crate) enum Told {
     Block,
     /// What is taken as zero counts by its name.
     Unset(String),
+    /// The run was not followed to its end, so what may come behind is not compared: why.
+    End(String),
 }
 
 /// What a fault means for a comparison. Faults not named here make their block count: better too many.
@@ -40,6 +42,9 @@ pub(crate) fn of_fault(kind: &FaultKind) -> Told {
         | FaultKind::MissingProgramEnd => Told::Nothing,
         FaultKind::WorkOffsetUnset { name } => Told::Unset(name.clone()),
         FaultKind::ToolLengthUnset { tool } => Told::Unset(tool.clone()),
+        FaultKind::EndlessLoop { blocks } => Told::End(format!("it does not end within {blocks} executed blocks")),
+        FaultKind::NotDecided { what } => Told::End(format!("where it goes on depends on {what}")),
+        FaultKind::Rejected { message, .. } => Told::End(format!("the control refuses it: {message}")),
         _ => Told::Block,
     }
 }

@@ -1,99 +1,47 @@
-//! One check of one program: run, follow, judge. Streams: what is kept beside the program is findings and one modal state.
-use crate::rule::{FaultRule, LegRule, ProgramRule, TextRule};
-use crate::sink::{Active, Reporter, active};
+//! One check of one program: run in the order in which the control runs it, follow, judge. Streams: what is kept beside the
+//! program is findings and one modal state.
+use crate::pass::Pass;
 use crate::suppress::{Suppressions, has_code};
-use crate::time::CycleTime;
-use crate::view::{LegView, Overview};
-use crate::{Diagnostic, Level, Settings, Severity, Status};
+use crate::view::Overview;
+use crate::{Report, Settings};
 use core::ops::ControlFlow;
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink, directives};
-use trunnion_machine::{Follower, Leg};
+use trunnion_interp::{Interpreter, directives};
+use trunnion_machine::Follower;
 use trunnion_syntax::{BlockId, Program};
 
-/// Blocks between two check-points, and between two questions whether to go on.
-pub(crate) const CHECK_POINT_BLOCKS: u32 = 1024;
+/// Executed blocks between two check-points, and between two questions whether to go on.
+pub(crate) const CHECK_POINT_BLOCKS: u64 = 1024;
 
-/// The verdict on a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// Nothing at or above the level that is denied, nothing unknown.
-    Pass,
-    /// Some finding at or above the level that is denied.
-    Fail,
-    /// No such finding, but something could not be decided.
-    Unknown,
+/// Looks on while a program runs.
+pub(crate) trait Watch {
+    /// Before each 1024th executed block, with what is in force there; `Break` ends the check.
+    fn pause(
+        &mut self,
+        executed: u64,
+        interpreter: &Interpreter<'static>,
+        follower: Option<&Follower<'_>>,
+    ) -> ControlFlow<()>;
+    /// After each block: how many ran before it, and whether it ran for the first time.
+    fn ran(&mut self, executed: u64, block: BlockId, first: bool);
 }
 
-impl Verdict {
-    /// `pass`, `fail` or `unknown`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pass => "pass",
-            Self::Fail => "fail",
-            Self::Unknown => "unknown",
-        }
+/// Nobody looks on.
+struct Nobody;
+
+impl Watch for Nobody {
+    fn pause(&mut self, _: u64, _: &Interpreter<'static>, _: Option<&Follower<'_>>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
     }
-}
-
-/// Counts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Summary {
-    /// Blocks with content (not empty lines, not lines of comments only).
-    pub blocks: u64,
-    /// Motions.
-    pub motions: u64,
-    /// Errors.
-    pub errors: u64,
-    /// Warnings.
-    pub warnings: u64,
-    /// Infos with status fail.
-    pub infos: u64,
-    /// Diagnostics with status unknown.
-    pub unknown: u64,
-}
-
-/// What a check found.
-#[derive(Clone, Debug)]
-pub struct Report {
-    /// Sorted by place.
-    pub diagnostics: Vec<Diagnostic>,
-    /// Counts.
-    pub summary: Summary,
-    /// Lowest and highest time the program takes from its first known position on, s. Lowest: no axis needs time to
-    /// accelerate. Highest: the machine stops after every block and accelerates no faster than its machine file declares.
-    /// `None`: some time is not known (no machine, no feed, a dwell in turns, an acceleration that is not declared).
-    pub cycle_time_s: Option<[f64; 2]>,
-}
-
-impl Report {
-    /// The verdict when findings at or above `deny` count as failures.
-    pub fn verdict(&self, deny: Severity) -> Verdict {
-        let denied = |d: &Diagnostic| d.status == Status::Fail && d.severity >= deny;
-        if self.diagnostics.iter().any(denied) {
-            Verdict::Fail
-        } else if self.summary.unknown > 0 {
-            Verdict::Unknown
-        } else {
-            Verdict::Pass
-        }
-    }
+    fn ran(&mut self, _: u64, _: BlockId, _: bool) {}
 }
 
 /// Checks a parsed program.
 pub fn check(program: &Program, settings: &Settings<'_>) -> Report {
-    let never = &mut |_: &Interpreter<'static>, _: Option<&Follower<'_>>| ControlFlow::Continue(());
-    analyse(program, settings, never).unwrap_or_else(|| Report {
-        diagnostics: Vec::new(),
-        summary: Summary::default(),
-        cycle_time_s: None,
-    })
+    analyse(program, settings, &mut Nobody).unwrap_or_default()
 }
 
-/// Asked before each 1024th block with what is in force there; `Break` ends the check.
-pub(crate) type AtCheckPoint<'f> = &'f mut dyn FnMut(&Interpreter<'static>, Option<&Follower<'_>>) -> ControlFlow<()>;
-
-/// Checks a parsed program; `None` when `at_check_point` broke off.
-pub(crate) fn analyse(program: &Program, settings: &Settings<'_>, at_check_point: AtCheckPoint<'_>) -> Option<Report> {
+/// Checks a parsed program; `None` when `watch` broke off.
+pub(crate) fn analyse(program: &Program, settings: &Settings<'_>, watch: &mut impl Watch) -> Option<Report> {
     let directives = directives(program);
     let suppressions = Suppressions::new(program, &directives);
     let mut pass = Pass::new(program, settings, &suppressions);
@@ -109,164 +57,29 @@ pub(crate) fn analyse(program: &Program, settings: &Settings<'_>, at_check_point
             directives: &directives,
         });
     }
-    if unreadable {
-        return Some(pass.finish());
-    }
-
     let mut interpreter = Interpreter::new(settings.dialect, &settings.setup);
-    for id in (0..program.block_count() as u32).map(BlockId) {
-        if id.0.is_multiple_of(CHECK_POINT_BLOCKS) && at_check_point(&interpreter, pass.follower.as_ref()).is_break() {
+    if unreadable {
+        return Some(pass.finish(&interpreter));
+    }
+    let blocks = (0..program.block_count() as u32).map(BlockId);
+    pass.count_blocks(blocks.filter(|&id| has_code(program, id)).count() as u64);
+    for executed in 0.. {
+        if executed % CHECK_POINT_BLOCKS == 0 && watch.pause(executed, &interpreter, pass.follower()).is_break() {
             return None;
         }
-        pass.summary.blocks += u64::from(has_code(program, id));
-        interpreter.step(program, id, &mut pass);
-    }
-    Some(pass.finish())
-}
-
-/// One pass over a program.
-struct Pass<'a> {
-    reporter: Reporter<'a>,
-    text: Vec<Active<TextRule>>,
-    whole: Vec<Active<ProgramRule>>,
-    faults: Vec<Active<FaultRule>>,
-    legs: Vec<Active<LegRule>>,
-    follower: Option<Follower<'a>>,
-    /// Sign of the last posture off the pole.
-    posture: i8,
-    time: CycleTime,
-    summary: Summary,
-}
-
-impl<'a> Pass<'a> {
-    fn new(program: &'a Program, settings: &Settings<'a>, suppressions: &'a Suppressions) -> Self {
-        let levels = &settings.rules;
-        Self {
-            reporter: Reporter::new(program, &settings.dialect.name, suppressions),
-            text: active(
-                levels,
-                |level| if let Level::Text(run) = level { Some(run) } else { None },
-            ),
-            whole: active(levels, |level| {
-                if let Level::Program(run) = level {
-                    Some(run)
-                } else {
-                    None
-                }
-            }),
-            faults: active(
-                levels,
-                |level| if let Level::Fault(run) = level { Some(run) } else { None },
-            ),
-            legs: active(
-                levels,
-                |level| if let Level::Leg(run) = level { Some(run) } else { None },
-            ),
-            follower: settings.machine.map(Follower::new),
-            posture: 0,
-            time: CycleTime::default(),
-            summary: Summary::default(),
-        }
-    }
-
-    fn read_text(&mut self, program: &Program) {
-        for error in program.errors() {
-            let block = program.block_at(error.range.start).unwrap_or_default();
-            for rule in &self.text {
-                self.reporter.enter(rule, Some(block), u64::from(block.0));
-                (rule.run)(error, &mut self.reporter);
-                self.reporter.leave();
-            }
-        }
-    }
-
-    /// Says that the file is UTF-16; false where the rule that says so is allowed.
-    fn tell_utf16(&mut self) -> bool {
-        let Some(rule) = self.text.iter().find(|rule| rule.name == "syntax-error") else {
-            return false;
+        let Some(block) = interpreter.advance(program, &mut pass) else {
+            break;
         };
-        self.reporter.enter(rule, None, 0);
-        crate::rules::report_utf16(&mut self.reporter);
-        self.reporter.leave();
-        true
+        watch.ran(executed, block, pass.ran(block));
     }
-
-    fn read_whole(&mut self, overview: &Overview<'_>) {
-        for rule in &self.whole {
-            self.reporter.enter(rule, None, 0);
-            (rule.run)(overview, &mut self.reporter);
-            self.reporter.leave();
-        }
-    }
-
-    fn read_leg(&mut self, leg: &Leg) {
-        let Some(follower) = &self.follower else { return };
-        let view = LegView::new(follower.machine(), leg, self.posture);
-        for rule in &self.legs {
-            self.reporter.enter(rule, Some(leg.motion.block), self.summary.motions);
-            (rule.run)(&view, &mut self.reporter);
-            self.reporter.leave();
-        }
-        self.time.add(&view, self.reporter.dialect());
-        match &leg.end {
-            Ok(end) if end.branch != 0 => self.posture = end.branch,
-            Ok(_) => {}
-            Err(_) => self.posture = 0,
-        }
-    }
-
-    fn finish(self) -> Report {
-        let cycle_time_s = if self.follower.is_some() {
-            self.time.interval()
-        } else {
-            None
-        };
-        let mut reporter = self.reporter;
-        if let Some(follower) = &self.follower {
-            reporter.word_worst(follower.machine(), &self.legs);
-        }
-        let diagnostics = reporter.finish();
-        let mut summary = self.summary;
-        for diagnostic in &diagnostics {
-            let count = match (diagnostic.status, diagnostic.severity) {
-                (Status::Unknown, _) => &mut summary.unknown,
-                (Status::Fail, Severity::Error) => &mut summary.errors,
-                (Status::Fail, Severity::Warning) => &mut summary.warnings,
-                (Status::Fail, Severity::Info) => &mut summary.infos,
-            };
-            *count += 1;
-        }
-        Report {
-            diagnostics,
-            summary,
-            cycle_time_s,
-        }
-    }
-}
-
-impl Sink for Pass<'_> {
-    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
-        self.summary.motions += 1;
-        if let Some(follower) = &mut self.follower {
-            let leg = follower.follow(motion);
-            self.read_leg(&leg);
-        }
-    }
-
-    fn fault(&mut self, fault: Fault) {
-        for rule in &self.faults {
-            self.reporter.enter(rule, Some(fault.block), u64::from(fault.block.0));
-            (rule.run)(&fault, &mut self.reporter);
-            self.reporter.leave();
-        }
-    }
+    Some(pass.finish(&interpreter))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fixture::Fixture;
-    use crate::{RuleLevel, Session};
+    use crate::{RuleLevel, Session, Severity, Verdict};
     use trunnion_interp::Setup;
     use trunnion_syntax::parse;
 
@@ -276,6 +89,7 @@ mod tests {
             machine: trunnion_machine::builtin("mill-3axis"),
             setup: Setup::default(),
             rules: rules.iter().map(|(name, level)| ((*name).to_owned(), *level)).collect(),
+            port_to: Vec::new(),
         }
     }
 

@@ -1,7 +1,9 @@
 //! Settings of a check: `trunnion.toml` and what the command line adds. No file is opened here.
 mod file;
+mod format;
 mod tool;
 
+pub use format::{FormatCase, FormatSettings, FormatSpacing, FormatZeros};
 pub use tool::parse_tool_flag;
 
 use crate::Severity;
@@ -30,8 +32,14 @@ pub struct Config {
     pub rules: Vec<(String, RuleLevel)>,
     /// `[tolerances]`, names as in [`TOLERANCES`]; they override the machine's.
     pub tolerances: Vec<(String, f64)>,
-    /// `[[tool]]`, `[work_offsets]`.
+    /// `[[tool]]`, `[work_offsets]`, `[limits]`.
     pub setup: Setup,
+    /// `subprogram_path`: folders of programs that a program may call, relative to the file, with their bytes in the file.
+    pub subprogram_path: Vec<(String, core::ops::Range<usize>)>,
+    /// `port_to`: dialects of the controls that the programs are meant to run on too.
+    pub port_to: Vec<String>,
+    /// `[format]`.
+    pub format: FormatSettings,
     /// Axis letters in `[work_offsets]` with their bytes in the file.
     pub offset_axes: Vec<(u8, core::ops::Range<usize>)>,
 }
@@ -133,6 +141,8 @@ pub struct Settings<'a> {
     pub setup: Setup,
     /// Rule levels, last wins (config, then command line).
     pub rules: Vec<(String, RuleLevel)>,
+    /// Dialects that the program is to be carried over to: the rule `porting` says what would change its meaning there.
+    pub port_to: Vec<String>,
 }
 
 #[cfg(test)]

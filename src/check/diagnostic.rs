@@ -1,4 +1,5 @@
 //! A finding, as plain data: terminal, JSON and LSP are equal clients.
+use trunnion_interp::ChainId;
 use trunnion_syntax::TextRange;
 
 /// How bad.
@@ -55,8 +56,19 @@ pub struct Diagnostic {
     pub fixes: Vec<&'static str>,
     /// Other places of interest in the file.
     pub related: Vec<(TextRange, String)>,
-    /// How many consecutive blocks share the finding (1 for one).
+    /// How many executed blocks share the finding (1 for one): consecutive ones, and those of later passes of a loop.
     pub count: u32,
-    /// Range of the last of them.
+    /// Range of the last of the consecutive ones.
     pub last: TextRange,
+    /// How the run came to it; told in the notes.
+    pub(crate) origin: Origin,
+}
+
+/// How a run came to a finding.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Origin {
+    /// The calls.
+    pub(crate) chain: ChainId,
+    /// Counter of what later passes find here.
+    pub(crate) later: Option<u32>,
 }

@@ -38,6 +38,8 @@ pub struct Fixture {
     pub dialect: String,
     /// Name of a built-in machine, if any; `NAME+clamp` is one whose first rotary axis has `clamp = true`.
     pub machine: Option<String>,
+    /// Dialects to carry the program over to.
+    pub port_to: Vec<String>,
     /// The program without caret lines.
     pub program: String,
     /// What is drawn, sorted.
@@ -45,15 +47,27 @@ pub struct Fixture {
 }
 
 impl Fixture {
-    /// Reads a fixture; `info` is a fence's info string: `gcode`, then names of a dialect (else iso-6983) and a machine.
+    /// Reads a fixture; `info` is a fence's info string: `gcode`, then names of a dialect (else iso-6983) and a machine, and
+    /// `port=NAME` for each dialect that the program is to be carried over to.
     pub fn parse(info: &str, text: &str) -> Self {
         let is_dialect = |word: &&str| trunnion_dialect::BUILTIN_NAMES.contains(word);
-        let mut names = info.split_whitespace().skip(1);
-        let dialect = names.clone().find(is_dialect).unwrap_or("iso-6983").to_owned();
-        let machine = names.find(|word| !is_dialect(word)).map(str::to_owned);
+        let (ported, names): (Vec<&str>, Vec<&str>) = info
+            .split_whitespace()
+            .skip(1)
+            .partition(|word| word.starts_with("port="));
+        let dialect = names
+            .iter()
+            .copied()
+            .find(|word| is_dialect(word))
+            .unwrap_or("iso-6983");
+        let machine = names
+            .iter()
+            .find(|word| !is_dialect(word))
+            .map(|word| (*word).to_owned());
         let mut fixture = Self {
-            dialect,
+            dialect: dialect.to_owned(),
             machine,
+            port_to: ported.iter().map(|word| word["port=".len()..].to_owned()).collect(),
             ..Self::default()
         };
         let mut lines = 0;
@@ -88,6 +102,7 @@ impl Fixture {
                 machine: machine.as_ref(),
                 setup: Setup::default(),
                 rules,
+                port_to: self.port_to.clone(),
             },
         ))
     }

@@ -1,13 +1,18 @@
 //! Floor 5: speaks. Reads text, motions and legs, and turns facts into diagnostics by rules, one rule a file.
 //!
 //! It does no I/O: texts come in, plain data goes out. It does not know terminals, JSON or LSP.
+mod again;
 mod analysis;
 pub mod config;
 mod diagnostic;
 pub mod fixture;
 pub mod header;
+mod pass;
 mod place;
+mod porting;
 mod prelude;
+mod refusal;
+mod report;
 mod rule;
 mod rules;
 mod runs;
@@ -16,12 +21,14 @@ mod sink;
 mod suppress;
 mod time;
 mod view;
+mod visited;
 mod words;
 
-pub use analysis::{Report, Summary, Verdict, check};
+pub use analysis::check;
 pub use config::{Config, ConfigError, RuleLevel, Settings};
 pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
-pub use rule::{FaultRule, Guarantee, LegRule, Level, ProgramRule, Rule, TextRule};
+pub use report::{Report, Summary, Verdict};
+pub use rule::{EndRule, Ending, FaultRule, Guarantee, LegRule, Level, MotionRule, ProgramRule, Rule, TextRule};
 pub use rules::{rule, rules};
 pub use session::{BlockInfo, Session};
 pub use sink::{Draft, Reporter};

@@ -1,7 +1,7 @@
 //! What a rule is: data, and a function that reads one level of the analysis.
 use crate::{Severity, sink::Reporter, view::LegView, view::Overview};
-use trunnion_interp::Fault;
-use trunnion_syntax::SyntaxError;
+use trunnion_interp::{Fault, ModalState, Motion};
+use trunnion_syntax::{SyntaxError, TextRange};
 
 /// Reads a problem of the text.
 pub type TextRule = fn(&SyntaxError, &mut Reporter<'_>);
@@ -9,29 +9,45 @@ pub type TextRule = fn(&SyntaxError, &mut Reporter<'_>);
 pub type ProgramRule = fn(&Overview<'_>, &mut Reporter<'_>);
 /// Reads a fault of the run.
 pub type FaultRule = fn(&Fault, &mut Reporter<'_>);
+/// Reads a motion as programmed, without a machine, and what is in force after its block.
+pub type MotionRule = fn(&Motion, &ModalState, &mut Reporter<'_>);
+/// Reads what is known when the run has come to its end.
+pub type EndRule = fn(&Ending<'_>, &mut Reporter<'_>);
 /// Reads a leg of the machine.
 pub type LegRule = fn(&LegView<'_>, &mut Reporter<'_>);
+
+/// What is known when the run has come to its end.
+pub struct Ending<'s> {
+    /// Comments that allow a rule of which nothing was found: bytes of the comment, the rule's name.
+    pub unused: Vec<(TextRange, &'s str)>,
+}
 
 /// What a rule reads, hence what it costs.
 #[derive(Clone, Copy)]
 pub enum Level {
     /// Each problem of the text.
     Text(TextRule),
+    /// Each problem of the text, and each fault of the run: a control may refuse what the text alone does not show.
+    TextAndFault(TextRule, FaultRule),
     /// The program as a whole, once.
     Program(ProgramRule),
     /// Each fault of the run.
     Fault(FaultRule),
+    /// Each motion as programmed.
+    Motion(MotionRule),
     /// Each leg of the machine.
     Leg(LegRule),
+    /// What is known at the end, once.
+    End(EndRule),
 }
 
 impl Level {
     /// One word for lists: `text`, `program`, `motion`, `machine`.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Text(_) => "text",
+            Self::Text(_) | Self::TextAndFault(..) | Self::End(_) => "text",
             Self::Program(_) => "program",
-            Self::Fault(_) => "motion",
+            Self::Fault(_) | Self::Motion(_) => "motion",
             Self::Leg(_) => "machine",
         }
     }

@@ -6,31 +6,49 @@ mod arc_centre_missing;
 mod arc_radius_mismatch;
 mod axis_limit;
 mod axis_overspeed;
+mod bad_expression;
 mod bad_number;
+mod block_number_order;
 mod branch_swap;
 mod broken_directive;
+mod broken_structure;
+mod canned_cycle;
+mod cutter_compensation;
 mod decimal_comma;
 mod empty_program;
+mod endless_loop;
 mod feed_drop;
 mod machine_not_used;
 mod machine_unset;
 mod missing_axis;
 mod missing_feed;
+mod missing_label;
 mod missing_program_end;
+mod missing_subprogram;
+mod missing_tool_length;
+mod missing_word;
 mod modal_group_conflict;
+mod not_decided;
 mod not_modelled;
 mod path_deviation;
 mod pole_crossing;
 mod pole_flip;
+mod porting;
 mod position_unknown;
+mod program_alarm;
+mod rejected_block;
 mod repeated_word;
+mod spindle_off_cut;
 mod syntax_error;
 mod tool_length_unset;
 mod tool_vector_not_unit;
 mod unclosed_comment;
+mod undefined_variable;
 mod unknown_code;
 mod unknown_word;
 mod unreachable_orientation;
+mod unused_suppression;
+mod unused_word;
 mod work_offset_unset;
 
 pub(crate) use syntax_error::{is_utf16, report_utf16};
@@ -67,31 +85,49 @@ static RULES: &[&Rule] = table![
     arc_radius_mismatch,
     axis_limit,
     axis_overspeed,
+    bad_expression,
     bad_number,
+    block_number_order,
     branch_swap,
     broken_directive,
+    broken_structure,
+    canned_cycle,
+    cutter_compensation,
     decimal_comma,
     empty_program,
+    endless_loop,
     feed_drop,
     machine_not_used,
     machine_unset,
     missing_axis,
     missing_feed,
+    missing_label,
     missing_program_end,
+    missing_subprogram,
+    missing_tool_length,
+    missing_word,
     modal_group_conflict,
+    not_decided,
     not_modelled,
     path_deviation,
     pole_crossing,
     pole_flip,
+    porting,
     position_unknown,
+    program_alarm,
+    rejected_block,
     repeated_word,
+    spindle_off_cut,
     syntax_error,
     tool_length_unset,
     tool_vector_not_unit,
     unclosed_comment,
+    undefined_variable,
     unknown_code,
     unknown_word,
     unreachable_orientation,
+    unused_suppression,
+    unused_word,
     work_offset_unset,
 ];
 
@@ -109,8 +145,32 @@ pub fn rule(name: &str) -> Option<&'static Rule> {
 mod tests {
     use crate::sink::{Reporter, active};
     use crate::suppress::Suppressions;
-    use trunnion_interp::{Fault, FaultKind};
+    use trunnion_interp::{Fault, FaultKind, Refusal};
     use trunnion_syntax::{BlockId, LexOptions, SyntaxError, SyntaxErrorKind, TextRange, parse};
+
+    /// All sorts of refusals; one that is added must be added here, and to a rule.
+    const REFUSALS: [Refusal; 20] = [
+        Refusal::Syntax,
+        Refusal::Number,
+        Refusal::Expression,
+        Refusal::Variable,
+        Refusal::Label,
+        Refusal::Subprogram,
+        Refusal::Structure,
+        Refusal::GroupConflict,
+        Refusal::RepeatedWord,
+        Refusal::UnusedWord,
+        Refusal::MissingWord,
+        Refusal::UnknownCode,
+        Refusal::UnknownWord,
+        Refusal::Feed,
+        Refusal::ArcRadius,
+        Refusal::ArcCentre,
+        Refusal::Compensation,
+        Refusal::CannedCycle,
+        Refusal::ProgramEnd,
+        Refusal::Other,
+    ];
 
     /// One of each kind of fault; a kind that is added must be added here, and to a rule.
     fn faults() -> Vec<FaultKind> {
@@ -148,18 +208,29 @@ mod tests {
             FaultKind::WorkOffsetUnset { name: text() },
             FaultKind::ToolLengthUnset { tool: text() },
             FaultKind::MissingProgramEnd,
+            FaultKind::EndlessLoop { blocks: 3 },
+            FaultKind::MissingSubprogram {
+                name: text(),
+                searched: vec![text()],
+            },
+            FaultKind::NotDecided { what: text() },
+            FaultKind::ProgramAlarm { message: text() },
         ]
+        .into_iter()
+        .chain(REFUSALS.map(|refusal| FaultKind::Rejected {
+            refusal,
+            message: text(),
+            alarm: Some(text()),
+        }))
+        .collect()
     }
 
     #[test]
     fn every_fault_is_told_by_exactly_one_rule() {
         let program = parse(b"G0 X0\n".to_vec(), LexOptions::default());
-        let rules = active(&[], |level| {
-            if let crate::Level::Fault(run) = level {
-                Some(run)
-            } else {
-                None
-            }
+        let rules = active(&[], |level| match level {
+            crate::Level::Fault(run) | crate::Level::TextAndFault(_, run) => Some(run),
+            _ => None,
         });
         for kind in faults() {
             let suppressions = Suppressions::default();
@@ -174,7 +245,7 @@ mod tests {
                 (rule.run)(&fault, &mut out);
                 out.leave();
             }
-            assert_eq!(out.finish().len(), 1, "{:?}", fault.kind);
+            assert_eq!(out.finish(&|_| Vec::new()).len(), 1, "{:?}", fault.kind);
         }
     }
 
@@ -182,12 +253,9 @@ mod tests {
     fn every_syntax_error_is_told_by_exactly_one_rule() {
         use SyntaxErrorKind as Kind;
         let program = parse(b"G0 X0\n".to_vec(), LexOptions::default());
-        let rules = active(&[], |level| {
-            if let crate::Level::Text(run) = level {
-                Some(run)
-            } else {
-                None
-            }
+        let rules = active(&[], |level| match level {
+            crate::Level::Text(run) | crate::Level::TextAndFault(run, _) => Some(run),
+            _ => None,
         });
         for kind in [
             Kind::UnclosedComment,
@@ -218,7 +286,7 @@ mod tests {
                 );
                 out.leave();
             }
-            assert_eq!(out.finish().len(), 1, "{kind:?}");
+            assert_eq!(out.finish(&|_| Vec::new()).len(), 1, "{kind:?}");
         }
     }
 }

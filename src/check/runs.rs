@@ -1,8 +1,10 @@
 //! Merging: the same finding in consecutive blocks becomes one diagnostic at the first of them, with the worst values.
+use crate::again::Passes;
 use crate::place::code_range;
 use crate::view::LegView;
 use crate::{Diagnostic, Severity, Status};
 use std::collections::BTreeMap;
+use trunnion_interp::{ChainId, Frame};
 use trunnion_machine::Leg;
 use trunnion_syntax::{BlockId, Program, TextRange};
 
@@ -41,6 +43,8 @@ struct Run {
     last: Option<BlockId>,
     /// The worst leg, where it is not worded yet.
     unworded: Option<Box<Kept>>,
+    /// A run of a later pass: it is counted where the first told of it, and has no items.
+    later: Option<u32>,
 }
 
 /// A leg that is worded once its run has ended: most blocks of a long run are not the worst of it.
@@ -81,43 +85,74 @@ pub(crate) struct Log {
     ended: Vec<Unworded>,
     /// Per rule: how many are listed, and the rest.
     listed: BTreeMap<&'static str, (u32, Option<Diagnostic>)>,
+    passes: Passes,
+    /// The block in hand ran before.
+    pub(crate) again: bool,
 }
 
 impl Log {
     /// Adds a finding. `sequence` counts blocks: a run goes on while it grows by one at most.
     pub(crate) fn add(&mut self, program: &Program, diagnostic: Diagnostic, merge: Option<Merge>, sequence: u64) {
         let Some(merge) = merge else {
-            if let Some(diagnostic) = self.list(diagnostic) {
-                self.closed.push(diagnostic);
-            }
+            self.add_event(diagnostic);
             return;
         };
         let place = (diagnostic.rule, merge.key, diagnostic.status == Status::Unknown);
         if let Some(run) = self.open.get_mut(&place)
             && (merge.everywhere || sequence <= run.sequence + 1)
         {
-            run.extend(diagnostic, merge.badness, sequence);
+            match run.later {
+                Some(slot) => {
+                    run.sequence = sequence;
+                    self.passes.add(slot, diagnostic);
+                }
+                None => run.extend(diagnostic, merge, sequence, &mut self.passes),
+            }
             return;
         }
-        let Some(diagnostic) = self.list(diagnostic) else {
-            return;
-        };
         let worst = diagnostic.range;
-        let items = vec![(merge.badness, diagnostic)];
-        if let Some(ended) = self.open.insert(
-            place,
-            Run {
-                show: merge.show,
-                everywhere: merge.everywhere,
-                sequence,
-                items,
-                merged: false,
-                worst,
-                last: None,
-                unworded: None,
-            },
-        ) {
+        let mut run = Run {
+            show: merge.show,
+            everywhere: merge.everywhere,
+            sequence,
+            items: Vec::new(),
+            merged: false,
+            worst,
+            last: None,
+            unworded: None,
+            later: None,
+        };
+        if let Some(slot) = self.told_before(&diagnostic, merge.key) {
+            self.passes.add(slot, diagnostic);
+            run.later = Some(slot);
+        } else {
+            let Some(mut diagnostic) = self.list(diagnostic) else {
+                return;
+            };
+            self.passes.told(&mut diagnostic, merge.key);
+            run.items.push((merge.badness, diagnostic));
+        }
+        if let Some(ended) = self.open.insert(place, run) {
             self.close(place, ended, program);
+        }
+    }
+
+    /// Adds a finding that is never merged with others.
+    fn add_event(&mut self, diagnostic: Diagnostic) {
+        if let Some(slot) = self.told_before(&diagnostic, 0) {
+            self.passes.add(slot, diagnostic);
+        } else if let Some(mut diagnostic) = self.list(diagnostic) {
+            self.passes.told(&mut diagnostic, 0);
+            self.closed.push(diagnostic);
+        }
+    }
+
+    /// In a later pass: the counter of the finding that an earlier one told at this place.
+    fn told_before(&self, diagnostic: &Diagnostic, key: u64) -> Option<u32> {
+        if self.again {
+            self.passes.find(diagnostic, key)
+        } else {
+            None
         }
     }
 
@@ -150,6 +185,10 @@ impl Log {
         };
         if !(run.everywhere || repeat.sequence <= run.sequence + 1) || !(run.merged || run.show == 1) {
             return false;
+        }
+        if let Some(slot) = run.later {
+            run.sequence = repeat.sequence;
+            return self.passes.count(slot, repeat.severity);
         }
         let [(badness, whole)] = run.items.as_mut_slice() else {
             return false;
@@ -206,10 +245,13 @@ impl Log {
         run.close(program, &mut self.closed);
     }
 
-    /// All diagnostics, sorted by place, then rule.
-    pub(crate) fn finish(mut self, program: &Program) -> Vec<Diagnostic> {
+    /// All diagnostics, sorted by place, then rule; `chain` tells the calls of a chain.
+    pub(crate) fn finish(mut self, program: &Program, chain: &dyn Fn(ChainId) -> Vec<Frame>) -> Vec<Diagnostic> {
         for unworded in self.end(program) {
             self.worded(unworded, None, program);
+        }
+        for diagnostic in &mut self.closed {
+            self.passes.complete(diagnostic, chain);
         }
         for mut rest in self.listed.into_values().filter_map(|(_, rest)| rest) {
             rest.message = format!(
@@ -228,7 +270,7 @@ impl Log {
 
 impl Diagnostic {
     /// Says what `worse` says; place, count and severity stay.
-    fn take_words(&mut self, worse: Self) {
+    pub(crate) fn take_words(&mut self, worse: Self) {
         self.message = worse.message;
         self.notes = worse.notes;
         self.help = worse.help;
@@ -246,10 +288,14 @@ impl Diagnostic {
 }
 
 impl Run {
-    fn extend(&mut self, diagnostic: Diagnostic, badness: f64, sequence: u64) {
+    fn extend(&mut self, mut diagnostic: Diagnostic, merge: Merge, sequence: u64, passes: &mut Passes) {
         self.sequence = sequence;
         self.last = None;
-        self.items.push((badness, diagnostic));
+        if !self.merged && self.items.len() < self.show {
+            // it may stay single
+            passes.told(&mut diagnostic, merge.key);
+        }
+        self.items.push((merge.badness, diagnostic));
         if self.merged || self.items.len() > self.show {
             self.merged = true;
             let mut items = self.items.drain(..);

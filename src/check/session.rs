@@ -1,10 +1,13 @@
 //! A program that stays open: check-points let any block be described without running the whole file again.
-use crate::analysis::{CHECK_POINT_BLOCKS, analyse};
+use crate::analysis::{Watch, analyse};
 use crate::{Report, Settings};
 use core::ops::ControlFlow;
 use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
 use trunnion_machine::{Follower, Memory, Row, row};
 use trunnion_syntax::{BlockId, Program};
+
+/// At most so many blocks are run again to describe one, where a program of loops leaves no check-point nearer to it.
+const MOST_AGAIN: u64 = 1_000_000;
 
 /// What is known about one block.
 #[derive(Clone, Debug)]
@@ -13,54 +16,131 @@ pub struct BlockInfo {
     pub before: ModalState,
     /// In force after it.
     pub after: ModalState,
-    /// What the machine does in it (empty without motion or machine).
+    /// What the machine does in it (empty without motion or machine), the first time it runs.
     pub rows: Vec<Row>,
+    /// Whether it is run: false behind the program's end and where every way leads past it. Then the states are those at the end.
+    pub runs: bool,
 }
 
-/// What is in force before a block.
+/// What is in force between two blocks.
 #[derive(Clone)]
 struct CheckPoint {
+    /// How many blocks ran before.
+    executed: u64,
     interpreter: Interpreter<'static>,
     machine: Option<Memory>,
 }
 
-/// An analysed program with check-points (one each 1024 blocks).
+/// An analysed program with check-points, 1024 executed blocks or more apart.
 #[derive(Clone)]
 pub struct Session {
     /// The report.
     pub report: Report,
     check_points: Vec<CheckPoint>,
+    order: Order,
+}
+
+/// In which order the blocks ran for the first time.
+#[derive(Clone)]
+enum Order {
+    /// Block after block; so many of them.
+    Straight(u64),
+    /// How many ran before it, for each block; `u64::MAX`: it never ran.
+    First(Vec<u64>),
+}
+
+impl Order {
+    /// How many blocks ran before the first run of a block, if it ran.
+    fn of(&self, block: BlockId) -> Option<u64> {
+        match self {
+            Self::Straight(ran) => Some(u64::from(block.0)).filter(|at| at < ran),
+            Self::First(first) => first.get(block.0 as usize).copied().filter(|at| *at != u64::MAX),
+        }
+    }
+}
+
+/// Keeps check-points while a program runs.
+struct Keeper<'c> {
+    blocks: usize,
+    check_points: Vec<CheckPoint>,
+    order: Order,
+    /// Some block ran for the first time since the last check-point: without, no further one is needed.
+    news: bool,
+    cancelled: &'c dyn Fn() -> bool,
+}
+
+impl Watch for Keeper<'_> {
+    fn pause(
+        &mut self,
+        executed: u64,
+        interpreter: &Interpreter<'static>,
+        follower: Option<&Follower<'_>>,
+    ) -> ControlFlow<()> {
+        if std::mem::take(&mut self.news) || executed == 0 {
+            self.check_points.push(CheckPoint {
+                executed,
+                interpreter: interpreter.clone(),
+                machine: follower.map(Follower::memory),
+            });
+        }
+        if (self.cancelled)() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    fn ran(&mut self, executed: u64, block: BlockId, first: bool) {
+        self.news |= first;
+        match &mut self.order {
+            Order::Straight(ran) if u64::from(block.0) == executed => *ran = executed + 1,
+            Order::Straight(ran) => {
+                let mut order: Vec<u64> = (0..*ran).collect();
+                order.resize(self.blocks, u64::MAX);
+                self.order = Order::First(order);
+                self.ran(executed, block, first);
+            }
+            Order::First(order) if first => {
+                if let Some(at) = order.get_mut(block.0 as usize) {
+                    *at = executed;
+                }
+            }
+            Order::First(_) => {}
+        }
+    }
 }
 
 impl Session {
-    /// Checks and keeps check-points. `cancelled` is polled each 1024 blocks; `None` when it said true.
+    /// Checks and keeps check-points. `cancelled` is polled each 1024 executed blocks; `None` when it said true.
     pub fn new(program: &Program, settings: &Settings<'_>, cancelled: &dyn Fn() -> bool) -> Option<Self> {
-        let mut check_points = Vec::new();
-        let report = analyse(program, settings, &mut |interpreter, follower| {
-            let machine = follower.map(Follower::memory);
-            check_points.push(CheckPoint {
-                interpreter: interpreter.clone(),
-                machine,
-            });
-            if cancelled() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        })?;
-        Some(Self { report, check_points })
+        let mut keeper = Keeper {
+            blocks: program.block_count(),
+            check_points: Vec::new(),
+            order: Order::Straight(0),
+            news: false,
+            cancelled,
+        };
+        let report = analyse(program, settings, &mut keeper)?;
+        Some(Self {
+            report,
+            check_points: keeper.check_points,
+            order: keeper.order,
+        })
     }
 
-    /// Describes a block of the program the session was made of, with the same settings: at most 1024 blocks are run
-    /// again. A block behind the end is described as the last one.
+    /// Describes a block of the program the session was made of, with the same settings, as it runs the first time: at most
+    /// 1024 blocks are run again, or where loops lie before it a bounded number of them. A block behind the end is described as
+    /// the last one.
     pub fn describe(&self, program: &Program, settings: &Settings<'_>, block: BlockId) -> BlockInfo {
-        let end = program.block_count() as u32;
-        let wanted = BlockId(block.0.min(end.saturating_sub(1)));
-        let at = wanted.0 / CHECK_POINT_BLOCKS;
-        let point = self.check_points.get(at as usize);
-        let fresh = || Interpreter::new(settings.dialect, &settings.setup);
-        let mut interpreter = point.map_or_else(fresh, |point| point.interpreter.clone());
-        let from = if point.is_some() { at * CHECK_POINT_BLOCKS } else { 0 };
+        let wanted = BlockId(block.0.min((program.block_count() as u32).saturating_sub(1)));
+        let first = self.order.of(wanted);
+        let wanted_at = first.unwrap_or(u64::MAX);
+        let after = self.check_points.partition_point(|point| point.executed <= wanted_at);
+        let point = self.check_points.get(after.wrapping_sub(1));
+        let mut interpreter = point.map_or_else(
+            || Interpreter::new(settings.dialect, &settings.setup),
+            |point| point.interpreter.clone(),
+        );
         let memory = point.and_then(|point| point.machine.as_ref());
         let follower = settings.machine.map(|machine| match memory {
             Some(memory) => Follower::resume(machine, memory),
@@ -69,19 +149,23 @@ impl Session {
         let mut walk = Walk {
             follower,
             rows: Vec::new(),
-            wanted,
+            keep: false,
         };
-        for id in (from..wanted.0).map(BlockId) {
-            interpreter.step(program, id, &mut walk);
+        let from = point.map_or(0, |point| point.executed);
+        for _ in from..wanted_at.min(from.saturating_add(MOST_AGAIN)) {
+            if interpreter.advance(program, &mut walk).is_none() {
+                break;
+            }
         }
         let before = interpreter.state.clone();
-        if wanted.0 < end {
-            interpreter.step(program, wanted, &mut walk);
-        }
+        walk.keep = true;
+        let reached = first.is_some_and(|at| at - from <= MOST_AGAIN);
+        let runs = reached && interpreter.advance(program, &mut walk) == Some(wanted);
         BlockInfo {
             before,
             after: interpreter.state,
             rows: walk.rows,
+            runs,
         }
     }
 }
@@ -90,14 +174,14 @@ impl Session {
 struct Walk<'m> {
     follower: Option<Follower<'m>>,
     rows: Vec<Row>,
-    wanted: BlockId,
+    keep: bool,
 }
 
 impl Sink for Walk<'_> {
     fn motion(&mut self, motion: &Motion, _state: &ModalState) {
         let Some(follower) = &mut self.follower else { return };
         let leg = follower.follow(motion);
-        if motion.block == self.wanted {
+        if self.keep {
             self.rows.push(row(follower.machine(), &leg));
         }
     }

@@ -1,9 +1,11 @@
 //! Where rules report to: wording is theirs; levels, suppression, block numbers and merging are done here.
+use crate::diagnostic::Origin;
 use crate::rule::LegRule;
 use crate::runs::{Log, Merge, Repeat};
 use crate::suppress::Suppressions;
 use crate::view::LegView;
 use crate::{Diagnostic, RuleLevel, Severity, Status, ValueKey};
+use trunnion_interp::{ChainId, Frame};
 use trunnion_machine::Machine;
 use trunnion_syntax::{BlockId, Program, TextRange};
 
@@ -30,6 +32,8 @@ pub struct Reporter<'a> {
     /// The block it looks at; `None`: the block of what it reports.
     block: Option<BlockId>,
     sequence: u64,
+    /// The calls in which the block in hand runs.
+    chain: ChainId,
     pending: Vec<Draft>,
     told: Vec<(&'static str, u64)>,
     /// A rule words a leg it has found before.
@@ -54,6 +58,7 @@ impl<'a> Reporter<'a> {
             level: None,
             block: None,
             sequence: 0,
+            chain: ChainId::MAIN,
             pending: Vec::new(),
             told: Vec::new(),
             wording: false,
@@ -102,6 +107,10 @@ impl<'a> Reporter<'a> {
             related: Vec::new(),
             count: 1,
             last: range,
+            origin: Origin {
+                chain: self.chain,
+                later: None,
+            },
         };
         self.pending.push(Draft {
             diagnostic,
@@ -183,6 +192,12 @@ impl<'a> Reporter<'a> {
         self.sequence = sequence;
     }
 
+    /// How the run came to what the rules see next: whether its block ran `again`, and in which calls.
+    pub(crate) fn origin(&mut self, again: bool, chain: ChainId) {
+        self.log.again = again;
+        self.chain = chain;
+    }
+
     /// Takes what the rule reported.
     pub(crate) fn leave(&mut self) {
         if self.pending.is_empty() {
@@ -212,8 +227,9 @@ impl<'a> Reporter<'a> {
         }
     }
 
-    pub(crate) fn finish(self) -> Vec<Diagnostic> {
-        self.log.finish(self.program)
+    /// All findings; `chain` tells the calls of a chain.
+    pub(crate) fn finish(self, chain: &dyn Fn(ChainId) -> Vec<Frame>) -> Vec<Diagnostic> {
+        self.log.finish(self.program, chain)
     }
 
     fn inside(&self, range: TextRange) -> TextRange {

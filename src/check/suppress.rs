@@ -2,15 +2,25 @@
 //!
 //! On a line of its own it holds for the whole program, beside words for its block. Without a reason it does nothing and
 //! `broken-directive` says so.
+use core::cell::Cell;
 use trunnion_interp::Directive;
 use trunnion_syntax::{BlockId, Item, Program, TextRange};
+
+/// One comment that allows a rule.
+struct Allowed {
+    rule: String,
+    /// Bytes of the comment.
+    range: TextRange,
+    /// It has silenced something.
+    used: Cell<bool>,
+}
 
 /// What the program's comments allow.
 #[derive(Default)]
 pub(crate) struct Suppressions {
-    everywhere: Vec<String>,
+    everywhere: Vec<Allowed>,
     /// Sorted by block.
-    in_block: Vec<(BlockId, String)>,
+    in_block: Vec<(BlockId, Allowed)>,
 }
 
 impl Suppressions {
@@ -23,23 +33,43 @@ impl Suppressions {
             if reason.trim().is_empty() {
                 continue;
             }
+            let allowed = Allowed {
+                rule: rule.clone(),
+                range: *range,
+                used: Cell::new(false),
+            };
             match program.block_at(range.start) {
-                Some(block) if has_code(program, block) => found.in_block.push((block, rule.clone())),
-                _ => found.everywhere.push(rule.clone()),
+                Some(block) if has_code(program, block) => found.in_block.push((block, allowed)),
+                _ => found.everywhere.push(allowed),
             }
         }
-        found.in_block.sort();
+        found.in_block.sort_by_key(|(block, _)| *block);
         found
     }
 
-    /// Whether findings of `rule` in `block` are allowed.
+    /// Whether findings of `rule` in `block` are allowed; whoever asks has one.
     pub(crate) fn allows(&self, rule: &str, block: BlockId) -> bool {
         let from = self.in_block.partition_point(|(at, _)| *at < block);
-        self.everywhere.iter().any(|name| name == rule)
-            || self.in_block[from..]
-                .iter()
-                .take_while(|(at, _)| *at == block)
-                .any(|(_, name)| name == rule)
+        let here = self.in_block[from..].iter().take_while(|(at, _)| *at == block);
+        let mut allowed = false;
+        // the narrower comment is used first
+        for entry in here.map(|(_, entry)| entry).chain(&self.everywhere) {
+            if entry.rule == rule && !allowed {
+                entry.used.set(true);
+                allowed = true;
+            }
+        }
+        allowed
+    }
+
+    /// Comments that have silenced nothing, of rules that `looked_for` says were looked for.
+    pub(crate) fn unused(&self, looked_for: &dyn Fn(&str) -> bool) -> Vec<(TextRange, &str)> {
+        let all = self
+            .everywhere
+            .iter()
+            .chain(self.in_block.iter().map(|(_, entry)| entry));
+        let unused = all.filter(|entry| !entry.used.get() && looked_for(&entry.rule));
+        unused.map(|entry| (entry.range, entry.rule.as_str())).collect()
     }
 }
 

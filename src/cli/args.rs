@@ -1,4 +1,5 @@
 //! The arguments, as the interface says.
+use super::{diff::Diff, fmt::Fmt, stats::Stats};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trunnion_check::Severity;
@@ -34,6 +35,9 @@ pub(crate) struct Global {
     /// Verdicts that stayed unknown count as findings.
     #[arg(long, global = true)]
     pub(crate) strict: bool,
+    /// Also say what would change its meaning on this control (a dialect's name; may be repeated).
+    #[arg(long, global = true, value_name = "DIALECT", action = ArgAction::Append)]
+    pub(crate) port_to: Vec<String>,
     /// Silence a rule (may be repeated).
     #[arg(long, global = true, value_name = "RULE", action = ArgAction::Append)]
     pub(crate) allow: Vec<String>,
@@ -93,10 +97,18 @@ pub(crate) enum Command {
     Check(Check),
     /// What the machine will do, one row per motion.
     Trace(Trace),
+    /// The canonical calls of a LinuxCNC program, listed as rs274 -g lists them.
+    Canon(Canon),
     /// Propose rewrites, prove them, apply them.
     Fix(Fix),
     /// Re-check a certificate, or prove or refute that AFTER is the same tool path as BEFORE.
     Certify(Certify),
+    /// Layout only: spacing, case, indentation, block numbers. Proved not to change what the program does.
+    Fmt(Fmt),
+    /// Where two programs move the tool differently, not where their text differs.
+    Diff(Diff),
+    /// Blocks, motions, tools, distances, cycle time, extents per axis.
+    Stats(Stats),
     /// The page of a rule or a rewrite.
     Explain(Explain),
     /// The list of rules and rewrites.
@@ -145,6 +157,22 @@ pub(crate) struct Trace {
 pub(crate) enum TraceFormat {
     Csv,
     Json,
+}
+
+/// `canon`
+#[derive(clap::Args)]
+pub(crate) struct Canon {
+    /// The program; `-` reads standard input.
+    pub(crate) file: PathBuf,
+    /// INI file of the machine.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) ini: Option<PathBuf>,
+    /// Tool table; default: the sample table of rs274.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) tool_table: Option<PathBuf>,
+    /// Parameter file: read at the start, written back at the end.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) parameters: Option<PathBuf>,
 }
 
 /// `fix`

@@ -133,7 +133,7 @@ fn apply_all(global: &Global, mut loaded: Loaded, chosen: &[&'static Rewrite], o
     outcome
 }
 
-fn print_diff(name: &str, before: &[u8], after: &[u8]) -> Result<(), Failure> {
+pub(super) fn print_diff(name: &str, before: &[u8], after: &[u8]) -> Result<(), Failure> {
     if before == after {
         return Ok(());
     }
@@ -147,7 +147,7 @@ fn print_diff(name: &str, before: &[u8], after: &[u8]) -> Result<(), Failure> {
 }
 
 /// Written beside the file, flushed to disk, then renamed over it: the original survives a crash at any moment.
-fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+pub(super) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let fail = |error: &std::io::Error| Failure::io(path, "write the file", error);
     let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
     let folder = match target.parent() {

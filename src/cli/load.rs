@@ -48,6 +48,7 @@ pub(crate) fn overrides(global: &Global) -> Overrides {
         config: global.config.clone(),
         tool: global.tool.clone(),
         allow: global.allow.clone(),
+        port_to: global.port_to.clone(),
     }
 }
 

@@ -1,16 +1,20 @@
 //! One sub-command per file. Only this folder and `lsp/` touch the world.
 mod args;
+mod canon;
 mod certify;
 mod check;
+mod diff;
 mod explain;
 mod failure;
 mod fix;
+mod fmt;
 mod json;
 mod load;
 mod machine;
 mod parse;
 mod render;
 mod short;
+mod stats;
 mod trace;
 mod walk;
 
@@ -33,8 +37,12 @@ pub(crate) fn run() -> ExitCode {
     let result = match &args.command {
         Command::Check(command) => check::run(global, command),
         Command::Trace(command) => trace::run(global, command),
+        Command::Canon(command) => canon::run(command),
         Command::Fix(command) => fix::run(global, command),
         Command::Certify(command) => certify::run(global, command),
+        Command::Fmt(command) => fmt::run(global, command),
+        Command::Diff(command) => diff::run(global, command),
+        Command::Stats(command) => stats::run(global, command),
         Command::Explain(command) => explain::explain(command),
         Command::Rules(command) => explain::rules_list(command),
         Command::Machine(command) => machine::run(global, command),

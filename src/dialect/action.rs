@@ -104,7 +104,89 @@ pub enum Action {
     FrameReset,
     /// DEF, PROC, EXTERN: declares names; no motion and no positions in the rest of the block.
     Declaration,
-    /// A modal cycle that is not modelled yet (G81; MCALL CYCLE81): blocks with coordinates after it run it, until `CycleOff`
+    /// G81: drill, rapid out.
+    DrillCycle,
+    /// G82: drill, dwell, rapid out.
+    DrillDwellCycle,
+    /// G83: drill in steps of Q, out of the hole after each.
+    PeckCycle,
+    /// G73: drill in steps of Q, back a little after each.
+    ChipBreakCycle,
+    /// G84: tap in, spindle reversed, feed out.
+    TapCycle,
+    /// G74: as `TapCycle`, left-hand.
+    TapLeftCycle,
+    /// G85, G89: feed in, dwell where P is given, feed out.
+    BoreCycle,
+    /// G86: feed in, spindle stop, rapid out.
+    BoreStopCycle,
+    /// G88: feed in, dwell, spindle stop, out by hand.
+    BoreManualCycle,
+    /// G76 of a mill: feed in, dwell, oriented stop, shift off the wall, rapid out.
+    FineBoreCycle,
+    /// G87: rapid to below with the tool shifted, feed up.
+    BackBoreCycle,
+    /// G98 of a mill: cycles end at the level before the cycle.
+    ReturnInitial,
+    /// G99 of a mill: cycles end at the R level.
+    ReturnToR,
+    /// G52: shifts all work coordinates.
+    LocalShift,
+    /// G92 (G50 of a lathe): the present point gets the given coordinates; with S alone the highest spindle speed.
+    PositionSet,
+    /// G92.1 of a Fanuc: shifts by G92 and G52 end.
+    PositionPreset,
+    /// G68: rotates the coordinates in the plane.
+    RotationOn,
+    /// G69: ends rotation and tilted planes.
+    RotationOff,
+    /// G51: scales the coordinates.
+    ScalingOn,
+    /// G50 of a mill.
+    ScalingOff,
+    /// G51.1: mirrors axes.
+    MirrorOn,
+    /// G50.1: ends mirroring of the axes in the block.
+    MirrorOff,
+    /// G16: the plane's coordinates are radius and angle.
+    PolarOn,
+    /// G15.
+    PolarOff,
+    /// G10: writes offsets; L says which.
+    DataEntry,
+    /// G11: ends the writing of parameters.
+    DataEntryEnd,
+    /// G27: rapid to a point that should be the reference point.
+    ReferenceCheck,
+    /// G28: rapid to the first reference point by way of the programmed point.
+    ReferenceReturn,
+    /// G30: rapid to another reference point (P).
+    ReferenceReturnOther,
+    /// G29: rapid back from the reference point by way of the last intermediate point.
+    ReferenceFrom,
+    /// G33, G32: line coupled to the spindle, F is the lead.
+    Thread,
+    /// G12 of a Haas: circular pocket, clockwise; G13.
+    CirclePocket,
+    /// G70 of a Haas: cycle at holes on a circle.
+    BoltCircle,
+    /// G71 of a Haas: cycle at holes on an arc.
+    BoltArc,
+    /// G72 of a Haas: cycle at holes on a line.
+    BoltLine,
+    /// Lathe: one cut along Z and back (G90 in system A).
+    TurningCycle,
+    /// Lathe: one cut along X and back (G94 in system A).
+    FacingCycle,
+    /// Lathe: one pass of a thread and back (G92 in system A).
+    ThreadingCycle,
+    /// Lathe: finishing along the contour of the blocks P to Q (G70).
+    FinishCycle,
+    /// Lathe: pecking along Z (G74).
+    FacePeckCycle,
+    /// Lathe: pecking along X (G75).
+    GroovePeckCycle,
+    /// A modal cycle that is not modelled yet (MCALL CYCLE81): blocks with coordinates after it run it, until `CycleOff`
     /// or a motion code.
     CannedCycle,
     /// G80; MCALL without a cycle.
@@ -120,6 +202,30 @@ pub enum Action {
     OrientationAxes,
     /// Orientation interpolated on the great circle.
     OrientationVector,
+}
+
+impl Action {
+    /// Whether the code begins a drilling, tapping or boring cycle whose motions are modelled.
+    pub fn is_hole_cycle(self) -> bool {
+        matches!(
+            self,
+            Self::DrillCycle
+                | Self::DrillDwellCycle
+                | Self::PeckCycle
+                | Self::ChipBreakCycle
+                | Self::TapCycle
+                | Self::TapLeftCycle
+                | Self::BoreCycle
+                | Self::BoreStopCycle
+                | Self::BoreManualCycle
+                | Self::FineBoreCycle
+                | Self::BackBoreCycle
+        )
+    }
+    /// Whether the code begins a modal turning cycle of one pass (G90, G92, G94 in system A).
+    pub fn is_pass_cycle(self) -> bool {
+        matches!(self, Self::TurningCycle | Self::FacingCycle | Self::ThreadingCycle)
+    }
 }
 
 /// The role of a word's letter.
@@ -156,6 +262,8 @@ pub enum Role {
     EdgeOffset,
     /// A parameter of the code in the block (P, Q, L, ...).
     Parameter,
+    /// Lathe: a distance along X (U), Z (W), Y (V) or an angle about C (H), whatever is modal.
+    Increment,
     /// A variable of the program (R1=): no motion; its value is not followed.
     Variable,
     /// Recognised; it moves nothing, but what it changes (posture, feed limit) is not modelled: said once.

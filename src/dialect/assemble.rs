@@ -1,9 +1,10 @@
 //! From a table to a dialect: `extends`, ranges of codes, indexes, and every check that serde cannot make.
 use crate::code::sort_key;
-use crate::dialect::{ArcTolerance, G_SLOTS, role_slot};
-use crate::schema::{ArcToleranceRow, CodeRow, DialectError, FormatRow, Lex, Table};
+use crate::dialect::{Alarm, ArcTolerance, G_SLOTS, role_slot};
+use crate::pattern::{Pattern, is_name, number_id, number_tenths};
+use crate::schema::{AlarmRow, ArcToleranceRow, CodeRow, DialectError, FormatRow, Lex, Table};
 use crate::{Code, CodeKind, Dialect, Role, builtin};
-use core::ops::{Range, RangeInclusive};
+use core::ops::Range;
 use std::collections::BTreeMap;
 use toml::Spanned;
 use trunnion_syntax::{Format, LexOptions};
@@ -21,12 +22,13 @@ fn error<T>(span: Range<usize>, message: impl Into<String>) -> Result<T, Dialect
 pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
     let mut dialect = start(&table)?;
     dialect.name.clone_from(table.name.get_ref());
-    dialect.title.clone_from(&table.title);
-    let relative = dialect.arc.relative;
-    dialect.quirks = crate::Quirks {
-        arc_tolerance_relative: relative,
-        ..table.quirks
-    };
+    dialect.title = table.title.clone().unwrap_or_else(|| dialect.name.clone());
+    let source = table
+        .source
+        .clone()
+        .unwrap_or_else(|| format!("the table {}", dialect.name));
+    dialect.quirks = table.quirks.over(&dialect.quirks);
+    dialect.quirks.arc_tolerance_relative = dialect.arc.relative;
     if let Some(lex) = table.lex {
         dialect.lex = lex_options(lex);
     }
@@ -58,7 +60,13 @@ pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
             );
         }
     }
-    dialect.builder_codes.clear();
+    if let Some(rows) = &table.alarms {
+        dialect.alarms.clear();
+        alarms(rows, &source, &mut dialect)?;
+    }
+    if !table.builder_codes.is_empty() {
+        dialect.builder_codes.clear();
+    }
     for id in &table.builder_codes {
         match Pattern::parse(id, dialect.lex.format)? {
             Pattern::Numbers(kind, tenths) => dialect.builder_codes.push((kind, tenths)),
@@ -67,7 +75,7 @@ pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
             }
         }
     }
-    codes(table.codes, &table.source, &mut dialect)?;
+    codes(table.codes, &source, &mut dialect)?;
     index(&mut dialect);
     Ok(dialect)
 }
@@ -175,7 +183,30 @@ fn roles(rows: &BTreeMap<Spanned<String>, Role>, dialect: &mut Dialect) -> Resul
                 format!("`{}` is not one upper-case letter, `@` or `^`", letter.get_ref()),
             );
         };
+        if role == Role::Axis && !b"XYZABCUVW".contains(&letter.get_ref().as_bytes()[0]) {
+            return error(
+                letter.span(),
+                format!("`{}`: an axis is one of X Y Z A B C U V W", letter.get_ref()),
+            );
+        }
         dialect.roles[slot] = Some(role);
+    }
+    Ok(())
+}
+
+fn alarms(rows: &BTreeMap<Spanned<String>, AlarmRow>, source: &str, dialect: &mut Dialect) -> Result<(), DialectError> {
+    for (mistake, row) in rows {
+        if !is_kebab(mistake.get_ref()) || row.number.trim().is_empty() {
+            return error(
+                mistake.span(),
+                format!("alarm `{}`: give a mistake's name and its `number`", mistake.get_ref()),
+            );
+        }
+        let alarm = Alarm {
+            number: row.number.clone(),
+            source: row.source.clone().unwrap_or_else(|| source.to_owned()),
+        };
+        dialect.alarms.insert(mistake.get_ref().clone(), alarm);
     }
     Ok(())
 }
@@ -282,88 +313,6 @@ fn index(dialect: &mut Dialect) {
             _ => dialect.names.push(slot - 1),
         }
     }
-}
-
-/// What an id in a table stands for.
-#[derive(Debug, PartialEq)]
-enum Pattern {
-    /// G or M codes from .. to, in tenths.
-    Numbers(CodeKind, RangeInclusive<u32>),
-    Name(String),
-}
-
-impl Pattern {
-    /// `G43.4`, `M6`, `G505..G599`, `TRAORI`; APT words may hold `-` and blanks.
-    fn parse(id: &Spanned<String>, format: Format) -> Result<Self, DialectError> {
-        let text = id.get_ref();
-        let (from, to) = text.split_once("..").unwrap_or((text, text));
-        let numbers = format == Format::Iso && matches!(text.as_bytes(), [b'G' | b'M', b'0'..=b'9', ..]);
-        if !numbers {
-            let apt_name = text.split([' ', '-']).all(is_name) && format == Format::Apt;
-            return if apt_name || is_name(text) {
-                Ok(Self::Name(text.clone()))
-            } else {
-                error(
-                    id.span(),
-                    format!("`{text}` is no code: write `G43.4`, `M6`, `G505..G599` or an upper-case name"),
-                )
-            };
-        }
-        let kind = if from.starts_with('G') {
-            CodeKind::G
-        } else {
-            CodeKind::M
-        };
-        match (number_tenths(from), number_tenths(to)) {
-            (Some(a), Some(b)) if from.as_bytes()[0] == to.as_bytes()[0] && (a < b || from == to) => {
-                Ok(Self::Numbers(kind, a..=b))
-            }
-            _ => error(
-                id.span(),
-                format!("`{text}`: codes are 0 to 999.9 with at most one decimal and no leading zero"),
-            ),
-        }
-    }
-    fn matches(&self, code: &Code) -> bool {
-        match self {
-            Self::Name(name) => code.kind == CodeKind::Name && code.id == *name,
-            Self::Numbers(kind, tenths) => {
-                code.kind == *kind && number_tenths(&code.id).is_some_and(|t| tenths.contains(&t))
-            }
-        }
-    }
-}
-
-/// Number of a canonical id in tenths: `G43.4` is 434. `None` unless it is written canonically.
-pub(crate) fn number_tenths(id: &str) -> Option<u32> {
-    let digits = id.get(1..)?;
-    let (whole, tenth) = digits
-        .split_once('.')
-        .map_or((digits, None), |(whole, tenth)| (whole, Some(tenth)));
-    let canonical = !whole.is_empty() && whole.len() <= 3 && whole.bytes().all(|b| b.is_ascii_digit());
-    if !canonical || (whole.len() > 1 && whole.starts_with('0')) {
-        return None;
-    }
-    let tenth = match tenth.map(str::as_bytes) {
-        None => 0,
-        Some([digit @ b'1'..=b'9']) => u32::from(digit - b'0'),
-        Some(_) => return None,
-    };
-    Some(whole.parse::<u32>().ok()? * 10 + tenth)
-}
-
-fn number_id(kind: CodeKind, tenths: u32) -> String {
-    let letter = if kind == CodeKind::G { 'G' } else { 'M' };
-    match tenths % 10 {
-        0 => format!("{letter}{}", tenths / 10),
-        tenth => format!("{letter}{}.{tenth}", tenths / 10),
-    }
-}
-
-fn is_name(text: &str) -> bool {
-    let mut bytes = text.bytes();
-    bytes.next().is_some_and(|b| b.is_ascii_uppercase() || b == b'_')
-        && bytes.all(|b| b.is_ascii_uppercase() || b.is_ascii_digit() || b == b'_')
 }
 
 fn is_kebab(text: &str) -> bool {

@@ -3,18 +3,34 @@ use crate::{Dialect, load};
 use std::sync::OnceLock;
 
 /// Names of the dialects that are built in.
-pub const BUILTIN_NAMES: &[&str] = &["iso-6983", "linuxcnc", "fanuc-30i", "sinumerik-840d", "apt"];
+pub const BUILTIN_NAMES: &[&str] = &[
+    "iso-6983",
+    "linuxcnc",
+    "fanuc-30i",
+    "haas-ngc",
+    "fanuc-30i-lathe-a",
+    "fanuc-30i-lathe-b",
+    "fanuc-30i-lathe-c",
+    "grbl",
+    "sinumerik-840d",
+    "apt",
+];
 
 /// Texts of the tables, in the order of [`BUILTIN_NAMES`]. A table may extend only one that stands before it.
-const TABLES: [&str; 5] = [
+const TABLES: [&str; 10] = [
     include_str!("../../grammar/dialects/iso-6983.toml"),
     include_str!("../../grammar/dialects/linuxcnc.toml"),
     include_str!("../../grammar/dialects/fanuc-30i.toml"),
+    include_str!("../../grammar/dialects/haas-ngc.toml"),
+    include_str!("../../grammar/dialects/fanuc-30i-lathe-a.toml"),
+    include_str!("../../grammar/dialects/fanuc-30i-lathe-b.toml"),
+    include_str!("../../grammar/dialects/fanuc-30i-lathe-c.toml"),
+    include_str!("../../grammar/dialects/grbl.toml"),
     include_str!("../../grammar/dialects/sinumerik-840d.toml"),
     include_str!("../../grammar/dialects/apt.toml"),
 ];
 
-static LOADED: [OnceLock<Dialect>; 5] = [const { OnceLock::new() }; 5];
+static LOADED: [OnceLock<Dialect>; 10] = [const { OnceLock::new() }; 10];
 
 /// A built-in dialect by name; loaded once. `None` when there is no such name.
 pub fn builtin(name: &str) -> Option<&'static Dialect> {

@@ -66,7 +66,7 @@ impl Code {
 
 /// Order of codes: G, M, names; numbers by value, names by text.
 pub(crate) fn sort_key(code: &Code) -> (u8, u32, &str) {
-    let number = crate::assemble::number_tenths(&code.id).unwrap_or(0);
+    let number = crate::pattern::number_tenths(&code.id).unwrap_or(0);
     match code.kind {
         CodeKind::G => (0, number, ""),
         CodeKind::M => (1, number, ""),

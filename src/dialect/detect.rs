@@ -149,6 +149,9 @@ fn line_signs(line: &str) -> Vec<(&'static str, u32, String)> {
     if line.starts_with("%_N_") {
         sign("sinumerik-840d", 20, "%_N_");
     }
+    if let Some(command) = crate::signs::grbl_command(line) {
+        sign("grbl", 10, command);
+    }
     if line.starts_with('%') || line.starts_with("$$") {
         return signs;
     }
@@ -220,6 +223,7 @@ fn iso_signs(code: &str, sign: &mut dyn FnMut(&'static str, u32, &str)) {
             sign("fanuc-30i", 6, "custom macro");
         }
     }
+    crate::signs::controls(code, sign);
 }
 
 /// Whether a word or variable is assigned with `=` (`R1=5`, `X=10`, `CR=3`).
@@ -231,7 +235,7 @@ fn assigned(code: &str) -> bool {
 }
 
 /// Whether `word` stands in `code` and is not part of a longer name. Words may be packed: `N10G710`.
-fn has_word(code: &str, word: &str) -> bool {
+pub(crate) fn has_word(code: &str, word: &str) -> bool {
     code.match_indices(word).any(|(at, _)| {
         let (before, after) = (&code[..at], &code[at + word.len()..]);
         let ends = match word.bytes().last() {

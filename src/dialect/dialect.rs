@@ -8,9 +8,9 @@ use trunnion_syntax::LexOptions;
 /// Slots of the look-up of G and of M codes: 0 to 999.9 in tenths.
 pub(crate) const G_SLOTS: usize = 10_000;
 
-/// Facts of a control that are neither letters nor codes. In TOML: table `[quirks]`, each key optional.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+/// Facts of a control that are neither letters nor codes. In TOML: table `[quirks]`, each key optional: what a table does not say stays as in
+/// the table that it extends.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quirks {
     /// Motion code in force at the start of a program (Sinumerik: `linear`); `None`: none until one is programmed.
     pub motion_at_start: Option<Action>,
@@ -28,7 +28,6 @@ pub struct Quirks {
     pub dwell_in_ms: bool,
     /// Radii of an arc's start and end that differ by less than this part of the radius agree, whatever `arc_tolerance_mm` says
     /// (LinuxCNC 0.001). In TOML: `relative` in `[arc-tolerance]`.
-    #[serde(skip)]
     pub arc_tolerance_relative: f64,
     /// The program may define names of its own (variables, labels, subprograms), so an unknown name is no error in itself.
     pub user_names: bool,
@@ -40,9 +39,32 @@ pub struct Quirks {
     pub whole_numbers_ambiguous: bool,
     /// Parameters up to this number (`#5000`) are the program's own; those above are the control's: offsets, positions, tools.
     pub own_parameters_to: u32,
+    /// X, its increments and offsets are diameters (lathes).
+    pub diameter: bool,
+    /// T names a tool and, in its last two digits, an offset: T0102 (lathes).
+    pub tool_word_holds_offset: bool,
+    /// G28 without coordinates returns all axes (Haas); else it moves none.
+    pub return_moves_all: bool,
+    /// P of a scaling is the factor itself (Haas); else a parameter says in what unit a whole number is (Fanuc 5400.7).
+    pub plain_scale_factor: bool,
+    /// G41 and G42 offset the path in the plane by the radius of offset D, as Fanuc does.
+    pub offset_compensation: bool,
+    /// G10 writes the diameter or the radius of a cutter as a setting says (Haas setting 40); else the radius.
+    pub cutter_offset_ambiguous: bool,
+    /// Custom macro B is part of the language: variables, IF, GOTO, WHILE, M98, G65.
+    pub macro_b: bool,
     /// Machine data decide whether a block in machine coordinates is without the tool's length (Sinumerik 10760 MN_G53_TOOLCORR);
     /// else it is without.
     pub machine_data_suppress_length: bool,
+}
+
+/// An alarm of a control, as its manual numbers it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Alarm {
+    /// `PS0045`.
+    pub number: String,
+    /// Where that is written down.
+    pub source: String,
 }
 
 /// How far the radii of an arc's start and end may differ.
@@ -77,6 +99,7 @@ pub struct Dialect {
     pub extensions: Vec<String>,
     /// Modal groups: name to one line for people.
     pub groups: BTreeMap<String, String>,
+    pub(crate) alarms: BTreeMap<String, Alarm>,
     pub(crate) builder_codes: Vec<(CodeKind, RangeInclusive<u32>)>,
     /// G by number, then M by number, then names by text.
     pub(crate) codes: Vec<Code>,
@@ -156,6 +179,10 @@ impl Dialect {
         };
         exact(name).or_else(any_number)
     }
+    /// The control's alarm for a mistake by its key in `[alarms]`: `peck-missing`.
+    pub fn alarm(&self, mistake: &str) -> Option<&Alarm> {
+        self.alarms.get(mistake)
+    }
     /// All codes.
     pub fn codes(&self) -> &[Code] {
         &self.codes
@@ -177,6 +204,7 @@ impl Dialect {
             arc,
             extensions: Vec::new(),
             groups: BTreeMap::new(),
+            alarms: BTreeMap::new(),
             builder_codes: Vec::new(),
             codes: Vec::new(),
             g: Vec::new(),

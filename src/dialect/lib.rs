@@ -8,15 +8,20 @@ mod code;
 mod detect;
 mod dialect;
 mod modeline;
+mod own_table;
+mod pattern;
+mod quirks;
 mod schema;
+mod signs;
 mod textmate;
 
 pub use action::{Action, Plane, Role};
 pub use builtin::{BUILTIN_NAMES, builtin};
 pub use code::{Code, CodeKind};
 pub use detect::{Detected, detect, is_program_file_name, program_extensions};
-pub use dialect::{ArcTolerance, Dialect, Quirks};
+pub use dialect::{Alarm, ArcTolerance, Dialect, Quirks};
 pub use modeline::{Modeline, modeline};
+pub use own_table::TableError;
 pub use schema::{DialectError, Owner, load};
 pub use textmate::textmate;
 

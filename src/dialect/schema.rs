@@ -1,5 +1,6 @@
 //! The TOML shape of a dialect table. Unknown keys are errors; every error says where.
-use crate::{Action, Dialect, Quirks, Role, assemble::assemble};
+use crate::quirks::QuirksRow;
+use crate::{Action, Dialect, Role, assemble::assemble};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -37,9 +38,10 @@ pub enum Owner {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct Table {
     pub(crate) name: Spanned<String>,
-    pub(crate) title: String,
-    /// Source of every code that names none of its own.
-    pub(crate) source: String,
+    /// Default: the name.
+    pub(crate) title: Option<String>,
+    /// Source of every code that names none of its own. Default: this table.
+    pub(crate) source: Option<String>,
     pub(crate) extends: Option<Spanned<String>>,
     #[serde(default)]
     pub(crate) extensions: Vec<Spanned<String>>,
@@ -52,7 +54,9 @@ pub(crate) struct Table {
     pub(crate) lex: Option<Lex>,
     pub(crate) arc_tolerance: Option<ArcToleranceRow>,
     #[serde(default)]
-    pub(crate) quirks: Quirks,
+    pub(crate) quirks: QuirksRow,
+    /// Replaces the alarms of the extended table.
+    pub(crate) alarms: Option<BTreeMap<Spanned<String>, AlarmRow>>,
     #[serde(default)]
     pub(crate) roles: BTreeMap<Spanned<String>, Role>,
     #[serde(default)]
@@ -61,6 +65,14 @@ pub(crate) struct Table {
     pub(crate) groups: BTreeMap<Spanned<String>, String>,
     #[serde(default)]
     pub(crate) codes: BTreeMap<Spanned<String>, CodeRow>,
+}
+
+/// A row of `[alarms]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AlarmRow {
+    pub(crate) number: String,
+    pub(crate) source: Option<String>,
 }
 
 /// `[lex]`.

@@ -1,1 +1,95 @@
 //! Floor 0: expressions of RS274/NGC and of Fanuc's Macro B: compiled once, evaluated many times.
+//!
+//! Reading never recurses: a hundred thousand nested brackets need memory in proportion, and no stack. Evaluation needs no memory
+//! for formulas that keep at most eight values at once. A value that is not known is NaN and stays so through arithmetic.
+//! *It does not know what a word, a block or a variable means.*
+mod arithmetic;
+mod brackets;
+mod code;
+mod compile;
+mod cursor;
+mod degrees;
+mod error;
+mod eval;
+mod words;
+
+pub use code::Formula;
+pub use compile::{bracketed, target, value, value_or_error};
+pub use cursor::{Bytes, Cursor};
+pub use error::{FormulaError, FormulaErrorKind};
+use trunnion_syntax::TextRange;
+
+/// Which language an expression is written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Grammar {
+    /// RS274/NGC as LinuxCNC reads it.
+    Rs274,
+    /// Fanuc's custom macro B.
+    MacroB,
+}
+
+/// The left side of an assignment, behind its `#`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    /// `#5=`, `##2=`, `#[1+2]=`: the formula of the variable's number.
+    Numbered(Formula),
+    /// `#<name>=`, Macro B `#_NAME=`: the name without its signs, blanks removed, in lower case.
+    Named(Box<str>),
+}
+
+/// A variable a formula reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variable<'f> {
+    /// `#5`.
+    Numbered(i64),
+    /// `#<name>`, as it is asked for by [`Variables::named`].
+    Named(&'f str),
+    /// `##2`, `#[1+2]`: the number is only known when it is evaluated. The range of its text.
+    Computed(TextRange),
+}
+
+/// Why a variable has no value to give.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ValueError {
+    /// There is no variable of that number.
+    OutOfRange,
+    /// There is no variable of that name.
+    NotDefined,
+    /// It cannot be read; the reason, as a sentence.
+    NotReadable(Box<str>),
+}
+
+/// Where a formula's variables come from.
+pub trait Variables {
+    /// The value of variable `#index`; NaN if it is not known.
+    fn numbered(&self, index: i64) -> Result<f64, ValueError>;
+
+    /// The value of a named variable; NaN if it is not known. `name` is without `<>` or `#`, blanks removed, in lower case.
+    fn named(&self, name: &str) -> Result<f64, ValueError>;
+
+    /// The value of `#name[index]` (Macro B on Fanuc's 30i: `[#_ABSIO[1]]`); NaN if it is not known.
+    fn named_at(&self, name: &str, index: i64) -> Result<f64, ValueError> {
+        let _ = (name, index);
+        Err(ValueError::NotDefined)
+    }
+
+    /// Whether the named variable has a value (`EXISTS`).
+    fn exists(&self, name: &str) -> bool;
+
+    /// Whether there is a variable `#index` (`EXISTS[#5]`).
+    fn exists_numbered(&self, index: i64) -> bool {
+        self.numbered(index).is_ok()
+    }
+
+    /// Whether variable `#index` is `<vacant>` (Macro B). `#0` always is and is not asked for.
+    fn null(&self, index: i64) -> bool {
+        let _ = index;
+        false
+    }
+
+    /// Whether ASIN and ATAN give angles of 0 to 360 degrees instead of negative ones (Macro B; Fanuc parameter 6004 bit 0, NAT,
+    /// is 0: trade knowledge).
+    fn positive_angles(&self) -> bool {
+        true
+    }
+}

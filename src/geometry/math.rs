@@ -41,3 +41,19 @@ pub fn rotate(axis: &crate::Vec3, angle: f64, a: &crate::Vec3) -> crate::Vec3 {
 pub fn asinh(x: f64) -> f64 {
     libm::asinh(x)
 }
+/// e to the power x.
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+/// Natural logarithm; NaN below 0, minus infinity at 0.
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+/// `base` to the power `exponent`; NaN where a negative base has an exponent that is not whole.
+pub fn pow(base: f64, exponent: f64) -> f64 {
+    libm::pow(base, exponent)
+}
+/// Arc cosine in rad; NaN outside -1..=1. For the ACOS of a program: what a machine's geometry needs is [`atan2`], which is accurate near 0 and pi.
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x)
+}

@@ -1,4 +1,6 @@
 //! What the codes of a block change, in the order in which a control acts on them.
+use crate::cycles::Pattern;
+use crate::frames::Return;
 use crate::offsets::ROTARY;
 use crate::run::{Interpreter, Report};
 use crate::tcp::tcp_variant;
@@ -30,6 +32,12 @@ pub(crate) struct BlockCodes {
     pub(crate) dwell: bool,
     pub(crate) machine_coordinates: bool,
     pub(crate) end: bool,
+    /// A return to a reference point.
+    pub(crate) returns: Option<(Return, TextRange)>,
+    /// A pattern of holes.
+    pub(crate) pattern: Option<Pattern>,
+    /// A circular pocket.
+    pub(crate) pocket: bool,
 }
 
 /// Place in the order of execution (RS274/NGC, version 3, section 3.8: feed mode, F, S, T, tool change, spindle, dwell, plane,
@@ -48,7 +56,7 @@ fn rank(action: Action) -> u8 {
         Action::TcpOn | Action::TcpVectorOn | Action::TcpOff => 9,
         Action::WorkOffset | Action::WorkOffsetNone | Action::MachineCoordinates => 10,
         Action::Absolute | Action::Incremental => 11,
-        Action::FrameReset => 12,
+        Action::FrameReset | Action::RotationOff | Action::ScalingOff | Action::MirrorOff | Action::PolarOff => 12,
         Action::ProgramStop | Action::ProgramEnd => 14,
         _ => 13,
     }
@@ -93,7 +101,11 @@ impl<'d> Interpreter<'d> {
         let state = &mut self.state;
         self.memory.known_again(found.code);
         match found.code.action {
-            motion @ (Action::Rapid | Action::Linear | Action::ArcClockwise | Action::ArcCounterClockwise) => {
+            motion @ (Action::Rapid
+            | Action::Linear
+            | Action::ArcClockwise
+            | Action::ArcCounterClockwise
+            | Action::Thread) => {
                 state.motion = Some(motion);
                 block.motion = Some(motion);
             }
@@ -135,8 +147,8 @@ impl<'d> Interpreter<'d> {
     fn apply_rare(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
         match found.code.action {
             Action::CompensationOff => self.state.compensation = 0,
-            Action::CompensationLeft => self.compensation(41, found, report),
-            Action::CompensationRight => self.compensation(42, found, report),
+            Action::CompensationLeft => self.compensation(41, found, words, report),
+            Action::CompensationRight => self.compensation(42, found, words, report),
             Action::ToolLengthOn => {
                 self.end_tcp_of_group(found.code);
                 self.length_on(words.length_offset, found.range, report);
@@ -190,6 +202,41 @@ impl<'d> Interpreter<'d> {
                 not_modelled(found, report);
                 self.forget_everything();
             }
+            _ => self.apply_frame(found, words, block, report),
+        }
+    }
+
+    /// Codes of frames, returns and cycles.
+    fn apply_frame(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+        match found.code.action {
+            Action::LocalShift => self.local_shift(found, words, block, report),
+            Action::PositionSet => self.position_set(found, words, block, report),
+            Action::PositionPreset => self.position_preset(found, words, block),
+            Action::RotationOn => self.rotation_on(found, words, block, report),
+            Action::RotationOff => self.rotation_off(found),
+            Action::ScalingOn => self.scaling_on(found, words, block, report),
+            Action::ScalingOff => self.scaling_off(found),
+            Action::MirrorOn => self.mirror_on(found, words, block, report),
+            Action::MirrorOff => self.mirror_off(found, words, block),
+            Action::PolarOn => self.polar(true),
+            Action::PolarOff => self.polar(false),
+            Action::DataEntry => self.data_entry(found, words, block, report),
+            Action::DataEntryEnd => self.memory.frames.entering_data = false,
+            Action::ReferenceCheck | Action::ReferenceReturn | Action::ReferenceReturnOther | Action::ReferenceFrom => {
+                block.returns = Some((Return::of(found, words), found.range));
+            }
+            Action::ReturnInitial => self.memory.cycle.to_r = false,
+            Action::ReturnToR => self.memory.cycle.to_r = true,
+            Action::BoltCircle | Action::BoltArc | Action::BoltLine => block.pattern = Pattern::of(found),
+            Action::CirclePocket => {
+                block.pocket = true;
+                let what = format!("{}: the path inside the pocket", found.code.id);
+                report.fault(found.range, FaultKind::NotModelled { what });
+            }
+            action if action.is_hole_cycle() || action.is_pass_cycle() => {
+                self.begin_cycle(found);
+                block.motion = Some(action);
+            }
             _ => self.unmodelled_code(found, words, block, report),
         }
     }
@@ -222,7 +269,7 @@ impl<'d> Interpreter<'d> {
     fn speed_word(&mut self, codes: &[Found<'_>], words: &Words) {
         // G92 S, G26 S and the like limit the speed
         let limits = |found: &Found<'_>| match found.code.action {
-            Action::FrameChange => !words.axes.any(),
+            Action::FrameChange | Action::PositionSet => !words.axes.any(),
             Action::NotFollowed => found.code.kind == CodeKind::G,
             _ => false,
         };
@@ -233,14 +280,6 @@ impl<'d> Interpreter<'d> {
                 .number()
                 .map(|number| number.value)
                 .filter(|_| !self.memory.surface_speed);
-        }
-    }
-
-    fn compensation(&mut self, side: u8, found: &Found<'_>, report: &mut Report<'_>) {
-        self.state.compensation = side;
-        if !std::mem::replace(&mut self.memory.compensation_said, true) {
-            let what = "cutter radius compensation: path is the programmed one".to_owned();
-            report.fault(found.range, FaultKind::NotModelled { what });
         }
     }
 
@@ -285,7 +324,13 @@ impl<'d> Interpreter<'d> {
         self.dialect.g(0)?.group.as_deref()
     }
 
-    fn frame_change(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+    pub(crate) fn frame_change(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
         let with_values = found.with_arguments || words.has_values;
         if found.code.kind == CodeKind::Name && !with_values {
             let ended = self.memory.end_frame(found.code);
@@ -295,8 +340,13 @@ impl<'d> Interpreter<'d> {
         if !words.axes.any() && words.speed.is_said() && found.code.words.iter().any(|word| word == "S") {
             return;
         }
-        block.takes_coordinates = true;
         not_modelled(found, report);
+        self.frame_begins(found, words, block);
+    }
+
+    /// From here on positions are unknown.
+    pub(crate) fn frame_begins(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes) {
+        block.takes_coordinates = true;
         self.memory.begin_frame(found.code, false);
         if (words.axes.given | words.axes.unread) & ROTARY != 0 {
             self.memory.frame_turns_axes(found.code);
@@ -307,7 +357,11 @@ impl<'d> Interpreter<'d> {
     fn canned_cycle(&mut self, found: &Found<'d>, block: &mut BlockCodes, report: &mut Report<'_>) {
         not_modelled(found, report);
         block.not_modelled = true;
-        if self.state.motion != Some(Action::CannedCycle) {
+        if !self
+            .state
+            .motion
+            .is_some_and(|motion| motion == Action::CannedCycle || motion.is_hole_cycle())
+        {
             self.memory.before_cycle = self.state.motion;
         }
         self.state.motion = Some(Action::CannedCycle);
@@ -318,7 +372,11 @@ impl<'d> Interpreter<'d> {
         let of_motion_group = code.group.is_some() && code.group.as_deref() == self.motion_group();
         if of_motion_group {
             self.state.motion = None;
-        } else if self.state.motion == Some(Action::CannedCycle) {
+        } else if self
+            .state
+            .motion
+            .is_some_and(|motion| motion == Action::CannedCycle || motion.is_hole_cycle())
+        {
             self.state.motion = self.memory.before_cycle;
         }
     }

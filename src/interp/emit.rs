@@ -15,17 +15,31 @@ impl Interpreter<'_> {
         if block.machine_coordinates {
             self.to_machine(&mut start, 1.0);
         }
-        let mut end = start;
-        self.targets(&words.axes, block.machine_coordinates, &mut end);
+        let shaped = self.memory.frames.active && !block.machine_coordinates;
+        let from = if shaped {
+            self.memory.frames.programmed(&start)
+        } else {
+            start
+        };
+        let mut end = from;
+        if shaped {
+            self.place(words, &mut end);
+        } else {
+            self.targets(&words.axes, block.machine_coordinates, &mut end);
+        }
         if block.machine_coordinates {
             self.suppressed_length(words, &mut end, report);
         }
-        let kind = match self.state.motion {
+        let mut kind = match self.state.motion {
             Some(Action::Rapid) => MotionKind::Rapid,
-            Some(Action::ArcClockwise) => self.arc(words, start, end, Turning::Clockwise, report),
-            Some(Action::ArcCounterClockwise) => self.arc(words, start, end, Turning::CounterClockwise, report),
+            Some(Action::ArcClockwise) => self.arc(words, from, end, Turning::Clockwise, report),
+            Some(Action::ArcCounterClockwise) => self.arc(words, from, end, Turning::CounterClockwise, report),
             _ => MotionKind::Linear,
         };
+        if shaped {
+            end = self.memory.frames.arrive(end);
+            kind = self.memory.frames.kind_to_work(kind);
+        }
         self.state.position = end;
         let orientation = self.orientation(words, report);
         if let Orientation::Vector(..) = orientation {
@@ -38,7 +52,11 @@ impl Interpreter<'_> {
             self.to_machine(&mut position, -1.0);
             self.state.position = position;
         }
-        let feed = self.feed_of(kind, words, report);
+        let feed = if self.state.motion == Some(Action::Thread) {
+            self.lead(words, report)
+        } else {
+            self.feed_of(kind, words, report)
+        };
         let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
             motion.machine_coordinates = true;
@@ -52,7 +70,7 @@ impl Interpreter<'_> {
 
     /// Between programmed (sign -1) and machine coordinates (sign 1): the zero point and, along Z, the tool's length. Under tool
     /// centre point control the linear axes of one are not known from the other.
-    fn to_machine(&self, position: &mut Position, sign: f64) {
+    pub(crate) fn to_machine(&self, position: &mut Position, sign: f64) {
         for (value, zero) in position.values.iter_mut().zip(self.state.zero) {
             *value += sign * zero;
         }
@@ -80,7 +98,7 @@ impl Interpreter<'_> {
     }
 
     /// Where the coordinates of the block lead: what is not given stays, what cannot be told is forgotten.
-    fn targets(&self, axes: &Places<9>, machine: bool, end: &mut Position) {
+    pub(crate) fn targets(&self, axes: &Places<9>, machine: bool, end: &mut Position) {
         let mut rest = axes.given;
         while rest != 0 {
             let axis = rest.trailing_zeros() as usize;
@@ -155,7 +173,7 @@ impl Interpreter<'_> {
     }
 
     /// The feed of the block's motion; says when there is none.
-    fn feed_of(&mut self, kind: MotionKind, words: &Words, report: &mut Report<'_>) -> Feed {
+    pub(crate) fn feed_of(&mut self, kind: MotionKind, words: &Words, report: &mut Report<'_>) -> Feed {
         if kind == MotionKind::Rapid {
             return Feed::Rapid;
         }

@@ -1,12 +1,11 @@
 //! ISO blocks to motions.
 
 use crate::codes::{BlockCodes, Found};
-use crate::reader::Reader;
 use crate::run::{Interpreter, Report, Sink};
 use crate::words::Words;
 use crate::{FaultKind, Motion};
 use trunnion_dialect::{Action, Role};
-use trunnion_syntax::{Address, Block, TextRange, Value};
+use trunnion_syntax::{Address, Block, Value};
 
 impl<'d> Interpreter<'d> {
     /// Runs one ISO block. Blocks with `/` run as if the switch for skipping were off.
@@ -21,21 +20,69 @@ impl<'d> Interpreter<'d> {
                 faults: &mut |fault| sink.fault(fault),
             };
             let mut words = Words::default();
-            read(block, self.dialect, &mut codes, &mut words, &mut report);
+            self.read(block, &mut codes, &mut words, &mut report);
             if words.has_content {
                 self.memory.last_content = Some(block.id());
             }
             self.percent(&words);
             if words.has_content && !self.state.ended {
+                if self.dialect.quirks.diameter || self.setup.control.implicit_decimals.is_some() {
+                    self.adjust(&codes, &mut words);
+                }
                 self.run_block(&mut codes, &words, &mut report)
             } else {
                 None
             }
         };
+        self.put_out(motion, block, sink);
+        self.codes = codes;
+    }
+
+    /// Hands the motions of a block on.
+    #[inline]
+    fn put_out(&mut self, motion: Option<Motion>, block: &Block<'_>, sink: &mut impl Sink) {
+        if self.memory.compensation.is_busy() || !self.memory.compensation.ready.is_empty() {
+            self.put_out_compensated(motion, block, sink);
+            return;
+        }
+        if !self.memory.out.is_empty() {
+            for motion in &self.memory.out {
+                sink.motion(motion, &self.state);
+            }
+            self.memory.out.clear();
+        }
         if let Some(motion) = motion {
             sink.motion(&motion, &self.state);
         }
-        self.codes = codes;
+    }
+
+    /// The same while cutter compensation holds motions back.
+    #[cold]
+    fn put_out_compensated(&mut self, motion: Option<Motion>, block: &Block<'_>, sink: &mut impl Sink) {
+        let mut report = Report {
+            program: block.program(),
+            block: block.id(),
+            record: None,
+            faults: &mut |fault| sink.fault(fault),
+        };
+        let out = std::mem::take(&mut self.memory.out);
+        for motion in out.iter().chain(&motion) {
+            self.compensate(motion, &mut report);
+        }
+        if self.state.ended {
+            self.end_compensation(&mut report);
+        }
+        for (motion, state) in std::mem::take(&mut self.memory.compensation.ready) {
+            sink.motion(&motion, &state);
+        }
+    }
+
+    /// What waits at the end of a program without an end.
+    pub(crate) fn put_out_rest(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
+        if self.memory.compensation.is_busy() {
+            self.state.ended = true;
+            self.put_out_compensated(None, block, sink);
+        }
     }
 
     /// The second `%`, or one behind content, ends the text.
@@ -69,7 +116,14 @@ impl<'d> Interpreter<'d> {
                 return None;
             }
         }
+        let ends_data = |found: &Found<'_>| matches!(found.code.action, Action::DataEntryEnd | Action::ProgramEnd);
+        if self.memory.frames.entering_data && !codes.iter().any(ends_data) {
+            return None;
+        }
         let block = self.apply(codes, words, report);
+        if self.state.compensation != 0 && self.dialect.quirks.offset_compensation {
+            self.cutter_number(words, report);
+        }
         if words.other_spindle {
             self.state.spindle_on = None;
         }
@@ -101,19 +155,32 @@ impl<'d> Interpreter<'d> {
         let modal = self.state.motion;
         let is_arc = matches!(modal, Some(Action::ArcClockwise | Action::ArcCounterClockwise));
         let circle = is_arc && (words.centre.any() || words.radius.is_said()) && block.motion.is_some();
+        if block.returns.is_some() || block.pattern.is_some() || block.pocket {
+            return self.special_motion(words, block, report);
+        }
+        if words.radius.is_said()
+            && modal.is_some_and(Action::is_hole_cycle)
+            && !block.takes_coordinates
+            && !block.not_modelled
+        {
+            return self.cycle_motion(words, report);
+        }
         let by_vector = words.vector.any() || (self.state.vector_mode && !is_arc && words.centre.any());
         if block.takes_coordinates || !(words.axes.any() || by_vector || circle) {
             return None;
         }
         let unmodelled = block.not_modelled || words.unknown_code || words.forgets_all;
         match modal {
-            Some(Action::Rapid | Action::Linear | Action::ArcClockwise | Action::ArcCounterClockwise)
-                if !unmodelled =>
-            {
+            Some(
+                Action::Rapid | Action::Linear | Action::ArcClockwise | Action::ArcCounterClockwise | Action::Thread,
+            ) if !unmodelled => {
                 if self.dialect.quirks.whole_numbers_ambiguous {
                     self.whole_numbers(words, report);
                 }
                 Some(self.modelled_motion(words, block, report))
+            }
+            Some(motion) if !unmodelled && (motion.is_hole_cycle() || motion.is_pass_cycle()) => {
+                self.cycle_motion(words, report)
             }
             _ if unmodelled || modal.is_some() => Some(self.unknown_motion(words, report)),
             _ => {
@@ -124,10 +191,44 @@ impl<'d> Interpreter<'d> {
         }
     }
 
+    /// Motions of a canned cycle.
+    fn cycle_motion(&mut self, words: &Words, report: &mut Report<'_>) -> Option<Motion> {
+        if self.dialect.quirks.whole_numbers_ambiguous {
+            self.whole_numbers(words, report);
+        }
+        if self.state.motion.is_some_and(Action::is_pass_cycle) {
+            self.pass_cycle(words, report);
+        } else {
+            self.hole_cycle(words, report);
+        }
+        None
+    }
+
+    /// Motions of codes that hold for one block.
+    fn special_motion(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Option<Motion> {
+        if self.dialect.quirks.whole_numbers_ambiguous {
+            self.whole_numbers(words, report);
+        }
+        if let Some((returns, range)) = block.returns {
+            self.returns(returns, range, words, report);
+        }
+        if let Some(pattern) = block.pattern {
+            self.pattern(pattern, words, report);
+        }
+        if block.pocket {
+            self.pocket(words, report);
+        }
+        None
+    }
+
     /// Tells the first coordinate, centre or radius of a block whose missing decimal point makes its size ambiguous.
     fn whole_numbers(&self, words: &Words, report: &mut Report<'_>) {
+        if self.setup.control.implicit_decimals.is_some() {
+            return;
+        }
+        let cycle = self.state.motion.is_some_and(Action::is_hole_cycle);
         let radius = words.radius.number().is_some_and(|r| !r.has_point);
-        if !radius && words.axes.all_pointed() && words.centre.all_pointed() {
+        if !cycle && !radius && words.axes.all_pointed() && words.centre.all_pointed() {
             return;
         }
         let size = |word: &trunnion_syntax::Word| {
@@ -140,8 +241,9 @@ impl<'d> Interpreter<'d> {
             };
             let sized = match role {
                 Some(Role::Axis | Role::ArcRadius) => true,
-                // under G43.5 I J K are a direction
-                Some(Role::ArcCentre) => !self.state.vector_mode,
+                // under G43.5 I J K are a direction; K of a cycle counts
+                Some(Role::ArcCentre) => !self.state.vector_mode && !(cycle && letter == b'K'),
+                Some(Role::Parameter) => cycle && letter == b'Q',
                 _ => false,
             };
             sized && !number.has_point && number.mantissa != 0
@@ -149,26 +251,5 @@ impl<'d> Interpreter<'d> {
         if let Some(word) = report.program.block(report.block).words().find(size) {
             report.fault(word.range, FaultKind::AmbiguousDecimal);
         }
-    }
-}
-
-fn read<'d>(
-    block: &Block<'_>,
-    dialect: &'d trunnion_dialect::Dialect,
-    codes: &mut Vec<Found<'d>>,
-    words: &mut Words,
-    report: &mut Report<'_>,
-) {
-    let program = block.program();
-    let report = |range: TextRange, kind| report.fault(range, kind);
-    let mut reader = Reader {
-        program,
-        dialect,
-        words,
-        codes,
-        report,
-    };
-    for item in block.items() {
-        reader.take(item);
     }
 }

@@ -2,16 +2,21 @@
 //! [`Fault`]s (facts, not words).
 //!
 //! It does not know machines: a [`Motion`] says what is programmed, not what joints do.
+mod adjust;
 mod apt;
 mod apt_motion;
 mod apt_tool;
 mod arc;
 mod codes;
+mod compensation;
+mod cycles;
 mod directive;
 mod dwell;
 mod emit;
 mod fault;
+mod frames;
 mod iso;
+mod macro_b;
 mod memory;
 mod modal;
 mod motion;
@@ -30,4 +35,6 @@ pub use fault::{Fault, FaultKind, Refusal};
 pub use modal::{FeedMode, ModalState};
 pub use motion::{AXIS_LETTERS, AxisLetter, ChainId, Feed, Frame, Motion, MotionKind, Orientation, Position};
 pub use run::{Interpreter, Sink, run};
-pub use setup::{Files, Library, Limits, Loaded, Setup, Tool, ToolShape, WorkOffset};
+pub use setup::{
+    ControlData, Files, ImplicitDecimals, Library, Limits, Loaded, OuterCorner, Setup, Tool, ToolShape, WorkOffset,
+};

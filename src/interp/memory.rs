@@ -31,7 +31,7 @@ struct Frame<'d> {
 /// See the module.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Memory<'d> {
-    frames: Vec<Frame<'d>>,
+    hidden: Vec<Frame<'d>>,
     /// Data of tools were written by the program: no length is known.
     pub(crate) tool_data_written: bool,
     /// The group of the code that switched tool centre point control on.
@@ -57,6 +57,14 @@ pub(crate) struct Memory<'d> {
     pub(crate) directives_read: bool,
     lengths_said: Vec<Box<str>>,
     offsets_said: Vec<Box<str>>,
+    /// Coordinates that the program shifts and turns.
+    pub(crate) frames: crate::frames::Frames,
+    /// The drilling or turning cycle in force.
+    pub(crate) cycle: crate::cycles::Cycle,
+    /// Cutter radius compensation in the plane.
+    pub(crate) compensation: crate::compensation::Compensation,
+    /// Motions of the block in hand beside its last.
+    pub(crate) out: Vec<crate::Motion>,
     /// The last block with content, for a missing program end.
     pub(crate) last_content: Option<BlockId>,
     pub(crate) percent_seen: bool,
@@ -71,8 +79,8 @@ impl<'d> Memory<'d> {
     /// From here on positions are unknown.
     pub(crate) fn begin_frame(&mut self, code: &'d Code, any_code_ends: bool) {
         let key = Self::key(code);
-        if !self.frames.iter().any(|frame| frame.key == key) {
-            self.frames.push(Frame {
+        if !self.hidden.iter().any(|frame| frame.key == key) {
+            self.hidden.push(Frame {
                 key,
                 any_code_ends,
                 rotary: false,
@@ -82,15 +90,15 @@ impl<'d> Memory<'d> {
     /// The frame that the code has begun moves rotary coordinates too.
     pub(crate) fn frame_turns_axes(&mut self, code: &Code) {
         let key = code.group.as_deref().unwrap_or(&code.id);
-        for frame in self.frames.iter_mut().filter(|frame| frame.key == key) {
+        for frame in self.hidden.iter_mut().filter(|frame| frame.key == key) {
             frame.rotary = true;
         }
     }
     /// From here on positions, rotary ones too, are unknown until the end of the program.
     pub(crate) fn hide_for_good(&mut self) {
         // no group has a name with a blank in it
-        self.frames.retain(|frame| frame.key != "for good");
-        self.frames.push(Frame {
+        self.hidden.retain(|frame| frame.key != "for good");
+        self.hidden.push(Frame {
             key: "for good",
             any_code_ends: false,
             rotary: true,
@@ -98,26 +106,26 @@ impl<'d> Memory<'d> {
     }
     /// Whether rotary coordinates say nothing about the machine.
     pub(crate) fn rotary_unknown(&self) -> bool {
-        self.frames.iter().any(|frame| frame.rotary)
+        self.hidden.iter().any(|frame| frame.rotary)
     }
     /// Ends the frame of a code's group; whether there was one.
     pub(crate) fn end_frame(&mut self, code: &Code) -> bool {
         let key = code.group.as_deref().unwrap_or(&code.id);
-        let before = self.frames.len();
-        self.frames.retain(|frame| frame.key != key);
-        before != self.frames.len()
+        let before = self.hidden.len();
+        self.hidden.retain(|frame| frame.key != key);
+        before != self.hidden.len()
     }
     /// A modelled code of a group makes known again what another code of the group made unknown.
     #[inline]
     pub(crate) fn known_again(&mut self, code: &Code) {
-        if !self.frames.is_empty() && !matches!(code.action, Action::NotModelled | Action::FrameChange) {
+        if !self.hidden.is_empty() && !matches!(code.action, Action::NotModelled | Action::FrameChange) {
             let key = code.group.as_deref();
-            self.frames
+            self.hidden
                 .retain(|frame| !(frame.any_code_ends && Some(frame.key) == key));
         }
     }
     pub(crate) fn frame_unknown(&self) -> bool {
-        !self.frames.is_empty()
+        !self.hidden.is_empty()
     }
     /// Whether this is the first time that the tool's length is found missing.
     pub(crate) fn length_is_news(&mut self, tool: &str) -> bool {

@@ -49,24 +49,25 @@ impl Interpreter<'_> {
         {
             name = format!("{name} P{p}");
         }
-        let declared = self
-            .setup
-            .work_offsets
-            .iter()
-            .find(|offset| offset.name.eq_ignore_ascii_case(&name));
-        let zero = declared.map(|offset| offset.values);
+        let zero = self.offset_values(&name);
         if zero.is_none() && self.memory.offset_is_news(&name) {
             report.fault(found.range, FaultKind::WorkOffsetUnset { name: name.clone() });
         }
         self.set_zero(Some(name.into()), zero.unwrap_or([0.0; 9]));
     }
 
-    /// The machine stays where it is, so the programmed position moves against the zero point.
+    /// Selects a zero point; shifts by the program (G52, G92) are added to it.
     pub(crate) fn set_zero(&mut self, name: Option<Arc<str>>, zero: [f64; 9]) {
+        self.state.work_offset = name;
+        self.memory.frames.selected = zero;
+        self.refresh_zero();
+    }
+
+    /// The machine stays where it is, so the programmed position moves against the zero point.
+    pub(crate) fn move_zero(&mut self, zero: [f64; 9]) {
         for ((value, old), new) in self.state.position.values.iter_mut().zip(self.state.zero).zip(zero) {
             *value += old - new;
         }
-        self.state.work_offset = name;
         self.state.zero = zero;
     }
 
@@ -78,10 +79,22 @@ impl Interpreter<'_> {
         let (tool, key) = match (offset, self.memory.length_offset) {
             (Said::Nothing, None) => (self.state.tool_data, self.tool_name()),
             (Said::Nothing | Said::Number(_), Some(0)) => return self.set_length(Some(0.0)),
-            (Said::Nothing | Said::Number(_), Some(number)) => (self.tool_of(Some(number)), format!("H{number}")),
+            (Said::Nothing | Said::Number(_), Some(number)) => {
+                if let Some(length) = self.written_length(number) {
+                    return self.set_length(Some(length));
+                }
+                (self.tool_of(Some(number)), format!("H{number}"))
+            }
             _ => (None, "H".to_owned()),
         };
         self.take_length(tool, &key, range, report);
+    }
+
+    /// The length of an offset number where the program has written any part of it.
+    fn written_length(&self, number: u32) -> Option<f64> {
+        let offset = self.tool_offset(number)?;
+        let declared = || self.tool_of(Some(number)).and_then(|tool| tool.length_mm);
+        Some(offset.length.or_else(declared)? + offset.length_wear)
     }
 
     /// D: the cutting edge in force. Edge 1 has the tool's declared length, 0 none.

@@ -1,10 +1,11 @@
 //! Reads the items of one ISO block in one pass, with the meaning that the dialect gives to letters and names.
 use crate::codes::Found;
+use crate::macro_b::Macros;
 use crate::system::{SystemWrite, system_write};
 use crate::words::{Number, Reading, Said, Words, put};
 use crate::{AXIS_LETTERS, FaultKind};
 use trunnion_dialect::{Action, Code, CodeKind, Dialect, Role};
-use trunnion_syntax::{Address, Call, Decimal, Item, Program, SyntaxError, TextRange, Value, Word};
+use trunnion_syntax::{Address, BlockId, Call, Decimal, Item, Program, SyntaxError, TextRange, Value, Word};
 
 /// A number, unless it is beyond what can be reckoned with.
 fn number(decimal: Decimal, range: TextRange) -> Said {
@@ -21,7 +22,7 @@ fn number(decimal: Decimal, range: TextRange) -> Said {
 }
 
 /// No coordinate, feed or number of a tool is larger; squares and sums stay finite.
-const LARGEST: f64 = 1e12;
+pub(crate) const LARGEST: f64 = 1e12;
 
 /// Ten times the number of a code, where that is whole: G43.4 is 434.
 fn tenths(decimal: Decimal) -> Option<u32> {
@@ -63,8 +64,11 @@ fn axis_index(letter: u8) -> Option<usize> {
 pub(crate) struct Reader<'a, 'd, F: FnMut(TextRange, FaultKind)> {
     pub(crate) program: &'a Program,
     pub(crate) dialect: &'d Dialect,
+    pub(crate) block: BlockId,
     pub(crate) words: &'a mut Words,
     pub(crate) codes: &'a mut Vec<Found<'d>>,
+    /// Variables and flow, in dialects that have macros.
+    pub(crate) macros: Option<Macros<'a>>,
     pub(crate) report: F,
 }
 
@@ -124,7 +128,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         }
     }
 
-    fn text(&self, range: TextRange) -> String {
+    pub(crate) fn text(&self, range: TextRange) -> String {
         self.program.text(range).trim().to_owned()
     }
 
@@ -158,7 +162,11 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
 
     /// `CR=`, `TURN=`; `#1=` and names of the program's own are variables, which move nothing; `,R` and `,C` are corners.
     fn named_word(&mut self, name: TextRange, word: &Word) {
+        let range = name;
         let name = self.program.source().get(name.as_usize()).unwrap_or_default();
+        if name.first() == Some(&b'#') && self.macro_assignment(range, word) {
+            return;
+        }
         self.system_word(name, word.range);
         let variable = self.dialect.quirks.user_names || matches!(name.first(), Some(b'#' | b'$'));
         // FL[X]= and PO[X]= are FL and PO of an axis
@@ -177,7 +185,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
     }
 
     /// An assignment to a variable of the control.
-    fn system_word(&mut self, name: &[u8], range: TextRange) {
+    pub(crate) fn system_word(&mut self, name: &[u8], range: TextRange) {
         let write = system_write(self.dialect, name);
         if write != SystemWrite::Nothing {
             self.words.writes_system |= write == SystemWrite::Meaning;
@@ -260,9 +268,10 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             Role::EdgeOffset => self.words.edge = self.kept(letter, word),
             Role::Parameter if letter == b'P' => self.words.p = self.kept(letter, word),
             // nobody may read the others: what is not evaluated is no news
-            Role::Parameter => {
+            Role::Parameter | Role::Increment => {
                 let said = match word.value {
                     Value::Number(decimal) => number(decimal, word.range),
+                    Value::Expression(range) => self.macro_value(word, range),
                     _ => Said::Unread,
                 };
                 self.words.by_letter.keep(letter, said);
@@ -295,6 +304,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             Value::Number(decimal) => number(decimal, word.range),
             Value::Text(range) => Said::Name(range),
             Value::Missing | Value::Bad => Said::Unread,
+            Value::Expression(range) if self.macros.is_some() => self.macro_value(word, range),
             Value::Expression(_) | Value::Call(..) => {
                 self.not_modelled(word.value_range);
                 Said::Unread
@@ -315,14 +325,21 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
     }
 
     fn code_word(&mut self, kind: CodeKind, word: &Word) {
-        let Value::Number(decimal) = word.value else {
-            if matches!(word.value, Value::Expression(_) | Value::Call(..) | Value::Text(_)) {
+        let tenths = match word.value {
+            Value::Number(decimal) => tenths(decimal),
+            Value::Expression(range) if self.macros.is_some() => match self.macro_code(word, range) {
+                Some(tenths) => Some(tenths),
+                None => return,
+            },
+            Value::Expression(_) | Value::Call(..) | Value::Text(_) => {
                 self.words.forgets_all = true;
-                self.not_modelled(word.range);
+                return self.not_modelled(word.range);
             }
-            return;
+            Value::Missing | Value::Bad => return,
         };
-        let tenths = tenths(decimal);
+        if self.macros.is_some() && tenths.is_some_and(|tenths| self.takes_flow_code(kind, tenths, word.range)) {
+            return;
+        }
         let code = tenths.and_then(|tenths| match kind {
             CodeKind::M => self.dialect.m(tenths),
             _ => self.dialect.g(tenths),
@@ -333,7 +350,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 range: word.range,
                 with_arguments: false,
             });
-            return;
+            return self.flow_is_lost(code);
         }
         let machine_builder = tenths.is_some_and(|tenths| self.dialect.builder_may_own(kind, tenths));
         self.words.unknown_code |= kind == CodeKind::G;
@@ -341,6 +358,9 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
     }
 
     fn call(&mut self, call: &Call) {
+        if self.macro_statement(call) {
+            return;
+        }
         let Some(code) = self.name(call.name) else {
             if std::mem::replace(&mut self.words.forgets_all, true) {
                 return;
@@ -369,6 +389,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             range: call.range,
             with_arguments,
         });
+        self.flow_is_lost(code);
     }
 
     fn name(&self, range: TextRange) -> Option<&'d Code> {

@@ -28,8 +28,7 @@ pub struct Interpreter<'d> {
     /// Codes of the block in hand: kept only for its storage.
     pub(crate) codes: Vec<Found<'d>>,
     pub(crate) apt: crate::apt::AptState,
-    /// The block that [`Self::advance`] runs next.
-    next_block: u32,
+    pub(crate) flow: crate::macro_b::Flow,
     /// The calls in which the block in hand runs.
     pub(crate) chain: ChainId,
 }
@@ -75,7 +74,7 @@ impl<'d> Interpreter<'d> {
             memory: Memory::default(),
             codes: Vec::new(),
             apt: crate::apt::AptState::default(),
-            next_block: 0,
+            flow: crate::macro_b::Flow::default(),
             chain: ChainId::MAIN,
         };
         if dialect.quirks.first_offset_at_start {
@@ -91,9 +90,18 @@ impl<'d> Interpreter<'d> {
         interpreter
     }
 
-    /// Runs one block. The first step also reads the program's own declarations of tools; the step of the last block reports a
-    /// missing program end. Blocks after the program's end are not run.
+    /// Runs one block, for callers that choose the blocks themselves: jumps, loops and calls are never followed, so that nothing is
+    /// known of variables after the first of them. The first step also reads the program's own declarations of tools; the step of
+    /// the last block reports a missing program end. Blocks after the program's end are not run.
     pub fn step(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
+        self.flow.follows = false;
+        self.run_one(program, block, sink);
+        if block.0 as usize + 1 == program.block_count() {
+            self.finish(program, sink);
+        }
+    }
+
+    fn run_one(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
         if !self.memory.directives_read {
             self.declare(program);
         }
@@ -107,29 +115,39 @@ impl<'d> Interpreter<'d> {
                 Format::Apt => self.step_apt(&view, sink),
             }
         }
-        if block.0 as usize + 1 == program.block_count() {
-            self.finish(program, sink);
-        }
     }
 
-    /// Runs the next block in the order in which the control runs them; the block, or `None` when nothing is left to run.
+    /// Runs the next block in the order in which the control runs them: jumps, loops and calls are followed. The block, or `None`
+    /// when nothing is left to run. For a block of another file it is the block of the main program whose call led there.
+    ///
+    /// With the last block it also reports a missing program end, and what is wrong with the text of blocks that did not run. M99
+    /// of the main program ends the run: one pass is run.
     pub fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
-        let block = BlockId(self.next_block);
-        if self.next_block as usize >= program.block_count() {
+        if self.flow.finished || program.block_count() == 0 {
             return None;
         }
-        self.next_block += 1;
-        self.step(program, block, sink);
+        if self.flow.deep.is_some() {
+            return self.advance_deep(program, sink);
+        }
+        let block = BlockId(self.flow.next);
+        self.flow.next += 1;
+        self.flow.follows = true;
+        self.run_one(program, block, sink);
+        if self.flow.deep.is_some() {
+            self.first_statement(program, block, sink);
+        }
+        if self.state.ended || self.flow.next as usize >= program.block_count() {
+            self.end(program, sink);
+        }
         Some(block)
     }
 
     /// The calls that led to a motion, outermost first; empty in the main program.
     pub fn chain(&self, chain: ChainId) -> Vec<Frame> {
-        let _ = chain;
-        Vec::new()
+        self.flow.chain(chain)
     }
 
-    fn finish(&mut self, program: &Program, sink: &mut impl Sink) {
+    pub(crate) fn finish(&mut self, program: &Program, sink: &mut impl Sink) {
         if let Some(block) = self.memory.last_content.filter(|_| !self.memory.proper_end) {
             let range = program.block(block).range();
             sink.fault(Fault {

@@ -94,6 +94,40 @@ impl Default for Limits {
     }
 }
 
+/// What a number without a decimal point means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ImplicitDecimals {
+    /// Least increments: X10 is 0.010 mm (0.0010 inch), as a Fanuc with parameter 3401.0 = 0 and a Haas without setting 162 read it.
+    LeastIncrement,
+    /// As a pocket calculator: X10 is 10 mm (Fanuc parameter 3401.0 = 1, Haas setting 162).
+    Calculator,
+}
+
+/// How cutter compensation goes around an outer corner (Fanuc parameter 19607.2).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OuterCorner {
+    /// By lines.
+    #[default]
+    Lines,
+    /// By an arc about the corner.
+    Arc,
+}
+
+/// Parameters of the control that programs depend on; what is not declared is unknown.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ControlData {
+    /// What X10 means; `None`: it is read as 10 mm and each such word is reported.
+    pub implicit_decimals: Option<ImplicitDecimals>,
+    /// G73: how far the tool goes back after each step, mm (Fanuc parameter 5114, Haas setting 22).
+    pub chip_break_retract_mm: Option<f64>,
+    /// G83: how far above the last depth the rapid back into the hole ends, mm (Fanuc parameter 5115).
+    pub peck_clearance_mm: Option<f64>,
+    /// Way of cutter compensation around outer corners.
+    pub outer_corner: OuterCorner,
+    /// Reference points in machine coordinates, mm and degrees: G28 goes to the first, G30 P2 to the second.
+    pub reference_points: Vec<crate::Position>,
+}
+
 /// What a program is run with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Setup {
@@ -105,4 +139,6 @@ pub struct Setup {
     pub limits: Limits,
     /// Programs that this one may call.
     pub library: Library,
+    /// Parameters of the control.
+    pub control: ControlData,
 }

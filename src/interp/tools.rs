@@ -95,6 +95,15 @@ impl Interpreter<'_> {
         }
     }
 
+    /// The tool of a T word: T0102 of a lathe is tool 1 with offset 2.
+    fn tool_number(&self, number: u32) -> u32 {
+        if self.dialect.quirks.tool_word_holds_offset && number >= 100 {
+            number / 100
+        } else {
+            number
+        }
+    }
+
     pub(crate) fn tool_word(&mut self, words: &Words, report: &mut Report<'_>) {
         let chosen = match words.tool {
             Said::Nothing => return,
@@ -102,7 +111,10 @@ impl Interpreter<'_> {
                 let text = report.program.text(range);
                 Chosen::Named(text.trim_matches('"').into())
             }
-            Said::Number(_) => words.tool.index().map_or(Chosen::Unread, Chosen::Number),
+            Said::Number(_) => words
+                .tool
+                .index()
+                .map_or(Chosen::Unread, |number| Chosen::Number(self.tool_number(number))),
             Said::Unread => Chosen::Unread,
         };
         self.state.tool_prepared = if let Chosen::Number(number) = chosen {

@@ -178,12 +178,13 @@ pub(crate) struct Words {
     pub(crate) has_content: bool,
     /// Letters seen (A is bit 0).
     pub(crate) letters: u32,
+    /// A macro statement, a call or a return stands in the block.
+    pub(crate) flow: bool,
 }
 
 impl Words {
     /// What the word of an upper-case letter says, whatever its role: L, P, Q, K of a cycle as well as X. G, M, N and O are not
     /// kept. The range of a coordinate is not kept: it is empty.
-    #[allow(dead_code, reason = "read by the codes that take parameters")]
     pub(crate) fn letter(&self, letter: u8) -> Said {
         let Some(place) = letter.checked_sub(b'A').filter(|place| *place < 26) else {
             return Said::Nothing;
@@ -234,6 +235,8 @@ pub(crate) fn put<const N: usize>(places: &mut Places<N>, place: usize, (said, r
                 Reading::Negative => places.negative |= bit,
             }
         }
+        // a variable that is vacant: the word counts as not written
+        Said::Nothing => {}
         _ => places.unread |= bit,
     }
 }

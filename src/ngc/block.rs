@@ -83,6 +83,14 @@ impl Block {
         let place = letter - b'A';
         (self.given & (1 << place) != 0).then(|| self.words[usize::from(place)])
     }
+    /// Puts a word in its place, upper-case letter.
+    #[inline]
+    pub(crate) fn put(&mut self, letter: u8, value: f64, range: TextRange) {
+        let place = usize::from(letter - b'A');
+        self.words[place] = value;
+        self.ranges[place] = range;
+        self.given |= 1 << place;
+    }
     /// Whether a word is there, upper-case letter.
     #[inline]
     pub fn has(&self, letter: u8) -> bool {
@@ -114,7 +122,7 @@ impl Block {
 }
 
 /// Bits of A B C U V W X Y Z.
-const AXES: u32 = 0b111 | (0b11_1111 << 20);
+pub(crate) const AXES: u32 = 0b111 | (0b11_1111 << 20);
 
 impl Default for Block {
     fn default() -> Self {

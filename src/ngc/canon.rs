@@ -53,6 +53,19 @@ pub enum Side {
     Right,
 }
 
+/// Override switches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Switch {
+    /// M50 (and M48, M49).
+    FeedOverride,
+    /// M51 (and M48, M49), of a spindle.
+    SpeedOverride(i32),
+    /// M52.
+    AdaptiveFeed,
+    /// M53.
+    FeedHold,
+}
+
 /// Path control.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MotionMode {
@@ -161,22 +174,55 @@ pub enum Canon {
     Coolant(Coolant),
     /// T.
     SelectTool(i32),
-    /// M6: the pocket or tool that is changed in.
+    /// M6 begins: the spindle may stand still from here on.
+    StartChange,
+    /// M6: the tool that is changed in.
     ChangeTool(i32),
     /// M61.
     ChangeToolNumber(i32),
     /// Tool offset in force.
     ToolOffset(Pose),
-    /// A tool table entry is written (G10 L1, L10, L11): pocket, tool number, offset, diameter, front angle, back angle, orientation.
-    SetToolEntry(i32, i32, Pose, f64, f64, f64, i32),
-    /// Override switches M48-M53: text as `rs274` names the call, and whether on.
-    Override(&'static str, bool),
-    /// Digital or analog output, input wait, user M code: the call as `rs274` prints it.
-    Auxiliary(String),
+    /// A row of the tool table is written (G10 L1, L10, L11): row (0: the spindle) and what it holds now.
+    SetToolEntry(i32, crate::ToolEntry),
+    /// G10 L0: the table is read from its file again.
+    ReloadTools,
+    /// M48-M53.
+    Switch(Switch, bool),
+    /// M62-M65: output number, on or off, with the next motion (M62, M63) or at once.
+    DigitalOutput {
+        /// P.
+        index: i32,
+        /// M62, M64 switch on.
+        on: bool,
+        /// With the next motion.
+        with_motion: bool,
+    },
+    /// M67, M68: output number and value, with the next motion (M67) or at once.
+    AnalogOutput {
+        /// E.
+        index: i32,
+        /// Q.
+        value: f64,
+        /// With the next motion.
+        with_motion: bool,
+    },
+    /// M66: waits for an input; what it reads is known to the machine only.
+    WaitInput {
+        /// P or E.
+        index: i32,
+        /// E: a voltage, not a switch.
+        analog: bool,
+        /// L 0-4: at once, rise, fall, high, low.
+        until: i32,
+        /// Q, s.
+        timeout: f64,
+    },
     /// M100-M199 with P and Q.
     UserCode(i32, f64, f64),
     /// Stops and end.
     Stop(Stop),
     /// Pallet shuttle.
     PalletShuttle,
+    /// The program ends with `%` instead of M2: nothing is reset.
+    Finish,
 }

@@ -1,4 +1,5 @@
 //! The engine: one line after the other, in the order in which the control runs them.
+use crate::flow::Flow;
 use crate::{Block, Canon, Error, FileId, Setup, Source, State};
 use std::sync::Arc;
 
@@ -58,8 +59,14 @@ pub struct Engine {
     pub(crate) files: Vec<Arc<Source>>,
     /// What is in force.
     pub state: State,
-    /// The line in hand: kept for its storage.
-    pub(crate) block: Block,
+    /// The order of execution.
+    pub(crate) flow: Flow,
+    /// Kept for its storage.
+    pub(crate) block: Option<Box<Block>>,
+    /// Parameters.
+    pub(crate) store: crate::parameters::Store,
+    /// Moves that cutter compensation holds back, and what waits behind them.
+    pub(crate) queue: crate::comp::Queue,
 }
 
 impl Engine {
@@ -69,11 +76,19 @@ impl Engine {
             setup: Arc::new(setup.clone()),
             files: vec![main],
             state: State::new(setup.start == crate::Start::Unknown),
-            block: Block::new(),
+            flow: Flow::new(setup),
+            block: None,
+            store: crate::parameters::Store::new(setup),
+            queue: crate::comp::Queue::default(),
         }
     }
     /// Tells a canonical call. While cutter compensation holds moves back, calls wait behind them in order.
     pub(crate) fn emit(&mut self, call: Canon, at: At, sink: &mut dyn Sink) {
+        if !self.queue.is_empty() && crate::comp::waits(&call) {
+            self.queue.hold(call, at);
+            return;
+        }
+        self.state.told.follow(&call);
         sink.call(&call, at, &self.state);
     }
 }

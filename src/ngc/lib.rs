@@ -4,16 +4,25 @@
 //! is NaN and stays so through all arithmetic.
 mod block;
 mod canon;
+mod comment;
+mod comp;
+mod cycles;
 mod engine;
 mod error;
+mod exec;
+mod flow;
+mod parameters;
+mod print;
+mod read;
 mod setup;
 mod source;
 mod state;
 
 pub use block::{Block, G_GROUPS, M_GROUPS};
-pub use canon::{Canon, Coolant, MotionMode, Pose, Side, SpindleTurn, Stop, SyncedFeed};
+pub use canon::{Canon, Coolant, MotionMode, Pose, Side, SpindleTurn, Stop, Switch, SyncedFeed};
 pub use engine::{At, ChainId, Engine, Frame, Sink, Step};
 pub use error::{Class, Error, Problem};
-pub use setup::{Files, Ini, Limits, Loaded, Parameters, Setup, Start, ToolEntry, ToolTable};
+pub use print::Listing;
+pub use setup::{BadLine, Files, Ini, Limits, Loaded, Parameters, Setup, Start, ToolEntry, ToolTable};
 pub use source::{FileId, Source};
 pub use state::{DistanceMode, FeedMode, Plane, RetractMode, SpindleMode, State, Units};

@@ -1,4 +1,8 @@
 //! What a program is run with: INI values, tool table, parameters, other files, bounds.
+mod files;
+
+use crate::Units;
+pub use files::BadLine;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -89,8 +93,10 @@ pub struct Parameters {
 }
 
 /// What a program is run with.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct Setup {
+    /// Units of the tool table and of the parameters; `rs274` takes both as inches.
+    pub machine_units: Units,
     /// What is known at the start.
     pub start: Start,
     /// INI values.
@@ -106,3 +112,53 @@ pub struct Setup {
     /// Lines that begin with `/` are skipped (the switch of the panel).
     pub block_delete: bool,
 }
+
+impl Default for Setup {
+    fn default() -> Self {
+        Self {
+            machine_units: Units::Inch,
+            start: Start::default(),
+            ini: Ini::default(),
+            tools: ToolTable::default(),
+            parameters: Parameters::default(),
+            files: None,
+            limits: Limits::default(),
+            block_delete: false,
+        }
+    }
+}
+
+impl Setup {
+    /// How many spindles the machine has, 1-8: `[TRAJ]SPINDLES`.
+    pub fn spindles(&self) -> usize {
+        self.ini.whole("TRAJ", "SPINDLES").map_or(1, |count| count.clamp(1, 8) as usize)
+    }
+    /// Whether the changer swaps tools: `[EMCIO]RANDOM_TOOLCHANGER`.
+    pub fn random_tool_changer(&self) -> bool {
+        self.ini.whole("EMCIO", "RANDOM_TOOLCHANGER").is_some_and(|value| value != 0)
+    }
+    /// Whether G92 outlives a program: unless `[RS274NGC]DISABLE_G92_PERSISTENCE`.
+    pub fn g92_persists(&self) -> bool {
+        self.ini.whole("RS274NGC", "DISABLE_G92_PERSISTENCE").is_none_or(|value| value == 0)
+    }
+    /// Rows of the tool table as a run starts with them.
+    pub(crate) fn tool_rows(&self) -> Arc<Vec<ToolEntry>> {
+        let random = self.random_tool_changer();
+        let empty = ToolEntry {
+            number: if random { -1 } else { 0 },
+            ..ToolEntry::default()
+        };
+        let mut rows = vec![empty];
+        rows.extend(self.tools.rows.iter().copied());
+        Arc::new(rows)
+    }
+}
+
+impl Ini {
+    /// The value of a key as a whole number.
+    pub fn whole(&self, section: &str, key: &str) -> Option<i64> {
+        self.values.get(&(section.to_owned(), key.to_owned()))?.trim().parse().ok()
+    }
+}
+
+

@@ -1,5 +1,5 @@
 //! A program's bytes and where its lines begin.
-use memchr::memchr_iter;
+use memchr::{memchr, memchr_iter};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
@@ -12,25 +12,41 @@ impl FileId {
     pub const MAIN: Self = Self(0);
 }
 
+/// So many lines share one entry of the index: a file of nothing but line ends must not cost four times its size in memory.
+const STRIDE: u32 = 64;
+
 /// A program's bytes and where its lines begin.
 #[derive(Debug)]
 pub struct Source {
     /// As people are shown it; empty for the main program.
     pub path: String,
     bytes: Arc<[u8]>,
-    /// Offset of each line, and the length of the file at the end.
+    /// Offset of every 64th line.
     starts: Vec<u32>,
+    lines: u32,
 }
 
 impl Source {
     /// Finds the lines. A file is at most 4 GiB long; what lies behind is cut off by the callers, who refuse such files.
     pub fn new(path: String, bytes: Arc<[u8]>) -> Self {
         let mut starts = vec![0];
-        starts.extend(memchr_iter(b'\n', &bytes).map(|at| at as u32 + 1));
-        if starts.last() != Some(&(bytes.len() as u32)) {
-            starts.push(bytes.len() as u32);
+        let mut lines = 0;
+        let mut end = 0;
+        for at in memchr_iter(b'\n', &bytes) {
+            end = at as u32 + 1;
+            lines += 1;
+            if lines % STRIDE == 0 {
+                starts.push(end);
+            }
         }
-        Self { path, bytes, starts }
+        // a last line without line end counts as a line
+        lines += u32::from(end < bytes.len() as u32);
+        Self {
+            path,
+            bytes,
+            starts,
+            lines,
+        }
     }
     /// All bytes.
     pub fn bytes(&self) -> &[u8] {
@@ -38,16 +54,32 @@ impl Source {
     }
     /// How many lines.
     pub fn line_count(&self) -> u32 {
-        self.starts.len() as u32 - 1
+        self.lines
     }
     /// Bytes of a line (from 0) with its line end; `None` behind the last.
     pub fn line(&self, line: u32) -> Option<TextRange> {
-        let start = *self.starts.get(line as usize)?;
-        let end = *self.starts.get(line as usize + 1)?;
-        Some(TextRange::new(start, end))
+        if line >= self.lines {
+            return None;
+        }
+        let mut start = self.starts[(line / STRIDE) as usize];
+        for _ in 0..line % STRIDE {
+            start = self.line_at(start).end;
+        }
+        Some(self.line_at(start))
+    }
+    /// Bytes of the line that begins at an offset, with its line end; empty at the end of the file.
+    #[inline]
+    pub fn line_at(&self, start: u32) -> TextRange {
+        let rest = &self.bytes[start as usize..];
+        let length = memchr(b'\n', rest).map_or(rest.len(), |at| at + 1);
+        TextRange::new(start, start + length as u32)
     }
     /// The line (from 0) in which a byte lies.
     pub fn line_of(&self, offset: u32) -> u32 {
-        (self.starts.partition_point(|&start| start <= offset) as u32).saturating_sub(1)
+        let block = self.starts.partition_point(|&start| start <= offset).saturating_sub(1);
+        let from = self.starts[block] as usize;
+        let to = (offset as usize).min(self.bytes.len());
+        let line = block as u32 * STRIDE + memchr_iter(b'\n', &self.bytes[from..to.max(from)]).count() as u32;
+        line.min(self.lines.saturating_sub(1))
     }
 }

@@ -1,5 +1,5 @@
 //! What is in force between lines.
-use crate::{MotionMode, Pose, Side};
+use crate::{Canon, MotionMode, Pose, Side};
 
 /// Length units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,6 +120,8 @@ pub struct State {
     pub orientation: i32,
     /// No compensated move was made yet since G41/G42.
     pub first_compensated: bool,
+    /// Compensation has ended and the tool still stands on its way: the next motion must be straight.
+    pub exit_pending: bool,
     /// G7: X words are diameters.
     pub lathe_diameter: bool,
     /// G96 / G97 per spindle.
@@ -144,6 +146,12 @@ pub struct State {
     pub selected_pocket: i32,
     /// Tool in the spindle, 0 for none.
     pub tool: i32,
+    /// Rows of the tool table as they are now; row 0 is the spindle.
+    pub tools: std::sync::Arc<Vec<crate::ToolEntry>>,
+    /// Row of the tool in the spindle.
+    pub current_row: i32,
+    /// What the receiver of the calls takes for the position.
+    pub told: Told,
     /// Override switches (M48-M53).
     pub feed_override: bool,
     /// See above.
@@ -179,6 +187,63 @@ pub struct CycleWords {
     pub q: f64,
 }
 
+/// Where the receiver of the canonical calls takes the tool to be: it knows the calls only. `rs274` asks it after a tool change, and it
+/// does not know that rotation and tool offset move the program's coordinates.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Told {
+    /// Program coordinates.
+    pub position: Pose,
+    origin: Pose,
+    axis_offset: Pose,
+    inch: bool,
+}
+
+impl Told {
+    /// At the start of a program.
+    pub(crate) fn at(position: Pose, origin: Pose, axis_offset: Pose) -> Self {
+        Self {
+            position,
+            origin,
+            axis_offset,
+            inch: false,
+        }
+    }
+    /// Follows one call.
+    pub(crate) fn follow(&mut self, call: &Canon) {
+        match call {
+            Canon::Traverse(pose) | Canon::Feed(pose) => self.position = *pose,
+            Canon::Nurbs { end, .. } => self.position = *end,
+            Canon::G5xOffset(_, pose) => self.shift(*pose, false),
+            Canon::G92Offset(pose) => self.shift(*pose, true),
+            Canon::Units(units) => self.units(*units == Units::Inch),
+            _ => {}
+        }
+    }
+    fn shift(&mut self, new: Pose, axis_offset: bool) {
+        let old = if axis_offset { &mut self.axis_offset } else { &mut self.origin };
+        for axis in 0..9 {
+            self.position[axis] += old[axis] - new[axis];
+        }
+        *old = new;
+    }
+    fn units(&mut self, inch: bool) {
+        if inch == self.inch {
+            return;
+        }
+        self.inch = inch;
+        let factor = if inch { 1.0 / 25.4 } else { 25.4 };
+        for pose in [&mut self.position, &mut self.origin, &mut self.axis_offset] {
+            for axis in [0, 1, 2, 6, 7, 8] {
+                pose[axis] *= factor;
+            }
+        }
+    }
+    /// A motion whose call does not hold the whole pose has ended.
+    pub(crate) fn reach(&mut self, end: &Pose) {
+        self.position = *end;
+    }
+}
+
 impl State {
     /// As `rs274` starts: millimetres, XY plane, everything zero; `unknown`: the position is NaN instead.
     pub fn new(unknown: bool) -> Self {
@@ -205,6 +270,7 @@ impl State {
             radius: 0.0,
             orientation: 0,
             first_compensated: true,
+            exit_pending: false,
             lathe_diameter: false,
             spindle_mode: [SpindleMode::ConstantRpm; 8],
             speed: [0.0; 8],
@@ -217,6 +283,9 @@ impl State {
             selected_tool: -1,
             selected_pocket: -1,
             tool: 0,
+            tools: std::sync::Arc::new(vec![crate::ToolEntry::default()]),
+            current_row: 1,
+            told: Told::default(),
             feed_override: true,
             speed_override: true,
             adaptive_feed: false,

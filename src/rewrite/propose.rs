@@ -69,6 +69,9 @@ pub enum Attempt {
 /// farther or in larger steps than before, or when a rule that it does not
 /// claim to cure would report more errors than before (those it cures may spread: less in one block, a little more in the next).
 pub fn attempt(rewrite: &Rewrite, program: &Program, settings: &Settings<'_>, options: &Options) -> Attempt {
+    if let Err(reason) = crate::survey::runs_straight(program, settings) {
+        return Attempt::Refused(reason);
+    }
     let proposal = match (rewrite.propose)(program, settings, options) {
         Ok(Some(proposal)) => proposal,
         Ok(None) => return Attempt::NothingToDo,
@@ -193,6 +196,7 @@ mod tests {
             machine: Some(&machine),
             setup: trunnion_interp::Setup::default(),
             rules: Vec::new(),
+            port_to: Vec::new(),
         };
         let text = "TRAORI\nG0 X0 Y0 Z50 A10 C0\nG1 X1 C5 F100\nX2 C3\nM30\n";
         let program = parse(text.as_bytes().to_vec(), settings.dialect.lex);

@@ -1,8 +1,10 @@
 //! A program run once for a rewrite: each motion with what the machine does, kept small.
 use trunnion_check::Settings;
-use trunnion_interp::{Fault, ModalState, Motion, MotionKind, Orientation, Setup, Sink, ToolShape, run};
+use trunnion_interp::{
+    ChainId, Fault, Interpreter, ModalState, Motion, MotionKind, Orientation, Setup, Sink, ToolShape, run,
+};
 use trunnion_machine::{Follower, Machine, NoStance, Stance};
-use trunnion_syntax::{BlockId, Program};
+use trunnion_syntax::{BlockId, LineIndex, Program};
 
 /// What is declared about the tool's tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,4 +146,36 @@ pub(crate) fn programmed(program: &Program, dialect: &trunnion_dialect::Dialect,
     let mut programmed = Programmed { motions: Vec::new() };
     run(program, dialect, setup, &mut programmed);
     programmed
+}
+
+/// Notes whether motions come from inside a call.
+#[derive(Default)]
+struct Calls(bool);
+
+impl Sink for Calls {
+    fn motion(&mut self, motion: &Motion, _: &ModalState) {
+        self.0 |= motion.chain != ChainId::MAIN;
+    }
+    fn fault(&mut self, _: Fault) {}
+}
+
+/// Whether the program runs straight through, each block once and in the text's order; else why an edit of one block is not the
+/// edit of one motion.
+pub(crate) fn runs_straight(program: &Program, settings: &Settings<'_>) -> Result<(), String> {
+    let mut interpreter = Interpreter::new(settings.dialect, &settings.setup);
+    let mut calls = Calls::default();
+    let mut last = None;
+    while let Some(block) = interpreter.advance(program, &mut calls) {
+        let back = last.is_some_and(|last| block <= last);
+        last = Some(block);
+        if !(back || calls.0) {
+            continue;
+        }
+        let source = program.source();
+        let (line, _) = LineIndex::new(source).line_column(source, program.block(block).range().start);
+        return Err(format!(
+            "the program has loops or calls (line {line}): one word there is many motions, and rewrites lead one motion at a time"
+        ));
+    }
+    Ok(())
 }

@@ -6,7 +6,9 @@
 mod error;
 mod machine;
 mod resolve;
+mod subprograms;
 
 pub use error::LoadError;
 pub use machine::find_machine;
 pub use resolve::{Overrides, Resolved, resolve};
+pub use subprograms::Subprograms;

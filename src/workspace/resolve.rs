@@ -1,9 +1,11 @@
 //! Which settings, machine and dialect a program is checked with, and why.
-use crate::{LoadError, find_machine};
+use crate::{LoadError, Subprograms, find_machine};
 use std::path::{Path, PathBuf};
-use trunnion_check::{Config, RuleLevel, Settings, config::parse_tool_flag};
+use std::sync::Arc;
+use trunnion_check::config::{FormatSettings, parse_tool_flag};
+use trunnion_check::{Config, RuleLevel, Settings};
 use trunnion_dialect::{Dialect, Modeline};
-use trunnion_interp::Setup;
+use trunnion_interp::{Library, Setup};
 use trunnion_machine::Machine;
 
 /// What the user says beside the files: it wins over them.
@@ -19,6 +21,8 @@ pub struct Overrides {
     pub tool: Option<String>,
     /// Rules to silence.
     pub allow: Vec<String>,
+    /// Dialects of the controls that the program is meant to run on too (`--port-to`), beside those of the settings.
+    pub port_to: Vec<String>,
 }
 
 /// Everything a check needs beside the program.
@@ -38,6 +42,10 @@ pub struct Resolved {
     pub setup: Setup,
     /// Rule levels, last wins.
     pub rules: Vec<(String, RuleLevel)>,
+    /// Dialects that the program is to be carried over to.
+    pub port_to: Vec<String>,
+    /// How the program is laid out.
+    pub format: FormatSettings,
 }
 
 impl Resolved {
@@ -48,6 +56,7 @@ impl Resolved {
             machine: self.machine.as_ref(),
             setup: self.setup.clone(),
             rules: self.rules.clone(),
+            port_to: self.port_to.clone(),
         }
     }
 }
@@ -82,6 +91,17 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
             .tools
             .push(parse_tool_flag(flag).map_err(|error| LoadError::new(format!("--tool {flag}: {error}")))?);
     }
+    setup.library = library(path, &config, config_file.as_ref())?;
+    let mut port_to = config.port_to.clone();
+    for name in &overrides.port_to {
+        if trunnion_dialect::builtin(name).is_none() {
+            let known = trunnion_dialect::BUILTIN_NAMES.join(", ");
+            return Err(LoadError::new(format!(
+                "--port-to {name}: no dialect has this name; known are {known}"
+            )));
+        }
+        port_to.push(name.clone());
+    }
     let machine = machine.map(|machine| config.machine_with_tolerances(&machine));
     Ok(Resolved {
         dialect,
@@ -91,7 +111,38 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
         config_path,
         setup,
         rules,
+        port_to,
+        format: config.format,
     })
+}
+
+/// Where programs that this one calls are looked for: its own folder, then those of the settings, relative to the settings' file.
+fn library(
+    path: Option<&Path>,
+    config: &Config,
+    config_file: Option<&(PathBuf, String)>,
+) -> Result<Library, LoadError> {
+    let mut folders = Vec::new();
+    // a document that is not saved has a name, but no folder
+    if let Some(file) = path.filter(|path| path.is_file()) {
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+        folders.push(folder.unwrap_or(Path::new(".")).to_owned());
+    }
+    if let Some((file, text)) = config_file {
+        let home = file.parent().unwrap_or(Path::new(""));
+        for (folder, span) in &config.subprogram_path {
+            let folder = home.join(folder);
+            if !folder.is_dir() {
+                let message = format!("there is no folder {}", folder.display());
+                return Err(LoadError::at(file, text, Some(span), message));
+            }
+            folders.push(folder);
+        }
+    }
+    if folders.is_empty() {
+        return Ok(Library::default());
+    }
+    Ok(Library(Some(Arc::new(Subprograms::new(folders)))))
 }
 
 /// The settings and their file with its text: `--config`, or `trunnion.toml` in the program's folder (standard input: the current one) or above.

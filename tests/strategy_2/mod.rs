@@ -60,6 +60,7 @@ pub(crate) fn settings(dialect: &str, setup: Setup) -> Settings<'static> {
         machine: machine::builtin("mikron-ucp710"),
         setup,
         rules: Vec::new(),
+        port_to: Vec::new(),
     }
 }
 

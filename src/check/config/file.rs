@@ -6,11 +6,22 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 use trunnion_interp::{AXIS_LETTERS, AxisLetter, Tool, WorkOffset};
 
+/// More executed blocks than these are not allowed: at some millions a second they take an hour.
+const MOST_BLOCKS: u64 = 10_000_000_000;
+/// More calls inside calls than these are not allowed.
+const MOST_DEPTH: u64 = 10_000;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
     machine: Option<String>,
     dialect: Option<Spanned<String>>,
+    #[serde(default)]
+    subprogram_path: Vec<Spanned<String>>,
+    #[serde(default)]
+    port_to: Vec<Spanned<String>>,
+    #[serde(default)]
+    limits: FileLimits,
     #[serde(default)]
     rules: BTreeMap<Spanned<String>, Spanned<String>>,
     #[serde(default)]
@@ -18,7 +29,16 @@ struct File {
     #[serde(default)]
     tool: Vec<Spanned<FileTool>>,
     #[serde(default)]
+    format: super::FormatSettings,
+    #[serde(default)]
     work_offsets: BTreeMap<Spanned<String>, BTreeMap<Spanned<String>, Spanned<f64>>>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileLimits {
+    blocks: Option<Spanned<i64>>,
+    depth: Option<Spanned<i64>>,
 }
 
 #[derive(Deserialize)]
@@ -41,17 +61,28 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     })?;
     let mut config = Config {
         machine: file.machine,
+        format: file.format,
         ..Config::default()
     };
     if let Some(dialect) = file.dialect {
-        if !trunnion_dialect::BUILTIN_NAMES.contains(&dialect.get_ref().as_str()) {
-            let names = trunnion_dialect::BUILTIN_NAMES.join(", ");
-            return Err(at(
-                &dialect,
-                format!("no dialect is called `{}`; there are {names}", dialect.get_ref()),
-            ));
+        config.dialect = Some(known_dialect(dialect)?);
+    }
+    for dialect in file.port_to {
+        config.port_to.push(known_dialect(dialect)?);
+    }
+    for folder in file.subprogram_path {
+        if folder.get_ref().is_empty() {
+            return Err(at(&folder, "a folder has a name; `.` is the folder of this file"));
         }
-        config.dialect = Some(dialect.into_inner());
+        let span = folder.span();
+        config.subprogram_path.push((folder.into_inner(), span));
+    }
+    if let Some(blocks) = &file.limits.blocks {
+        config.setup.limits.blocks = limit("blocks", blocks, MOST_BLOCKS)?;
+    }
+    if let Some(depth) = &file.limits.depth {
+        // within bounds of u32 by `limit`
+        config.setup.limits.depth = limit("depth", depth, MOST_DEPTH)? as u32;
     }
     for (name, level) in file.rules {
         config.rules.push(rule_level(&name, &level)?);
@@ -83,6 +114,27 @@ fn at<T>(place: &Spanned<T>, message: impl Into<String>) -> ConfigError {
     ConfigError {
         message: message.into(),
         span: Some(place.span()),
+    }
+}
+
+fn known_dialect(name: Spanned<String>) -> Result<String, ConfigError> {
+    if trunnion_dialect::BUILTIN_NAMES.contains(&name.get_ref().as_str()) {
+        return Ok(name.into_inner());
+    }
+    let names = trunnion_dialect::BUILTIN_NAMES.join(", ");
+    Err(at(
+        &name,
+        format!("no dialect is called `{}`; there are {names}", name.get_ref()),
+    ))
+}
+
+fn limit(key: &str, value: &Spanned<i64>, most: u64) -> Result<u64, ConfigError> {
+    match u64::try_from(*value.get_ref()) {
+        Ok(number @ 1..) if number <= most => Ok(number),
+        _ => Err(at(
+            value,
+            format!("`{key}` of [limits] must be from 1 to {most}, not {}", value.get_ref()),
+        )),
     }
 }
 
@@ -218,6 +270,11 @@ mod tests {
     const WHOLE: &str = r#"
 machine = "mikron-ucp710"
 dialect = "sinumerik-840d"
+subprogram_path = ["subs", "/nc/shared"]
+port_to = ["linuxcnc"]
+[limits]
+blocks = 5000
+depth = 8
 [rules]
 pole-flip = "error"
 feed-drop = "allow"
@@ -236,6 +293,11 @@ G54 = { X = 1, Y = 0, Z = -2.5 }
     fn a_whole_file_is_read() {
         let config = parse(WHOLE).unwrap();
         assert_eq!(config.machine.as_deref(), Some("mikron-ucp710"));
+        let folders: Vec<&str> = config.subprogram_path.iter().map(|(path, _)| path.as_str()).collect();
+        assert_eq!(folders, ["subs", "/nc/shared"]);
+        assert_eq!(config.port_to, ["linuxcnc"]);
+        let limits = config.setup.limits;
+        assert_eq!((limits.blocks, limits.depth), (5000, 8));
         assert_eq!(config.rules[0], ("feed-drop".to_owned(), RuleLevel::Allow));
         assert_eq!(
             config.rules[1],
@@ -257,6 +319,11 @@ G54 = { X = 1, Y = 0, Z = -2.5 }
             ("[tolerances]\ntip = -1", "-1"),
             ("[tolerances]\nfeed_drop_error = 30", "30"),
             ("dialect = \"klingon\"", "\"klingon\""),
+            ("port_to = [\"linuxcnc\", \"klingon\"]", "\"klingon\""),
+            ("subprogram_path = [\"a\", \"\"]", "\"\""),
+            ("[limits]\nblocks = 0", "0"),
+            ("[limits]\ndepth = 10001", "10001"),
+            ("[limits]\ndeep = 3", "deep"),
             ("[work_offsets]\nG54 = { Q = 1 }", "Q"),
             ("[work_offsets]\nG54 = { X = nan }", "nan"),
             ("[work_offsets]\nG643 = { X = 1 }", "G643"),

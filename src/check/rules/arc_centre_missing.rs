@@ -31,6 +31,7 @@ pub(super) const RULE: Body = Body {
 };
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    refused(fault, out, &[Refusal::ArcCentre]);
     if fault.kind == FaultKind::ArcCentreMissing {
         let (message, help) = cause(out.program(), fault.block);
         out.report(fault.range, message).help(help);

@@ -67,7 +67,9 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .value("chord_mm", 2.0 * half_chord)
             .value("limit_mm", half_chord);
         }
-        _ => {}
+        _ => {
+            refused(fault, out, &[Refusal::ArcRadius]);
+        }
     }
 }
 

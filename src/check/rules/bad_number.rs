@@ -25,8 +25,13 @@ use crate::prelude::*;
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
     guarantee: Guarantee::Sound,
-    level: Level::Text(check),
+    level: Level::TextAndFault(check, check_run),
 };
+
+/// What only the run shows: a number that its word does not allow.
+fn check_run(fault: &Fault, out: &mut Reporter<'_>) {
+    refused(fault, out, &[Refusal::Number]);
+}
 
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     let text = out.text(error.range);

@@ -33,6 +33,7 @@ pub(super) const RULE: Body = Body {
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     let FaultKind::MissingFeed { inverse_time, zero } = fault.kind else {
+        refused(fault, out, &[Refusal::Feed]);
         return;
     };
     let (message, help) = match (zero, inverse_time) {

@@ -32,6 +32,7 @@ pub(super) const RULE: Body = Body {
 };
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    refused(fault, out, &[Refusal::ProgramEnd]);
     if fault.kind == FaultKind::MissingProgramEnd {
         let strict = out.dialect() == "linuxcnc";
         let draft = out.report(fault.range, "the program ends without an end code");

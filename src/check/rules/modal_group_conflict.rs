@@ -36,6 +36,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         first_range,
     } = &fault.kind
     else {
+        refused(fault, out, &[Refusal::GroupConflict]);
         return;
     };
     out.report(

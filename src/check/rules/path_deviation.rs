@@ -131,6 +131,7 @@ mod tests {
                 machine: Some(&machine),
                 setup: trunnion_interp::Setup::default(),
                 rules: Vec::new(),
+                port_to: Vec::new(),
             };
             let report = crate::check(&program, &settings);
             report

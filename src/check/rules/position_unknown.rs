@@ -104,6 +104,7 @@ mod tests {
                 machine: trunnion_machine::builtin("mikron-ucp710"),
                 setup,
                 rules: Vec::new(),
+                port_to: Vec::new(),
             },
         );
         let found: Vec<_> = report

@@ -29,6 +29,7 @@ pub(super) const RULE: Body = Body {
 };
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    refused(fault, out, &[Refusal::RepeatedWord]);
     if fault.kind == FaultKind::RepeatedWord {
         let text = out.text(fault.range);
         let fanuc = out.dialect().starts_with("fanuc");

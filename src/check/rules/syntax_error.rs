@@ -28,8 +28,13 @@ use crate::prelude::*;
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
     guarantee: Guarantee::Sound,
-    level: Level::Text(check),
+    level: Level::TextAndFault(check, check_run),
 };
+
+/// What only the run shows: the control refuses the block as no block of its language.
+fn check_run(fault: &Fault, out: &mut Reporter<'_>) {
+    refused(fault, out, &[Refusal::Syntax]);
+}
 
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     let text = out.text(error.range);

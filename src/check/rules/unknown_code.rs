@@ -30,6 +30,7 @@ pub(super) const RULE: Body = Body {
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     let FaultKind::UnknownCode { machine_builder } = fault.kind else {
+        refused(fault, out, &[Refusal::UnknownCode]);
         return;
     };
     let text = out.text(fault.range);

@@ -28,6 +28,7 @@ pub(super) const RULE: Body = Body {
 };
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    refused(fault, out, &[Refusal::UnknownWord]);
     if fault.kind == FaultKind::UnknownWord {
         let text = out.text(fault.range);
         let dialect = out.dialect();

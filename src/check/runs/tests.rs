@@ -22,6 +22,7 @@ fn finding(at: u32, message: &str) -> Diagnostic {
         related: Vec::new(),
         count: 1,
         last: range,
+        origin: crate::diagnostic::Origin::default(),
     }
 }
 
@@ -41,7 +42,7 @@ fn consecutive_findings_become_one_with_the_worst() {
     log.add(&program, finding(1, "a"), Some(merge(1, 1.0, 1)), 1);
     log.add(&program, finding(2, "b"), Some(merge(1, 3.0, 1)), 2);
     log.add(&program, finding(3, "c"), Some(merge(1, 2.0, 1)), 3);
-    let found = log.finish(&program);
+    let found = log.finish(&program, &|_| Vec::new());
     assert_eq!(found.len(), 1);
     assert_eq!((found[0].count, found[0].range.start, found[0].last.start), (3, 10, 30));
     assert_eq!(found[0].message, "b");
@@ -55,7 +56,7 @@ fn a_gap_or_another_axis_starts_anew() {
     log.add(&program, finding(1, "a"), Some(merge(1, 1.0, 1)), 1);
     log.add(&program, finding(2, "b"), Some(merge(2, 1.0, 1)), 2);
     log.add(&program, finding(4, "c"), Some(merge(1, 1.0, 1)), 4);
-    assert_eq!(log.finish(&program).len(), 3);
+    assert_eq!(log.finish(&program, &|_| Vec::new()).len(), 3);
 }
 
 #[test]
@@ -65,7 +66,7 @@ fn short_runs_are_shown_block_by_block() {
     for at in 1..=8 {
         log.add(&program, finding(at, "a"), Some(merge(1, 1.0, 8)), u64::from(at));
     }
-    assert_eq!(log.finish(&program).len(), 8);
+    assert_eq!(log.finish(&program, &|_| Vec::new()).len(), 8);
     let program = empty();
     let mut log = Log::default();
     for at in 1..=9 {
@@ -76,7 +77,7 @@ fn short_runs_are_shown_block_by_block() {
             u64::from(at),
         );
     }
-    let found = log.finish(&program);
+    let found = log.finish(&program, &|_| Vec::new());
     assert_eq!((found.len(), found[0].count, found[0].related[0].0.start), (1, 9, 90));
 }
 
@@ -86,7 +87,7 @@ fn events_are_never_merged() {
     let mut log = Log::default();
     log.add(&program, finding(1, "a"), None, 1);
     log.add(&program, finding(2, "b"), None, 2);
-    assert_eq!(log.finish(&program).len(), 2);
+    assert_eq!(log.finish(&program, &|_| Vec::new()).len(), 2);
 }
 
 #[test]
@@ -96,7 +97,7 @@ fn a_file_of_noise_is_not_listed_to_its_end() {
     for at in 0..LISTED + 5 {
         log.add(&program, finding(at, "a"), None, u64::from(at));
     }
-    let found = log.finish(&program);
+    let found = log.finish(&program, &|_| Vec::new());
     assert_eq!(found.len(), LISTED as usize + 1);
     let rest = &found[LISTED as usize];
     assert_eq!(rest.count, 5);

@@ -11,6 +11,7 @@ fn settings(dialect: usize, machine: &str) -> Settings<'static> {
         machine: trunnion_machine::builtin(machine),
         setup: Setup::default(),
         rules: Vec::new(),
+        port_to: Vec::new(),
     }
 }
 

@@ -161,6 +161,45 @@ fn signs_in_the_content() {
 }
 
 #[test]
+fn signs_of_haas_grbl_and_lathes() {
+    is(
+        &content("%\nO00010\nG00 G90 G154 P3 X0\n"),
+        "haas-ngc",
+        "content: G154 in line 3",
+    );
+    is(&content("G187 P3 E0.01\n"), "haas-ngc", "content: G187 in line 1");
+    is(&content("M97 P1000 L3\n"), "haas-ngc", "content: M97 in line 1");
+    is(
+        &content("G13 I1.0 K5. Q1.0 F30. D1\n"),
+        "haas-ngc",
+        "content: a circular pocket G12 or G13 in line 1",
+    );
+    is(&content("$H\nG0 X1\n"), "grbl", "content: $H in line 1");
+    is(&content("$X (unlock)\n"), "grbl", "content: $X in line 1");
+    is(
+        &content("%\nO0001\nG50 S2000\nG96 S180 M3\n"),
+        "fanuc-30i-lathe-a",
+        "content: G50 S in line 3",
+    );
+    is(
+        &content("G28 U0. W0.\n"),
+        "fanuc-30i-lathe-a",
+        "content: G28 U or W in line 1",
+    );
+    is(
+        &content("G71 U2. R0.5\nG71 P10 Q20 U0.4 W0.1 F0.25\n"),
+        "fanuc-30i-lathe-a",
+        "content: the turning cycle G71 in line 1",
+    );
+    // a mill's codes are no signs of a lathe
+    assert_eq!(
+        content("%\nO0001\nG91 G28 X0. Y0.\nG73 X1. Z-3. R1. Q1. F100.\n").0,
+        "fanuc-30i"
+    );
+    assert_eq!(content("G71\nG54 G0 X1\n").0, "iso-6983");
+}
+
+#[test]
 fn names_of_program_files() {
     for name in ["a.nc", "a.MPF", "b.ngc", "c.apt", "c.ncl.3"] {
         assert!(is_program_file_name(name), "{name}");

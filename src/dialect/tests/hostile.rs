@@ -217,3 +217,37 @@ proptest::proptest! {
         }
     }
 }
+
+#[test]
+fn a_shop_table_adds_to_a_control() {
+    let text = "name = \"shop\"\nextends = \"fanuc-30i\"\n\n[codes]\nM60 = { action = \"tool-change\", doc = \"Pallet change with tool\", owner = \"machine-builder\" }\n";
+    let dialect = crate::Dialect::from_table(text, "shop.toml").unwrap();
+    assert_eq!(dialect.m(600).unwrap().owner, Owner::MachineBuilder);
+    assert_eq!(dialect.m(600).unwrap().source, "the table shop");
+    // what the table does not say is as in the control that it extends
+    assert!(dialect.quirks.dwell_in_ms && dialect.quirks.whole_numbers_ambiguous);
+    assert!(dialect.builder_may_own(crate::CodeKind::M, 1230));
+    assert_eq!(dialect.alarm("peck-missing").unwrap().number, "PS0045");
+    let own = crate::Dialect::from_table(
+        "name = \"shop\"\nextends = \"fanuc-30i\"\n[quirks]\ntool-word-changes = true\n",
+        "shop.toml",
+    );
+    assert!(own.is_ok_and(|own| own.quirks.tool_word_changes && own.quirks.dwell_in_ms));
+}
+
+#[test]
+fn a_broken_shop_table_is_told_with_line_and_column() {
+    let text = "name = \"shop\"\nextends = \"fanuc-30i\"\n[codes]\nM60 = { akction = \"rapid\", doc = \"x\" }\n";
+    let error = crate::Dialect::from_table(text, "shop.toml").unwrap_err();
+    assert_eq!((error.line, error.column), (Some(4), Some(9)));
+    assert!(
+        error.to_string().starts_with("shop.toml:4:9: unknown field `akction`"),
+        "{error}"
+    );
+    let axis = "name = \"shop\"\nextends = \"fanuc-30i\"\n[roles]\nE = \"axis\"\n";
+    let error = crate::Dialect::from_table(axis, "shop.toml").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "shop.toml:4:1: `E`: an axis is one of X Y Z A B C U V W"
+    );
+}

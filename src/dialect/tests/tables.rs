@@ -160,6 +160,100 @@ fn controls_differ_where_their_manuals_do() {
 }
 
 #[test]
+fn lathe_systems_give_one_code_different_meanings() {
+    let systems = ["fanuc-30i-lathe-a", "fanuc-30i-lathe-b", "fanuc-30i-lathe-c"];
+    let of = |id: &str| systems.map(|name| action(name, id));
+    let all = |action| [Some(action); 3];
+    assert_eq!(
+        of("G90"),
+        [
+            Some(Action::TurningCycle),
+            Some(Action::Absolute),
+            Some(Action::Absolute)
+        ]
+    );
+    assert_eq!(
+        of("G92"),
+        [
+            Some(Action::ThreadingCycle),
+            Some(Action::PositionSet),
+            Some(Action::PositionSet)
+        ]
+    );
+    assert_eq!(
+        of("G94"),
+        [
+            Some(Action::FacingCycle),
+            Some(Action::FeedPerMinute),
+            Some(Action::FeedPerMinute)
+        ]
+    );
+    assert_eq!(
+        of("G98"),
+        [
+            Some(Action::FeedPerMinute),
+            Some(Action::ReturnInitial),
+            Some(Action::ReturnInitial)
+        ]
+    );
+    assert_eq!(
+        of("G50"),
+        [
+            Some(Action::PositionSet),
+            Some(Action::ScalingOff),
+            Some(Action::ScalingOff)
+        ]
+    );
+    assert_eq!(
+        of("G70"),
+        [Some(Action::FinishCycle), Some(Action::FinishCycle), Some(Action::Inch)]
+    );
+    assert_eq!(
+        of("G20"),
+        [Some(Action::Inch), Some(Action::Inch), Some(Action::TurningCycle)]
+    );
+    assert_eq!(
+        of("G77"),
+        [None, Some(Action::TurningCycle), Some(Action::GroovePeckCycle)]
+    );
+    assert_eq!(of("G1"), all(Action::Linear));
+    assert_eq!(
+        systems.map(|name| dialect(name).role(b'U')),
+        [Some(Role::Increment), Some(Role::Axis), Some(Role::Axis)]
+    );
+    assert!(
+        systems
+            .iter()
+            .all(|name| dialect(name).quirks.diameter && dialect(name).quirks.dwell_in_ms)
+    );
+}
+
+#[test]
+fn haas_and_grbl_have_their_own_lists() {
+    assert_eq!(action("haas-ngc", "G70"), Some(Action::BoltCircle));
+    assert_eq!(action("haas-ngc", "G154"), Some(Action::WorkOffset));
+    assert_eq!(action("haas-ngc", "G129"), Some(Action::WorkOffset));
+    assert_eq!(action("haas-ngc", "G54.1"), None);
+    assert_eq!(action("haas-ngc", "G43.4"), None);
+    assert_eq!(action("haas-ngc", "G234"), Some(Action::TcpOn));
+    assert_eq!(action("haas-ngc", "M97"), Some(Action::SubprogramCall));
+    assert!(
+        dialect("haas-ngc").alarm("peck-missing").is_none(),
+        "alarms of another control"
+    );
+    assert_eq!(
+        dialect("fanuc-30i-lathe-b").alarm("peck-missing").unwrap().number,
+        "PS0045"
+    );
+    let grbl: Vec<_> = dialect("grbl").codes().iter().map(|code| code.id.as_str()).collect();
+    let list = "G0 G1 G2 G3 G4 G10 G17 G18 G19 G20 G21 G28 G28.1 G30 G30.1 G38.2 G38.3 G38.4 G38.5 G40 G43.1 G49 G53 G54 G55 G56 \
+                G57 G58 G59 G61 G80 G90 G91 G91.1 G92 G92.1 G93 G94 M0 M1 M2 M3 M4 M5 M7 M8 M9 M30 M56";
+    assert_eq!(grbl, list.split_whitespace().collect::<Vec<_>>());
+    assert_eq!(dialect("grbl").role(b'A'), None);
+    assert!((dialect("grbl").arc_limit_mm(1000.0, false) - 0.5).abs() < 1e-12);
+}
+
+#[test]
 fn names_with_digits_are_whole_words() {
     let sinumerik = dialect("sinumerik-840d");
     assert_eq!(sinumerik.name("cycle832").unwrap().id, "CYCLE832");
@@ -234,5 +328,5 @@ fn hover_names_the_code_its_group_and_its_source() {
             .hover()
             .contains("builder of the machine")
     );
-    assert!(find("fanuc-30i", "G81").unwrap().hover().contains("not modelled"));
+    assert!(find("haas-ngc", "G150").unwrap().hover().contains("not modelled"));
 }

@@ -3,9 +3,15 @@
 #![expect(clippy::format_push_string, reason = "texts of tests are short")]
 mod apt;
 mod arcs;
+mod compensation;
+mod cycles;
 mod directives;
 mod faults;
 mod files;
+mod frames;
+mod macro_flow;
+mod macro_programs;
+mod macro_values;
 mod motions;
 mod orientation;
 mod properties;

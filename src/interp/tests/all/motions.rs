@@ -217,7 +217,7 @@ fn a_tool_change_may_move_the_linear_axes() {
 fn what_is_not_modelled_is_forgotten() {
     assert_eq!(
         lines("fanuc-30i", "G0 X1 Y2 Z3\nG28 Z9\nX4\n"),
-        ["R X1 Y2 Z3", "U X1 Y2", "R X4 Y2"]
+        ["R X1 Y2 Z3", "R X1 Y2 Z9", "U X1 Y2", "R X4 Y2"]
     );
     assert_eq!(
         lines("linuxcnc", "G0 X1 Y2 Z3\nX#5\nY#<a>\nX1\n"),
@@ -238,8 +238,25 @@ fn cycles_run_until_they_end() {
     let fanuc = "G0 X1 Y2 Z9\nG81 X1 Y2 Z-3 R1 F100\nX5\nG80\nX6\nG81 Z-1 R1\nG1 Z0 F50\n";
     assert_eq!(
         lines("fanuc-30i", fanuc),
-        ["R X1 Y2 Z9", "U -", "U -", "R X6", "U -", "L Z0 F50"]
+        [
+            "R X1 Y2 Z9",
+            "R X1 Y2 Z1",
+            "L X1 Y2 Z-3 F100",
+            "R X1 Y2 Z9",
+            "R X5 Y2 Z9",
+            "R X5 Y2 Z1",
+            "L X5 Y2 Z-3 F100",
+            "R X5 Y2 Z9",
+            "R X6 Y2 Z9",
+            "R X6 Y2 Z1",
+            "L X6 Y2 Z-1 F100",
+            "R X6 Y2 Z9",
+            "L X6 Y2 Z0 F50"
+        ]
     );
+    // the 30i's list has cycles that only lathes run
+    let lathe = "G0 X2. Z9.\nG83 X2. Z-3. R1. F100.\nC5.\nG80\nX6.\n";
+    assert_eq!(lines("fanuc-30i-lathe-a", lathe), ["R X1 Z9", "U -", "U -", "R X3"]);
     let sinumerik = "G0 X1 Y2 Z9\nMCALL CYCLE81(5,0,2,-3)\nX5\nMCALL\nX6\n";
     assert_eq!(lines("sinumerik-840d", sinumerik), ["R X1 Y2 Z9", "U -", "R X6"]);
 }
@@ -288,7 +305,8 @@ fn writing_zero_points_and_tools_of_the_control_hides_the_position() {
         ("linuxcnc", "#2001=5", 0),
         ("linuxcnc", "#<depth>=5", 0),
         ("fanuc-30i", "#101=2.", 0),
-        ("fanuc-30i", "#3000=1", 1),
+        ("fanuc-30i", "#3006=1", 0),
+        ("fanuc-30i", "#1101=1", 1),
         ("sinumerik-840d", "R1=5", 0),
         ("sinumerik-840d", "$AC_MARKER[0]=1", 1),
     ];

@@ -33,6 +33,7 @@ fn machine_coordinates_know_every_zero_and_the_tool_length() {
             diameter_mm: None,
             length_mm: Some(7.0),
         }],
+        ..Setup::default()
     };
     let source = b"G54 G0 X1. Y2. Z3. C4.\nG43 H1 Z3.\nG53 G0 X300.\nX5.\nM30\n";
     let got: Vec<_> = run_bytes("fanuc-30i", source, &setup)

@@ -1,0 +1,219 @@
+//! One pass over a program: takes what the run finds and shows it to the rules.
+use crate::report::Summary;
+use crate::rule::{EndRule, Ending, FaultRule, LegRule, MotionRule, ProgramRule, TextRule};
+use crate::sink::{Active, Reporter, active};
+use crate::suppress::Suppressions;
+use crate::time::CycleTime;
+use crate::view::{LegView, Overview};
+use crate::visited::Visited;
+use crate::{Level, Report, Settings};
+use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, Refusal, Sink};
+use trunnion_machine::{Follower, Leg};
+use trunnion_syntax::{BlockId, Program};
+
+/// One pass over a program.
+pub(crate) struct Pass<'a> {
+    reporter: Reporter<'a>,
+    text: Vec<Active<TextRule>>,
+    whole: Vec<Active<ProgramRule>>,
+    faults: Vec<Active<FaultRule>>,
+    motions: Vec<Active<MotionRule>>,
+    legs: Vec<Active<LegRule>>,
+    ends: Vec<Active<EndRule>>,
+    suppressions: &'a Suppressions,
+    ported: bool,
+    follower: Option<Follower<'a>>,
+    /// Sign of the last posture off the pole.
+    posture: i8,
+    time: CycleTime,
+    summary: Summary,
+    visited: Visited,
+    executed: u64,
+}
+
+impl<'a> Pass<'a> {
+    pub(crate) fn new(program: &'a Program, settings: &Settings<'a>, suppressions: &'a Suppressions) -> Self {
+        let levels = &settings.rules;
+        Self {
+            reporter: Reporter::new(program, &settings.dialect.name, suppressions),
+            text: active(levels, |level| match level {
+                Level::Text(run) | Level::TextAndFault(run, _) => Some(run),
+                _ => None,
+            }),
+            whole: active(levels, |level| match level {
+                Level::Program(run) => Some(run),
+                _ => None,
+            }),
+            faults: active(levels, |level| match level {
+                Level::Fault(run) | Level::TextAndFault(_, run) => Some(run),
+                _ => None,
+            }),
+            motions: active(levels, |level| match level {
+                Level::Motion(run) => Some(run),
+                _ => None,
+            }),
+            legs: active(levels, |level| match level {
+                Level::Leg(run) => Some(run),
+                _ => None,
+            }),
+            ends: active(levels, |level| match level {
+                Level::End(run) => Some(run),
+                _ => None,
+            }),
+            suppressions,
+            ported: !settings.port_to.is_empty(),
+            follower: settings.machine.map(Follower::new),
+            posture: 0,
+            time: CycleTime::default(),
+            summary: Summary::default(),
+            visited: Visited::new(program.block_count()),
+            executed: 0,
+        }
+    }
+
+    /// The machine as it stands.
+    pub(crate) fn follower(&self) -> Option<&Follower<'a>> {
+        self.follower.as_ref()
+    }
+
+    /// How many blocks of the file have content.
+    pub(crate) fn count_blocks(&mut self, blocks: u64) {
+        self.summary.blocks = blocks;
+    }
+
+    /// A block ran; whether for the first time.
+    pub(crate) fn ran(&mut self, block: BlockId) -> bool {
+        self.executed += 1;
+        self.visited.add(block)
+    }
+
+    pub(crate) fn read_text(&mut self, program: &Program) {
+        for error in program.errors() {
+            let block = program.block_at(error.range.start).unwrap_or_default();
+            for rule in &self.text {
+                self.reporter.enter(rule, Some(block), u64::from(block.0));
+                (rule.run)(error, &mut self.reporter);
+                self.reporter.leave();
+            }
+        }
+    }
+
+    /// Says that the file is UTF-16; false where the rule that says so is allowed.
+    pub(crate) fn tell_utf16(&mut self) -> bool {
+        let Some(rule) = self.text.iter().find(|rule| rule.name == "syntax-error") else {
+            return false;
+        };
+        self.reporter.enter(rule, None, 0);
+        crate::rules::report_utf16(&mut self.reporter);
+        self.reporter.leave();
+        true
+    }
+
+    pub(crate) fn read_whole(&mut self, overview: &Overview<'_>) {
+        for rule in &self.whole {
+            self.reporter.enter(rule, None, 0);
+            (rule.run)(overview, &mut self.reporter);
+            self.reporter.leave();
+        }
+    }
+
+    fn read_leg(&mut self, leg: &Leg) {
+        let Some(follower) = &self.follower else { return };
+        let view = LegView::new(follower.machine(), leg, self.posture);
+        for rule in &self.legs {
+            self.reporter.enter(rule, Some(leg.motion.block), self.summary.motions);
+            (rule.run)(&view, &mut self.reporter);
+            self.reporter.leave();
+        }
+        self.time.add(&view, self.reporter.dialect());
+        match &leg.end {
+            Ok(end) if end.branch != 0 => self.posture = end.branch,
+            Ok(_) => {}
+            Err(_) => self.posture = 0,
+        }
+    }
+
+    /// Whether the text's own rules have told of the place already.
+    fn text_has_told(&self, fault: &Fault) -> bool {
+        let refused = matches!(
+            fault.kind,
+            FaultKind::Rejected {
+                refusal: Refusal::Syntax | Refusal::Number,
+                ..
+            }
+        );
+        refused && {
+            let errors = self.reporter.program().errors();
+            let from = errors.partition_point(|error| error.range.end < fault.range.start);
+            errors[from..].iter().any(|error| error.range.start <= fault.range.end)
+        }
+    }
+
+    /// Whether a rule was looked for, so that its silence says something.
+    fn looked_for(&self, name: &str) -> bool {
+        let motion =
+            self.faults.iter().any(|rule| rule.name == name) || self.motions.iter().any(|rule| rule.name == name);
+        let text = self.text.iter().any(|rule| rule.name == name) || self.whole.iter().any(|rule| rule.name == name);
+        let machine = self.follower.is_some() && self.legs.iter().any(|rule| rule.name == name);
+        (motion || text || machine) && (name != "porting" || self.ported)
+    }
+
+    /// What was found; `interpreter` has come to its end and tells the chains of calls.
+    pub(crate) fn finish(self, interpreter: &Interpreter<'_>) -> Report {
+        let cycle_time_s = if self.follower.is_some() {
+            self.time.interval()
+        } else {
+            None
+        };
+        let looked_for = |name: &str| self.looked_for(name);
+        let ending = Ending {
+            unused: self.suppressions.unused(&looked_for),
+        };
+        let mut reporter = self.reporter;
+        reporter.origin(false, ChainId::MAIN);
+        for rule in &self.ends {
+            reporter.enter(rule, None, 0);
+            (rule.run)(&ending, &mut reporter);
+            reporter.leave();
+        }
+        if let Some(follower) = &self.follower {
+            reporter.word_worst(follower.machine(), &self.legs);
+        }
+        let diagnostics = reporter.finish(&|chain| interpreter.chain(chain));
+        let mut summary = self.summary;
+        summary.count(&diagnostics);
+        Report {
+            diagnostics,
+            summary,
+            cycle_time_s,
+        }
+    }
+}
+
+impl Sink for Pass<'_> {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        self.summary.motions += 1;
+        self.reporter.origin(self.visited.has(motion.block), motion.chain);
+        for rule in &self.motions {
+            self.reporter.enter(rule, Some(motion.block), self.summary.motions);
+            (rule.run)(motion, state, &mut self.reporter);
+            self.reporter.leave();
+        }
+        if let Some(follower) = &mut self.follower {
+            let leg = follower.follow(motion);
+            self.read_leg(&leg);
+        }
+    }
+
+    fn fault(&mut self, fault: Fault) {
+        if self.text_has_told(&fault) {
+            return;
+        }
+        self.reporter.origin(self.visited.has(fault.block), ChainId::MAIN);
+        for rule in &self.faults {
+            self.reporter.enter(rule, Some(fault.block), self.executed);
+            (rule.run)(&fault, &mut self.reporter);
+            self.reporter.leave();
+        }
+    }
+}

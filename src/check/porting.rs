@@ -1,0 +1,113 @@
+//! What changes its meaning when a program goes to another control: one lint a function, read from the text and two dialects.
+//!
+//! A lint says only what follows from the text; whether a program runs there is what a check in the other dialect says.
+mod expressions;
+mod line;
+mod words;
+
+use crate::words::hash;
+use crate::{Overview, Reporter};
+use line::Line;
+use trunnion_dialect::Dialect;
+use trunnion_syntax::{Format, TextRange};
+
+/// The languages of expressions and flow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Language {
+    /// RS274/NGC: LinuxCNC, grbl.
+    Ngc,
+    /// Custom macro B: Fanuc, Haas.
+    MacroB,
+    /// Neither.
+    Other,
+}
+
+impl Language {
+    pub(crate) fn of(dialect: &Dialect) -> Self {
+        match dialect.name.as_str() {
+            "linuxcnc" | "grbl" => Self::Ngc,
+            name if dialect.quirks.macro_b || name.starts_with("fanuc") || name.starts_with("haas") => Self::MacroB,
+            _ => Self::Other,
+        }
+    }
+}
+
+/// From which control to which.
+pub(crate) struct Route<'d> {
+    pub(crate) from: &'d Dialect,
+    pub(crate) to: &'d Dialect,
+    pub(crate) languages: (Language, Language),
+}
+
+impl Route<'_> {
+    /// Whether expressions go from RS274/NGC to macro B or back.
+    pub(crate) fn crosses(&self) -> bool {
+        matches!(
+            self.languages,
+            (Language::Ngc, Language::MacroB) | (Language::MacroB, Language::Ngc)
+        )
+    }
+}
+
+/// One place whose meaning changes.
+pub(crate) struct Hit {
+    pub(crate) range: TextRange,
+    /// What it means there, after `on TARGET `.
+    pub(crate) message: String,
+    /// What to do.
+    pub(crate) help: &'static str,
+    /// Told once per program: what must agree for that; `None`: told at each place.
+    pub(crate) once: Option<&'static str>,
+}
+
+/// Reads one block.
+type Lint = fn(&Line<'_>, &Route<'_>, &mut Vec<Hit>);
+
+const LINTS: &[Lint] = &[
+    expressions::rounding,
+    expressions::remainder,
+    expressions::precedence,
+    expressions::power,
+    expressions::named_parameter,
+    expressions::flow,
+    words::same_group,
+    words::repeated_word,
+    words::unknown_code,
+    words::dwell_unit,
+    words::skip_inside,
+    words::implicit_decimal,
+    words::comment_marks,
+];
+
+/// Reports what would change its meaning on the controls that the settings name.
+pub(crate) fn report(overview: &Overview<'_>, out: &mut Reporter<'_>) {
+    let from = overview.settings.dialect;
+    for name in &overview.settings.port_to {
+        let Some(to) = trunnion_dialect::builtin(name) else {
+            continue;
+        };
+        let both_iso = from.lex.format == Format::Iso && to.lex.format == Format::Iso;
+        if to.name == from.name || !both_iso {
+            continue;
+        }
+        let route = Route {
+            from,
+            to,
+            languages: (Language::of(from), Language::of(to)),
+        };
+        let mut hits = Vec::new();
+        for block in overview.program.blocks() {
+            let line = Line::new(block);
+            for lint in LINTS {
+                lint(&line, &route, &mut hits);
+            }
+            for hit in hits.drain(..) {
+                let draft = out.report(hit.range, format!("on {name} {}", hit.message));
+                draft.help(hit.help);
+                if let Some(key) = hit.once {
+                    draft.merge_everywhere(hash(&format!("{name} {key}")));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! Lints of words, codes and marks: what the tables of the two dialects say differently.
+use super::line::Line;
+use super::{Hit, Language, Route};
+use trunnion_dialect::{Code, CodeKind, Dialect, Role};
+use trunnion_syntax::{Address, Item, TextRange, Value, Word};
+
+fn hit(range: TextRange, message: String, help: &'static str, once: Option<&'static str>) -> Hit {
+    Hit {
+        range,
+        message,
+        help,
+        once,
+    }
+}
+
+/// A code's number in tenths, where the word is one.
+fn tenths(word: &Word) -> Option<(CodeKind, u32)> {
+    let kind = match word.address {
+        Address::Letter(b'G') => CodeKind::G,
+        Address::Letter(b'M') => CodeKind::M,
+        _ => return None,
+    };
+    let Value::Number(number) = word.value else { return None };
+    let tenths = number.to_f64() * 10.0;
+    (tenths >= 0.0 && tenths < 10_000.0 && tenths.fract() == 0.0).then_some((kind, tenths as u32))
+}
+
+fn code<'d>(dialect: &'d Dialect, word: &Word) -> Option<&'d Code> {
+    let (kind, tenths) = tenths(word)?;
+    if kind == CodeKind::G {
+        dialect.g(tenths)
+    } else {
+        dialect.m(tenths)
+    }
+}
+
+/// Two codes of one group of the target: it refuses what the source lets pass, or groups otherwise.
+pub(super) fn same_group(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
+    if route.to.quirks.last_code_wins {
+        return;
+    }
+    let mut seen: Vec<(&Code, &str)> = Vec::new();
+    for word in line.block.words() {
+        let Some(found) = code(route.to, &word) else { continue };
+        let Some(group) = found.group.as_deref() else { continue };
+        let earlier = seen
+            .iter()
+            .find(|(other, known)| *known == group && other.id != found.id);
+        if let Some((other, _)) = earlier
+            && !clashes_here(route.from, &other.id, &word)
+        {
+            hits.push(hit(
+                word.range,
+                format!(
+                    "{} and {} may not stand in one block: both belong to the group `{group}`",
+                    other.id, found.id
+                ),
+                "write them in two blocks",
+                None,
+            ));
+        }
+        seen.push((found, group));
+    }
+}
+
+/// Whether the two codes exclude each other in the source's own table, and it refuses that: then its own rule tells of it.
+fn clashes_here(from: &Dialect, other: &str, word: &Word) -> bool {
+    let group = |code: Option<&Code>| code.and_then(|code| code.group.clone());
+    let first = from.codes().iter().find(|code| code.id == other);
+    let same = first.is_some() && group(first).is_some() && group(first) == group(code(from, word));
+    same && !from.quirks.last_code_wins
+}
+
+/// A word twice: the last one wins here, the target refuses the block.
+pub(super) fn repeated_word(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
+    if route.languages.1 != Language::Ngc || !route.from.quirks.last_code_wins {
+        return;
+    }
+    let mut seen = 0u32;
+    for word in line.block.words() {
+        let Address::Letter(letter @ b'A'..=b'Z') = word.address else {
+            continue;
+        };
+        if matches!(letter, b'G' | b'M' | b'O') {
+            continue;
+        }
+        let bit = 1 << (letter - b'A');
+        if seen & bit != 0 {
+            let name = char::from(letter);
+            hits.push(hit(
+                word.range,
+                format!("a second {name} word in a block is refused; here the last one wins"),
+                "remove the one that does not count",
+                None,
+            ));
+        }
+        seen |= bit;
+    }
+}
+
+/// A code that the target's table lacks.
+pub(super) fn unknown_code(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
+    for word in line.block.words() {
+        let Some((kind, number)) = tenths(&word) else { continue };
+        let (Some(here), None) = (code(route.from, &word), code(route.to, &word)) else {
+            continue;
+        };
+        if route.to.builder_may_own(kind, number) {
+            continue;
+        }
+        hits.push(hit(
+            word.range,
+            format!("there is no {}: here it is \"{}\"", here.id, here.doc),
+            "see how that control says it",
+            None,
+        ));
+    }
+}
+
+/// P of a dwell: milliseconds or seconds.
+pub(super) fn dwell_unit(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
+    if route.from.quirks.dwell_in_ms == route.to.quirks.dwell_in_ms {
+        return;
+    }
+    if !line.block.words().any(|word| tenths(&word) == Some((CodeKind::G, 40))) {
+        return;
+    }
+    let (there, help) = if route.to.quirks.dwell_in_ms {
+        (
+            "P of G4 without a decimal point counts milliseconds, here it is seconds",
+            "write 1000 times the number",
+        )
+    } else {
+        (
+            "P of G4 is seconds, here a P without a decimal point counts milliseconds",
+            "write a thousandth of the number",
+        )
+    };
+    let times = line.block.words().filter(|word| word.address == Address::Letter(b'P'));
+    hits.extend(times.map(|word| hit(word.range, there.to_owned(), help, None)));
+}
+
+/// `/` inside a block deletes the rest of it on Fanuc; RS274/NGC refuses it there.
+pub(super) fn skip_inside(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
+    if route.languages.1 != Language::Ngc {
+        return;
+    }
+    let mut depth = 0i32;
+    let mut begun = false;
+    for (at, &byte) in line.text.iter().enumerate() {
+        match byte {
+            b'[' => depth += 1,
+            b']' => depth -= 1,
+            b'/' if begun && depth == 0 => {
+                hits.push(hit(
+                    line.range(at, 1),
+                    "`/` is allowed at the start of a block only".to_owned(),
+                    "write the part that may be skipped as a block of its own",
+                    None,
+                ));
+                return;
+            }
+            _ => {}
+        }
+        begun |= !byte.is_ascii_whitespace();
+    }
+}
+
+/// Coordinates without a decimal point, to a control where a parameter says what that means.
+pub(super) fn implicit_decimal(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
+    if !route.to.quirks.whole_numbers_ambiguous || route.from.quirks.whole_numbers_ambiguous {
+        return;
+    }
+    let whole = line.block.words().find(|word| {
+        let sized = match word.address {
+            Address::Letter(letter) => {
+                matches!(
+                    route.to.role(letter),
+                    Some(Role::Axis | Role::ArcRadius | Role::ArcCentre)
+                )
+            }
+            _ => false,
+        };
+        sized && matches!(word.value, Value::Number(number) if !number.has_point && number.mantissa != 0)
+    });
+    if let Some(word) = whole {
+        let text = line.block.program().text(word.range).into_owned();
+        hits.push(hit(
+            word.range,
+            format!("a parameter decides whether `{text}` counts millimetres or thousandths of them"),
+            "write a decimal point in every coordinate",
+            Some("decimal"),
+        ));
+    }
+}
+
+/// Comments in marks that the target does not have.
+pub(super) fn comment_marks(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
+    for item in line.block.items() {
+        let Item::Comment(comment) = item else { continue };
+        let source = line.block.program().source();
+        let (strange, message, key) = match source.get(comment.range.start as usize) {
+            Some(b';') => (
+                !route.to.lex.semicolon_comment,
+                "`;` begins no comment: it ends the block, and what follows is read as words",
+                "semicolon",
+            ),
+            Some(b'(') => (!route.to.lex.paren_comment, "`( )` is no comment", "parenthesis"),
+            _ => continue,
+        };
+        if strange {
+            let help = "write the comment with the marks of that control";
+            hits.push(hit(comment.range, message.to_owned(), help, Some(key)));
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! What a check found, as plain data: findings, counts and the verdict.
+use crate::{Diagnostic, Severity, Status};
+
+/// The verdict on a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Nothing at or above the level that is denied, nothing unknown.
+    Pass,
+    /// Some finding at or above the level that is denied.
+    Fail,
+    /// No such finding, but something could not be decided.
+    Unknown,
+}
+
+impl Verdict {
+    /// `pass`, `fail` or `unknown`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Unknown => "unknown",
+        }
+    }
+}
+
+/// Counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// Blocks with content (not empty lines, not lines of comments only) in the file, each once.
+    pub blocks: u64,
+    /// Motions, as often as they are run.
+    pub motions: u64,
+    /// Errors.
+    pub errors: u64,
+    /// Warnings.
+    pub warnings: u64,
+    /// Infos with status fail.
+    pub infos: u64,
+    /// Diagnostics with status unknown.
+    pub unknown: u64,
+}
+
+impl Summary {
+    /// Counts findings by status and severity.
+    pub(crate) fn count(&mut self, diagnostics: &[Diagnostic]) {
+        for diagnostic in diagnostics {
+            let count = match (diagnostic.status, diagnostic.severity) {
+                (Status::Unknown, _) => &mut self.unknown,
+                (Status::Fail, Severity::Error) => &mut self.errors,
+                (Status::Fail, Severity::Warning) => &mut self.warnings,
+                (Status::Fail, Severity::Info) => &mut self.infos,
+            };
+            *count += 1;
+        }
+    }
+}
+
+/// What a check found.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// Sorted by place.
+    pub diagnostics: Vec<Diagnostic>,
+    /// Counts.
+    pub summary: Summary,
+    /// Lowest and highest time the program takes from its first known position on, s. Lowest: no axis needs time to
+    /// accelerate. Highest: the machine stops after every block and accelerates no faster than its machine file declares.
+    /// `None`: some time is not known (no machine, no feed, a dwell in turns, an acceleration that is not declared).
+    pub cycle_time_s: Option<[f64; 2]>,
+}
+
+impl Report {
+    /// The verdict when findings at or above `deny` count as failures.
+    pub fn verdict(&self, deny: Severity) -> Verdict {
+        let denied = |d: &Diagnostic| d.status == Status::Fail && d.severity >= deny;
+        if self.diagnostics.iter().any(denied) {
+            Verdict::Fail
+        } else if self.summary.unknown > 0 {
+            Verdict::Unknown
+        } else {
+            Verdict::Pass
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Loops, branches and subprograms do not fit together.
+//!
+//! # Why
+//! A loop without its end, an `else` without its `if`, or an end that belongs to something else: the control stops, or runs
+//! on where nobody expects it.
+//!
+//! # Example
+//! ```gcode fanuc-30i
+//! N10 WHILE [#1 LT 3] DO 1
+//! ;   ^^^^^^^^^^^^^^^^^^^^ broken-structure:
+//! N20 #1 = #1 + 1
+//! N30 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode fanuc-30i
+//! N10 WHILE [#1 LT 3] DO 1
+//! N20 #1 = #1 + 1
+//! N30 END 1
+//! N40 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound where the run reaches it.
+//!
+//! # Sources
+//! Answers of the interpreter of LinuxCNC 2.9; the Fanuc manuals on branch and repetition.
+use crate::prelude::*;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    refused(fault, out, &[Refusal::Structure]);
+}

@@ -1,0 +1,91 @@
+//! A tool cuts before its length is compensated.
+//!
+//! # Why
+//! Without G43 the control moves the spindle's nose, not the tip: the tool goes in too deep by its whole length, or does not reach
+//! the part. What counts is what is in force at the tool's first feed motion, in whichever block it was switched on.
+//!
+//! # Example
+//! ```gcode fanuc-30i
+//! N10 T5 M6
+//! N20 M3 S5000
+//! N30 G0 X0. Y0. Z50.
+//! N40 G1 Z-5. F200.
+//! ;   ^^^^^^^^^^^^^ missing-tool-length: T5 cuts without its length
+//! N50 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode fanuc-30i
+//! N10 T5 M6
+//! N20 M3 S5000
+//! N30 G0 X0. Y0.
+//! N35 G43 H5 Z50.
+//! N40 G1 Z-5. F200.
+//! N50 M30
+//! ```
+//!
+//! # Guarantee
+//! Heuristic: where all lengths stand in the work offset, or the builder's tool change switches the length on, it is right without G43.
+//! Told once for each tool. Only for controls that switch the length on by G43, and for tools that the program changes to.
+//!
+//! # Sources
+//! Trunnion's interface, section 7.
+use crate::prelude::*;
+use trunnion_interp::{ModalState, Motion};
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Heuristic,
+    level: Level::Motion(check),
+};
+
+fn check(motion: &Motion, state: &ModalState, out: &mut Reporter<'_>) {
+    let Some(tool @ 1..) = motion.tool else { return };
+    if !motion.is_feed() || !by_code(out.dialect()) || !out.once(u64::from(tool)) {
+        return;
+    }
+    if state.tool_length_mm.is_some() || motion.tcp || motion.machine_coordinates || state.frame_unknown {
+        return;
+    }
+    let range = code_range(out.program(), motion.block);
+    out.report(
+        range,
+        format!("T{tool} cuts without its length: no tool length compensation is in force"),
+    )
+    .help(format!(
+        "write G43 H{tool} with the first move of Z after the tool change"
+    ));
+}
+
+/// Whether the control switches the length on by G43. On lathes and on Sinumerik the tool word does it.
+fn by_code(dialect: &str) -> bool {
+    let mills = ["iso-6983", "linuxcnc", "fanuc-30i", "haas-ngc"];
+    mills.contains(&dialect)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn only_the_first_feed_motion_of_a_tool_is_judged() {
+        assert_drawn(
+            "gcode linuxcnc",
+            "T1 M6\nG43 H1 G0 X0 Y0 Z0\n;^^ tool-length-unset: \nG1 X1 F100\nG49 X2\nM2\n",
+        );
+        let report = assert_drawn(
+            "gcode linuxcnc",
+            "T1 M6\nG0 X0 Y0 Z0\nG1 X1 F100\n;^^^^^^^^^ missing-tool-length: T1 cuts\nX2\nT1 M6\nG1 X3\nM2\n",
+        );
+        assert_eq!(report.diagnostics[0].count, 1);
+    }
+
+    #[test]
+    fn nothing_is_said_without_a_tool_change_or_where_the_tool_word_does_it() {
+        assert_drawn("gcode", "G0 X0 Y0 Z0\nG1 X1 F100\n");
+        assert_drawn(
+            "gcode sinumerik-840d",
+            "T1\nM6\n;^ tool-length-unset: \nG1 X1 F100\nM30\n",
+        );
+    }
+}

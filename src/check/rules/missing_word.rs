@@ -1,0 +1,36 @@
+//! A code stands in a block without a word that it needs.
+//!
+//! # Why
+//! The control stops, or takes a value from a block before. LinuxCNC says for example `Dwell time missing with g4`.
+//!
+//! # Example
+//! ```gcode linuxcnc
+//! G0 X10
+//! G4
+//! ;^ missing-word:
+//! M2
+//! ```
+//!
+//! # Use instead
+//! ```gcode linuxcnc
+//! G0 X10
+//! G4 P2
+//! M2
+//! ```
+//!
+//! # Guarantee
+//! Sound for the codes whose words are modelled. Feed, arc centres and cycles have rules of their own.
+//!
+//! # Sources
+//! Answers of the interpreter of LinuxCNC 2.9.
+use crate::prelude::*;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    refused(fault, out, &[Refusal::MissingWord]);
+}

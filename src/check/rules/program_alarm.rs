@@ -1,0 +1,51 @@
+//! The program stops itself here with an alarm.
+//!
+//! # Why
+//! Macros guard themselves: `#3000 = 1 (NO TOOL)` on Fanuc, `(ABORT, no tool)` on LinuxCNC. The run comes to it, so with these
+//! values the program ends there, and what follows is never run.
+//!
+//! # Example
+//! ```gcode fanuc-30i
+//! N10 #1 = 0
+//! N20 IF [#1 GT 0] GOTO 40
+//! N30 #3000 = 1 (DEPTH IS ZERO)
+//! ;   ^^^^^^^^^ program-alarm:
+//! N40 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode fanuc-30i
+//! N10 #1 = 5
+//! N20 IF [#1 GT 0] GOTO 40
+//! N30 #3000 = 1 (DEPTH IS ZERO)
+//! N40 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound: it is reported only where the run proves that it is reached.
+//!
+//! # Sources
+//! The Fanuc manuals on system variables; answers of the interpreter of LinuxCNC 2.9.
+use crate::prelude::*;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    if let FaultKind::ProgramAlarm { message } = &fault.kind {
+        let text = message.trim();
+        out.report(
+            fault.range,
+            if text.is_empty() {
+                "the program stops itself here with an alarm".to_owned()
+            } else {
+                format!("the program stops itself here with the alarm \"{text}\"")
+            },
+        )
+        .note("what follows is not run")
+        .help("see which condition before it leads here");
+    }
+}

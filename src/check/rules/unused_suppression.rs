@@ -1,0 +1,68 @@
+//! A comment allows a rule that finds nothing there.
+//!
+//! # Why
+//! The reason it gives is no longer true, or the comment stands at another block than it was meant for: then it hides the next
+//! mistake instead of the one it was written for.
+//!
+//! # Example
+//! ```gcode
+//! N10 G0 X10 (trunnion: allow repeated-word because this control takes the last)
+//! ;          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ unused-suppression: nothing is found here that `allow repeated-word`
+//! ```
+//!
+//! # Use instead
+//! ```gcode
+//! N10 G0 X10
+//! ```
+//!
+//! # Guarantee
+//! Sound for rules that were looked for: not for those that need a machine where none is named, nor for those that the settings
+//! switch off.
+//!
+//! # Sources
+//! Trunnion's interface, section 5.
+use crate::prelude::*;
+use crate::rule::Ending;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Info,
+    guarantee: Guarantee::Sound,
+    level: Level::End(check),
+};
+
+fn check(ending: &Ending<'_>, out: &mut Reporter<'_>) {
+    for (range, rule) in &ending.unused {
+        out.report(
+            *range,
+            format!("nothing is found here that `allow {rule}` would silence"),
+        )
+        .help("remove the comment, or put it beside the block that it is meant for");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn what_is_used_or_was_not_looked_for_is_not_told() {
+        assert_drawn("gcode", "G0 X0 X1 (trunnion: allow repeated-word because of a test)\n");
+        assert_drawn("gcode", "(trunnion: allow repeated-word because of a test)\nG0 X0 X1\n");
+        assert_drawn(
+            "gcode",
+            "G0 X0 (trunnion: allow pole-flip because no machine is named)\n",
+        );
+        assert_drawn(
+            "gcode",
+            "G0 X0 (trunnion: allow porting because nobody carries it over)\n",
+        );
+    }
+
+    #[test]
+    fn with_a_machine_rules_of_machines_were_looked_for() {
+        assert_drawn(
+            "gcode mikron-ucp710",
+            "G0 X0 (trunnion: allow pole-flip because of it)\n;     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ unused-suppression: \n",
+        );
+    }
+}

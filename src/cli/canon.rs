@@ -1,0 +1,202 @@
+//! `canon`: the canonical calls of a LinuxCNC program, listed as `rs274 -g` lists them.
+use super::{
+    Done,
+    args::Canon as Command,
+    failure::{Failure, remark},
+    load,
+};
+use std::{
+    fs,
+    io::{BufWriter, Write},
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex, PoisonError},
+};
+use trunnion_ngc::{
+    At, Canon, Engine, Error, Files, Ini, Listing, Loaded, Parameters, Setup, Sink, Source, State, Step, ToolTable,
+};
+
+/// Endings tried for the name of a called program.
+const ENDINGS: [&str; 2] = ["ngc", "nc"];
+
+/// Runs `canon`. An error of the program makes the exit status 1.
+pub(super) fn run(command: &Command) -> Result<Done, Failure> {
+    let bytes: Arc<[u8]> = load::read(&command.file)?.into();
+    let main = Arc::new(Source::new(String::new(), bytes));
+    let sources: Sources = Arc::new(Mutex::new(vec![Arc::clone(&main)]));
+    let setup = setup(command, &sources)?;
+    remark(false, "executing");
+    let mut engine = Engine::new(main, &setup);
+    let mut out = Printer {
+        out: BufWriter::new(std::io::stdout().lock()),
+        listing: Listing::default(),
+        sources,
+        number: Vec::new(),
+        place: None,
+        failed: None,
+    };
+    let last = engine.run(true, &mut out);
+    if let Step::Undecided(why) = &last {
+        return Err(Failure::file(&command.file, format!("cannot be decided: {why}")));
+    }
+    if let Step::OutOfFuel(at) = last {
+        let text = format!("does not end: the loop or call at line {} was left to run no longer", at.line + 1);
+        return Err(Failure::file(&command.file, text));
+    }
+    // without an INI file rs274 resets its machine twice
+    let resets = if command.ini.is_some() { 1 } else { 2 };
+    for _ in 0..resets {
+        out.print(&Canon::Reset, engine.at());
+    }
+    if let Some(error) = out.failed.take() {
+        return Err(error.into());
+    }
+    out.out.flush()?;
+    if let Some(path) = &command.parameters {
+        save(path, &engine.kept_parameters())?;
+    }
+    Ok(if last == Step::Refused { Done::Found } else { Done::Clean })
+}
+
+/// The programs of a run, the main one first, in the order in which they were loaded.
+type Sources = Arc<Mutex<Vec<Arc<Source>>>>;
+
+fn setup(command: &Command, sources: &Sources) -> Result<Setup, Failure> {
+    let ini = match &command.ini {
+        Some(path) => Ini::parse(&load::read(path)?),
+        None => Ini::default(),
+    };
+    let tools = match &command.tool_table {
+        Some(path) => {
+            let (table, bad) = ToolTable::parse(&load::read(path)?);
+            for line in bad {
+                remark(false, &format!("{}:{}: {}", path.display(), line.line, line.message));
+            }
+            table
+        }
+        None => ToolTable::sample(),
+    };
+    let parameters = match &command.parameters {
+        Some(path) if path.exists() => Parameters::parse(&load::read(path)?)
+            .map_err(|bad| Failure::file(path, format!("line {}: {}", bad.line, bad.message)))?,
+        _ => Parameters::default(),
+    };
+    let files = Folders {
+        folders: folders(command, &ini),
+        sources: Arc::clone(sources),
+    };
+    Ok(Setup {
+        ini,
+        tools,
+        parameters,
+        files: Some(Arc::new(files)),
+        ..Setup::default()
+    })
+}
+
+/// Where called programs are looked for: `[DISPLAY]PROGRAM_PREFIX` and `[RS274NGC]SUBROUTINE_PATH` (relative to the INI file), and the
+/// folder of the program.
+fn folders(command: &Command, ini: &Ini) -> Vec<PathBuf> {
+    let beside = |path: &Path| path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+    let base = command.ini.as_deref().map_or_else(PathBuf::new, beside);
+    let mut folders = Vec::new();
+    for (section, key) in [("DISPLAY", "PROGRAM_PREFIX"), ("RS274NGC", "SUBROUTINE_PATH")] {
+        if let Some(list) = ini.values.get(&(section.to_owned(), key.to_owned())) {
+            folders.extend(list.split(':').filter(|folder| !folder.is_empty()).map(|folder| base.join(folder)));
+        }
+    }
+    folders.push(beside(&command.file));
+    folders
+}
+
+/// Finds called programs in folders.
+struct Folders {
+    folders: Vec<PathBuf>,
+    sources: Sources,
+}
+
+impl Files for Folders {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+        for folder in &self.folders {
+            let endings = ENDINGS.map(|ending| folder.join(format!("{name}.{ending}")));
+            for path in endings {
+                let Ok(bytes) = fs::read(&path) else { continue };
+                let bytes: Arc<[u8]> = bytes.into();
+                let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+                let path = path.display().to_string();
+                sources.push(Arc::new(Source::new(path.clone(), Arc::clone(&bytes))));
+                return Ok(Loaded { path, bytes });
+            }
+        }
+        Err(self.folders.iter().map(|folder| folder.display().to_string()).collect())
+    }
+}
+
+/// Prints what a run does.
+struct Printer<W: Write> {
+    out: W,
+    listing: Listing,
+    sources: Sources,
+    /// Digits of the sequence number of the line in hand, and which line that is.
+    number: Vec<u8>,
+    place: Option<At>,
+    /// The first error of writing.
+    failed: Option<std::io::Error>,
+}
+
+impl<W: Write> Printer<W> {
+    fn print(&mut self, call: &Canon, at: At) {
+        if self.place != Some(at) {
+            self.place = Some(at);
+            self.number = sequence_number(&self.line(at));
+        }
+        let written = self.listing.write(call, &self.number, &mut self.out);
+        if let Err(error) = written {
+            self.failed.get_or_insert(error);
+        }
+    }
+    /// Bytes of a line without its end.
+    fn line(&self, at: At) -> Vec<u8> {
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        let source = sources.get(at.file.0 as usize);
+        let Some((source, range)) = source.and_then(|source| Some((source, source.line(at.line)?))) else {
+            return Vec::new();
+        };
+        let line = &source.bytes()[range.as_usize()];
+        let line = line.strip_suffix(b"\n").unwrap_or(line);
+        line.strip_suffix(b"\r").unwrap_or(line).to_vec()
+    }
+}
+
+/// The digits of N as they are written, dots where the line has none.
+fn sequence_number(line: &[u8]) -> Vec<u8> {
+    let mut signs = line.iter().filter(|byte| !byte.is_ascii_whitespace()).skip_while(|byte| **byte == b'/').copied();
+    let digits: Vec<u8> = match signs.next() {
+        Some(b'N' | b'n') => signs.take_while(u8::is_ascii_digit).collect(),
+        _ => Vec::new(),
+    };
+    if digits.is_empty() { b".....".to_vec() } else { digits }
+}
+
+impl<W: Write> Sink for Printer<W> {
+    fn call(&mut self, call: &Canon, at: At, _state: &State) {
+        self.print(call, at);
+    }
+    fn error(&mut self, error: &Error, at: At) {
+        // in order when both streams go to one place
+        if let Err(error) = self.out.flush() {
+            self.failed.get_or_insert(error);
+        }
+        remark(false, error.message());
+        remark(false, &String::from_utf8_lossy(&self.line(at)));
+    }
+}
+
+/// Writes the parameter file back, as the control does at the end; the old one stays beside it as `.bak`.
+fn save(path: &Path, parameters: &Parameters) -> Result<(), Failure> {
+    if path.exists() {
+        let mut backup = path.as_os_str().to_owned();
+        backup.push(".bak");
+        fs::copy(path, &backup).map_err(|error| Failure::io(path, "copy the file to .bak", &error))?;
+    }
+    fs::write(path, parameters.text()).map_err(|error| Failure::io(path, "write the file", &error))
+}

@@ -1,0 +1,80 @@
+//! `diff`: where two programs move the tool differently. What differs only in its text is not shown.
+mod align;
+mod changes;
+mod event;
+mod point;
+mod run;
+mod show;
+
+use super::{
+    Done,
+    args::Global,
+    failure::{Failure, remark},
+    json::write_json,
+    load,
+};
+use clap::ValueEnum;
+use point::Tolerance;
+use std::{
+    io::{BufWriter, Write},
+    path::PathBuf,
+};
+
+/// `diff`
+#[derive(clap::Args)]
+pub(crate) struct Diff {
+    /// The program before.
+    before: PathBuf,
+    /// The program after.
+    after: PathBuf,
+    /// Positions that differ by no more are the same, mm.
+    #[arg(long, value_name = "MM", default_value_t = 0.001)]
+    tolerance_mm: f64,
+    /// Angles that differ by no more are the same, degrees.
+    #[arg(long, value_name = "DEG", default_value_t = 0.001)]
+    tolerance_deg: f64,
+    /// Show at most this many differences (0: all that were compared in detail).
+    #[arg(long, default_value_t = 100)]
+    limit: usize,
+    #[arg(long, value_enum, default_value = "pretty")]
+    format: DiffFormat,
+}
+
+/// Formats of `diff`.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum DiffFormat {
+    Pretty,
+    Json,
+}
+
+/// Runs `diff`. A difference makes the exit status 1.
+pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
+    let good = |value: f64| value.is_finite() && value >= 0.0;
+    if !good(command.tolerance_mm) || !good(command.tolerance_deg) {
+        return Err(Failure::new(
+            "--tolerance-mm and --tolerance-deg must be numbers of 0 or more",
+        ));
+    }
+    if load::is_stdin(&command.before) && load::is_stdin(&command.after) {
+        return Err(Failure::new("only one of the two programs can be standard input"));
+    }
+    let before = load::load(global, &command.before)?;
+    let after = load::load(global, &command.after)?;
+    if global.verbose {
+        remark(false, &before.explanation());
+        remark(false, &after.explanation());
+    }
+    let tolerance = Tolerance {
+        mm: command.tolerance_mm,
+        deg: command.tolerance_deg,
+    };
+    let found = changes::compare(&before, &after, tolerance);
+    let limit = if command.limit == 0 { usize::MAX } else { command.limit };
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    match command.format {
+        DiffFormat::Json => write_json(&mut out, &show::json(&before, &after, &found, tolerance))?,
+        DiffFormat::Pretty => out.write_all(show::text(&before, &after, &found, tolerance, limit).as_bytes())?,
+    }
+    out.flush()?;
+    Ok(if found.same() { Done::Clean } else { Done::Found })
+}

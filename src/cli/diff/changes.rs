@@ -1,0 +1,322 @@
+//! From two runs to the list of differences. First pass: a key per motion, 16 bytes each, which are aligned. Second pass: the
+//! motions of the stretches that differ are made again and compared in numbers, so that the first pass may be coarse.
+use super::align::{Stretch, align};
+use super::event::{Body, Event, Tech};
+use super::point::{Point, Tolerance};
+use super::run::Events;
+use crate::cli::load::Loaded;
+use std::collections::{BTreeMap, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use trunnion_machine::Machine;
+use trunnion_syntax::BlockId;
+
+/// So many motions are compared in detail; more are only counted.
+const MOST_DETAILS: usize = 50_000;
+/// So many different changes of feed, speed and the like are kept.
+const MOST_TECHS: usize = 10_000;
+
+/// One difference.
+#[derive(Clone, Debug)]
+pub(super) enum Change {
+    /// A motion leads elsewhere.
+    Moved(Box<(BlockId, Point)>, Box<(BlockId, Point)>),
+    /// Only in the first (`false`) or second (`true`) program.
+    Only(bool, BlockId, Box<Body>),
+}
+
+/// A change of what is in force, with all motions that have it.
+#[derive(Clone, Debug)]
+pub(super) struct TechChange {
+    /// Name, before, after.
+    pub(super) parts: Vec<(&'static str, String, String)>,
+    /// First motion in both programs.
+    pub(super) first: (BlockId, BlockId),
+    /// Last motion in both programs.
+    pub(super) last: (BlockId, BlockId),
+    pub(super) count: u64,
+}
+
+/// Everything found.
+#[derive(Default)]
+pub(super) struct Found {
+    pub(super) motions: [u64; 2],
+    pub(super) changes: Vec<Change>,
+    pub(super) techs: Vec<TechChange>,
+    /// Motions and statements that differ and were not compared in detail.
+    pub(super) not_compared: u64,
+    /// Motions whose other feed and the like are not listed.
+    pub(super) techs_not_listed: u64,
+    /// Motions whose end is not known in numbers: they are the same only as far as their words are.
+    pub(super) unknown: u64,
+    /// The two have too little in common to be aligned.
+    pub(super) too_different: bool,
+    /// Both were compared one by one, because they have the same number of motions and too many differences to be aligned.
+    pub(super) one_by_one: bool,
+}
+
+impl Found {
+    /// Whether nothing differs.
+    pub(super) fn same(&self) -> bool {
+        self.changes.is_empty() && self.techs.is_empty() && self.not_compared == 0 && !self.too_different
+    }
+}
+
+/// What the first pass keeps of a program.
+#[derive(Default)]
+struct Keys {
+    hashes: Vec<u64>,
+    /// Index into the common list of what is in force; `u32::MAX` for statements.
+    techs: Vec<u32>,
+    blocks: Vec<u32>,
+}
+
+/// What was in force in any motion, each once.
+#[derive(Default)]
+struct Techs {
+    list: Vec<Tech>,
+    index: HashMap<Tech, u32>,
+}
+
+/// Compares two programs; with the machine of the first one, by joints.
+pub(super) fn compare(before: &Loaded, after: &Loaded, tolerance: Tolerance) -> Found {
+    let machine = before.resolved.machine.as_ref();
+    let mut found = Found::default();
+    let mut techs = Techs::default();
+    let a = keys(before, machine, tolerance, &mut techs, (0, &mut found));
+    let b = keys(after, machine, tolerance, &mut techs, (1, &mut found));
+    let stretches = match align(&a.hashes, &b.hashes) {
+        Some(stretches) => stretches,
+        None if a.hashes.len() == b.hashes.len() => {
+            found.one_by_one = true;
+            return one_by_one(before, after, machine, tolerance, found);
+        }
+        None => {
+            found.too_different = true;
+            let head = a.hashes.iter().zip(&b.hashes).take_while(|(x, y)| x == y).count();
+            let tail = a.hashes[head..]
+                .iter()
+                .rev()
+                .zip(b.hashes[head..].iter().rev())
+                .take_while(|(x, y)| x == y)
+                .count();
+            let most = MOST_DETAILS / 100;
+            let (more, other) = (a.hashes.len() - head - tail, b.hashes.len() - head - tail);
+            found.not_compared = (more.saturating_sub(most)).max(other.saturating_sub(most)) as u64;
+            vec![
+                Stretch::Same(0, 0, head),
+                Stretch::Different(head, more.min(most), head, other.min(most)),
+            ]
+        }
+    };
+    same_stretches(&a, &b, &techs, &stretches, &mut found);
+    details(before, after, machine, tolerance, &stretches, &mut found);
+    found
+}
+
+fn keys(
+    loaded: &Loaded,
+    machine: Option<&Machine>,
+    tolerance: Tolerance,
+    techs: &mut Techs,
+    to: (usize, &mut Found),
+) -> Keys {
+    let (side, found) = to;
+    let mut keys = Keys::default();
+    for event in Events::new(loaded, machine) {
+        let mut state = DefaultHasher::new();
+        let tech = match &event.body {
+            Body::Motion(point, tech) => {
+                found.motions[side] += 1;
+                found.unknown += u64::from(side == 0 && point.known & 7 != 7 && point.way.is_a_move());
+                point.hash(tolerance, &mut state);
+                techs.number(tech)
+            }
+            Body::Statement(text) => {
+                text.hash(&mut state);
+                u32::MAX
+            }
+        };
+        keys.hashes.push(state.finish());
+        keys.techs.push(tech);
+        keys.blocks.push(event.block.0);
+    }
+    keys
+}
+
+impl Techs {
+    fn number(&mut self, tech: &Tech) -> u32 {
+        if let Some(&known) = self.index.get(tech) {
+            return known;
+        }
+        let number = self.list.len() as u32;
+        self.list.push(tech.clone());
+        self.index.insert(tech.clone(), number);
+        number
+    }
+}
+
+/// What is in force in motions that lead to the same place.
+fn same_stretches(a: &Keys, b: &Keys, techs: &Techs, stretches: &[Stretch], found: &mut Found) {
+    let mut groups: BTreeMap<(u32, u32), usize> = BTreeMap::new();
+    for stretch in stretches {
+        let Stretch::Same(x, y, length) = *stretch else {
+            continue;
+        };
+        for (at, other) in (x..x + length).zip(y..y + length) {
+            let pair = (a.techs[at], b.techs[other]);
+            if pair.0 == pair.1 || pair.0 == u32::MAX || pair.1 == u32::MAX {
+                continue;
+            }
+            let blocks = (BlockId(a.blocks[at]), BlockId(b.blocks[other]));
+            if let Some(&known) = groups.get(&pair) {
+                found.techs[known].add(blocks);
+                continue;
+            }
+            let parts = techs.list[pair.0 as usize].differences(&techs.list[pair.1 as usize]);
+            if let Some(place) = found.note(parts, blocks) {
+                groups.insert(pair, place);
+            }
+        }
+    }
+}
+
+impl TechChange {
+    fn add(&mut self, blocks: (BlockId, BlockId)) {
+        self.count += 1;
+        self.last = blocks;
+    }
+}
+
+impl Found {
+    /// Notes that a motion has another feed or the like; where it stands in the list.
+    fn note(&mut self, parts: Vec<(&'static str, String, String)>, blocks: (BlockId, BlockId)) -> Option<usize> {
+        if parts.is_empty() {
+            return None;
+        }
+        // the same change in motions of other tools is one change; the newest groups are the likeliest
+        let known = self.techs.iter().rposition(|change| change.parts == parts);
+        if let Some(place) = known {
+            self.techs[place].add(blocks);
+            return Some(place);
+        }
+        if self.techs.len() >= MOST_TECHS {
+            self.techs_not_listed += 1;
+            return None;
+        }
+        self.techs.push(TechChange {
+            parts,
+            first: blocks,
+            last: blocks,
+            count: 1,
+        });
+        Some(self.techs.len() - 1)
+    }
+
+    /// Compares two events that stand at the same place.
+    fn pair(&mut self, a: Event, b: Event, tolerance: Tolerance) {
+        match (a.body, b.body) {
+            (Body::Motion(from, tech), Body::Motion(to, other)) => {
+                if !from.same(&to, tolerance) {
+                    self.changes
+                        .push(Change::Moved(Box::new((a.block, from)), Box::new((b.block, to))));
+                }
+                let parts = tech.differences(&other);
+                if from.way.name() == to.way.name() {
+                    self.note(parts, (a.block, b.block));
+                }
+            }
+            (Body::Statement(x), Body::Statement(y)) if x == y => {}
+            (x, y) => {
+                self.only(false, a.block, x);
+                self.only(true, b.block, y);
+            }
+        }
+    }
+
+    fn only(&mut self, after: bool, block: BlockId, body: Body) {
+        self.changes.push(Change::Only(after, block, Box::new(body)));
+    }
+}
+
+/// The second pass: makes the events of the stretches that differ again.
+fn details(
+    before: &Loaded,
+    after: &Loaded,
+    machine: Option<&Machine>,
+    tolerance: Tolerance,
+    stretches: &[Stretch],
+    found: &mut Found,
+) {
+    let mut sides = [Skipping::new(before, machine), Skipping::new(after, machine)];
+    let mut compared = 0;
+    for stretch in stretches {
+        let Stretch::Different(x, more, y, other) = *stretch else {
+            continue;
+        };
+        if compared + more + other > MOST_DETAILS {
+            found.not_compared += more.max(other) as u64;
+            continue;
+        }
+        compared += more + other;
+        let mut a = sides[0].take(x, more).into_iter();
+        let mut b = sides[1].take(y, other).into_iter();
+        loop {
+            match (a.next(), b.next()) {
+                (Some(a), Some(b)) => found.pair(a, b, tolerance),
+                (Some(a), None) => found.only(false, a.block, a.body),
+                (None, Some(b)) => found.only(true, b.block, b.body),
+                (None, None) => break,
+            }
+        }
+    }
+}
+
+/// A run from which stretches are taken in order.
+struct Skipping<'a> {
+    events: Events<'a>,
+    next: usize,
+}
+
+impl<'a> Skipping<'a> {
+    fn new(loaded: &'a Loaded, machine: Option<&'a Machine>) -> Self {
+        Self {
+            events: Events::new(loaded, machine),
+            next: 0,
+        }
+    }
+
+    fn take(&mut self, from: usize, count: usize) -> Vec<Event> {
+        if count == 0 {
+            return Vec::new();
+        }
+        let skipped = from - self.next;
+        self.next = from + count;
+        self.events.by_ref().skip(skipped).take(count).collect()
+    }
+}
+
+/// Compares event by event.
+fn one_by_one(
+    before: &Loaded,
+    after: &Loaded,
+    machine: Option<&Machine>,
+    tolerance: Tolerance,
+    mut found: Found,
+) -> Found {
+    for (a, b) in Events::new(before, machine).zip(Events::new(after, machine)) {
+        if found.changes.len() < MOST_DETAILS {
+            found.pair(a, b, tolerance);
+        } else if !same(&a, &b, tolerance) {
+            found.not_compared += 1;
+        }
+    }
+    found
+}
+
+fn same(a: &Event, b: &Event, tolerance: Tolerance) -> bool {
+    match (&a.body, &b.body) {
+        (Body::Motion(from, _), Body::Motion(to, _)) => from.same(to, tolerance),
+        (Body::Statement(x), Body::Statement(y)) => x == y,
+        _ => false,
+    }
+}

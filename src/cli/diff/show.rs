@@ -1,0 +1,351 @@
+//! Differences, for people and for programs.
+use super::changes::{Change, Found, TechChange};
+use super::event::Body;
+use super::point::{Point, Tolerance, Way};
+use crate::cli::{json::tidy, load::Loaded};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use trunnion_interp::AXIS_LETTERS;
+use trunnion_syntax::{BlockId, LineIndex};
+
+/// The lines of both programs.
+struct Lines<'a> {
+    sides: [(&'a Loaded, LineIndex); 2],
+}
+
+impl<'a> Lines<'a> {
+    fn new(before: &'a Loaded, after: &'a Loaded) -> Self {
+        let lines = |loaded: &'a Loaded| (loaded, LineIndex::new(loaded.program.source()));
+        Self {
+            sides: [lines(before), lines(after)],
+        }
+    }
+    fn line(&self, side: usize, block: BlockId) -> u32 {
+        let (loaded, lines) = &self.sides[side];
+        lines
+            .line_column(loaded.program.source(), loaded.program.block(block).range().start)
+            .0
+    }
+    fn number(&self, side: usize, block: BlockId) -> Option<String> {
+        let program = &self.sides[side].0.program;
+        program
+            .block(block)
+            .number()
+            .map(|range| program.text(range).into_owned())
+    }
+    fn name(&self, side: usize) -> &str {
+        &self.sides[side].0.name
+    }
+    /// `12`, `12 N120`.
+    fn place(&self, side: usize, block: BlockId) -> String {
+        let line = self.line(side, block);
+        self.number(side, block)
+            .map_or_else(|| line.to_string(), |number| format!("{line} {number}"))
+    }
+}
+
+/// The form for people.
+pub(super) fn text(before: &Loaded, after: &Loaded, found: &Found, tolerance: Tolerance, limit: usize) -> String {
+    let lines = Lines::new(before, after);
+    let mut out = String::new();
+    let _ = writeln!(out, "{} -> {}", lines.name(0), lines.name(1));
+    let mut rows: Vec<(u32, [String; 2], String)> = Vec::new();
+    for change in &found.changes {
+        rows.push(change_row(&lines, change));
+    }
+    for change in &found.techs {
+        rows.push(tech_row(&lines, change));
+    }
+    rows.sort_by_key(|row| row.0);
+    let width = |side: usize| {
+        rows.iter()
+            .take(limit)
+            .map(|row| row.1[side].len())
+            .max()
+            .unwrap_or(0)
+            .max(4)
+    };
+    let widths = [width(0), width(1)];
+    if !rows.is_empty() {
+        let _ = writeln!(out, "  {:<2$}  {:<3$}", "line", "line", widths[0], widths[1]);
+    }
+    for (_, places, what) in rows.iter().take(limit) {
+        let _ = writeln!(
+            out,
+            "  {:<2$}  {:<3$}  {what}",
+            places[0], places[1], widths[0], widths[1]
+        );
+    }
+    if rows.len() > limit {
+        let _ = writeln!(out, "  and {} more; see them all with --limit 0", rows.len() - limit);
+    }
+    out.push_str(&summary(&lines, found, tolerance));
+    out
+}
+
+fn change_row(lines: &Lines<'_>, change: &Change) -> (u32, [String; 2], String) {
+    match change {
+        Change::Moved(a, b) => {
+            let places = [lines.place(0, a.0), lines.place(1, b.0)];
+            (lines.line(1, b.0), places, moved(&a.1, &b.1))
+        }
+        Change::Only(after, block, body) => {
+            let side = usize::from(*after);
+            let mut places = ["-".to_owned(), "-".to_owned()];
+            places[side] = lines.place(side, *block);
+            let what = match &**body {
+                Body::Motion(point, _) => {
+                    let length = point
+                        .length_mm
+                        .map_or_else(String::new, |length| format!(", {length:.3} mm long"));
+                    format!("{} {}{length}", point.way.name(), position(point))
+                }
+                Body::Statement(text) => text.clone(),
+            };
+            let verb = if *after { "added  " } else { "removed" };
+            (lines.line(side, *block), places, format!("{verb} {what}"))
+        }
+    }
+}
+
+/// `X10 Y2.5 Z-1`.
+fn position(point: &Point) -> String {
+    let known = (0..AXIS_LETTERS.len()).filter(|axis| point.known & (1 << axis) != 0);
+    let parts: Vec<String> = known
+        .map(|axis| format!("{}{}", letter(axis), short(point.values[axis])))
+        .collect();
+    if parts.is_empty() {
+        "to an unknown place".to_owned()
+    } else {
+        format!("to {}", parts.join(" "))
+    }
+}
+
+fn letter(axis: usize) -> char {
+    char::from(AXIS_LETTERS[axis])
+}
+
+/// Up to six digits behind the point, no zeros at the end.
+fn short(value: f64) -> String {
+    let text = format!("{:.6}", tidy(value));
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// `linear  X 10 -> 10.5, 0.5 mm away`.
+fn moved(a: &Point, b: &Point) -> String {
+    let mut text = if a.way.name() == b.way.name() {
+        a.way.name().to_owned()
+    } else {
+        format!("{} -> {}", a.way.name(), b.way.name())
+    };
+    for (axis, from, to) in a.moved(b) {
+        let _ = write!(text, " {} {} -> {}", letter(axis), short(from), short(to));
+    }
+    for (known, other, verb) in [(a.known, b.known, "no longer known"), (b.known, a.known, "now known")] {
+        let letters: String = (0..AXIS_LETTERS.len())
+            .filter(|axis| known & !other & (1 << axis) != 0)
+            .map(letter)
+            .collect();
+        if !letters.is_empty() {
+            let _ = write!(text, " {letters} {verb}");
+        }
+    }
+    match (a.way, b.way) {
+        (Way::Arc(Some(from)), Way::Arc(Some(to))) if from != to => {
+            let _ = write!(
+                text,
+                " centre {} -> {}, sweep {} -> {} deg",
+                vector(from.0),
+                vector(to.0),
+                short(from.2),
+                short(to.2)
+            );
+        }
+        (Way::Dwell(from), Way::Dwell(to)) => {
+            let seconds = |time: Option<f64>| time.map_or("unknown".to_owned(), |time| format!("{} s", short(time)));
+            let _ = write!(text, " {} -> {}", seconds(from), seconds(to));
+        }
+        _ => {}
+    }
+    if let Some(distance) = a.distance_mm(b).filter(|distance| *distance > 0.0) {
+        let _ = write!(text, ", {} mm away", short(distance));
+    }
+    if let Some(angle) = a.angle_deg(b).filter(|angle| *angle > 1e-9) {
+        let _ = write!(text, ", tool axis {} deg off", short(angle));
+    }
+    text
+}
+
+fn vector(parts: [f64; 3]) -> String {
+    parts.map(short).join(" ")
+}
+
+fn tech_row(lines: &Lines<'_>, change: &TechChange) -> (u32, [String; 2], String) {
+    let place = |side: usize, first, last| {
+        let (from, to) = (lines.line(side, first), lines.line(side, last));
+        if from == to {
+            lines.place(side, first)
+        } else {
+            format!("{from}-{to}")
+        }
+    };
+    let places = [
+        place(0, change.first.0, change.last.0),
+        place(1, change.first.1, change.last.1),
+    ];
+    let parts: Vec<String> = change
+        .parts
+        .iter()
+        .map(|(name, from, to)| format!("{name} {from} -> {to}"))
+        .collect();
+    let count = if change.count == 1 {
+        String::new()
+    } else {
+        format!(" ({} motions)", change.count)
+    };
+    (
+        lines.line(1, change.first.1),
+        places,
+        format!("{}{count}", parts.join(", ")),
+    )
+}
+
+/// The largest distance between paired ends, mm, with the line of the second program.
+fn farthest(lines: &Lines<'_>, found: &Found) -> Option<(f64, u32)> {
+    let mut worst: Option<(f64, u32)> = None;
+    for change in &found.changes {
+        if let Change::Moved(a, b) = change
+            && let Some(distance) = a.1.distance_mm(&b.1)
+            && worst.is_none_or(|(known, _)| distance > known)
+        {
+            worst = Some((distance, lines.line(1, b.0)));
+        }
+    }
+    worst
+}
+
+/// How many of each sort: moved, only before, only after, motions with other feed and the like.
+fn counts(found: &Found) -> [u64; 4] {
+    let mut counts = [0; 4];
+    for change in &found.changes {
+        match change {
+            Change::Moved(..) => counts[0] += 1,
+            Change::Only(false, ..) => counts[1] += 1,
+            Change::Only(true, ..) => counts[2] += 1,
+        }
+    }
+    counts[3] = found.techs.iter().map(|change| change.count).sum::<u64>() + found.techs_not_listed;
+    counts
+}
+
+fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
+    let within = format!("within {} mm and {} deg", tolerance.mm, tolerance.deg);
+    let unknown = if found.unknown == 0 {
+        String::new()
+    } else {
+        format!(
+            "; {} motions have no known end and are compared by their words alone",
+            found.unknown
+        )
+    };
+    if found.same() {
+        return format!("SAME {} motions {within}{unknown}\n", found.motions[0]);
+    }
+    let [moved, removed, added, techs] = counts(found);
+    let mut parts = Vec::new();
+    if moved > 0 {
+        let far = farthest(lines, found).filter(|(distance, _)| *distance > 0.0);
+        let most = far.map_or_else(String::new, |(distance, line)| {
+            format!(" (at most {} mm, line {line})", short(distance))
+        });
+        parts.push(format!("{moved} moved{most}"));
+    }
+    for (count, what) in [(removed, "removed"), (added, "added")] {
+        if count > 0 {
+            parts.push(format!("{count} {what}"));
+        }
+    }
+    if techs > 0 {
+        parts.push(format!(
+            "{techs} motions with other feed, spindle, tool, offset or coolant"
+        ));
+    }
+    if found.not_compared > 0 {
+        parts.push(format!("{} more not compared in detail", found.not_compared));
+    }
+    let counted = format!("{} -> {} motions", found.motions[0], found.motions[1]);
+    let mut text = format!(
+        "DIFFERENT {counted}: {}; other motions are the same {within}{unknown}\n",
+        parts.join(", ")
+    );
+    if found.too_different {
+        text = format!(
+            "DIFFERENT {counted}: too little in common to say which motion is which; they part at the first line above\n"
+        );
+    } else if found.one_by_one {
+        text.push_str(
+            "(too many differences to look for the best match: the motions were compared one by one, in order)\n",
+        );
+    }
+    text
+}
+
+/// The form for programs.
+pub(super) fn json(before: &Loaded, after: &Loaded, found: &Found, tolerance: Tolerance) -> Value {
+    let lines = Lines::new(before, after);
+    let place =
+        |side: usize, block: BlockId| json!({ "line": lines.line(side, block), "block": lines.number(side, block) });
+    let point = |point: &Point| {
+        let known = (0..AXIS_LETTERS.len()).filter(|axis| point.known & (1 << axis) != 0);
+        let key = |axis: usize| {
+            format!(
+                "{}_{}",
+                letter(axis).to_ascii_lowercase(),
+                if (3..6).contains(&axis) { "deg" } else { "mm" }
+            )
+        };
+        let values: serde_json::Map<_, _> = known.map(|axis| (key(axis), json!(tidy(point.values[axis])))).collect();
+        json!({ "motion": point.way.name(), "end": values, "length_mm": point.length_mm.map(tidy) })
+    };
+    let changes = found.changes.iter().map(|change| match change {
+        Change::Moved(a, b) => json!({
+            "kind": "moved", "before": place(0, a.0), "after": place(1, b.0), "from": point(&a.1), "to": point(&b.1),
+            "distance_mm": a.1.distance_mm(&b.1).map(tidy), "angle_deg": a.1.angle_deg(&b.1).map(tidy), "text": moved(&a.1, &b.1),
+        }),
+        Change::Only(is_after, block, body) => {
+            let side = usize::from(*is_after);
+            let (kind, key) = if *is_after { ("added", "after") } else { ("removed", "before") };
+            let mut value = json!({ "kind": kind });
+            value[key] = place(side, *block);
+            match &**body {
+                Body::Motion(end, _) => value["motion"] = point(end),
+                Body::Statement(text) => value["statement"] = json!(text),
+            }
+            value
+        }
+    });
+    let techs = found.techs.iter().map(|change| {
+        let parts = change
+            .parts
+            .iter()
+            .map(|(name, from, to)| json!({ "what": name, "before": from, "after": to }));
+        json!({
+            "kind": "state", "before": place(0, change.first.0), "after": place(1, change.first.1),
+            "last_before": place(0, change.last.0), "last_after": place(1, change.last.1), "motions": change.count,
+            "changes": parts.collect::<Vec<_>>(),
+        })
+    });
+    let [moved, removed, added, state] = counts(found);
+    json!({
+        "schema": "trunnion-diff/1", "version": env!("CARGO_PKG_VERSION"),
+        "before": before.name, "after": after.name, "machine": before.resolved.machine.as_ref().map(|machine| &machine.id),
+        "tolerance_mm": tolerance.mm, "tolerance_deg": tolerance.deg, "same": found.same(),
+        "summary": {
+            "motions_before": found.motions[0], "motions_after": found.motions[1], "moved": moved, "removed": removed,
+            "added": added, "motions_with_other_state": state, "not_compared": found.not_compared,
+            "motions_of_unknown_end": found.unknown, "too_different": found.too_different, "one_by_one": found.one_by_one,
+            "largest_distance_mm": farthest(&lines, found).map(|(distance, _)| tidy(distance)),
+        },
+        "changes": changes.chain(techs).collect::<Vec<_>>(),
+    })
+}

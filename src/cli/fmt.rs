@@ -1,0 +1,275 @@
+//! `fmt`: layout and block numbers. A file is replaced only where both texts are proved to do the same; what cannot be proved stays.
+use super::{
+    Done,
+    args::Global,
+    failure::{Failure, remark},
+    fix::{print_diff, write_atomic},
+    load::{self, Loaded},
+    walk,
+};
+use rayon::prelude::*;
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+use trunnion_check::config::{FormatCase, FormatSettings, FormatSpacing, FormatZeros};
+use trunnion_layout::{Case, Layout, Numbers, Refusal, Renumbered, Spacing, Style, Zeros};
+use trunnion_syntax::{LineIndex, Program, TextRange};
+
+/// `fmt`
+#[derive(clap::Args)]
+pub(crate) struct Fmt {
+    /// Files and directories; `-` reads standard input and writes to standard output.
+    #[arg(required = true)]
+    paths: Vec<PathBuf>,
+    /// Write nothing; list the files that would change, with exit status 1 if there are any.
+    #[arg(long)]
+    check: bool,
+    /// Write nothing; unified diff on standard output.
+    #[arg(long, conflicts_with = "stdout")]
+    diff: bool,
+    /// Write nothing; the new text on standard output (one file).
+    #[arg(long, conflicts_with = "check")]
+    stdout: bool,
+    /// Replace the files (the default): written beside them, flushed, renamed.
+    #[arg(long, conflicts_with_all = ["check", "diff", "stdout"])]
+    write: bool,
+    /// New block numbers from START, STEP apart (default 10). Jumps, M99 P, M97 P and contours of turning cycles follow; each
+    /// program of a file begins anew. Blocks without number stay without.
+    #[arg(long, value_name = "START[,STEP]", value_parser = numbers)]
+    renumber: Option<Numbers>,
+}
+
+/// `10` or `10,5`.
+fn numbers(text: &str) -> Result<Numbers, String> {
+    let (start, step) = text.split_once(',').unwrap_or((text, "10"));
+    let whole = |part: &str| {
+        part.trim()
+            .parse::<u32>()
+            .map_err(|_| format!("`{part}` is no whole number"))
+    };
+    match (whole(start)?, whole(step)?) {
+        (_, 0) => Err("the step must be 1 or more".to_owned()),
+        (start, step) => Ok(Numbers { start, step }),
+    }
+}
+
+/// What came of one file.
+struct Outcome {
+    path: PathBuf,
+    name: String,
+    before: Vec<u8>,
+    after: Vec<u8>,
+    remarks: Vec<String>,
+    refused: bool,
+}
+
+/// Runs `fmt`. A file whose new layout cannot be proved stays, and makes the exit status 2.
+pub(super) fn run(global: &Global, command: &Fmt) -> Result<Done, Failure> {
+    let paths = walk::programs(&command.paths)?;
+    if command.stdout && paths.len() > 1 {
+        return Err(Failure::new(format!("--stdout takes one file, not {}", paths.len())));
+    }
+    // in pieces, so that not all files are in memory at once
+    let (mut changed, mut unchanged, mut failures) = (0usize, 0usize, Vec::new());
+    for some in paths.chunks(64) {
+        let outcomes: Vec<_> = some.par_iter().map(|path| lay_out(global, command, path)).collect();
+        for outcome in outcomes {
+            match outcome.and_then(|outcome| finish(global, command, &outcome)) {
+                Ok(Some(true)) => changed += 1,
+                Ok(Some(false)) => unchanged += 1,
+                Ok(None) => failures.push(None),
+                Err(failure) if failure.is_broken_pipe() => return Err(failure),
+                Err(failure) => failures.push(Some(failure)),
+            }
+        }
+    }
+    let told = !(command.stdout || command.paths.iter().all(|path| load::is_stdin(path)));
+    if told && (global.verbose || paths.len() > 1) {
+        let verb = if command.check || command.diff {
+            "would change"
+        } else {
+            "changed"
+        };
+        let rest = if failures.is_empty() {
+            String::new()
+        } else {
+            format!(", {} could not be done", failures.len())
+        };
+        remark(
+            global.quiet,
+            &format!("{changed} {verb}, {unchanged} as they should be{rest}"),
+        );
+    }
+    let count = failures.len();
+    for failure in failures.iter().flatten().take(count.saturating_sub(1)) {
+        failure.print();
+    }
+    match failures.pop() {
+        Some(Some(failure)) => Err(failure),
+        Some(None) => Err(Failure::new(format!(
+            "{count} of {} files stay as they are; the reasons stand above",
+            paths.len()
+        ))),
+        None if command.check && changed > 0 => Ok(Done::Found),
+        None => Ok(Done::Clean),
+    }
+}
+
+/// Lays out one file and gives it new numbers, if wished. Writes nothing.
+fn lay_out(global: &Global, command: &Fmt, path: &Path) -> Result<Outcome, Failure> {
+    let mut loaded = load::load(global, path)?;
+    let before = loaded.program.source().to_vec();
+    let mut outcome = Outcome {
+        path: path.to_owned(),
+        name: loaded.name.clone(),
+        after: before.clone(),
+        before,
+        remarks: Vec::new(),
+        refused: false,
+    };
+    if global.verbose {
+        outcome.remarks.push(loaded.explanation());
+    }
+    let broken = loaded.program.errors().len();
+    if broken > 0 {
+        let (word, verb) = if broken == 1 {
+            ("problem", "stays")
+        } else {
+            ("problems", "stay")
+        };
+        outcome.remarks.push(
+            format!(
+                "{}: {broken} {word} of the text; the lines concerned {verb} as they are, `trunnion check` names them",
+                loaded.name
+            )
+            .replace("lines concerned stays", "line concerned stays"),
+        );
+    }
+    let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
+    match trunnion_layout::layout(&loaded.program, dialect, setup, &style(&loaded.resolved.format)) {
+        Layout::Unchanged => {}
+        Layout::Changed(text) => outcome.after = text,
+        Layout::Refused(why) => outcome.refuse(&refusal(&loaded, &why)),
+    }
+    if let (Some(numbers), false) = (command.renumber, outcome.refused) {
+        loaded.program = trunnion_syntax::parse(outcome.after.clone(), dialect.lex);
+        renumber(&loaded, numbers, &mut outcome);
+    }
+    if outcome.refused {
+        outcome.after.clone_from(&outcome.before);
+    }
+    Ok(outcome)
+}
+
+fn renumber(loaded: &Loaded, numbers: Numbers, outcome: &mut Outcome) {
+    let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
+    match trunnion_layout::renumber(&loaded.program, dialect, setup, numbers) {
+        Renumbered::NoNumbers => outcome.remarks.push(format!("{}: no block has a number", loaded.name)),
+        Renumbered::Changed {
+            text, called_outside, ..
+        } => {
+            outcome.after = text;
+            if !called_outside.is_empty() {
+                let names: Vec<String> = called_outside.iter().map(|name| format!("O{name}")).collect();
+                outcome.remarks.push(format!(
+                    "{}: calls {}, not in this file: if one of them returns with M99 P to a block of this file, that number is not \
+                     followed",
+                    loaded.name,
+                    names.join(", ")
+                ));
+            }
+        }
+        Renumbered::Refused(obstacle) => {
+            let at = place(&loaded.program, obstacle.range);
+            outcome.refuse(&format!("{}{at}: block numbers stay: {}", loaded.name, obstacle.why));
+        }
+        Renumbered::Differs(difference) => {
+            let at = place(&loaded.program, loaded.program.block(difference.block).range());
+            outcome.refuse(&format!(
+                "{}{at}: block numbers stay: with new ones {} differs",
+                loaded.name, difference.what
+            ));
+        }
+    }
+}
+
+impl Outcome {
+    fn refuse(&mut self, why: &str) {
+        self.refused = true;
+        self.remarks.push(format!("error: {why}"));
+    }
+}
+
+/// `:line:column` of a range; empty where it has no place.
+fn place(program: &Program, range: TextRange) -> String {
+    if range == TextRange::default() {
+        return String::new();
+    }
+    let (line, column) = LineIndex::new(program.source()).line_column(program.source(), range.start);
+    format!(":{line}:{column}")
+}
+
+/// Why a layout was not taken.
+fn refusal(loaded: &Loaded, why: &Refusal) -> String {
+    let name = &loaded.name;
+    match why {
+        Refusal::Words(range) => format!(
+            "{name}: not laid out: from byte {} on the words would be others",
+            range.start
+        ),
+        Refusal::NotStable(at) => format!("{name}: not laid out: the layout would not be final at byte {at}"),
+        Refusal::Motions(difference) => {
+            let at = place(&loaded.program, loaded.program.block(difference.block).range());
+            format!("{name}{at}: not laid out: {} would differ", difference.what)
+        }
+    }
+}
+
+/// Writes or shows what came of a file. `Some(true)`: it changes; `None`: it was refused.
+fn finish(global: &Global, command: &Fmt, outcome: &Outcome) -> Result<Option<bool>, Failure> {
+    for text in &outcome.remarks {
+        remark(global.quiet && !outcome.refused, text);
+    }
+    let changed = outcome.after != outcome.before;
+    let to_stdout = command.stdout || load::is_stdin(&outcome.path) && !command.check && !command.diff;
+    if command.diff {
+        print_diff(&outcome.name, &outcome.before, &outcome.after)?;
+    }
+    if to_stdout {
+        let mut out = std::io::stdout().lock();
+        out.write_all(&outcome.after)?;
+        out.flush()?;
+    } else if changed && command.check {
+        if !command.diff {
+            writeln!(std::io::stdout().lock(), "{}", outcome.name)?;
+        }
+    } else if changed && !command.diff {
+        write_atomic(&outcome.path, &outcome.after)?;
+    }
+    Ok((!outcome.refused).then_some(changed))
+}
+
+/// The style of `[format]`; what it does not say is the default.
+fn style(settings: &FormatSettings) -> Style {
+    let default = Style::default();
+    Style {
+        case: settings.case.map_or(default.case, |case| match case {
+            FormatCase::Upper => Case::Upper,
+            FormatCase::Lower => Case::Lower,
+            FormatCase::Keep => Case::Keep,
+        }),
+        spacing: settings.spacing.map_or(default.spacing, |spacing| match spacing {
+            FormatSpacing::One => Spacing::One,
+            FormatSpacing::Packed => Spacing::Packed,
+        }),
+        zeros: settings.leading_zeros.map_or(default.zeros, |zeros| match zeros {
+            FormatZeros::Keep => Zeros::Keep,
+            FormatZeros::Drop => Zeros::Drop,
+            FormatZeros::Two => Zeros::Two,
+        }),
+        comment_column: settings.comment_column.or(default.comment_column),
+        indent: settings.indent.unwrap_or(default.indent),
+        blank_lines: settings.blank_lines.unwrap_or(default.blank_lines),
+    }
+}

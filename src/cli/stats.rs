@@ -1,0 +1,46 @@
+//! `stats`: what a program is made of: blocks, motions, tools, distances, times, extents.
+mod calls;
+mod show;
+mod tally;
+
+use super::{Done, args::Global, args::ListFormat, failure::Failure, json::write_json, load, walk};
+use serde_json::json;
+use std::{
+    io::{BufWriter, Write},
+    path::PathBuf,
+};
+
+/// `stats`
+#[derive(clap::Args)]
+pub(crate) struct Stats {
+    /// Files and directories; `-` reads standard input.
+    #[arg(required = true)]
+    paths: Vec<PathBuf>,
+    #[arg(long, value_enum, default_value = "text")]
+    format: ListFormat,
+}
+
+/// Runs `stats`. Nothing is judged: the exit status is 0 whatever the program holds.
+pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut files = Vec::new();
+    for (number, path) in walk::programs(&command.paths)?.iter().enumerate() {
+        let loaded = load::load(global, path)?;
+        let tally = tally::Tally::of(&loaded);
+        match command.format {
+            ListFormat::Json => files.push(show::json(&loaded, &tally)),
+            ListFormat::Text => {
+                if number > 0 {
+                    writeln!(out)?;
+                }
+                out.write_all(show::text(&loaded, &tally).as_bytes())?;
+            }
+        }
+    }
+    if command.format == ListFormat::Json {
+        let document = json!({ "schema": "trunnion-stats/1", "version": env!("CARGO_PKG_VERSION"), "files": files });
+        write_json(&mut out, &document)?;
+    }
+    out.flush()?;
+    Ok(Done::Clean)
+}

@@ -1,0 +1,284 @@
+//! What was counted, for people and for programs.
+use super::tally::{Range, Tally};
+use crate::cli::{json::tidy, load::Loaded};
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+use trunnion_interp::AXIS_LETTERS;
+
+/// Units of F, per minute, per turn, inverse time.
+const FEEDS: [(&str, &str); 3] = [
+    ("mm/min", "mm_min"),
+    ("mm/rev", "mm_rev"),
+    ("1/min (inverse time)", "inverse_time_1_min"),
+];
+
+/// How many rows of tools, calls and unmodelled things are shown.
+const ROWS: usize = 12;
+
+/// The form for people.
+pub(super) fn text(loaded: &Loaded, tally: &Tally) -> String {
+    let mut out = String::new();
+    let resolved = &loaded.resolved;
+    let machine = resolved
+        .machine
+        .as_ref()
+        .map_or("no machine", |machine| machine.id.as_str());
+    let _ = writeln!(
+        out,
+        "{}  {} ({}), {machine}",
+        loaded.name, resolved.dialect.name, resolved.dialect_reason
+    );
+    let mut row = |name: &str, text: &str| {
+        let _ = writeln!(out, "  {name:<12}  {text}");
+    };
+    let blocks = format!("{} written, {} run", number(tally.blocks), number(tally.run));
+    row("blocks", &blocks);
+    row("motions", &motions(tally));
+    row("path", &path(tally));
+    row("time", &time(loaded, tally));
+    rows(&mut row, "extents", &extents(tally));
+    rows(&mut row, "joints", &joints(tally));
+    let feeds = tally
+        .feed
+        .iter()
+        .zip(FEEDS)
+        .filter_map(|(range, (unit, _))| Some(format!("{} {unit}", span((*range)?, 3))));
+    rows(&mut row, "feed", &feeds.collect::<Vec<_>>());
+    let spindle = tally.spindle.map(|range| format!("{} 1/min", span(range, 0)));
+    rows(&mut row, "spindle", spindle.as_slice());
+    rows(&mut row, "tools", &tools(tally));
+    let calls = tally.calls.iter().map(|call| {
+        let times = if call.count == 1 {
+            String::new()
+        } else {
+            format!(", {} times", number(call.count))
+        };
+        format!("{} in line {}{times}", call.name, call.line)
+    });
+    rows(&mut row, "calls", &calls.collect::<Vec<_>>());
+    let unmodelled = tally
+        .not_modelled
+        .iter()
+        .map(|(what, count)| format!("{what} ({} times)", number(*count)));
+    rows(&mut row, "not modelled", &unmodelled.collect::<Vec<_>>());
+    out
+}
+
+/// Several rows under one name; more than fit are counted.
+fn rows(row: &mut impl FnMut(&str, &str), name: &str, texts: &[String]) {
+    for (at, text) in texts.iter().take(ROWS).enumerate() {
+        row(if at == 0 { name } else { "" }, text);
+    }
+    if texts.len() > ROWS {
+        row("", &format!("and {} more", number((texts.len() - ROWS) as u64)));
+    }
+}
+
+fn motions(tally: &Tally) -> String {
+    let kinds: Vec<String> = tally
+        .motions
+        .iter()
+        .map(|(kind, count)| format!("{} {kind}", number(*count)))
+        .collect();
+    match kinds.as_slice() {
+        [] => "none".to_owned(),
+        kinds => format!("{}: {}", number(tally.motions()), kinds.join(", ")),
+    }
+}
+
+fn path(tally: &Tally) -> String {
+    let mut text = format!(
+        "rapid {} mm, feed {} mm",
+        decimal(tally.rapid_mm, 3),
+        decimal(tally.feed_mm, 3)
+    );
+    if tally.spindle_off_mm > 0.0 {
+        let _ = write!(
+            text,
+            " (of it {} mm with the spindle not known to turn)",
+            decimal(tally.spindle_off_mm, 3)
+        );
+    }
+    if tally.unmeasured > 0 {
+        let _ = write!(
+            text,
+            "; {} from or to an unknown place not counted",
+            many(tally.unmeasured, "motion")
+        );
+    }
+    text
+}
+
+fn time(loaded: &Loaded, tally: &Tally) -> String {
+    let mut text = match (tally.cycle_time_s, &loaded.resolved.machine) {
+        (Some([low, high]), _) => format!("cycle {} to {}", duration(low), duration(high)),
+        (None, Some(_)) => "cycle not known: some block's time is not known on this machine".to_owned(),
+        (None, None) => "cycle not known without --machine".to_owned(),
+    };
+    let _ = write!(text, "; feed motions at the programmed feed {}", duration(tally.feed_s));
+    if tally.untimed > 0 {
+        let _ = write!(text, " ({} without a known time not counted)", number(tally.untimed));
+    }
+    if tally.dwell_s > 0.0 {
+        let _ = write!(text, "; dwell {}", duration(tally.dwell_s));
+    }
+    text
+}
+
+fn extents(tally: &Tally) -> Vec<String> {
+    let known = AXIS_LETTERS.iter().zip(tally.axes).enumerate();
+    known
+        .filter_map(|(axis, (letter, range))| Some(wide(char::from(*letter), range?, is_rotary(axis))))
+        .collect()
+}
+
+fn joints(tally: &Tally) -> Vec<String> {
+    tally
+        .joints
+        .iter()
+        .filter_map(|(letter, rotary, range)| Some(wide(*letter, (*range)?, *rotary)))
+        .collect()
+}
+
+/// A B C of the letters of axes.
+fn is_rotary(axis: usize) -> bool {
+    (3..6).contains(&axis)
+}
+
+/// `X    -25.409 ..     40.000 mm    65.409`.
+fn wide(letter: char, range: Range, rotary: bool) -> String {
+    let unit = if rotary { "deg" } else { "mm" };
+    let (low, high) = (decimal(range.low, 3), decimal(range.high, 3));
+    format!(
+        "{letter} {low:>12} .. {high:>12} {unit:<3}  over {}",
+        decimal(range.high - range.low, 3)
+    )
+}
+
+fn tools(tally: &Tally) -> Vec<String> {
+    let list = tally.tools.iter().map(|(tool, used)| {
+        let name = tool.map_or_else(|| "not known".to_owned(), |number| format!("T{number}"));
+        format!(
+            "{name} from line {}: {}, feed {} mm",
+            used.line,
+            many(used.motions, "motion"),
+            decimal(used.feed_mm, 3)
+        )
+    });
+    list.collect()
+}
+
+/// `1 motion`, `2 motions`.
+fn many(count: u64, what: &str) -> String {
+    format!("{} {what}{}", number(count), if count == 1 { "" } else { "s" })
+}
+
+/// One value, or the lowest and highest.
+fn span(range: Range, digits: usize) -> String {
+    let short = |value: f64| decimal(value, digits).trim_end_matches(".000").to_owned();
+    if range.low == range.high {
+        short(range.low)
+    } else {
+        format!("{} .. {}", short(range.low), short(range.high))
+    }
+}
+
+/// `12 345`.
+fn number(value: u64) -> String {
+    grouped(&value.to_string())
+}
+
+/// `-12 345.678`.
+fn decimal(value: f64, digits: usize) -> String {
+    let text = format!("{:.digits$}", tidy(value).abs());
+    let (whole, fraction) = text.split_at(text.find('.').unwrap_or(text.len()));
+    let zero = text.bytes().all(|byte| matches!(byte, b'0' | b'.'));
+    let sign = if value < 0.0 && !zero { "-" } else { "" };
+    format!("{sign}{}{fraction}", grouped(whole))
+}
+
+fn grouped(digits: &str) -> String {
+    let mut out = String::new();
+    for (at, digit) in digits.chars().enumerate() {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
+            out.push(' ');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// `1 h 02 min 03 s`, `3 min 04 s`, `5.6 s`.
+pub(super) fn duration(seconds: f64) -> String {
+    if seconds < 59.95 {
+        return format!("{seconds:.1} s");
+    }
+    let whole = seconds.round() as u64;
+    let (hours, minutes, rest) = (whole / 3600, whole / 60 % 60, whole % 60);
+    if hours > 0 {
+        format!("{hours} h {minutes:02} min {rest:02} s")
+    } else {
+        format!("{minutes} min {rest:02} s")
+    }
+}
+
+fn ends(range: Range) -> Value {
+    json!([tidy(range.low), tidy(range.high)])
+}
+
+/// The form for programs.
+pub(super) fn json(loaded: &Loaded, tally: &Tally) -> Value {
+    let resolved = &loaded.resolved;
+    let unit = |rotary: bool| if rotary { "deg" } else { "mm" };
+    let mut extents = Map::new();
+    for (axis, (letter, range)) in AXIS_LETTERS.iter().zip(tally.axes).enumerate() {
+        if let Some(range) = range {
+            let key = format!("{}_{}", char::from(*letter).to_ascii_lowercase(), unit(is_rotary(axis)));
+            extents.insert(key, ends(range));
+        }
+    }
+    let mut joints = Map::new();
+    for (letter, rotary, range) in &tally.joints {
+        let key = format!("joint_{}_{}", letter.to_ascii_lowercase(), unit(*rotary));
+        joints.insert(key, range.map_or(Value::Null, ends));
+    }
+    let mut feeds = Map::new();
+    for (range, (_, key)) in tally.feed.iter().zip(FEEDS) {
+        if let Some(range) = range {
+            feeds.insert(key.to_owned(), ends(*range));
+        }
+    }
+    let tools = tally.tools.iter().map(|(tool, used)| {
+        json!({ "tool": tool, "line": used.line, "motions": used.motions, "feed_length_mm": tidy(used.feed_mm) })
+    });
+    let calls = tally
+        .calls
+        .iter()
+        .map(|call| json!({ "name": call.name, "line": call.line, "count": call.count }));
+    json!({
+        "path": loaded.name,
+        "dialect": resolved.dialect.name,
+        "dialect_reason": resolved.dialect_reason,
+        "machine": resolved.machine.as_ref().map(|machine| &machine.id),
+        "blocks": tally.blocks,
+        "blocks_run": tally.run,
+        "motions": tally.motions(),
+        "motions_by_kind": tally.motions,
+        "rapid_length_mm": tidy(tally.rapid_mm),
+        "feed_length_mm": tidy(tally.feed_mm),
+        "feed_length_spindle_off_mm": tidy(tally.spindle_off_mm),
+        "motions_of_unknown_length": tally.unmeasured,
+        "cycle_time_s": tally.cycle_time_s.map(|time| time.map(tidy)),
+        "feed_time_s": tidy(tally.feed_s),
+        "feed_motions_of_unknown_time": tally.untimed,
+        "dwell_s": tidy(tally.dwell_s),
+        "extents": extents,
+        "joints": joints,
+        "feed": feeds,
+        "spindle_rpm": tally.spindle.map(ends),
+        "tools": tools.collect::<Vec<_>>(),
+        "tool_changes": tally.tool_changes,
+        "calls": calls.collect::<Vec<_>>(),
+        "not_modelled": tally.not_modelled,
+    })
+}

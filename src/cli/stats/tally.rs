@@ -1,0 +1,259 @@
+//! Counts what a run says.
+use super::calls::{Call, calls};
+use crate::cli::load::Loaded;
+use std::collections::BTreeMap;
+use trunnion_geometry::{Vec3, deg};
+use trunnion_interp::{AXIS_LETTERS, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, Sink};
+use trunnion_machine::{AxisKind, Follower};
+use trunnion_syntax::{BlockId, Item, LineIndex};
+
+/// Lowest and highest of the values seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Range {
+    pub(super) low: f64,
+    pub(super) high: f64,
+}
+
+/// Widens a range by a value.
+fn widen(range: &mut Option<Range>, value: f64) {
+    if value.is_finite() {
+        let known = range.get_or_insert(Range {
+            low: value,
+            high: value,
+        });
+        known.low = known.low.min(value);
+        known.high = known.high.max(value);
+    }
+}
+
+/// What is done with one tool.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ToolUse {
+    /// First block with it.
+    pub(super) line: u32,
+    pub(super) motions: u64,
+    /// mm along the programmed X Y Z path.
+    pub(super) feed_mm: f64,
+}
+
+/// Everything counted. Lengths mm along the programmed X Y Z path, times s.
+#[derive(Default)]
+pub(super) struct Tally {
+    /// Blocks that hold something.
+    pub(super) blocks: u64,
+    /// Blocks that ran, repeated ones each time.
+    pub(super) run: u64,
+    pub(super) motions: BTreeMap<&'static str, u64>,
+    pub(super) rapid_mm: f64,
+    pub(super) feed_mm: f64,
+    /// Of `feed_mm`, with the spindle off.
+    pub(super) spindle_off_mm: f64,
+    /// Motions whose length is not known.
+    pub(super) unmeasured: u64,
+    /// Time of feed motions at the programmed feed.
+    pub(super) feed_s: f64,
+    /// Feed motions whose time is not known.
+    pub(super) untimed: u64,
+    pub(super) dwell_s: f64,
+    /// Programmed, in the order of the letters.
+    pub(super) axes: [Option<Range>; AXIS_LETTERS.len()],
+    /// Of the machine, in chain order, mm or deg.
+    pub(super) joints: Vec<(char, bool, Option<Range>)>,
+    pub(super) feed: [Option<Range>; 3],
+    pub(super) spindle: Option<Range>,
+    pub(super) tools: BTreeMap<Option<u32>, ToolUse>,
+    pub(super) tool_changes: u64,
+    pub(super) calls: Vec<Call>,
+    /// What is recognised and not modelled, with how often.
+    pub(super) not_modelled: BTreeMap<String, u64>,
+    /// From the check.
+    pub(super) cycle_time_s: Option<[f64; 2]>,
+}
+
+/// Counts while a program runs.
+struct Counting<'a> {
+    loaded: &'a Loaded,
+    lines: &'a LineIndex,
+    follower: Option<Follower<'a>>,
+    tally: Tally,
+    tool: Option<u32>,
+}
+
+impl Tally {
+    /// Runs a program and counts.
+    pub(super) fn of(loaded: &Loaded) -> Self {
+        let (program, resolved) = (&loaded.program, &loaded.resolved);
+        let lines = LineIndex::new(program.source());
+        let mut tally = Self {
+            blocks: program.blocks().filter(|block| holds_something(block)).count() as u64,
+            calls: calls(program, &lines),
+            ..Self::default()
+        };
+        if let Some(machine) = &resolved.machine {
+            let axes = machine.axes.iter();
+            tally.joints = axes
+                .map(|axis| (char::from(axis.letter), axis.kind == AxisKind::Rotary, None))
+                .collect();
+        }
+        let mut counting = Counting {
+            loaded,
+            lines: &lines,
+            follower: resolved.machine.as_ref().map(Follower::new),
+            tally,
+            tool: None,
+        };
+        trunnion_interp::run(program, resolved.dialect, &resolved.setup, &mut counting);
+        let mut tally = counting.tally;
+        if resolved.machine.is_some() {
+            tally.cycle_time_s = trunnion_check::check(program, &resolved.settings()).cycle_time_s;
+        }
+        tally
+    }
+
+    /// All motions.
+    pub(super) fn motions(&self) -> u64 {
+        self.motions.values().sum()
+    }
+}
+
+/// Whether a block has anything but blanks and comments.
+fn holds_something(block: &trunnion_syntax::Block<'_>) -> bool {
+    block.items().any(|item| !matches!(item, Item::Comment(_)))
+}
+
+/// The name of a motion's kind, as `trace` has it.
+fn kind(motion: &Motion) -> &'static str {
+    match motion.kind {
+        MotionKind::Rapid => "rapid",
+        MotionKind::Linear => "linear",
+        MotionKind::Arc(_) => "arc",
+        MotionKind::Dwell(_) => "dwell",
+        MotionKind::Unknown => "unknown",
+    }
+}
+
+/// Length of the programmed X Y Z path, mm.
+fn length(motion: &Motion) -> Option<f64> {
+    match motion.kind {
+        MotionKind::Arc(arc) => arc.map(|arc| arc.length()),
+        MotionKind::Dwell(_) => Some(0.0),
+        MotionKind::Rapid | MotionKind::Linear => {
+            let length = (motion.end.xyz()? - motion.start.xyz()?).norm();
+            length.is_finite().then_some(length)
+        }
+        MotionKind::Unknown => None,
+    }
+}
+
+impl Counting<'_> {
+    fn line(&self, block: BlockId) -> u32 {
+        let program = &self.loaded.program;
+        self.lines
+            .line_column(program.source(), program.block(block).range().start)
+            .0
+    }
+
+    fn extents(&mut self, motion: &Motion) {
+        for (axis, range) in self.tally.axes.iter_mut().enumerate() {
+            if let Some(value) = motion.end.get(axis) {
+                widen(range, value);
+            }
+        }
+        if let MotionKind::Arc(Some(arc)) = &motion.kind {
+            for (axis, direction) in [Vec3::x(), Vec3::y(), Vec3::z()].iter().enumerate() {
+                let (low, high) = arc.extent(direction);
+                widen(&mut self.tally.axes[axis], low);
+                widen(&mut self.tally.axes[axis], high);
+            }
+        }
+    }
+
+    fn joints(&mut self, motion: &Motion) {
+        let Some(follower) = &mut self.follower else { return };
+        let leg = follower.follow(motion);
+        let (joints, known) = match &leg.end {
+            Ok(stance) => (stance.joints, u16::MAX),
+            Err(_) => leg.known_joints,
+        };
+        for (index, (_, rotary, range)) in self.tally.joints.iter_mut().enumerate() {
+            if known & (1 << index) != 0 {
+                widen(range, if *rotary { deg(joints[index]) } else { joints[index] });
+            }
+        }
+    }
+
+    /// Distances, feeds and times.
+    fn path(&mut self, motion: &Motion) {
+        let length = length(motion);
+        let tally = &mut self.tally;
+        tally.unmeasured += u64::from(length.is_none());
+        let known = length.unwrap_or_default();
+        if let MotionKind::Dwell(seconds) = motion.kind {
+            tally.dwell_s += seconds.unwrap_or_default();
+            return;
+        }
+        if !motion.is_feed() {
+            tally.rapid_mm += known;
+            return;
+        }
+        tally.feed_mm += known;
+        if motion.spindle_on != Some(true) {
+            tally.spindle_off_mm += known;
+        }
+        let (slot, value, minutes) = match motion.feed {
+            Feed::PerMinute(feed) => (
+                0,
+                feed,
+                length.filter(|_| known > 0.0 && feed > 0.0).map(|length| length / feed),
+            ),
+            Feed::PerRevolution(feed) => {
+                let rate = motion.spindle_rpm.map(|rpm| rpm * feed).filter(|rate| *rate > 0.0);
+                (1, feed, length.zip(rate).map(|(length, rate)| length / rate))
+            }
+            Feed::InverseTime(rate) => (2, rate, (rate > 0.0).then(|| 1.0 / rate)),
+            Feed::Unknown | Feed::Rapid => (0, f64::NAN, None),
+        };
+        widen(&mut tally.feed[slot], value);
+        match minutes.filter(|minutes| minutes.is_finite()) {
+            Some(minutes) => tally.feed_s += 60.0 * minutes,
+            None => tally.untimed += 1,
+        }
+    }
+}
+
+impl Sink for Counting<'_> {
+    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
+        *self.tally.motions.entry(kind(motion)).or_default() += 1;
+        self.extents(motion);
+        self.joints(motion);
+        let before = self.tally.feed_mm;
+        self.path(motion);
+        if motion.spindle_on == Some(true)
+            && let Some(speed) = motion.spindle_rpm
+        {
+            widen(&mut self.tally.spindle, speed);
+        }
+        let line = self.line(motion.block);
+        let added = self.tally.feed_mm - before;
+        let used = self.tally.tools.entry(motion.tool).or_insert(ToolUse {
+            line,
+            ..ToolUse::default()
+        });
+        used.motions += 1;
+        used.feed_mm += added;
+    }
+
+    fn fault(&mut self, fault: Fault) {
+        if let FaultKind::NotModelled { what } = fault.kind {
+            *self.tally.not_modelled.entry(what).or_default() += 1;
+        }
+    }
+
+    fn block_done(&mut self, block: BlockId, interpreter: &Interpreter<'_>) {
+        self.tally.run += u64::from(holds_something(&self.loaded.program.block(block)));
+        if interpreter.state.tool != self.tool {
+            self.tool = interpreter.state.tool;
+            self.tally.tool_changes += 1;
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! `[quirks]` of a table: what it does not say stays as in the table that it extends.
+use crate::{Action, Quirks};
+use serde::Deserialize;
+
+/// The keys of `[quirks]`, each optional; [`Quirks`] says what they mean.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct QuirksRow {
+    motion_at_start: Option<Action>,
+    tool_word_changes: Option<bool>,
+    unit_vectors: Option<bool>,
+    percent_ends_program: Option<bool>,
+    first_offset_at_start: Option<bool>,
+    edge_at_tool_change: Option<bool>,
+    dwell_in_ms: Option<bool>,
+    user_names: Option<bool>,
+    last_code_wins: Option<bool>,
+    numbers_follow_names: Option<bool>,
+    whole_numbers_ambiguous: Option<bool>,
+    own_parameters_to: Option<u32>,
+    macro_b: Option<bool>,
+    machine_data_suppress_length: Option<bool>,
+    diameter: Option<bool>,
+    tool_word_holds_offset: Option<bool>,
+    return_moves_all: Option<bool>,
+    plain_scale_factor: Option<bool>,
+    offset_compensation: Option<bool>,
+    cutter_offset_ambiguous: Option<bool>,
+}
+
+impl QuirksRow {
+    /// Lays what the table says over `base`.
+    pub(crate) fn over(self, base: &Quirks) -> Quirks {
+        Quirks {
+            motion_at_start: self.motion_at_start.or(base.motion_at_start),
+            tool_word_changes: self.tool_word_changes.unwrap_or(base.tool_word_changes),
+            unit_vectors: self.unit_vectors.unwrap_or(base.unit_vectors),
+            percent_ends_program: self.percent_ends_program.unwrap_or(base.percent_ends_program),
+            first_offset_at_start: self.first_offset_at_start.unwrap_or(base.first_offset_at_start),
+            edge_at_tool_change: self.edge_at_tool_change.unwrap_or(base.edge_at_tool_change),
+            dwell_in_ms: self.dwell_in_ms.unwrap_or(base.dwell_in_ms),
+            user_names: self.user_names.unwrap_or(base.user_names),
+            last_code_wins: self.last_code_wins.unwrap_or(base.last_code_wins),
+            numbers_follow_names: self.numbers_follow_names.unwrap_or(base.numbers_follow_names),
+            whole_numbers_ambiguous: self.whole_numbers_ambiguous.unwrap_or(base.whole_numbers_ambiguous),
+            own_parameters_to: self.own_parameters_to.unwrap_or(base.own_parameters_to),
+            macro_b: self.macro_b.unwrap_or(base.macro_b),
+            diameter: self.diameter.unwrap_or(base.diameter),
+            tool_word_holds_offset: self.tool_word_holds_offset.unwrap_or(base.tool_word_holds_offset),
+            return_moves_all: self.return_moves_all.unwrap_or(base.return_moves_all),
+            plain_scale_factor: self.plain_scale_factor.unwrap_or(base.plain_scale_factor),
+            offset_compensation: self.offset_compensation.unwrap_or(base.offset_compensation),
+            cutter_offset_ambiguous: self.cutter_offset_ambiguous.unwrap_or(base.cutter_offset_ambiguous),
+            machine_data_suppress_length: self
+                .machine_data_suppress_length
+                .unwrap_or(base.machine_data_suppress_length),
+            arc_tolerance_relative: base.arc_tolerance_relative,
+        }
+    }
+}

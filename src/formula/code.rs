@@ -1,0 +1,176 @@
+//! A compiled expression: postfix code, each step with its place in the file.
+use crate::{FormulaErrorKind, Variable};
+use trunnion_syntax::{Decimal, TextRange};
+
+/// An operation on one value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unary {
+    /// The end of a value in brackets: refused where it is infinite or does not exist.
+    Check,
+    Negate,
+    Abs,
+    Acos,
+    Asin,
+    /// The same, 0 to 360 where the control says so (Macro B).
+    MacroAsin,
+    /// Macro B's `ATAN` of one argument.
+    Atan,
+    Cos,
+    Exp,
+    /// RS274/NGC's `FIX`: down.
+    Floor,
+    /// RS274/NGC's `FUP`: up.
+    Ceiling,
+    /// Macro B's `FIX`: towards zero.
+    Truncate,
+    /// Macro B's `FUP`: away from zero.
+    AwayFromZero,
+    Ln,
+    /// Macro B's `ROUND`: to the nearest whole number, halves away from zero.
+    Round,
+    /// RS274/NGC's `ROUND`: the same in 32 bits.
+    RoundToInt,
+    Sin,
+    Sqrt,
+    Tan,
+    /// Macro B's `BIN`: decimal digits in groups of four bits to a number.
+    FromBcd,
+    /// Macro B's `BCD`: a number to decimal digits in groups of four bits.
+    ToBcd,
+    /// Macro B's `ADP`: the value itself; it adds the point to an argument of a macro call.
+    AddPoint,
+}
+
+/// An operation on two values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Binary {
+    Power,
+    Multiply,
+    Divide,
+    /// RS274/NGC: never negative.
+    Modulo,
+    /// Macro B: of the operands rounded to whole numbers, with the sign of the dividend.
+    Remainder,
+    Add,
+    Subtract,
+    /// Equal within 1e-4 (RS274/NGC).
+    NearlyEqual,
+    NotNearlyEqual,
+    /// Equal to the bit; `<vacant>` equals only `<vacant>` (Macro B).
+    Equal,
+    NotEqual,
+    Greater,
+    GreaterOrEqual,
+    Less,
+    LessOrEqual,
+    LogicalAnd,
+    LogicalOr,
+    LogicalXor,
+    BitAnd,
+    BitOr,
+    BitXor,
+    /// Angle of the point (second, first) in degrees, -180 to 180.
+    Atan2,
+    /// The same, 0 to 360 where the control says so (Macro B).
+    MacroAtan2,
+}
+
+/// One step of a compiled expression.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Op {
+    Number(f64),
+    /// The variable of this number.
+    Read(i64),
+    /// The variable whose number is on the stack.
+    ReadAt,
+    /// The same two where a variable may be `<vacant>` (Macro B).
+    ReadNullable(i64),
+    ReadNullableAt,
+    Named(Box<str>),
+    /// `#_NAME[index]`, the index on the stack.
+    NamedAt(Box<str>),
+    ExistsNamed(Box<str>),
+    /// Whether there is a variable of the number on the stack.
+    ExistsAt,
+    Unary(Unary),
+    Binary(Binary),
+    /// The text is wrong from here on.
+    Fail(Box<FormulaErrorKind>),
+}
+
+/// One operation with the part of the file it comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Step {
+    pub(crate) op: Op,
+    pub(crate) range: TextRange,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Code {
+    /// A number, with its digits where they can be held exactly.
+    Literal { value: f64, decimal: Option<Decimal> },
+    /// Anything else, and how many values it keeps at most.
+    Steps { steps: Box<[Step]>, depth: usize },
+}
+
+/// An expression, compiled once to be evaluated many times.
+///
+/// A plain number takes no memory of its own; anything else is one allocation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formula {
+    pub(crate) range: TextRange,
+    pub(crate) code: Code,
+}
+
+impl Formula {
+    /// A number that is not written anywhere, for a place that needs a formula.
+    pub fn constant(value: f64) -> Self {
+        Self {
+            range: TextRange::default(),
+            code: Code::Literal { value, decimal: None },
+        }
+    }
+
+    /// Its text in the file: from the first sign to the last.
+    pub fn range(&self) -> TextRange {
+        self.range
+    }
+
+    /// The number, exactly as written with its sign, if the formula is a number and nothing else.
+    ///
+    /// `None`, too, for a number of more digits than [`Decimal`] holds.
+    #[inline]
+    pub fn literal(&self) -> Option<Decimal> {
+        match self.code {
+            Code::Literal { decimal, .. } => decimal,
+            Code::Steps { .. } => None,
+        }
+    }
+
+    /// The value, if it needs no variable and no arithmetic: a number of any length.
+    #[inline]
+    pub fn number(&self) -> Option<f64> {
+        match self.code {
+            Code::Literal { value, .. } => Some(value),
+            Code::Steps { .. } => None,
+        }
+    }
+
+    /// The steps of the code; none for a plain number.
+    pub(crate) fn steps(&self) -> &[Step] {
+        match &self.code {
+            Code::Literal { .. } => &[],
+            Code::Steps { steps, .. } => steps,
+        }
+    }
+
+    /// The variables it reads, in the order in which they stand in the text, each as often as it stands there.
+    pub fn reads(&self) -> impl Iterator<Item = Variable<'_>> {
+        self.steps().iter().filter_map(|step| match &step.op {
+            Op::Read(index) | Op::ReadNullable(index) => Some(Variable::Numbered(*index)),
+            Op::ReadAt | Op::ReadNullableAt => Some(Variable::Computed(step.range)),
+            Op::Named(name) | Op::NamedAt(name) => Some(Variable::Named(name)),
+            _ => None,
+        })
+    }
+}

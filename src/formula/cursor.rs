@@ -1,0 +1,198 @@
+//! A cursor over the bytes of one line to which blanks and tabs do not exist.
+use nom::{Compare, CompareResult, Input, Needed, Offset};
+use trunnion_syntax::TextRange;
+
+/// Reads a piece of a program byte by byte, skips blanks and tabs, gives letters in lower case, and knows where it is.
+///
+/// RS274/NGC and Macro B give blanks no meaning anywhere outside comments: `X 1 2` is `X12`, `s q r t [4]` is a function.
+/// A cursor is small and can be copied: a copy is a mark one can go back to.
+#[derive(Clone, Copy, Debug)]
+pub struct Cursor<'s> {
+    source: &'s [u8],
+    /// Offset of the next byte that is no blank, or `end`.
+    at: u32,
+    /// One past the last byte that was read.
+    behind: u32,
+    end: u32,
+}
+
+/// Whether `byte` has no meaning to either grammar.
+fn is_blank(byte: u8) -> bool {
+    byte == b' ' || byte == b'\t'
+}
+
+impl<'s> Cursor<'s> {
+    /// A cursor over `range` of the file `source`; parts of the range beyond the file do not exist.
+    pub fn new(source: &'s [u8], range: TextRange) -> Self {
+        let length = u32::try_from(source.len()).unwrap_or(u32::MAX);
+        let end = range.end.min(length);
+        let start = range.start.min(end);
+        let mut cursor = Self {
+            source,
+            at: start,
+            behind: start,
+            end,
+        };
+        cursor.skip();
+        cursor
+    }
+
+    fn skip(&mut self) {
+        let rest = &self.source[self.at as usize..self.end as usize];
+        let blanks = rest.iter().position(|&byte| !is_blank(byte)).unwrap_or(rest.len());
+        self.at += blanks as u32;
+    }
+
+    /// The next byte that is no blank, letters in lower case; `None` at the end.
+    #[inline]
+    pub fn peek(&self) -> Option<u8> {
+        self.rest().first().map(u8::to_ascii_lowercase)
+    }
+
+    /// The byte after [`Self::peek`], by the same rules.
+    pub fn peek_second(&self) -> Option<u8> {
+        let mut next = *self;
+        next.bump();
+        next.peek()
+    }
+
+    /// Takes the next byte, as [`Self::peek`] gives it.
+    #[inline]
+    pub fn bump(&mut self) -> Option<u8> {
+        let byte = self.peek()?;
+        self.at += 1;
+        self.behind = self.at;
+        if self.rest().first().copied().is_some_and(is_blank) {
+            self.skip();
+        }
+        Some(byte)
+    }
+
+    /// Takes the next byte if it is `byte` (in lower case).
+    pub fn eat(&mut self, byte: u8) -> bool {
+        let there = self.peek() == Some(byte);
+        if there {
+            self.bump();
+        }
+        there
+    }
+
+    /// Offset in the file of the next byte that is no blank, or the end of the range.
+    pub fn at(&self) -> u32 {
+        self.at
+    }
+
+    /// One past the last byte that was taken (blanks behind it not counted).
+    pub fn behind(&self) -> u32 {
+        self.behind
+    }
+
+    /// The range from `start` to the last byte that was taken.
+    pub fn since(&self, start: u32) -> TextRange {
+        TextRange::new(start, self.behind.max(start))
+    }
+
+    /// The next byte alone, or an empty range at the end.
+    pub fn here(&self) -> TextRange {
+        TextRange::new(self.at, (self.at + 1).min(self.end))
+    }
+
+    /// What is not read yet, as it stands in the file.
+    #[inline]
+    pub fn rest(&self) -> &'s [u8] {
+        &self.source[self.at as usize..self.end as usize]
+    }
+
+    /// Whether nothing but blanks is left.
+    pub fn is_at_end(&self) -> bool {
+        self.at >= self.end
+    }
+
+    /// Goes on to the byte at `offset` of the file, at most to the end of the range; never back.
+    pub fn skip_to(&mut self, offset: u32) {
+        if offset > self.at {
+            self.at = offset.min(self.end);
+            self.behind = self.at;
+            self.skip();
+        }
+    }
+}
+
+/// The bytes of a cursor with their number, blanks not counted.
+#[derive(Debug)]
+pub struct Bytes<'s>(Cursor<'s>);
+
+impl Iterator for Bytes<'_> {
+    type Item = u8;
+    fn next(&mut self) -> Option<u8> {
+        self.0.bump()
+    }
+}
+
+/// To nom a cursor is a string without blanks: positions and lengths count bytes that have a meaning.
+impl<'s> Input for Cursor<'s> {
+    type Item = u8;
+    type Iter = Bytes<'s>;
+    type IterIndices = core::iter::Enumerate<Bytes<'s>>;
+
+    fn input_len(&self) -> usize {
+        self.iter_elements().count()
+    }
+    fn take(&self, index: usize) -> Self {
+        let behind = self.take_from(index);
+        Self {
+            end: behind.behind.max(self.at),
+            ..*self
+        }
+    }
+    fn take_from(&self, index: usize) -> Self {
+        let mut rest = *self;
+        for _ in 0..index {
+            rest.bump();
+        }
+        rest
+    }
+    fn take_split(&self, index: usize) -> (Self, Self) {
+        (self.take_from(index), self.take(index))
+    }
+    fn position<P: Fn(u8) -> bool>(&self, predicate: P) -> Option<usize> {
+        self.iter_elements().position(predicate)
+    }
+    fn iter_elements(&self) -> Self::Iter {
+        Bytes(*self)
+    }
+    fn iter_indices(&self) -> Self::IterIndices {
+        self.iter_elements().enumerate()
+    }
+    fn slice_index(&self, count: usize) -> Result<usize, Needed> {
+        match count - self.iter_elements().take(count).count() {
+            0 => Ok(count),
+            missing => Err(Needed::new(missing)),
+        }
+    }
+}
+
+impl Offset for Cursor<'_> {
+    fn offset(&self, second: &Self) -> usize {
+        let mut between = *self;
+        between.end = between.end.min(second.at);
+        between.input_len()
+    }
+}
+
+impl Compare<&str> for Cursor<'_> {
+    fn compare(&self, word: &str) -> CompareResult {
+        let mut rest = *self;
+        for expected in word.bytes() {
+            match rest.bump() {
+                None => return CompareResult::Incomplete,
+                Some(byte) if byte != expected => return CompareResult::Error,
+                Some(_) => {}
+            }
+        }
+        CompareResult::Ok
+    }
+    fn compare_no_case(&self, word: &str) -> CompareResult {
+        self.compare(word)
+    }
+}

@@ -1,0 +1,133 @@
+//! Evaluation: one pass over the postfix code with a small stack of values.
+use crate::arithmetic::{binary, checked, is_vacant, unary, vacant, whole};
+use crate::code::{Code, Formula, Op, Step};
+use crate::{FormulaError, FormulaErrorKind, ValueError, Variables};
+
+/// Formulas that keep at most this many values at once need no memory.
+const SHALLOW: usize = 8;
+
+impl Formula {
+    /// The value; NaN if it depends on something that is not known. A `<vacant>` variable of Macro B counts as zero.
+    #[inline]
+    pub fn eval(&self, variables: &(impl Variables + ?Sized)) -> Result<f64, FormulaError> {
+        let value = self.run(variables)?;
+        Ok(if is_vacant(value) { 0.0 } else { value })
+    }
+
+    /// The value as Macro B has it: `None` if the formula is a `<vacant>` variable and nothing else (`#2=#1`, `X#1`). In arithmetic
+    /// `<vacant>` is zero.
+    #[inline]
+    pub fn eval_nullable(&self, variables: &(impl Variables + ?Sized)) -> Result<Option<f64>, FormulaError> {
+        let value = self.run(variables)?;
+        Ok((!is_vacant(value)).then_some(value))
+    }
+
+    #[inline]
+    fn run(&self, variables: &(impl Variables + ?Sized)) -> Result<f64, FormulaError> {
+        match &self.code {
+            Code::Literal { value, .. } => Ok(*value),
+            Code::Steps { steps, depth } if *depth <= SHALLOW => run(steps, variables, &mut [0.0; SHALLOW]),
+            Code::Steps { steps, depth } => run(steps, variables, &mut vec![0.0; *depth]),
+        }
+    }
+}
+
+/// Runs the code; `stack` is as long as the compiler counted.
+fn run(steps: &[Step], variables: &(impl Variables + ?Sized), stack: &mut [f64]) -> Result<f64, FormulaError> {
+    let mut height = 0;
+    for step in steps {
+        let result = match &step.op {
+            Op::Number(value) => Ok(*value),
+            Op::Read(index) => numbered(variables, *index),
+            Op::ReadNullable(index) => nullable(variables, *index),
+            Op::Named(name) => named(variables, name),
+            Op::ExistsNamed(name) => Ok(f64::from(u8::from(variables.exists(name)))),
+            Op::Fail(kind) => Err((**kind).clone()),
+            Op::Binary(operation) => {
+                height -= 2;
+                // only Macro B's angles ask the control
+                binary(*operation, stack[height], stack[height + 1], || {
+                    variables.positive_angles()
+                })
+            }
+            Op::Unary(operation) => {
+                height -= 1;
+                unary(*operation, stack[height], || variables.positive_angles())
+            }
+            on_index => {
+                height -= 1;
+                at_index(on_index, variables, stack[height])
+            }
+        };
+        match result {
+            Ok(value) => stack[height] = value,
+            Err(kind) => {
+                return Err(FormulaError {
+                    range: step.range,
+                    kind,
+                });
+            }
+        }
+        height += 1;
+    }
+    let (Some(value), Some(last)) = (stack.first(), steps.last()) else {
+        return Ok(f64::NAN);
+    };
+    checked(*value).map_err(|kind| FormulaError {
+        range: last.range,
+        kind,
+    })
+}
+
+/// A value of a variable; a NaN of any kind is "not known".
+fn known(value: f64) -> f64 {
+    if value.is_nan() { f64::NAN } else { value }
+}
+
+fn numbered(variables: &(impl Variables + ?Sized), index: i64) -> Result<f64, FormulaErrorKind> {
+    match variables.numbered(index) {
+        Ok(value) => Ok(known(value)),
+        Err(ValueError::NotReadable(reason)) => Err(FormulaErrorKind::NotReadable(reason)),
+        Err(ValueError::OutOfRange | ValueError::NotDefined) => Err(FormulaErrorKind::ParameterOutOfRange(index)),
+    }
+}
+
+fn nullable(variables: &(impl Variables + ?Sized), index: i64) -> Result<f64, FormulaErrorKind> {
+    if index == 0 || variables.null(index) {
+        Ok(vacant())
+    } else {
+        numbered(variables, index)
+    }
+}
+
+fn named(variables: &(impl Variables + ?Sized), name: &str) -> Result<f64, FormulaErrorKind> {
+    value_of(name, variables.named(name))
+}
+
+fn value_of(name: &str, value: Result<f64, ValueError>) -> Result<f64, FormulaErrorKind> {
+    match value {
+        Ok(value) => Ok(known(value)),
+        Err(ValueError::NotReadable(reason)) => Err(FormulaErrorKind::NotReadable(reason)),
+        Err(ValueError::OutOfRange | ValueError::NotDefined) => Err(FormulaErrorKind::NotDefined(name.into())),
+    }
+}
+
+/// The steps that take the number of a variable from the stack. Of a number that is not known the variable is not known either.
+fn at_index(op: &Op, variables: &(impl Variables + ?Sized), index: f64) -> Result<f64, FormulaErrorKind> {
+    let index = if is_vacant(index) { 0.0 } else { index };
+    if checked(index)?.is_nan() {
+        return Ok(f64::NAN);
+    }
+    let nearest = match op {
+        // Macro B rounds (trade knowledge)
+        Op::ReadNullableAt | Op::NamedAt(_) => index.round(),
+        _ => index,
+    };
+    let index = whole(nearest).ok_or(FormulaErrorKind::NotInteger(index))?;
+    match op {
+        Op::ReadAt => numbered(variables, index),
+        Op::ReadNullableAt => nullable(variables, index),
+        Op::NamedAt(name) => value_of(name, variables.named_at(name, index)),
+        _ => Ok(f64::from(u8::from(variables.exists_numbered(index)))),
+    }
+}

@@ -1,0 +1,194 @@
+//! The words of both grammars: operators, functions, names, numbers. Leaf parsers, read with nom from a cursor.
+use crate::code::{Binary, Unary};
+use crate::{Cursor, Grammar};
+use nom::branch::alt;
+use nom::bytes::complete::{tag, take_till, take_while};
+use nom::combinator::{opt, recognize, value, verify};
+use nom::{IResult, Input, Parser};
+
+type Leaf<'s, T> = IResult<Cursor<'s>, T>;
+
+/// What a function name stands for; those with more than one argument have a shape of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Function {
+    /// One argument in brackets.
+    One(Unary),
+    /// `ATAN[y]/[x]`; in Macro B `ATAN[y]` and `ATAN[y,x]`, too.
+    Atan,
+    /// `POW[base,exponent]`.
+    Pow,
+    /// `EXISTS[#<name>]`.
+    Exists,
+}
+
+/// An operator with its rank: the higher one binds first, equal ones from left to right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Operator {
+    pub(crate) binary: Binary,
+    pub(crate) rank: u8,
+}
+
+const fn operator(binary: Binary, rank: u8) -> Operator {
+    Operator { binary, rank }
+}
+
+fn word<'s, T: Clone>(
+    text: &'static str,
+    meaning: T,
+) -> impl Parser<Cursor<'s>, Output = T, Error = nom::error::Error<Cursor<'s>>> {
+    value(meaning, tag(text))
+}
+
+/// RS274/NGC: power, then products, then sums, then comparisons, then logic; `AND OR XOR` are equals.
+fn rs274_operator(input: Cursor<'_>) -> Leaf<'_, Operator> {
+    alt((
+        word("**", operator(Binary::Power, 6)),
+        word("*", operator(Binary::Multiply, 5)),
+        word("/", operator(Binary::Divide, 5)),
+        word("mod", operator(Binary::Modulo, 5)),
+        word("+", operator(Binary::Add, 4)),
+        word("-", operator(Binary::Subtract, 4)),
+        word("eq", operator(Binary::NearlyEqual, 3)),
+        word("ne", operator(Binary::NotNearlyEqual, 3)),
+        word("gt", operator(Binary::Greater, 3)),
+        word("ge", operator(Binary::GreaterOrEqual, 3)),
+        word("lt", operator(Binary::Less, 3)),
+        word("le", operator(Binary::LessOrEqual, 3)),
+        word("and", operator(Binary::LogicalAnd, 2)),
+        word("xor", operator(Binary::LogicalXor, 2)),
+        word("or", operator(Binary::LogicalOr, 2)),
+    ))
+    .parse(input)
+}
+
+/// Macro B: products and AND, then sums, OR and XOR, then comparisons.
+fn macro_operator(input: Cursor<'_>) -> Leaf<'_, Operator> {
+    alt((
+        word("*", operator(Binary::Multiply, 5)),
+        word("/", operator(Binary::Divide, 5)),
+        word("mod", operator(Binary::Remainder, 5)),
+        word("and", operator(Binary::BitAnd, 5)),
+        word("+", operator(Binary::Add, 4)),
+        word("-", operator(Binary::Subtract, 4)),
+        word("xor", operator(Binary::BitXor, 4)),
+        word("or", operator(Binary::BitOr, 4)),
+        word("eq", operator(Binary::Equal, 3)),
+        word("ne", operator(Binary::NotEqual, 3)),
+        word("gt", operator(Binary::Greater, 3)),
+        word("ge", operator(Binary::GreaterOrEqual, 3)),
+        word("lt", operator(Binary::Less, 3)),
+        word("le", operator(Binary::LessOrEqual, 3)),
+    ))
+    .parse(input)
+}
+
+fn rs274_function(input: Cursor<'_>) -> Leaf<'_, Function> {
+    alt((
+        word("abs", Function::One(Unary::Abs)),
+        word("acos", Function::One(Unary::Acos)),
+        word("asin", Function::One(Unary::Asin)),
+        word("atan", Function::Atan),
+        word("cos", Function::One(Unary::Cos)),
+        word("exp", Function::One(Unary::Exp)),
+        word("exists", Function::Exists),
+        word("fix", Function::One(Unary::Floor)),
+        word("fup", Function::One(Unary::Ceiling)),
+        word("ln", Function::One(Unary::Ln)),
+        word("round", Function::One(Unary::RoundToInt)),
+        word("sin", Function::One(Unary::Sin)),
+        word("sqrt", Function::One(Unary::Sqrt)),
+        word("tan", Function::One(Unary::Tan)),
+    ))
+    .parse(input)
+}
+
+fn macro_function(input: Cursor<'_>) -> Leaf<'_, Function> {
+    alt((
+        alt((
+            word("abs", Function::One(Unary::Abs)),
+            word("acos", Function::One(Unary::Acos)),
+            word("adp", Function::One(Unary::AddPoint)),
+            word("asin", Function::One(Unary::MacroAsin)),
+            word("atan", Function::Atan),
+            word("bcd", Function::One(Unary::ToBcd)),
+            word("bin", Function::One(Unary::FromBcd)),
+            word("cos", Function::One(Unary::Cos)),
+            word("exp", Function::One(Unary::Exp)),
+            word("fix", Function::One(Unary::Truncate)),
+            word("fup", Function::One(Unary::AwayFromZero)),
+            word("ln", Function::One(Unary::Ln)),
+        )),
+        alt((
+            word("pow", Function::Pow),
+            word("round", Function::One(Unary::Round)),
+            word("rnd", Function::One(Unary::Round)),
+            word("sin", Function::One(Unary::Sin)),
+            word("sqrt", Function::One(Unary::Sqrt)),
+            word("sqr", Function::One(Unary::Sqrt)),
+            word("tan", Function::One(Unary::Tan)),
+        )),
+    ))
+    .parse(input)
+}
+
+/// Runs a leaf parser and moves the cursor behind what it read.
+fn take<'s, T>(cursor: &mut Cursor<'s>, leaf: impl FnOnce(Cursor<'s>) -> Leaf<'s, T>) -> Option<T> {
+    let (rest, found) = leaf(*cursor).ok()?;
+    *cursor = rest;
+    Some(found)
+}
+
+/// The operator at the cursor.
+pub(crate) fn take_operator(cursor: &mut Cursor<'_>, grammar: Grammar) -> Option<Operator> {
+    take(cursor, |input| match grammar {
+        Grammar::Rs274 => rs274_operator(input),
+        Grammar::MacroB => macro_operator(input),
+    })
+}
+
+/// The function at the cursor.
+pub(crate) fn take_function(cursor: &mut Cursor<'_>, grammar: Grammar) -> Option<Function> {
+    take(cursor, |input| match grammar {
+        Grammar::Rs274 => rs274_function(input),
+        Grammar::MacroB => macro_function(input),
+    })
+}
+
+/// The text behind `<` up to `>`, blanks removed, in lower case; `None` if there is no `>` on the line.
+pub(crate) fn take_angled(cursor: &mut Cursor<'_>) -> Option<Box<str>> {
+    let name = take(cursor, |input| {
+        (tag("<"), take_till(|byte| byte == b'>'), tag(">"))
+            .map(|(_, name, _): (Cursor<'_>, Cursor<'_>, Cursor<'_>)| name)
+            .parse(input)
+    })?;
+    Some(text(name))
+}
+
+/// A name of letters, digits and `_` that begins with a letter or `_` (Macro B), in lower case.
+pub(crate) fn take_name(cursor: &mut Cursor<'_>) -> Option<Box<str>> {
+    let name = take(cursor, |input| {
+        verify(
+            take_while(|byte: u8| byte.is_ascii_alphanumeric() || byte == b'_'),
+            |name: &Cursor<'_>| name.peek().is_some_and(|first| !first.is_ascii_digit()),
+        )
+        .parse(input)
+    })?;
+    Some(text(name))
+}
+
+/// `[+-]` and then digits and points, as many as stand there; whether it is a number is for the caller to say.
+pub(crate) fn take_numeral<'s>(cursor: &mut Cursor<'s>) -> Cursor<'s> {
+    take(cursor, |input| {
+        recognize((
+            opt(alt((tag("+"), tag("-")))),
+            take_while(|byte: u8| byte.is_ascii_digit() || byte == b'.'),
+        ))
+        .parse(input)
+    })
+    .unwrap_or_else(|| cursor.take(0))
+}
+
+/// The bytes of `input` without blanks; bytes above 127 as in Latin-1.
+pub(crate) fn text(input: Cursor<'_>) -> Box<str> {
+    input.iter_elements().map(char::from).collect::<String>().into()
+}

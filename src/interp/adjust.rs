@@ -1,0 +1,101 @@
+//! What a control reads into words before it acts on them: increments and diameters of a lathe, and numbers without a decimal point.
+use crate::codes::Found;
+use crate::offsets::LINEAR;
+use crate::run::Interpreter;
+use crate::words::{Said, Words};
+use crate::{FeedMode, ImplicitDecimals};
+use trunnion_dialect::{Action, Role};
+
+/// Letters of distances and the axes that they move.
+const INCREMENTS: [(u8, usize); 4] = [(b'U', 0), (b'V', 1), (b'W', 2), (b'H', 5)];
+
+impl Interpreter<'_> {
+    /// Puts the words of the block as they are meant.
+    #[cold]
+    pub(crate) fn adjust(&self, codes: &[Found<'_>], words: &mut Words) {
+        let has = |action: Action| codes.iter().any(|found| found.code.action == action);
+        if self.dialect.quirks.diameter {
+            self.increments(words);
+        }
+        match self.setup.control.implicit_decimals {
+            Some(ImplicitDecimals::LeastIncrement) => {
+                let inch = if has(Action::Inch) || has(Action::Metric) {
+                    has(Action::Inch)
+                } else {
+                    self.state.length_unit_mm != 1.0
+                };
+                self.least_increments(codes, words, inch);
+            }
+            Some(ImplicitDecimals::Calculator) => words.axes.point |= words.axes.given,
+            None => {}
+        }
+        if self.dialect.quirks.diameter && !has(Action::Dwell) {
+            words.axes.values[0] *= 0.5;
+        }
+    }
+
+    /// U, V, W, H are distances of X, Y, Z, C.
+    fn increments(&self, words: &mut Words) {
+        for (letter, axis) in INCREMENTS {
+            if self.dialect.role(letter) != Some(Role::Increment) {
+                continue;
+            }
+            let bit = 1 << axis;
+            match words.letter(letter) {
+                Said::Nothing => {}
+                Said::Number(number) => {
+                    words.axes.values[axis] = number.value;
+                    words.axes.given |= bit;
+                    words.axes.incremental |= bit;
+                    words.axes.point |= u16::from(number.has_point) << axis;
+                    words.first = words.first.or(Some(number.range));
+                }
+                Said::Name(_) | Said::Unread => words.axes.unread |= bit,
+            }
+        }
+    }
+
+    /// Coordinates without a point count 0.001 mm or degrees, 0.0001 inch; F 1 mm/min, 0.01 inch/min, 0.01 mm/turn, 0.0001 inch/turn
+    /// (Fanuc Series 30i operator's manual, least input increment IS-B).
+    fn least_increments(&self, codes: &[Found<'_>], words: &mut Words, inch: bool) {
+        let divisor = if inch { 10_000.0 } else { 1000.0 };
+        let whole = words.axes.given & !words.axes.point;
+        for axis in (0..9).filter(|axis| whole & (1 << axis) != 0) {
+            let linear = LINEAR & (1 << axis) != 0;
+            words.axes.values[axis] /= if linear { divisor } else { 1000.0 };
+        }
+        words.axes.point |= whole;
+        if !self.state.vector_mode {
+            let whole = words.centre.given & !words.centre.point;
+            for place in (0..3).filter(|place| whole & (1 << place) != 0) {
+                words.centre.values[place] /= divisor;
+            }
+            words.centre.point |= whole;
+        }
+        let scale = |said: &mut Said, divisor: f64| {
+            if let Said::Number(number) = said
+                && !number.has_point
+            {
+                number.value /= divisor;
+                number.has_point = true;
+            }
+        };
+        // R of a rotation is an angle
+        let turns = codes.iter().any(|found| found.code.action == Action::RotationOn);
+        scale(&mut words.radius, if turns { 1000.0 } else { divisor });
+        let mode = codes
+            .iter()
+            .fold(self.state.feed_mode, |mode, found| match found.code.action {
+                Action::FeedPerMinute => FeedMode::PerMinute,
+                Action::FeedPerRevolution => FeedMode::PerRevolution,
+                Action::FeedInverseTime => FeedMode::InverseTime,
+                _ => mode,
+            });
+        let feed = match (mode, inch) {
+            (FeedMode::PerMinute, true) | (FeedMode::PerRevolution, false) => 100.0,
+            (FeedMode::PerRevolution, true) => 10_000.0,
+            _ => 1.0,
+        };
+        scale(&mut words.feed, feed);
+    }
+}

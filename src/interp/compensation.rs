@@ -1,0 +1,331 @@
+//! Cutter radius compensation in the plane (G41, G42 of a Fanuc or Haas mill): the tool's centre runs beside the programmed path. A motion
+//! waits until the next one in the plane is known, since the corner between them depends on both.
+//!
+//! Start-up and cancel are of type A (parameter 5003: bits SUP and SUV 0): the first motion ends beside the start of the next, the last
+//! motion of the contour ends beside its own end. Source: Fanuc Series 30i operator's manual, details of cutter compensation.
+mod corner;
+mod element;
+mod select;
+
+use crate::frames::XYZ;
+use crate::run::{Interpreter, Report};
+use crate::{FaultKind, ModalState, Motion, MotionKind, Refusal};
+use corner::{Join, Link, Trouble, join};
+use element::{Element, Point};
+use trunnion_dialect::Plane;
+
+/// A motion and what was in force after its block.
+pub(crate) type Told = (Motion, ModalState);
+
+/// Where the compensation stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Stage {
+    /// Off.
+    #[default]
+    Off,
+    /// G41 or G42 is there, the next motion in the plane leads to the contour.
+    Start,
+    /// Along the contour.
+    On,
+    /// Given up: motions are the programmed ones until G40.
+    Lost,
+}
+
+/// A motion that waits for the next.
+#[derive(Clone, Debug)]
+struct Held {
+    told: Told,
+    element: Element,
+    /// Where its compensated path begins.
+    from: Point,
+    /// It leads to the contour and is not compensated itself.
+    leads: bool,
+}
+
+/// See the module.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Compensation {
+    pub(crate) stage: Stage,
+    /// 1: left of the path, -1: right, before mirroring.
+    pub(crate) side: f64,
+    /// mm.
+    pub(crate) radius: f64,
+    /// D in force.
+    pub(crate) d: Option<u32>,
+    plane: Option<Plane>,
+    held: Option<Box<Held>>,
+    /// Motions without a way in the plane, behind the held one.
+    between: Vec<Told>,
+    /// Motions that can be told now.
+    pub(crate) ready: Vec<Told>,
+}
+
+impl Compensation {
+    /// Whether motions must come by here.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.held.is_some() || matches!(self.stage, Stage::Start | Stage::On)
+    }
+}
+
+/// The motion with its way in the plane replaced.
+fn moved(told: &Told, element: &Element, from: Point, to: Point) -> Option<Told> {
+    let (motion, state) = told;
+    let mut motion = *motion;
+    element.put(&mut motion.start, from);
+    element.put(&mut motion.end, to);
+    if let MotionKind::Arc(Some(arc)) = &mut motion.kind {
+        *arc = element.arc_between(arc, from, to)?;
+    }
+    Some((motion, state.clone()))
+}
+
+/// A motion at a corner, at the height where the motion before it ends, with its feed.
+fn link(told: &Told, element: &Element, from: Point, link: Link) -> Told {
+    let to = link.to;
+    let (motion, state) = told;
+    let mut motion = *motion;
+    motion.start = motion.end;
+    element.put(&mut motion.start, from);
+    element.put(&mut motion.end, to);
+    motion.kind = match (motion.kind, link.about) {
+        (_, Some((corner, sign))) => MotionKind::Arc(element.corner_arc(&motion.end, corner, from, to, sign)),
+        (MotionKind::Rapid, None) => MotionKind::Rapid,
+        _ => MotionKind::Linear,
+    };
+    (motion, state.clone())
+}
+
+impl Interpreter<'_> {
+    /// Takes a motion of the program while compensation is busy.
+    pub(crate) fn compensate(&mut self, motion: &Motion, report: &mut Report<'_>) {
+        let told = (*motion, self.state.clone());
+        let plane = *self.memory.compensation.plane.get_or_insert(self.state.plane);
+        let Some(element) = Element::of(motion, plane) else {
+            self.without_way(told, report);
+            return;
+        };
+        if let Some(held) = &self.memory.compensation.held
+            && !held.element.meets(&element, &held.told.0, motion)
+        {
+            self.lose("the path is not known throughout", report);
+        }
+        if self.state.plane != plane && self.state.compensation != 0 && self.memory.compensation.stage == Stage::On {
+            self.reject(
+                "the plane changes during cutter compensation: end it with G40 first",
+                "plane-change",
+                report,
+            );
+            self.lose("the plane changes", report);
+        }
+        let cancels = self.state.compensation == 0;
+        match (self.memory.compensation.stage, cancels) {
+            (Stage::Start, false) => self.start(told, element, report),
+            (Stage::On, false) => self.follow(told, element, report),
+            (_, true) => self.cancel(told, &element, report),
+            (Stage::Off | Stage::Lost, false) => self.memory.compensation.ready.push(told),
+        }
+    }
+
+    /// A motion that does not move in the plane, or whose way is not known.
+    fn without_way(&mut self, told: Told, report: &mut Report<'_>) {
+        let motion = &told.0;
+        let still = Element::rests(motion, self.memory.compensation.plane.unwrap_or(self.state.plane));
+        if still && self.memory.compensation.held.is_some() {
+            self.memory.compensation.between.push(told);
+            return;
+        }
+        if !still {
+            self.lose("the path is not known throughout", report);
+        }
+        self.memory.compensation.ready.push(told);
+    }
+
+    fn start(&mut self, told: Told, element: Element, report: &mut Report<'_>) {
+        self.memory.compensation.stage = Stage::On;
+        if element.is_arc() {
+            self.reject(
+                "cutter compensation begins with an arc: begin it with a straight motion",
+                "arc-start-or-cancel",
+                report,
+            );
+            self.memory.compensation.ready.push(told);
+            self.lose("it begins with an arc", report);
+            return;
+        }
+        self.memory.compensation.held = Some(Box::new(Held {
+            from: element.start,
+            told,
+            element,
+            leads: true,
+        }));
+    }
+
+    /// Side with mirrored coordinates taken into account.
+    fn side(&self) -> f64 {
+        let plane = self.memory.compensation.plane.unwrap_or(self.state.plane);
+        if self.memory.frames.shape.flips(plane) {
+            -self.memory.compensation.side
+        } else {
+            self.memory.compensation.side
+        }
+    }
+
+    /// The next motion of the contour: the held one can be told.
+    fn follow(&mut self, told: Told, element: Element, report: &mut Report<'_>) {
+        let offset = self.side() * self.memory.compensation.radius;
+        let Some(held) = self.memory.compensation.held.take() else {
+            // after a start-up that was told already
+            self.memory.compensation.held = Some(Box::new(Held {
+                from: element.start,
+                told,
+                element,
+                leads: true,
+            }));
+            return;
+        };
+        let result = if held.leads {
+            let beside = element.beside_start(offset);
+            Ok(Join {
+                end: beside,
+                links: Vec::new(),
+                start: beside,
+            })
+        } else {
+            join(&held.element, &element, offset, self.setup.control.outer_corner)
+        };
+        let joined = result.and_then(|join| {
+            let end = join.end;
+            let told = if held.leads {
+                moved(&held.told, &held.element, held.from, end)
+            } else {
+                held.element
+                    .keeps_direction(offset, held.from, end)
+                    .then(|| moved(&held.told, &held.element, held.from, end))
+                    .flatten()
+            };
+            told.map(|told| (told, join)).ok_or(Trouble::Interference)
+        });
+        match joined {
+            Ok((ready, join)) => {
+                let unsure = self.memory.compensation.between.len() > 1;
+                self.release(ready, &held.element, join.end, unsure, report);
+                let mut from = join.end;
+                for next in join.links {
+                    let told = link(&held.told, &held.element, from, next);
+                    self.memory.compensation.ready.push(told);
+                    from = next.to;
+                }
+                self.memory.compensation.held = Some(Box::new(Held {
+                    told,
+                    element,
+                    from: join.start,
+                    leads: false,
+                }));
+            }
+            Err(trouble) => {
+                let (text, alarm) = trouble.words();
+                self.reject(text, alarm, report);
+                self.memory.compensation.held = Some(held);
+                self.lose("it has no path here", report);
+                self.memory.compensation.ready.push(told);
+            }
+        }
+    }
+
+    /// Tells a motion, and behind it at its end those without a way in the plane.
+    fn release(&mut self, mut told: Told, element: &Element, end: Point, unsure: bool, report: &mut Report<'_>) {
+        let between = std::mem::take(&mut self.memory.compensation.between);
+        if unsure {
+            let what = "cutter radius compensation: a corner behind several motions outside of the plane".to_owned();
+            report.fault(report.whole(), FaultKind::NotModelled { what });
+            element.forget(&mut told.0.end);
+        }
+        self.memory.compensation.ready.push(told);
+        for (mut motion, state) in between {
+            element.put(&mut motion.start, end);
+            element.put(&mut motion.end, end);
+            if unsure {
+                element.forget(&mut motion.start);
+                element.forget(&mut motion.end);
+            }
+            self.memory.compensation.ready.push((motion, state));
+        }
+    }
+
+    /// The last motion of the contour ends beside its end.
+    fn settle(&mut self, report: &mut Report<'_>) -> Option<Point> {
+        let held = self.memory.compensation.held.take()?;
+        let offset = self.side() * self.memory.compensation.radius;
+        let end = if held.leads {
+            held.element.end
+        } else {
+            held.element.beside_end(offset)
+        };
+        let fits = held.leads || held.element.keeps_direction(offset, held.from, end);
+        match moved(&held.told, &held.element, held.from, end).filter(|_| fits) {
+            Some(told) => self.release(told, &held.element, end, false, report),
+            None => {
+                let (text, alarm) = Trouble::Interference.words();
+                self.reject(text, alarm, report);
+                let told = held.told.clone();
+                self.release(told, &held.element, held.element.end, false, report);
+            }
+        }
+        Some(end)
+    }
+
+    /// The first motion in the plane after G40 leads from the contour.
+    fn cancel(&mut self, told: Told, element: &Element, report: &mut Report<'_>) {
+        let from = self.settle(report);
+        self.memory.compensation.stage = Stage::Off;
+        self.memory.compensation.plane = None;
+        let Some(from) = from else {
+            self.memory.compensation.ready.push(told);
+            return;
+        };
+        if element.is_arc() {
+            self.reject(
+                "cutter compensation ends with an arc: end it with a straight motion",
+                "arc-start-or-cancel",
+                report,
+            );
+        }
+        let ready = moved(&told, element, from, element.end).filter(|_| !element.is_arc());
+        self.memory.compensation.ready.push(ready.unwrap_or(told));
+    }
+
+    /// Gives the path up until G40: motions are the programmed ones.
+    pub(crate) fn lose(&mut self, why: &str, report: &mut Report<'_>) {
+        if matches!(self.memory.compensation.stage, Stage::Off | Stage::Lost) {
+            return;
+        }
+        self.settle(report);
+        self.memory.compensation.stage = Stage::Lost;
+        self.memory.compensation.plane = None;
+        let what = format!("cutter radius compensation: {why}; path is the programmed one");
+        report.fault(report.whole(), FaultKind::NotModelled { what });
+    }
+
+    /// Everything that waits is told: the program ends.
+    pub(crate) fn end_compensation(&mut self, report: &mut Report<'_>) {
+        self.settle(report);
+        let between = std::mem::take(&mut self.memory.compensation.between);
+        self.memory.compensation.ready.extend(between);
+        self.memory.compensation.stage = Stage::Off;
+    }
+
+    fn reject(&self, text: &str, mistake: &str, report: &mut Report<'_>) {
+        let alarm = self.dialect.alarm(mistake).map(|alarm| alarm.number.clone());
+        let kind = FaultKind::Rejected {
+            refusal: Refusal::Compensation,
+            message: text.to_owned(),
+            alarm,
+        };
+        report.fault(report.whole(), kind);
+    }
+}
+
+/// Linear axes of the plane are known at both ends.
+fn known(motion: &Motion) -> bool {
+    motion.start.known & motion.end.known & XYZ == XYZ
+}

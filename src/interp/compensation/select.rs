@@ -1,0 +1,85 @@
+//! G40, G41, G42 and D: which side, which radius.
+use super::Stage;
+use crate::FaultKind;
+use crate::codes::Found;
+use crate::run::{Interpreter, Report};
+use crate::words::{Said, Words};
+
+impl<'d> Interpreter<'d> {
+    /// G41 (41) or G42 (42).
+    pub(crate) fn compensation(&mut self, side: u8, found: &Found<'d>, words: &Words, report: &mut Report<'_>) {
+        let before = self.state.compensation;
+        self.state.compensation = side;
+        let plane = self.dialect.quirks.offset_compensation && matches!(found.code.id.as_str(), "G41" | "G42");
+        if !plane {
+            if !std::mem::replace(&mut self.memory.compensation_said, true) {
+                let what = "cutter radius compensation: path is the programmed one".to_owned();
+                report.fault(found.range, FaultKind::NotModelled { what });
+            }
+            return;
+        }
+        let d = words.letter(b'D');
+        let old = self.memory.compensation.d;
+        if d.is_said() {
+            self.memory.compensation.d = d.index();
+        }
+        let d = match d {
+            Said::Nothing => old,
+            said => said.index(),
+        };
+        if before != 0 {
+            if before != side || d != old {
+                self.lose("its side or its D changes", report);
+            }
+            return;
+        }
+        match self.cutter_radius(d) {
+            Some(0.0) => self.memory.compensation.stage = Stage::Off,
+            Some(radius) => {
+                let sign = if side == 41 { 1.0 } else { -1.0 };
+                let compensation = &mut self.memory.compensation;
+                compensation.stage = Stage::Start;
+                (compensation.side, compensation.radius) = (sign * radius.signum(), radius.abs());
+            }
+            None => {
+                self.memory.compensation.stage = Stage::Off;
+                if !std::mem::replace(&mut self.memory.compensation_said, true) {
+                    let d = d.map_or_else(|| "D".to_owned(), |d| format!("D{d}"));
+                    let what = format!(
+                        "cutter radius compensation: the radius of {d} is not declared; path is the programmed one"
+                    );
+                    report.fault(found.range, FaultKind::NotModelled { what });
+                }
+            }
+        }
+    }
+
+    /// D in a block of its own, while compensation is on.
+    pub(crate) fn cutter_number(&mut self, words: &Words, report: &mut Report<'_>) {
+        let d = words.letter(b'D');
+        if !d.is_said() || self.state.compensation == 0 || d.index() == self.memory.compensation.d {
+            return;
+        }
+        self.memory.compensation.d = d.index();
+        self.lose("its D changes", report);
+    }
+
+    /// Radius of an offset number, mm: written by the program, else half the diameter of the tool of that number.
+    fn cutter_radius(&self, d: Option<u32>) -> Option<f64> {
+        let number = d?;
+        if number == 0 {
+            return Some(0.0);
+        }
+        let written = self.tool_offset(number);
+        if written.is_some_and(|offset| offset.radius_unclear) {
+            return None;
+        }
+        let declared = || {
+            self.tool_of(Some(number))
+                .and_then(|tool| tool.diameter_mm)
+                .map(|diameter| 0.5 * diameter)
+        };
+        let radius = written.and_then(|offset| offset.radius).or_else(declared)?;
+        Some(radius + written.map_or(0.0, |offset| offset.radius_wear))
+    }
+}

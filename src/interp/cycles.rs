@@ -1,0 +1,57 @@
+//! Canned cycles, expanded into the motions that a control makes of them.
+mod hole;
+mod pass;
+mod pattern;
+mod pocket;
+
+pub(crate) use hole::{Hole, Stored};
+pub(crate) use pattern::Pattern;
+
+use crate::codes::Found;
+use crate::run::Interpreter;
+use trunnion_dialect::Action;
+
+/// What a cycle keeps from block to block.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Cycle {
+    /// The code as it is written, for messages.
+    pub(crate) id: String,
+    /// Whether K or L counts the repeats.
+    pub(crate) repeats: u8,
+    /// Whether the code reads I, J, K as shifts or depths.
+    pub(crate) reads: [bool; 3],
+    /// G99: back to the R level, else to the level before the cycle.
+    pub(crate) to_r: bool,
+    /// The place of the hole while the tool is off it by an unknown distance.
+    pub(crate) hole_place: [Option<f64>; 2],
+    /// Data of drilling cycles.
+    pub(crate) hole: Hole,
+    /// Data of turning cycles: end of the cut in X and Z, taper.
+    pub(crate) pass: [Stored; 3],
+}
+
+impl<'d> Interpreter<'d> {
+    /// Begins a cycle whose motions are modelled.
+    pub(crate) fn begin_cycle(&mut self, found: &Found<'d>) {
+        let action = found.code.action;
+        let in_cycle = self.state.motion.is_some_and(|motion| motion.is_hole_cycle());
+        if !in_cycle {
+            if self.state.motion != Some(Action::CannedCycle) && !self.state.motion.is_some_and(Action::is_pass_cycle) {
+                self.memory.before_cycle = self.state.motion;
+            }
+            let position = self.state.position;
+            let here = self.memory.frames.programmed(&position);
+            let axis = crate::arc::plane_axes(self.state.plane)[2];
+            self.memory.cycle.hole = Hole::from(here.get(axis));
+        }
+        if action.is_pass_cycle() && self.state.motion != Some(action) {
+            self.memory.cycle.pass = [Stored::Nothing; 3];
+        }
+        let reads = |word: &str| found.code.words.iter().any(|known| known == word);
+        let cycle = &mut self.memory.cycle;
+        cycle.id.clone_from(&found.code.id);
+        cycle.repeats = if reads("L") { b'L' } else { b'K' };
+        cycle.reads = [reads("I"), reads("J") && reads("I"), reads("K") && reads("L")];
+        self.state.motion = Some(action);
+    }
+}

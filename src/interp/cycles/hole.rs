@@ -1,0 +1,461 @@
+//! Drilling, tapping and boring cycles: to the hole, rapid to R, down to Z as the cycle says, and back.
+use crate::arc::plane_axes;
+use crate::run::{Interpreter, Report};
+use crate::words::{Said, Words};
+use crate::{FaultKind, Feed, ImplicitDecimals, MotionKind, Position, Refusal};
+use trunnion_dialect::Action;
+
+/// More steps than this are no drilling.
+const MOST_STEPS: f64 = 10_000.0;
+/// Holes of one block.
+const MOST_REPEATS: u32 = 10_000;
+
+/// A value that a cycle keeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum Stored {
+    /// Not given yet.
+    #[default]
+    Nothing,
+    /// Given, but its value is not known.
+    Unknown,
+    /// mm as a coordinate.
+    At(f64),
+    /// mm as a distance.
+    By(f64),
+}
+
+impl Stored {
+    /// The coordinate, from the level that a distance counts from.
+    pub(crate) fn from(self, level: Option<f64>) -> Option<f64> {
+        match self {
+            Self::At(value) => Some(value),
+            Self::By(distance) => level.map(|level| level + distance),
+            Self::Nothing | Self::Unknown => None,
+        }
+    }
+}
+
+/// What drilling cycles keep.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Hole {
+    /// Coordinate of the drilling axis when the cycle was begun, mm.
+    initial: Option<f64>,
+    bottom: Stored,
+    r: Stored,
+    /// Step or shift, mm.
+    q: Option<f64>,
+    /// Dwell, seconds.
+    dwell: Option<f64>,
+    /// How many times the feed a tap goes out with (J of a Haas).
+    times: Option<f64>,
+    /// I, J, K where the cycle reads them, mm.
+    ijk: [Option<f64>; 3],
+}
+
+impl Hole {
+    /// Nothing but the level before the cycle, mm.
+    pub(crate) fn from(initial: Option<f64>) -> Self {
+        Self {
+            initial,
+            ..Self::default()
+        }
+    }
+}
+
+/// One hole with its numbers, all as coordinates of the words.
+#[derive(Clone, Copy, Debug)]
+struct Plan {
+    axis: usize,
+    r: Option<f64>,
+    bottom: f64,
+    initial: Option<f64>,
+    back: Option<f64>,
+    feed: Feed,
+}
+
+impl Interpreter<'_> {
+    /// A word that is a length without being a coordinate, mm: Q, I, J, K of a cycle.
+    pub(crate) fn length_word(&self, words: &Words, letter: u8) -> Option<f64> {
+        let number = words.letter(letter).number()?;
+        let least = self.setup.control.implicit_decimals == Some(ImplicitDecimals::LeastIncrement);
+        let value = match (least && !number.has_point, self.state.length_unit_mm != 1.0) {
+            (true, true) => number.value / 10_000.0,
+            (true, false) => number.value / 1000.0,
+            (false, _) => number.value,
+        };
+        Some(value * self.state.length_unit_mm)
+    }
+
+    fn store_hole(&mut self, words: &Words, axis: usize) {
+        let stored = |said: bool, value: Option<f64>, incremental: bool| match (said, value) {
+            (false, _) => None,
+            (true, None) => Some(Stored::Unknown),
+            (true, Some(value)) if incremental => Some(Stored::By(value)),
+            (true, Some(value)) => Some(Stored::At(value)),
+        };
+        let incremental = self.state.incremental;
+        let unit = self.state.length_unit_mm;
+        let z = words.axes.get(axis).map(|value| value * unit);
+        let z_said = (words.axes.given | words.axes.unread) & (1 << axis) != 0;
+        let bottom = stored(z_said, z, incremental);
+        let r = words.radius.number().map(|number| number.value * unit);
+        let r = stored(words.radius.is_said(), r, incremental);
+        let q = self.length_word(words, b'Q');
+        let dwell = words.p.number().map(|p| {
+            let ms = self.dialect.quirks.dwell_in_ms && !p.has_point;
+            if ms { p.value / 1000.0 } else { p.value }
+        });
+        let reads = self.memory.cycle.reads;
+        let ijk = [(b'I', reads[0]), (b'J', reads[1]), (b'K', reads[2])];
+        let ijk = ijk.map(|(letter, reads)| self.length_word(words, letter).filter(|_| reads));
+        let taps = matches!(self.state.motion, Some(Action::TapCycle | Action::TapLeftCycle));
+        let times = words.letter(b'J').number().filter(|_| taps).map(|number| number.value);
+        let hole = &mut self.memory.cycle.hole;
+        hole.bottom = bottom.unwrap_or(hole.bottom);
+        hole.r = r.unwrap_or(hole.r);
+        hole.q = q.or(hole.q);
+        hole.dwell = dwell.or(hole.dwell);
+        hole.times = times.or(hole.times);
+        for (kept, given) in hole.ijk.iter_mut().zip(ijk) {
+            *kept = given.or(*kept);
+        }
+    }
+
+    /// Runs the cycle in force at the places that the block says.
+    pub(crate) fn hole_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
+        let axis = plane_axes(self.state.plane)[2];
+        self.store_hole(words, axis);
+        let repeats = match words.letter(self.memory.cycle.repeats) {
+            Said::Nothing => Some(1),
+            said => said.index().filter(|&count| count <= MOST_REPEATS),
+        };
+        let Some(repeats) = repeats else {
+            self.lost(
+                words,
+                axis,
+                "a number of repeats that is not known or above 10000",
+                report,
+            );
+            return;
+        };
+        if repeats == 0 {
+            // data only; whether the tool goes to the coordinates is not told
+            if (words.axes.given | words.axes.unread) & !(1 << axis) != 0 {
+                self.lost(words, axis, "coordinates with no repeats", report);
+            }
+            return;
+        }
+        let Some(plan) = self.plan(words, axis, report) else {
+            self.lost(words, axis, "", report);
+            return;
+        };
+        let mut places = words.axes;
+        places.given &= !(1 << axis);
+        places.unread &= !(1 << axis);
+        for _ in 0..repeats {
+            let position = self.state.position;
+            let mut place = self.memory.frames.programmed(&position);
+            let before = place;
+            let others = Words {
+                axes: places,
+                ..Words::default()
+            };
+            self.place(&others, &mut place);
+            if place != before || place.known & places.given != places.given {
+                self.goes(MotionKind::Rapid, place, Feed::Rapid, report);
+            }
+            self.hole(&plan, report);
+        }
+    }
+
+    /// Numbers of the hole; says what is missing.
+    fn plan(&mut self, words: &Words, axis: usize, report: &mut Report<'_>) -> Option<Plan> {
+        let hole = self.memory.cycle.hole;
+        let missing = match (hole.r, hole.bottom) {
+            (Stored::Nothing, _) => Some("R, the level where the feed begins"),
+            (_, Stored::Nothing) => Some("the depth of the hole"),
+            _ => None,
+        };
+        if let Some(missing) = missing {
+            let message = format!(
+                "{} without {missing}: give it in the block of the cycle",
+                self.memory.cycle.id
+            );
+            self.refuse(words, Refusal::CannedCycle, message, None, report);
+            return None;
+        }
+        let r = hole.r.from(hole.initial);
+        let bottom = hole.bottom.from(r)?;
+        let feed = self.feed_of(MotionKind::Linear, words, report);
+        let always_initial = self.state.motion == Some(Action::BackBoreCycle);
+        let back = if self.memory.cycle.to_r && !always_initial {
+            r
+        } else {
+            hole.initial
+        };
+        let steps = matches!(self.state.motion, Some(Action::PeckCycle | Action::ChipBreakCycle));
+        if steps && hole.q.is_none_or(|q| q == 0.0) && hole.ijk[0].is_none() {
+            let message = format!("{} without Q, the depth of each step", self.memory.cycle.id);
+            self.refuse(words, Refusal::CannedCycle, message, Some("peck-missing"), report);
+            return None;
+        }
+        Some(Plan {
+            axis,
+            r,
+            bottom,
+            initial: hole.initial,
+            back,
+            feed,
+        })
+    }
+
+    /// A mistake for which the control refuses the block.
+    pub(crate) fn refuse(
+        &self,
+        words: &Words,
+        refusal: Refusal,
+        message: String,
+        alarm: Option<&str>,
+        report: &mut Report<'_>,
+    ) {
+        let alarm = alarm.and_then(|mistake| self.dialect.alarm(mistake));
+        let kind = FaultKind::Rejected {
+            refusal,
+            message,
+            alarm: alarm.map(|alarm| alarm.number.clone()),
+        };
+        report.fault(words.first.unwrap_or_default(), kind);
+    }
+
+    /// The block's places are not known after it.
+    fn lost(&mut self, words: &Words, axis: usize, why: &str, report: &mut Report<'_>) {
+        if !why.is_empty() {
+            let what = format!("{}: {why}", self.memory.cycle.id);
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        }
+        let mut motion = self.unknown_motion(words, report);
+        self.state.position.forget(axis);
+        motion.end.forget(axis);
+        self.memory.out.push(motion);
+    }
+
+    /// A motion of the drilling axis alone; an unknown target is forgotten.
+    fn down(&mut self, plan: &Plan, kind: MotionKind, to: Option<f64>, report: &Report<'_>) {
+        let position = self.state.position;
+        let here = self.memory.frames.programmed(&position);
+        let mut place = here;
+        match to {
+            Some(to) => place.set(plan.axis, to),
+            None => place.forget(plan.axis),
+        }
+        if place != here || to.is_none() {
+            let feed = match kind {
+                MotionKind::Rapid => Feed::Rapid,
+                MotionKind::Unknown => Feed::Unknown,
+                _ => plan.feed,
+            };
+            self.goes(kind, place, feed, report);
+        }
+    }
+
+    fn wait(&mut self, seconds: Option<f64>, report: &Report<'_>) {
+        if let Some(seconds) = seconds.filter(|seconds| *seconds > 0.0) {
+            let position = self.state.position;
+            let kind = MotionKind::Dwell(Some(seconds));
+            let mut motion = self.new_motion(kind, position, position, self.held_orientation(), Feed::Unknown, report);
+            if self.state.frame_unknown {
+                self.hide(&mut motion);
+            }
+            self.memory.out.push(motion);
+        }
+    }
+
+    /// One hole, from where the tool stands above it.
+    fn hole(&mut self, plan: &Plan, report: &mut Report<'_>) {
+        let dwell = self.memory.cycle.hole.dwell;
+        let feed_out = |interpreter: &mut Self, plan: &Plan, report: &Report<'_>| {
+            interpreter.down(plan, MotionKind::Linear, plan.r, report);
+            interpreter.down(plan, MotionKind::Rapid, plan.back, report);
+        };
+        let Some(action) = self.state.motion else { return };
+        if action == Action::BackBoreCycle {
+            self.back_bore(plan, report);
+            return;
+        }
+        self.down(plan, MotionKind::Rapid, plan.r, report);
+        match action {
+            Action::PeckCycle | Action::ChipBreakCycle => self.steps(plan, action, report),
+            _ => self.down(plan, MotionKind::Linear, Some(plan.bottom), report),
+        }
+        match action {
+            Action::DrillDwellCycle | Action::PeckCycle | Action::ChipBreakCycle => {
+                self.wait(dwell, report);
+                self.down(plan, MotionKind::Rapid, plan.back, report);
+            }
+            Action::TapCycle | Action::TapLeftCycle => {
+                self.wait(dwell, report);
+                let mut out = *plan;
+                if let (Feed::PerMinute(feed), Some(times)) = (plan.feed, self.memory.cycle.hole.times) {
+                    out.feed = Feed::PerMinute(feed * times);
+                }
+                feed_out(self, &out, report);
+            }
+            Action::BoreCycle => {
+                self.wait(dwell, report);
+                feed_out(self, plan, report);
+            }
+            Action::BoreStopCycle => self.with_spindle_off(|interpreter| {
+                interpreter.down(plan, MotionKind::Rapid, plan.back, report);
+            }),
+            Action::BoreManualCycle => {
+                self.wait(dwell, report);
+                // by hand up to R
+                self.with_spindle_off(|interpreter| interpreter.down(plan, MotionKind::Unknown, plan.r, report));
+                self.down(plan, MotionKind::Rapid, plan.back, report);
+            }
+            Action::FineBoreCycle => {
+                self.wait(dwell, report);
+                self.with_spindle_off(|interpreter| {
+                    let aside = interpreter.aside();
+                    interpreter.shift(aside, 1.0, report);
+                    interpreter.down(plan, MotionKind::Rapid, plan.back, report);
+                    interpreter.shift(aside, -1.0, report);
+                });
+            }
+            _ => self.down(plan, MotionKind::Rapid, plan.back, report),
+        }
+    }
+
+    fn with_spindle_off(&mut self, run: impl FnOnce(&mut Self)) {
+        let before = std::mem::replace(&mut self.state.spindle_on, Some(false));
+        run(self);
+        self.state.spindle_on = before;
+    }
+
+    /// Drilling in steps of Q, or of I, less J each time, not below K.
+    fn steps(&mut self, plan: &Plan, action: Action, report: &mut Report<'_>) {
+        let hole = self.memory.cycle.hole;
+        let Some(r) = plan.r else {
+            self.down(plan, MotionKind::Linear, Some(plan.bottom), report);
+            return;
+        };
+        let (depth, way) = ((plan.bottom - r).abs(), (plan.bottom - r).signum());
+        let (mut step, less, least) = match (hole.ijk[0], hole.q) {
+            (Some(first), _) => (
+                first.abs(),
+                hole.ijk[1].map_or(0.0, f64::abs),
+                hole.ijk[2].map_or(0.0, f64::abs).max(depth / MOST_STEPS),
+            ),
+            (None, q) => (q.map_or(depth, f64::abs), 0.0, 0.0),
+        };
+        if step * MOST_STEPS < depth {
+            let what = format!("{} in more than 10000 steps", self.memory.cycle.id);
+            report.fault(report.whole(), FaultKind::NotModelled { what });
+            self.down(plan, MotionKind::Linear, Some(plan.bottom), report);
+            return;
+        }
+        let (back, clear) = (
+            self.setup.control.chip_break_retract_mm,
+            self.setup.control.peck_clearance_mm,
+        );
+        let mut done = 0.0;
+        loop {
+            done += step;
+            // the last step is what is left
+            if done >= depth - 1e-9 {
+                self.down(plan, MotionKind::Linear, Some(plan.bottom), report);
+                return;
+            }
+            self.down(plan, MotionKind::Linear, Some(r + way * done), report);
+            if action == Action::PeckCycle {
+                self.down(plan, MotionKind::Rapid, Some(r), report);
+                self.down(
+                    plan,
+                    MotionKind::Rapid,
+                    clear.map(|clear| r + way * (done - clear)),
+                    report,
+                );
+            } else {
+                self.down(
+                    plan,
+                    MotionKind::Rapid,
+                    back.map(|back| r + way * (done - back)),
+                    report,
+                );
+            }
+            step = (step - less).max(least);
+            if step <= 0.0 {
+                step = depth;
+            }
+        }
+    }
+
+    /// By how much the tool goes off the wall, first and second axis of the plane; `None`: a parameter of the control says which way.
+    fn aside(&self) -> Option<[f64; 2]> {
+        let hole = &self.memory.cycle.hole;
+        match hole.ijk {
+            [None, None, _] => None,
+            [i, j, _] => Some([i.unwrap_or(0.0), j.unwrap_or(0.0)]),
+        }
+    }
+
+    /// Moves the tool off the wall (1) or back (-1).
+    fn shift(&mut self, aside: Option<[f64; 2]>, sign: f64, report: &Report<'_>) {
+        let [a, b, _] = plane_axes(self.state.plane);
+        let position = self.state.position;
+        let mut place = self.memory.frames.programmed(&position);
+        let kept = self.memory.cycle.hole_place;
+        match aside {
+            Some(by) => {
+                for (axis, by) in [(a, by[0]), (b, by[1])] {
+                    if let Some(value) = place.get(axis) {
+                        place.set(axis, value + sign * by);
+                    }
+                }
+            }
+            None if sign > 0.0 => {
+                self.memory.cycle.hole_place = [place.get(a), place.get(b)];
+                place.forget(a);
+                place.forget(b);
+            }
+            None => {
+                for (axis, value) in [(a, kept[0]), (b, kept[1])] {
+                    if let Some(value) = value {
+                        place.set(axis, value);
+                    }
+                }
+            }
+        }
+        self.goes(MotionKind::Rapid, place, Feed::Rapid, report);
+    }
+
+    /// G87: shifted and stopped to R below, back to the axis of the hole, feed up, shifted and stopped to the initial level.
+    fn back_bore(&mut self, plan: &Plan, report: &mut Report<'_>) {
+        let aside = self.aside();
+        let dwell = self.memory.cycle.hole.dwell;
+        self.with_spindle_off(|interpreter| {
+            interpreter.shift(aside, 1.0, report);
+            interpreter.down(plan, MotionKind::Rapid, plan.r, report);
+            interpreter.shift(aside, -1.0, report);
+        });
+        self.down(plan, MotionKind::Linear, Some(plan.bottom), report);
+        self.wait(dwell, report);
+        self.with_spindle_off(|interpreter| {
+            interpreter.shift(aside, 1.0, report);
+            interpreter.down(plan, MotionKind::Rapid, plan.initial, report);
+            interpreter.shift(aside, -1.0, report);
+        });
+    }
+
+    /// Where coordinates lead, polar ones too, as words tell it.
+    pub(crate) fn place(&mut self, words: &Words, place: &mut Position) {
+        self.targets(&words.axes, false, place);
+        if self.memory.frames.active {
+            if let Some(mut polar) = self.memory.frames.polar {
+                polar.place(words, &self.state, place);
+                self.memory.frames.polar = Some(polar);
+            }
+            self.after_turn(words, place);
+        }
+    }
+}

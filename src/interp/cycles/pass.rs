@@ -1,0 +1,103 @@
+//! Turning cycles of one pass (G90, G94 and G92 of system A): in, cut, out, back to the start.
+use super::Stored;
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+use crate::{FaultKind, Feed, MotionKind};
+use trunnion_dialect::Action;
+
+const X: usize = 0;
+const Z: usize = 2;
+
+impl Interpreter<'_> {
+    /// Runs the pass in force with what the block changes of it. X is a radius here; R is the difference of radii (or of Z when facing).
+    pub(crate) fn pass_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
+        let position = self.state.position;
+        let start = self.memory.frames.programmed(&position);
+        for (slot, axis) in [(0, X), (1, Z)] {
+            let bit = 1 << axis;
+            if words.axes.unread & bit != 0 {
+                self.memory.cycle.pass[slot] = Stored::Unknown;
+            } else if let Some(value) = self.axis_value(words, axis) {
+                let incremental =
+                    words.axes.incremental & bit != 0 || (self.state.incremental && words.axes.absolute & bit == 0);
+                self.memory.cycle.pass[slot] = if incremental {
+                    Stored::By(value)
+                } else {
+                    Stored::At(value)
+                };
+            }
+        }
+        if words.radius.is_said() {
+            let taper = words
+                .radius
+                .number()
+                .map(|number| number.value * self.state.length_unit_mm);
+            self.memory.cycle.pass[2] = taper.map_or(Stored::Unknown, Stored::By);
+        }
+        let [x, z, taper] = self.memory.cycle.pass;
+        let taper = if taper == Stored::Nothing {
+            Some(0.0)
+        } else {
+            taper.from(Some(0.0))
+        };
+        let ends = (
+            x.from(start.get(X)),
+            z.from(start.get(Z)),
+            taper,
+            start.get(X),
+            start.get(Z),
+        );
+        let (Some(x), Some(z), Some(taper), Some(x_start), Some(z_start)) = ends else {
+            let what = format!("{} from or to a place that is not known", self.memory.cycle.id);
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+            let mut motion = self.unknown_motion(words, report);
+            motion.end.known &= !crate::offsets::LINEAR;
+            self.forget_linear();
+            self.memory.out.push(motion);
+            return;
+        };
+        let threading = self.state.motion == Some(Action::ThreadingCycle);
+        let feed = if threading {
+            self.lead(words, report)
+        } else {
+            self.feed_of(MotionKind::Linear, words, report)
+        };
+        let (before, after) = if self.state.motion == Some(Action::FacingCycle) {
+            ((x_start, z + taper), (x, z_start))
+        } else {
+            ((x + taper, z_start), (x_start, z))
+        };
+        // a thread is left in rapid
+        let out = if threading {
+            MotionKind::Rapid
+        } else {
+            MotionKind::Linear
+        };
+        let corners = [
+            (before, MotionKind::Rapid),
+            ((x, z), MotionKind::Linear),
+            (after, out),
+            ((x_start, z_start), MotionKind::Rapid),
+        ];
+        for (to, kind) in corners {
+            let position = self.state.position;
+            let mut place = self.memory.frames.programmed(&position);
+            place.set(X, to.0);
+            place.set(Z, to.1);
+            self.goes(
+                kind,
+                place,
+                if kind == MotionKind::Rapid { Feed::Rapid } else { feed },
+                report,
+            );
+        }
+    }
+
+    /// The lead of a thread: F of the block or the one before, mm per turn.
+    pub(crate) fn lead(&mut self, words: &Words, report: &mut Report<'_>) -> Feed {
+        match self.feed_of(MotionKind::Linear, words, report) {
+            Feed::PerMinute(lead) | Feed::PerRevolution(lead) => Feed::PerRevolution(lead),
+            feed => feed,
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Coordinates that the program shifts, turns, scales, mirrors or gives as radius and angle. Shifts are part of the zero point; the
+//! rest is a [`Shape`] between the words and the work coordinates in which motions are told.
+mod data_entry;
+mod polar;
+mod reference;
+mod shape;
+mod shift;
+mod turn;
+
+pub(crate) use polar::Polar;
+pub(crate) use reference::Return;
+pub(crate) use shape::{Rotation, Scaling, Shape};
+
+use crate::{MotionKind, Position};
+
+/// X, Y, Z in [`crate::AXIS_LETTERS`].
+pub(crate) const XYZ: u16 = 0b111;
+
+/// See the module.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Frames {
+    /// Whether coordinates of words are not work coordinates, or not simply.
+    pub(crate) active: bool,
+    /// Turned, scaled, mirrored.
+    pub(crate) shape: Shape,
+    /// Radius and angle.
+    pub(crate) polar: Option<Polar>,
+    /// The position as the words have it, while a shape is in force; good as long as the work position is `synced`.
+    programmed: Position,
+    synced: Position,
+    /// Axes of a plane that was turned and that no word has given since.
+    pub(crate) fresh: u16,
+    /// Axes whose next coordinate must be absolute, since a turned plane has ended.
+    pub(crate) must_be_absolute: u16,
+    /// Zero point that is selected (G54), without shifts.
+    pub(crate) selected: [f64; 9],
+    /// G92.
+    pub(crate) shift: [f64; 9],
+    /// G52.
+    pub(crate) local: [f64; 9],
+    /// Offset of all zero points, written by G10 L2 P0.
+    pub(crate) external: [f64; 9],
+    /// Work offsets that the program has written, by name.
+    pub(crate) written: Vec<(Box<str>, [f64; 9])>,
+    /// Tool offsets that the program has written.
+    pub(crate) tool_offsets: Vec<data_entry::ToolOffset>,
+    /// Blocks hold data until G11.
+    pub(crate) entering_data: bool,
+    /// The intermediate point of the last return to a reference point, work coordinates.
+    pub(crate) intermediate: Option<Position>,
+    /// The missing reference points were told.
+    pub(crate) reference_said: bool,
+}
+
+impl Frames {
+    /// To be called after any change.
+    pub(crate) fn refresh(&mut self, work: &Position) {
+        self.active =
+            !self.shape.is_identity() || self.polar.is_some() || self.fresh != 0 || self.must_be_absolute != 0;
+        self.programmed = self.shape.to_words(work);
+        self.synced = *work;
+    }
+    /// The position as the words have it.
+    pub(crate) fn programmed(&mut self, work: &Position) -> Position {
+        if !self.active {
+            return *work;
+        }
+        if self.synced != *work {
+            self.programmed = self.shape.to_words(work);
+            self.synced = *work;
+        }
+        self.programmed
+    }
+    /// The work position of a position as the words have it, which the tool then has.
+    pub(crate) fn arrive(&mut self, programmed: Position) -> Position {
+        if !self.active {
+            return programmed;
+        }
+        let work = self.shape.to_work(&programmed);
+        self.programmed = programmed;
+        self.synced = work;
+        work
+    }
+    /// What is left of a motion's kind in work coordinates.
+    pub(crate) fn kind_to_work(&self, kind: MotionKind) -> MotionKind {
+        match kind {
+            MotionKind::Arc(Some(arc)) if self.active => MotionKind::Arc(self.shape.arc_to_work(&arc)),
+            kind => kind,
+        }
+    }
+    /// All that is added to the selected zero point.
+    pub(crate) fn added(&self, axis: usize) -> f64 {
+        self.external[axis] + self.shift[axis] + self.local[axis]
+    }
+}

@@ -1,0 +1,169 @@
+//! G10: offsets that the program writes.
+use crate::codes::{BlockCodes, Found};
+use crate::run::{Interpreter, Report};
+use crate::words::{Said, Words};
+use crate::{FaultKind, Refusal};
+use trunnion_dialect::Action;
+
+/// What G10 L10 to L13 have written for one number; mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ToolOffset {
+    pub(crate) number: u32,
+    /// L10.
+    pub(crate) length: Option<f64>,
+    /// L11.
+    pub(crate) length_wear: f64,
+    /// L12.
+    pub(crate) radius: Option<f64>,
+    /// L13.
+    pub(crate) radius_wear: f64,
+    /// Whether L12 or L13 wrote a diameter or a radius is a setting.
+    pub(crate) radius_unclear: bool,
+}
+
+impl<'d> Interpreter<'d> {
+    /// What the program has written for a number.
+    pub(crate) fn tool_offset(&self, number: u32) -> Option<&ToolOffset> {
+        let offsets = &self.memory.frames.tool_offsets;
+        offsets.iter().find(|offset| offset.number == number)
+    }
+
+    /// G10 with its L: 2 and 20 work offsets, 10 to 13 tool offsets, 50 and 52 parameters until G11.
+    pub(crate) fn data_entry(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        block.takes_coordinates = true;
+        let unread = words.axes.unread != 0 || matches!(words.p, Said::Unread);
+        let (l, p) = (words.letter(b'L').index(), words.p.index());
+        match (l, p) {
+            (Some(2), Some(0..=6)) if !unread => self.write_offset(words, p.unwrap_or(0), false),
+            (Some(20), Some(1..=300)) if !unread && self.additional_offsets().is_some() => {
+                self.write_offset(words, p.unwrap_or(1), true);
+            }
+            (Some(10..=13), Some(number)) if words.radius.number().is_some() => {
+                self.write_tool(l.unwrap_or(10), number, words, found, report);
+            }
+            (Some(50..=52), _) => {
+                self.memory.frames.entering_data = true;
+                self.unclear_entry(found, words, block, report);
+            }
+            (Some(2), Some(number)) => {
+                let alarm = self.dialect.alarm("data-entry-l").map(|alarm| alarm.number.clone());
+                let message = format!("G10 L2 P{number}: P names a work offset, 0 to 6 (1 is G54)");
+                report.fault(
+                    found.range,
+                    FaultKind::Rejected {
+                        refusal: Refusal::Other,
+                        message,
+                        alarm,
+                    },
+                );
+            }
+            _ => self.unclear_entry(found, words, block, report),
+        }
+    }
+
+    fn unclear_entry(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+        let l = words.letter(b'L').index();
+        let what = l.map_or_else(|| found.code.id.clone(), |l| format!("{} L{l}", found.code.id));
+        report.fault(found.range, FaultKind::NotModelled { what });
+        self.frame_begins(found, words, block);
+    }
+
+    /// The code that selects additional work offsets by P: G54.1, G154.
+    fn additional_offsets(&self) -> Option<&'d str> {
+        let codes = self.dialect.codes();
+        let code = codes
+            .iter()
+            .find(|code| code.action == Action::WorkOffset && code.words.iter().any(|word| word == "P"))?;
+        Some(&code.id)
+    }
+
+    fn write_offset(&mut self, words: &Words, p: u32, additional: bool) {
+        let name = match (additional, p) {
+            (true, p) => self.additional_offsets().map(|code| format!("{code} P{p}")),
+            (false, 0) => None,
+            (false, p) => Some(format!("G{}", 53 + p)),
+        };
+        let mut values = match &name {
+            Some(name) => self.offset_values(name).unwrap_or([0.0; 9]),
+            None => self.memory.frames.external,
+        };
+        for axis in 0..9 {
+            if let Some(value) = self.axis_value(words, axis) {
+                let base = if self.state.incremental { values[axis] } else { 0.0 };
+                values[axis] = base + value;
+            }
+        }
+        let Some(name) = name else {
+            self.memory.frames.external = values;
+            self.refresh_zero();
+            return;
+        };
+        let written = &mut self.memory.frames.written;
+        match written.iter_mut().find(|(known, _)| **known == *name) {
+            Some(known) => known.1 = values,
+            None => written.push((name.clone().into(), values)),
+        }
+        let in_force = self.state.work_offset.as_deref();
+        let first = in_force.is_none() && self.dialect.quirks.first_offset_at_start && name == "G54";
+        if first || in_force.is_some_and(|known| known.eq_ignore_ascii_case(&name)) {
+            self.set_zero(Some(name.into()), values);
+        }
+    }
+
+    /// Values of a work offset: written by the program, else declared.
+    pub(crate) fn offset_values(&self, name: &str) -> Option<[f64; 9]> {
+        let written = self.memory.frames.written.iter();
+        let written = written
+            .filter(|(known, _)| known.eq_ignore_ascii_case(name))
+            .map(|known| known.1);
+        let declared = self.setup.work_offsets.iter();
+        let declared = declared
+            .filter(|known| known.name.eq_ignore_ascii_case(name))
+            .map(|known| known.values);
+        written.chain(declared).next()
+    }
+
+    fn write_tool(&mut self, l: u32, number: u32, words: &Words, found: &Found<'d>, report: &mut Report<'_>) {
+        let value = words.radius.number().map_or(0.0, |number| number.value) * self.state.length_unit_mm;
+        let incremental = self.state.incremental;
+        let add = |old: f64| if incremental { old + value } else { value };
+        let declared = self.tool_of(Some(number)).and_then(|tool| tool.length_mm);
+        let unclear = self.dialect.quirks.cutter_offset_ambiguous;
+        let offsets = &mut self.memory.frames.tool_offsets;
+        if !offsets.iter().any(|offset| offset.number == number) {
+            offsets.push(ToolOffset {
+                number,
+                length: None,
+                length_wear: 0.0,
+                radius: None,
+                radius_wear: 0.0,
+                radius_unclear: false,
+            });
+        }
+        if let Some(offset) = offsets.iter_mut().find(|offset| offset.number == number) {
+            match l {
+                10 => offset.length = Some(add(offset.length.or(declared).unwrap_or(0.0))),
+                11 => offset.length_wear = add(offset.length_wear),
+                12 => offset.radius = Some(add(offset.radius.unwrap_or(0.0))),
+                _ => offset.radius_wear = add(offset.radius_wear),
+            }
+            offset.radius_unclear |= unclear && l >= 12;
+        }
+        // when the new length acts is a parameter of the control; the next G43 or G49 makes it plain
+        let in_force = self.memory.length_offset == Some(number) && self.state.tool_length_mm.is_some();
+        if l <= 11 && in_force {
+            let what = format!("{} of the length offset in force", found.code.id);
+            report.fault(found.range, FaultKind::NotModelled { what });
+            if let Some(code) = self.dialect.g(490) {
+                self.memory.begin_frame(code, true);
+                self.forget_linear();
+            }
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! G16: the plane's first coordinate is a radius from the zero point, its second an angle.
+use crate::arc::plane_axes;
+use crate::words::Words;
+use crate::{ModalState, Position};
+use trunnion_geometry::math::sin_cos;
+
+/// What was given last; `None`: not known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Polar {
+    radius: Option<f64>,
+    degrees: Option<f64>,
+}
+
+impl Polar {
+    /// Puts the place that the words give into `end`. An incremental radius counts from where the tool stands, which makes a new
+    /// centre; that is not followed.
+    pub(crate) fn place(&mut self, words: &Words, state: &ModalState, end: &mut Position) {
+        let [a, b, _] = plane_axes(state.plane);
+        let said = words.axes.given | words.axes.unread;
+        if said & ((1 << a) | (1 << b)) == 0 {
+            return;
+        }
+        if said & (1 << a) != 0 {
+            let radius = words.axes.get(a).filter(|_| !state.incremental);
+            self.radius = radius.map(|radius| radius * state.length_unit_mm);
+        }
+        if said & (1 << b) != 0 {
+            self.degrees = match (words.axes.get(b), state.incremental) {
+                (Some(angle), true) => self.degrees.map(|degrees| degrees + angle),
+                (angle, _) => angle,
+            };
+        }
+        match (self.radius, self.degrees) {
+            (Some(radius), Some(degrees)) => {
+                let (sin, cos) = sin_cos(degrees.to_radians());
+                end.set(a, radius * cos);
+                end.set(b, radius * sin);
+            }
+            _ => {
+                end.forget(a);
+                end.forget(b);
+            }
+        }
+    }
+}

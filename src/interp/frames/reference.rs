@@ -1,0 +1,132 @@
+//! G27 to G30: returns to reference points.
+use crate::codes::Found;
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+use crate::{FaultKind, Feed, MotionKind, Position};
+use trunnion_dialect::Action;
+use trunnion_syntax::TextRange;
+
+/// A return in the block in hand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Return {
+    /// G27.
+    Check,
+    /// G28, G30: number of the point, from 1.
+    To(u32),
+    /// G29.
+    From,
+}
+
+impl Return {
+    pub(crate) fn of(found: &Found<'_>, words: &Words) -> Self {
+        match found.code.action {
+            Action::ReferenceCheck => Self::Check,
+            Action::ReferenceFrom => Self::From,
+            Action::ReferenceReturnOther => Self::To(words.p.index().unwrap_or(2)),
+            _ => Self::To(1),
+        }
+    }
+}
+
+impl Interpreter<'_> {
+    /// The motions of a return.
+    pub(crate) fn returns(&mut self, what: Return, range: TextRange, words: &Words, report: &mut Report<'_>) {
+        let position = self.state.position;
+        let mut point = self.memory.frames.programmed(&position);
+        self.targets(&words.axes, false, &mut point);
+        let mut named = words.axes.given | words.axes.unread;
+        match what {
+            Return::Check => self.rapid_to(point, report),
+            Return::From => self.from_reference(named, point, report),
+            Return::To(number) => {
+                if named != 0 {
+                    self.rapid_to(point, report);
+                    self.memory.frames.intermediate = Some(self.state.position);
+                } else if self.dialect.quirks.return_moves_all {
+                    named = (1 << 9) - 1;
+                } else {
+                    return;
+                }
+                self.to_reference(named, number, range, report);
+            }
+        }
+    }
+
+    fn rapid_to(&mut self, point: Position, report: &Report<'_>) {
+        let position = self.state.position;
+        if self.memory.frames.programmed(&position) != point {
+            self.goes(MotionKind::Rapid, point, Feed::Rapid, report);
+        }
+    }
+
+    /// G29: the named axes go to the point of the last return first.
+    fn from_reference(&mut self, named: u16, point: Position, report: &Report<'_>) {
+        let mut via = self.state.position;
+        for axis in (0..9).filter(|axis| named & (1 << axis) != 0) {
+            match self.memory.frames.intermediate.and_then(|via| via.get(axis)) {
+                Some(value) => via.set(axis, value),
+                None => via.forget(axis),
+            }
+        }
+        let via = self.memory.frames.shape.to_words(&via);
+        self.rapid_to(via, report);
+        self.rapid_to(point, report);
+    }
+
+    /// Rapid of the named axes to a reference point: in machine coordinates where it is declared, else to nobody knows where.
+    fn to_reference(&mut self, named: u16, number: u32, range: TextRange, report: &mut Report<'_>) {
+        let declared = self
+            .setup
+            .control
+            .reference_points
+            .get((number.max(1) - 1) as usize)
+            .copied();
+        let mut start = self.state.position;
+        self.to_machine(&mut start, 1.0);
+        let mut end = start;
+        let mut all = true;
+        for axis in (0..9).filter(|axis| named & (1 << axis) != 0) {
+            match declared.and_then(|point| point.get(axis)) {
+                Some(value) => end.set(axis, value),
+                None => {
+                    end.forget(axis);
+                    all = false;
+                }
+            }
+        }
+        let orientation = self.held_orientation();
+        if all {
+            let mut motion = self.new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
+            (motion.machine_coordinates, motion.tcp) = (true, false);
+            self.to_machine(&mut end, -1.0);
+            self.state.position = end;
+            self.memory.out.push(motion);
+            return;
+        }
+        if !std::mem::replace(&mut self.memory.frames.reference_said, true) {
+            let what = format!("reference point {number}: where it lies is not declared");
+            report.fault(range, FaultKind::NotModelled { what });
+        }
+        let start = self.state.position;
+        self.state.position.known &= !named;
+        let end = self.state.position;
+        let mut motion = self.new_motion(MotionKind::Unknown, start, end, orientation, Feed::Unknown, report);
+        if self.state.frame_unknown {
+            self.hide(&mut motion);
+        }
+        self.memory.out.push(motion);
+    }
+
+    /// A motion to a place that is told as words tell it; it is put out with the others of the block.
+    pub(crate) fn goes(&mut self, kind: MotionKind, to: Position, feed: Feed, report: &Report<'_>) {
+        let start = self.state.position;
+        let end = self.memory.frames.arrive(to);
+        self.state.position = end;
+        let kind = self.memory.frames.kind_to_work(kind);
+        let mut motion = self.new_motion(kind, start, end, self.held_orientation(), feed, report);
+        if self.state.frame_unknown {
+            self.hide(&mut motion);
+        }
+        self.memory.out.push(motion);
+    }
+}

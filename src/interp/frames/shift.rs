@@ -1,0 +1,99 @@
+//! Shifts of the zero point by the program: G52, G92, G92.1.
+use crate::codes::{BlockCodes, Found};
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+
+impl<'d> Interpreter<'d> {
+    /// The zero point in force from its parts. The machine stays where it is.
+    pub(crate) fn refresh_zero(&mut self) {
+        let frames = &self.memory.frames;
+        let mut zero = frames.selected;
+        for (axis, value) in zero.iter_mut().enumerate() {
+            *value += frames.added(axis);
+        }
+        self.move_zero(zero);
+    }
+
+    /// Length of a word of an axis in mm or degrees, radius where the control programs diameters.
+    pub(crate) fn axis_value(&self, words: &Words, axis: usize) -> Option<f64> {
+        let linear = crate::offsets::LINEAR & (1 << axis) != 0;
+        let unit = if linear { self.state.length_unit_mm } else { 1.0 };
+        words.axes.get(axis).map(|value| value * unit)
+    }
+
+    /// Shifts can be told only where words are work coordinates.
+    fn shifts_plainly(&self, words: &Words) -> bool {
+        self.memory.frames.shape.is_identity() && words.axes.unread == 0 && !self.state.tcp
+    }
+
+    /// G52: the work coordinates' zero moves to the given place; 0 ends it.
+    pub(crate) fn local_shift(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        block.takes_coordinates = true;
+        // whether the distance counts from the last shift is not told anywhere
+        let unclear =
+            self.state.incremental && (0..9).any(|axis| words.axes.get(axis).is_some_and(|value| value != 0.0));
+        if unclear || !self.shifts_plainly(words) {
+            self.frame_change(found, words, block, report);
+            return;
+        }
+        for axis in 0..9 {
+            if let Some(value) = self.axis_value(words, axis) {
+                self.memory.frames.local[axis] = value;
+            }
+        }
+        self.refresh_zero();
+    }
+
+    /// G92: the present point gets the given coordinates, in all work offsets. With S alone it limits the speed.
+    pub(crate) fn position_set(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        if !words.axes.any() && words.speed.is_said() {
+            return;
+        }
+        block.takes_coordinates = true;
+        let known = words.axes.given & !self.state.position.known == 0;
+        // under a length offset the coordinates are those of the point before it
+        let length = self.state.tool_length_mm.is_some_and(|length| length != 0.0) && words.axes.get(2).is_some();
+        if !known || length || !self.shifts_plainly(words) || self.state.frame_unknown {
+            self.frame_change(found, words, block, report);
+            return;
+        }
+        for axis in 0..9 {
+            if let Some(value) = self.axis_value(words, axis) {
+                let value = if self.dialect.quirks.diameter && words.axes.incremental & (1 << axis) != 0 {
+                    self.state.position.values[axis] + value
+                } else {
+                    value
+                };
+                self.memory.frames.shift[axis] += self.state.position.values[axis] - value;
+            }
+        }
+        self.refresh_zero();
+    }
+
+    /// G92.1: shifts end for the axes that are named, or for all.
+    pub(crate) fn position_preset(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes) {
+        block.takes_coordinates = true;
+        let named = words.axes.given | words.axes.unread;
+        for axis in (0..9).filter(|axis| named == 0 || named & (1 << axis) != 0) {
+            self.memory.frames.shift[axis] = 0.0;
+            self.memory.frames.local[axis] = 0.0;
+        }
+        self.refresh_zero();
+        if named == 0 || named & super::XYZ == super::XYZ {
+            let ended = self.memory.end_frame(found.code);
+            self.forget_if(ended);
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! G68, G51, G51.1, G16 and their ends.
+use super::{Polar, Rotation, Scaling};
+use crate::arc::plane_axes;
+use crate::codes::{BlockCodes, Found};
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+
+impl<'d> Interpreter<'d> {
+    /// Whether nothing is in force that would make a new frame's place unclear.
+    fn frames_are_plain(&self) -> bool {
+        !self.state.frame_unknown && !self.state.tcp && self.memory.frames.polar.is_none()
+    }
+
+    fn reshaped(&mut self) {
+        let position = self.state.position;
+        self.memory.frames.refresh(&position);
+    }
+
+    /// G68 about a point of the plane, or about the present point; R is the angle in degrees.
+    pub(crate) fn rotation_on(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        let plane = self.state.plane;
+        let [a, b, _] = plane_axes(plane);
+        let angle = words.radius.number().map(|number| number.value);
+        let position = self.state.position;
+        let here = self.memory.frames.programmed(&position);
+        let unit = self.state.length_unit_mm;
+        let centre = [a, b].map(|axis| match words.axes.get(axis) {
+            Some(value) => Some(value * unit),
+            None if words.axes.unread & (1 << axis) != 0 => None,
+            None => here.get(axis),
+        });
+        // I J K: about an axis in space; a rotation in a rotation adds to it or not, as a parameter says
+        let plain = self.frames_are_plain() && !words.centre.any() && self.memory.frames.shape.rotation.is_none();
+        let (Some(angle), [Some(x), Some(y)], true) = (angle, centre, plain && !self.scales_unevenly()) else {
+            self.frame_change(found, words, block, report);
+            return;
+        };
+        block.takes_coordinates = true;
+        self.memory.frames.shape.rotation = Some(Rotation::new(plane, [x, y], angle));
+        self.memory.frames.fresh = (1 << a) | (1 << b);
+        self.reshaped();
+    }
+
+    fn scales_unevenly(&self) -> bool {
+        let scaling = self.memory.frames.shape.scaling;
+        scaling.is_some_and(|scaling| scaling.uniform().is_none())
+    }
+
+    /// G69.
+    pub(crate) fn rotation_off(&mut self, found: &Found<'d>) {
+        if let Some(rotation) = self.memory.frames.shape.rotation.take() {
+            let [a, b, _] = plane_axes(rotation.plane);
+            self.memory.frames.fresh = 0;
+            self.memory.frames.must_be_absolute = (1 << a) | (1 << b);
+            self.reshaped();
+        }
+        let ended = self.memory.end_frame(found.code);
+        self.forget_if(ended);
+    }
+
+    /// G51: factor P for all axes, or I J K for X Y Z.
+    pub(crate) fn scaling_on(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        let shape = &self.memory.frames.shape;
+        let plain = self.frames_are_plain() && shape.rotation.is_none() && shape.scaling.is_none();
+        let factors = self.scale_factors(words);
+        let position = self.state.position;
+        let here = self.memory.frames.programmed(&position);
+        let unit = self.state.length_unit_mm;
+        let mut centre = [0.0; 3];
+        let mut known = words.axes.unread == 0 && plain;
+        if let Some(factors) = factors {
+            for axis in 0..3 {
+                match words.axes.get(axis).map(|value| value * unit).or(here.get(axis)) {
+                    Some(value) => centre[axis] = value,
+                    None => known &= factors[axis] == 1.0,
+                }
+            }
+        }
+        let (Some(factors), true) = (factors, known) else {
+            self.frame_change(found, words, block, report);
+            return;
+        };
+        block.takes_coordinates = true;
+        self.memory.frames.shape.scaling = Some(Scaling { centre, factors });
+        self.reshaped();
+    }
+
+    /// Factors of X Y Z; `None` where the unit of a whole number is a parameter of the control, or one is zero.
+    fn scale_factors(&self, words: &Words) -> Option<[f64; 3]> {
+        let plain = self.dialect.quirks.plain_scale_factor;
+        let factor = |letter: u8| match words.letter(letter) {
+            crate::words::Said::Nothing => Some(None),
+            said => {
+                let number = said.number().filter(|number| plain || number.has_point)?;
+                (number.value != 0.0).then_some(Some(number.value))
+            }
+        };
+        let by_axis = [factor(b'I')?, factor(b'J')?, factor(b'K')?];
+        match (factor(b'P')?, by_axis) {
+            (Some(all), [None, None, None]) => Some([all; 3]),
+            (None, [None, None, None]) | (Some(_), _) => None,
+            (None, by_axis) => Some(by_axis.map(|factor| factor.unwrap_or(1.0))),
+        }
+    }
+
+    /// G50.
+    pub(crate) fn scaling_off(&mut self, found: &Found<'d>) {
+        self.memory.frames.shape.scaling = None;
+        self.reshaped();
+        let ended = self.memory.end_frame(found.code);
+        self.forget_if(ended);
+    }
+
+    /// G51.1: axes are mirrored about the given coordinates.
+    pub(crate) fn mirror_on(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        let shape = &self.memory.frames.shape;
+        let plain = self.frames_are_plain() && shape.rotation.is_none() && shape.scaling.is_none();
+        let named = words.axes.given & super::XYZ;
+        let others = (words.axes.given & !super::XYZ) | words.axes.unread;
+        // mirrored again about another line
+        let again = (0..3).any(|axis| named & (1 << axis) != 0 && shape.mirror[axis].is_some());
+        if !plain || others != 0 || named == 0 || again {
+            self.frame_change(found, words, block, report);
+            return;
+        }
+        block.takes_coordinates = true;
+        for axis in 0..3 {
+            if let Some(line) = self.axis_value(words, axis) {
+                self.memory.frames.shape.mirror[axis] = Some(line);
+            }
+        }
+        self.reshaped();
+    }
+
+    /// G50.1: mirroring ends for the named axes, or for all.
+    pub(crate) fn mirror_off(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes) {
+        block.takes_coordinates = true;
+        let named = words.axes.given | words.axes.unread;
+        for axis in (0..3).filter(|axis| named == 0 || named & (1 << axis) != 0) {
+            self.memory.frames.shape.mirror[axis] = None;
+        }
+        self.reshaped();
+        let ended = self.memory.end_frame(found.code);
+        self.forget_if(ended);
+    }
+
+    /// G16 and G15.
+    pub(crate) fn polar(&mut self, on: bool) {
+        self.memory.frames.polar = on.then(Polar::default);
+        self.reshaped();
+    }
+
+    /// What a turned plane says about coordinates that a block gives: after G68 an axis that no word has named yet has no known
+    /// place once the other is given; after G69 the first coordinate must be absolute.
+    pub(crate) fn after_turn(&mut self, words: &Words, end: &mut crate::Position) {
+        let named = words.axes.given | words.axes.unread;
+        let frames = &mut self.memory.frames;
+        let absolute = !self.state.incremental;
+        if frames.fresh != 0 && named & frames.fresh != 0 {
+            if absolute {
+                end.known &= !(frames.fresh & !named);
+                frames.fresh &= !named;
+            }
+        }
+        if frames.must_be_absolute & named != 0 {
+            if !absolute {
+                end.known &= !(frames.must_be_absolute & named);
+            }
+            frames.must_be_absolute &= !named;
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The end of a run: blocks that never ran are read all the same, so that one mistake does not hide the others.
+use super::Deep;
+use super::alarms::rejected;
+use super::read::{Macros, Mode};
+use crate::reader::Reader;
+use crate::run::{Interpreter, Sink};
+use crate::words::Words;
+use crate::{Fault, FaultKind, Refusal};
+use trunnion_syntax::{BlockId, Format, Program, TextRange};
+
+impl Interpreter<'_> {
+    /// Nothing is left to run: tells what is missing, and what is wrong with the text of blocks that did not run.
+    #[cold]
+    pub(crate) fn end(&mut self, program: &Program, sink: &mut impl Sink) {
+        if std::mem::replace(&mut self.flow.finished, true) {
+            return;
+        }
+        self.finish(program, sink);
+        if !self.dialect.quirks.macro_b || program.options().format != Format::Iso {
+            return;
+        }
+        let next = self.flow.next;
+        let mut deep = self.flow.deep.take();
+        if let Some(deep) = &mut deep {
+            if deep.place.file == 0 {
+                deep.ran.jump(next, next);
+            }
+            self.broken_loops(program, deep, sink);
+        }
+        let blocks = program.block_count() as u32;
+        let from = if deep.is_some() { 0 } else { next };
+        if !ends_text(program, next.wrapping_sub(1)) {
+            let ran = |block: u32| deep.as_ref().is_some_and(|deep| deep.ran.has(block));
+            let rest = (from..blocks).filter(|&block| !ran(block));
+            self.read_only(program, rest, sink);
+        }
+        self.flow.deep = deep;
+    }
+
+    /// What is wrong with DO and END.
+    fn broken_loops(&self, program: &Program, deep: &mut Deep, sink: &mut impl Sink) {
+        for broken in &deep.index(0, program).broken {
+            let kind = rejected(self.dialect, broken.mistake, Refusal::Structure, broken.message.clone());
+            sink.fault(Fault {
+                block: BlockId(broken.block),
+                range: broken.range,
+                kind,
+            });
+        }
+    }
+
+    fn read_only(&mut self, program: &Program, blocks: impl Iterator<Item = u32>, sink: &mut impl Sink) {
+        let mut codes = std::mem::take(&mut self.codes);
+        let mut deep = Some(Box::<Deep>::default());
+        // no variable has a value that is known
+        if let Some(deep) = &mut deep {
+            deep.variables.lose();
+        }
+        for at in blocks {
+            if at > 0 && ends_text(program, at) {
+                break;
+            }
+            codes.clear();
+            let mut words = Words::default();
+            let block = BlockId(at);
+            let view = program.block(block);
+            let mut reader = Reader {
+                program,
+                dialect: self.dialect,
+                block,
+                words: &mut words,
+                codes: &mut codes,
+                macros: Some(Macros {
+                    mode: Mode::Text,
+                    deep: &mut deep,
+                    state: &self.state,
+                    setup: &self.setup,
+                }),
+                report: |range: TextRange, kind: FaultKind| {
+                    if is_of_text(&kind) {
+                        sink.fault(Fault { block, range, kind });
+                    }
+                },
+            };
+            for item in view.items() {
+                reader.take(item);
+            }
+        }
+        self.codes = codes;
+    }
+}
+
+/// Whether a block is the `%` that ends the text.
+fn ends_text(program: &Program, block: u32) -> bool {
+    block > 0
+        && (block as usize) < program.block_count()
+        && program
+            .bytes(program.block(BlockId(block)).range())
+            .trim_ascii_start()
+            .first()
+            == Some(&b'%')
+}
+
+/// What the reader alone finds.
+fn is_of_text(kind: &FaultKind) -> bool {
+    matches!(
+        kind,
+        FaultKind::UnknownCode { .. } | FaultKind::UnknownWord | FaultKind::RepeatedWord | FaultKind::Rejected { .. }
+    )
+}

@@ -1,0 +1,357 @@
+//! Reads macro statements as the reader meets them: assignments, IF, WHILE, GOTO, DO, END, and values that are expressions.
+use super::alarms::{Mistake, is_fanuc, rejected};
+use super::evaluate::{Assigned, Compiled, Form, Trouble, View, assigned, evaluate, only_read};
+use super::system::Known;
+use super::variables::{Class, Held, class};
+use super::{Deep, FlowCode, Pending};
+use crate::reader::{LARGEST, Reader};
+use crate::words::{Number, Said};
+use crate::{FaultKind, ModalState, Refusal, Setup};
+use std::cell::Cell;
+use trunnion_dialect::{Action, Code, CodeKind, Dialect};
+use trunnion_syntax::{Address, Call, Program, TextRange, Value, Word};
+
+/// How far macro statements are followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mode {
+    /// Jumps and calls too.
+    Follow,
+    /// Assignments; the caller chooses the blocks.
+    Step,
+    /// Nothing is evaluated: only the text is read.
+    Text,
+}
+
+/// What the reader needs for macro statements.
+pub(crate) struct Macros<'a> {
+    pub(crate) mode: Mode,
+    pub(crate) deep: &'a mut Option<Box<Deep>>,
+    pub(crate) state: &'a ModalState,
+    pub(crate) setup: &'a Setup,
+}
+
+/// The words of macro statements.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Statement {
+    If,
+    Then,
+    Goto,
+    While,
+    Do,
+    End,
+}
+
+fn statement(name: &[u8]) -> Option<Statement> {
+    let known: [(&[u8], Statement); 7] = [
+        (b"IF", Statement::If),
+        (b"THEN", Statement::Then),
+        (b"GOTO", Statement::Goto),
+        (b"WHILE", Statement::While),
+        (b"WH", Statement::While),
+        (b"DO", Statement::Do),
+        (b"END", Statement::End),
+    ];
+    known
+        .iter()
+        .find(|(text, _)| name.eq_ignore_ascii_case(text))
+        .map(|row| row.1)
+}
+
+/// The code of a call or return that a G or M code is, number in tenths.
+fn flow_code(dialect: &Dialect, kind: CodeKind, tenths: u32) -> Option<FlowCode> {
+    let calls = |code: Option<&Code>| code.is_some_and(|code| code.action == Action::SubprogramCall);
+    match (kind, tenths) {
+        (CodeKind::M, 980) => Some(FlowCode::Call),
+        (CodeKind::M, 990) => Some(FlowCode::Return),
+        (CodeKind::M, 970) if calls(dialect.m(970)) => Some(FlowCode::CallLocal),
+        (CodeKind::M, 1980) if calls(dialect.m(1980)) => Some(FlowCode::CallExternal),
+        (CodeKind::G, 650) => Some(FlowCode::Macro),
+        (CodeKind::G, 660) => Some(FlowCode::Modal),
+        (CodeKind::G, 670) => Some(FlowCode::ModalOff),
+        _ => None,
+    }
+}
+
+impl Macros<'_> {
+    fn deep(&mut self) -> &mut Deep {
+        self.deep.get_or_insert_with(Box::default)
+    }
+
+    /// What formulas read from.
+    fn view<'v>(&'v mut self, dialect: &Dialect) -> (View<'v>, &'v mut Compiled, u16) {
+        let (state, setup) = (self.state, self.setup);
+        let Deep {
+            variables,
+            compiled,
+            place,
+            ..
+        } = self.deep();
+        let view = View {
+            variables,
+            known: Known {
+                state,
+                setup,
+                fanuc: is_fanuc(dialect),
+            },
+            unknown: Cell::new(None),
+            unknown_name: Cell::new(false),
+        };
+        (view, compiled, place.file)
+    }
+
+    /// The value of an expression, and why it is not known where it is NaN.
+    pub(crate) fn value(
+        &mut self,
+        dialect: &Dialect,
+        program: &Program,
+        range: TextRange,
+        form: Form,
+    ) -> Result<(Held, Option<String>), Trouble> {
+        if self.mode == Mode::Text {
+            only_read(dialect, program, range, form)?;
+            return Ok((Some(f64::NAN), None));
+        }
+        let (view, compiled, file) = self.view(dialect);
+        let held = evaluate(dialect, (program, file), (range, form), compiled, &view)?;
+        let reason = held
+            .is_some_and(f64::is_nan)
+            .then(|| view.reason(program.text(range).trim()));
+        Ok((held, reason))
+    }
+}
+
+impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
+    /// The value of a word that is an expression; `Nothing` where it is `<vacant>`: the control then takes the word as not written.
+    pub(crate) fn macro_value(&mut self, word: &Word, range: TextRange) -> Said {
+        let Some(macros) = &mut self.macros else {
+            return Said::Unread;
+        };
+        match macros.value(self.dialect, self.program, range, Form::Value) {
+            Ok((None, _)) => Said::Nothing,
+            Ok((Some(value), _)) if value.abs() <= LARGEST => Said::Number(Number {
+                value,
+                // a variable counts as written with a point; P knows none
+                has_point: word.address != Address::Letter(b'P') || value.fract() != 0.0,
+                range: word.range,
+            }),
+            Ok((_, reason)) => {
+                if let Some(what) = reason {
+                    (self.report)(word.value_range, FaultKind::NotModelled { what });
+                }
+                Said::Unread
+            }
+            Err((range, kind)) => {
+                (self.report)(range, kind);
+                Said::Unread
+            }
+        }
+    }
+
+    /// A code whose number is an expression, in tenths: `G#1`. `None`: `<vacant>`, not known, or no number of a code.
+    pub(crate) fn macro_code(&mut self, word: &Word, range: TextRange) -> Option<u32> {
+        match self.macro_value(word, range) {
+            Said::Nothing => None,
+            Said::Number(number) if number.value >= 0.0 => {
+                let tenths = (number.value * 10.0).round();
+                ((tenths - number.value * 10.0).abs() < 1e-6 && tenths < 1e5).then_some(tenths as u32)
+            }
+            _ => {
+                self.words.forgets_all = true;
+                None
+            }
+        }
+    }
+
+    /// Takes a code that calls or returns, where calls are followed.
+    pub(crate) fn takes_flow_code(&mut self, kind: CodeKind, tenths: u32, range: TextRange) -> bool {
+        let Some(macros) = self.macros.as_mut().filter(|macros| macros.mode != Mode::Step) else {
+            return false;
+        };
+        let Some(code) = flow_code(self.dialect, kind, tenths) else {
+            return false;
+        };
+        macros.deep().code = Some((code, range));
+        self.words.flow = true;
+        // what follows are arguments, which have their own reader
+        self.words.declares = matches!(code, FlowCode::Macro | FlowCode::Modal);
+        true
+    }
+
+    /// After a call or jump that is not followed no variable is known.
+    pub(crate) fn flow_is_lost(&mut self, code: &Code) {
+        if code.action == Action::SubprogramCall
+            && let Some(macros) = &mut self.macros
+        {
+            macros.deep().variables.lose();
+        }
+    }
+
+    /// A statement of a macro, where jumps are followed; false for other names.
+    pub(crate) fn macro_statement(&mut self, call: &Call) -> bool {
+        let Some(macros) = self.macros.as_mut().filter(|macros| macros.mode != Mode::Step) else {
+            return false;
+        };
+        let Some(statement) = statement(self.program.bytes(call.name)) else {
+            return false;
+        };
+        if self.words.declares {
+            return true;
+        }
+        self.words.flow = true;
+        macros.deep().statement.get_or_insert(call.range);
+        match statement {
+            Statement::Then => {}
+            Statement::If => {
+                if self.condition(call) != Some(true) {
+                    self.words.declares = true;
+                }
+            }
+            Statement::While => {
+                let holds = self.condition(call);
+                if holds.is_none() {
+                    self.words.declares = true;
+                }
+                self.pend(Pending::Do(holds == Some(true)));
+            }
+            Statement::Do => self.loop_start(),
+            Statement::End => self.pend(Pending::End),
+            Statement::Goto => self.goto(call),
+        }
+        true
+    }
+
+    /// Keeps what is to be done when the block has run; a run that cannot go on stays so.
+    fn pend(&mut self, pending: Pending) {
+        if let Some(macros) = &mut self.macros
+            && macros.mode == Mode::Follow
+        {
+            let deep = macros.deep();
+            if !matches!(deep.pending, Some(Pending::Stop)) {
+                deep.pending = Some(pending);
+            }
+        }
+    }
+
+    /// DO: alone it opens a loop without condition.
+    fn loop_start(&mut self) {
+        let waits = self.macros.as_mut().is_some_and(|macros| {
+            let pending = &macros.deep().pending;
+            matches!(pending, Some(Pending::Do(_) | Pending::Stop))
+        });
+        if !waits {
+            self.pend(Pending::Do(true));
+        }
+    }
+
+    /// Whether a condition holds; `None` where it cannot be told, which ends the run.
+    fn condition(&mut self, call: &Call) -> Option<bool> {
+        let range = call.arguments.unwrap_or(call.range);
+        let macros = self.macros.as_mut()?;
+        let follows = macros.mode == Mode::Follow;
+        match macros.value(self.dialect, self.program, range, Form::Condition) {
+            Ok((held, None)) if follows => return Some(held.unwrap_or(0.0) != 0.0),
+            // only its text is read: the rest of the block too
+            Ok((_, None)) => return Some(true),
+            Ok((_, Some(what))) => (self.report)(range, FaultKind::NotDecided { what }),
+            Err((range, kind)) => (self.report)(range, kind),
+        }
+        self.pend(Pending::Stop);
+        None
+    }
+
+    fn goto(&mut self, call: &Call) {
+        let range = call.arguments.unwrap_or(call.range);
+        let Some(macros) = self.macros.as_mut() else { return };
+        let follows = macros.mode == Mode::Follow;
+        let wrong = match macros.value(self.dialect, self.program, range, Form::Value) {
+            Ok((_, None)) if !follows => return,
+            Ok((_, Some(what))) => Some((range, FaultKind::NotDecided { what })),
+            Err(trouble) => Some(trouble),
+            Ok((held, None)) => match held.and_then(sequence_number) {
+                Some(number) => {
+                    self.pend(Pending::Goto(number, range));
+                    None
+                }
+                None => {
+                    let message = format!("`{}` is no sequence number", self.program.text(range).trim());
+                    let kind = rejected(self.dialect, Mistake::SequenceNumber, Refusal::Label, message);
+                    Some((range, kind))
+                }
+            },
+        };
+        if let Some((range, kind)) = wrong {
+            (self.report)(range, kind);
+            self.pend(Pending::Stop);
+        }
+    }
+
+    /// `#1=`, `#[..]=`, `#_NAME=`; true where it was taken.
+    pub(crate) fn macro_assignment(&mut self, name: TextRange, word: &Word) -> bool {
+        let Some(macros) = &mut self.macros else { return false };
+        macros.deep().statement.get_or_insert(word.range);
+        self.words.has_values = true;
+        self.words.flow = true;
+        let value = match word.value {
+            Value::Number(decimal) => Ok((Some(decimal.to_f64()), None)),
+            Value::Expression(range) => macros.value(self.dialect, self.program, range, Form::Whole),
+            // reported as an error of the text
+            _ => Ok((Some(f64::NAN), None)),
+        };
+        let (held, reason) = value.unwrap_or_else(|(range, kind)| {
+            (self.report)(range, kind);
+            (Some(f64::NAN), Some("an expression without a value".to_owned()))
+        });
+        let Some(macros) = &mut self.macros else { return true };
+        let (view, ..) = macros.view(self.dialect);
+        match assigned(self.dialect, self.program, name, &view) {
+            _ if macros.mode == Mode::Text => {}
+            Ok(Assigned::Name(name)) => macros.deep().variables.set_named(&name, held),
+            Ok(Assigned::Number(Some(index))) => self.assign(index, held, reason.as_deref(), word.range),
+            Ok(Assigned::Number(None)) => {
+                macros.deep().variables.lose();
+                self.system_word(b"#", word.range);
+            }
+            Err((range, kind)) => (self.report)(range, kind),
+        }
+        true
+    }
+
+    fn assign(&mut self, index: i64, held: Held, reason: Option<&str>, range: TextRange) {
+        let Some(macros) = &mut self.macros else { return };
+        let (mistake, message) = match class(index) {
+            Class::Local(_) | Class::Common(_) => {
+                macros.deep().variables.set(index, held, reason);
+                return;
+            }
+            Class::System(3000) if macros.mode == Mode::Follow => return self.alarm(held),
+            // a stop with a message: the operator goes on
+            Class::System(3006) if macros.mode == Mode::Follow => return,
+            Class::System(number) => return self.system_word(format!("#{number}").as_bytes(), range),
+            Class::Vacant => (
+                Mistake::ProtectedVariable,
+                "#0 is always vacant and cannot be assigned".to_owned(),
+            ),
+            Class::Missing => (Mistake::VariableNumber, format!("there is no variable #{index}")),
+        };
+        (self.report)(range, rejected(self.dialect, mistake, Refusal::Variable, message));
+    }
+
+    /// `#3000=1(TEXT)`: the program stops itself with an alarm.
+    fn alarm(&mut self, held: Held) {
+        let block = self.program.block(self.block);
+        let text = block.comments().next().map(|comment| self.text(comment.inner));
+        let number = held
+            .filter(|number| number.is_finite())
+            .map(|number| format!("{}", 3000.0 + number));
+        let parts = [number, text];
+        let message = parts.into_iter().flatten().collect::<Vec<_>>().join(" ");
+        (self.report)(block.range(), FaultKind::ProgramAlarm { message });
+        self.pend(Pending::Stop);
+        self.words.declares = true;
+    }
+}
+
+/// A number as N has it.
+fn sequence_number(value: f64) -> Option<u32> {
+    (value >= 0.0 && value.fract() == 0.0 && value <= 99_999_999.0).then_some(value as u32)
+}

@@ -1,0 +1,193 @@
+//! Runs the blocks of a program with macro statements in the control's order.
+use super::through::Through;
+use super::{Called, Pending};
+use crate::run::{Interpreter, Sink};
+use crate::{Fault, FaultKind};
+use std::sync::Arc;
+use trunnion_syntax::{BlockId, Program, TextRange};
+
+/// The program that runs: the main one, or one that it calls from another file.
+pub(crate) struct Running<'p> {
+    pub(crate) main: &'p Program,
+    pub(crate) called: Option<&'p Called>,
+}
+
+impl<'p> Running<'p> {
+    /// Its text.
+    pub(crate) fn program(&self) -> &'p Program {
+        self.called.map_or(self.main, |called| &called.program)
+    }
+}
+
+impl Interpreter<'_> {
+    /// The next block of a program that has macro statements.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn advance_deep(&mut self, main: &Program, sink: &mut impl Sink) -> Option<BlockId> {
+        let next = self.flow.next;
+        let limit = self.setup.limits.blocks.saturating_add(main.block_count() as u64);
+        let deep = self.flow.deep.as_mut()?;
+        let place = deep.place;
+        let called = Self::called(deep, place.file);
+        let block = if called.is_none() { BlockId(next) } else { place.main };
+        deep.executed += 1;
+        if deep.executed > limit {
+            self.out_of_fuel(main, sink);
+            return Some(block);
+        }
+        let running = Running {
+            main,
+            called: called.as_deref(),
+        };
+        self.flow.next = next + 1;
+        let content = self.memory.last_content;
+        let mut through = Through {
+            told: std::mem::take(&mut deep.told),
+            again: called.is_none() && deep.ran.has(next),
+            place,
+            called: running.called,
+            moved: false,
+            sink,
+        };
+        self.step_iso(&running.program().block(BlockId(next)), &mut through);
+        let (told, moved) = (through.told, through.moved);
+        if let Some(deep) = &mut self.flow.deep {
+            deep.told = told;
+        }
+        if running.called.is_some() {
+            self.memory.last_content = content;
+            if self.state.ended && !self.memory.proper_end {
+                // the % at the end of the other file
+                self.state.ended = false;
+                self.flow.next = u32::MAX;
+            }
+        }
+        self.after_block(&running, next, moved, sink);
+        Some(block)
+    }
+
+    /// Does what the first block with a macro statement asks for.
+    #[cold]
+    pub(crate) fn first_statement(&mut self, main: &Program, block: BlockId, sink: &mut impl Sink) {
+        let running = Running { main, called: None };
+        self.after_block(&running, block.0, false, sink);
+    }
+
+    /// The other file that runs.
+    pub(crate) fn called(deep: &super::Deep, file: u16) -> Option<Arc<Called>> {
+        deep.files.get(usize::from(file).checked_sub(1)?).map(Arc::clone)
+    }
+
+    /// Does what the block that has run asks for, and ends the run where nothing is left.
+    pub(crate) fn after_block(&mut self, running: &Running<'_>, from: u32, moved: bool, sink: &mut impl Sink) {
+        let Some(deep) = &mut self.flow.deep else { return };
+        let pending = deep.pending.take();
+        if self.state.ended {
+            return self.end(running.main, sink);
+        }
+        let pending = pending.or_else(|| {
+            let range = || running.program().block(BlockId(from)).range();
+            if moved { deep.modal_call(range) } else { None }
+        });
+        if let Some(pending) = pending {
+            self.transfer(pending, running, from, sink);
+        }
+        while !self.flow.finished && !self.state.ended && self.runs_out(running.main) {
+            self.ran_out(running.main, sink);
+        }
+        if self.state.ended {
+            self.end(running.main, sink);
+        }
+    }
+
+    /// Whether the text of the program that runs is at its end.
+    fn runs_out(&self, main: &Program) -> bool {
+        let Some(deep) = &self.flow.deep else { return false };
+        let end = match (deep.place.section, Self::called(deep, deep.place.file)) {
+            (Some(section), _) => section.1,
+            (None, Some(called)) => called.program.block_count() as u32,
+            (None, None) => main.block_count() as u32,
+        };
+        self.flow.next >= end
+    }
+
+    /// The run cannot go on: nothing after it is followed.
+    pub(crate) fn stop(&mut self) {
+        self.state.ended = true;
+        // what is missing is said already
+        self.memory.proper_end = true;
+    }
+
+    /// Tells a fact about a block of the program that runs.
+    pub(crate) fn tell_of_flow(
+        &mut self,
+        running: &Running<'_>,
+        block: u32,
+        (range, kind): (TextRange, FaultKind),
+        sink: &mut impl Sink,
+    ) {
+        let Some(deep) = &mut self.flow.deep else { return };
+        let mut through = Through {
+            told: std::mem::take(&mut deep.told),
+            again: false,
+            place: deep.place,
+            called: running.called,
+            moved: false,
+            sink,
+        };
+        through.fault(Fault {
+            block: BlockId(block),
+            range,
+            kind,
+        });
+        deep.told = through.told;
+    }
+
+    /// The bounds of the run are reached: the loop that began anew most often does not end.
+    fn out_of_fuel(&mut self, main: &Program, sink: &mut impl Sink) {
+        self.stop();
+        if let Some(deep) = &self.flow.deep {
+            let most = deep
+                .turns
+                .iter()
+                .max_by_key(|(place, turns)| (**turns, std::cmp::Reverse(**place)));
+            let block = match most {
+                Some(((0, block), _)) => BlockId(*block),
+                _ if deep.place.file != 0 => deep.place.main,
+                _ => BlockId(self.flow.next),
+            };
+            let blocks = self.setup.limits.blocks;
+            sink.fault(Fault {
+                block,
+                range: main.block(block).range(),
+                kind: FaultKind::EndlessLoop { blocks },
+            });
+        }
+        self.end(main, sink);
+    }
+}
+
+impl super::Deep {
+    /// The macro that is called after a motion, if one is.
+    fn modal_call(&self, range: impl FnOnce() -> TextRange) -> Option<Pending> {
+        let place = self.modal_active.checked_sub(1)?;
+        let modal = self.modal.get(place)?;
+        Some(Pending::Call(super::Calling {
+            code: super::FlowCode::Macro,
+            number: modal.number,
+            times: modal.times,
+            arguments: Some(modal.arguments.clone()),
+            range: range(),
+            modal: Some(place),
+        }))
+    }
+}
+
+impl super::Flow {
+    /// The calls of a chain, outermost first.
+    pub(crate) fn chain(&self, chain: crate::ChainId) -> Vec<crate::Frame> {
+        self.deep
+            .as_ref()
+            .map_or_else(Vec::new, |deep| deep.chains.frames(chain))
+    }
+}

@@ -1,0 +1,148 @@
+//! System variables: what a run knows of #1000 and above, and what the others are.
+//!
+//! Source: Fanuc Series 30i operator's manual, custom macro, system variables: #4001 to #4130 modal information of the block before,
+//! #5001 ff. its end point, #5021 ff. machine coordinates, #5041 ff. coordinates with the tool's length, #5221 to #5324 work offsets.
+use crate::{FeedMode, ModalState, Setup};
+use trunnion_dialect::{Action, Plane};
+
+/// What a variable of the control is, for people who ask why its value is not known.
+pub(crate) fn what(number: u32) -> &'static str {
+    match number {
+        1000..=1999 => "a signal of the machine",
+        2000..=2999 | 10_000..=19_999 => "a tool offset of the control",
+        3001 | 3002 | 3011 | 3012 => "a clock",
+        3901 | 3902 => "a counter of parts",
+        4000..=4199 => "modal information that the run does not keep",
+        5001..=5160 if is_probing(number) => "the result of probing",
+        5001..=5160 => "a position that is not known here",
+        5201..=5324 | 7001..=7960 => "a work offset of the control",
+        _ => "a value of the control",
+    }
+}
+
+/// #5061 ff.: where a skip signal came.
+fn is_probing(number: u32) -> bool {
+    (5061..=5080).contains(&number)
+}
+
+/// What a system variable is read from.
+#[derive(Clone, Copy)]
+pub(crate) struct Known<'a> {
+    pub(crate) state: &'a ModalState,
+    pub(crate) setup: &'a Setup,
+    /// Numbers of modal groups and offsets are Fanuc's.
+    pub(crate) fanuc: bool,
+}
+
+impl Known<'_> {
+    /// The value of a system variable, NaN where it is not known.
+    pub(crate) fn read(&self, number: u32) -> f64 {
+        let unknown = f64::NAN;
+        match number {
+            4001..=4130 => self.modal(number - 4000).unwrap_or(unknown),
+            5001..=5003 => self.end(number as usize - 5001).unwrap_or(unknown),
+            5021..=5023 => self.machine(number as usize - 5021).unwrap_or(unknown),
+            5041..=5043 => self.with_length(number as usize - 5041).unwrap_or(unknown),
+            5221..=5323 => self.offset(number - 5221).unwrap_or(unknown),
+            _ => unknown,
+        }
+    }
+
+    /// Modal information: codes by their group, words by the place of their letter.
+    fn modal(&self, number: u32) -> Option<f64> {
+        let state = self.state;
+        let code = match number {
+            1 => match state.motion? {
+                Action::Rapid => 0.0,
+                Action::Linear => 1.0,
+                Action::ArcClockwise => 2.0,
+                Action::ArcCounterClockwise => 3.0,
+                _ => return None,
+            },
+            2 => match state.plane {
+                Plane::Xy => 17.0,
+                Plane::Zx => 18.0,
+                Plane::Yz => 19.0,
+            },
+            3 => {
+                if state.incremental {
+                    91.0
+                } else {
+                    90.0
+                }
+            }
+            5 => match state.feed_mode {
+                FeedMode::InverseTime => 93.0,
+                FeedMode::PerMinute => 94.0,
+                FeedMode::PerRevolution => 95.0,
+            },
+            6 => {
+                if state.length_unit_mm > 1.0 {
+                    20.0
+                } else {
+                    21.0
+                }
+            }
+            7 => match state.compensation {
+                0 => 40.0,
+                side => f64::from(side),
+            },
+            12 if !self.fanuc => self.offset_code()?,
+            14 if self.fanuc => self.offset_code()?,
+            109 => state.feed? / state.feed_unit_mm,
+            119 => state.spindle_rpm?,
+            120 => f64::from(state.tool_prepared.or(state.tool)?),
+            _ => return None,
+        };
+        Some(code)
+    }
+
+    /// 54 to 59: the work offset in force.
+    fn offset_code(&self) -> Option<f64> {
+        let name = self.state.work_offset.as_deref()?;
+        name.strip_prefix('G')?.parse().ok()
+    }
+
+    /// End point of the block before, program units.
+    fn end(&self, axis: usize) -> Option<f64> {
+        Some(self.state.position.get(axis)? / self.state.length_unit_mm)
+    }
+
+    /// End point of the block before with the tool's length, which shifts Z alone while tool centre point control is off.
+    fn with_length(&self, axis: usize) -> Option<f64> {
+        let length = self.length(axis)?;
+        Some((self.state.position.get(axis)? + length) / self.state.length_unit_mm)
+    }
+
+    /// The same in machine coordinates.
+    fn machine(&self, axis: usize) -> Option<f64> {
+        let length = self.length(axis)?;
+        Some((self.state.position.get(axis)? + self.state.zero[axis] + length) / self.state.length_unit_mm)
+    }
+
+    fn length(&self, axis: usize) -> Option<f64> {
+        if self.state.tcp || self.state.frame_unknown {
+            return None;
+        }
+        Some(if axis == 2 {
+            self.state.tool_length_mm.unwrap_or(0.0)
+        } else {
+            0.0
+        })
+    }
+
+    /// #5221 ff.: 20 numbers for each of G54 to G59, X Y Z first. Known where the setup declares the offset.
+    fn offset(&self, number: u32) -> Option<f64> {
+        let (code, axis) = (54 + number / 20, (number % 20) as usize);
+        if axis > 2 || code > 59 {
+            return None;
+        }
+        let name = format!("G{code}");
+        let offset = self
+            .setup
+            .work_offsets
+            .iter()
+            .find(|offset| offset.name.eq_ignore_ascii_case(&name))?;
+        Some(offset.values[axis] / self.state.length_unit_mm)
+    }
+}

@@ -1,0 +1,72 @@
+//! The sink between a block that runs in a call or a loop and the sink of the run: it tells each fault once, and gives what happens
+//! in another file a place in the main program.
+use super::ran::{Told, is_textual};
+use super::{Called, Place};
+use crate::{Fault, FaultKind, ModalState, Motion, MotionKind, Sink};
+
+/// See the module.
+pub(crate) struct Through<'s, S> {
+    pub(crate) sink: &'s mut S,
+    pub(crate) told: Told,
+    pub(crate) place: Place,
+    /// The file in which the block stands, unless it is the main program's.
+    pub(crate) called: Option<&'s Called>,
+    /// The block has run before.
+    pub(crate) again: bool,
+    /// A motion was made.
+    pub(crate) moved: bool,
+}
+
+impl<S: Sink> Sink for Through<'_, S> {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        self.moved |= !matches!(motion.kind, MotionKind::Dwell(_));
+        if self.called.is_none() {
+            return self.sink.motion(motion, state);
+        }
+        let block = self.place.main;
+        self.sink.motion(&Motion { block, ..*motion }, state);
+    }
+
+    fn fault(&mut self, fault: Fault) {
+        if !self.told.is_new(self.place.file, &fault, self.again) {
+            return;
+        }
+        let Some(called) = self.called else {
+            return self.sink.fault(fault);
+        };
+        self.sink.fault(Fault {
+            kind: carried(called, &fault),
+            block: self.place.main,
+            range: self.place.main_range,
+        });
+    }
+}
+
+/// A fact about a block of another file, told at the call.
+fn carried(called: &Called, fault: &Fault) -> FaultKind {
+    let place = format!("{}, line {}", called.path, fault.block.0 + 1);
+    match &fault.kind {
+        kind if is_textual(kind) => FaultKind::NotModelled {
+            what: format!(
+                "`{}` in {place}: check that file",
+                called.program.text(fault.range).trim()
+            ),
+        },
+        FaultKind::NotModelled { what } => FaultKind::NotModelled {
+            what: format!("{what} in {place}"),
+        },
+        FaultKind::NotDecided { what } => FaultKind::NotDecided {
+            what: format!("{what} in {place}"),
+        },
+        FaultKind::Rejected {
+            refusal,
+            message,
+            alarm,
+        } => FaultKind::Rejected {
+            refusal: *refusal,
+            message: format!("{place}: {message}"),
+            alarm: alarm.clone(),
+        },
+        other => other.clone(),
+    }
+}

@@ -1,0 +1,124 @@
+//! The variables of a program: local, common and named ones. `None` is `<vacant>`, NaN is a value that is not known.
+use std::collections::BTreeMap;
+
+/// A variable's content: `None` is `<vacant>`, NaN a value that is not known.
+pub(crate) type Held = Option<f64>;
+
+/// #1 to #33 of one level of macro calls.
+pub(crate) type Locals = [Held; LOCALS];
+
+/// Local variables of a level.
+const LOCALS: usize = 33;
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub(crate) struct Variables {
+    /// #1 to #33 of the level that runs.
+    pub(crate) locals: Locals,
+    common: BTreeMap<u32, Held>,
+    named: BTreeMap<Box<str>, f64>,
+    /// Why a variable that was assigned is not known.
+    reasons: BTreeMap<i64, Box<str>>,
+    /// Blocks ran, or did not run, that nobody followed: nothing is known any more.
+    lost: bool,
+}
+
+impl Default for Variables {
+    fn default() -> Self {
+        Self {
+            locals: [None; LOCALS],
+            common: BTreeMap::new(),
+            named: BTreeMap::new(),
+            reasons: BTreeMap::new(),
+            lost: false,
+        }
+    }
+}
+
+/// Where a variable's number belongs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Class {
+    /// #0: always vacant.
+    Vacant,
+    /// #1 to #33: place in [`Locals`].
+    Local(usize),
+    /// #100 to #999.
+    Common(u32),
+    /// #1000 and above: of the control.
+    System(u32),
+    /// There is no such variable.
+    Missing,
+}
+
+/// Series 30i operator's manual, custom macro, variables: #1 to #33 local, #100 to #199 and #500 to #999 common (#200 to #499 where
+/// the option is there), from #1000 the control's.
+pub(crate) fn class(index: i64) -> Class {
+    match u32::try_from(index) {
+        Ok(0) => Class::Vacant,
+        Ok(local @ 1..=33) => Class::Local(local as usize - 1),
+        Ok(common @ 100..=999) => Class::Common(common),
+        Ok(system @ 1000..) => Class::System(system),
+        _ => Class::Missing,
+    }
+}
+
+impl Variables {
+    /// A local or common variable; `None` where the number is neither.
+    pub(crate) fn get(&self, index: i64) -> Option<Held> {
+        let held = match class(index) {
+            Class::Vacant => return Some(None),
+            Class::Local(place) => self.locals[place],
+            // before the program assigns it, it holds what another program has left there
+            Class::Common(common) => self.common.get(&common).copied().unwrap_or(Some(f64::NAN)),
+            Class::System(_) | Class::Missing => return None,
+        };
+        Some(if self.lost { Some(f64::NAN) } else { held })
+    }
+    /// Assigns a local or common variable. `reason`: why its value is not known, where it is not.
+    pub(crate) fn set(&mut self, index: i64, held: Held, reason: Option<&str>) {
+        match class(index) {
+            Class::Local(place) => self.locals[place] = held,
+            Class::Common(common) => {
+                self.common.insert(common, held);
+            }
+            _ => return,
+        }
+        match reason {
+            Some(reason) => {
+                self.reasons.insert(index, reason.into());
+            }
+            None if self.reasons.is_empty() => {}
+            None => {
+                self.reasons.remove(&index);
+            }
+        }
+    }
+    /// A named variable.
+    pub(crate) fn named(&self, name: &str) -> Option<f64> {
+        if self.lost {
+            return Some(f64::NAN);
+        }
+        self.named.get(name).copied()
+    }
+    /// Assigns a named variable.
+    pub(crate) fn set_named(&mut self, name: &str, held: Held) {
+        self.named.insert(name.into(), held.unwrap_or(0.0));
+    }
+    /// From here on no value is known: what assigns them is not followed.
+    pub(crate) fn lose(&mut self) {
+        self.lost = true;
+    }
+    /// Why the value of a variable is not known, as a short text for people.
+    pub(crate) fn reason(&self, index: i64) -> String {
+        if self.lost {
+            return format!("#{index}: jumps or calls before it are not followed");
+        }
+        if let Some(reason) = self.reasons.get(&index) {
+            return format!("#{index}: from {reason}");
+        }
+        match class(index) {
+            Class::System(system) => format!("#{index}: {}", super::system::what(system)),
+            _ => format!("#{index}: read before the program assigns it"),
+        }
+    }
+}

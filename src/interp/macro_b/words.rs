@@ -1,0 +1,213 @@
+//! What a block with macro statements or calls asks for, once all its words are read.
+use super::alarms::{Mistake, is_fanuc, rejected};
+use super::arguments;
+use super::read::{Macros, Mode};
+use super::variables::Held;
+use super::{Calling, Deep, FlowCode, Modal, Pending};
+use crate::codes::Found;
+use crate::reader::Reader;
+use crate::run::{Interpreter, Report};
+use crate::words::{Said, Words};
+use crate::{FaultKind, Refusal};
+use trunnion_dialect::Dialect;
+use trunnion_syntax::{Block, TextRange};
+
+impl<'d> Interpreter<'d> {
+    /// Reads the words of a block; what macro statements ask for is done when it has run.
+    pub(crate) fn read(
+        &mut self,
+        block: &Block<'_>,
+        codes: &mut Vec<Found<'d>>,
+        words: &mut Words,
+        report: &mut Report<'_>,
+    ) {
+        let mode = if self.flow.follows { Mode::Follow } else { Mode::Step };
+        let macros = Macros {
+            mode,
+            deep: &mut self.flow.deep,
+            state: &self.state,
+            setup: &self.setup,
+        };
+        let mut reader = Reader {
+            program: block.program(),
+            dialect: self.dialect,
+            block: block.id(),
+            words,
+            codes,
+            macros: self.dialect.quirks.macro_b.then_some(macros),
+            report: |range: TextRange, kind| report.fault(range, kind),
+        };
+        for item in block.items() {
+            reader.take(item);
+        }
+        if words.flow || words.program_number.is_some() {
+            self.flow_words(block, codes, words, report);
+        }
+    }
+
+    #[cold]
+    fn flow_words(
+        &mut self,
+        block: &Block<'_>,
+        codes: &mut Vec<Found<'d>>,
+        words: &mut Words,
+        report: &mut Report<'_>,
+    ) {
+        if !self.flow.follows || !self.dialect.quirks.macro_b {
+            return;
+        }
+        if words.program_number.is_some() && self.begins_another(block) {
+            // the program before it ends here, without M30 or M99
+            codes.clear();
+            *words = Words::default();
+            self.state.ended = true;
+            return;
+        }
+        let Some(mut deep) = self.flow.deep.take() else { return };
+        let statement = deep.statement.take();
+        if let Some((code, range)) = deep.code.take() {
+            self.flow_code(&mut deep, (code, range), block, words, report);
+        } else if let Some(range) = statement.filter(|_| is_fanuc(self.dialect) && mixes(codes, words)) {
+            let message = "a macro statement and words of the control stand in one block".to_owned();
+            let kind = rejected(self.dialect, Mistake::MixedBlock, Refusal::Structure, message);
+            report.fault(range, kind);
+        }
+        self.flow.deep = Some(deep);
+    }
+
+    /// Whether the O word of a block begins a program behind the one that runs.
+    fn begins_another(&self, block: &Block<'_>) -> bool {
+        let inside = self.flow.deep.as_ref().is_some_and(|deep| {
+            let starts = deep.place.section.is_some_and(|section| section.0 == block.id().0);
+            starts || !deep.calls.is_empty()
+        });
+        !inside && self.memory.last_content.is_some()
+    }
+
+    fn flow_code(
+        &mut self,
+        deep: &mut Box<Deep>,
+        (code, range): (FlowCode, TextRange),
+        block: &Block<'_>,
+        words: &mut Words,
+        report: &mut Report<'_>,
+    ) {
+        let (program, times, arguments) = match code {
+            FlowCode::ModalOff => {
+                deep.modal.pop();
+                deep.modal_active = deep.modal_active.min(deep.modal.len());
+                return;
+            }
+            FlowCode::Return => {
+                let label = match words.p {
+                    Said::Nothing => None,
+                    p => p.index(),
+                };
+                deep.pending = Some(Pending::Return(label, range));
+                return;
+            }
+            FlowCode::Macro | FlowCode::Modal => {
+                words.declares = false;
+                words.has_values = true;
+                let mut slot = Some(std::mem::take(deep));
+                let mut macros = Macros {
+                    mode: Mode::Follow,
+                    deep: &mut slot,
+                    state: &self.state,
+                    setup: &self.setup,
+                };
+                let mut tell = |range: TextRange, kind| report.fault(range, kind);
+                let call = arguments::read(&mut macros, self.dialect, block, range, &mut tell);
+                *deep = slot.unwrap_or_default();
+                if let Some((range, what)) = call.unknown {
+                    report.fault(range, FaultKind::NotDecided { what });
+                    deep.pending = Some(Pending::Stop);
+                    return;
+                }
+                (call.program.flatten(), call.times, Some(call.arguments))
+            }
+            FlowCode::Call | FlowCode::CallLocal | FlowCode::CallExternal => {
+                let l = words.letter(b'L');
+                if matches!(words.p, Said::Unread) || matches!(l, Said::Unread) {
+                    let what = "the numbers of the call".to_owned();
+                    report.fault(range, FaultKind::NotDecided { what });
+                    deep.pending = Some(Pending::Stop);
+                    return;
+                }
+                let times = l.is_said().then(|| l.number().map(|number| number.value));
+                (words.p.number().map(|number| number.value), times, None)
+            }
+        };
+        let place = report.program.block(report.block).range();
+        let place = TextRange::new(range.start, place.end);
+        match numbers(self.dialect, code, program, times) {
+            Ok((number, times)) => {
+                let range = call_range(report, range, place);
+                if code == FlowCode::Modal {
+                    deep.modal.push(Modal {
+                        number,
+                        times,
+                        arguments: arguments.unwrap_or_else(|| Box::new([None; 33])),
+                    });
+                    deep.modal_active = deep.modal.len();
+                } else {
+                    deep.pending = Some(Pending::Call(Calling {
+                        code,
+                        number,
+                        times,
+                        arguments,
+                        range,
+                        modal: None,
+                    }));
+                }
+            }
+            Err(kind) => {
+                report.fault(range, kind);
+                deep.pending = Some(Pending::Stop);
+            }
+        }
+    }
+}
+
+/// The text of a call: its code and the word P where that follows.
+fn call_range(report: &Report<'_>, code: TextRange, block: TextRange) -> TextRange {
+    let words = report.program.block(report.block).words();
+    let p = words
+        .filter(|word| word.range.start >= code.end && word.range.end <= block.end)
+        .find(|word| word.address == trunnion_syntax::Address::Letter(b'P'));
+    p.map_or(code, |word| code.cover(word.range))
+}
+
+/// Program and repetitions of a call. M98 without L: the digits above the last four of P are the repetitions.
+fn numbers(dialect: &Dialect, code: FlowCode, program: Held, times: Option<Held>) -> Result<(u32, u32), FaultKind> {
+    let Some(number) = program else {
+        let message = "the call has no P that says which program".to_owned();
+        return Err(rejected(
+            dialect,
+            Mistake::ProgramWordMissing,
+            Refusal::MissingWord,
+            message,
+        ));
+    };
+    let whole = |value: f64| {
+        let fits = value >= 0.0 && value.fract() == 0.0 && value <= 99_999_999.0;
+        fits.then_some(value as u32).ok_or_else(|| {
+            let message = format!("{value} is no number of a program or of repetitions");
+            rejected(dialect, Mistake::NumberNotFound, Refusal::Number, message)
+        })
+    };
+    let number = whole(number)?;
+    match times {
+        Some(times) => Ok((number, times.map_or(Ok(1), whole)?)),
+        None if matches!(code, FlowCode::Call | FlowCode::CallExternal) && number > 9999 && is_fanuc(dialect) => {
+            Ok((number % 10_000, number / 10_000))
+        }
+        None => Ok((number, 1)),
+    }
+}
+
+/// Whether a block has words of the control, numbers of blocks and programs apart.
+fn mixes(codes: &[Found<'_>], words: &Words) -> bool {
+    const NUMBERS: u32 = 1 << (b'N' - b'A') | 1 << (b'O' - b'A');
+    !codes.is_empty() || words.letters & !NUMBERS != 0
+}

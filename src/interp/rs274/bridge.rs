@@ -1,0 +1,413 @@
+//! Canonical calls of LinuxCNC's interpreter become motions and modal state.
+use super::chords::chords;
+use super::faults::fault_of;
+use super::frames::Shift;
+use super::setup::SYSTEMS;
+use crate::memory::Chosen;
+use crate::{Fault, FaultKind, Feed, FeedMode, Interpreter, Motion, MotionKind, Orientation, Position, Sink};
+use trunnion_dialect::{Action, Plane};
+use trunnion_geometry::Vec3;
+use trunnion_geometry::arc::{Arc, Turning};
+use trunnion_ngc::{At, Canon, Error, FileId, Pose, SpindleMode, SpindleTurn, State, Units};
+use trunnion_syntax::{BlockId, Program, TextRange};
+
+/// What calls have told that a motion needs and [`State`] does not tell in step with them: compensation of the cutter radius holds
+/// calls back while the state runs ahead.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Told {
+    /// Where the machine is, mm and deg, as far as it is known.
+    pub(super) machine: Position,
+    /// F, mm/min.
+    feed: Option<f64>,
+    /// mm per revolution while the feed is coupled to the spindle.
+    synced: Option<f64>,
+    /// The place from which the main program called what runs now.
+    pub(super) caller: BlockId,
+    /// Codes that a refused or unmodelled line may hold have told that X Y Z are not known.
+    pub(super) lost: bool,
+}
+
+/// Chords stay within this of a spline, mm.
+const SPLINE_TOLERANCE_MM: f64 = 0.001;
+
+/// Receives canonical calls.
+pub(super) struct Bridge<'i, 'd, 'p, S: Sink> {
+    pub(super) interpreter: &'i mut Interpreter<'d>,
+    pub(super) told: &'i mut Told,
+    pub(super) program: &'p Program,
+    pub(super) sink: &'i mut S,
+    /// Bytes of the line in hand, in the main program.
+    pub(super) line: TextRange,
+}
+
+impl<S: Sink> Bridge<'_, '_, '_, S> {
+    /// The block of the main program that stands for a place.
+    fn block(&mut self, at: At) -> BlockId {
+        if at.file == FileId::MAIN {
+            self.told.caller = super::block_of_line(self.program, at.line);
+        }
+        self.told.caller
+    }
+
+    pub(super) fn fault(&mut self, at: At, range: TextRange, kind: FaultKind) {
+        let block = self.block(at);
+        let range = if at.file == FileId::MAIN && range != TextRange::default() {
+            range
+        } else {
+            self.program.block(block).range()
+        };
+        self.sink.fault(Fault { block, range, kind });
+    }
+
+    fn not_modelled(&mut self, at: At, what: String) {
+        self.fault(at, TextRange::default(), FaultKind::NotModelled { what });
+    }
+
+    fn motion(&mut self, kind: MotionKind, end: Position, shift: &Shift, feed: Feed, at: At, state: &State) {
+        let block = self.block(at);
+        let start = shift.programmed(&self.told.machine);
+        self.told.machine = shift.machine(&end);
+        let interpreter = &mut *self.interpreter;
+        interpreter.state.position = end;
+        interpreter.chain = crate::ChainId(at.chain.0);
+        super::modal::refresh(&mut interpreter.state, state, shift);
+        let modal = &interpreter.state;
+        let motion = Motion {
+            block,
+            chain: interpreter.chain,
+            kind,
+            start,
+            end,
+            orientation: Orientation::Words,
+            tcp: modal.tcp,
+            great_circle: modal.great_circle,
+            feed,
+            spindle_on: modal.spindle_on,
+            spindle_rpm: modal.spindle_rpm,
+            zero: shift.zero,
+            tool_length_mm: shift.length,
+            machine_coordinates: false,
+            tool: modal.tool,
+        };
+        self.sink.motion(&motion, &self.interpreter.state);
+    }
+
+    /// The feed of a feed motion as programmed.
+    fn feed(&self, state: &State, end: &Position) -> Feed {
+        if let Some(pitch) = self.told.synced {
+            return Feed::PerRevolution(pitch);
+        }
+        match state.feed_mode {
+            trunnion_ngc::FeedMode::InverseTime => match self.told.feed {
+                Some(rate) if rate > 0.0 => self.inverse_time(rate, end),
+                _ => Feed::Unknown,
+            },
+            _ => match self.told.feed {
+                Some(rate) if rate > 0.0 => Feed::PerMinute(rate),
+                _ => Feed::Unknown,
+            },
+        }
+    }
+
+    /// Under G93 the interpreter tells path length times F; what the control keeps is the time.
+    fn inverse_time(&self, _rate: f64, _end: &Position) -> Feed {
+        match self.interpreter.state.feed {
+            Some(per_minute) if per_minute > 0.0 => Feed::InverseTime(per_minute),
+            _ => Feed::Unknown,
+        }
+    }
+
+    fn arc(&self, call: ArcCall, shift: &Shift, state: &State) -> Option<(Arc, Position)> {
+        let start = shift.programmed(&self.told.machine);
+        let order = match state.plane {
+            trunnion_ngc::Plane::Xy => [0, 1, 2],
+            trunnion_ngc::Plane::Xz => [2, 0, 1],
+            trunnion_ngc::Plane::Yz => [1, 2, 0],
+            // arcs of U V W turn no point of the tool in X Y Z
+            _ => return None,
+        };
+        let place = |[first, second]: [f64; 2], along: f64| {
+            let mut point = [0.0; 3];
+            point[order[0]] = first;
+            point[order[1]] = second;
+            point[order[2]] = along;
+            point
+        };
+        let mut pose: Pose = [0.0; 9];
+        pose[..3].copy_from_slice(&place(call.end, call.axis_end));
+        pose[3..].copy_from_slice(&call.others);
+        let end = shift.coordinates(&pose);
+        let mut normal = Vec3::zeros();
+        normal[order[2]] = 1.0;
+        let turning = if call.turns > 0 { Turning::CounterClockwise } else { Turning::Clockwise };
+        let extra = call.turns.unsigned_abs().checked_sub(1)?;
+        let centre = shift.point(place(call.centre, call.axis_end));
+        let arc = Arc::from_centre(start.xyz()?, end.xyz()?, centre, shift.turned(normal), turning, extra);
+        arc.map(|arc| (arc, end))
+    }
+}
+
+/// An arc as it is called.
+struct ArcCall {
+    end: [f64; 2],
+    centre: [f64; 2],
+    turns: i32,
+    axis_end: f64,
+    others: [f64; 6],
+}
+
+impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
+    fn call(&mut self, call: &Canon, at: At, state: &State) {
+        match call {
+            Canon::Traverse(pose) => {
+                let shift = Shift::of(state);
+                let end = shift.coordinates(pose);
+                self.motion(MotionKind::Rapid, end, &shift, Feed::Rapid, at, state);
+            }
+            Canon::Feed(pose) => {
+                let shift = Shift::of(state);
+                let end = shift.coordinates(pose);
+                let feed = self.feed(state, &end);
+                self.motion(MotionKind::Linear, end, &shift, feed, at, state);
+            }
+            &Canon::Arc {
+                end,
+                centre,
+                turns,
+                axis_end,
+                others,
+            } => {
+                let call = ArcCall {
+                    end,
+                    centre,
+                    turns,
+                    axis_end,
+                    others,
+                };
+                self.arc_motion(call, at, state);
+            }
+            Canon::Nurbs {
+                order,
+                points,
+                knots,
+                end,
+            } => self.spline(*order, points, knots, end, at, state),
+            Canon::Probe(kind, pose) => self.probe(*kind, pose, at, state),
+            Canon::RigidTap(to, _) => self.tap(*to, at, state),
+            Canon::Dwell(seconds) => {
+                let shift = Shift::of(state);
+                let end = shift.programmed(&self.told.machine);
+                let kind = MotionKind::Dwell(seconds.is_finite().then_some(*seconds));
+                self.motion(kind, end, &shift, Feed::Unknown, at, state);
+            }
+            Canon::UserCode(number, ..) => self.user_code(*number, at),
+            _ => self.modal(call, at, state),
+        }
+    }
+
+    fn error(&mut self, error: &Error, at: At) {
+        if at.file == FileId::MAIN {
+            self.fault(at, error.range, fault_of(error));
+            return;
+        }
+        let frames = format!("in a called program, line {}: ", at.line + 1);
+        let kind = match fault_of(error) {
+            FaultKind::Rejected {
+                refusal,
+                message,
+                alarm,
+            } => FaultKind::Rejected {
+                refusal,
+                message: frames + &message,
+                alarm,
+            },
+            other => other,
+        };
+        self.fault(at, TextRange::default(), kind);
+    }
+}
+
+impl<S: Sink> Bridge<'_, '_, '_, S> {
+    fn arc_motion(&mut self, call: ArcCall, at: At, state: &State) {
+        let shift = Shift::of(state);
+        let found = self.arc(
+            ArcCall {
+                others: call.others,
+                ..call
+            },
+            &shift,
+            state,
+        );
+        let (kind, end) = match found {
+            Some((arc, end)) => (MotionKind::Arc(Some(arc)), end),
+            None => (MotionKind::Arc(None), shift.coordinates(&state.current)),
+        };
+        let feed = self.feed(state, &end);
+        self.motion(kind, end, &shift, feed, at, state);
+    }
+
+    fn spline(&mut self, order: u32, points: &[[f64; 3]], knots: &[f64], end: &Pose, at: At, state: &State) {
+        let shift = Shift::of(state);
+        let target = shift.coordinates(end);
+        let feed = self.feed(state, &target);
+        let tolerance = SPLINE_TOLERANCE_MM / state.units.mm();
+        self.not_modelled(
+            at,
+            format!("spline: checked along chords within {SPLINE_TOLERANCE_MM} mm of it"),
+        );
+        let Some(places) = chords(order as usize, points, knots, tolerance) else {
+            self.motion(MotionKind::Unknown, target, &shift, feed, at, state);
+            return;
+        };
+        let (first, second) = match state.plane {
+            trunnion_ngc::Plane::Xy => (0, 1),
+            trunnion_ngc::Plane::Xz => (2, 0),
+            _ => (1, 2),
+        };
+        let last = places.len().saturating_sub(1);
+        for (index, [a, b]) in places.into_iter().enumerate() {
+            let mut pose = *end;
+            (pose[first], pose[second]) = (a, b);
+            let to = if index == last { target } else { shift.coordinates(&pose) };
+            self.motion(MotionKind::Linear, to, &shift, feed, at, state);
+        }
+    }
+
+    /// Where the probe touches is known to the machine only: on every axis that the block moves the position is lost.
+    fn probe(&mut self, kind: u8, pose: &Pose, at: At, state: &State) {
+        let shift = Shift::of(state);
+        let target = shift.coordinates(pose);
+        let start = shift.programmed(&self.told.machine);
+        let mut end = target;
+        for axis in 0..9 {
+            if start.get(axis) != target.get(axis) {
+                end.forget(axis);
+            }
+        }
+        self.not_modelled(at, format!("G38.{kind}: where the probe touches"));
+        self.motion(MotionKind::Unknown, end, &shift, Feed::Unknown, at, state);
+    }
+
+    /// Rigid tapping: in along the thread and back to where it began.
+    fn tap(&mut self, to: [f64; 3], at: At, state: &State) {
+        let shift = Shift::of(state);
+        let start = shift.programmed(&self.told.machine);
+        let point = shift.point(to);
+        let mut end = start;
+        for axis in 0..3 {
+            if point[axis].is_finite() {
+                end.set(axis, point[axis]);
+            } else {
+                end.forget(axis);
+            }
+        }
+        let feed = self.told.synced.map_or(Feed::Unknown, Feed::PerRevolution);
+        self.motion(MotionKind::Linear, end, &shift, feed, at, state);
+        self.motion(MotionKind::Linear, start, &shift, feed, at, state);
+    }
+
+    /// M100 to M199 run a program of the machine's own: what it does is not known here, but it does not move axes of this program.
+    fn user_code(&mut self, number: i32, at: At) {
+        let known = u32::try_from(number).ok().and_then(|number| self.interpreter.dialect.m(number * 10));
+        match known.map(|code| code.action) {
+            Some(Action::TcpOn) => self.tcp(true),
+            Some(Action::TcpOff) => self.tcp(false),
+            Some(Action::NoMotion | Action::PathMode) => {}
+            Some(_) => {
+                self.not_modelled(at, format!("M{number}"));
+                self.told.lost = true;
+            }
+            None => self.fault(at, TextRange::default(), FaultKind::UnknownCode { machine_builder: true }),
+        }
+    }
+
+    /// The linear axes of one kind of coordinates are not known from the other.
+    pub(super) fn tcp(&mut self, on: bool) {
+        if self.interpreter.state.tcp != on {
+            self.interpreter.state.tcp = on;
+            self.told.lost = true;
+        }
+    }
+
+    fn modal(&mut self, call: &Canon, at: At, state: &State) {
+        let unit = state.units.mm();
+        match *call {
+            Canon::FeedRate(rate) => {
+                self.told.feed = Some(rate * unit);
+                let modal = &mut self.interpreter.state;
+                modal.feed = Some(if modal.feed_mode == FeedMode::InverseTime { rate } else { rate * unit });
+            }
+            Canon::StartSync(synced) => self.told.synced = Some(synced.per_revolution * unit),
+            Canon::StopSync => self.told.synced = None,
+            Canon::Spindle(0, turn) => {
+                self.interpreter.state.spindle_on = Some(turn != SpindleTurn::Stop);
+            }
+            Canon::SpindleSpeed(0, speed) => {
+                let surface = matches!(state.spindle_mode[0], SpindleMode::ConstantSurface(_));
+                self.interpreter.state.spindle_rpm = (!surface && speed.is_finite()).then_some(speed);
+            }
+            Canon::SelectTool(number) => {
+                let number = u32::try_from(number).ok();
+                self.interpreter.state.tool_prepared = number;
+                self.interpreter.memory.prepared = number.map_or(Chosen::Unread, Chosen::Number);
+            }
+            Canon::ChangeTool(_) | Canon::ChangeToolNumber(_) => {
+                let number = u32::try_from(state.tool).ok();
+                let interpreter = &mut *self.interpreter;
+                interpreter.state.tool = number;
+                interpreter.memory.in_spindle = number.map_or(Chosen::Unread, Chosen::Number);
+                interpreter.merge_tool();
+                // the change may move the machine
+                self.told.lost |= matches!(call, Canon::ChangeTool(_));
+            }
+            Canon::ToolOffset(ref offset) => self.tool_offset(offset, at, state),
+            Canon::G5xOffset(index, ref offset) => self.work_offset(index, offset, at),
+            Canon::Units(units) => {
+                let modal = &mut self.interpreter.state;
+                modal.length_unit_mm = if units == Units::Inch { 25.4 } else { 1.0 };
+                modal.feed_unit_mm = modal.length_unit_mm;
+            }
+            Canon::Plane(plane) => {
+                self.interpreter.state.plane = match plane {
+                    trunnion_ngc::Plane::Xz => Plane::Zx,
+                    trunnion_ngc::Plane::Yz => Plane::Yz,
+                    _ => Plane::Xy,
+                };
+            }
+            _ => {}
+        }
+    }
+
+    fn tool_offset(&mut self, offset: &Pose, at: At, state: &State) {
+        let on = offset.iter().any(|value| *value != 0.0) || state.tool != 0;
+        let length = offset[2] * state.units.mm();
+        self.interpreter.state.tool_length_mm = (on && length.is_finite()).then_some(length);
+        let declared = self.interpreter.tool().and_then(|tool| tool.length_mm).is_some();
+        if on && length == 0.0 && !declared {
+            let tool = self.interpreter.tool_name();
+            if self.interpreter.memory.length_is_news(&tool) {
+                self.fault(at, TextRange::default(), FaultKind::ToolLengthUnset { tool });
+            }
+        }
+    }
+
+    fn work_offset(&mut self, index: i32, offset: &Pose, at: At) {
+        let Some(name) = usize::try_from(index - 1).ok().and_then(|index| SYSTEMS.get(index)) else {
+            return;
+        };
+        let changed = self.interpreter.state.work_offset.as_deref() != Some(*name);
+        self.interpreter.state.work_offset = Some((*name).into());
+        let declared = self
+            .interpreter
+            .setup
+            .work_offsets
+            .iter()
+            .any(|known| known.name.eq_ignore_ascii_case(name));
+        let zero = offset.iter().all(|value| *value == 0.0);
+        let begun = self.interpreter.memory.last_content.is_some();
+        if begun && changed && zero && !declared && self.interpreter.memory.offset_is_news(name) {
+            let name = (*name).to_owned();
+            self.fault(at, TextRange::default(), FaultKind::WorkOffsetUnset { name });
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Between the coordinates of canonical calls and those of motions: mm and degrees, offsets told apart from what is programmed.
+use crate::{AXIS_LETTERS, Position};
+use trunnion_geometry::Vec3;
+use trunnion_geometry::math::sin_cos;
+use trunnion_ngc::{Pose, State};
+
+/// Axes of [`AXIS_LETTERS`] that turn.
+fn is_rotary(axis: usize) -> bool {
+    matches!(AXIS_LETTERS[axis], b'A' | b'B' | b'C')
+}
+
+/// What program coordinates lack to be machine coordinates. LinuxCNC: machine = R (program + G92) + G5x + tool offset, with R the
+/// rotation about Z (LinuxCNC documentation, Coordinate Systems).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Shift {
+    /// mm per program unit.
+    unit: f64,
+    /// Cosine and sine of the rotation; `None` without one.
+    rotation: Option<(f64, f64)>,
+    /// G92 where there is a rotation, mm and deg.
+    inside: Pose,
+    /// To be added to what [`Shift::coordinates`] gives, mm and deg: what a motion calls its zero.
+    pub(super) zero: Pose,
+    /// Tool offset along Z, mm.
+    pub(super) length: f64,
+}
+
+impl Shift {
+    pub(super) fn of(state: &State) -> Self {
+        let unit = state.units.mm();
+        let scale = |axis: usize| if is_rotary(axis) { 1.0 } else { unit };
+        let rotation = (state.rotation_xy != 0.0).then(|| {
+            let (sine, cosine) = sin_cos(state.rotation_xy.to_radians());
+            (cosine, sine)
+        });
+        let mut inside = [0.0; 9];
+        let mut zero = [0.0; 9];
+        for axis in 0..9 {
+            zero[axis] = state.origin_offset[axis] * scale(axis);
+            if axis != 2 {
+                zero[axis] += state.tool_offset[axis] * scale(axis);
+            }
+            if rotation.is_some() {
+                inside[axis] = state.axis_offset[axis] * scale(axis);
+            } else {
+                zero[axis] += state.axis_offset[axis] * scale(axis);
+            }
+        }
+        Self {
+            unit,
+            rotation,
+            inside,
+            zero,
+            length: state.tool_offset[2] * unit,
+        }
+    }
+
+    /// A pose of a canonical call as coordinates of a motion; what is not a number is unknown.
+    pub(super) fn coordinates(&self, pose: &Pose) -> Position {
+        let mut values = *pose;
+        for (axis, value) in values.iter_mut().enumerate() {
+            *value = *value * if is_rotary(axis) { 1.0 } else { self.unit } + self.inside[axis];
+        }
+        if let Some((cosine, sine)) = self.rotation {
+            let [x, y, ..] = values;
+            values[0] = x * cosine - y * sine;
+            values[1] = x * sine + y * cosine;
+        }
+        let mut position = Position::default();
+        for (axis, value) in values.into_iter().enumerate() {
+            if value.is_finite() {
+                position.set(axis, value);
+            }
+        }
+        position
+    }
+
+    /// A point X Y Z of a canonical call, program units.
+    pub(super) fn point(&self, [x, y, z]: [f64; 3]) -> Vec3 {
+        let mut pose = [0.0; 9];
+        (pose[0], pose[1], pose[2]) = (x, y, z);
+        let mut values = pose.map(|value| value * self.unit);
+        for axis in 0..3 {
+            values[axis] += self.inside[axis];
+        }
+        self.turned(Vec3::new(values[0], values[1], values[2]))
+    }
+
+    /// A direction of the program, turned with the coordinate system.
+    pub(super) fn turned(&self, direction: Vec3) -> Vec3 {
+        match self.rotation {
+            Some((cosine, sine)) => Vec3::new(
+                direction.x * cosine - direction.y * sine,
+                direction.x * sine + direction.y * cosine,
+                direction.z,
+            ),
+            None => direction,
+        }
+    }
+
+    /// Coordinates of a motion as the machine has them.
+    pub(super) fn machine(&self, coordinates: &Position) -> Position {
+        self.moved(coordinates, 1.0)
+    }
+
+    /// Coordinates of a motion from those of the machine.
+    pub(super) fn programmed(&self, machine: &Position) -> Position {
+        self.moved(machine, -1.0)
+    }
+
+    fn moved(&self, position: &Position, sign: f64) -> Position {
+        let mut moved = *position;
+        for (value, zero) in moved.values.iter_mut().zip(self.zero) {
+            *value += sign * zero;
+        }
+        moved.values[2] += sign * self.length;
+        moved
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rotation_g92_and_offset_add_up_as_linuxcnc_does() {
+        let mut state = State::new(false);
+        state.rotation_xy = 90.0;
+        state.origin_offset[0] = 100.0;
+        state.axis_offset[1] = 5.0;
+        state.tool_offset[2] = 50.0;
+        let shift = Shift::of(&state);
+        let at = shift.coordinates(&[10.0, 0.0, 1.0, 7.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let machine = shift.machine(&at);
+        // (10, 0) + (0, 5) turned by 90 deg is (-5, 10)
+        for (axis, expected) in [(0, 95.0), (1, 10.0), (2, 51.0), (3, 7.0)] {
+            let value = machine.get(axis).expect("known");
+            assert!((value - expected).abs() < 1e-12, "{axis}: {value}");
+        }
+        let back = shift.programmed(&machine);
+        assert!((back.values[0] - at.values[0]).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_unknown() {
+        let shift = Shift::of(&State::new(false));
+        let mut pose = [1.0; 9];
+        pose[1] = f64::NAN;
+        let at = shift.coordinates(&pose);
+        assert_eq!((at.get(0), at.get(1)), (Some(1.0), None));
+    }
+
+    #[test]
+    fn inches_become_millimetres_and_degrees_stay() {
+        let mut state = State::new(false);
+        state.units = trunnion_ngc::Units::Inch;
+        let at = Shift::of(&state).coordinates(&[1.0; 9]);
+        assert_eq!((at.get(0), at.get(3), at.get(6)), (Some(25.4), Some(1.0), Some(25.4)));
+    }
+}

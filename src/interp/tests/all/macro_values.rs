@@ -1,0 +1,135 @@
+//! Macro B: values of expressions and variables, checked by hand.
+use crate::macro_flow::said;
+use crate::support::{lines, number, run_bytes, shared};
+use trunnion_interp::{FaultKind, Setup, WorkOffset};
+
+const FANUC: &str = "fanuc-30i";
+
+/// X of `G0X#1` behind the statements, of which nothing may be wrong.
+fn value(statements: &str) -> String {
+    let source = format!("{statements}\nG0X#1\nM30\n");
+    assert_eq!(said(&source), [""; 0], "{source}");
+    lines(FANUC, &source)[0].clone()
+}
+
+#[test]
+fn operators_bind_as_in_macro_b() {
+    for (expression, expected) in [
+        ("2+3*4", "14"),
+        ("[2+3]*4", "20"),
+        ("-2+5", "3"),
+        ("10-4-3", "3"),
+        ("2*3+4*5-6/2", "23"),
+        ("7 MOD 4 + 1", "4"),
+        ("1 OR 2 AND 2", "3"),
+        ("6 XOR 3", "5"),
+        ("SIN[30]*2", "1"),
+        ("ATAN[1]/[1]", "45"),
+        ("FIX[-2.8]", "-2"),
+        ("FUP[-2.2]", "-3"),
+        ("ROUND[2.5]", "3"),
+        ("ABS[-3.25]", "3.25"),
+        ("SQRT[16]+1", "5"),
+        ("[[1+2]*[3+4]]", "21"),
+        ("1EQ1", "1"),
+        ("[2GT3]+5", "5"),
+    ] {
+        assert_eq!(
+            value(&format!("#1={expression}")),
+            format!("R X{expected}"),
+            "{expression}"
+        );
+    }
+}
+
+#[test]
+fn variables_by_number_by_reckoning_and_by_name() {
+    assert_eq!(value("#2=100\n#[#2+1]=7.5\n#1=#101"), "R X7.5");
+    assert_eq!(value("#2=3\n#3=9\n#1=##2"), "R X9");
+    assert_eq!(value("#_DEPTH=4.5\n#1=#_DEPTH*2"), "R X9");
+}
+
+#[test]
+fn a_vacant_word_is_not_there() {
+    assert_eq!(lines(FANUC, "G0X1.Y1.\nX#5Y2.\nM30\n"), ["R X1 Y1", "R X1 Y2"]);
+    assert_eq!(
+        lines(FANUC, "G0X1.Y1.\n#5=#0\nX[#5+2]Y#5\nM30\n"),
+        ["R X1 Y1", "R X2 Y1"]
+    );
+    // B-63684EN: EQ and NE tell vacant from zero, arithmetic does not
+    let compare = "#1=0\nIF[#2EQ0]THEN#1=1\nIF[#2EQ#0]THEN#1=#1+2\nIF[#2NE0]THEN#1=#1+4\nIF[#2GE0]THEN#1=#1+8\n#9=#1";
+    assert_eq!(value(compare), "R X14");
+}
+
+#[test]
+fn mistakes_of_expressions_have_their_alarms_and_columns() {
+    for (source, expected) in [
+        ("#1=1/0\nM30\n", "1 `1/0` Expression PS0112"),
+        ("#2=-4\n#1=SQRT[#2]\nM30\n", "2 `SQRT[#2]` Expression PS0119"),
+        ("#1=[1+*2]\nM30\n", "1 `*` Expression PS0114"),
+        ("#1=#60\nM30\n", "1 `#60` Variable PS0115"),
+        ("#60=1\nM30\n", "1 `#60=1` Variable PS0115"),
+        ("#0=1\nM30\n", "1 `#0=1` Variable PS0116"),
+        ("#1=FOO[1]\nM30\n", "1 `FOO` Expression PS0114"),
+    ] {
+        let got = said(source);
+        assert_eq!(got.len(), 1, "{source}: {got:?}");
+        let same_alarm = got[0].rsplit(' ').next() == expected.rsplit(' ').next();
+        assert!(
+            same_alarm && got[0].starts_with(&expected[..2]),
+            "{source}: {got:?}, expected {expected}"
+        );
+    }
+}
+
+#[test]
+fn the_control_tells_what_is_in_force_and_where_it_is() {
+    // 90 + 18 / 1000 + 20 * 1000 = 20090.018 inch
+    assert_eq!(value("G90G18G20\n#1=#4003+#4002/1000+#4006*1000"), "R X510286.4572");
+    assert_eq!(
+        lines(FANUC, "G0X3.Y4.Z5.\nX[#5001+1]Y[#5002*2]Z#5003\nM30\n")[1],
+        "R X4 Y8 Z5"
+    );
+    assert_eq!(lines(FANUC, "G1X1.F250.S900\nG0X#4109Y#4119\nM30\n")[1], "R X250 Y900");
+    let mut values = [0.0; 9];
+    (values[0], values[2]) = (100.0, -50.0);
+    let setup = Setup {
+        work_offsets: vec![WorkOffset {
+            name: "G54".to_owned(),
+            values,
+        }],
+        ..Setup::default()
+    };
+    let source = b"G54G0X1.Z2.\nX#5221Z#5223\nX#5021\nM30\n";
+    let log = run_bytes(FANUC, source, &setup).1;
+    let ends: Vec<_> = log.motions.iter().map(|motion| motion.end.get(0).map(number)).collect();
+    assert_eq!(
+        ends,
+        [Some("1".to_owned()), Some("100".to_owned()), Some("200".to_owned())]
+    );
+}
+
+#[test]
+fn codes_and_words_take_variables() {
+    let source = "#1=1\n#2=3\nG#1X5.F[100*#2]\nM#2S1000\nG#1X6.\nG4P#3\nM30\n";
+    assert_eq!(lines(FANUC, source)[..2], ["L X5 F300", "L X6 F300"]);
+    let log = run_bytes(FANUC, source.as_bytes(), &Setup::default()).1;
+    assert_eq!(log.motions[1].spindle_on, Some(true));
+    assert_eq!(lines(FANUC, "#3=500\nG4P#3\nM30\n"), ["D0.5 -"]);
+}
+
+#[test]
+fn the_shared_macro_program_has_the_values_reckoned_by_hand() {
+    let Some(source) = shared("five-axis-pairs/macro_b.nc") else {
+        return;
+    };
+    let (_, log) = run_bytes(FANUC, &source, &Setup::default());
+    let unexpected: Vec<_> = log
+        .faults
+        .iter()
+        .filter(|fault| fault.kind != FaultKind::AmbiguousDecimal)
+        .collect();
+    assert!(unexpected.is_empty(), "{unexpected:?}");
+    let got: Vec<_> = log.motions.iter().map(crate::support::line).collect();
+    insta::assert_snapshot!(got.join("\n"));
+}

@@ -1,0 +1,52 @@
+//! The layout of one APT statement: blanks at line ends and double blanks go, all else stays. Texts, comments, case and continuations
+//! (`$` with what stands behind it) are kept byte for byte, since post processors read columns, names and texts.
+use crate::blanks::is_plain_blank;
+use trunnion_syntax::{Block, Program, TextRange, TokenKind};
+
+/// Whether nothing of a statement may be touched: problems, and bytes without meaning.
+pub(crate) fn stays(program: &Program, block: &Block<'_>) -> bool {
+    let (table, range) = (program.tokens(), block.range());
+    let errors = program.errors();
+    let next = errors.partition_point(|error| error.range.end <= range.start);
+    let broken = errors.get(next).is_some_and(|error| error.range.start < range.end);
+    broken
+        || block.tokens().any(|id| match table.kind(id) {
+            TokenKind::Blank => !is_plain_blank(program.bytes(table.range(id))),
+            TokenKind::Unknown | TokenKind::UnclosedComment => true,
+            _ => false,
+        })
+}
+
+/// Appends the statement without its line end.
+pub(crate) fn write(program: &Program, block: &Block<'_>, out: &mut Vec<u8>) {
+    if stays(program, block) {
+        out.extend_from_slice(program.bytes(block.range()));
+        return;
+    }
+    let table = program.tokens();
+    let mut left: Option<TokenKind> = None;
+    let mut blank: Option<TextRange> = None;
+    for id in block.tokens() {
+        let (kind, range) = (table.kind(id), table.range(id));
+        match kind {
+            TokenKind::Newline => break,
+            TokenKind::Blank => {
+                blank = Some(range);
+                continue;
+            }
+            _ => {}
+        }
+        if let Some(blank) = blank.take() {
+            // in front of a statement or of the rest of one, and before a comment or text, blanks are indentation
+            let kept = matches!(left, None | Some(TokenKind::Continuation))
+                || matches!(kind, TokenKind::Comment | TokenKind::FreeText | TokenKind::Continuation);
+            match kind {
+                _ if kept => out.extend_from_slice(program.bytes(blank)),
+                TokenKind::Comma => {}
+                _ => out.push(b' '),
+            }
+        }
+        out.extend_from_slice(program.bytes(range));
+        left = Some(kind);
+    }
+}

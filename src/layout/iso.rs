@@ -1,0 +1,236 @@
+//! The layout of one block of ISO words.
+use crate::blanks::{columns, is_plain_blank};
+use crate::same::same_block;
+use crate::style::{Spacing, Style};
+use crate::words::{Letters, write};
+use trunnion_dialect::Dialect;
+use trunnion_syntax::{Address, Block, Format, Item, Program, TextRange, TokenId, TokenKind, parse};
+
+/// Names whose brackets hold text for a printer: nothing in such a block is touched.
+const PRINTS: [&[u8]; 5] = [b"DPRNT", b"BPRNT", b"POPEN", b"PCLOS", b"SETVN"];
+
+/// Lines that a control refuses when they are longer: characters of a line of RS274/NGC, and of a Sinumerik block. A line within
+/// these is not made longer than them.
+const LONGEST_NGC: usize = 250;
+const LONGEST: usize = 500;
+
+/// Lays out blocks of one program.
+pub(crate) struct Blocks<'p> {
+    pub(crate) program: &'p Program,
+    pub(crate) dialect: &'p Dialect,
+    pub(crate) style: &'p Style,
+}
+
+/// What stands left of a token.
+struct Left {
+    kind: TokenKind,
+    item: Option<Item>,
+    /// Blanks were there.
+    gap: bool,
+}
+
+impl Blocks<'_> {
+    /// Appends the block without its line end. A block whose new layout would not be read as the same words, and one that is not
+    /// whole, stays byte for byte.
+    pub(crate) fn write(&self, block: &Block<'_>, depth: usize, out: &mut Vec<u8>) {
+        let from = out.len();
+        let written = self.program.bytes(block.range());
+        if self.stays(block) {
+            out.extend_from_slice(written);
+            return;
+        }
+        self.lay_out(block, depth, out);
+        let laid = &out[from..];
+        if laid == written {
+            return;
+        }
+        let longest = if self.dialect.lex.blanks_in_numbers {
+            LONGEST_NGC
+        } else {
+            LONGEST
+        };
+        let too_long = laid.len() > longest && laid.len() > written.len();
+        if too_long
+            || !same_block(
+                &parse(written.to_vec(), self.program.options()),
+                &parse(laid.to_vec(), self.program.options()),
+            )
+        {
+            out.truncate(from);
+            out.extend_from_slice(written);
+        }
+    }
+
+    /// Whether nothing of a block may be touched: problems, program names behind `%`, texts for a printer, bytes without meaning.
+    pub(crate) fn stays(&self, block: &Block<'_>) -> bool {
+        let table = self.program.tokens();
+        let range = block.range();
+        let errors = self.program.errors();
+        let next = errors.partition_point(|error| error.range.end <= range.start);
+        if errors.get(next).is_some_and(|error| error.range.start < range.end) {
+            return true;
+        }
+        let mut percent = false;
+        block.tokens().any(|id| {
+            let text = self.program.bytes(table.range(id));
+            match table.kind(id) {
+                TokenKind::Blank => !is_plain_blank(text),
+                TokenKind::Unknown | TokenKind::UnclosedComment => true,
+                TokenKind::Percent => {
+                    percent = true;
+                    false
+                }
+                TokenKind::Name => percent || PRINTS.iter().any(|name| text.eq_ignore_ascii_case(name)),
+                _ => false,
+            }
+        })
+    }
+
+    fn lay_out(&self, block: &Block<'_>, depth: usize, out: &mut Vec<u8>) {
+        debug_assert_eq!(self.program.options().format, Format::Iso);
+        let table = self.program.tokens();
+        let from = out.len();
+        let control = is_control_line(block);
+        let mut items = block.items().peekable();
+        let mut indent = usize::from(self.style.indent) * depth;
+        let mut left: Option<Left> = None;
+        let mut item = None;
+        let last = last_visible(self.program, block);
+        for id in block.tokens() {
+            let (kind, range) = (table.kind(id), table.range(id));
+            match kind {
+                TokenKind::Newline => break,
+                TokenKind::Blank => {
+                    if let Some(left) = &mut left {
+                        left.gap = true;
+                    }
+                    continue;
+                }
+                _ => {}
+            }
+            let starts = items.peek().is_some_and(|item| range_of(item).start <= range.start);
+            if starts {
+                item = items.next();
+            }
+            let numbers = matches!(item, Some(Item::Skip(..))) || starts && is_number(item);
+            if left.is_none() {
+                if !numbers && !matches!(item, Some(Item::Percent(_))) {
+                    out.extend(std::iter::repeat_n(b' ', std::mem::take(&mut indent)));
+                }
+            } else if let Some(left) = &left {
+                let apart = kind == TokenKind::Comment && starts && Some(id) == last;
+                if apart && !numbers_only(left.item) {
+                    self.comment_gap(block, range, width(&out[from..]), out);
+                } else if self.gap(left, kind, item, starts) {
+                    out.push(b' ');
+                }
+                if !numbers {
+                    out.extend(std::iter::repeat_n(b' ', std::mem::take(&mut indent)));
+                }
+            }
+            let letters = self.letters(item, starts, control);
+            write(out, kind, self.program.bytes(range), letters, self.style);
+            left = Some(Left { kind, item, gap: false });
+        }
+    }
+
+    /// Whether a blank stands before a token.
+    fn gap(&self, left: &Left, kind: TokenKind, item: Option<Item>, starts: bool) -> bool {
+        if !starts {
+            return match (left.kind, kind) {
+                (TokenKind::Letter, TokenKind::Name | TokenKind::Equals) => left.gap,
+                (TokenKind::Letter | TokenKind::BracketOpen | TokenKind::ParenOpen | TokenKind::Hash, _)
+                | (_, TokenKind::BracketClose | TokenKind::ParenClose | TokenKind::Comma) => false,
+                _ => left.gap,
+            };
+        }
+        match (left.item, item) {
+            (Some(Item::Skip(_, range)), _) => self.program.bytes(range).last().is_some_and(u8::is_ascii_digit),
+            (Some(Item::Other(_) | Item::Percent(_)), _) | (_, Some(Item::Other(_))) => left.gap,
+            _ if kind == TokenKind::Comma => left.gap,
+            (Some(Item::Word(_)), Some(Item::Word(word))) if self.style.spacing == Spacing::Packed => {
+                // an E behind digits reads as an exponent to some
+                !(left.kind == TokenKind::Word && kind == TokenKind::Word && word.address != Address::Letter(b'E'))
+            }
+            _ => true,
+        }
+    }
+
+    /// The blanks before a comment behind words.
+    fn comment_gap(&self, block: &Block<'_>, comment: TextRange, now: usize, out: &mut Vec<u8>) {
+        let wanted = match self.style.comment_column {
+            Some(column) => usize::from(column).saturating_sub(1),
+            None => self.written_column(block, comment),
+        };
+        out.extend(std::iter::repeat_n(b' ', wanted.saturating_sub(now).max(1)));
+    }
+
+    /// The column from 0 at which a comment that is set apart stands; 0 for others.
+    fn written_column(&self, block: &Block<'_>, comment: TextRange) -> usize {
+        let before = self.program.bytes(TextRange::new(block.range().start, comment.start));
+        let text = before.trim_ascii_end();
+        let blank = &before[text.len()..];
+        if blank.len() < 2 && !blank.contains(&b'\t') {
+            return 0;
+        }
+        width(before)
+    }
+
+    /// Whether the letters of a token are the style's. Names are, where the control knows no names of the program's own (Macro B).
+    fn letters(&self, item: Option<Item>, starts: bool, control: bool) -> Letters {
+        let own = self.dialect.quirks.numbers_follow_names && !self.dialect.quirks.user_names;
+        let styled = match item {
+            Some(Item::Word(word)) if starts => match word.address {
+                Address::Letter(b'O') => !control,
+                Address::Letter(b'G' | b'M') => return Letters::Code,
+                Address::Letter(_) | Address::Indexed(..) => true,
+                Address::Named(_) => own,
+            },
+            Some(Item::Word(_) | Item::Call(_)) => own,
+            _ => false,
+        };
+        if styled { Letters::Styled } else { Letters::Kept }
+    }
+}
+
+/// The last token that is neither blank nor line end.
+fn last_visible(program: &Program, block: &Block<'_>) -> Option<TokenId> {
+    let table = program.tokens();
+    block
+        .tokens()
+        .rev()
+        .find(|&id| !matches!(table.kind(id), TokenKind::Blank | TokenKind::Newline))
+}
+
+/// Columns that the last line of a text takes.
+fn width(text: &[u8]) -> usize {
+    let line = text.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
+    columns(0, &text[line..])
+}
+
+/// Bytes of an item.
+pub(crate) fn range_of(item: &Item) -> TextRange {
+    match item {
+        Item::Word(word) => word.range,
+        Item::Call(call) => call.range,
+        Item::Comment(comment) => comment.range,
+        Item::Skip(_, range) | Item::Percent(range) | Item::Label(range) | Item::Other(range) => *range,
+    }
+}
+
+/// Whether an item is a block number.
+fn is_number(item: Option<Item>) -> bool {
+    matches!(item, Some(Item::Word(word)) if word.address == Address::Letter(b'N'))
+}
+
+/// Whether nothing but a block number or block delete stands on the left, so that a comment there is the content of its line.
+fn numbers_only(item: Option<Item>) -> bool {
+    is_number(item) || matches!(item, Some(Item::Skip(..)))
+}
+
+/// Whether a block is an O-word line of RS274/NGC (`o100 while [..]`), whose author has chosen its case as a whole.
+fn is_control_line(block: &Block<'_>) -> bool {
+    let mut items = block.items();
+    let labelled = items.any(|item| matches!(item, Item::Word(word) if word.address == Address::Letter(b'O')));
+    labelled && items.any(|item| matches!(item, Item::Call(_)))
+}

@@ -1,0 +1,22 @@
+//! Floor 6, beside rewrite: the layout of a text and the numbers of its blocks. Motions stay, and that is proved for each text:
+//! the new text is parsed and run beside the old one, and what differs in words, motions, faults or modal state is refused.
+//!
+//! It does no I/O. It does not know machines or rules.
+mod apt;
+mod attempt;
+mod blanks;
+mod iso;
+mod nesting;
+mod proof;
+mod references;
+mod renumber;
+mod same;
+mod style;
+mod text;
+mod words;
+
+pub use attempt::{Layout, Refusal, layout};
+pub use proof::Difference;
+pub use references::Obstacle;
+pub use renumber::{Numbers, Renumbered, renumber};
+pub use style::{Case, Spacing, Style, Zeros};

@@ -1,0 +1,261 @@
+//! New block numbers, with every jump, return and contour that names one changed along. Refused where a target is not known for
+//! certain. Proved by running both texts, and by finding that each reference leads to the same block as before.
+use crate::proof::{Difference, Faults, first_difference};
+use crate::references::{Found, Obstacle, Reference, begins_program, own_number, read};
+use std::collections::BTreeMap;
+use trunnion_dialect::Dialect;
+use trunnion_interp::Setup;
+use trunnion_syntax::{BlockId, Format, Program, TextEdit, TextRange, apply_edits, parse};
+
+/// Most digits of a block number: RS274/NGC 99999, others eight digits.
+const MOST_NGC: i64 = 99_999;
+const MOST: i64 = 99_999_999;
+
+/// First number and distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Numbers {
+    /// Number of the first block that has one.
+    pub start: u32,
+    /// Distance to the next, 1 at least.
+    pub step: u32,
+}
+
+/// What came of new block numbers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Renumbered {
+    /// No block has a number.
+    NoNumbers,
+    /// The new text, proved.
+    Changed {
+        /// The text.
+        text: Vec<u8>,
+        /// How many blocks have a number.
+        blocks: usize,
+        /// How many references were followed.
+        references: usize,
+        /// Programs that are called and are not in this file: where they return to a block by its number, that is not followed.
+        called_outside: Vec<i64>,
+    },
+    /// Numbers must stay.
+    Refused(Obstacle),
+    /// The run of the new text differs.
+    Differs(Difference),
+}
+
+/// One program of the file.
+#[derive(Default)]
+struct Part {
+    /// Its O number.
+    name: i64,
+    /// Blocks that have the number; more than one where it is there twice.
+    blocks: BTreeMap<i64, Vec<BlockId>>,
+    /// Programs that it calls.
+    calls: Vec<i64>,
+}
+
+/// Everything that speaks of block numbers.
+struct Survey {
+    parts: Vec<Part>,
+    /// The part of each block.
+    part_of: Vec<u32>,
+    found: Found,
+}
+
+/// Gives a program new block numbers.
+pub fn renumber(program: &Program, dialect: &Dialect, setup: &Setup, numbers: Numbers) -> Renumbered {
+    let survey = Survey::new(program);
+    let (new, blocks) = match new_numbers(program, dialect, numbers, &survey) {
+        Ok(new) => new,
+        Err(obstacle) => return Renumbered::Refused(obstacle),
+    };
+    if blocks == 0 {
+        return Renumbered::NoNumbers;
+    }
+    let targets = match survey.resolve(program) {
+        Ok(targets) => targets,
+        Err(obstacle) => return Renumbered::Refused(obstacle),
+    };
+    let mut edits: Vec<TextEdit> = new.iter().map(|(_, edit)| edit.clone()).collect();
+    for (reference, target) in survey.found.references.iter().zip(&targets) {
+        let Ok(at) = new.binary_search_by_key(target, |(block, _)| *block) else {
+            continue;
+        };
+        edits.push(TextEdit {
+            range: reference.digits,
+            new_text: new[at].1.new_text.trim_start_matches('0').to_owned(),
+        });
+    }
+    edits.sort_by_key(|edit| edit.range);
+    let Some(text) = apply_edits(program.source(), &edits) else {
+        let range = TextRange::default();
+        return refused(range, "the same number is read in two ways".to_owned());
+    };
+    let after = parse(text, program.options());
+    let again = Survey::new(&after);
+    if again.resolve(&after).ok().as_ref() != Some(&targets) {
+        return refused(
+            TextRange::default(),
+            "the new numbers would not lead to the same blocks".to_owned(),
+        );
+    }
+    if let Some(difference) = first_difference(program, &after, dialect, setup, Faults::Kinds) {
+        return Renumbered::Differs(difference);
+    }
+    Renumbered::Changed {
+        text: after.source().to_vec(),
+        blocks,
+        references: targets.len(),
+        called_outside: survey.called_outside(),
+    }
+}
+
+fn refused(range: TextRange, why: String) -> Renumbered {
+    Renumbered::Refused(Obstacle { range, why })
+}
+
+/// The new number of each block that has one, as an edit.
+fn new_numbers(
+    program: &Program,
+    dialect: &Dialect,
+    numbers: Numbers,
+    survey: &Survey,
+) -> Result<(Vec<(BlockId, TextEdit)>, usize), Obstacle> {
+    if program.options().format == Format::Apt {
+        return Err(Obstacle {
+            range: TextRange::default(),
+            why: "APT statements have no block numbers".to_owned(),
+        });
+    }
+    let most = if dialect.lex.blanks_in_numbers { MOST_NGC } else { MOST };
+    let own: Vec<_> = program
+        .blocks()
+        .filter_map(|block| Some((block.id(), own_number(&block)?.0)))
+        .collect();
+    // numbers with zeros in front stay as wide as they are
+    let padded = own.iter().find(|(_, range)| program.bytes(*range).starts_with(b"0"));
+    let width = padded.map_or(0, |(_, range)| (range.end - range.start) as usize);
+    let (mut next, mut part) = (i64::from(numbers.start), None);
+    let mut new = Vec::with_capacity(own.len());
+    for (block, range) in own {
+        let here = survey.part_of[block.0 as usize];
+        if part.replace(here).is_some_and(|last| last != here) {
+            next = i64::from(numbers.start);
+        }
+        if next > most {
+            let why = format!("this block would be N{next}, and N{most} is the highest number; choose a smaller step");
+            return Err(Obstacle { range, why });
+        }
+        let new_text = format!("{next:0width$}");
+        new.push((block, TextEdit { range, new_text }));
+        next += i64::from(numbers.step.max(1));
+    }
+    let count = new.len();
+    Ok((new, count))
+}
+
+impl Survey {
+    fn new(program: &Program) -> Self {
+        let mut survey = Self {
+            parts: vec![Part {
+                name: -1,
+                ..Part::default()
+            }],
+            part_of: Vec::with_capacity(program.block_count()),
+            found: Found::default(),
+        };
+        let split = !program.options().blanks_in_numbers;
+        for block in program.blocks() {
+            if let Some(name) = begins_program(&block).filter(|_| split) {
+                survey.parts.push(Part {
+                    name,
+                    ..Part::default()
+                });
+            }
+            let at = survey.parts.len() - 1;
+            survey.part_of.push(at as u32);
+            let calls = survey.found.calls.len();
+            read(&block, &mut survey.found);
+            let part = &mut survey.parts[at];
+            part.calls
+                .extend(survey.found.calls[calls..].iter().map(|(_, number, _)| *number));
+            if let Some((_, Some(number))) = own_number(&block) {
+                part.blocks.entry(number).or_default().push(block.id());
+            }
+        }
+        survey
+    }
+
+    /// The block that each reference means.
+    fn resolve(&self, program: &Program) -> Result<Vec<BlockId>, Obstacle> {
+        if let Some(obstacle) = self.found.obstacles.first() {
+            return Err(obstacle.clone());
+        }
+        self.found
+            .references
+            .iter()
+            .map(|reference| self.target(program, reference))
+            .collect()
+    }
+
+    fn target(&self, program: &Program, reference: &Reference) -> Result<BlockId, Obstacle> {
+        let own = self.part_of[reference.block.0 as usize] as usize;
+        let callers: Vec<usize> = if reference.of_caller {
+            self.callers(own)
+        } else {
+            Vec::new()
+        };
+        let places = if callers.is_empty() { vec![own] } else { callers };
+        let number = reference.number;
+        let refuse = |what: String| {
+            let block = program.text(program.block(reference.block).range()).trim().to_owned();
+            Err(Obstacle {
+                range: reference.digits,
+                why: format!("`{block}`: {what}"),
+            })
+        };
+        let mut target = None;
+        for part in &places {
+            match self.parts[*part].blocks.get(&number).map(Vec::as_slice) {
+                None if reference.of_caller => {
+                    return refuse(format!("N{number} is in no program of this file that calls this one"));
+                }
+                None => return refuse(format!("there is no block N{number} in this program")),
+                Some([block]) => {
+                    if target.replace(*block).is_some_and(|other| other != *block) {
+                        return refuse(format!("several programs call this one and have a block N{number}"));
+                    }
+                }
+                Some(_) => {
+                    return refuse(format!(
+                        "N{number} is there more than once, so it is not certain which is meant"
+                    ));
+                }
+            }
+        }
+        match target {
+            Some(block) => Ok(block),
+            None => refuse(format!("there is no block N{number}")),
+        }
+    }
+
+    /// Programs of the file that call a part.
+    fn callers(&self, part: usize) -> Vec<usize> {
+        let name = self.parts[part].name;
+        let calls = |other: &usize| name >= 0 && self.parts[*other].calls.contains(&name);
+        (0..self.parts.len()).filter(calls).collect()
+    }
+
+    fn called_outside(&self) -> Vec<i64> {
+        let inside = |number: &i64| self.parts.iter().any(|part| part.name == *number);
+        let mut outside: Vec<i64> = self
+            .found
+            .calls
+            .iter()
+            .map(|call| call.1)
+            .filter(|number| !inside(number))
+            .collect();
+        outside.sort_unstable();
+        outside.dedup();
+        outside
+    }
+}

@@ -1,0 +1,6 @@
+//! The layout: what it does to each form, and that it changes nothing else on any text.
+mod forms;
+mod random;
+mod real_files;
+mod renumbering;
+mod support;

@@ -1,0 +1,138 @@
+//! Random programs: no panic, nothing refused, nothing lost, and a second layout changes nothing.
+use crate::support::{dialect, laid_with, program};
+use proptest::prelude::*;
+use trunnion_dialect::BUILTIN_NAMES;
+use trunnion_interp::Setup;
+use trunnion_layout::{Case, Layout, Spacing, Style, Zeros, layout};
+
+fn styles() -> impl Strategy<Value = Style> {
+    let case = prop_oneof![Just(Case::Upper), Just(Case::Lower), Just(Case::Keep)];
+    let spacing = prop_oneof![Just(Spacing::One), Just(Spacing::Packed)];
+    let zeros = prop_oneof![Just(Zeros::Keep), Just(Zeros::Drop), Just(Zeros::Two)];
+    (case, spacing, zeros, proptest::option::of(1u16..60), 0u8..5, 0u8..3).prop_map(
+        |(case, spacing, zeros, comment_column, indent, blank_lines)| Style {
+            case,
+            spacing,
+            zeros,
+            comment_column,
+            indent,
+            blank_lines,
+        },
+    )
+}
+
+/// Pieces that mean something together, in any order.
+fn pieces() -> impl Strategy<Value = Vec<u8>> {
+    let piece = proptest::sample::select(vec![
+        "G1",
+        "g01",
+        "X1.5",
+        "y-.5",
+        "X 2",
+        "Z - 3.",
+        " ",
+        "   ",
+        "\t",
+        "\n",
+        "\n\n\n",
+        "\r\n",
+        "\r",
+        "(c)",
+        "( d )",
+        "(",
+        ")",
+        "[",
+        "]",
+        "#",
+        "#1",
+        "#<a b>",
+        "=",
+        "+",
+        "-",
+        "*",
+        "/",
+        "/2",
+        "%",
+        ":",
+        ";e  ",
+        "/*",
+        "*/",
+        "$",
+        "$$",
+        "\"t\"",
+        "'",
+        ",",
+        ".",
+        "1",
+        "2 3",
+        "R1",
+        "IF",
+        "GOTO",
+        "GOTO/",
+        "DO1",
+        "END1",
+        "WHILE",
+        "o1 while",
+        "o1 endwhile",
+        "o<x> sub",
+        "o1",
+        "O100",
+        "CYCLE800",
+        "(1,2)",
+        "AND",
+        "SIN",
+        "N10",
+        "n5",
+        "M30",
+        "T1M6",
+        "F100",
+        "S1000M3",
+        "PARTNO a",
+        "\u{feff}",
+        "\u{0}",
+        "ä",
+        "e1",
+        "@1^2",
+        "DEF REAL A",
+        "LABEL:",
+        "MSG(\"x\")",
+        ";",
+        "FROM/1,2,3",
+        "$\n",
+        "DPRNT[a]",
+        "G2X1Y1R1",
+        "G4P1",
+        "*57",
+    ]);
+    let piece = prop_oneof![
+        9 => piece.prop_map(|text| text.as_bytes().to_vec()),
+        1 => proptest::collection::vec(any::<u8>(), 1..3),
+    ];
+    proptest::collection::vec(piece, 0..60).prop_map(|pieces| pieces.concat())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+
+    #[test]
+    fn any_text_in_any_dialect_is_stable_and_never_refused(
+        text in pieces(), style in styles(), which in 0..BUILTIN_NAMES.len()
+    ) {
+        let name = BUILTIN_NAMES[which];
+        let once = laid_with(&text, name, &style);
+        let twice = laid_with(&once, name, &style);
+        prop_assert_eq!(String::from_utf8_lossy(&once), String::from_utf8_lossy(&twice));
+        let visible = |text: &[u8]| -> Vec<u8> {
+            let kept = text.iter().filter(|byte| !byte.is_ascii_whitespace() && **byte != b'0');
+            kept.map(u8::to_ascii_uppercase).collect()
+        };
+        prop_assert_eq!(visible(&text), visible(&once), "nothing but blanks, zeros and case");
+    }
+
+    #[test]
+    fn random_bytes_are_survived(text in proptest::collection::vec(any::<u8>(), 0..300), which in 0..BUILTIN_NAMES.len()) {
+        let dialect = dialect(BUILTIN_NAMES[which]);
+        let outcome = layout(&program(&text, dialect), dialect, &Setup::default(), &Style::default());
+        prop_assert!(!matches!(outcome, Layout::Refused(_)), "{:?}", outcome);
+    }
+}

@@ -1,0 +1,66 @@
+//! The layout of a whole text: blocks, blank lines, line ends.
+use crate::apt;
+use crate::blanks::{common_line_end, is_empty, line_end};
+use crate::iso::Blocks;
+use crate::nesting::Nesting;
+use crate::style::Style;
+use trunnion_dialect::Dialect;
+use trunnion_syntax::{Block, Format, Item, Program};
+
+/// The text in the given style. A text in which lone carriage returns stand beside other line ends stays as it is. What stands behind the closing `%` is no program and stays byte for byte.
+pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Vec<u8> {
+    let Some(ending) = common_line_end(program) else {
+        return program.source().to_vec();
+    };
+    let blocks = Blocks {
+        program,
+        dialect,
+        style,
+    };
+    let mut out = Vec::with_capacity(program.source().len() + program.source().len() / 8);
+    let mut nesting = Nesting::default();
+    let (mut blank_lines, mut percents, mut any) = (0, 0, false);
+    for block in program.blocks() {
+        if percents > 1 {
+            out.extend_from_slice(&program.source()[block.range().start as usize..]);
+            return out;
+        }
+        let own_ending = line_end(&block);
+        if is_empty(&block) {
+            blank_lines += u32::from(any);
+            continue;
+        }
+        // a byte order mark would become one that counts
+        let bom = !any && program.source()[block.range().as_usize()].starts_with(b"\xEF\xBB\xBF");
+        if bom {
+            out.extend_from_slice(&program.source()[..block.range().start as usize]);
+        }
+        for _ in 0..blank_lines.min(u32::from(style.blank_lines)) {
+            out.extend_from_slice(ending);
+        }
+        (blank_lines, any) = (0, true);
+        if program.options().format == Format::Apt {
+            apt::write(program, &block, &mut out);
+        } else {
+            let depth = nesting.depth(&block);
+            blocks.write(&block, depth, &mut out);
+            percents += u32::from(is_bare_percent(&block));
+        }
+        let stays = || match program.options().format {
+            Format::Apt => apt::stays(program, &block),
+            Format::Iso => blocks.stays(&block),
+        };
+        if !(own_ending.is_empty() && stays()) {
+            out.extend_from_slice(ending);
+        }
+    }
+    out
+}
+
+/// Whether a block is a `%` without a name.
+fn is_bare_percent(block: &Block<'_>) -> bool {
+    let Some(Item::Percent(range)) = block.items().next() else {
+        return false;
+    };
+    range.end - range.start == 1
+}

@@ -1,0 +1,211 @@
+//! Moves that are held back because their end depends on the corner that follows, and calls that wait behind them.
+use super::plane::{self, Point};
+use super::problems;
+use crate::{At, Canon, Engine, Error, Pose, Sink};
+use std::f64::consts::{PI, TAU};
+use trunnion_syntax::TextRange;
+
+/// One call that waits.
+#[derive(Clone, Debug)]
+enum Held {
+    /// Not a motion.
+    Call(Canon, At),
+    /// A straight motion.
+    Line(Line, At),
+    /// An arc.
+    Bow(Bow, At),
+}
+
+/// A straight motion of the centre.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    pub(super) rapid: bool,
+    /// End, centre.
+    pub(super) end: Pose,
+    /// The contour's direction, or zero where a reversal does no harm (entry, motion along the axis).
+    pub(super) along: Point,
+}
+
+/// An arc of the centre.
+#[derive(Clone, Debug)]
+pub(super) struct Bow {
+    /// End, centre.
+    pub(super) end: Pose,
+    /// Middle of the arc.
+    pub(super) centre: Point,
+    /// As in [`Canon::Arc`].
+    pub(super) turns: i32,
+    /// Sweep before corners are fitted, rad, within one turn; `None`: any is right (entry).
+    pub(super) sweep: Option<f64>,
+    /// The end cannot be moved: entry of a turning tool.
+    pub(super) fixed: bool,
+}
+
+/// What follows decides where the last move ends; until then it and the calls behind it are here.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Queue {
+    held: Vec<Held>,
+    /// Centre of the cutter after the last call that was told.
+    told: Point,
+    /// Middle and turns of the last move of the contour in the plane, if it was an arc.
+    last_arc: Option<(Point, i32)>,
+}
+
+impl Queue {
+    /// Whether calls must wait.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.held.is_empty()
+    }
+    /// Forgets everything: the program was refused or ends.
+    pub(crate) fn clear(&mut self) {
+        self.held.clear();
+    }
+    /// The centre stands here, nothing is held.
+    pub(super) fn start(&mut self, at: Point) {
+        self.held.clear();
+        self.told = at;
+        self.last_arc = None;
+    }
+    /// A call that is no motion waits in order.
+    pub(crate) fn hold(&mut self, call: Canon, at: At) {
+        self.held.push(Held::Call(call, at));
+    }
+    /// Other units: lengths are multiplied.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        self.told = plane::scaled(self.told, factor);
+        if let Some((centre, _)) = &mut self.last_arc {
+            *centre = plane::scaled(*centre, factor);
+        }
+        let scale_pose = |pose: &mut Pose| {
+            for axis in [0, 1, 2, 6, 7, 8] {
+                pose[axis] *= factor;
+            }
+        };
+        for held in &mut self.held {
+            match held {
+                Held::Call(..) => {}
+                Held::Line(line, _) => scale_pose(&mut line.end),
+                Held::Bow(bow, _) => {
+                    scale_pose(&mut bow.end);
+                    bow.centre = plane::scaled(bow.centre, factor);
+                }
+            }
+        }
+    }
+    /// Middle and turns of the last move of the contour in the plane, if it was an arc.
+    pub(super) fn last_arc(&self) -> Option<(Point, i32)> {
+        self.last_arc
+    }
+    /// What the last move of the contour in the plane is.
+    pub(super) fn moves(&mut self, arc: Option<(Point, i32)>) {
+        self.last_arc = arc;
+    }
+}
+
+/// Holds a straight motion.
+pub(super) fn line(engine: &mut Engine, line: Line, at: At) {
+    engine.queue.held.push(Held::Line(line, at));
+}
+
+/// Holds an arc.
+pub(super) fn bow(engine: &mut Engine, bow: Bow, at: At) {
+    engine.queue.held.push(Held::Bow(bow, at));
+}
+
+/// Tells everything that is held as it is.
+pub(super) fn release(engine: &mut Engine, sink: &mut dyn Sink) {
+    let mut held = std::mem::take(&mut engine.queue.held);
+    for one in held.drain(..) {
+        tell(engine, one, sink);
+    }
+    engine.queue.held = held;
+}
+
+/// The held motions end at `corner` instead; then everything is told.
+pub(super) fn settle(engine: &mut Engine, corner: Point, range: TextRange, sink: &mut dyn Sink) -> Result<(), Error> {
+    let plane = engine.state.plane;
+    let mut held = std::mem::take(&mut engine.queue.held);
+    for one in &held {
+        if let Held::Bow(bow, _) = one
+            && bow.fixed
+            && plane::point(plane, &bow.end) != corner
+        {
+            return Err(mismatch(bow, engine.queue.told, corner, range));
+        }
+    }
+    for mut one in held.drain(..) {
+        match &mut one {
+            Held::Call(..) => {}
+            Held::Line(line, _) => {
+                if plane::dot(line.along, plane::sub(corner, engine.queue.told)) < 0.0 {
+                    let problem = if line.rapid { &problems::GOUGE_RAPID } else { &problems::GOUGE_LINE };
+                    return Err(Error::new(problem, range));
+                }
+                line.end = plane::with_point(plane, line.end, corner);
+            }
+            Held::Bow(bow, _) => {
+                if bow.sweep.is_some_and(|sweep| overrun(engine.queue.told, bow, sweep, corner)) {
+                    return Err(Error::new(&problems::GOUGE_ARC, range));
+                }
+                bow.end = plane::with_point(plane, bow.end, corner);
+            }
+        }
+        tell(engine, one, sink);
+    }
+    engine.queue.held = held;
+    Ok(())
+}
+
+/// Whether the arc's new end lies before its start: it would then run almost a full turn further than the contour.
+fn overrun(start: Point, bow: &Bow, sweep: f64, corner: Point) -> bool {
+    sweep_of(start, bow.centre, corner, bow.turns) > sweep + PI
+}
+
+/// The control cannot cut the entry arc of a turning tool.
+fn mismatch(bow: &Bow, start: Point, corner: Point, range: TextRange) -> Error {
+    let radius = |at: Point| plane::length(plane::sub(at, bow.centre));
+    let text = problems::MISMATCH.message.replacen("{}", &format!("{:.6}", radius(start)), 1);
+    Error::with(
+        &problems::MISMATCH,
+        range,
+        text.replacen("{}", &format!("{:.6}", radius(corner)), 1),
+    )
+}
+
+/// Angle that an arc sweeps, rad, within one turn.
+pub(super) fn sweep_of(start: Point, centre: Point, end: Point, turns: i32) -> f64 {
+    let angle = plane::turn(plane::sub(start, centre), plane::sub(end, centre));
+    let swept = if turns > 0 { angle } else { TAU - angle };
+    // back at the start means a full turn
+    if swept <= 0.0 { TAU } else { swept }
+}
+
+/// Tells one call.
+fn tell(engine: &mut Engine, held: Held, sink: &mut dyn Sink) {
+    let plane = engine.state.plane;
+    let shift = plane::shift(&engine.state);
+    let (call, at) = match held {
+        Held::Call(call, at) => (call, at),
+        Held::Line(line, at) => {
+            let centre = plane::point(plane, &line.end);
+            engine.queue.told = centre;
+            let end = plane::with_point(plane, line.end, plane::add(centre, shift));
+            (if line.rapid { Canon::Traverse(end) } else { Canon::Feed(end) }, at)
+        }
+        Held::Bow(bow, at) => {
+            let end = plane::point(plane, &bow.end);
+            engine.queue.told = end;
+            let pose = &bow.end;
+            let arc = Canon::Arc {
+                end: plane::add(end, shift),
+                centre: plane::add(bow.centre, shift),
+                turns: bow.turns,
+                axis_end: pose[plane::places(plane)[2]],
+                others: [pose[3], pose[4], pose[5], pose[6], pose[7], pose[8]],
+            };
+            (arc, at)
+        }
+    };
+    engine.state.told.follow(&call);
+    sink.call(&call, at, &engine.state);
+}

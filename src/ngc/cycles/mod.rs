@@ -1,0 +1,66 @@
+//! Canned cycles (G73-G89), threads (G33, G33.1, G76), splines (G5-G5.3).
+//!
+//! Everything is told as the calls that `rs274` makes, in its order; the tests hold the programs they were compared with.
+mod drill;
+mod hole;
+mod problems;
+mod spline;
+mod thread;
+mod threading;
+
+use crate::{At, Block, Engine, Error, Sink};
+pub(crate) use spline::Spline;
+
+/// What a cycle needs at hand.
+pub(super) struct Work<'a> {
+    engine: &'a mut Engine,
+    block: &'a Block,
+    at: At,
+    sink: &'a mut dyn Sink,
+}
+
+impl Work<'_> {
+    /// Tells a call.
+    fn emit(&mut self, call: crate::Canon) {
+        self.engine.emit(call, self.at, self.sink);
+    }
+    /// Bytes of the motion code, or of the line where the code is modal.
+    fn code_range(&self) -> trunnion_syntax::TextRange {
+        if self.block.g[1] >= 0 { self.block.g_range[1] } else { self.block.range }
+    }
+    /// A refusal at the motion code.
+    fn refuse(&self, problem: &'static crate::Problem) -> Error {
+        Error::new(problem, self.code_range())
+    }
+    /// The spindle whose turning counts, and which way it turns: 0, 1, -1.
+    fn turning(&self) -> (i32, i8) {
+        let spindle = self.engine.state.active_spindle;
+        (spindle as i32, self.engine.state.turning[spindle])
+    }
+}
+
+/// Runs a block whose motion code is a cycle or a special motion. `code` is ten times its number.
+pub(crate) fn run(
+    engine: &mut Engine,
+    code: i16,
+    block: &Block,
+    at: At,
+    sink: &mut dyn Sink,
+) -> Result<(), Error> {
+    let mut work = Work {
+        engine,
+        block,
+        at,
+        sink,
+    };
+    match code {
+        330 => thread::synchronized(&mut work),
+        331 => thread::rigid(&mut work),
+        760 => threading::run(&mut work),
+        50 => spline::cubic(&mut work),
+        51 => spline::quadratic(&mut work),
+        52 => spline::point(&mut work),
+        53 => spline::finish(&mut work),
+        _ => drill::run(&mut work, code),
+    }
+}

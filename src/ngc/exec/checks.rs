@@ -1,0 +1,136 @@
+//! What must fit together in a block before anything of it is done.
+use super::{problems, unused};
+use crate::{Block, DistanceMode, Error, State};
+
+/// Finds out which motion applies to the block: the code given, or the one in force where axis words ask for it.
+pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Error> {
+    let polar = block.radius.is_some() || block.angle.is_some();
+    if polar && block.has(b'X') {
+        return Err(Error::new(&problems::POLAR_X, block.range_of(b'X')));
+    }
+    if polar && block.has(b'Y') {
+        return Err(Error::new(&problems::POLAR_Y, block.range_of(b'Y')));
+    }
+    let axes = block.has_axes();
+    let setting = matches!(block.g[0], 100 | 280 | 300 | 520 | 920) || matches!(block.g[8], 431 | 432);
+    let group_16 = false;
+    if polar && (setting || group_16) && block.g[0] != 520 {
+        return Err(Error::new(&problems::POLAR_NO_MOTION, block.range));
+    }
+    let axis_words = block.given & crate::block::AXES != 0;
+    if matches!(block.g[0], 520 | 920) && !axis_words {
+        return Err(Error::new(&problems::AXES_MISSING_G92, block.g_range[0]));
+    }
+    block.motion = block.g[1];
+    if block.g[1] >= 0 && block.g[1] != 800 {
+        if setting {
+            return Err(Error::new(&problems::TWO_AXIS_CODES, block.g_range[1]));
+        }
+        if !axes && matches!(block.g[1], 382..=385) {
+            return Err(Error::new(&problems::ALL_AXES_MISSING, block.g_range[1]));
+        }
+    } else if block.g[1] == 800 {
+        if axes && !setting {
+            return Err(Error::new(&problems::AXES_WITH_G80, block.range));
+        }
+    } else if axes && !setting {
+        if state.motion == 800 {
+            return Err(Error::new(&problems::AXES_WITHOUT_CODE, first_axis(block)));
+        }
+        block.motion = state.motion;
+    }
+    Ok(())
+}
+
+/// Bytes of the first axis word of the line.
+fn first_axis(block: &Block) -> trunnion_syntax::TextRange {
+    super::ends::AXES
+        .into_iter()
+        .filter(|&letter| block.has(letter))
+        .map(|letter| block.range_of(letter))
+        .min_by_key(|range| range.start)
+        .unwrap_or(block.range)
+}
+
+/// Combinations of G codes, M codes and words.
+pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
+    match block.g[0] {
+        40 if !block.word(b'P').is_some_and(|p| p >= 0.0 || p.is_nan()) => {
+            return Err(Error::new(&problems::G4_NO_P, block.g_range[0]));
+        }
+        100 => check_g10(block)?,
+        530 => {
+            if !matches!(block.motion, 0 | 10) && !(block.motion == -1 && !block.has_axes()) {
+                return Err(Error::new(&problems::G53_MOTION, block.g_range[0]));
+            }
+            let incremental = match block.g[3] {
+                900 => false,
+                910 => true,
+                _ => state.distance == DistanceMode::Incremental,
+            };
+            if incremental {
+                return Err(Error::new(&problems::G53_INCREMENTAL, block.g_range[0]));
+            }
+        }
+        _ => {}
+    }
+    check_m(block)?;
+    if block.g[14] == 960 && !block.has(b'S') {
+        return Err(Error::new(&problems::G96_NO_S, block.g_range[14]));
+    }
+    unused::check(block)?;
+    check_p(block)
+}
+
+/// P of arcs and of M19 counts.
+fn check_p(block: &Block) -> Result<(), Error> {
+    let Some(p) = block.word(b'P') else { return Ok(()) };
+    let arc = matches!(block.motion, 20 | 30);
+    if (arc || block.m[7] == 19) && (p - p.round()).abs() > 0.001 {
+        return Err(Error::new(&problems::P_NOT_INTEGER, block.range_of(b'P')));
+    }
+    if arc && p.round() < 1.0 {
+        return Err(Error::new(&problems::P_TURNS, block.range_of(b'P')));
+    }
+    Ok(())
+}
+
+fn check_g10(block: &Block) -> Result<(), Error> {
+    let p = block.word(b'P').map(f64::trunc);
+    let p_range = if block.has(b'P') { block.range_of(b'P') } else { block.g_range[0] };
+    let at_least = |least: f64| p.is_some_and(|p| p.is_nan() || p >= least);
+    match block.word(b'L').map_or(-1, |l| l as i32) {
+        0 => {}
+        2 if !at_least(0.0) || p.is_some_and(|p| p > 9.0) => return Err(Error::new(&problems::G10_L2_P, p_range)),
+        20 if !at_least(0.0) || p.is_some_and(|p| p > 9.0) => return Err(Error::new(&problems::G10_L20_P, p_range)),
+        2 => {}
+        20 if block.has(b'R') => return Err(Error::new(&problems::G10_L20_R, block.range_of(b'R'))),
+        20 => {}
+        1 if !at_least(1.0) => return Err(Error::new(&problems::G10_L1_P, p_range)),
+        10 if !at_least(1.0) => return Err(Error::new(&problems::G10_L10_P, p_range)),
+        11 if !at_least(1.0) => return Err(Error::new(&problems::G10_L11_P, p_range)),
+        1 | 10 | 11 => {}
+        _ => return Err(Error::new(&problems::G10_NO_L, block.g_range[0])),
+    }
+    Ok(())
+}
+
+fn check_m(block: &Block) -> Result<(), Error> {
+    let range = block.m_range[5];
+    let missing = match block.m[5] {
+        62 => Some((b'P', &problems::M62_P)),
+        63 => Some((b'P', &problems::M63_P)),
+        64 => Some((b'P', &problems::M64_P)),
+        65 => Some((b'P', &problems::M65_P)),
+        _ => None,
+    };
+    if let Some((letter, problem)) = missing
+        && !block.has(letter)
+    {
+        return Err(Error::new(problem, range));
+    }
+    if block.m[6] == 61 && !block.word(b'Q').is_some_and(|q| q >= 0.0 || q.is_nan()) {
+        return Err(Error::new(&problems::M61_Q, block.m_range[6]));
+    }
+    Ok(())
+}

@@ -1,0 +1,139 @@
+//! Runs one evaluated block: what must fit together, modal changes, motion, stop, in the order in which the control does them.
+mod access;
+mod arcs;
+mod checks;
+mod compensation;
+mod end;
+mod ends;
+pub(crate) mod frame;
+mod home;
+mod modal;
+mod motion;
+mod offsets;
+mod outputs;
+mod probe;
+mod problems;
+mod spindle;
+#[cfg(test)]
+mod tmp_reader;
+mod tools;
+mod unused;
+
+use crate::{At, Block, Canon, Engine, Error, Side, Sink, comp, cycles, flow};
+pub(crate) use arcs::sweep;
+pub(crate) use end::{finish, start};
+pub(crate) use ends::{end as end_of, word as axis_word};
+pub(crate) use frame::to_machine;
+pub(crate) use motion::{check_feed, feed, inverse_time, length, traverse};
+
+/// How a block ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum After {
+    /// The program goes on.
+    Go,
+    /// M2, M30.
+    Ended,
+}
+
+/// What must fit together before anything of a block is done; `block.motion` is filled in. The line's comment comes between this and
+/// [`execute`].
+pub(crate) fn check(engine: &Engine, block: &mut Block) -> Result<(), Error> {
+    checks::choose_motion(block, &engine.state)?;
+    checks::check(block, &engine.state)
+}
+
+/// Runs one block that was checked. What was done before a refusal stays done, as on the control.
+pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut dyn Sink) -> Result<After, Error> {
+    modes(engine, block, at, sink)?;
+    switches(engine, block, at, sink)?;
+    if flow::context::run(engine, block, at, sink)? {
+        // the rest of the block is gone
+        engine.refresh_parameters();
+        return Ok(After::Go);
+    }
+    geometry(engine, block, at, sink)?;
+    setting(engine, block, at, sink)?;
+    move_tool(engine, block, at, sink)?;
+    // after a change of the tool the control asks where the machine is; in a check nobody can answer otherwise
+    if matches!(block.m[6], 6 | 61) && engine.setup.start == crate::Start::Zero {
+        engine.state.current = engine.state.told.position;
+    }
+    let after = end::stop(engine, block, at, sink)?;
+    engine.refresh_parameters();
+    Ok(after)
+}
+
+/// Feed mode, F, S, T.
+fn modes(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    modal::feed_mode(engine, block, at, sink);
+    modal::feed_rate(engine, block, at, sink);
+    modal::spindle_mode(engine, block, at, sink);
+    spindle::speed(engine, block, at, sink)?;
+    tools::select(engine, block, at, sink)
+}
+
+/// M codes but the stops, and the dwell.
+fn switches(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    if block.m_count > 0 {
+        outputs::signals(engine, block, at, sink)?;
+        tools::change(engine, block, at, sink)?;
+        spindle::turn(engine, block, at, sink)?;
+        outputs::coolant(engine, block, at, sink);
+        outputs::overrides(engine, block, at, sink)?;
+        outputs::user(engine, block, at, sink);
+    }
+    if block.g[0] == 40 {
+        engine.emit(Canon::Dwell(block.word(b'P').unwrap_or(0.0)), at, sink);
+    }
+    Ok(())
+}
+
+/// Plane, units, compensation, offsets, path control, distance and retract modes.
+fn geometry(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    modal::plane(engine, block, at, sink)?;
+    modal::units(engine, block, at, sink);
+    modal::diameters(engine, block, at, sink);
+    compensation::run(engine, block, at, sink)?;
+    tools::length(engine, block, at, sink)?;
+    modal::coordinate_system(engine, block, at, sink)?;
+    modal::control_mode(engine, block, at, sink)?;
+    modal::distance(engine, block, at, sink);
+    modal::arc_distance(engine, block, at, sink);
+    modal::retract(engine, block, at, sink);
+    Ok(())
+}
+
+/// G10, G28, G30, G52, G92.
+fn setting(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    match block.g[0] {
+        100 if matches!(block.word(b'L'), Some(2.0 | 20.0)) => offsets::coordinate_system(engine, block, at, sink),
+        100 => tools::table(engine, block, at, sink),
+        280 | 281 | 300 | 301 => home::run(engine, block, at, sink),
+        _ => offsets::axis_offsets(engine, block, at, sink),
+    }
+}
+
+/// The motion of the block.
+fn move_tool(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    if block.g[0] == 530 && block.motion >= 0 && engine.state.side != Side::Off {
+        return Err(Error::new(&problems::G53_COMPENSATION, block.g_range[0]));
+    }
+    engine.state.last_motion = engine.state.motion;
+    match block.motion {
+        -1 => Ok(()),
+        0 | 10 => motion::straight(engine, block, at, sink),
+        20 | 30 => arcs::run(engine, block, at, sink),
+        382..=385 => probe::run(engine, block, at, sink),
+        800 => {
+            modal::remark(engine, "interpreter: motion mode set to none", at, sink);
+            engine.state.motion = 800;
+            Ok(())
+        }
+        code => cycles::run(engine, code, block, at, sink),
+    }
+}
+
+/// Tells what compensation holds back.
+fn flush(engine: &mut Engine, block: &Block, sink: &mut dyn Sink) -> Result<(), Error> {
+    comp::flush(engine, block, sink)
+}

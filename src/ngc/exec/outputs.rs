@@ -1,0 +1,138 @@
+//! Outputs and inputs (M62-M68), override switches (M48-M53), coolant, user M codes.
+use super::problems;
+use crate::{At, Block, Canon, Coolant, Engine, Error, Side, Sink, Switch};
+
+/// M62-M68.
+pub(crate) fn signals(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let code = block.m[5];
+    match code {
+        62..=65 => {
+            let index = block.word(b'P').unwrap_or(0.0).round() as i32;
+            let call = Canon::DigitalOutput {
+                index,
+                on: code == 62 || code == 64,
+                with_motion: code <= 63,
+            };
+            engine.emit(call, at, sink);
+        }
+        66 => wait(engine, block, at, sink)?,
+        67 | 68 => {
+            let problem = if code == 67 { &problems::M67_E } else { &problems::M68_E };
+            let index = block.word(b'E').map_or(-1, |e| e.round() as i32);
+            if index < 0 {
+                return Err(Error::new(problem, block.m_range[5]));
+            }
+            let call = Canon::AnalogOutput {
+                index,
+                value: block.word(b'Q').unwrap_or(-1.0),
+                with_motion: code == 67,
+            };
+            engine.emit(call, at, sink);
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// M66: what is read is put into parameter 5399; it is known to the machine only.
+fn wait(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let range = block.m_range[5];
+    if engine.state.side != Side::Off {
+        return Err(Error::new(&problems::M66_COMPENSATION, range));
+    }
+    let digital = block.word(b'P').map(f64::round);
+    let analog = block.word(b'E').map(f64::round);
+    if digital.is_some() && analog.is_some() {
+        return Err(Error::new(&problems::M66_BOTH, range));
+    }
+    let until = block.word(b'L').map_or(0, |l| l as i32);
+    let timeout = block.word(b'Q').unwrap_or(-1.0);
+    if analog.is_some() && until != 0 {
+        return Err(Error::new(&problems::M66_ANALOG, range));
+    }
+    if until > 0 && timeout <= 0.0 {
+        return Err(Error::new(&problems::M66_TIMEOUT, range));
+    }
+    let (Some(index), analog) = (digital.or(analog).filter(|&index| !(index < 0.0)), analog.is_some()) else {
+        return Err(Error::new(&problems::M66_NONE, range));
+    };
+    let call = Canon::WaitInput {
+        index: index as i32,
+        analog,
+        until,
+        timeout,
+    };
+    engine.emit(call, at, sink);
+    let read = engine.unknown(0.0);
+    engine.set_parameter(5399, read);
+    Ok(())
+}
+
+/// M7, M8, M9.
+pub(crate) fn coolant(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
+    match block.m[8] {
+        7 => {
+            engine.state.mist = true;
+            engine.emit(Canon::Coolant(Coolant::MistOn), at, sink);
+        }
+        8 => {
+            engine.state.flood = true;
+            engine.emit(Canon::Coolant(Coolant::FloodOn), at, sink);
+        }
+        9 => {
+            engine.state.mist = false;
+            engine.state.flood = false;
+            engine.emit(Canon::Coolant(Coolant::MistOff), at, sink);
+            engine.emit(Canon::Coolant(Coolant::FloodOff), at, sink);
+        }
+        _ => {}
+    }
+}
+
+/// M48-M53.
+pub(crate) fn overrides(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    // without P, or with any P but 0, the switch is on
+    let on = block.word(b'P').is_none_or(|p| p != 0.0);
+    // M51 takes $, says its message, and refuses every value of it
+    if block.m[9] == 51 && block.spindle.is_some() {
+        return Err(Error::new(&problems::SPINDLE_RANGE_M51, block.range));
+    }
+    let spindle = engine.state.active_spindle as i32;
+    match block.m[9] {
+        code @ (48 | 49) => {
+            let on = code == 48;
+            engine.state.feed_override = on;
+            engine.state.speed_override = on;
+            engine.emit(Canon::Switch(Switch::FeedOverride, on), at, sink);
+            for spindle in 0..engine.setup.spindles() as i32 {
+                engine.emit(Canon::Switch(Switch::SpeedOverride(spindle), on), at, sink);
+            }
+        }
+        50 => {
+            engine.state.feed_override = on;
+            engine.emit(Canon::Switch(Switch::FeedOverride, on), at, sink);
+        }
+        51 => {
+            engine.state.speed_override = on;
+            engine.emit(Canon::Switch(Switch::SpeedOverride(spindle), on), at, sink);
+        }
+        52 => {
+            engine.state.adaptive_feed = on;
+            engine.emit(Canon::Switch(Switch::AdaptiveFeed, on), at, sink);
+        }
+        53 => {
+            engine.state.feed_hold = on;
+            engine.emit(Canon::Switch(Switch::FeedHold, on), at, sink);
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// M100-M199.
+pub(crate) fn user(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
+    if let Some(code) = block.m_code(10) {
+        let word = |letter| block.word(letter).unwrap_or(-1.0);
+        engine.emit(Canon::UserCode(i32::from(code), word(b'P'), word(b'Q')), at, sink);
+    }
+}

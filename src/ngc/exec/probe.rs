@@ -1,0 +1,51 @@
+//! G38.2-G38.5: straight probing.
+use super::{ends, motion, problems};
+use crate::{At, Block, Canon, Engine, Error, FeedMode, Pose, Side, Sink};
+
+/// How far short of the programmed end the listing of `rs274` leaves the tool, mm: it has no machine that could touch something.
+const SHORT_MM: f64 = 0.254;
+
+/// G38.2-G38.5.
+pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let state = &engine.state;
+    if state.side != Side::Off {
+        return Err(Error::new(&problems::PROBE_COMPENSATION, block.g_range[1]));
+    }
+    if state.feed_rate == 0.0 || state.feed_mode == FeedMode::InverseTime {
+        return Err(Error::new(&problems::ZERO_FEED_PROBE, motion::code_range(block)));
+    }
+    if state.feed_mode == FeedMode::PerRevolution && state.speed[state.active_spindle] == 0.0 {
+        return Err(Error::new(&problems::ZERO_SPEED_PER_REV, motion::code_range(block)));
+    }
+    let end = ends::end(state, block)?;
+    if end == state.current {
+        return Err(Error::new(&problems::PROBE_TOO_CLOSE, motion::code_range(block)));
+    }
+    engine.state.motion = block.motion;
+    engine.emit(Canon::Probe((block.motion - 380) as u8, end), at, sink);
+    engine.state.probed = true;
+    let touched = if engine.setup.start == crate::Start::Unknown {
+        unknown_along(&engine.state.current, &end)
+    } else {
+        short_of(&engine.state.told.position, &end, SHORT_MM / engine.state.units.mm())
+    };
+    for axis in 0..9 {
+        engine.set_parameter(5061 + axis, end[axis]);
+    }
+    engine.state.current = touched;
+    engine.state.told.reach(&touched);
+    engine.emit(Canon::ProbeResult, at, sink);
+    Ok(())
+}
+
+/// Axes that move end anywhere.
+fn unknown_along(from: &Pose, to: &Pose) -> Pose {
+    std::array::from_fn(|axis| if from[axis] == to[axis] { to[axis] } else { f64::NAN })
+}
+
+/// The end, drawn back along X Y Z.
+fn short_of(from: &Pose, to: &Pose, by: f64) -> Pose {
+    let length = (0..3).map(|axis| (to[axis] - from[axis]).powi(2)).sum::<f64>().sqrt();
+    let back = if length > 0.0 { by / length } else { 0.0 };
+    std::array::from_fn(|axis| if axis < 3 { to[axis] - (to[axis] - from[axis]) * back } else { to[axis] })
+}

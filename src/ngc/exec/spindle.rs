@@ -1,0 +1,80 @@
+//! S, M3-M5, M19: per spindle of `$`.
+use super::problems;
+use crate::{At, Block, Canon, Engine, Error, Problem, Sink, SpindleTurn};
+use std::ops::Range;
+
+/// The spindles of a block's `$`: all of them for -1, the first where there is none.
+fn chosen(engine: &Engine, block: &Block, problem: &'static Problem) -> Result<Range<usize>, Error> {
+    let count = engine.setup.spindles();
+    match block.spindle {
+        None => Ok(0..1),
+        Some(-1) => Ok(0..count),
+        Some(number) if (0..count as i32).contains(&number) => Ok(number as usize..number as usize + 1),
+        Some(_) => Err(Error::new(problem, block.range)),
+    }
+}
+
+/// S.
+pub(crate) fn speed(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let Some(speed) = block.word(b'S') else { return Ok(()) };
+    for spindle in chosen(engine, block, &problems::SPINDLE_RANGE)? {
+        engine.state.speed[spindle] = speed;
+        engine.emit(Canon::SpindleSpeed(spindle as i32, speed), at, sink);
+    }
+    Ok(())
+}
+
+/// M3, M4, M5, M19.
+pub(crate) fn turn(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    match block.m[7] {
+        3 => turn_to(engine, block, SpindleTurn::Clockwise, &problems::SPINDLE_RANGE_M3, at, sink),
+        4 => turn_to(engine, block, SpindleTurn::CounterClockwise, &problems::SPINDLE_RANGE_M4, at, sink),
+        5 => turn_to(engine, block, SpindleTurn::Stop, &problems::SPINDLE_RANGE_M5, at, sink),
+        19 => orient(engine, block, at, sink),
+        _ => Ok(()),
+    }
+}
+
+fn turn_to(
+    engine: &mut Engine,
+    block: &Block,
+    turn: SpindleTurn,
+    problem: &'static Problem,
+    at: At,
+    sink: &mut dyn Sink,
+) -> Result<(), Error> {
+    for spindle in chosen(engine, block, problem)? {
+        engine.state.turning[spindle] = match turn {
+            SpindleTurn::Clockwise => 1,
+            SpindleTurn::CounterClockwise => -1,
+            SpindleTurn::Stop => 0,
+        };
+        engine.emit(Canon::Spindle(spindle as i32, turn), at, sink);
+    }
+    Ok(())
+}
+
+fn orient(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let spindles = chosen(engine, block, &problems::SPINDLE_RANGE_M19)?;
+    let angle = block.word(b'R').unwrap_or(0.0);
+    if !(0.0..=360.0).contains(&angle) && !angle.is_nan() {
+        return Err(Error::new(&problems::M19_R, block.range_of(b'R')));
+    }
+    let mode = block.word(b'P').unwrap_or(0.0).round();
+    if !(0.0..=2.0).contains(&mode) && !mode.is_nan() {
+        return Err(Error::new(&problems::M19_P, block.range_of(b'P')));
+    }
+    for spindle in spindles {
+        if block.has(b'R') || block.has(b'P') {
+            engine.state.turning[spindle] = 0;
+            engine.emit(Canon::OrientSpindle(spindle as i32, angle, mode as i32), at, sink);
+        }
+        if let Some(timeout) = block.word(b'Q') {
+            if timeout <= 0.0 {
+                return Err(Error::new(&problems::M19_Q, block.range_of(b'Q')));
+            }
+            engine.emit(Canon::WaitOrient(spindle as i32, timeout), at, sink);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,227 @@
+//! T, M6, M61, tool offsets (G43, G43.1, G43.2, G49) and the tool table (G10 L0, L1, L10, L11).
+use super::{access, frame, problems};
+use crate::{At, Block, Canon, Engine, Error, Pose, Side, Sink, SpindleTurn, ToolEntry};
+use std::sync::Arc;
+use trunnion_syntax::TextRange;
+
+/// Coordinate system 9 (G59.3), which G10 L11 measures in.
+const FIXTURE_SYSTEM: i32 = 9;
+
+impl Engine {
+    /// The row of a tool in the table; row 0 is the spindle.
+    pub(crate) fn tool_row(&self, number: i32, range: TextRange) -> Result<usize, Error> {
+        if self.state.tools.first().is_some_and(|row| self.setup.random_tool_changer() && row.number == number) {
+            return Ok(0);
+        }
+        let rows = self.state.tools.iter().skip(1);
+        match rows.enumerate().find(|(_, row)| row.number == number) {
+            Some((place, _)) => Ok(place + 1),
+            None => {
+                let text = problems::TOOL_MISSING.message.replace("{}", &number.to_string());
+                Err(Error::with(&problems::TOOL_MISSING, range, text))
+            }
+        }
+    }
+    /// A row's offset in program units.
+    fn tool_row_offset(&self, row: usize) -> Pose {
+        let unit = self.stored_unit();
+        let offset = self.state.tools.get(row).map_or([0.0; 9], |entry| entry.offset);
+        std::array::from_fn(|axis| offset[axis] * access::scale(axis, unit))
+    }
+    fn write_tool_row(&mut self, row: usize, entry: ToolEntry) {
+        if let Some(place) = Arc::make_mut(&mut self.state.tools).get_mut(row) {
+            *place = entry;
+        }
+    }
+    /// The tool of row 0 is what is in the spindle: its parameters follow (5400-5413, units of the table).
+    fn spindle_tool_changed(&mut self) {
+        let Some(tool) = self.state.tools.first().copied() else { return };
+        self.state.tool = tool.number;
+        self.set_parameter(5400, f64::from(tool.number));
+        for (axis, value) in tool.offset.into_iter().enumerate() {
+            self.set_parameter(5401 + axis, value);
+        }
+        self.set_parameter(5410, tool.diameter);
+        self.set_parameter(5411, tool.front_angle);
+        self.set_parameter(5412, tool.back_angle);
+        self.set_parameter(5413, f64::from(tool.orientation));
+    }
+}
+
+/// At the start of a program.
+pub(crate) fn start(engine: &mut Engine) {
+    engine.spindle_tool_changed();
+}
+
+/// T.
+pub(crate) fn select(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let Some(number) = block.word(b'T') else { return Ok(()) };
+    let number = number.round() as i32;
+    let range = block.range_of(b'T');
+    if number < 0 {
+        return Err(Error::new(&problems::TOOL_NEGATIVE, range));
+    }
+    let row = if number == 0 { 0 } else { engine.tool_row(number, range)? };
+    engine.state.selected_tool = number;
+    engine.state.selected_pocket = row as i32;
+    engine.emit(Canon::SelectTool(number), at, sink);
+    Ok(())
+}
+
+/// M6, M61.
+pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let range = block.m_range[6];
+    match block.m[6] {
+        6 => {
+            if engine.state.side != Side::Off {
+                return Err(Error::new(&problems::TOOL_COMPENSATION, range));
+            }
+            engine.emit(Canon::StartChange, at, sink);
+            for spindle in 0..engine.setup.spindles() {
+                engine.state.turning[spindle] = 0;
+                engine.emit(Canon::Spindle(spindle as i32, SpindleTurn::Stop), at, sink);
+            }
+            put_in_spindle(engine, engine.state.selected_pocket);
+            let tool = engine.state.selected_tool.max(0);
+            engine.emit(Canon::ChangeTool(tool), at, sink);
+        }
+        61 => {
+            let number = block.word(b'Q').unwrap_or(0.0).round() as i32;
+            if engine.state.side != Side::Off {
+                return Err(Error::new(&problems::TOOL_COMPENSATION, range));
+            }
+            if number != 0 {
+                engine.tool_row(number, block.range_of(b'Q'))?;
+            }
+            engine.emit(Canon::ChangeToolNumber(number), at, sink);
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// Without random tool changer a row is copied to the spindle's row; with it the two change places.
+fn put_in_spindle(engine: &mut Engine, row: i32) {
+    engine.state.current_row = row;
+    let Some(row) = usize::try_from(row).ok().filter(|&row| row > 0) else { return };
+    let Some(entry) = engine.state.tools.get(row).copied() else { return };
+    if engine.setup.random_tool_changer() {
+        let old = engine.state.tools[0];
+        engine.write_tool_row(row, old);
+        engine.state.current_row = 0;
+    }
+    engine.write_tool_row(0, entry);
+    engine.spindle_tool_changed();
+}
+
+/// G43, G43.1, G43.2, G49.
+pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let Some(code) = block.g_code(8) else { return Ok(()) };
+    let range = block.g_range[8];
+    if engine.state.side != Side::Off {
+        return Err(Error::new(&problems::LENGTH_COMPENSATION, range));
+    }
+    let h = block.word(b'H').map(|h| h.round() as i32);
+    let given = block.given & crate::block::AXES != 0;
+    let offset = match code {
+        490 => [0.0; 9],
+        430 => {
+            let row = match h {
+                None | Some(0) => 0,
+                Some(number) => engine.tool_row(number, block.range_of(b'H'))?,
+            };
+            engine.tool_row_offset(row)
+        }
+        431 => engine.over(block, engine.state.tool_offset),
+        _ => {
+            if h.is_none() && !given {
+                return Err(Error::new(&problems::H_OR_AXES, range));
+            }
+            if h.is_some() && given {
+                return Err(Error::new(&problems::H_AND_AXES, range));
+            }
+            // with axis words the control looks for a tool of its own number for "no H", and never finds it
+            let row = engine.tool_row(h.unwrap_or(-1), if h.is_some() { block.range_of(b'H') } else { range })?;
+            frame::sum(&engine.state.tool_offset, &engine.tool_row_offset(row))
+        }
+    };
+    frame::change_tool_offset(&mut engine.state, offset);
+    engine.emit(Canon::ToolOffset(offset), at, sink);
+    Ok(())
+}
+
+/// G10 L0, L1, L10, L11.
+pub(crate) fn table(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let l = block.word(b'L').unwrap_or(0.0) as i32;
+    if l == 0 {
+        return reload(engine, block, at, sink);
+    }
+    let number = block.word(b'P').unwrap_or(0.0).round() as i32;
+    let row = engine.tool_row(number, block.range_of(b'P'))?;
+    let unit = engine.stored_unit();
+    let stored = engine.tool_row_offset(row);
+    let offset = match l {
+        1 => engine.over(block, stored),
+        _ => offset_of_position(engine, block, &stored, l == 11),
+    };
+    let mut entry = engine.state.tools[row];
+    entry.offset = std::array::from_fn(|axis| {
+        // untouched values stay as they were written in the table
+        if offset[axis] == stored[axis] { entry.offset[axis] } else { offset[axis] / access::scale(axis, unit) }
+    });
+    if let Some(radius) = block.word(b'R') {
+        entry.diameter = 2.0 * radius / unit;
+    }
+    entry.front_angle = block.word(b'I').unwrap_or(entry.front_angle);
+    entry.back_angle = block.word(b'J').unwrap_or(entry.back_angle);
+    if let Some(orientation) = block.word(b'Q') {
+        let whole = orientation.round();
+        if !(0.0..=9.0).contains(&whole) {
+            return Err(Error::new(&problems::G10_ORIENTATION, block.range_of(b'Q')));
+        }
+        entry.orientation = whole as i32;
+    }
+    engine.write_tool_row(row, entry);
+    engine.emit(Canon::SetToolEntry(row as i32, entry), at, sink);
+    if !engine.setup.random_tool_changer() && row as i32 == engine.state.current_row {
+        engine.write_tool_row(0, entry);
+        engine.emit(Canon::SetToolEntry(0, entry), at, sink);
+    }
+    if row == 0 || row as i32 == engine.state.current_row {
+        engine.spindle_tool_changed();
+    }
+    Ok(())
+}
+
+/// The offset with which the tool stands at the programmed coordinates (L10), or at those of G59.3 without G92 (L11).
+fn offset_of_position(engine: &Engine, block: &Block, stored: &Pose, fixture: bool) -> Pose {
+    let state = &engine.state;
+    let machine = frame::to_machine(state, &state.current);
+    let mut with = state.clone();
+    if fixture {
+        (with.origin_offset, with.rotation_xy) = engine.stored_origin(FIXTURE_SYSTEM);
+        with.axis_offset = [0.0; 9];
+    }
+    with.tool_offset = *stored;
+    let here = frame::to_program(&with, &machine);
+    let wanted = engine.over(block, here);
+    with.tool_offset = [0.0; 9];
+    let offset = frame::difference(&machine, &frame::to_machine(&with, &wanted));
+    let turned = with.rotation_xy != 0.0 && (block.has(b'X') || block.has(b'Y'));
+    std::array::from_fn(|axis| {
+        let changes = block.has(super::ends::AXES[axis]) || (turned && axis < 2);
+        if changes { offset[axis] } else { stored[axis] }
+    })
+}
+
+/// G10 L0: the table is read again; refused while a tool is in the spindle.
+fn reload(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let tool = engine.state.tools.first().map_or(0, |row| row.number);
+    if tool > 0 {
+        let text = problems::G10_LOADED.message.replace("{}", &tool.to_string());
+        return Err(Error::with(&problems::G10_LOADED, block.g_range[0], text));
+    }
+    engine.state.tools = engine.setup.tool_rows();
+    engine.emit(Canon::ReloadTools, at, sink);
+    Ok(())
+}

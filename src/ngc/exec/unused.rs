@@ -1,0 +1,129 @@
+//! Words that nothing in the block uses.
+use crate::{Block, Class, Error, Problem};
+
+macro_rules! unused {
+    ($($name:ident $message:literal)*) => {
+        $(const $name: Problem = Problem {
+            class: Class::UnusedWord,
+            message: $message,
+            help: "Take the word out, or add the code it belongs to.",
+        };)*
+    };
+}
+
+unused! {
+    D "D word with no G41, G41.1, G42, G42.1, G71, G71.1, G71.2 or G96 to use it"
+    E "E word with no G70, G76, M66, M67 or M68 to use it"
+    H "H word with no G43 or G76 to use it"
+    I "I word with no G2, G3, G5, G5.1, G10, G33.1, G76, or G87 to use it"
+    J "J word with no G2, G3, G5, G5.1, G10, G76 or G87 to use it"
+    K "K word with no G2, G3, G33, G33.1, G76, or G87 to use it"
+    L "L word with no G10, cutter compensation, canned cycle, digital/analog input, M98 or NURBS code"
+    P "P word with no G2 G3 G4 G10 G64 G5 G5.2 G76 G82 G86 G88 G89 or M50 M51 M52 M53 M62 M63 M64 M65 M66 M98 or user M code to use it"
+    Q "Q word with no G5, G10, G64, G73, G76, G83, M19, M66, M67, M68 or user M code that uses it"
+    R "R word with no g code that uses it"
+    DOLLAR "$ (spindle selection) word with no M3, M4, M5, M19, M51, G33, G33.1, G76, G95, G96 or G97 to use it"
+}
+
+/// Which codes a block has, for the question who uses its words.
+struct Codes<'b>(&'b Block);
+
+impl Codes<'_> {
+    fn motion(&self, codes: &[i16]) -> bool {
+        codes.contains(&self.0.motion)
+    }
+    fn g(&self, group: usize, codes: &[i16]) -> bool {
+        codes.contains(&self.0.g[group])
+    }
+    fn m(&self, group: usize, codes: &[i16]) -> bool {
+        codes.contains(&self.0.m[group])
+    }
+    fn arc(&self) -> bool {
+        self.motion(&[20, 30])
+    }
+    fn cycle(&self) -> bool {
+        self.motion(&[730, 740]) || (810..=890).contains(&self.0.motion)
+    }
+    fn turning(&self) -> bool {
+        (700..=722).contains(&self.0.motion)
+    }
+    fn g10(&self) -> bool {
+        self.g(0, &[100])
+    }
+    fn user(&self) -> bool {
+        self.0.m[10] >= 0
+    }
+}
+
+/// The first word that nothing in the block uses, in the order in which the control looks.
+pub(crate) fn check(block: &Block) -> Result<(), Error> {
+    let codes = Codes(block);
+    let used = |letter: u8| match letter {
+        b'D' => codes.g(7, &[410, 411, 420, 421]) || codes.g(14, &[960]) || codes.turning(),
+        b'E' => codes.motion(&[760]) || codes.turning() || codes.m(5, &[66, 67, 68]),
+        b'H' => codes.g(8, &[430, 432]) || codes.motion(&[760]),
+        b'I' => {
+            codes.arc() || codes.motion(&[50, 51, 331, 760, 870]) || codes.turning() || codes.g10()
+        }
+        b'J' => codes.arc() || codes.motion(&[50, 51, 760, 870]) || codes.g10(),
+        b'K' => codes.arc() || codes.motion(&[330, 331, 760, 870, 61, 62]),
+        b'L' => {
+            codes.cycle()
+                || codes.g10()
+                || codes.g(7, &[410, 411, 420, 421])
+                || codes.motion(&[52, 53, 62, 63, 760])
+                || codes.m(5, &[66])
+                || block.m.contains(&98)
+        }
+        b'P' => {
+            codes.arc()
+                || codes.g10()
+                || codes.g(0, &[40])
+                || codes.g(13, &[640])
+                || codes.motion(&[50, 52, 61, 62, 740, 760, 820, 840, 860, 880, 890])
+                || codes.turning()
+                || codes.m(9, &[50, 51, 52, 53])
+                || codes.m(5, &[62, 63, 64, 65, 66])
+                || codes.m(7, &[19])
+                || block.m.contains(&98)
+                || codes.user()
+        }
+        b'Q' => {
+            codes.g10()
+                || codes.g(13, &[640])
+                || codes.motion(&[50, 730, 760, 830, 61, 62])
+                || codes.turning()
+                || codes.m(5, &[66, 67, 68])
+                || codes.m(6, &[61])
+                || codes.m(7, &[19])
+                || codes.user()
+        }
+        b'R' => codes.arc() || codes.cycle() || codes.motion(&[760]) || codes.turning() || codes.g10() || codes.m(7, &[19]),
+        _ => true,
+    };
+    for (letter, problem) in [
+        (b'D', &D),
+        (b'E', &E),
+        (b'H', &H),
+        (b'I', &I),
+        (b'J', &J),
+        (b'K', &K),
+        (b'L', &L),
+        (b'P', &P),
+        (b'Q', &Q),
+        (b'R', &R),
+    ] {
+        if block.has(letter) && !used(letter) {
+            return Err(Error::new(problem, block.range_of(letter)));
+        }
+    }
+    let spindle_used = codes.m(7, &[3, 4, 5, 19])
+        || codes.m(9, &[51])
+        || codes.motion(&[330, 331, 760])
+        || codes.g(5, &[950])
+        || codes.g(14, &[960, 970]);
+    if block.spindle.is_some() && !spindle_used {
+        return Err(Error::new(&DOLLAR, block.range));
+    }
+    Ok(())
+}

@@ -1,0 +1,269 @@
+//! Calls and returns: `o... call`, `sub`, `endsub`, `return`; subprograms in files of their own.
+use super::labels::{NameId, Place, Style, Subprogram};
+use super::oline::{Keyword, OLine};
+use super::{Call, Compiled, Goal, Halt, Seeking, context, problems};
+use crate::{Engine, Error, FileId, Sink, Source};
+use std::sync::Arc;
+
+/// Most arguments of a call.
+const ARGUMENTS: usize = 30;
+
+impl Engine {
+    /// `o... call [..] ..`
+    pub(super) fn call(
+        &mut self,
+        compiled: &mut Compiled,
+        line: &OLine,
+        name: NameId,
+        sought: Option<Seeking>,
+    ) -> Result<(), Halt> {
+        let mut arguments = [0.0; ARGUMENTS];
+        for (place, formula) in arguments.iter_mut().zip(&line.values) {
+            *place = self.value(formula)?;
+        }
+        if sought.is_some() {
+            self.flow.seeking = sought;
+            return Ok(());
+        }
+        if let Some(flaw) = line.tail {
+            return Err(Error::new(flaw.problem, flaw.range).into());
+        }
+        let given = &arguments[..line.values.len()];
+        self.enter(compiled, line, name, Style::Sub, 1, Some(given))
+    }
+    /// Goes into a subprogram: to its first line where it is known, to its file, or forward in this file until it is found.
+    /// `arguments`: become #1 to #30, which are the call's own then; `None`: #1 to #30 are shared (M98).
+    pub(super) fn enter(
+        &mut self,
+        compiled: &mut Compiled,
+        line: &OLine,
+        name: NameId,
+        style: Style,
+        rounds: i64,
+        arguments: Option<&[f64]>,
+    ) -> Result<(), Halt> {
+        if self.flow.calls.len() + 1 >= self.setup.limits.depth as usize {
+            return Err(Self::refusal(&problems::TOO_DEEP, line));
+        }
+        let known = self.flow.labels.subprogram(name);
+        if let Some(known) = known
+            && known.style != style
+        {
+            return Err(Self::refusal(wrong_style(known.style), line));
+        }
+        match arguments {
+            Some(arguments) => self.store.enter(arguments),
+            None => self.store.enter_sharing(),
+        }
+        let site = self.flow.at;
+        let chain = self.chain_of(compiled, name, style);
+        self.flow.calls.push(Call {
+            back: self.flow.here,
+            site,
+            sub: self.flow.sub,
+            chain: self.flow.chain,
+            style,
+            body: known.map(|known| known.body),
+            rounds,
+            context: None,
+        });
+        self.flow.sub = name;
+        self.flow.chain = chain;
+        if let Some(known) = known {
+            self.flow.here = known.body;
+            return Ok(());
+        }
+        if let Some(file) = self.load(name) {
+            self.flow.here = Place {
+                file,
+                ..Place::default()
+            };
+        }
+        self.flow.seeking = Some(Seeking {
+            goal: Goal::Subprogram(name, style),
+            opener: compiled.place,
+            again: false,
+            satisfied: false,
+            fixed: false,
+            known: false,
+        });
+        Ok(())
+    }
+    /// The chain of the call made by the line in hand.
+    fn chain_of(&mut self, compiled: &mut Compiled, name: NameId, style: Style) -> crate::ChainId {
+        let parent = self.flow.chain;
+        if let Some((known, chain)) = compiled.memo.chain
+            && known == parent
+        {
+            return chain;
+        }
+        let text = self.flow.labels.text(name);
+        let what = || match style {
+            Style::Sub if text.parse::<i64>().is_ok() => format!("o{text} call"),
+            Style::Sub => format!("o<{text}> call"),
+            Style::Fanuc => format!("M98 P{text}"),
+        };
+        let chain = self.flow.chains.call(parent, compiled.place.file, compiled.place.line, what);
+        compiled.memo.chain = Some((parent, chain));
+        chain
+    }
+    /// The file of a subprogram, if there is one.
+    fn load(&mut self, name: NameId) -> Option<FileId> {
+        let files = self.setup.files.clone()?;
+        let loaded = files.load(self.flow.labels.text(name)).ok()?;
+        if u32::try_from(loaded.bytes.len()).is_err() {
+            return None;
+        }
+        let there = self.files.iter().skip(1).position(|source| source.path == loaded.path);
+        let id = there.map_or(self.files.len(), |at| at + 1);
+        if there.is_none() {
+            self.files.push(Arc::new(Source::new(loaded.path, loaded.bytes)));
+        }
+        Some(FileId(id as u32))
+    }
+    /// `o... sub`, and an O word alone.
+    pub(super) fn sub(
+        &mut self,
+        compiled: &mut Compiled,
+        line: &OLine,
+        name: NameId,
+        sought: Option<Seeking>,
+    ) -> Result<(), Halt> {
+        let style = if line.keyword == Keyword::Sub { Style::Sub } else { Style::Fanuc };
+        let subprogram = Subprogram {
+            style,
+            place: compiled.place,
+            body: compiled.next,
+        };
+        if let Some(seeking) = sought {
+            let Goal::Subprogram(_, wanted) = seeking.goal else {
+                return Ok(());
+            };
+            if wanted != style {
+                self.abandon_call();
+                return Err(Self::refusal(wrong_style(style), line));
+            }
+            self.flow.labels.define(name, subprogram);
+            if let Some(call) = self.flow.calls.last_mut() {
+                call.body = Some(compiled.next);
+            }
+            return Ok(());
+        }
+        if let Some(flaw) = line.tail {
+            return Err(Error::new(flaw.problem, flaw.range).into());
+        }
+        if style == Style::Fanuc {
+            return Ok(());
+        }
+        if let Some(known) = self.flow.labels.subprogram(name) {
+            return Err(self.redefined(line, name, &known).into());
+        }
+        self.flow.labels.define(name, subprogram);
+        self.begin_seeking(compiled, Goal::Definition(name));
+        Ok(())
+    }
+    /// A subprogram whose name is taken.
+    fn redefined(&mut self, line: &OLine, name: NameId, known: &Subprogram) -> Error {
+        let (here, at) = (self.flow.at.file, self.line_number());
+        let text = self.flow.labels.text(name).to_owned();
+        let head = format!("File:{} line:{at}", self.file_name(here));
+        let range = line.label_range.cover(line.keyword_range);
+        let same = known.place.file == here && known.place.line + 1 == at;
+        let error = if same {
+            let detail = format!("{head} sub: o|{text}| found in illegal location");
+            Error::with(&problems::ILLEGAL_PLACE, range, detail)
+        } else {
+            let other = self.file_name(known.place.file);
+            let detail = format!("{head} redefining sub: o|{text}| already defined in file:{other}");
+            Error::with(&problems::REDEFINED, range, detail)
+        };
+        // the text of the subprogram is not run into all the same
+        self.flow.seeking = Some(Seeking {
+            goal: Goal::Definition(name),
+            opener: known.place,
+            again: false,
+            satisfied: false,
+            fixed: false,
+            known: false,
+        });
+        error
+    }
+    /// A file as the control names it.
+    pub(super) fn file_name(&self, file: FileId) -> String {
+        self.files[file.0 as usize].path.clone()
+    }
+    /// `o... endsub [..]`, `o... return [..]`
+    pub(super) fn end_sub(
+        &mut self,
+        line: &OLine,
+        sought: Option<Seeking>,
+        sink: &mut dyn Sink,
+    ) -> Result<(), Halt> {
+        let value = line.values.first().map(|formula| self.value(formula)).transpose();
+        if let Some(seeking) = sought {
+            if line.keyword == Keyword::Return || matches!(seeking.goal, Goal::Subprogram(..)) {
+                self.flow.seeking = sought;
+            }
+            if line.keyword == Keyword::EndSub && matches!(seeking.goal, Goal::Subprogram(..)) {
+                return Err(Self::refusal(&problems::SEEKING_END, line));
+            }
+            if let Some(value) = value? {
+                // read is computed, and computed is set: the control does so in lines it skips, too
+                self.store.set_returned(Some(value));
+            }
+            return Ok(());
+        }
+        let Some(call) = self.flow.calls.last() else {
+            value?;
+            let detail = format!("{}: not in a subroutine definition: '{}'", self.line_number(), self.line_text());
+            return Err(Error::with(&problems::NOT_IN_SUB, line.label_range.cover(line.keyword_range), detail).into());
+        };
+        let style = call.style;
+        let value = match (value, line.tail) {
+            (Ok(value), None) => value,
+            (value, flaw) => {
+                // refused; the subprogram ends here all the same
+                let error = match (value, flaw) {
+                    (Err(error), _) => error,
+                    (_, flaw) => flaw.map_or(Error::new(&problems::TAIL, line.label_range), |flaw| {
+                        Error::new(flaw.problem, flaw.range)
+                    }),
+                };
+                self.abandon_call();
+                return Err(error.into());
+            }
+        };
+        if style == Style::Fanuc {
+            self.abandon_call();
+            return Err(Self::refusal(&problems::END_WITH_M99, line));
+        }
+        self.store.set_returned(value);
+        self.leave_call(sink)
+    }
+    /// Back to the line behind the call; what M73 saved is restored.
+    pub(super) fn leave_call(&mut self, sink: &mut dyn Sink) -> Result<(), Halt> {
+        let context = self.flow.calls.last_mut().and_then(|call| call.context.take());
+        self.abandon_call();
+        if let Some(context) = context {
+            context::restore_after_call(self, &context, sink)?;
+        }
+        Ok(())
+    }
+    /// Back to the line behind the call, nothing else.
+    pub(super) fn abandon_call(&mut self) {
+        let Some(call) = self.flow.calls.pop() else { return };
+        self.store.leave();
+        self.flow.here = call.back;
+        self.flow.sub = call.sub;
+        self.flow.chain = call.chain;
+        self.flow.seeking = None;
+    }
+}
+
+/// The refusal of a call to a subprogram that is written in the other style.
+fn wrong_style(written: Style) -> &'static crate::Problem {
+    match written {
+        Style::Sub => &problems::CALL_WITH_CALL,
+        Style::Fanuc => &problems::CALL_WITH_M98,
+    }
+}

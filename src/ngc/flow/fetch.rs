@@ -1,0 +1,166 @@
+//! From the bytes of a line to its read form, and the way lines are kept.
+use super::labels::Place;
+use super::oline::{self, Keyword};
+use super::{Compiled, Kind, problems};
+use crate::read::{self, Line};
+use crate::{Engine, Error};
+use trunnion_formula::Cursor;
+use trunnion_syntax::TextRange;
+
+/// Longest line, its line end counted.
+const LONGEST: u32 = 253;
+
+/// How a line begins.
+pub(super) struct Head<'s> {
+    /// Behind `/` and N.
+    pub(super) cursor: Cursor<'s>,
+    /// The line begins with `/`.
+    pub(super) delete: bool,
+    /// There was an N, and where it is no number.
+    pub(super) flaw: Option<TextRange>,
+    /// The first byte behind them, in lower case; `None`: nothing is there.
+    pub(super) first: Option<u8>,
+}
+
+/// Looks at how a line begins.
+pub(super) fn head(source: &[u8], range: TextRange) -> Head<'_> {
+    let mut cursor = Cursor::new(source, trimmed(source, range));
+    let delete = cursor.eat(b'/');
+    let mut flaw = None;
+    if cursor.peek() == Some(b'n') {
+        let start = cursor.at();
+        cursor.bump();
+        if cursor.peek().is_some_and(|byte| byte.is_ascii_digit()) {
+            while cursor.peek().is_some_and(|byte| byte.is_ascii_digit() || byte == b'.') {
+                cursor.bump();
+            }
+        } else {
+            cursor.bump();
+            flaw = Some(cursor.since(start));
+        }
+    }
+    Head {
+        first: cursor.peek(),
+        cursor,
+        delete,
+        flaw,
+    }
+}
+
+/// The line without its line end; it ends at a NUL, too.
+pub(super) fn trimmed(source: &[u8], range: TextRange) -> TextRange {
+    let bytes = &source[range.start as usize..range.end as usize];
+    let end = memchr::memchr(0, bytes).unwrap_or(bytes.len());
+    let length = bytes[..end].iter().rposition(|byte| !byte.is_ascii_whitespace()).map_or(0, |last| last + 1);
+    TextRange::new(range.start, range.start + length as u32)
+}
+
+/// A line that is too long: what is too much of it.
+pub(super) fn too_long(range: TextRange) -> Option<Error> {
+    (range.end - range.start > LONGEST)
+        .then(|| Error::new(&problems::TOO_LONG, TextRange::new(range.start + LONGEST, range.end)))
+}
+
+/// Whether a line is `%` and nothing else.
+pub(super) fn is_percent(source: &[u8], range: TextRange) -> bool {
+    source[range.start as usize..range.end as usize].trim_ascii() == b"%"
+}
+
+impl Engine {
+    /// The bytes of the line that begins at a place.
+    #[inline]
+    pub(super) fn range_at(&self, place: Place) -> TextRange {
+        self.files[place.file.0 as usize].line_at(place.offset)
+    }
+    /// The place of the line behind one.
+    pub(super) fn behind(place: Place, range: TextRange) -> Place {
+        Place {
+            file: place.file,
+            line: place.line + 1,
+            offset: range.end,
+        }
+    }
+    /// The line at `here` in its read form: the kept one where it ran before, and then `true`: it goes back there.
+    pub(super) fn fetch(&mut self) -> (Box<Compiled>, bool) {
+        let place = self.flow.here;
+        let lines = self.flow.lines(place.file);
+        if lines.run(place.line) {
+            self.flow.fuel = self.flow.fuel.saturating_sub(1);
+            let lines = self.flow.lines(place.file);
+            if let Some(kept) = lines.take(place.line) {
+                return (kept, true);
+            }
+            if lines.make_room() {
+                let mut compiled = Box::new(Compiled::default());
+                self.compile(place, &mut compiled);
+                return (compiled, true);
+            }
+        }
+        let mut compiled = self.flow.spare.take().unwrap_or_default();
+        self.compile(place, &mut compiled);
+        (compiled, false)
+    }
+    /// Reads the line at a place. What is wrong with it is in what was read.
+    pub(super) fn compile(&self, place: Place, into: &mut Compiled) {
+        let source = self.files[place.file.0 as usize].bytes();
+        let range = self.range_at(place);
+        into.place = place;
+        into.next = Self::behind(place, range);
+        into.memo = super::Memo::default();
+        into.o = None;
+        into.kind = Kind::Blank;
+        into.flaw = too_long(range);
+        let text = trimmed(source, range);
+        if text.start == text.end || into.flaw.is_some() {
+            return;
+        }
+        let head = head(source, text);
+        match head.first {
+            _ if head.delete && self.setup.block_delete => {}
+            Some(b'%') if is_percent(source, text) => into.kind = Kind::Percent,
+            Some(b'o') => {
+                let mut cursor = head.cursor;
+                into.flaw = text_flaw(source, text);
+                into.o = Some(oline::read(&mut cursor));
+                into.kind = Kind::Label;
+            }
+            Some(b'm') => compile_m(source, &head, text, into),
+            _ => {
+                into.kind = Kind::Words;
+                Line::read(source, text, &mut into.line);
+            }
+        }
+    }
+    /// Puts a line back where it came from.
+    #[inline]
+    pub(super) fn put_back(&mut self, compiled: Box<Compiled>, keep: bool) {
+        if !keep {
+            self.flow.spare = Some(compiled);
+            return;
+        }
+        let place = compiled.place;
+        self.flow.lines(place.file).keep(place.line, compiled);
+    }
+}
+
+/// A line that begins with M: `M98` and `M99` are calls and returns.
+fn compile_m(source: &[u8], head: &Head<'_>, text: TextRange, into: &mut Compiled) {
+    let mut cursor = head.cursor;
+    into.o = oline::numbered(&mut cursor);
+    let (kind, words) = match &into.o {
+        Some(line) if line.keyword == Keyword::CallNumbered => (Kind::CallNumbered, line.rest),
+        Some(_) => (Kind::ReturnNumbered, text),
+        None => (Kind::Words, text),
+    };
+    into.kind = kind;
+    if kind == Kind::CallNumbered {
+        into.flaw = text_flaw(source, text);
+    }
+    Line::read(source, words, &mut into.line);
+}
+
+/// What is wrong with a line before its sense counts: comments, N. Lines of words look at these themselves.
+pub(super) fn text_flaw(source: &[u8], text: TextRange) -> Option<Error> {
+    read::comment_flaw(source, text)
+        .or_else(|| head(source, text).flaw.map(|range| Error::new(&problems::SEQUENCE_NUMBER, range)))
+}

@@ -1,0 +1,159 @@
+//! The names of O words and what is known of them: where a structure or a subprogram begins.
+//!
+//! As on the control, a label is known from the moment its opening line runs, for the rest of the program. Labels of structures
+//! belong to the subprogram that runs (`o1 if` in two subprograms are two labels); names of subprograms belong to the whole run.
+use crate::FileId;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A name in the table, `NameId::MAIN` for "no subprogram".
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct NameId(u32);
+
+impl NameId {
+    pub(crate) const MAIN: Self = Self(0);
+}
+
+/// A structure's label inside one subprogram.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct LabelId(u32);
+
+/// Where a line is, and the offset of its first byte.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Place {
+    pub(crate) file: FileId,
+    /// From 0.
+    pub(crate) line: u32,
+    pub(crate) offset: u32,
+}
+
+/// What opens a structure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Opener {
+    If,
+    While,
+    Do,
+    Repeat,
+}
+
+impl Opener {
+    /// As the control writes it.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::If => "if",
+            Self::While => "while",
+            Self::Do => "do",
+            Self::Repeat => "repeat",
+        }
+    }
+}
+
+/// A structure whose opening line has run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Structure {
+    pub(crate) opener: Opener,
+    pub(crate) place: Place,
+    /// Rounds of a repeat that are left, this one counted; 0: it counts anew when it is met again.
+    pub(crate) rounds: i64,
+    /// What was left of the bound on executed lines when it was entered from above; 0: it is not gone through.
+    pub(crate) fuel: u64,
+    /// Its line was refused: what is inside runs once.
+    pub(crate) once: bool,
+}
+
+/// How a subprogram was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Style {
+    /// `o1 sub` ... `o1 endsub`.
+    Sub,
+    /// `O1` ... `M99`.
+    Fanuc,
+}
+
+/// A subprogram whose first line is known.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Subprogram {
+    pub(crate) style: Style,
+    /// Its first line.
+    pub(crate) place: Place,
+    /// The line behind.
+    pub(crate) body: Place,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Names {
+    ids: HashMap<Box<str>, u32>,
+    texts: Vec<Box<str>>,
+    scoped: HashMap<(u32, u32), u32>,
+}
+
+/// All names and labels of a run. Cloning is cheap until the next new name.
+#[derive(Clone, Debug)]
+pub(crate) struct Labels {
+    names: Arc<Names>,
+    subprograms: Vec<Option<Subprogram>>,
+    structures: Vec<Option<Structure>>,
+    /// Grows whenever a structure or subprogram becomes known: what was found out before may no longer hold.
+    pub(crate) generation: u64,
+}
+
+impl Labels {
+    pub(crate) fn new() -> Self {
+        let mut labels = Self {
+            names: Arc::default(),
+            subprograms: Vec::new(),
+            structures: Vec::new(),
+            generation: 0,
+        };
+        labels.name("");
+        labels
+    }
+    /// The number of a name.
+    pub(crate) fn name(&mut self, text: &str) -> NameId {
+        if let Some(&id) = self.names.ids.get(text) {
+            return NameId(id);
+        }
+        let names = Arc::make_mut(&mut self.names);
+        let id = names.texts.len() as u32;
+        names.texts.push(text.into());
+        names.ids.insert(text.into(), id);
+        self.subprograms.push(None);
+        NameId(id)
+    }
+    /// A name as written, blanks removed, lower case.
+    pub(crate) fn text(&self, name: NameId) -> &str {
+        &self.names.texts[name.0 as usize]
+    }
+    /// The label of a structure inside a subprogram.
+    pub(crate) fn label(&mut self, sub: NameId, name: NameId) -> LabelId {
+        let key = (sub.0, name.0);
+        if let Some(&id) = self.names.scoped.get(&key) {
+            return LabelId(id);
+        }
+        let id = self.structures.len() as u32;
+        Arc::make_mut(&mut self.names).scoped.insert(key, id);
+        self.structures.push(None);
+        LabelId(id)
+    }
+    pub(crate) fn structure(&self, label: LabelId) -> Option<&Structure> {
+        self.structures[label.0 as usize].as_ref()
+    }
+    pub(crate) fn structure_mut(&mut self, label: LabelId) -> Option<&mut Structure> {
+        self.structures[label.0 as usize].as_mut()
+    }
+    pub(crate) fn open(&mut self, label: LabelId, structure: Structure) {
+        self.structures[label.0 as usize] = Some(structure);
+        self.generation += 1;
+    }
+    pub(crate) fn subprogram(&self, name: NameId) -> Option<Subprogram> {
+        self.subprograms[name.0 as usize]
+    }
+    pub(crate) fn define(&mut self, name: NameId, subprogram: Subprogram) {
+        self.subprograms[name.0 as usize] = Some(subprogram);
+        self.generation += 1;
+    }
+    /// All structures that are known.
+    pub(crate) fn structures(&self) -> impl Iterator<Item = &Structure> {
+        self.structures.iter().flatten()
+    }
+}

@@ -1,0 +1,91 @@
+//! Lines that ran: which ones, and the read form of those that ran more than once.
+use super::Compiled;
+
+/// Lines of one page.
+const PAGE: u32 = 256;
+/// So many read lines are kept per run; a loop longer than that is read again each time.
+const KEPT: u32 = 1 << 16;
+
+type Page = [Option<Box<Compiled>>; PAGE as usize];
+
+/// What is remembered of one file's lines.
+#[derive(Debug, Default)]
+pub(crate) struct Lines {
+    /// A bit per line that ran.
+    ran: Vec<u64>,
+    /// Lines from here on never ran.
+    frontier: u32,
+    /// Lines from here on were never skipped.
+    glanced: u32,
+    pages: Vec<Option<Box<Page>>>,
+    kept: u32,
+}
+
+/// A copy reads its lines again: check-points must not copy what can be had anew.
+impl Clone for Lines {
+    fn clone(&self) -> Self {
+        Self {
+            ran: self.ran.clone(),
+            frontier: self.frontier,
+            glanced: self.glanced,
+            pages: Vec::new(),
+            kept: 0,
+        }
+    }
+}
+
+impl Lines {
+    /// Whether a line ran before; it is noted that it does now.
+    #[inline]
+    pub(crate) fn run(&mut self, line: u32) -> bool {
+        let word = (line / 64) as usize;
+        let bit = 1 << (line % 64);
+        if line >= self.frontier {
+            self.frontier = line + 1;
+            if word >= self.ran.len() {
+                self.ran.resize(word + 1, 0);
+            }
+        } else if self.ran[word] & bit != 0 {
+            return true;
+        }
+        self.ran[word] |= bit;
+        false
+    }
+    /// Whether a line ran.
+    pub(crate) fn has_run(&self, line: u32) -> bool {
+        self.ran.get((line / 64) as usize).is_some_and(|word| word & (1 << (line % 64)) != 0)
+    }
+    /// Whether a line that is skipped was skipped or run before; it is noted that it was looked at.
+    pub(crate) fn glance(&mut self, line: u32) -> bool {
+        let before = line < self.glanced;
+        self.glanced = self.glanced.max(line + 1);
+        before
+    }
+    /// Takes a kept line out; [`Self::keep`] brings it back.
+    #[inline]
+    pub(crate) fn take(&mut self, line: u32) -> Option<Box<Compiled>> {
+        let page = self.pages.get_mut((line / PAGE) as usize)?.as_mut()?;
+        page[(line % PAGE) as usize].take()
+    }
+    /// A kept line, to change what was found out about it.
+    pub(crate) fn kept(&mut self, line: u32) -> Option<&mut Compiled> {
+        let page = self.pages.get_mut((line / PAGE) as usize)?.as_mut()?;
+        page[(line % PAGE) as usize].as_deref_mut()
+    }
+    /// Asks for room for one more line to keep.
+    pub(crate) fn make_room(&mut self) -> bool {
+        let room = self.kept < KEPT;
+        self.kept += u32::from(room);
+        room
+    }
+    /// Brings a line back.
+    #[inline]
+    pub(crate) fn keep(&mut self, line: u32, compiled: Box<Compiled>) {
+        let page = (line / PAGE) as usize;
+        if page >= self.pages.len() {
+            self.pages.resize_with(page + 1, || None);
+        }
+        let page = self.pages[page].get_or_insert_with(|| Box::new([const { None }; PAGE as usize]));
+        page[(line % PAGE) as usize] = Some(compiled);
+    }
+}

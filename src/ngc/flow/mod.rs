@@ -1,0 +1,241 @@
+//! The order of execution: O words, calls, files, `%`, the bounds of a run.
+//!
+//! A line is fetched, read and run. Lines that run again are kept in their read form with what was found out about them (their
+//! label's number, where skipping from them ends), so that a loop neither reads nor hashes.
+pub(crate) mod context;
+
+mod call;
+mod chain;
+mod ends;
+mod fetch;
+mod labels;
+mod lines;
+mod numbered;
+mod oline;
+mod problems;
+mod rest;
+mod seek;
+mod step;
+mod structure;
+mod undecided;
+
+use crate::read::Line;
+use crate::{At, ChainId, Error, FileId, Setup};
+use chain::Chains;
+use context::Context;
+use labels::{LabelId, Labels, NameId, Place, Style};
+use lines::Lines;
+use oline::OLine;
+
+/// Why a line did not run to its end.
+#[derive(Debug)]
+pub(crate) enum Halt {
+    /// The control refuses it.
+    Refused(Error),
+    /// The control refuses it, and the errors are told.
+    Told,
+    /// What happens depends on something unknown: the sentence that says so.
+    Undecided(String),
+}
+
+impl From<Error> for Halt {
+    fn from(error: Error) -> Self {
+        Self::Refused(error)
+    }
+}
+
+/// What sort of line it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Kind {
+    /// Nothing to run.
+    #[default]
+    Blank,
+    /// `%` alone.
+    Percent,
+    /// Words, assignments, comments.
+    Words,
+    /// An O line.
+    Label,
+    /// `M98`, the words behind it.
+    CallNumbered,
+    /// `M99`: a return inside a call, words outside.
+    ReturnNumbered,
+}
+
+/// What was found out when the line ran before.
+#[derive(Clone, Copy, Debug, Default)]
+struct Memo {
+    /// The label's name, where it is text.
+    name: Option<NameId>,
+    /// The label inside a subprogram.
+    label: Option<(NameId, LabelId)>,
+    /// Where skipping from here ended, and the generation of labels for which that holds.
+    skip: Option<(u64, Place)>,
+    /// The chain of the call made here, by the chain that led here.
+    chain: Option<(ChainId, ChainId)>,
+}
+
+/// A line in its read form.
+#[derive(Debug, Default)]
+pub(crate) struct Compiled {
+    place: Place,
+    next: Place,
+    kind: Kind,
+    o: Option<OLine>,
+    /// What is wrong with its text as a whole; it is not read further then.
+    flaw: Option<Error>,
+    line: Line,
+    memo: Memo,
+}
+
+/// What lines are skipped for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Goal {
+    /// The next line that says something about this label.
+    Label(LabelId, NameId),
+    /// The end of the definition of a subprogram.
+    Definition(NameId),
+    /// The first line of a subprogram that was called in this style.
+    Subprogram(NameId, Style),
+}
+
+/// Lines are being skipped.
+#[derive(Clone, Copy, Debug)]
+struct Seeking {
+    goal: Goal,
+    /// The line that began it; its memo takes down where it ended.
+    opener: Place,
+    /// `continue`: the loop goes on where it ends.
+    again: bool,
+    /// A branch of this `if` has run.
+    satisfied: bool,
+    /// The way does not depend on values.
+    fixed: bool,
+    /// `here` is where it ends.
+    known: bool,
+}
+
+/// A call in progress.
+#[derive(Clone, Debug)]
+struct Call {
+    /// The line behind the call.
+    back: Place,
+    /// The line of the call.
+    site: At,
+    /// Which subprogram made the call, and the chain that led there.
+    sub: NameId,
+    chain: ChainId,
+    style: Style,
+    /// The subprogram's second line, and the rounds (`L`) that are left.
+    body: Option<Place>,
+    rounds: i64,
+    context: Option<Box<Context>>,
+}
+
+/// Where the run is.
+#[derive(Debug)]
+pub(crate) struct Flow {
+    here: Place,
+    /// The line that ran last.
+    at: At,
+    started: bool,
+    ended: bool,
+    /// The line that ended the main program.
+    end: Option<Place>,
+    /// The program began with `%`.
+    percent: bool,
+    /// Fanuc-style subprograms are switched off.
+    no_fanuc: bool,
+    sub: NameId,
+    chain: ChainId,
+    calls: Vec<Call>,
+    seeking: Option<Seeking>,
+    labels: Labels,
+    chains: Chains,
+    lines: Vec<Lines>,
+    /// Lines that may still run again.
+    fuel: u64,
+    /// Saved by M70 and M73 outside of calls.
+    context: Option<Box<Context>>,
+    /// Kept for its storage.
+    spare: Option<Box<Compiled>>,
+}
+
+impl Clone for Flow {
+    fn clone(&self) -> Self {
+        Self {
+            here: self.here,
+            at: self.at,
+            started: self.started,
+            ended: self.ended,
+            end: self.end,
+            percent: self.percent,
+            no_fanuc: self.no_fanuc,
+            sub: self.sub,
+            chain: self.chain,
+            calls: self.calls.clone(),
+            seeking: self.seeking,
+            labels: self.labels.clone(),
+            chains: self.chains.clone(),
+            lines: self.lines.clone(),
+            fuel: self.fuel,
+            context: self.context.clone(),
+            spare: None,
+        }
+    }
+}
+
+impl Flow {
+    /// Before the first line.
+    pub(crate) fn new(setup: &Setup) -> Self {
+        Self {
+            here: Place::default(),
+            at: At::default(),
+            started: false,
+            ended: false,
+            end: None,
+            percent: false,
+            no_fanuc: fanuc_is_off(setup),
+            sub: NameId::MAIN,
+            chain: ChainId::default(),
+            calls: Vec::new(),
+            seeking: None,
+            labels: Labels::new(),
+            chains: Chains::default(),
+            lines: vec![Lines::default()],
+            fuel: setup.limits.blocks,
+            context: None,
+            spare: None,
+        }
+    }
+    /// The line that ran last.
+    pub(crate) fn at(&self) -> At {
+        self.at
+    }
+    /// The calls of a chain, outermost first.
+    pub(crate) fn frames(&self, id: ChainId) -> Vec<crate::Frame> {
+        self.chains.frames(id)
+    }
+    /// The context saved at this level of calls.
+    fn saved(&mut self) -> &mut Option<Box<Context>> {
+        match self.calls.last_mut() {
+            Some(call) => &mut call.context,
+            None => &mut self.context,
+        }
+    }
+    /// What is remembered of a file's lines.
+    fn lines(&mut self, file: FileId) -> &mut Lines {
+        let at = file.0 as usize;
+        if at >= self.lines.len() {
+            self.lines.resize_with(at + 1, Lines::default);
+        }
+        &mut self.lines[at]
+    }
+}
+
+/// `[RS274NGC] DISABLE_FANUC_STYLE_SUB`: off where it is a number other than 0.
+fn fanuc_is_off(setup: &Setup) -> bool {
+    let key = ("RS274NGC".to_owned(), "DISABLE_FANUC_STYLE_SUB".to_owned());
+    let value = setup.ini.values.get(&key).map_or("", String::as_str);
+    value.trim().parse::<i64>().is_ok_and(|number| number != 0)
+}

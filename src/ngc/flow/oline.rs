@@ -1,0 +1,296 @@
+//! O lines as text: label, keyword, condition or arguments; and the `M98` / `M99` that a line may begin with.
+use super::problems;
+use crate::Problem;
+use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, value_or_error};
+use trunnion_syntax::TextRange;
+
+/// What an O line says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Keyword {
+    /// Nothing: a program number, or the head of a Fanuc-style subprogram.
+    Bare,
+    Sub,
+    EndSub,
+    Call,
+    Return,
+    If,
+    ElseIf,
+    Else,
+    EndIf,
+    While,
+    EndWhile,
+    Do,
+    Repeat,
+    EndRepeat,
+    Break,
+    Continue,
+    /// `M98`.
+    CallNumbered,
+    /// `M99` inside a call.
+    ReturnNumbered,
+}
+
+/// Longer words before those they begin with.
+const KEYWORDS: [(&str, Keyword); 15] = [
+    ("endrepeat", Keyword::EndRepeat),
+    ("endwhile", Keyword::EndWhile),
+    ("endsub", Keyword::EndSub),
+    ("endif", Keyword::EndIf),
+    ("elseif", Keyword::ElseIf),
+    ("else", Keyword::Else),
+    ("sub", Keyword::Sub),
+    ("call", Keyword::Call),
+    ("return", Keyword::Return),
+    ("if", Keyword::If),
+    ("while", Keyword::While),
+    ("do", Keyword::Do),
+    ("repeat", Keyword::Repeat),
+    ("break", Keyword::Break),
+    ("continue", Keyword::Continue),
+];
+
+/// What stands behind the O.
+#[derive(Clone, Debug)]
+pub(crate) enum Label {
+    /// `<name>` without blanks and in lower case, or a number as the control writes it.
+    Text(Box<str>),
+    /// `#1`, `[2*#3]`: known when the line runs.
+    Computed(Formula),
+}
+
+/// Something on the line that no value will mend.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flaw {
+    pub(crate) problem: &'static Problem,
+    pub(crate) range: TextRange,
+}
+
+/// One O line. What is wrong with a value is inside its formula and comes out when it is evaluated, as on the control.
+#[derive(Clone, Debug)]
+pub(crate) struct OLine {
+    pub(crate) keyword: Keyword,
+    pub(crate) label: Label,
+    /// `O` and what belongs to it.
+    pub(crate) label_range: TextRange,
+    pub(crate) keyword_range: TextRange,
+    /// The condition, the count, the arguments or the value that is returned.
+    pub(crate) values: Vec<Formula>,
+    /// Where a condition should begin, or what makes the keyword unreadable: found before any value counts.
+    pub(crate) flaw: Option<Flaw>,
+    /// What stands behind the end of the line's sense.
+    pub(crate) tail: Option<Flaw>,
+    /// The text behind `M98`.
+    pub(crate) rest: TextRange,
+    /// What is wrong with the text of its values.
+    pub(crate) errors: Vec<FormulaError>,
+}
+
+/// Most arguments of a call: they become #1 to #30.
+const ARGUMENTS: usize = 30;
+
+/// Reads an O line; the cursor stands before the O.
+pub(crate) fn read(cursor: &mut Cursor<'_>) -> OLine {
+    let start = cursor.at();
+    cursor.bump();
+    let mut errors = Vec::new();
+    let label = label(cursor, &mut errors);
+    let label_range = cursor.since(start);
+    let mut line = OLine {
+        keyword: Keyword::Bare,
+        label,
+        label_range,
+        keyword_range: label_range,
+        values: Vec::new(),
+        flaw: None,
+        tail: None,
+        rest: TextRange::new(cursor.at(), cursor.at()),
+        errors,
+    };
+    if ends(cursor) {
+        line.tail = tail(cursor);
+        return line;
+    }
+    match keyword(cursor) {
+        Some((keyword, range)) => (line.keyword, line.keyword_range) = (keyword, range),
+        None => {
+            line.flaw = Some(Flaw {
+                problem: &problems::UNKNOWN_KEYWORD,
+                range: unknown(cursor),
+            });
+            return line;
+        }
+    }
+    values(cursor, &mut line);
+    line
+}
+
+/// Reads the `M98` or `M99` a line begins with, if it does; the cursor stands before the M.
+pub(crate) fn numbered(cursor: &mut Cursor<'_>) -> Option<OLine> {
+    let start = cursor.at();
+    let mut number = *cursor;
+    number.bump();
+    // the common M codes go no further
+    if !matches!(number.peek(), Some(b'9' | b'0' | b'[' | b'+')) {
+        return None;
+    }
+    let code = value_or_error(&mut number, Grammar::Rs274).0.number()?;
+    let keyword = match code {
+        98.0 => Keyword::CallNumbered,
+        99.0 => Keyword::ReturnNumbered,
+        _ => return None,
+    };
+    // as on the control, two signs are taken whatever they are: `M098 P1` goes on with `8P1`
+    for _ in 0..3 {
+        cursor.bump();
+    }
+    let range = cursor.since(start);
+    let mut line = OLine {
+        keyword,
+        label: Label::Text(Box::default()),
+        label_range: range,
+        keyword_range: range,
+        values: Vec::new(),
+        flaw: None,
+        tail: None,
+        rest: TextRange::new(cursor.at(), cursor.at()),
+        errors: Vec::new(),
+    };
+    if keyword == Keyword::ReturnNumbered {
+        line.tail = tail(cursor);
+    } else {
+        let mut rest = *cursor;
+        while rest.bump().is_some() {}
+        line.rest = rest.since(cursor.at());
+    }
+    Some(line)
+}
+
+fn label(cursor: &mut Cursor<'_>, errors: &mut Vec<FormulaError>) -> Label {
+    if cursor.eat(b'<') {
+        // a name that is not closed takes the rest of the line
+        let mut name = String::new();
+        while let Some(byte) = cursor.bump() {
+            if byte == b'>' {
+                break;
+            }
+            name.push(char::from(byte));
+        }
+        return Label::Text(name.trim_end_matches(['\r', '\n']).into());
+    }
+    let (formula, error) = value_or_error(cursor, Grammar::Rs274);
+    errors.extend(error);
+    match formula.number().and_then(whole) {
+        Some(number) => Label::Text(number.to_string().into()),
+        None => Label::Computed(formula),
+    }
+}
+
+/// A whole number, where it is one within the tolerance that the control grants.
+pub(crate) fn whole(value: f64) -> Option<i64> {
+    let nearest = (value + 0.5).floor();
+    ((value - nearest).abs() <= 0.0001).then_some(nearest as i64)
+}
+
+fn keyword(cursor: &mut Cursor<'_>) -> Option<(Keyword, TextRange)> {
+    let start = cursor.at();
+    KEYWORDS.iter().find_map(|(word, keyword)| {
+        let mut ahead = *cursor;
+        if !word.bytes().all(|byte| ahead.eat(byte)) {
+            return None;
+        }
+        *cursor = ahead;
+        Some((*keyword, cursor.since(start)))
+    })
+}
+
+/// Letters that should have been a keyword.
+fn unknown(cursor: &Cursor<'_>) -> TextRange {
+    let mut ahead = *cursor;
+    let start = ahead.at();
+    while ahead.peek().is_some_and(|byte| byte.is_ascii_alphabetic()) {
+        ahead.bump();
+    }
+    if ahead.at() == start {
+        ahead.bump();
+    }
+    ahead.since(start)
+}
+
+fn values(cursor: &mut Cursor<'_>, line: &mut OLine) {
+    let needed = match line.keyword {
+        Keyword::If => Some(&problems::NO_CONDITION_IF),
+        Keyword::ElseIf => Some(&problems::NO_CONDITION_ELSEIF),
+        Keyword::While => Some(&problems::NO_CONDITION_WHILE),
+        Keyword::Repeat => Some(&problems::NO_COUNT),
+        _ => None,
+    };
+    if let Some(problem) = needed {
+        if cursor.peek() == Some(b'[') {
+            push(cursor, line);
+        } else {
+            line.flaw = Some(Flaw {
+                problem,
+                range: cursor.here(),
+            });
+            return;
+        }
+    }
+    match line.keyword {
+        Keyword::EndSub | Keyword::Return if cursor.peek() == Some(b'[') => {
+            push(cursor, line);
+        }
+        Keyword::Call => arguments(cursor, line),
+        _ => {}
+    }
+    line.tail = line.tail.or_else(|| tail(cursor));
+}
+
+fn arguments(cursor: &mut Cursor<'_>, line: &mut OLine) {
+    loop {
+        skip_comments(cursor);
+        if cursor.peek() != Some(b'[') {
+            return;
+        }
+        let start = cursor.at();
+        if line.values.len() == ARGUMENTS {
+            cursor.bump();
+            line.tail = Some(Flaw {
+                problem: &problems::TOO_MANY_ARGUMENTS,
+                range: cursor.since(start),
+            });
+            return;
+        }
+        push(cursor, line);
+    }
+}
+
+fn push(cursor: &mut Cursor<'_>, line: &mut OLine) {
+    let (value, error) = value_or_error(cursor, Grammar::Rs274);
+    line.values.push(value);
+    line.errors.extend(error);
+}
+
+/// Whether nothing but comments, carriage returns and the line end is left.
+fn ends(cursor: &Cursor<'_>) -> bool {
+    matches!(cursor.peek(), None | Some(b'(' | b';' | b'\r' | b'\n' | 0))
+}
+
+fn skip_comments(cursor: &mut Cursor<'_>) {
+    while let Some(byte) = cursor.peek() {
+        match byte {
+            b'(' => while cursor.bump().is_some_and(|byte| byte != b')') {},
+            b'\r' | b'\n' => {
+                cursor.bump();
+            }
+            _ => return,
+        }
+    }
+}
+
+fn tail(cursor: &mut Cursor<'_>) -> Option<Flaw> {
+    skip_comments(cursor);
+    (!ends(cursor)).then(|| Flaw {
+        problem: &problems::TAIL,
+        range: cursor.here(),
+    })
+}

@@ -1,0 +1,86 @@
+//! Lines that never ran: their text is read all the same, so that a check tells every mistake of a program.
+use super::labels::Place;
+use super::oline::Keyword;
+use super::{Compiled, Kind};
+use crate::{At, Engine, Error, FileId, Sink};
+
+impl Engine {
+    /// Tells the errors of the text of lines that did not run: skipped branches, subprograms that are never called, what follows an
+    /// undecided jump. Behind the end of the main program only subprograms are read: other text there is no program.
+    ///
+    /// Values are not computed and codes are not run, so that this is less than what a run finds.
+    pub fn read_rest(&mut self, sink: &mut dyn Sink) {
+        for file in 0..self.files.len() as u32 {
+            self.read_rest_of(FileId(file), sink);
+        }
+    }
+    fn read_rest_of(&mut self, file: FileId, sink: &mut dyn Sink) {
+        let length = self.files[file.0 as usize].bytes().len();
+        let end = self.flow.end.filter(|place| place.file == file);
+        let mut compiled = Compiled::default();
+        let mut place = Place {
+            file,
+            ..Place::default()
+        };
+        let mut inside = true;
+        while (place.offset as usize) < length {
+            self.compile(place, &mut compiled);
+            let next = compiled.next;
+            if compiled.kind == Kind::Percent && place.line > 0 && self.flow.percent {
+                return;
+            }
+            let behind = end.is_some_and(|end| place.line > end.line);
+            if end.is_some_and(|end| place.line == end.line) {
+                inside = false;
+            }
+            if behind && is_head(&compiled) {
+                inside = true;
+            }
+            if (inside || !behind) && !self.flow.lines(file).has_run(place.line) {
+                tell(&compiled, file, sink);
+            }
+            if behind && is_end(&compiled) {
+                inside = false;
+            }
+            place = next;
+        }
+    }
+}
+
+/// Whether a line begins a subprogram.
+fn is_head(compiled: &Compiled) -> bool {
+    compiled.o.as_ref().is_some_and(|line| matches!(line.keyword, Keyword::Sub | Keyword::Bare) && line.flaw.is_none())
+}
+
+/// Whether a line ends a subprogram.
+fn is_end(compiled: &Compiled) -> bool {
+    compiled.o.as_ref().is_some_and(|line| matches!(line.keyword, Keyword::EndSub | Keyword::ReturnNumbered))
+}
+
+fn tell(compiled: &Compiled, file: FileId, sink: &mut dyn Sink) {
+    let at = At {
+        file,
+        line: compiled.place.line,
+        ..At::default()
+    };
+    let mut say = |error: &Error| {
+        let error = Error { file, ..error.clone() };
+        sink.error(&error, at);
+    };
+    if let Some(flaw) = &compiled.flaw {
+        say(flaw);
+    }
+    if let Some(line) = &compiled.o {
+        for flaw in line.flaw.into_iter().chain(line.tail) {
+            say(&Error::new(flaw.problem, flaw.range));
+        }
+        for error in &line.errors {
+            say(&crate::read::formula_error(error));
+        }
+    }
+    if matches!(compiled.kind, Kind::Words | Kind::CallNumbered | Kind::ReturnNumbered) {
+        for error in &compiled.line.errors {
+            say(error);
+        }
+    }
+}

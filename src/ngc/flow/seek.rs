@@ -1,0 +1,183 @@
+//! Skipping: from a condition that does not hold, a `break`, a definition or a call to the line that counts next.
+//!
+//! The control looks at every line it skips: comments must be closed, N must be a number, O lines must have a known keyword. Only O
+//! lines with the label that is looked for count. Where a skip ended is kept with the line that began it, until a new label is known.
+use super::fetch::{self, Head};
+use super::labels::Place;
+use super::oline::{self, Keyword, OLine};
+use super::{Compiled, Goal, Kind, Seeking, problems};
+use crate::{Engine, Error};
+use trunnion_syntax::TextRange;
+
+/// How a skip went.
+pub(super) enum Sought {
+    /// A line that counts; `true`: it is kept.
+    Landed(Box<Compiled>, Seeking, bool),
+    /// A skipped line is wrong all the same.
+    Refused(Error),
+    /// A label depends on something unknown.
+    Undecided(String),
+    EndOfFile,
+    /// `%` where the program began with one.
+    Percent,
+    OutOfFuel,
+}
+
+impl Engine {
+    /// Begins to skip; `compiled` is the line that makes it necessary.
+    pub(super) fn begin_seeking(&mut self, compiled: &mut Compiled, goal: Goal) -> &mut Seeking {
+        let mut known = false;
+        if let Some((generation, place)) = compiled.memo.skip {
+            known = generation == self.flow.labels.generation;
+            if known {
+                self.flow.here = place;
+            } else {
+                compiled.memo.skip = None;
+            }
+        }
+        self.flow.seeking.insert(Seeking {
+            goal,
+            opener: compiled.place,
+            again: false,
+            satisfied: false,
+            fixed: true,
+            known,
+        })
+    }
+    /// Skips to the next line that counts.
+    pub(super) fn seek(&mut self) -> Sought {
+        let Some(mut seeking) = self.flow.seeking else {
+            return Sought::EndOfFile;
+        };
+        if seeking.known {
+            if self.flow.fuel == 0 {
+                return Sought::OutOfFuel;
+            }
+            self.flow.seeking = None;
+            let (compiled, keep) = self.fetch();
+            return Sought::Landed(compiled, seeking, keep);
+        }
+        loop {
+            let place = self.flow.here;
+            if place.offset as usize >= self.files[place.file.0 as usize].bytes().len() {
+                return Sought::EndOfFile;
+            }
+            if self.flow.fuel == 0 {
+                return Sought::OutOfFuel;
+            }
+            let lines = self.flow.lines(place.file);
+            if lines.glance(place.line) {
+                self.flow.fuel -= 1;
+            }
+            let range = self.range_at(place);
+            let next = Self::behind(place, range);
+            match self.glance(place, range, &mut seeking) {
+                Glance::Nothing => self.flow.here = next,
+                Glance::Counts(line) => return self.land(place, next, *line, seeking),
+                Glance::Percent if self.flow.percent => return Sought::Percent,
+                Glance::Percent => self.flow.here = next,
+                Glance::Refused(error) => {
+                    self.flow.here = next;
+                    self.note(place);
+                    return Sought::Refused(error);
+                }
+                Glance::Undecided(why) => return Sought::Undecided(why),
+            }
+        }
+    }
+    /// The line that counts is made ready to run.
+    fn land(&mut self, place: Place, next: Place, line: OLine, seeking: Seeking) -> Sought {
+        let generation = self.flow.labels.generation;
+        if seeking.fixed {
+            let opener = seeking.opener;
+            if let Some(kept) = self.flow.lines(opener.file).kept(opener.line) {
+                kept.memo.skip = Some((generation, place));
+            }
+        }
+        self.flow.seeking = None;
+        self.flow.lines(place.file).run(place.line);
+        let mut compiled = self.flow.spare.take().unwrap_or_default();
+        compiled.place = place;
+        compiled.next = next;
+        compiled.kind = Kind::Label;
+        compiled.flaw = None;
+        compiled.memo = super::Memo::default();
+        compiled.o = Some(line);
+        Sought::Landed(compiled, seeking, false)
+    }
+    fn note(&mut self, place: Place) {
+        self.flow.at = crate::At {
+            file: place.file,
+            line: place.line,
+            chain: self.flow.chain,
+        };
+    }
+    /// Looks at one skipped line.
+    fn glance(&mut self, place: Place, range: TextRange, seeking: &mut Seeking) -> Glance {
+        let file = std::sync::Arc::clone(&self.files[place.file.0 as usize]);
+        let source = file.bytes();
+        if let Some(error) = fetch::too_long(range) {
+            return Glance::Refused(error);
+        }
+        let text = fetch::trimmed(source, range);
+        if text.start == text.end {
+            return Glance::Nothing;
+        }
+        if let Some(error) = fetch::text_flaw(source, text) {
+            return Glance::Refused(error);
+        }
+        let head = fetch::head(source, text);
+        match head.first {
+            _ if head.delete && self.setup.block_delete => Glance::Nothing,
+            Some(b'%') if fetch::is_percent(source, text) => Glance::Percent,
+            Some(b'o') => self.glance_label(&head, seeking),
+            _ => Glance::Nothing,
+        }
+    }
+    /// Looks at a skipped O line: whether it counts.
+    fn glance_label(&mut self, head: &Head<'_>, seeking: &mut Seeking) -> Glance {
+        let mut cursor = head.cursor;
+        let line = oline::read(&mut cursor);
+        if matches!(line.label, oline::Label::Computed(_)) {
+            seeking.fixed = false;
+        }
+        let name = match self.name_of(&line) {
+            Ok(name) => name,
+            Err(super::Halt::Refused(error)) => return Glance::Refused(error),
+            Err(super::Halt::Undecided(why)) => return Glance::Undecided(why),
+            Err(super::Halt::Told) => return Glance::Nothing,
+        };
+        if let Some(flaw) = line.flaw
+            && flaw.problem == &problems::UNKNOWN_KEYWORD
+        {
+            return Glance::Refused(Error::new(flaw.problem, flaw.range));
+        }
+        if line.keyword == Keyword::Bare && self.flow.no_fanuc {
+            return Glance::Refused(Error::new(&problems::FANUC_HEAD_OFF, line.label_range));
+        }
+        let is_global = matches!(
+            line.keyword,
+            Keyword::Bare | Keyword::Sub | Keyword::EndSub | Keyword::Call | Keyword::Return
+        );
+        let counts = match seeking.goal {
+            Goal::Label(_, wanted) => !is_global && name == wanted,
+            Goal::Definition(wanted) => {
+                if matches!(line.keyword, Keyword::Sub | Keyword::Bare) {
+                    return Glance::Refused(Error::new(&problems::NESTED_SUB, line.label_range.cover(line.keyword_range)));
+                }
+                is_global && name == wanted
+            }
+            Goal::Subprogram(wanted, _) => is_global && name == wanted,
+        };
+        if counts { Glance::Counts(Box::new(line)) } else { Glance::Nothing }
+    }
+}
+
+/// What a skipped line is.
+enum Glance {
+    Nothing,
+    Counts(Box<OLine>),
+    Percent,
+    Refused(Error),
+    Undecided(String),
+}

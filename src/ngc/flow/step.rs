@@ -1,0 +1,227 @@
+//! One step: a line is fetched and run, or lines are skipped until one counts.
+use super::labels::Place;
+use super::oline::OLine;
+use super::seek::Sought;
+use super::{Compiled, Halt, Kind, Seeking, problems};
+use crate::exec::{self, After};
+use crate::parameters::Values;
+use crate::read;
+use crate::{At, ChainId, Engine, Error, Frame, Sink, Step, comment};
+use trunnion_formula::Formula;
+
+impl Engine {
+    /// Runs the next line in the control's order. After [`Step::Refused`] the next step goes on as if the refused line had not
+    /// been there; an `if` or `while` that was refused is gone into once, so that the errors inside are found, too.
+    pub fn step(&mut self, sink: &mut dyn Sink) -> Step {
+        if self.flow.ended {
+            return Step::Ended;
+        }
+        if !self.flow.started {
+            self.flow.started = true;
+            if let Some(step) = self.begin(sink) {
+                return step;
+            }
+        }
+        if self.flow.seeking.is_some() {
+            return match self.seek() {
+                Sought::Landed(compiled, seeking, keep) => self.finish_line(compiled, Some(seeking), keep, sink),
+                Sought::Refused(error) => self.refuse(&error, sink),
+                Sought::Undecided(why) => self.give_up(why),
+                Sought::EndOfFile => self.end_of_file(sink),
+                Sought::Percent => self.percent_reached(sink),
+                Sought::OutOfFuel => self.out_of_fuel(),
+            };
+        }
+        let here = self.flow.here;
+        if here.offset as usize >= self.files[here.file.0 as usize].bytes().len() {
+            return self.end_of_file(sink);
+        }
+        let (compiled, keep) = self.fetch();
+        if self.flow.fuel == 0 {
+            self.put_back(compiled, keep);
+            return self.out_of_fuel();
+        }
+        self.finish_line(compiled, None, keep, sink)
+    }
+    /// Runs to the end, to what cannot be decided, or to the bounds. With `stop`, it stops at the first refused line as the control does.
+    pub fn run(&mut self, stop: bool, sink: &mut dyn Sink) -> Step {
+        loop {
+            match self.step(sink) {
+                Step::Line => {}
+                Step::Refused if !stop => {}
+                other => return other,
+            }
+        }
+    }
+    /// The line the last step ran.
+    pub fn at(&self) -> At {
+        self.flow.at()
+    }
+    /// The calls of a chain, outermost first; empty for the main program.
+    pub fn chain(&self, id: ChainId) -> Vec<Frame> {
+        self.flow.frames(id)
+    }
+    /// The program has ended.
+    pub fn ended(&self) -> bool {
+        self.flow.ended
+    }
+
+    fn finish_line(
+        &mut self,
+        mut compiled: Box<Compiled>,
+        sought: Option<Seeking>,
+        keep: bool,
+        sink: &mut dyn Sink,
+    ) -> Step {
+        let place = compiled.place;
+        self.flow.at = At {
+            file: place.file,
+            line: place.line,
+            chain: self.flow.chain,
+        };
+        self.flow.here = compiled.next;
+        let result = match sought {
+            None => self.run_line(&mut compiled, sink),
+            Some(seeking) => self.run_label(&mut compiled, Some(seeking), sink),
+        };
+        self.put_back(compiled, keep);
+        match result {
+            Ok(After::Go) => Step::Line,
+            Ok(After::Ended) => self.program_end(sink),
+            Err(Halt::Refused(error)) => self.refuse(&error, sink),
+            Err(Halt::Told) => Step::Refused,
+            Err(Halt::Undecided(why)) => self.give_up(why),
+        }
+    }
+    fn run_line(&mut self, compiled: &mut Compiled, sink: &mut dyn Sink) -> Result<After, Halt> {
+        if let Some(flaw) = &compiled.flaw {
+            return Err(flaw.clone().into());
+        }
+        match compiled.kind {
+            Kind::Blank => Ok(After::Go),
+            Kind::Words => self.run_words(compiled, sink),
+            Kind::Label => self.run_label(compiled, None, sink),
+            Kind::CallNumbered => self.call_numbered(compiled, sink),
+            Kind::ReturnNumbered if self.flow.calls.is_empty() => self.run_words(compiled, sink),
+            Kind::ReturnNumbered => self.return_numbered(compiled, sink),
+            Kind::Percent if self.flow.percent => {
+                self.finish(sink);
+                Ok(After::Go)
+            }
+            Kind::Percent => {
+                let range = self.range_at(compiled.place);
+                Err(Error::new(&problems::STRAY_PERCENT, range).into())
+            }
+        }
+    }
+    /// Words, assignments and comments: evaluated, checked, then the comment, then the block.
+    fn run_words(&mut self, compiled: &Compiled, sink: &mut dyn Sink) -> Result<After, Halt> {
+        let mut block = self.block.take().unwrap_or_default();
+        let result = self.run_block(compiled, &mut block, sink);
+        self.block = Some(block);
+        result
+    }
+    fn run_block(
+        &mut self,
+        compiled: &Compiled,
+        block: &mut crate::Block,
+        sink: &mut dyn Sink,
+    ) -> Result<After, Halt> {
+        let line = &compiled.line;
+        let at = self.flow.at;
+        let evaluated = read::evaluate(line, &self.values(), block);
+        if !line.errors.is_empty() || evaluated.is_err() {
+            return Err(self.refuse_text(line, evaluated, sink));
+        }
+        exec::check(self, block)?;
+        self.apply(line)?;
+        comment::run(self, line, at, sink)?;
+        Ok(exec::execute(self, block, at, sink)?)
+    }
+    /// Assignments take effect behind the line, all at once.
+    pub(super) fn apply(&mut self, line: &read::Line) -> Result<(), Error> {
+        read::apply(self, line)
+    }
+    /// What formulas read from, at the line that runs.
+    #[inline]
+    pub(crate) fn values(&self) -> Values<'_> {
+        Values::new(self)
+    }
+    /// The value of a formula.
+    pub(super) fn value(&self, formula: &Formula) -> Result<f64, Error> {
+        if let Some(number) = formula.number() {
+            return Ok(number);
+        }
+        formula.eval(&self.values()).map_err(|error| read::formula_error(&error))
+    }
+    /// The value of a condition or count: it must be known.
+    pub(super) fn decided(&self, formula: &Formula, line: &OLine) -> Result<f64, Halt> {
+        let value = self.value(formula)?;
+        if value.is_nan() {
+            return Err(Halt::Undecided(self.undecided(formula, line)));
+        }
+        Ok(value)
+    }
+    /// The words of a line are wrong: the error that the control gives comes first, then all others of the line.
+    pub(super) fn refuse_text(
+        &mut self,
+        line: &read::Line,
+        evaluated: Result<(), Error>,
+        sink: &mut dyn Sink,
+    ) -> Halt {
+        let first = match (evaluated, line.errors.first()) {
+            (Err(error), _) if error.problem == &read::UNDECIDED => return Halt::Undecided(error.message().to_owned()),
+            (Err(error), _) => error,
+            (Ok(()), Some(error)) => error.clone(),
+            (Ok(()), None) => return Halt::Told,
+        };
+        self.tell(&first, sink);
+        for error in &line.errors {
+            if error.range != first.range {
+                self.tell(error, sink);
+            }
+        }
+        Halt::Told
+    }
+    fn tell(&self, error: &Error, sink: &mut dyn Sink) {
+        let at = self.flow.at;
+        let error = Error {
+            file: at.file,
+            ..error.clone()
+        };
+        sink.error(&error, at);
+    }
+    pub(super) fn refuse(&mut self, error: &Error, sink: &mut dyn Sink) -> Step {
+        self.tell(error, sink);
+        Step::Refused
+    }
+    fn give_up(&mut self, why: String) -> Step {
+        self.flow.ended = true;
+        Step::Undecided(why)
+    }
+    fn out_of_fuel(&mut self) -> Step {
+        self.flow.ended = true;
+        Step::OutOfFuel(self.endless())
+    }
+    /// The line that opens what does not end: the innermost structure around the line in hand that has used half of the bound since it
+    /// was entered; else the innermost call; else the line itself.
+    fn endless(&self) -> At {
+        let here = self.flow.here;
+        let half = self.setup.limits.blocks / 2;
+        let around = |place: Place| place.file == here.file && place.line <= here.line;
+        let heavy = self.flow.labels.structures().filter(|structure| {
+            structure.opener != super::labels::Opener::If && around(structure.place) && structure.fuel >= half
+        });
+        let line = heavy.map(|structure| structure.place.line).max();
+        let chain = self.flow.chain;
+        match (line, self.flow.calls.last()) {
+            (Some(line), _) => At {
+                file: here.file,
+                line,
+                chain,
+            },
+            (None, Some(call)) => call.site,
+            (None, None) => self.flow.at,
+        }
+    }
+}

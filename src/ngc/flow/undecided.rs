@@ -1,0 +1,82 @@
+//! Why it cannot be said what runs next: which values are not known, and where they come from.
+use super::oline::{Keyword, OLine};
+use crate::Engine;
+use trunnion_formula::{Formula, Variable, Variables};
+
+/// At most so many names in one sentence.
+const NAMES: usize = 3;
+
+impl Engine {
+    /// A condition, count or label is not known.
+    pub(super) fn undecided(&self, formula: &Formula, line: &OLine) -> String {
+        let what = match line.keyword {
+            Keyword::If | Keyword::ElseIf => "whether this branch runs",
+            Keyword::While => "whether this loop goes on",
+            Keyword::Repeat => "how often this loop runs",
+            _ => "which label this is",
+        };
+        let reasons = self.reasons(formula);
+        if reasons.is_empty() {
+            return format!("{what} depends on a value that is not known before the program runs");
+        }
+        format!("{what} depends on {}", reasons.join(" and "))
+    }
+    /// A word is not known.
+    pub(super) fn undecided_word(&self, letter: char, what: &str) -> String {
+        format!("{what} depends on {letter}, whose value is not known before the program runs")
+    }
+    /// The variables of a formula that are not known.
+    fn reasons(&self, formula: &Formula) -> Vec<String> {
+        let values = self.values();
+        let mut reasons: Vec<String> = Vec::new();
+        for variable in formula.reads() {
+            let reason = match variable {
+                Variable::Numbered(index) if values.numbered(index).is_ok_and(f64::is_nan) => {
+                    format!("#{index}, {}", numbered(index))
+                }
+                Variable::Named(name) if values.named(name).is_ok_and(f64::is_nan) => {
+                    format!("#<{name}>, {}", named(name))
+                }
+                Variable::Computed(range) => {
+                    let at = self.at();
+                    let bytes = self.files[at.file.0 as usize].bytes();
+                    let text = bytes.get(range.as_usize()).unwrap_or_default();
+                    format!("{}, whose number or value is not known", String::from_utf8_lossy(text))
+                }
+                _ => continue,
+            };
+            if reasons.len() < NAMES && !reasons.contains(&reason) {
+                reasons.push(reason);
+            }
+        }
+        reasons
+    }
+}
+
+/// Where a numbered parameter that is not known gets its value.
+fn numbered(index: i64) -> &'static str {
+    match index {
+        5061..=5069 => "where the probe touched",
+        5070 => "whether the probe touched",
+        5161..=5189 => "a position of the machine (G28, G30)",
+        5210..=5390 => "an offset set on the machine",
+        5399 => "the result of M66",
+        5400..=5413 => "data of the tool in the spindle",
+        5420..=5428 => "the position of the machine",
+        1..=5000 => "which keeps its value from program to program and is not set here",
+        _ => "which was computed from values that are not known",
+    }
+}
+
+/// The same of a named one.
+fn named(name: &str) -> &'static str {
+    if name.starts_with("_hal[") {
+        "a pin of the machine"
+    } else if name.starts_with("_ini[") {
+        "a value of the machine's INI file"
+    } else if matches!(name, "_x" | "_y" | "_z" | "_a" | "_b" | "_c" | "_u" | "_v" | "_w") || name.starts_with("_abs_") {
+        "the position of the machine"
+    } else {
+        "which was computed from values that are not known"
+    }
+}

@@ -1,0 +1,257 @@
+//! Parameters: numbered ones, 1-5601, and named ones, with what a call of a subprogram keeps for itself.
+mod system;
+
+use crate::{Engine, Ini, Setup, Start, State};
+use std::collections::BTreeMap;
+use trunnion_formula::{ValueError, Variables};
+
+/// Highest number that exists (observed: `#5601` is zero, `#5602` is refused).
+const LAST: usize = 5601;
+/// Numbers a call has for itself: its arguments.
+const LOCAL: usize = 30;
+
+/// Number of a parameter that a program may set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Slot(usize);
+
+impl Slot {
+    /// The slot of a number; `Err(true)` where programs may only read, `Err(false)` where there is none.
+    pub(crate) fn writable(index: i64) -> Result<Self, bool> {
+        match usize::try_from(index) {
+            // observed: these and no others
+            Ok(5400..=5413 | 5420..=5428) => Err(true),
+            Ok(index @ 1..=LAST) => Ok(Self(index)),
+            _ => Err(false),
+        }
+    }
+}
+
+/// What a call puts aside of its caller.
+#[derive(Clone, Debug)]
+struct Aside {
+    /// `None`: the call shares them (M98).
+    numbers: Option<[f64; LOCAL]>,
+    names: BTreeMap<Box<str>, f64>,
+}
+
+/// All parameters a program can read and set.
+#[derive(Clone, Debug)]
+pub(crate) struct Store {
+    /// Index = number; 0 is not used.
+    numbers: Vec<f64>,
+    /// Names that begin with `_`: of all programs.
+    globals: BTreeMap<Box<str>, f64>,
+    /// Other names: of the call in progress.
+    locals: BTreeMap<Box<str>, f64>,
+    /// Callers, outermost first.
+    aside: Vec<Aside>,
+    /// `#<_value>`: what the last subprogram returned.
+    value: f64,
+    /// `#<_value_returned>`.
+    returned: bool,
+    /// Axis letters that are no words here: bit per letter from A.
+    missing_axes: u32,
+}
+
+impl Store {
+    /// As a run starts: what the parameter file declares, else zero. In a check nothing is known of numbers that no file declares,
+    /// but for the coordinate system (G54) and G92 (off).
+    pub(crate) fn new(setup: &Setup) -> Self {
+        let mut numbers = vec![0.0; LAST + 1];
+        if setup.start == Start::Unknown {
+            numbers[1..].fill(f64::NAN);
+            numbers[5210] = 0.0;
+        }
+        numbers[5220] = 1.0;
+        for &(index, value) in &setup.parameters.values {
+            if let Some(place) = numbers.get_mut(index as usize) {
+                *place = value;
+            }
+        }
+        Self {
+            numbers,
+            globals: BTreeMap::new(),
+            locals: BTreeMap::new(),
+            aside: Vec::new(),
+            value: 0.0,
+            returned: false,
+            missing_axes: missing_axes(setup),
+        }
+    }
+    /// The value of a parameter; 0 where there is none.
+    pub(crate) fn number(&self, index: usize) -> f64 {
+        self.numbers.get(index).copied().unwrap_or(0.0)
+    }
+    /// Writes a parameter for the interpreter itself, read-only or not.
+    pub(crate) fn set_number(&mut self, index: usize, value: f64) {
+        if let Some(place) = self.numbers.get_mut(index) {
+            *place = value;
+        }
+    }
+    /// Writes a parameter for the program.
+    pub(crate) fn set(&mut self, slot: Slot, value: f64) {
+        self.numbers[slot.0] = value;
+    }
+    /// A parameter was set whose number is not known: none is known any more that a program may set.
+    pub(crate) fn forget(&mut self) {
+        for index in 1..=LAST {
+            if let Ok(slot) = Slot::writable(index as i64) {
+                self.set(slot, f64::NAN);
+            }
+        }
+    }
+    /// Sets a named parameter: of all programs where it begins with `_`, else of the call in progress.
+    pub(crate) fn set_named(&mut self, name: &str, value: f64) {
+        let names = if name.starts_with('_') {
+            &mut self.globals
+        } else {
+            &mut self.locals
+        };
+        match names.get_mut(name) {
+            Some(place) => *place = value,
+            None => {
+                names.insert(name.into(), value);
+            }
+        }
+    }
+    /// A subprogram is called: `#1` to `#30` become its arguments and zeros, its names are its own.
+    pub(crate) fn enter(&mut self, arguments: &[f64]) {
+        let own = &mut self.numbers[1..=LOCAL];
+        let mut numbers = [0.0; LOCAL];
+        numbers.copy_from_slice(own);
+        own.fill(0.0);
+        for (place, argument) in own.iter_mut().zip(arguments) {
+            *place = *argument;
+        }
+        self.aside.push(Aside {
+            numbers: Some(numbers),
+            names: core::mem::take(&mut self.locals),
+        });
+    }
+    /// A Fanuc-style subprogram is called: its names are its own, `#1` to `#30` are the caller's.
+    pub(crate) fn enter_sharing(&mut self) {
+        self.aside.push(Aside {
+            numbers: None,
+            names: core::mem::take(&mut self.locals),
+        });
+    }
+    /// A subprogram is left: `#1` to `#30` and the names of the caller come back.
+    pub(crate) fn leave(&mut self) {
+        if let Some(aside) = self.aside.pop() {
+            if let Some(numbers) = aside.numbers {
+                self.numbers[1..=LOCAL].copy_from_slice(&numbers);
+            }
+            self.locals = aside.names;
+        }
+    }
+    /// What a subprogram returned: `#<_value>` and `#<_value_returned>`.
+    pub(crate) fn set_returned(&mut self, value: Option<f64>) {
+        self.value = value.unwrap_or(0.0);
+        self.returned = value.is_some();
+    }
+    /// Axis letters that the control refuses: bit per letter from A.
+    #[inline]
+    pub(crate) fn missing_axes(&self) -> u32 {
+        self.missing_axes
+    }
+}
+
+/// `rs274` has the axes X Y Z A B C whatever the INI file says (observed); on a machine it is `[TRAJ] COORDINATES` that says it.
+fn missing_axes(setup: &Setup) -> u32 {
+    let bits = |letters: &str| {
+        letters
+            .bytes()
+            .filter(u8::is_ascii_alphabetic)
+            .fold(0u32, |bits, letter| bits | 1 << (letter.to_ascii_uppercase() - b'A'))
+    };
+    let key = ("TRAJ".to_owned(), "COORDINATES".to_owned());
+    let there = match setup.ini.values.get(&key) {
+        Some(letters) if setup.start == Start::Unknown => bits(letters),
+        _ => bits("XYZABC"),
+    };
+    bits("XYZABCUVW") & !there
+}
+
+/// What formulas read from at one line.
+#[derive(Clone, Copy)]
+pub(crate) struct Values<'a> {
+    store: &'a Store,
+    state: &'a State,
+    setup: &'a Setup,
+    /// From 1.
+    line: u32,
+}
+
+impl<'a> Values<'a> {
+    /// The values at the line that runs.
+    #[inline]
+    pub(crate) fn new(engine: &'a Engine) -> Self {
+        Self {
+            store: &engine.store,
+            state: &engine.state,
+            setup: &engine.setup,
+            line: engine.at().line + 1,
+        }
+    }
+    /// Axis letters that the control refuses: bit per letter from A.
+    #[inline]
+    pub(crate) fn missing_axes(&self) -> u32 {
+        self.store.missing_axes
+    }
+    /// Whether a name is one of the control's own, which programs only read.
+    pub(crate) fn is_system(name: &str) -> bool {
+        system::NAMES.binary_search_by(|(own, _)| (*own).cmp(name)).is_ok()
+    }
+    /// Values that only the machine knows are not known in a check.
+    fn is_check(&self) -> bool {
+        self.setup.start == Start::Unknown
+    }
+    /// `#<_ini[section]name>`; section and name count in upper case.
+    fn ini(&self, inside: &str) -> Result<f64, ValueError> {
+        let Some((section, key)) = inside.split_once(']') else {
+            return Err(ValueError::NotDefined);
+        };
+        let ini: &Ini = &self.setup.ini;
+        if ini.values.is_empty() && self.is_check() {
+            return Ok(f64::NAN);
+        }
+        let text = ini
+            .values
+            .get(&(section.to_ascii_uppercase(), key.to_ascii_uppercase()));
+        text.and_then(|text| text.trim().parse().ok())
+            .ok_or(ValueError::NotDefined)
+    }
+}
+
+impl Variables for Values<'_> {
+    #[inline]
+    fn numbered(&self, index: i64) -> Result<f64, ValueError> {
+        match usize::try_from(index) {
+            Ok(place @ 1..=LAST) => Ok(self.store.numbers[place]),
+            _ => Err(ValueError::OutOfRange),
+        }
+    }
+    fn named(&self, name: &str) -> Result<f64, ValueError> {
+        let names = if name.starts_with('_') {
+            &self.store.globals
+        } else {
+            &self.store.locals
+        };
+        if let Some(value) = names.get(name) {
+            return Ok(*value);
+        }
+        if let Some(inside) = name.strip_prefix("_ini[") {
+            return self.ini(inside);
+        }
+        if name.starts_with("_hal[") && self.is_check() {
+            return Ok(f64::NAN);
+        }
+        match system::NAMES.binary_search_by(|(own, _)| (*own).cmp(name)) {
+            Ok(place) => Ok((system::NAMES[place].1)(self)),
+            Err(_) => Err(ValueError::NotDefined),
+        }
+    }
+    fn exists(&self, name: &str) -> bool {
+        self.named(name).is_ok()
+    }
+}

@@ -1,0 +1,135 @@
+//! Names the control sets itself: what is in force, where the program is (values and names observed from `rs274`).
+use super::Values;
+use crate::exec;
+use crate::{DistanceMode, FeedMode, Plane, RetractMode, Side, SpindleMode, Units};
+
+/// How a value is found.
+type Read = fn(&Values<'_>) -> f64;
+
+/// All names, in order.
+pub(super) const NAMES: &[(&str, Read)] = &[
+    ("_a", |v| v.state.current[3]),
+    ("_abs_a", |v| machine(v, 3)),
+    ("_abs_b", |v| machine(v, 4)),
+    ("_abs_c", |v| machine(v, 5)),
+    ("_abs_x", |v| machine(v, 0)),
+    ("_abs_y", |v| machine(v, 1)),
+    ("_abs_z", |v| machine(v, 2)),
+    ("_absolute", |v| truth(v.state.distance == DistanceMode::Absolute)),
+    ("_adaptive_feed", |v| truth(v.state.adaptive_feed)),
+    ("_b", |v| v.state.current[4]),
+    ("_c", |v| v.state.current[5]),
+    ("_call_level", |v| v.store.aside.len() as f64),
+    ("_ccomp", compensation),
+    ("_coord_system", |v| coordinate_system(v.state.origin_index)),
+    ("_current_pocket", current_pocket),
+    ("_current_tool", |v| f64::from(v.state.tool)),
+    ("_feed", |v| v.state.feed_rate),
+    ("_feed_hold", |v| truth(v.state.feed_hold)),
+    ("_feed_override", |v| truth(v.state.feed_override)),
+    ("_flood", |v| truth(v.state.flood)),
+    ("_ijk_absolute_mode", |v| {
+        truth(v.state.arc_distance == DistanceMode::Absolute)
+    }),
+    ("_imperial", |v| truth(v.state.units == Units::Inch)),
+    ("_incremental", |v| truth(v.state.distance == DistanceMode::Incremental)),
+    ("_inverse_time", |v| truth(v.state.feed_mode == FeedMode::InverseTime)),
+    ("_lathe_diameter_mode", |v| truth(v.state.lathe_diameter)),
+    ("_lathe_radius_mode", |v| truth(!v.state.lathe_diameter)),
+    ("_line", |v| f64::from(v.line)),
+    ("_metric", |v| truth(v.state.units == Units::Millimetre)),
+    ("_mist", |v| truth(v.state.mist)),
+    ("_motion_mode", |v| f64::from(v.state.motion)),
+    ("_plane", |v| plane(v.state.plane)),
+    ("_remap_level", |_| 0.0),
+    ("_retract_old_z", |v| truth(v.state.retract == RetractMode::OldZ)),
+    ("_retract_r_plane", |v| truth(v.state.retract == RetractMode::RPlane)),
+    ("_rpm", |v| v.state.speed[v.state.active_spindle]),
+    ("_selected_pocket", |v| f64::from(v.state.selected_pocket)),
+    ("_selected_tool", |v| f64::from(v.state.selected_tool.max(0))),
+    ("_speed_override", |v| truth(v.state.speed_override)),
+    ("_spindle_css_mode", |v| truth(surface_speed(v))),
+    ("_spindle_cw", |v| truth(v.state.turning[v.state.active_spindle] == 1)),
+    ("_spindle_on", |v| truth(v.state.turning[v.state.active_spindle] != 0)),
+    ("_spindle_rpm_mode", |v| truth(!surface_speed(v))),
+    // 1 where motion is carried out: a check asks what the machine will do
+    ("_task", |v| truth(v.is_check())),
+    ("_tool_offset", |v| {
+        truth(v.state.tool_offset.iter().any(|offset| *offset != 0.0))
+    }),
+    ("_u", |v| v.state.current[6]),
+    ("_units_per_minute", |v| truth(v.state.feed_mode == FeedMode::PerMinute)),
+    ("_units_per_rev", |v| {
+        truth(v.state.feed_mode == FeedMode::PerRevolution)
+    }),
+    ("_v", |v| v.state.current[7]),
+    ("_value", |v| v.store.value),
+    ("_value_returned", |v| truth(v.store.returned)),
+    ("_vmajor", |_| 2.9),
+    ("_vminor", |_| 0.0),
+    ("_w", |v| v.state.current[8]),
+    ("_x", |v| v.state.current[0]),
+    ("_y", |v| v.state.current[1]),
+    ("_z", |v| v.state.current[2]),
+];
+
+fn truth(holds: bool) -> f64 {
+    if holds { 1.0 } else { 0.0 }
+}
+
+/// A coordinate of the machine, in program units.
+fn machine(values: &Values<'_>, axis: usize) -> f64 {
+    exec::to_machine(values.state, &values.state.current)[axis]
+}
+
+fn surface_speed(values: &Values<'_>) -> bool {
+    let mode = values.state.spindle_mode[values.state.active_spindle];
+    matches!(mode, SpindleMode::ConstantSurface(_))
+}
+
+/// 400, 410 or 420; G41.1 and G42.1 count as G41 and G42.
+fn compensation(values: &Values<'_>) -> f64 {
+    match values.state.side {
+        Side::Off => 400.0,
+        Side::Left => 410.0,
+        Side::Right => 420.0,
+    }
+}
+
+/// 540 for G54 to 593 for G59.3.
+fn coordinate_system(index: i32) -> f64 {
+    let index = f64::from(index);
+    if index <= 6.0 {
+        530.0 + 10.0 * index
+    } else {
+        584.0 + index
+    }
+}
+
+fn plane(plane: Plane) -> f64 {
+    match plane {
+        Plane::Xy => 170.0,
+        Plane::Xz => 180.0,
+        Plane::Yz => 190.0,
+        Plane::Uv => 171.0,
+        Plane::Uw => 181.0,
+        Plane::Vw => 191.0,
+    }
+}
+
+/// The pocket of the tool in the spindle; before the first change it is that of the table's first row.
+fn current_pocket(values: &Values<'_>) -> f64 {
+    let rows = &values.setup.tools.rows;
+    let row = rows.iter().find(|row| row.number == values.state.tool).or(rows.first());
+    row.map_or(0.0, |row| f64::from(row.pocket))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::NAMES;
+
+    #[test]
+    fn names_are_in_order() {
+        assert!(NAMES.is_sorted_by(|a, b| a.0 < b.0));
+    }
+}

@@ -1,0 +1,33 @@
+//! Comments of a line: where they are, and whether they end.
+use super::problems;
+use crate::Error;
+use trunnion_syntax::TextRange;
+
+/// The first error of the line's comments: the control looks at them before anything else. `text` is the line without its end.
+pub(crate) fn flaw(source: &[u8], text: TextRange) -> Option<Error> {
+    let bytes = &source[text.as_usize()];
+    let mut open = None;
+    for (at, byte) in bytes.iter().enumerate() {
+        let at = text.start + at as u32;
+        match (byte, open) {
+            (b'(', None) => open = Some(at),
+            (b'(', Some(_)) => return Some(Error::new(&problems::NESTED_COMMENT, TextRange::new(at, at + 1))),
+            (b')', Some(_)) => open = None,
+            (b';', None) => return None,
+            _ => {}
+        }
+    }
+    open.map(|at| Error::new(&problems::UNCLOSED_COMMENT, TextRange::new(at, text.end)))
+}
+
+/// One past the comment that begins at `start` with `(` or `;`.
+pub(super) fn end(source: &[u8], start: u32, end: u32) -> u32 {
+    let bytes = &source[start as usize..end as usize];
+    if bytes.first() == Some(&b';') {
+        return end;
+    }
+    bytes
+        .iter()
+        .position(|&byte| byte == b')')
+        .map_or(end, |at| start + at as u32 + 1)
+}

@@ -1,0 +1,261 @@
+//! From a read line to values in their places. The control computes while it reads: the first error in reading order is its error.
+use super::codes::{CANCEL, g_group, m_group};
+use super::line::{Assignment, Item, Line, WordText};
+use super::problems;
+use crate::parameters::{Slot, Values};
+use crate::{Block, Engine, Error, Problem};
+use trunnion_formula::{Formula, FormulaError, FormulaErrorKind, Target, ValueError, Variables};
+use trunnion_syntax::TextRange;
+
+/// Evaluates the line's words into `block`; assignments are evaluated for their errors and take effect with [`apply`].
+///
+/// # Errors
+/// The first error in reading order: of the text, of a value, or of a code.
+#[inline]
+pub(crate) fn evaluate(line: &Line, values: &Values<'_>, block: &mut Block) -> Result<(), Error> {
+    block.clear(line.range);
+    block.number = line.number;
+    for item in &line.items {
+        match *item {
+            Item::Word(index) => word(&line.words[index as usize], line, values, block)?,
+            Item::Assignment(index) => {
+                let assignment = &line.assignments[index as usize];
+                let values = created(line, index, values);
+                slot(assignment, &values)?;
+                value(&assignment.value, &values)?;
+                writable(assignment)?;
+            }
+            Item::Error(index) => return Err(line.errors[index as usize].clone()),
+        }
+    }
+    Ok(())
+}
+
+/// Sets the parameters of a line, all at once: each right side has the values from before the line.
+///
+/// # Errors
+/// None that [`evaluate`] has not told of the same line.
+pub(crate) fn apply(engine: &mut Engine, line: &Line) -> Result<(), Error> {
+    match &line.assignments[..] {
+        [] => Ok(()),
+        [one] => {
+            let values = Values::new(engine);
+            let values = created(line, 0, &values);
+            let (slot, value) = (slot(one, &values)?, value(&one.value, &values)?);
+            set(engine, one, slot, value);
+            Ok(())
+        }
+        many => {
+            let mut results = Vec::with_capacity(many.len());
+            let values = Values::new(engine);
+            for (index, assignment) in many.iter().enumerate() {
+                let values = created(line, index as u32, &values);
+                results.push((slot(assignment, &values)?, value(&assignment.value, &values)?));
+            }
+            for (assignment, (slot, value)) in many.iter().zip(results) {
+                set(engine, assignment, slot, value);
+            }
+            Ok(())
+        }
+    }
+}
+
+fn set(engine: &mut Engine, assignment: &Assignment, slot: Option<Slot>, value: f64) {
+    match (&assignment.target, slot) {
+        (Target::Numbered(_), Some(slot)) => engine.store.set(slot, value),
+        (Target::Named(name), _) => engine.store.set_named(name, value),
+        (Target::Numbered(_), None) => engine.store.forget(),
+    }
+}
+
+/// The values as the control sees them at an item of a line: names that are set before it on the same line exist, with zero.
+struct Created<'a> {
+    values: &'a Values<'a>,
+    before: &'a [Assignment],
+}
+
+fn created<'a>(line: &'a Line, index: u32, values: &'a Values<'a>) -> Created<'a> {
+    Created {
+        values,
+        before: &line.assignments[..index as usize],
+    }
+}
+
+impl Created<'_> {
+    fn makes(&self, name: &str) -> bool {
+        self.before
+            .iter()
+            .any(|assignment| matches!(&assignment.target, Target::Named(own) if **own == *name))
+    }
+}
+
+impl Variables for Created<'_> {
+    fn numbered(&self, index: i64) -> Result<f64, ValueError> {
+        self.values.numbered(index)
+    }
+    fn named(&self, name: &str) -> Result<f64, ValueError> {
+        match self.values.named(name) {
+            Err(ValueError::NotDefined) if self.makes(name) => Ok(0.0),
+            other => other,
+        }
+    }
+    fn exists(&self, name: &str) -> bool {
+        self.values.exists(name) || self.makes(name)
+    }
+}
+
+#[inline]
+fn value(formula: &Formula, variables: &impl Variables) -> Result<f64, Error> {
+    if let Some(number) = formula.number() {
+        return Ok(number);
+    }
+    formula.eval(variables).map_err(|error| problems::formula(&error))
+}
+
+/// Where a numbered assignment goes; `None` for a name, and where the number is not known.
+fn slot(assignment: &Assignment, values: &Created<'_>) -> Result<Option<Slot>, Error> {
+    let Target::Numbered(number) = &assignment.target else {
+        return Ok(None);
+    };
+    let number = value(number, values)?;
+    if number.is_nan() {
+        return Ok(None);
+    }
+    let range = assignment.target_range;
+    let kind = |kind| problems::formula(&FormulaError { range, kind });
+    let Some(index) = integer(number) else {
+        return Err(kind(FormulaErrorKind::NotInteger(number)));
+    };
+    match Slot::writable(index) {
+        Ok(slot) => Ok(Some(slot)),
+        Err(true) => Err(Error::new(&problems::READ_ONLY, range)),
+        Err(false) => Err(kind(FormulaErrorKind::ParameterOutOfRange(index))),
+    }
+}
+
+/// Whether a name may be set: looked at behind the value.
+fn writable(assignment: &Assignment) -> Result<(), Error> {
+    match &assignment.target {
+        Target::Named(name) if Values::is_system(name) => {
+            let text = format!("Cannot assign to read-only parameter #<{name}>");
+            Err(Error::with(&problems::READ_ONLY_NAME, assignment.target_range, text))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A whole number within 1e-4, as parameter numbers and codes have it.
+fn integer(value: f64) -> Option<i64> {
+    let below = value.floor();
+    let fraction = value - below;
+    if fraction > 0.9999 {
+        Some(below as i64 + 1)
+    } else {
+        (fraction <= 1e-4).then_some(below as i64)
+    }
+}
+
+/// The same in 32 bits, which is what the control has: a larger number becomes the least one.
+fn int(value: f64, range: TextRange) -> Result<i32, Error> {
+    let number = integer(value).ok_or_else(|| Error::new(&problems::NOT_INTEGER, range))?;
+    Ok(i32::try_from(number).unwrap_or(i32::MIN))
+}
+
+#[inline]
+fn word(word: &WordText, line: &Line, values: &Values<'_>, block: &mut Block) -> Result<(), Error> {
+    if word.letter.is_ascii_uppercase() && values.missing_axes() & (1 << (word.letter - b'A')) != 0 {
+        return Err(super::line::no_word(word));
+    }
+    let value = if line.assignments.is_empty() {
+        value(&word.value, values)?
+    } else {
+        let before = line
+            .assignments
+            .partition_point(|assignment| assignment.target_range.start < word.range.start);
+        value(&word.value, &created(line, before as u32, values))?
+    };
+    let range = word.range;
+    let least = |problem: &'static Problem, holds: bool| {
+        if holds { Err(Error::new(problem, range)) } else { Ok(()) }
+    };
+    match word.letter {
+        b'G' => return g_code(value, range, block),
+        b'M' => return m_code(value, range, block),
+        b'@' => block.radius = Some(value),
+        b'^' => block.angle = Some(value),
+        b'$' => block.spindle = Some(value as i32),
+        letter => {
+            let value = match letter {
+                b'H' | b'L' | b'T' if !value.is_nan() => f64::from(int(value, range)?),
+                _ => value,
+            };
+            match letter {
+                b'F' => least(&problems::NEGATIVE_F, value < 0.0)?,
+                b'S' => least(&problems::NEGATIVE_S, value < 0.0)?,
+                b'H' => least(&problems::NEGATIVE_H, value < -1.0)?,
+                b'L' => least(&problems::NEGATIVE_L, value < 0.0)?,
+                b'T' => least(&problems::NEGATIVE_T, value < 0.0)?,
+                _ => {}
+            }
+            block.put(letter, value, range);
+        }
+    }
+    Ok(())
+}
+
+fn g_code(value: f64, range: TextRange, block: &mut Block) -> Result<(), Error> {
+    if value.is_nan() {
+        return Err(undecided(range, 'G'));
+    }
+    let refuse = |problem: &'static Problem| Err(Error::new(problem, range));
+    let code = (value * 10.0 + 0.5).floor();
+    // a number beyond 32 bits is negative to the control
+    if code < 0.0 || code > f64::from(i32::MAX) {
+        return refuse(&problems::NEGATIVE_G);
+    }
+    if code > 999.0 || (value - code / 10.0).abs() > 1e-4 {
+        return refuse(&problems::G_RANGE);
+    }
+    let Some(group) = g_group(code as i32) else {
+        return refuse(&problems::G_UNKNOWN);
+    };
+    let code = code as i16;
+    match block.g_code(group) {
+        Some(_) if code == CANCEL => return Ok(()),
+        Some(other) if other != CANCEL => return refuse(&problems::G_GROUP),
+        _ => {}
+    }
+    block.g[group] = code;
+    block.g_range[group] = range;
+    Ok(())
+}
+
+fn m_code(value: f64, range: TextRange, block: &mut Block) -> Result<(), Error> {
+    if value.is_nan() {
+        return Err(undecided(range, 'M'));
+    }
+    let code = int(value, range)?;
+    if code < 0 {
+        return Err(Error::new(&problems::NEGATIVE_M, range));
+    }
+    if code > 199 {
+        let text = format!("M-code greater than 199: M{code}");
+        return Err(Error::with(&problems::M_RANGE, range, text));
+    }
+    let Some(group) = m_group(code) else {
+        let text = format!("Unknown m code used: M{code}");
+        return Err(Error::with(&problems::M_UNKNOWN, range, text));
+    };
+    if block.m_code(group).is_some() {
+        return Err(Error::new(&problems::M_GROUP, range));
+    }
+    block.m[group] = code as i16;
+    block.m_range[group] = range;
+    block.m_count += 1;
+    Ok(())
+}
+
+fn undecided(range: TextRange, letter: char) -> Error {
+    let text = format!("which {letter} code this is depends on a value that is not known");
+    Error::with(&problems::UNDECIDED, range, text)
+}

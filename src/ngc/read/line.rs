@@ -1,0 +1,303 @@
+//! The line reader: bytes of one line to words, assignments and comments, with all that is wrong about the text.
+use super::{comments, problems};
+use crate::Error;
+use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Target, target, value_or_error};
+use trunnion_syntax::TextRange;
+
+/// One word: a letter (or `@`, `^`, `$`) and its value.
+#[derive(Clone, Debug)]
+pub(crate) struct WordText {
+    /// Upper case.
+    pub(crate) letter: u8,
+    pub(crate) value: Formula,
+    /// From the letter to the end of the value.
+    pub(crate) range: TextRange,
+}
+
+/// `#1=2`, `#<name>=3`.
+#[derive(Clone, Debug)]
+pub(crate) struct Assignment {
+    pub(crate) target: Target,
+    /// The left side with its `#`.
+    pub(crate) target_range: TextRange,
+    pub(crate) value: Formula,
+}
+
+/// What stands on the line, in the order in which the control reads it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Item {
+    /// Index of a word.
+    Word(u32),
+    /// Index of an assignment.
+    Assignment(u32),
+    /// Index of an error of the text, found here.
+    Error(u32),
+}
+
+/// A line in its read form.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Line {
+    /// Its bytes without the line end.
+    pub(crate) range: TextRange,
+    /// The number behind N.
+    pub(crate) number: Option<f64>,
+    /// It begins with `/`.
+    pub(crate) delete: bool,
+    pub(crate) items: Vec<Item>,
+    pub(crate) words: Vec<WordText>,
+    pub(crate) assignments: Vec<Assignment>,
+    /// The last comment in parentheses, parentheses included: the one that counts.
+    pub(crate) comment: Option<TextRange>,
+    /// The comment behind `;`, that sign included.
+    pub(crate) remark: Option<TextRange>,
+    /// All that is wrong with the text. The first one the control reports, unless a value before it has none.
+    pub(crate) errors: Vec<Error>,
+    /// The words there are, to find those that are there twice: bit per letter, then `$`.
+    seen: u32,
+}
+
+/// Bit of `$` in [`Line::seen`].
+const SPINDLE: u32 = 1 << 26;
+
+impl Line {
+    /// Reads one line. `text` is the line without its end, and without what a NUL cuts off; a line that begins with an O word (behind
+    /// `/` and N) is not for this reader.
+    pub(crate) fn read(source: &[u8], text: TextRange, into: &mut Self) {
+        into.clear(text);
+        if let Some(error) = comments::flaw(source, text) {
+            into.fail(error);
+        }
+        let mut cursor = Cursor::new(source, text);
+        into.delete = cursor.eat(b'/');
+        if cursor.peek() == Some(b'n') {
+            into.sequence_number(&mut cursor);
+        }
+        while let Some(byte) = cursor.peek() {
+            into.item(byte, source, &mut cursor);
+        }
+    }
+
+    fn clear(&mut self, range: TextRange) {
+        self.range = range;
+        self.number = None;
+        self.delete = false;
+        self.items.clear();
+        self.words.clear();
+        self.assignments.clear();
+        self.comment = None;
+        self.remark = None;
+        self.errors.clear();
+        self.seen = 0;
+    }
+
+    fn fail(&mut self, error: Error) {
+        self.items.push(Item::Error(self.errors.len() as u32));
+        self.errors.push(error);
+    }
+
+    /// N: digits, or digits with one point between them. No value of a formula, no sign.
+    fn sequence_number(&mut self, cursor: &mut Cursor<'_>) {
+        let start = cursor.at();
+        cursor.bump();
+        let mut digits = [0u8; 32];
+        let (mut length, mut points, mut last) = (0, 0, b'.');
+        let mut first = true;
+        while let Some(byte) = cursor.peek() {
+            let point = byte == b'.';
+            if !(byte.is_ascii_digit() || point && points == 0) || first && point {
+                break;
+            }
+            first = false;
+            points += usize::from(point);
+            if length < digits.len() {
+                digits[length] = byte;
+                length += 1;
+            }
+            last = byte;
+            cursor.bump();
+        }
+        let range = cursor.since(start);
+        if last == b'.' {
+            self.fail(Error::new(&problems::SEQUENCE_NUMBER, range));
+            // what stands there instead of digits is not read again
+            while matches!(cursor.peek(), Some(b'+' | b'-' | b'.' | b'0'..=b'9')) {
+                cursor.bump();
+            }
+            return;
+        }
+        self.number = core::str::from_utf8(&digits[..length])
+            .ok()
+            .and_then(|text| text.parse().ok());
+    }
+
+    #[inline]
+    fn item(&mut self, byte: u8, source: &[u8], cursor: &mut Cursor<'_>) {
+        match byte {
+            b'n' | b'o' => self.stray(cursor),
+            b'a'..=b'z' | b'@' | b'^' | b'$' => self.word(byte, source, cursor),
+            b'#' => self.assignment(source, cursor),
+            b'(' | b';' => {
+                let start = cursor.at();
+                let end = comments::end(source, start, self.range.end);
+                let range = Some(TextRange::new(start, end));
+                if byte == b'(' {
+                    self.comment = range;
+                } else {
+                    self.remark = range;
+                }
+                cursor.skip_to(end);
+            }
+            _ => self.stray(cursor),
+        }
+    }
+
+    /// A sign that begins nothing. Letters of several bytes and the rest of a word are told once.
+    fn stray(&mut self, cursor: &mut Cursor<'_>) {
+        let start = cursor.at();
+        let Some(first) = cursor.bump() else {
+            return;
+        };
+        if first >= 0x80 {
+            while cursor.peek().is_some_and(|byte| (0x80..0xc0).contains(&byte)) {
+                cursor.bump();
+            }
+        }
+        let range = cursor.since(start);
+        let problem = if first.is_ascii_alphabetic() {
+            &problems::UNKNOWN_LETTER
+        } else {
+            &problems::BAD_CHARACTER
+        };
+        self.fail(Error::with(problem, range, bad_character(first)));
+        // its own value goes with it
+        while cursor
+            .peek()
+            .is_some_and(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'+' | b'-' | b']' | b')'))
+        {
+            cursor.bump();
+        }
+    }
+
+    fn word(&mut self, byte: u8, source: &[u8], cursor: &mut Cursor<'_>) {
+        let start = cursor.at();
+        cursor.bump();
+        let (value, error) = value_or_error(cursor, Grammar::Rs274);
+        let letter = byte.to_ascii_uppercase();
+        let range = cursor.since(start);
+        if let Some(error) = self.repeated(letter, range) {
+            self.fail(error);
+        }
+        self.items.push(Item::Word(self.words.len() as u32));
+        self.words.push(WordText { letter, value, range });
+        self.recover(error, source, cursor);
+    }
+
+    /// A word that may be there once and is there twice. G and M go by groups; of `@` and `^` the last one counts.
+    #[inline]
+    fn repeated(&mut self, letter: u8, range: TextRange) -> Option<Error> {
+        let bit = match letter {
+            b'G' | b'M' | b'@' | b'^' => return None,
+            b'$' => SPINDLE,
+            _ => 1 << (letter - b'A'),
+        };
+        let twice = self.seen & bit != 0;
+        self.seen |= bit;
+        if !twice {
+            return None;
+        }
+        Some(match letter {
+            b'$' => Error::new(&problems::REPEATED_SPINDLE, range),
+            _ => {
+                let letter = char::from(letter.to_ascii_lowercase());
+                Error::with(
+                    &problems::REPEATED,
+                    range,
+                    format!("Multiple {letter} words on one line"),
+                )
+            }
+        })
+    }
+
+    fn assignment(&mut self, source: &[u8], cursor: &mut Cursor<'_>) {
+        let start = cursor.at();
+        cursor.bump();
+        let left = match target(cursor, Grammar::Rs274) {
+            Ok(left) => left,
+            Err(error) => {
+                // what is wrong about a name begins at its `#`
+                let range = TextRange::new(error.range.start.min(cursor.at()), error.range.end);
+                return self.wrong(FormulaError { range, ..error }, source, cursor);
+            }
+        };
+        let target_range = cursor.since(start);
+        if !cursor.eat(b'=') {
+            // the number is looked at first
+            self.push_assignment(left, target_range, Formula::constant(0.0));
+            self.fail(Error::new(&problems::EQUAL_SIGN, target_range));
+            return self.skip(source, cursor);
+        }
+        let (value, error) = value_or_error(cursor, Grammar::Rs274);
+        self.push_assignment(left, target_range, value);
+        self.recover(error, source, cursor);
+    }
+
+    fn push_assignment(&mut self, target: Target, target_range: TextRange, value: Formula) {
+        self.items.push(Item::Assignment(self.assignments.len() as u32));
+        self.assignments.push(Assignment {
+            target,
+            target_range,
+            value,
+        });
+    }
+
+    /// Behind a value: where it is wrong, the error is kept and reading goes on where the next word may begin.
+    #[inline]
+    fn recover(&mut self, error: Option<FormulaError>, source: &[u8], cursor: &mut Cursor<'_>) {
+        if let Some(error) = error {
+            // it is in its place already: the value fails when it is evaluated
+            self.errors.push(problems::formula(&error));
+            self.skip(source, cursor);
+        }
+    }
+
+    fn wrong(&mut self, error: FormulaError, source: &[u8], cursor: &mut Cursor<'_>) {
+        self.fail(problems::formula(&error));
+        self.skip(source, cursor);
+    }
+
+    /// Goes to the next letter, `#` or comment behind a blank that no bracket holds.
+    fn skip(&mut self, source: &[u8], cursor: &mut Cursor<'_>) {
+        let mut depth = 0i32;
+        for at in cursor.at()..self.range.end {
+            let byte = source[at as usize];
+            let blank = at > self.range.start && source[at as usize - 1].is_ascii_whitespace();
+            match byte {
+                b'[' => depth += 1,
+                b']' => depth -= 1,
+                b';' | b'(' => return cursor.skip_to(at),
+                b'#' | b'a'..=b'z' | b'A'..=b'Z' if blank && depth <= 0 => return cursor.skip_to(at),
+                _ => {}
+            }
+        }
+        cursor.skip_to(self.range.end);
+    }
+}
+
+/// The letter of a word is an axis that the machine has not.
+pub(super) fn no_word(word: &WordText) -> Error {
+    let range = TextRange::new(word.range.start, word.range.start + 1);
+    Error::with(
+        &problems::UNKNOWN_LETTER,
+        range,
+        bad_character(word.letter.to_ascii_lowercase()),
+    )
+}
+
+/// The control's message about a sign: as it is, or in octal where it cannot be printed.
+fn bad_character(byte: u8) -> String {
+    if byte.is_ascii_graphic() || byte == b' ' {
+        format!("Bad character '{}' used", char::from(byte))
+    } else {
+        format!("Bad character '\\{byte:03o}' used")
+    }
+}

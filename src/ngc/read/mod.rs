@@ -1,0 +1,14 @@
+//! From the bytes of a line to words, and from words to values: what the control accepts and refuses, in the order in which it does.
+mod codes;
+mod comments;
+mod evaluate;
+mod line;
+mod problems;
+
+pub(crate) use comments::flaw as comment_flaw;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use evaluate::{apply, evaluate};
+pub(crate) use line::{Line, WordText};
+pub(crate) use problems::{UNDECIDED, formula as formula_error};

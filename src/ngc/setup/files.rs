@@ -1,0 +1,144 @@
+//! The texts of INI files, tool tables and parameter files.
+use super::{Ini, Parameters, ToolEntry, ToolTable};
+
+/// A line of a setup file that means nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadLine {
+    /// From 1.
+    pub line: usize,
+    /// What is wrong.
+    pub message: String,
+}
+
+/// Lines without a byte order mark and line ends.
+fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, String)> {
+    let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)).into_owned();
+    let lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    lines.into_iter().enumerate().map(|(place, line)| (place + 1, line))
+}
+
+impl Ini {
+    /// Reads `[SECTION]` and `KEY = value`; `#` and `;` begin a comment at the start of a line. The first of equal keys counts.
+    pub fn parse(bytes: &[u8]) -> Self {
+        let mut values = std::collections::BTreeMap::new();
+        let mut section = String::new();
+        for (_, line) in lines(bytes) {
+            let line = line.trim();
+            if line.is_empty() || line.starts_with(['#', ';']) {
+                continue;
+            }
+            if let Some(rest) = line.strip_prefix('[') {
+                rest.split(']').next().unwrap_or("").trim().clone_into(&mut section);
+            } else if let Some((key, value)) = line.split_once('=') {
+                values
+                    .entry((section.clone(), key.trim().to_owned()))
+                    .or_insert_with(|| value.trim().to_owned());
+            }
+        }
+        Self { values }
+    }
+}
+
+impl ToolTable {
+    /// Reads lines of words: T number, P pocket, X Y Z A B C U V W offsets, D diameter, I and J angles, Q orientation; `;` begins a
+    /// comment. Lines that are no row are told beside the rows.
+    pub fn parse(bytes: &[u8]) -> (Self, Vec<BadLine>) {
+        let mut rows = Vec::new();
+        let mut bad = Vec::new();
+        for (line, text) in lines(bytes) {
+            let words = text.split(';').next().unwrap_or("").trim();
+            if words.is_empty() {
+                continue;
+            }
+            match row(words) {
+                Ok(entry) => rows.push(entry),
+                Err(message) => bad.push(BadLine { line, message }),
+            }
+        }
+        (Self { rows }, bad)
+    }
+    /// The table `rs274` takes when none is given.
+    pub fn sample() -> Self {
+        let row = |number, pocket, z, diameter| ToolEntry {
+            number,
+            pocket,
+            offset: [0.0, 0.0, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+            diameter,
+            ..ToolEntry::default()
+        };
+        Self {
+            rows: vec![
+                row(1, 1, 0.511, 0.125),
+                row(2, 2, 0.1, 0.0625),
+                row(3, 3, 1.273, 0.201),
+                row(99_999, 123, 0.1, 0.0),
+            ],
+        }
+    }
+}
+
+/// One row of a tool table.
+fn row(words: &str) -> Result<ToolEntry, String> {
+    let mut entry = ToolEntry::default();
+    let mut numbered = false;
+    for word in words.split_whitespace() {
+        let letter = word.as_bytes()[0].to_ascii_uppercase();
+        let number = word.get(1..).unwrap_or("");
+        let value: f64 = number.parse().map_err(|_| format!("`{word}` is no word: a letter and a number are expected"))?;
+        match letter {
+            b'T' => {
+                entry.number = value as i32;
+                numbered = true;
+            }
+            b'P' => entry.pocket = value as i32,
+            b'D' => entry.diameter = value,
+            b'I' => entry.front_angle = value,
+            b'J' => entry.back_angle = value,
+            b'Q' => entry.orientation = value as i32,
+            _ => match b"XYZABCUVW".iter().position(|&axis| axis == letter) {
+                Some(axis) => entry.offset[axis] = value,
+                None => return Err(format!("`{word}`: no column of a tool table has this letter")),
+            },
+        }
+    }
+    if numbered { Ok(entry) } else { Err("a row of a tool table needs T".to_owned()) }
+}
+
+impl Parameters {
+    /// Reads lines of a number and a value, ascending.
+    ///
+    /// # Errors
+    /// The first line that is none, or whose number is out of order or range.
+    pub fn parse(bytes: &[u8]) -> Result<Self, BadLine> {
+        let mut values: Vec<(u32, f64)> = Vec::new();
+        for (line, text) in lines(bytes) {
+            if text.trim().is_empty() {
+                continue;
+            }
+            let bad = |message: &str| BadLine {
+                line,
+                message: message.to_owned(),
+            };
+            let mut words = text.split_whitespace();
+            let index = words.next().and_then(|word| word.parse::<u32>().ok());
+            let value = words.next().and_then(|word| word.parse::<f64>().ok());
+            // rs274 passes over lines that are no pair
+            let (Some(index), Some(value)) = (index, value) else { continue };
+            if !(1..=LAST).contains(&index) {
+                return Err(bad("Parameter number out of range"));
+            }
+            if values.last().is_some_and(|&(last, _)| last >= index) {
+                return Err(bad("Parameter file out of order"));
+            }
+            values.push((index, value));
+        }
+        Ok(Self { values })
+    }
+    /// The text of a parameter file.
+    pub fn text(&self) -> String {
+        self.values.iter().map(|(index, value)| format!("{index}\t{value:.6}\n")).collect()
+    }
+}
+
+/// Highest number that a parameter file may hold.
+const LAST: u32 = 5602;

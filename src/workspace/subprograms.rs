@@ -1,0 +1,244 @@
+//! Programs that a program calls: looked for beside it, then in the folders of `subprogram_path`, and nowhere else.
+use std::{
+    fs::{self, File},
+    io::Read,
+    path::{Path, PathBuf},
+    sync::{Arc, OnceLock},
+};
+use trunnion_interp::{Files, Loaded};
+
+/// A larger file is no subprogram, bytes.
+const LARGEST: u64 = 64 << 20;
+
+/// More entries of a folder than these are not looked at.
+const MOST_ENTRIES: usize = 100_000;
+
+/// Extensions that are tried, in this order; the first is none.
+const EXTENSIONS: &[&str] = &["", "ngc", "nc", "tap", "mpf", "spf", "cnc", "eia", "gcode"];
+
+/// A folder that is searched, and what it holds once somebody asked.
+struct Folder {
+    path: PathBuf,
+    names: OnceLock<Vec<String>>,
+}
+
+impl Folder {
+    fn new(path: PathBuf) -> Self {
+        Self {
+            path,
+            names: OnceLock::new(),
+        }
+    }
+
+    /// Names of the files in it, sorted, so that the answer does not depend on the file system's order.
+    fn names(&self) -> &[String] {
+        self.names.get_or_init(|| {
+            let mut names: Vec<String> = fs::read_dir(&self.path)
+                .into_iter()
+                .flatten()
+                .take(MOST_ENTRIES)
+                .flatten()
+                .filter_map(|entry| entry.file_name().into_string().ok())
+                .collect();
+            names.sort();
+            names
+        })
+    }
+
+    /// The file called like one of `stems`: as written before other cases, without an extension before with one.
+    fn find(&self, stems: &[String]) -> Option<PathBuf> {
+        let names = self.names();
+        for stem in stems {
+            for extension in EXTENSIONS {
+                let wanted = if extension.is_empty() {
+                    stem.clone()
+                } else {
+                    format!("{stem}.{extension}")
+                };
+                let exact = names.iter().find(|name| **name == wanted);
+                let found = exact.or_else(|| names.iter().find(|name| name.eq_ignore_ascii_case(&wanted)));
+                if let Some(path) = found.map(|name| self.path.join(name)).filter(|path| path.is_file()) {
+                    return Some(path);
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Finds programs in folders, in their order.
+pub struct Subprograms {
+    folders: Vec<Folder>,
+}
+
+impl Subprograms {
+    /// Searches these folders, the first first.
+    pub fn new(folders: impl IntoIterator<Item = PathBuf>) -> Self {
+        Self {
+            folders: folders.into_iter().map(Folder::new).collect(),
+        }
+    }
+}
+
+/// The names that a file of a program may have: as called, and for a number with and without `O` and leading zeros (`M98 P50` calls
+/// `O0050`). `None` where the name is no plain file name: it may not lead out of the folders.
+fn stems(name: &str) -> Option<Vec<String>> {
+    let name = name.trim();
+    let plain = !name.is_empty()
+        && !name.starts_with('.')
+        && !name.chars().any(|c| matches!(c, '/' | '\\' | ':') || c.is_control());
+    if !plain {
+        return None;
+    }
+    let mut stems = vec![name.to_owned()];
+    let digits = name.strip_prefix(['O', 'o']).unwrap_or(name);
+    if digits.len() <= 9 && !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()) {
+        let number: u32 = digits.parse().ok()?;
+        for stem in [
+            format!("O{number:04}"),
+            format!("O{number}"),
+            format!("O{number:08}"),
+            number.to_string(),
+            format!("{number:04}"),
+        ] {
+            if !stems.contains(&stem) {
+                stems.push(stem);
+            }
+        }
+    }
+    Some(stems)
+}
+
+/// The bytes of a file that lies in `folder` when links are followed; else why not.
+fn read(path: &Path, folder: &Path) -> Result<Arc<[u8]>, &'static str> {
+    const UNREADABLE: &str = "cannot be read";
+    let real = fs::canonicalize(path).map_err(|_| UNREADABLE)?;
+    let home = fs::canonicalize(folder).map_err(|_| UNREADABLE)?;
+    if !real.starts_with(home) {
+        return Err("is a link out of the folder");
+    }
+    let file = File::open(real).map_err(|_| UNREADABLE)?;
+    let mut bytes = Vec::new();
+    // one byte more than allowed tells that there is more
+    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|_| UNREADABLE)?;
+    if bytes.len() as u64 > LARGEST {
+        return Err("is larger than 64 MB");
+    }
+    Ok(bytes.into())
+}
+
+impl Files for Subprograms {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+        let mut searched = Vec::new();
+        let stems = stems(name);
+        for folder in &self.folders {
+            let shown = folder.path.display().to_string();
+            let Some(path) = stems.as_ref().and_then(|stems| folder.find(stems)) else {
+                searched.push(shown);
+                continue;
+            };
+            match read(&path, &folder.path) {
+                Ok(bytes) => {
+                    return Ok(Loaded {
+                        path: path.display().to_string(),
+                        bytes,
+                    });
+                }
+                Err(why) => searched.push(format!("{shown} ({} {why})", path.display())),
+            }
+        }
+        Err(searched)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A folder with a folder `subs` in it.
+    struct Temporary(tempfile::TempDir);
+
+    impl Temporary {
+        fn new() -> Self {
+            let folder = tempfile::tempdir().expect("a folder");
+            fs::create_dir(folder.path().join("subs")).expect("a folder");
+            Self(folder)
+        }
+        fn path(&self) -> PathBuf {
+            self.0.path().to_owned()
+        }
+        fn write(&self, name: &str, text: &str) {
+            fs::write(self.path().join(name), text).expect("written");
+        }
+        fn files(&self) -> Subprograms {
+            Subprograms::new([self.path(), self.path().join("subs")])
+        }
+    }
+
+    fn text(files: &Subprograms, name: &str) -> Option<String> {
+        let loaded = files.load(name).ok()?;
+        Some(String::from_utf8_lossy(&loaded.bytes).into_owned())
+    }
+
+    #[test]
+    fn beside_the_program_goes_before_the_configured_folders() {
+        let folder = Temporary::new();
+        folder.write("subs/1000.nc", "far");
+        folder.write("subs/2000.nc", "only far");
+        folder.write("1000.ngc", "near");
+        let files = folder.files();
+        assert_eq!(text(&files, "1000").as_deref(), Some("near"));
+        assert_eq!(text(&files, "2000").as_deref(), Some("only far"));
+    }
+
+    #[test]
+    fn names_are_found_in_any_case_with_and_without_extension_and_zeros() {
+        let folder = Temporary::new();
+        folder.write("O0050.NC", "fifty");
+        folder.write("O9010", "probe");
+        folder.write("Helper.NGC", "help");
+        let files = folder.files();
+        for name in ["50", "O50", "o0050", "0050"] {
+            assert_eq!(text(&files, name).as_deref(), Some("fifty"), "{name}");
+        }
+        assert_eq!(text(&files, "9010").as_deref(), Some("probe"));
+        assert_eq!(text(&files, "helper").as_deref(), Some("help"));
+        assert_eq!(text(&files, "help"), None);
+    }
+
+    #[test]
+    fn what_is_missing_names_the_folders() {
+        let folder = Temporary::new();
+        let searched = folder.files().load("77").expect_err("not there");
+        let folders = [folder.path(), folder.path().join("subs")].map(|path| path.display().to_string());
+        assert_eq!(searched, folders);
+    }
+
+    #[test]
+    fn no_name_leads_out_of_the_folders() {
+        let folder = Temporary::new();
+        folder.write("secret", "outside of subs");
+        let files = Subprograms::new([folder.path().join("subs")]);
+        for name in ["../secret", "..\\secret", "..", ".", "/etc/passwd", "a\0b", "", "C:x"] {
+            assert_eq!(text(&files, name), None, "{name:?}");
+        }
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(folder.path().join("secret"), folder.path().join("subs/link.nc"))
+                .expect("a link");
+            let searched = Subprograms::new([folder.path().join("subs")])
+                .load("link")
+                .expect_err("it leads out");
+            assert!(searched[0].contains("is a link out of the folder"), "{searched:?}");
+        }
+    }
+
+    #[test]
+    fn a_file_of_more_than_64_mb_is_refused_and_said_to_be() {
+        let folder = Temporary::new();
+        let file = File::create(folder.path().join("1.nc")).expect("created");
+        file.set_len(LARGEST + 1).expect("sparse");
+        let searched = folder.files().load("1").expect_err("too large");
+        assert!(searched[0].contains("is larger than 64 MB"), "{searched:?}");
+    }
+}

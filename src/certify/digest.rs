@@ -60,9 +60,13 @@ pub(crate) fn machine_digest(machine: &Machine) -> String {
     hex_sha256(facts.as_bytes())
 }
 
-/// Digest of tools, work offsets and bounds; called programs are noted one by one.
+/// Digest of tools, work offsets, bounds and parameters of the control; called programs are noted one by one.
 pub(crate) fn setup_digest(setup: &Setup) -> String {
-    hex_sha256(format!("{:?}\n{:?}\n{:?}", setup.tools, setup.work_offsets, setup.limits).as_bytes())
+    let facts = format!(
+        "{:?}\n{:?}\n{:?}\n{:?}",
+        setup.tools, setup.work_offsets, setup.limits, setup.control
+    );
+    hex_sha256(facts.as_bytes())
 }
 
 #[cfg(test)]

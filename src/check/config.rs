@@ -1,4 +1,5 @@
 //! Settings of a check: `trunnion.toml` and what the command line adds. No file is opened here.
+mod control;
 mod file;
 mod format;
 mod tool;
@@ -28,6 +29,8 @@ pub struct Config {
     pub machine: Option<String>,
     /// `dialect = "NAME"`.
     pub dialect: Option<String>,
+    /// `dialect_table = "FILE"`: a dialect table of one's own, relative to the file, with its bytes in the file.
+    pub dialect_table: Option<(String, core::ops::Range<usize>)>,
     /// `[rules]`.
     pub rules: Vec<(String, RuleLevel)>,
     /// `[tolerances]`, names as in [`TOLERANCES`]; they override the machine's.

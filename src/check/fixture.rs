@@ -9,7 +9,8 @@
 //! is taken out before the program is read. The mark hides the first column: carets directly behind it reach back to it, and
 //! `;^` stands for a width of 1 or 2 there.
 use crate::{Report, RuleLevel, Settings, check};
-use trunnion_interp::Setup;
+use std::sync::Arc;
+use trunnion_interp::{Files, Library, Limits, Loaded, Setup};
 use trunnion_machine::Machine;
 use trunnion_syntax::LineIndex;
 
@@ -100,7 +101,7 @@ impl Fixture {
             &Settings {
                 dialect,
                 machine: machine.as_ref(),
-                setup: Setup::default(),
+                setup: setup(),
                 rules,
                 port_to: self.port_to.clone(),
             },
@@ -163,6 +164,27 @@ impl Fixture {
             .collect();
         found.sort();
         found
+    }
+}
+
+/// A library that holds nothing.
+struct NoFiles;
+
+impl Files for NoFiles {
+    fn load(&self, _: &str) -> Result<Loaded, Vec<String>> {
+        Err(Vec::new())
+    }
+}
+
+/// No tools and offsets, no other files, and bounds that a short program keeps.
+fn setup() -> Setup {
+    Setup {
+        limits: Limits {
+            blocks: 100_000,
+            ..Limits::default()
+        },
+        library: Library(Some(Arc::new(NoFiles))),
+        ..Setup::default()
     }
 }
 

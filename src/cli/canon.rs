@@ -15,13 +15,15 @@ use trunnion_ngc::{
     At, Canon, Engine, Error, Files, Ini, Listing, Loaded, Parameters, Setup, Sink, Source, State, Step, ToolTable,
 };
 
+/// Stands for the sequence number of a line without one.
+const NO_NUMBER: &[u8] = b".....";
 /// Endings tried for the name of a called program.
 const ENDINGS: [&str; 2] = ["ngc", "nc"];
 
 /// Runs `canon`. An error of the program makes the exit status 1.
 pub(super) fn run(command: &Command) -> Result<Done, Failure> {
     let bytes: Arc<[u8]> = load::read(&command.file)?.into();
-    let main = Arc::new(Source::new(String::new(), bytes));
+    let main = Arc::new(Source::new(command.file.display().to_string(), bytes));
     let sources: Sources = Arc::new(Mutex::new(vec![Arc::clone(&main)]));
     let setup = setup(command, &sources)?;
     remark(false, "executing");
@@ -32,6 +34,8 @@ pub(super) fn run(command: &Command) -> Result<Done, Failure> {
         sources,
         number: Vec::new(),
         place: None,
+        running: false,
+        refused: false,
         failed: None,
     };
     let last = engine.run(true, &mut out);
@@ -39,12 +43,16 @@ pub(super) fn run(command: &Command) -> Result<Done, Failure> {
         return Err(Failure::file(&command.file, format!("cannot be decided: {why}")));
     }
     if let Step::OutOfFuel(at) = last {
-        let text = format!("does not end: the loop or call at line {} was left to run no longer", at.line + 1);
+        let text = format!(
+            "does not end: the loop or call at line {} was left to run no longer",
+            at.line + 1
+        );
         return Err(Failure::file(&command.file, text));
     }
     // without an INI file rs274 resets its machine twice
     let resets = if command.ini.is_some() { 1 } else { 2 };
     for _ in 0..resets {
+        out.running = false;
         out.print(&Canon::Reset, engine.at());
     }
     if let Some(error) = out.failed.take() {
@@ -54,7 +62,7 @@ pub(super) fn run(command: &Command) -> Result<Done, Failure> {
     if let Some(path) = &command.parameters {
         save(path, &engine.kept_parameters())?;
     }
-    Ok(if last == Step::Refused { Done::Found } else { Done::Clean })
+    Ok(if out.refused { Done::Found } else { Done::Clean })
 }
 
 /// The programs of a run, the main one first, in the order in which they were loaded.
@@ -101,7 +109,11 @@ fn folders(command: &Command, ini: &Ini) -> Vec<PathBuf> {
     let mut folders = Vec::new();
     for (section, key) in [("DISPLAY", "PROGRAM_PREFIX"), ("RS274NGC", "SUBROUTINE_PATH")] {
         if let Some(list) = ini.values.get(&(section.to_owned(), key.to_owned())) {
-            folders.extend(list.split(':').filter(|folder| !folder.is_empty()).map(|folder| base.join(folder)));
+            folders.extend(
+                list.split(':')
+                    .filter(|folder| !folder.is_empty())
+                    .map(|folder| base.join(folder)),
+            );
         }
     }
     folders.push(beside(&command.file));
@@ -139,13 +151,20 @@ struct Printer<W: Write> {
     /// Digits of the sequence number of the line in hand, and which line that is.
     number: Vec<u8>,
     place: Option<At>,
+    /// The calls before the first line have been printed.
+    running: bool,
+    /// The program has an error.
+    refused: bool,
     /// The first error of writing.
     failed: Option<std::io::Error>,
 }
 
 impl<W: Write> Printer<W> {
     fn print(&mut self, call: &Canon, at: At) {
-        if self.place != Some(at) {
+        if !self.running {
+            self.running = *call == Canon::Reset;
+            self.number = NO_NUMBER.to_vec();
+        } else if self.place != Some(at) {
             self.place = Some(at);
             self.number = sequence_number(&self.line(at));
         }
@@ -169,12 +188,16 @@ impl<W: Write> Printer<W> {
 
 /// The digits of N as they are written, dots where the line has none.
 fn sequence_number(line: &[u8]) -> Vec<u8> {
-    let mut signs = line.iter().filter(|byte| !byte.is_ascii_whitespace()).skip_while(|byte| **byte == b'/').copied();
+    let mut signs = line
+        .iter()
+        .filter(|byte| !byte.is_ascii_whitespace())
+        .skip_while(|byte| **byte == b'/')
+        .copied();
     let digits: Vec<u8> = match signs.next() {
         Some(b'N' | b'n') => signs.take_while(u8::is_ascii_digit).collect(),
         _ => Vec::new(),
     };
-    if digits.is_empty() { b".....".to_vec() } else { digits }
+    if digits.is_empty() { NO_NUMBER.to_vec() } else { digits }
 }
 
 impl<W: Write> Sink for Printer<W> {
@@ -182,6 +205,10 @@ impl<W: Write> Sink for Printer<W> {
         self.print(call, at);
     }
     fn error(&mut self, error: &Error, at: At) {
+        if std::mem::replace(&mut self.refused, true) {
+            // further errors of the same line: the control stops at the first
+            return;
+        }
         // in order when both streams go to one place
         if let Err(error) = self.out.flush() {
             self.failed.get_or_insert(error);

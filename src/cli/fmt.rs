@@ -131,20 +131,15 @@ fn lay_out(global: &Global, command: &Fmt, path: &Path) -> Result<Outcome, Failu
     if global.verbose {
         outcome.remarks.push(loaded.explanation());
     }
-    let broken = loaded.program.errors().len();
-    if broken > 0 {
-        let (word, verb) = if broken == 1 {
-            ("problem", "stays")
-        } else {
-            ("problems", "stay")
-        };
-        outcome.remarks.push(
-            format!(
-                "{}: {broken} {word} of the text; the lines concerned {verb} as they are, `trunnion check` names them",
-                loaded.name
-            )
-            .replace("lines concerned stays", "line concerned stays"),
-        );
+    let told = match loaded.program.errors().len() {
+        0 => None,
+        1 => Some("1 problem of the text; its line stays as it is".to_owned()),
+        many => Some(format!("{many} problems of the text; their lines stay as they are")),
+    };
+    if let Some(told) = told {
+        outcome
+            .remarks
+            .push(format!("{}: {told}, see `trunnion check`", loaded.name));
     }
     let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
     match trunnion_layout::layout(&loaded.program, dialect, setup, &style(&loaded.resolved.format)) {

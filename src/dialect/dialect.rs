@@ -12,6 +12,8 @@ pub(crate) const G_SLOTS: usize = 10_000;
 /// the table that it extends.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quirks {
+    /// Programs are run by LinuxCNC's own interpreter, not by the fold for all controls.
+    pub rs274: bool,
     /// Motion code in force at the start of a program (Sinumerik: `linear`); `None`: none until one is programmed.
     pub motion_at_start: Option<Action>,
     /// T puts the tool into the spindle at once; else it only prepares it for M6.
@@ -47,6 +49,8 @@ pub struct Quirks {
     pub return_moves_all: bool,
     /// P of a scaling is the factor itself (Haas); else a parameter says in what unit a whole number is (Fanuc 5400.7).
     pub plain_scale_factor: bool,
+    /// `,R` and `,C` round or cut off the corner to the next motion.
+    pub corner_words: bool,
     /// G41 and G42 offset the path in the plane by the radius of offset D, as Fanuc does.
     pub offset_compensation: bool,
     /// G10 writes the diameter or the radius of a cutter as a setting says (Haas setting 40); else the radius.

@@ -19,11 +19,13 @@ pub(crate) struct QuirksRow {
     whole_numbers_ambiguous: Option<bool>,
     own_parameters_to: Option<u32>,
     macro_b: Option<bool>,
+    rs274: Option<bool>,
     machine_data_suppress_length: Option<bool>,
     diameter: Option<bool>,
     tool_word_holds_offset: Option<bool>,
     return_moves_all: Option<bool>,
     plain_scale_factor: Option<bool>,
+    corner_words: Option<bool>,
     offset_compensation: Option<bool>,
     cutter_offset_ambiguous: Option<bool>,
 }
@@ -49,8 +51,10 @@ impl QuirksRow {
             tool_word_holds_offset: self.tool_word_holds_offset.unwrap_or(base.tool_word_holds_offset),
             return_moves_all: self.return_moves_all.unwrap_or(base.return_moves_all),
             plain_scale_factor: self.plain_scale_factor.unwrap_or(base.plain_scale_factor),
+            corner_words: self.corner_words.unwrap_or(base.corner_words),
             offset_compensation: self.offset_compensation.unwrap_or(base.offset_compensation),
             cutter_offset_ambiguous: self.cutter_offset_ambiguous.unwrap_or(base.cutter_offset_ambiguous),
+            rs274: self.rs274.unwrap_or(base.rs274),
             machine_data_suppress_length: self
                 .machine_data_suppress_length
                 .unwrap_or(base.machine_data_suppress_length),

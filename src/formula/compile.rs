@@ -1,6 +1,7 @@
 //! From text to postfix code, without recursion: open brackets and waiting operators stand on stacks.
 use crate::brackets::{Bracket, Compiler, Waiting};
 use crate::code::{Code, Formula, Op, Step};
+use crate::cursor::is_blank;
 use crate::words::{Function, take_angled, take_function, take_name, take_numeral, text};
 use crate::{Cursor, FormulaError, FormulaErrorKind, Grammar, Target};
 use trunnion_syntax::{Decimal, TextRange};
@@ -87,7 +88,7 @@ fn plain_number(cursor: &mut Cursor<'_>) -> Option<Formula> {
         .position(|byte| !byte.is_ascii_digit() && *byte != b'.')
         .unwrap_or(rest.len() - sign);
     let length = sign + digits;
-    if matches!(rest.get(length), Some(b' ' | b'\t')) && continues(&rest[length..]) {
+    if rest.get(length).copied().is_some_and(is_blank) && continues(&rest[length..]) {
         return None;
     }
     let decimal = Decimal::parse(&rest[..length])?;
@@ -129,7 +130,7 @@ fn called(mut cursor: Cursor<'_>) -> TextRange {
 /// Whether a number goes on behind the blanks at the start of `rest`.
 fn continues(rest: &[u8]) -> bool {
     rest.iter()
-        .find(|byte| !matches!(byte, b' ' | b'\t'))
+        .find(|byte| !is_blank(**byte))
         .is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')
 }
 

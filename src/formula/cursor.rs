@@ -1,8 +1,8 @@
-//! A cursor over the bytes of one line to which blanks and tabs do not exist.
+//! A cursor over the bytes of one line to which blanks, tabs and carriage returns do not exist.
 use nom::{Compare, CompareResult, Input, Needed, Offset};
 use trunnion_syntax::TextRange;
 
-/// Reads a piece of a program byte by byte, skips blanks and tabs, gives letters in lower case, and knows where it is.
+/// Reads a piece of a program byte by byte, skips blanks (tabs and carriage returns, too), gives letters in lower case, and knows where it is.
 ///
 /// RS274/NGC and Macro B give blanks no meaning anywhere outside comments: `X 1 2` is `X12`, `s q r t [4]` is a function.
 /// A cursor is small and can be copied: a copy is a mark one can go back to.
@@ -17,8 +17,8 @@ pub struct Cursor<'s> {
 }
 
 /// Whether `byte` has no meaning to either grammar.
-fn is_blank(byte: u8) -> bool {
-    byte == b' ' || byte == b'\t'
+pub(crate) fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\r')
 }
 
 impl<'s> Cursor<'s> {

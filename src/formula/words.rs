@@ -39,15 +39,11 @@ fn word<'s, T: Clone>(
     value(meaning, tag(text))
 }
 
-/// RS274/NGC: power, then products, then sums, then comparisons, then logic; `AND OR XOR` are equals.
+/// All but the signs `+ - * /`. RS274/NGC: power, then products, then sums, then comparisons, then logic; `AND OR XOR` are equals.
 fn rs274_operator(input: Cursor<'_>) -> Leaf<'_, Operator> {
     alt((
         word("**", operator(Binary::Power, 6)),
-        word("*", operator(Binary::Multiply, 5)),
-        word("/", operator(Binary::Divide, 5)),
         word("mod", operator(Binary::Modulo, 5)),
-        word("+", operator(Binary::Add, 4)),
-        word("-", operator(Binary::Subtract, 4)),
         word("eq", operator(Binary::NearlyEqual, 3)),
         word("ne", operator(Binary::NotNearlyEqual, 3)),
         word("gt", operator(Binary::Greater, 3)),
@@ -61,15 +57,11 @@ fn rs274_operator(input: Cursor<'_>) -> Leaf<'_, Operator> {
     .parse(input)
 }
 
-/// Macro B: products and AND, then sums, OR and XOR, then comparisons.
+/// All but the signs `+ - * /`. Macro B: products and AND, then sums, OR and XOR, then comparisons.
 fn macro_operator(input: Cursor<'_>) -> Leaf<'_, Operator> {
     alt((
-        word("*", operator(Binary::Multiply, 5)),
-        word("/", operator(Binary::Divide, 5)),
         word("mod", operator(Binary::Remainder, 5)),
         word("and", operator(Binary::BitAnd, 5)),
-        word("+", operator(Binary::Add, 4)),
-        word("-", operator(Binary::Subtract, 4)),
         word("xor", operator(Binary::BitXor, 4)),
         word("or", operator(Binary::BitOr, 4)),
         word("eq", operator(Binary::Equal, 3)),
@@ -140,10 +132,21 @@ fn take<'s, T>(cursor: &mut Cursor<'s>, leaf: impl FnOnce(Cursor<'s>) -> Leaf<'s
 
 /// The operator at the cursor.
 pub(crate) fn take_operator(cursor: &mut Cursor<'_>, grammar: Grammar) -> Option<Operator> {
-    take(cursor, |input| match grammar {
-        Grammar::Rs274 => rs274_operator(input),
-        Grammar::MacroB => macro_operator(input),
-    })
+    // the commonest are one sign and need no search
+    let sign = match cursor.peek()? {
+        b'+' => operator(Binary::Add, 4),
+        b'-' => operator(Binary::Subtract, 4),
+        b'/' => operator(Binary::Divide, 5),
+        b'*' if grammar == Grammar::MacroB || cursor.peek_second() != Some(b'*') => operator(Binary::Multiply, 5),
+        _ => {
+            return take(cursor, |input| match grammar {
+                Grammar::Rs274 => rs274_operator(input),
+                Grammar::MacroB => macro_operator(input),
+            });
+        }
+    };
+    cursor.bump();
+    Some(sign)
 }
 
 /// The function at the cursor.

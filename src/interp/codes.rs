@@ -206,41 +206,6 @@ impl<'d> Interpreter<'d> {
         }
     }
 
-    /// Codes of frames, returns and cycles.
-    fn apply_frame(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
-        match found.code.action {
-            Action::LocalShift => self.local_shift(found, words, block, report),
-            Action::PositionSet => self.position_set(found, words, block, report),
-            Action::PositionPreset => self.position_preset(found, words, block),
-            Action::RotationOn => self.rotation_on(found, words, block, report),
-            Action::RotationOff => self.rotation_off(found),
-            Action::ScalingOn => self.scaling_on(found, words, block, report),
-            Action::ScalingOff => self.scaling_off(found),
-            Action::MirrorOn => self.mirror_on(found, words, block, report),
-            Action::MirrorOff => self.mirror_off(found, words, block),
-            Action::PolarOn => self.polar(true),
-            Action::PolarOff => self.polar(false),
-            Action::DataEntry => self.data_entry(found, words, block, report),
-            Action::DataEntryEnd => self.memory.frames.entering_data = false,
-            Action::ReferenceCheck | Action::ReferenceReturn | Action::ReferenceReturnOther | Action::ReferenceFrom => {
-                block.returns = Some((Return::of(found, words), found.range));
-            }
-            Action::ReturnInitial => self.memory.cycle.to_r = false,
-            Action::ReturnToR => self.memory.cycle.to_r = true,
-            Action::BoltCircle | Action::BoltArc | Action::BoltLine => block.pattern = Pattern::of(found),
-            Action::CirclePocket => {
-                block.pocket = true;
-                let what = format!("{}: the path inside the pocket", found.code.id);
-                report.fault(found.range, FaultKind::NotModelled { what });
-            }
-            action if action.is_hole_cycle() || action.is_pass_cycle() => {
-                self.begin_cycle(found);
-                block.motion = Some(action);
-            }
-            _ => self.unmodelled_code(found, words, block, report),
-        }
-    }
-
     fn feed_mode(&mut self, mode: FeedMode) {
         if self.state.feed_mode != mode {
             self.state.feed_mode = mode;
@@ -285,7 +250,13 @@ impl<'d> Interpreter<'d> {
 
     /// A code whose effect is not modelled. In the motion group it is modal; in a group whose other codes give the coordinates
     /// their meaning, positions are unknown until one of those comes; else everything is forgotten.
-    fn unmodelled_code(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
+    pub(crate) fn unmodelled_code(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
         not_modelled(found, report);
         block.not_modelled = true;
         let group = found.code.group.as_deref();

@@ -97,8 +97,9 @@ fn link(told: &Told, element: &Element, from: Point, link: Link) -> Told {
 
 impl Interpreter<'_> {
     /// Takes a motion of the program while compensation is busy.
-    pub(crate) fn compensate(&mut self, motion: &Motion, report: &mut Report<'_>) {
-        let told = (*motion, self.state.clone());
+    pub(crate) fn compensate(&mut self, told: Told, report: &mut Report<'_>) {
+        let motion = &told.0;
+        let now = told.1.compensation;
         let plane = *self.memory.compensation.plane.get_or_insert(self.state.plane);
         let Some(element) = Element::of(motion, plane) else {
             self.without_way(told, report);
@@ -109,7 +110,7 @@ impl Interpreter<'_> {
         {
             self.lose("the path is not known throughout", report);
         }
-        if self.state.plane != plane && self.state.compensation != 0 && self.memory.compensation.stage == Stage::On {
+        if told.1.plane != plane && now != 0 && self.memory.compensation.stage == Stage::On {
             self.reject(
                 "the plane changes during cutter compensation: end it with G40 first",
                 "plane-change",
@@ -117,7 +118,7 @@ impl Interpreter<'_> {
             );
             self.lose("the plane changes", report);
         }
-        let cancels = self.state.compensation == 0;
+        let cancels = now == 0;
         match (self.memory.compensation.stage, cancels) {
             (Stage::Start, false) => self.start(told, element, report),
             (Stage::On, false) => self.follow(told, element, report),
@@ -262,14 +263,13 @@ impl Interpreter<'_> {
             held.element.beside_end(offset)
         };
         let fits = held.leads || held.element.keeps_direction(offset, held.from, end);
-        match moved(&held.told, &held.element, held.from, end).filter(|_| fits) {
-            Some(told) => self.release(told, &held.element, end, false, report),
-            None => {
-                let (text, alarm) = Trouble::Interference.words();
-                self.reject(text, alarm, report);
-                let told = held.told.clone();
-                self.release(told, &held.element, held.element.end, false, report);
-            }
+        if let Some(told) = moved(&held.told, &held.element, held.from, end).filter(|_| fits) {
+            self.release(told, &held.element, end, false, report);
+        } else {
+            let (text, alarm) = Trouble::Interference.words();
+            self.reject(text, alarm, report);
+            let told = held.told.clone();
+            self.release(told, &held.element, held.element.end, false, report);
         }
         Some(end)
     }

@@ -1,10 +1,11 @@
 //! Canned cycles, expanded into the motions that a control makes of them.
+mod data;
 mod hole;
 mod pass;
 mod pattern;
 mod pocket;
 
-pub(crate) use hole::{Hole, Stored};
+pub(crate) use data::{Hole, Stored};
 pub(crate) use pattern::Pattern;
 
 use crate::codes::Found;
@@ -34,7 +35,7 @@ impl<'d> Interpreter<'d> {
     /// Begins a cycle whose motions are modelled.
     pub(crate) fn begin_cycle(&mut self, found: &Found<'d>) {
         let action = found.code.action;
-        let in_cycle = self.state.motion.is_some_and(|motion| motion.is_hole_cycle());
+        let in_cycle = self.state.motion.is_some_and(Action::is_hole_cycle);
         if !in_cycle {
             if self.state.motion != Some(Action::CannedCycle) && !self.state.motion.is_some_and(Action::is_pass_cycle) {
                 self.memory.before_cycle = self.state.motion;

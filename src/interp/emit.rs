@@ -206,7 +206,7 @@ impl Interpreter<'_> {
     ) -> Motion {
         let state = &self.state;
         Motion {
-            block: report.block,
+            block: self.flow.main_block(report.block),
             chain: self.chain,
             kind,
             start,

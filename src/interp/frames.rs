@@ -11,7 +11,12 @@ pub(crate) use polar::Polar;
 pub(crate) use reference::Return;
 pub(crate) use shape::{Rotation, Scaling, Shape};
 
-use crate::{MotionKind, Position};
+use crate::codes::{BlockCodes, Found};
+use crate::cycles::Pattern;
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+use crate::{FaultKind, MotionKind, Position};
+use trunnion_dialect::Action;
 
 /// X, Y, Z in [`crate::AXIS_LETTERS`].
 pub(crate) const XYZ: u16 = 0b111;
@@ -55,10 +60,12 @@ pub(crate) struct Frames {
 impl Frames {
     /// To be called after any change.
     pub(crate) fn refresh(&mut self, work: &Position) {
-        self.active =
-            !self.shape.is_identity() || self.polar.is_some() || self.fresh != 0 || self.must_be_absolute != 0;
+        self.active = self.is_needed();
         self.programmed = self.shape.to_words(work);
         self.synced = *work;
+    }
+    fn is_needed(&self) -> bool {
+        !self.shape.is_identity() || self.polar.is_some() || self.fresh != 0 || self.must_be_absolute != 0
     }
     /// The position as the words have it.
     pub(crate) fn programmed(&mut self, work: &Position) -> Position {
@@ -79,6 +86,7 @@ impl Frames {
         let work = self.shape.to_work(&programmed);
         self.programmed = programmed;
         self.synced = work;
+        self.active = self.is_needed();
         work
     }
     /// What is left of a motion's kind in work coordinates.
@@ -91,5 +99,48 @@ impl Frames {
     /// All that is added to the selected zero point.
     pub(crate) fn added(&self, axis: usize) -> f64 {
         self.external[axis] + self.shift[axis] + self.local[axis]
+    }
+}
+
+impl<'d> Interpreter<'d> {
+    /// Codes of frames, returns and cycles.
+    pub(crate) fn apply_frame(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        match found.code.action {
+            Action::LocalShift => self.local_shift(found, words, block, report),
+            Action::PositionSet => self.position_set(found, words, block, report),
+            Action::PositionPreset => self.position_preset(found, words, block),
+            Action::RotationOn => self.rotation_on(found, words, block, report),
+            Action::RotationOff => self.rotation_off(found),
+            Action::ScalingOn => self.scaling_on(found, words, block, report),
+            Action::ScalingOff => self.scaling_off(found),
+            Action::MirrorOn => self.mirror_on(found, words, block, report),
+            Action::MirrorOff => self.mirror_off(found, words, block),
+            Action::PolarOn => self.polar(true),
+            Action::PolarOff => self.polar(false),
+            Action::DataEntry => self.data_entry(found, words, block, report),
+            Action::DataEntryEnd => self.memory.frames.entering_data = false,
+            Action::ReferenceCheck | Action::ReferenceReturn | Action::ReferenceReturnOther | Action::ReferenceFrom => {
+                block.returns = Some((Return::of(found, words), found.range));
+            }
+            Action::ReturnInitial => self.memory.cycle.to_r = false,
+            Action::ReturnToR => self.memory.cycle.to_r = true,
+            Action::BoltCircle | Action::BoltArc | Action::BoltLine => block.pattern = Pattern::of(found),
+            Action::CirclePocket => {
+                block.pocket = true;
+                let what = format!("{}: the path inside the pocket", found.code.id);
+                report.fault(found.range, FaultKind::NotModelled { what });
+            }
+            action if action.is_hole_cycle() || action.is_pass_cycle() => {
+                self.begin_cycle(found);
+                block.motion = Some(action);
+            }
+            _ => self.unmodelled_code(found, words, block, report),
+        }
     }
 }

@@ -34,14 +34,15 @@ impl<'d> Interpreter<'d> {
                 None
             }
         };
-        self.put_out(motion, block, sink);
+        self.put_out(motion.as_ref(), block, sink);
         self.codes = codes;
     }
 
     /// Hands the motions of a block on.
     #[inline]
-    fn put_out(&mut self, motion: Option<Motion>, block: &Block<'_>, sink: &mut impl Sink) {
-        if self.memory.compensation.is_busy() || !self.memory.compensation.ready.is_empty() {
+    fn put_out(&mut self, motion: Option<&Motion>, block: &Block<'_>, sink: &mut impl Sink) {
+        let memory = &self.memory;
+        if memory.compensation.is_busy() || !memory.compensation.ready.is_empty() || memory.corners.is_busy() {
             self.put_out_compensated(motion, block, sink);
             return;
         }
@@ -52,13 +53,13 @@ impl<'d> Interpreter<'d> {
             self.memory.out.clear();
         }
         if let Some(motion) = motion {
-            sink.motion(&motion, &self.state);
+            sink.motion(motion, &self.state);
         }
     }
 
     /// The same while cutter compensation holds motions back.
     #[cold]
-    fn put_out_compensated(&mut self, motion: Option<Motion>, block: &Block<'_>, sink: &mut impl Sink) {
+    fn put_out_compensated(&mut self, motion: Option<&Motion>, block: &Block<'_>, sink: &mut impl Sink) {
         let mut report = Report {
             program: block.program(),
             block: block.id(),
@@ -66,8 +67,19 @@ impl<'d> Interpreter<'d> {
             faults: &mut |fault| sink.fault(fault),
         };
         let out = std::mem::take(&mut self.memory.out);
-        for motion in out.iter().chain(&motion) {
-            self.compensate(motion, &mut report);
+        let mut on = Vec::new();
+        for motion in out.iter().chain(motion) {
+            self.round_corner(motion, &mut on, &mut report);
+        }
+        if self.state.ended {
+            self.end_corners(&mut on, &mut report);
+        }
+        for told in on {
+            if self.memory.compensation.is_busy() {
+                self.compensate(told, &mut report);
+            } else {
+                self.memory.compensation.ready.push(told);
+            }
         }
         if self.state.ended {
             self.end_compensation(&mut report);
@@ -79,7 +91,7 @@ impl<'d> Interpreter<'d> {
 
     /// What waits at the end of a program without an end.
     pub(crate) fn put_out_rest(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
-        if self.memory.compensation.is_busy() {
+        if self.memory.compensation.is_busy() || self.memory.corners.is_busy() {
             self.state.ended = true;
             self.put_out_compensated(None, block, sink);
         }
@@ -121,6 +133,10 @@ impl<'d> Interpreter<'d> {
             return None;
         }
         let block = self.apply(codes, words, report);
+        self.memory.corners.word = words
+            .corner
+            .filter(|_| !block.takes_coordinates)
+            .map(|(letter, number)| (letter, number.value * self.state.length_unit_mm));
         if self.state.compensation != 0 && self.dialect.quirks.offset_compensation {
             self.cutter_number(words, report);
         }
@@ -242,7 +258,7 @@ impl<'d> Interpreter<'d> {
             let sized = match role {
                 Some(Role::Axis | Role::ArcRadius) => true,
                 // under G43.5 I J K are a direction; K of a cycle counts
-                Some(Role::ArcCentre) => !self.state.vector_mode && !(cycle && letter == b'K'),
+                Some(Role::ArcCentre) => !self.state.vector_mode && (!cycle || letter != b'K'),
                 Some(Role::Parameter) => cycle && letter == b'Q',
                 _ => false,
             };

@@ -61,6 +61,8 @@ pub(crate) struct Memory<'d> {
     pub(crate) frames: crate::frames::Frames,
     /// The drilling or turning cycle in force.
     pub(crate) cycle: crate::cycles::Cycle,
+    /// Rounded and cut off corners.
+    pub(crate) corners: crate::corner::Corners,
     /// Cutter radius compensation in the plane.
     pub(crate) compensation: crate::compensation::Compensation,
     /// Motions of the block in hand beside its last.

@@ -2,24 +2,11 @@
 use crate::codes::Found;
 use crate::macro_b::Macros;
 use crate::system::{SystemWrite, system_write};
-use crate::words::{Number, Reading, Said, Words, put};
+use crate::values::number;
+use crate::words::{Said, Words, put};
 use crate::{AXIS_LETTERS, FaultKind};
 use trunnion_dialect::{Action, Code, CodeKind, Dialect, Role};
 use trunnion_syntax::{Address, BlockId, Call, Decimal, Item, Program, SyntaxError, TextRange, Value, Word};
-
-/// A number, unless it is beyond what can be reckoned with.
-fn number(decimal: Decimal, range: TextRange) -> Said {
-    let value = decimal.to_f64();
-    if value.abs() <= LARGEST {
-        Said::Number(Number {
-            value,
-            has_point: decimal.has_point,
-            range,
-        })
-    } else {
-        Said::Unread
-    }
-}
 
 /// No coordinate, feed or number of a tool is larger; squares and sums stay finite.
 pub(crate) const LARGEST: f64 = 1e12;
@@ -132,7 +119,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         self.program.text(range).trim().to_owned()
     }
 
-    fn not_modelled(&mut self, range: TextRange) {
+    pub(crate) fn not_modelled(&mut self, range: TextRange) {
         let what = self.text(range);
         (self.report)(range, FaultKind::NotModelled { what });
     }
@@ -178,10 +165,28 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 (self.report)(word.range, FaultKind::NotModelled { what });
             }
             (Some(role), _) => self.role_word(role, b' ', word),
+            (None, Some(b',')) if self.corner(stem, word) => {}
             (None, Some(b',')) => self.role_word(Role::NotModelled, b' ', word),
             _ if variable => self.words.has_values = true,
             _ => (self.report)(word.range, FaultKind::UnknownWord),
         }
+    }
+
+    /// `,R5.` and `,C2.`, where the control has them.
+    fn corner(&mut self, name: &[u8], word: &Word) -> bool {
+        let letter = match name {
+            [b',', letter @ (b'R' | b'C' | b'r' | b'c')] => letter.to_ascii_uppercase(),
+            _ => return false,
+        };
+        let (true, Value::Number(decimal)) = (self.dialect.quirks.corner_words, word.value) else {
+            return false;
+        };
+        let Said::Number(number) = number(decimal, word.range) else {
+            return false;
+        };
+        self.words.has_values = true;
+        self.words.corner = Some((letter, number));
+        true
     }
 
     /// An assignment to a variable of the control.
@@ -291,39 +296,6 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         }
     }
 
-    /// A word that knows only numbers and names, kept by its letter too.
-    fn kept(&mut self, letter: u8, word: &Word) -> Said {
-        let said = self.said(word);
-        self.words.by_letter.keep(letter, said);
-        said
-    }
-
-    /// A word that knows only numbers and names.
-    fn said(&mut self, word: &Word) -> Said {
-        match word.value {
-            Value::Number(decimal) => number(decimal, word.range),
-            Value::Text(range) => Said::Name(range),
-            Value::Missing | Value::Bad => Said::Unread,
-            Value::Expression(range) if self.macros.is_some() => self.macro_value(word, range),
-            Value::Expression(_) | Value::Call(..) => {
-                self.not_modelled(word.value_range);
-                Said::Unread
-            }
-        }
-    }
-
-    /// A word that also knows AC(), IC(), DC(), ACP(), ACN().
-    fn said_place(&mut self, word: &Word) -> (Said, Reading) {
-        if let Value::Call(name, decimal) = word.value {
-            let name = self.program.source().get(name.as_usize()).unwrap_or_default();
-            let reading = READINGS.iter().find(|(known, _)| name.eq_ignore_ascii_case(known));
-            if let Some(&(_, reading)) = reading {
-                return (number(decimal, word.range), reading);
-            }
-        }
-        (self.said(word), Reading::Modal)
-    }
-
     fn code_word(&mut self, kind: CodeKind, word: &Word) {
         let tenths = match word.value {
             Value::Number(decimal) => tenths(decimal),
@@ -418,11 +390,3 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         }
     }
 }
-
-const READINGS: [(&[u8], Reading); 5] = [
-    (b"AC", Reading::Absolute),
-    (b"IC", Reading::Incremental),
-    (b"DC", Reading::Shortest),
-    (b"ACP", Reading::Positive),
-    (b"ACN", Reading::Negative),
-];

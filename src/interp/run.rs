@@ -29,6 +29,8 @@ pub struct Interpreter<'d> {
     pub(crate) codes: Vec<Found<'d>>,
     pub(crate) apt: crate::apt::AptState,
     pub(crate) flow: crate::macro_b::Flow,
+    /// The run of a LinuxCNC program, once begun.
+    pub(crate) rs274: Option<Box<crate::rs274::Rs274>>,
     /// The calls in which the block in hand runs.
     pub(crate) chain: ChainId,
 }
@@ -75,6 +77,7 @@ impl<'d> Interpreter<'d> {
             codes: Vec::new(),
             apt: crate::apt::AptState::default(),
             flow: crate::macro_b::Flow::default(),
+            rs274: None,
             chain: ChainId::MAIN,
         };
         if dialect.quirks.first_offset_at_start {
@@ -123,6 +126,9 @@ impl<'d> Interpreter<'d> {
     /// With the last block it also reports a missing program end, and what is wrong with the text of blocks that did not run. M99
     /// of the main program ends the run: one pass is run.
     pub fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
+        if self.dialect.quirks.rs274 {
+            return self.advance_rs274(program, sink);
+        }
         if self.flow.finished || program.block_count() == 0 {
             return None;
         }
@@ -144,6 +150,9 @@ impl<'d> Interpreter<'d> {
 
     /// The calls that led to a motion, outermost first; empty in the main program.
     pub fn chain(&self, chain: ChainId) -> Vec<Frame> {
+        if let Some(run) = &self.rs274 {
+            return run.chain(chain);
+        }
         self.flow.chain(chain)
     }
 

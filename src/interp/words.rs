@@ -170,6 +170,8 @@ pub(crate) struct Words {
     pub(crate) other_spindle: bool,
     /// Zero points or tools of the control are written: from here on coordinates say nothing about the machine.
     pub(crate) writes_system: bool,
+    /// `,R` or `,C` with its value as written: the corner between this motion and the next is rounded or cut off.
+    pub(crate) corner: Option<(u8, Number)>,
     /// A G code without meaning stands in the block.
     pub(crate) unknown_code: bool,
     /// `%` without a name.

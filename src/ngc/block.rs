@@ -9,6 +9,17 @@ pub const M_GROUPS: usize = 11;
 /// No code of a group.
 const NONE: i16 = -1;
 
+/// A code of the machine's own (a remap): the control of `rs274` does not know it, the machine does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OwnCode {
+    /// `G` or `M`.
+    pub letter: u8,
+    /// Ten times the number: G68.2 is 682, M428 is 4280.
+    pub tenths: u32,
+    /// Its bytes.
+    pub range: TextRange,
+}
+
 /// One line, evaluated. Codes are ten times their number (G38.2 is 382; M codes are whole: M6 is 6).
 #[derive(Clone, Debug)]
 pub struct Block {
@@ -42,6 +53,8 @@ pub struct Block {
     pub spindle: Option<i32>,
     /// The sequence number N, if there is one.
     pub number: Option<f64>,
+    /// A code of the machine's own; the words of its block are its arguments.
+    pub own: Option<OwnCode>,
 }
 
 impl Block {
@@ -62,6 +75,7 @@ impl Block {
             angle: None,
             spindle: None,
             number: None,
+            own: None,
         }
     }
     /// Makes it empty again without touching what needs not be touched.
@@ -76,6 +90,7 @@ impl Block {
         self.angle = None;
         self.spindle = None;
         self.number = None;
+        self.own = None;
     }
     /// The value of a word, upper-case letter.
     #[inline]

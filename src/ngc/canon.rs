@@ -217,6 +217,8 @@ pub enum Canon {
         /// Q, s.
         timeout: f64,
     },
+    /// A code of the machine's own was run; what it does is not known here.
+    OwnCode(crate::OwnCode),
     /// M100-M199 with P and Q.
     UserCode(i32, f64, f64),
     /// Stops and end.

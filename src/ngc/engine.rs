@@ -67,6 +67,8 @@ pub struct Engine {
     pub(crate) store: crate::parameters::Store,
     /// Moves that cutter compensation holds back, and what waits behind them.
     pub(crate) queue: crate::comp::Queue,
+    /// The spline that is being described.
+    pub(crate) spline: crate::cycles::Spline,
 }
 
 impl Engine {
@@ -80,7 +82,12 @@ impl Engine {
             block: None,
             store: crate::parameters::Store::new(setup),
             queue: crate::comp::Queue::default(),
+            spline: crate::cycles::Spline::default(),
         }
+    }
+    /// A file as people are shown it; empty for the main program.
+    pub fn path(&self, file: FileId) -> &str {
+        self.files.get(file.0 as usize).map_or("", |source| &source.path)
     }
     /// Tells a canonical call. While cutter compensation holds moves back, calls wait behind them in order.
     pub(crate) fn emit(&mut self, call: Canon, at: At, sink: &mut dyn Sink) {

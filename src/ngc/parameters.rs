@@ -63,6 +63,8 @@ impl Store {
             numbers[5210] = 0.0;
         }
         numbers[5220] = 1.0;
+        // (DEBUG,...) comments are told
+        numbers[5599] = 1.0;
         for &(index, value) in &setup.parameters.values {
             if let Some(place) = numbers.get_mut(index as usize) {
                 *place = value;
@@ -149,11 +151,6 @@ impl Store {
         self.value = value.unwrap_or(0.0);
         self.returned = value.is_some();
     }
-    /// Axis letters that the control refuses: bit per letter from A.
-    #[inline]
-    pub(crate) fn missing_axes(&self) -> u32 {
-        self.missing_axes
-    }
 }
 
 /// `rs274` has the axes X Y Z A B C whatever the INI file says (observed); on a machine it is `[TRAJ] COORDINATES` that says it.
@@ -192,6 +189,10 @@ impl<'a> Values<'a> {
             setup: &engine.setup,
             line: engine.at().line + 1,
         }
+    }
+    /// Whether a code, ten times its number, is one of the machine's own.
+    pub(crate) fn owns(&self, letter: u8, tenths: u32) -> bool {
+        self.setup.own_codes.binary_search(&(letter, tenths)).is_ok()
     }
     /// Axis letters that the control refuses: bit per letter from A.
     #[inline]

@@ -70,7 +70,11 @@ fn join(values: &[f64], between: &str) -> String {
 
 /// Four decimals; what is unknown is `nan`, as C prints it.
 fn four(value: f64) -> String {
-    if value.is_nan() { "nan".to_owned() } else { format!("{value:.4}") }
+    if value.is_nan() {
+        "nan".to_owned()
+    } else {
+        format!("{value:.4}")
+    }
 }
 
 /// The text of a call that is one line.
@@ -103,7 +107,7 @@ fn text(call: &Canon) -> String {
             four(*axis_end),
             join(&others[..3], ", ")
         ),
-        Canon::Nurbs { order, .. } => format!("NURBS_FEED({order}, ...)"),
+        Canon::Nurbs { points, .. } => format!("NURBS_FEED({}, ...)", points.len()),
         Canon::RigidTap(end, _) => format!("RIGID_TAP({})", join(end, ", ")),
         Canon::StartSync(feed) => format!(
             "START_SPEED_FEED_SYNC({:.6},{})",

@@ -109,6 +109,12 @@ pub struct Setup {
     pub files: Option<Arc<dyn Files>>,
     /// Bounds.
     pub limits: Limits,
+    /// M100 to M199 exist; `rs274` by itself knows none.
+    pub user_codes: bool,
+    /// Codes of the machine's own (remaps) beside those of the control: letter and ten times the number, ascending.
+    pub own_codes: Arc<[(u8, u32)]>,
+    /// The tool table may lack tools that the machine has: any number exists, with offset and diameter zero.
+    pub any_tool: bool,
     /// Lines that begin with `/` are skipped (the switch of the panel).
     pub block_delete: bool,
 }
@@ -123,6 +129,9 @@ impl Default for Setup {
             parameters: Parameters::default(),
             files: None,
             limits: Limits::default(),
+            user_codes: false,
+            own_codes: Arc::from([]),
+            any_tool: false,
             block_delete: false,
         }
     }
@@ -131,15 +140,21 @@ impl Default for Setup {
 impl Setup {
     /// How many spindles the machine has, 1-8: `[TRAJ]SPINDLES`.
     pub fn spindles(&self) -> usize {
-        self.ini.whole("TRAJ", "SPINDLES").map_or(1, |count| count.clamp(1, 8) as usize)
+        self.ini
+            .whole("TRAJ", "SPINDLES")
+            .map_or(1, |count| count.clamp(1, 8) as usize)
     }
     /// Whether the changer swaps tools: `[EMCIO]RANDOM_TOOLCHANGER`.
     pub fn random_tool_changer(&self) -> bool {
-        self.ini.whole("EMCIO", "RANDOM_TOOLCHANGER").is_some_and(|value| value != 0)
+        self.ini
+            .whole("EMCIO", "RANDOM_TOOLCHANGER")
+            .is_some_and(|value| value != 0)
     }
     /// Whether G92 outlives a program: unless `[RS274NGC]DISABLE_G92_PERSISTENCE`.
     pub fn g92_persists(&self) -> bool {
-        self.ini.whole("RS274NGC", "DISABLE_G92_PERSISTENCE").is_none_or(|value| value == 0)
+        self.ini
+            .whole("RS274NGC", "DISABLE_G92_PERSISTENCE")
+            .is_none_or(|value| value == 0)
     }
     /// Rows of the tool table as a run starts with them.
     pub(crate) fn tool_rows(&self) -> Arc<Vec<ToolEntry>> {
@@ -157,8 +172,10 @@ impl Setup {
 impl Ini {
     /// The value of a key as a whole number.
     pub fn whole(&self, section: &str, key: &str) -> Option<i64> {
-        self.values.get(&(section.to_owned(), key.to_owned()))?.trim().parse().ok()
+        self.values
+            .get(&(section.to_owned(), key.to_owned()))?
+            .trim()
+            .parse()
+            .ok()
     }
 }
-
-

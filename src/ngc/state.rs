@@ -90,6 +90,8 @@ pub struct State {
     pub feed_mode: FeedMode,
     /// F, units/min (or units/rev under G95).
     pub feed_rate: f64,
+    /// F of the last motion under G93, 1/min.
+    pub inverse_time: f64,
     /// Motion code in force, ten times its number; -1 before the first, 800 for G80.
     pub motion: i16,
     /// Last motion code, for canned cycles that lean on it.
@@ -148,6 +150,8 @@ pub struct State {
     pub tool: i32,
     /// Rows of the tool table as they are now; row 0 is the spindle.
     pub tools: std::sync::Arc<Vec<crate::ToolEntry>>,
+    /// Row of the selected tool, -1 for none.
+    pub selected_row: i32,
     /// Row of the tool in the spindle.
     pub current_row: i32,
     /// What the receiver of the calls takes for the position.
@@ -185,6 +189,8 @@ pub struct CycleWords {
     pub p: f64,
     /// Peck.
     pub q: f64,
+    /// Coordinate along the plane's axis where the first of a row of cycles began: G98 retracts there.
+    pub old: f64,
 }
 
 /// Where the receiver of the canonical calls takes the tool to be: it knows the calls only. `rs274` asks it after a tool change, and it
@@ -220,7 +226,11 @@ impl Told {
         }
     }
     fn shift(&mut self, new: Pose, axis_offset: bool) {
-        let old = if axis_offset { &mut self.axis_offset } else { &mut self.origin };
+        let old = if axis_offset {
+            &mut self.axis_offset
+        } else {
+            &mut self.origin
+        };
         for axis in 0..9 {
             self.position[axis] += old[axis] - new[axis];
         }
@@ -255,6 +265,7 @@ impl State {
             arc_distance: DistanceMode::Incremental,
             feed_mode: FeedMode::PerMinute,
             feed_rate: 0.0,
+            inverse_time: 0.0,
             motion: 800,
             last_motion: 0,
             current: position,
@@ -264,7 +275,7 @@ impl State {
             origin_index: 1,
             rotation_xy: 0.0,
             tool_offset: [0.0; 9],
-            retract: RetractMode::OldZ,
+            retract: RetractMode::RPlane,
             cycle: CycleWords::default(),
             side: Side::Off,
             radius: 0.0,
@@ -284,6 +295,7 @@ impl State {
             selected_pocket: -1,
             tool: 0,
             tools: std::sync::Arc::new(vec![crate::ToolEntry::default()]),
+            selected_row: -1,
             current_row: 1,
             told: Told::default(),
             feed_override: true,

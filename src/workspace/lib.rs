@@ -7,6 +7,7 @@ mod error;
 mod machine;
 mod resolve;
 mod subprograms;
+mod table;
 
 pub use error::LoadError;
 pub use machine::find_machine;

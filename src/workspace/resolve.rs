@@ -75,7 +75,14 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let (machine, machine_reason) = machine_for(overrides, &mode, &config, config_file.as_ref())?;
     let family = machine.as_ref().map(|m| m.control.family.as_str());
     let file_name = path.and_then(Path::file_name).and_then(|name| name.to_str());
-    let (dialect, dialect_reason) = dialect_for(overrides, &mode, &config, file_name, source, family)?;
+    let (dialect, dialect_reason) = dialect_for(
+        overrides,
+        &mode,
+        (&config, config_file.as_ref()),
+        file_name,
+        source,
+        family,
+    )?;
     let mut rules = config.rules.clone();
     for rule in &overrides.allow {
         if trunnion_check::rule(rule).is_none() {
@@ -197,7 +204,7 @@ fn machine_for(
 fn dialect_for(
     overrides: &Overrides,
     mode: &Modeline,
-    config: &Config,
+    (config, config_file): (&Config, Option<&(PathBuf, String)>),
     file_name: Option<&str>,
     source: &[u8],
     family: Option<&str>,
@@ -216,6 +223,17 @@ fn dialect_for(
             )));
         };
         return Ok((dialect, reason.to_owned()));
+    }
+    if let (Some((name, span)), Some((file, text))) = (&config.dialect_table, config_file) {
+        let path = file.parent().unwrap_or(Path::new("")).join(name);
+        if !path.is_file() {
+            let message = format!("there is no file {}", path.display());
+            return Err(LoadError::at(file, text, Some(span), message));
+        }
+        return Ok((
+            crate::table::table(&path)?,
+            format!("the table {name} of trunnion.toml"),
+        ));
     }
     let detected = trunnion_dialect::detect(file_name, source, family);
     Ok((detected.dialect, detected.reason))

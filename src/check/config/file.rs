@@ -16,12 +16,15 @@ const MOST_DEPTH: u64 = 10_000;
 struct File {
     machine: Option<String>,
     dialect: Option<Spanned<String>>,
+    dialect_table: Option<Spanned<String>>,
     #[serde(default)]
     subprogram_path: Vec<Spanned<String>>,
     #[serde(default)]
     port_to: Vec<Spanned<String>>,
     #[serde(default)]
     limits: FileLimits,
+    #[serde(default)]
+    control: super::control::FileControl,
     #[serde(default)]
     rules: BTreeMap<Spanned<String>, Spanned<String>>,
     #[serde(default)]
@@ -67,6 +70,16 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     if let Some(dialect) = file.dialect {
         config.dialect = Some(known_dialect(dialect)?);
     }
+    if let Some(table) = file.dialect_table {
+        if config.dialect.is_some() {
+            return Err(at(
+                &table,
+                "`dialect` and `dialect_table` exclude each other: the table itself says which dialect it `extends`",
+            ));
+        }
+        let span = table.span();
+        config.dialect_table = Some((table.into_inner(), span));
+    }
     for dialect in file.port_to {
         config.port_to.push(known_dialect(dialect)?);
     }
@@ -77,6 +90,7 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
         let span = folder.span();
         config.subprogram_path.push((folder.into_inner(), span));
     }
+    config.setup.control = file.control.data()?;
     if let Some(blocks) = &file.limits.blocks {
         config.setup.limits.blocks = limit("blocks", blocks, MOST_BLOCKS)?;
     }
@@ -263,121 +277,4 @@ fn work_offset(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use trunnion_interp::ToolShape;
-
-    const WHOLE: &str = r#"
-machine = "mikron-ucp710"
-dialect = "sinumerik-840d"
-subprogram_path = ["subs", "/nc/shared"]
-port_to = ["linuxcnc"]
-[limits]
-blocks = 5000
-depth = 8
-[rules]
-pole-flip = "error"
-feed-drop = "allow"
-[tolerances]
-tip = 0.02
-[[tool]]
-number = 1
-shape = "ball"
-diameter = 10
-length = 80.5
-[work_offsets]
-G54 = { X = 1, Y = 0, Z = -2.5 }
-"#;
-
-    #[test]
-    fn a_whole_file_is_read() {
-        let config = parse(WHOLE).unwrap();
-        assert_eq!(config.machine.as_deref(), Some("mikron-ucp710"));
-        let folders: Vec<&str> = config.subprogram_path.iter().map(|(path, _)| path.as_str()).collect();
-        assert_eq!(folders, ["subs", "/nc/shared"]);
-        assert_eq!(config.port_to, ["linuxcnc"]);
-        let limits = config.setup.limits;
-        assert_eq!((limits.blocks, limits.depth), (5000, 8));
-        assert_eq!(config.rules[0], ("feed-drop".to_owned(), RuleLevel::Allow));
-        assert_eq!(
-            config.rules[1],
-            ("pole-flip".to_owned(), RuleLevel::At(Severity::Error))
-        );
-        assert_eq!(config.tolerances, [("tip".to_owned(), 0.02)]);
-        assert_eq!(config.setup.tools[0].shape, Some(ToolShape::Ball));
-        assert_eq!(config.setup.tools[0].length_mm, Some(80.5));
-        assert_eq!(config.setup.work_offsets[0].values[..3], [1.0, 0.0, -2.5]);
-    }
-
-    #[test]
-    fn errors_point_at_their_place() {
-        for (text, wrong) in [
-            ("machin = \"x\"", "machin"),
-            ("[rules]\npole-flop = \"error\"", "pole-flop"),
-            ("[rules]\npole-flip = \"loud\"", "\"loud\""),
-            ("[tolerances]\ntipp = 1", "tipp"),
-            ("[tolerances]\ntip = -1", "-1"),
-            ("[tolerances]\nfeed_drop_error = 30", "30"),
-            ("dialect = \"klingon\"", "\"klingon\""),
-            ("port_to = [\"linuxcnc\", \"klingon\"]", "\"klingon\""),
-            ("subprogram_path = [\"a\", \"\"]", "\"\""),
-            ("[limits]\nblocks = 0", "0"),
-            ("[limits]\ndepth = 10001", "10001"),
-            ("[limits]\ndeep = 3", "deep"),
-            ("[work_offsets]\nG54 = { Q = 1 }", "Q"),
-            ("[work_offsets]\nG54 = { X = nan }", "nan"),
-            ("[work_offsets]\nG643 = { X = 1 }", "G643"),
-            ("[work_offsets]\n\"G54.1\" = { X = 1 }", "\"G54.1\""),
-            ("[[tool]]\nnumber = 1\ndiametre = 3", "diametre"),
-            ("[[tool]]\nnumber = 1\nlength = -3", "-3"),
-            ("[[tool]]\nnumber = 1\nshape = \"cone\"", "\"cone\""),
-            ("[[tool]]\nnumber = 1\nshape = \"ball\"\ndiameter = 0", "0"),
-            (
-                "[[tool]]\nnumber = 1\nshape = \"bull\"\ndiameter = 8\ncorner_radius = 5",
-                "5",
-            ),
-            ("[[tool]]\nnumber = 1\n[[tool]]\nlength = 2\nnumber = 1", "1"),
-        ] {
-            let error = parse(text).unwrap_err();
-            let span = error
-                .span
-                .clone()
-                .unwrap_or_else(|| panic!("{text}: {error} has no place"));
-            assert_eq!(&text[span], wrong, "{text}: {error}");
-        }
-        assert!(parse("= 1").unwrap_err().span.is_some());
-    }
-
-    #[test]
-    fn errors_in_a_tool_are_not_told_at_the_start_of_the_file() {
-        for text in [
-            "[[tool]]\nlength = 1",
-            "x = 1\n[[tool]]\nnumber = -1",
-            "[[tool]]\nnumber = \"a\"",
-        ] {
-            assert!(parse(text).unwrap_err().span.is_some_and(|span| span.end > 0), "{text}");
-        }
-    }
-
-    #[test]
-    fn work_offsets_of_all_dialects_are_known() {
-        for name in ["G54", "g59", "G59.3", "G54.1 P12", "G505", "G599"] {
-            assert!(is_work_offset(name), "{name}");
-        }
-        for name in [
-            "G53", "G500", "G60", "G643", "G600", "G59.4", "G54.1 P", "G54.1 P0", "54", "G054", "X",
-        ] {
-            assert!(!is_work_offset(name), "{name}");
-        }
-    }
-
-    #[test]
-    fn an_axis_that_the_machine_lacks_has_its_place() {
-        let text = "[work_offsets]\nG54 = { X = 1, A = 2 }";
-        let config = parse(text).unwrap();
-        let machine = |name| trunnion_machine::builtin(name).unwrap();
-        assert_eq!(config.check_axes(machine("mikron-ucp710")), Ok(()));
-        let error = config.check_axes(machine("mill-3axis")).unwrap_err();
-        assert_eq!(&text[error.span.unwrap()], "A");
-    }
-}
+mod tests;

@@ -5,16 +5,18 @@
 //! loop perhaps only in the hundredth pass. LinuxCNC says `Attempt to divide by zero` and `Negative argument to sqrt`.
 //!
 //! # Example
-//! ```gcode linuxcnc
-//! G0 X[10/[5-5]]
-//! ;    ^^^^^^^^ bad-expression:
-//! M2
+//! ```gcode fanuc-30i
+//! N10 #1 = 0
+//! N20 #2 = 10 / #1
+//! ;        ^^^^^^^ bad-expression: division by zero
+//! N30 M30
 //! ```
 //!
 //! # Use instead
-//! ```gcode linuxcnc
-//! G0 X[10/5-5]
-//! M2
+//! ```gcode fanuc-30i
+//! N10 #1 = 4
+//! N20 #2 = 10 / #1
+//! N30 M30
 //! ```
 //!
 //! # Guarantee

@@ -7,7 +7,7 @@
 //! # Example
 //! ```gcode fanuc-30i
 //! N10 WHILE [#1 LT 3] DO 1
-//! ;   ^^^^^^^^^^^^^^^^^^^^ broken-structure:
+//! ;                   ^^^^ broken-structure: the END1 of this DO1 is missing
 //! N20 #1 = #1 + 1
 //! N30 M30
 //! ```

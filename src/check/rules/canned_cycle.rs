@@ -5,19 +5,19 @@
 //! through the part in rapid. LinuxCNC says `R clearance plane unspecified in cycle`.
 //!
 //! # Example
-//! ```gcode linuxcnc
-//! G0 X0 Y0 Z50
-//! G81 X10 Y10 Z-5 F100
-//! ;^^ canned-cycle:
-//! M2
+//! ```gcode fanuc-30i
+//! N10 G0 X0. Y0. Z50.
+//! N20 G83 X10. Y10. Z-5. R2. F100.
+//! ;       ^^^^ canned-cycle: G83 without Q
+//! N30 M30
 //! ```
 //!
 //! # Use instead
-//! ```gcode linuxcnc
-//! G0 X0 Y0 Z50
-//! G81 X10 Y10 Z-5 R2 F100
-//! G80
-//! M2
+//! ```gcode fanuc-30i
+//! N10 G0 X0. Y0. Z50.
+//! N20 G83 X10. Y10. Z-5. R2. Q1. F100.
+//! N30 G80
+//! N40 M30
 //! ```
 //!
 //! # Guarantee

@@ -5,20 +5,29 @@
 //! may not change while it is on: LinuxCNC says `Cannot change planes with cutter radius compensation on`.
 //!
 //! # Example
-//! ```gcode linuxcnc
-//! G0 X0 Y0 Z0
-//! G41.1 D10
-//! G18
-//! ;^^ cutter-compensation:
-//! M2
+//! ```gcode fanuc-30i
+//! (trunnion: tool 1 flat diameter 10)
+//! N10 G17 G90 G0 X0. Y-10. Z0.
+//! N20 G41 D1 G1 X10. Y0. F100.
+//! N30 X30.
+//! N40 G3 X34. Y4. R4.
+//! ;^^^^^^^^^^^^^^^^^^ cutter-compensation: the tool is too large
+//! ;^^^^^^^^^^^^^^^^^^ not-modelled:
+//! N50 G1 Y20.
+//! N60 G40 X0.
+//! N70 M30
 //! ```
 //!
 //! # Use instead
-//! ```gcode linuxcnc
-//! G0 X0 Y0 Z0
-//! G18
-//! G40
-//! M2
+//! ```gcode fanuc-30i
+//! (trunnion: tool 1 flat diameter 10)
+//! N10 G17 G90 G0 X0. Y-10. Z0.
+//! N20 G41 D1 G1 X10. Y0. F100.
+//! N30 X30.
+//! N40 G3 X36. Y6. R6.
+//! N50 G1 Y20.
+//! N60 G40 X0.
+//! N70 M30
 //! ```
 //!
 //! # Guarantee

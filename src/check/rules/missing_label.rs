@@ -7,7 +7,7 @@
 //! # Example
 //! ```gcode fanuc-30i
 //! N10 GOTO 100
-//! ;   ^^^^^^^^ missing-label:
+//! ;        ^^^ missing-label: there is no block N100
 //! N90 M30
 //! ```
 //!

@@ -6,7 +6,7 @@
 //! # Example
 //! ```gcode fanuc-30i
 //! N10 M98 P1234
-//! ;   ^^^^^^^^^ missing-subprogram: there is no program `1234`
+//! ;   ^^^^^^^^^ missing-subprogram: there is no program `O1234`
 //! N20 M30
 //! ```
 //!

@@ -4,18 +4,18 @@
 //! The control stops, or takes a value from a block before. LinuxCNC says for example `Dwell time missing with g4`.
 //!
 //! # Example
-//! ```gcode linuxcnc
-//! G0 X10
-//! G4
-//! ;^ missing-word:
-//! M2
+//! ```gcode fanuc-30i
+//! N10 G0 X10.
+//! N20 M98 L3
+//! ;   ^^^ missing-word:
+//! N30 M30
 //! ```
 //!
 //! # Use instead
-//! ```gcode linuxcnc
-//! G0 X10
-//! G4 P2
-//! M2
+//! ```gcode fanuc-30i
+//! N10 G0 X10.
+//! N20 M98 P1000 L3
+//! N30 M30
 //! ```
 //!
 //! # Guarantee

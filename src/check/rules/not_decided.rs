@@ -7,7 +7,7 @@
 //! # Example
 //! ```gcode fanuc-30i
 //! N10 IF [#1000 EQ 1] GOTO 30
-//! ;   ^^^^^^^^^^^^^^^^^^^^^^^ not-decided:
+//! ;      ^^^^^^^^^^^^ not-decided: where the program goes on depends on #1000
 //! N20 G0 X10.
 //! N30 M30
 //! ```

@@ -9,7 +9,7 @@
 //! N10 #1 = 0
 //! N20 IF [#1 GT 0] GOTO 40
 //! N30 #3000 = 1 (DEPTH IS ZERO)
-//! ;   ^^^^^^^^^ program-alarm:
+//! ;^^^^^^^^^^^^^^^^^^^^^^^^^^^^ program-alarm: the program stops itself here
 //! N40 M30
 //! ```
 //!

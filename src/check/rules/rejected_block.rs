@@ -4,16 +4,16 @@
 //! The program stops there. What the control says of it stands in the note, where that is known.
 //!
 //! # Example
-//! ```gcode linuxcnc
-//! G10 L99 P1 X0
-//! ;^^ rejected-block:
-//! M2
+//! ```gcode fanuc-30i
+//! N10 G10 L2 P9 X0.
+//! ;   ^^^ rejected-block:
+//! N20 M30
 //! ```
 //!
 //! # Use instead
-//! ```gcode linuxcnc
-//! G10 L2 P1 X0
-//! M2
+//! ```gcode fanuc-30i
+//! N10 G10 L2 P1 X0.
+//! N20 M30
 //! ```
 //!
 //! # Guarantee

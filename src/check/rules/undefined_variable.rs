@@ -5,18 +5,16 @@
 //! LinuxCNC says `Named parameter #<...> not defined`, and `Parameter number out of range` for a number it does not have.
 //!
 //! # Example
-//! ```gcode linuxcnc
-//! #<depth> = 5
-//! G0 X0 Y0 Z#<deph>
-//! ;         ^^^^^^^ undefined-variable:
-//! M2
+//! ```gcode fanuc-30i
+//! N10 #0 = 5
+//! ;   ^^^^^^ undefined-variable:
+//! N20 M30
 //! ```
 //!
 //! # Use instead
-//! ```gcode linuxcnc
-//! #<depth> = 5
-//! G0 X0 Y0 Z#<depth>
-//! M2
+//! ```gcode fanuc-30i
+//! N10 #101 = 5
+//! N20 M30
 //! ```
 //!
 //! # Guarantee

@@ -13,7 +13,10 @@ pub(super) struct Event {
 }
 
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "nearly all events are motions, and a box for each would cost more")]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "nearly all events are motions, and a box for each would cost more"
+)]
 pub(super) enum Body {
     Motion(Point, Tech),
     /// Words that say more than numbers do: stops, ends, what is recognised and not modelled.

@@ -48,7 +48,11 @@ impl<'a> Lines<'a> {
 pub(super) fn text(before: &Loaded, after: &Loaded, found: &Found, tolerance: Tolerance, limit: usize) -> String {
     let lines = Lines::new(before, after);
     let mut out = String::new();
-    let _ = writeln!(out, "{} -> {}", lines.name(0), lines.name(1));
+    let machine = before.resolved.machine.as_ref();
+    let on = machine.map_or_else(String::new, |machine| {
+        format!("  on {}, coordinates are its joints", machine.id)
+    });
+    let _ = writeln!(out, "{} -> {}{on}", lines.name(0), lines.name(1));
     let mut rows: Vec<(u32, [String; 2], String)> = Vec::new();
     for change in &found.changes {
         rows.push(change_row(&lines, change));
@@ -67,7 +71,7 @@ pub(super) fn text(before: &Loaded, after: &Loaded, found: &Found, tolerance: To
     };
     let widths = [width(0), width(1)];
     if !rows.is_empty() {
-        let _ = writeln!(out, "  {:<2$}  {:<3$}", "line", "line", widths[0], widths[1]);
+        let _ = writeln!(out, "  {:<1$}  line", "line", widths[0]);
     }
     for (_, places, what) in rows.iter().take(limit) {
         let _ = writeln!(
@@ -138,8 +142,17 @@ fn moved(a: &Point, b: &Point) -> String {
     } else {
         format!("{} -> {}", a.way.name(), b.way.name())
     };
-    for (axis, from, to) in a.moved(b) {
-        let _ = write!(text, " {} {} -> {}", letter(axis), short(from), short(to));
+    for (rotary, unit) in [(false, "mm"), (true, "deg")] {
+        let axes = a
+            .moved(b)
+            .into_iter()
+            .filter(|(axis, ..)| (3..6).contains(axis) == rotary);
+        let parts: Vec<String> = axes
+            .map(|(axis, from, to)| format!("{} {} -> {}", letter(axis), short(from), short(to)))
+            .collect();
+        if !parts.is_empty() {
+            let _ = write!(text, " {} {unit}", parts.join(" "));
+        }
     }
     for (known, other, verb) in [(a.known, b.known, "no longer known"), (b.known, a.known, "now known")] {
         let letters: String = (0..AXIS_LETTERS.len())
@@ -154,7 +167,7 @@ fn moved(a: &Point, b: &Point) -> String {
         (Way::Arc(Some(from)), Way::Arc(Some(to))) if from != to => {
             let _ = write!(
                 text,
-                " centre {} -> {}, sweep {} -> {} deg",
+                " centre {} -> {} mm, sweep {} -> {} deg",
                 vector(from.0),
                 vector(to.0),
                 short(from.2),
@@ -168,7 +181,7 @@ fn moved(a: &Point, b: &Point) -> String {
         _ => {}
     }
     if let Some(distance) = a.distance_mm(b).filter(|distance| *distance > 0.0) {
-        let _ = write!(text, ", {} mm away", short(distance));
+        let _ = write!(text, ", tip {} mm away", short(distance));
     }
     if let Some(angle) = a.angle_deg(b).filter(|angle| *angle > 1e-9) {
         let _ = write!(text, ", tool axis {} deg off", short(angle));

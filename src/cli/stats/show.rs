@@ -56,10 +56,10 @@ pub(super) fn text(loaded: &Loaded, tally: &Tally) -> String {
         format!("{} in line {}{times}", call.name, call.line)
     });
     rows(&mut row, "calls", &calls.collect::<Vec<_>>());
-    let unmodelled = tally
-        .not_modelled
-        .iter()
-        .map(|(what, count)| format!("{what} ({} times)", number(*count)));
+    let unmodelled = tally.not_modelled.iter().map(|(what, count)| match count {
+        1 => what.clone(),
+        count => format!("{what}, {} times", number(*count)),
+    });
     rows(&mut row, "not modelled", &unmodelled.collect::<Vec<_>>());
     out
 }
@@ -156,7 +156,9 @@ fn wide(letter: char, range: Range, rotary: bool) -> String {
 }
 
 fn tools(tally: &Tally) -> Vec<String> {
-    let list = tally.tools.iter().map(|(tool, used)| {
+    let mut list: Vec<_> = tally.tools.iter().collect();
+    list.sort_by_key(|(_, used)| used.line);
+    let list = list.into_iter().map(|(tool, used)| {
         let name = tool.map_or_else(|| "not known".to_owned(), |number| format!("T{number}"));
         format!(
             "{name} from line {}: {}, feed {} mm",

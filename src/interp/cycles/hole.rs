@@ -1,66 +1,15 @@
 //! Drilling, tapping and boring cycles: to the hole, rapid to R, down to Z as the cycle says, and back.
+use super::data::Stored;
 use crate::arc::plane_axes;
 use crate::run::{Interpreter, Report};
 use crate::words::{Said, Words};
-use crate::{FaultKind, Feed, ImplicitDecimals, MotionKind, Position, Refusal};
+use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
 use trunnion_dialect::Action;
 
 /// More steps than this are no drilling.
 const MOST_STEPS: f64 = 10_000.0;
 /// Holes of one block.
 const MOST_REPEATS: u32 = 10_000;
-
-/// A value that a cycle keeps.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) enum Stored {
-    /// Not given yet.
-    #[default]
-    Nothing,
-    /// Given, but its value is not known.
-    Unknown,
-    /// mm as a coordinate.
-    At(f64),
-    /// mm as a distance.
-    By(f64),
-}
-
-impl Stored {
-    /// The coordinate, from the level that a distance counts from.
-    pub(crate) fn from(self, level: Option<f64>) -> Option<f64> {
-        match self {
-            Self::At(value) => Some(value),
-            Self::By(distance) => level.map(|level| level + distance),
-            Self::Nothing | Self::Unknown => None,
-        }
-    }
-}
-
-/// What drilling cycles keep.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Hole {
-    /// Coordinate of the drilling axis when the cycle was begun, mm.
-    initial: Option<f64>,
-    bottom: Stored,
-    r: Stored,
-    /// Step or shift, mm.
-    q: Option<f64>,
-    /// Dwell, seconds.
-    dwell: Option<f64>,
-    /// How many times the feed a tap goes out with (J of a Haas).
-    times: Option<f64>,
-    /// I, J, K where the cycle reads them, mm.
-    ijk: [Option<f64>; 3],
-}
-
-impl Hole {
-    /// Nothing but the level before the cycle, mm.
-    pub(crate) fn from(initial: Option<f64>) -> Self {
-        Self {
-            initial,
-            ..Self::default()
-        }
-    }
-}
 
 /// One hole with its numbers, all as coordinates of the words.
 #[derive(Clone, Copy, Debug)]
@@ -74,53 +23,6 @@ struct Plan {
 }
 
 impl Interpreter<'_> {
-    /// A word that is a length without being a coordinate, mm: Q, I, J, K of a cycle.
-    pub(crate) fn length_word(&self, words: &Words, letter: u8) -> Option<f64> {
-        let number = words.letter(letter).number()?;
-        let least = self.setup.control.implicit_decimals == Some(ImplicitDecimals::LeastIncrement);
-        let value = match (least && !number.has_point, self.state.length_unit_mm != 1.0) {
-            (true, true) => number.value / 10_000.0,
-            (true, false) => number.value / 1000.0,
-            (false, _) => number.value,
-        };
-        Some(value * self.state.length_unit_mm)
-    }
-
-    fn store_hole(&mut self, words: &Words, axis: usize) {
-        let stored = |said: bool, value: Option<f64>, incremental: bool| match (said, value) {
-            (false, _) => None,
-            (true, None) => Some(Stored::Unknown),
-            (true, Some(value)) if incremental => Some(Stored::By(value)),
-            (true, Some(value)) => Some(Stored::At(value)),
-        };
-        let incremental = self.state.incremental;
-        let unit = self.state.length_unit_mm;
-        let z = words.axes.get(axis).map(|value| value * unit);
-        let z_said = (words.axes.given | words.axes.unread) & (1 << axis) != 0;
-        let bottom = stored(z_said, z, incremental);
-        let r = words.radius.number().map(|number| number.value * unit);
-        let r = stored(words.radius.is_said(), r, incremental);
-        let q = self.length_word(words, b'Q');
-        let dwell = words.p.number().map(|p| {
-            let ms = self.dialect.quirks.dwell_in_ms && !p.has_point;
-            if ms { p.value / 1000.0 } else { p.value }
-        });
-        let reads = self.memory.cycle.reads;
-        let ijk = [(b'I', reads[0]), (b'J', reads[1]), (b'K', reads[2])];
-        let ijk = ijk.map(|(letter, reads)| self.length_word(words, letter).filter(|_| reads));
-        let taps = matches!(self.state.motion, Some(Action::TapCycle | Action::TapLeftCycle));
-        let times = words.letter(b'J').number().filter(|_| taps).map(|number| number.value);
-        let hole = &mut self.memory.cycle.hole;
-        hole.bottom = bottom.unwrap_or(hole.bottom);
-        hole.r = r.unwrap_or(hole.r);
-        hole.q = q.or(hole.q);
-        hole.dwell = dwell.or(hole.dwell);
-        hole.times = times.or(hole.times);
-        for (kept, given) in hole.ijk.iter_mut().zip(ijk) {
-            *kept = given.or(*kept);
-        }
-    }
-
     /// Runs the cycle in force at the places that the block says.
     pub(crate) fn hole_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
         let axis = plane_axes(self.state.plane)[2];
@@ -327,7 +229,7 @@ impl Interpreter<'_> {
     }
 
     fn with_spindle_off(&mut self, run: impl FnOnce(&mut Self)) {
-        let before = std::mem::replace(&mut self.state.spindle_on, Some(false));
+        let before = self.state.spindle_on.replace(false);
         run(self);
         self.state.spindle_on = before;
     }

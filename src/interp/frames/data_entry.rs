@@ -93,10 +93,9 @@ impl<'d> Interpreter<'d> {
             Some(name) => self.offset_values(name).unwrap_or([0.0; 9]),
             None => self.memory.frames.external,
         };
-        for axis in 0..9 {
+        for (axis, kept) in values.iter_mut().enumerate() {
             if let Some(value) = self.axis_value(words, axis) {
-                let base = if self.state.incremental { values[axis] } else { 0.0 };
-                values[axis] = base + value;
+                *kept = if self.state.incremental { *kept + value } else { value };
             }
         }
         let Some(name) = name else {

@@ -30,16 +30,13 @@ impl Polar {
                 (angle, _) => angle,
             };
         }
-        match (self.radius, self.degrees) {
-            (Some(radius), Some(degrees)) => {
-                let (sin, cos) = sin_cos(degrees.to_radians());
-                end.set(a, radius * cos);
-                end.set(b, radius * sin);
-            }
-            _ => {
-                end.forget(a);
-                end.forget(b);
-            }
+        if let (Some(radius), Some(degrees)) = (self.radius, self.degrees) {
+            let (sin, cos) = sin_cos(degrees.to_radians());
+            end.set(a, radius * cos);
+            end.set(b, radius * sin);
+        } else {
+            end.forget(a);
+            end.forget(b);
         }
     }
 }

@@ -37,7 +37,7 @@ impl Interpreter<'_> {
         let mut named = words.axes.given | words.axes.unread;
         match what {
             Return::Check => self.rapid_to(point, report),
-            Return::From => self.from_reference(named, point, report),
+            Return::From => self.leave_reference(named, point, report),
             Return::To(number) => {
                 if named != 0 {
                     self.rapid_to(point, report);
@@ -47,7 +47,7 @@ impl Interpreter<'_> {
                 } else {
                     return;
                 }
-                self.to_reference(named, number, range, report);
+                self.reach_reference(named, number, range, report);
             }
         }
     }
@@ -60,7 +60,7 @@ impl Interpreter<'_> {
     }
 
     /// G29: the named axes go to the point of the last return first.
-    fn from_reference(&mut self, named: u16, point: Position, report: &Report<'_>) {
+    fn leave_reference(&mut self, named: u16, point: Position, report: &Report<'_>) {
         let mut via = self.state.position;
         for axis in (0..9).filter(|axis| named & (1 << axis) != 0) {
             match self.memory.frames.intermediate.and_then(|via| via.get(axis)) {
@@ -74,7 +74,7 @@ impl Interpreter<'_> {
     }
 
     /// Rapid of the named axes to a reference point: in machine coordinates where it is declared, else to nobody knows where.
-    fn to_reference(&mut self, named: u16, number: u32, range: TextRange, report: &mut Report<'_>) {
+    fn reach_reference(&mut self, named: u16, number: u32, range: TextRange, report: &mut Report<'_>) {
         let declared = self
             .setup
             .control
@@ -86,12 +86,11 @@ impl Interpreter<'_> {
         let mut end = start;
         let mut all = true;
         for axis in (0..9).filter(|axis| named & (1 << axis) != 0) {
-            match declared.and_then(|point| point.get(axis)) {
-                Some(value) => end.set(axis, value),
-                None => {
-                    end.forget(axis);
-                    all = false;
-                }
+            if let Some(value) = declared.and_then(|point| point.get(axis)) {
+                end.set(axis, value);
+            } else {
+                end.forget(axis);
+                all = false;
             }
         }
         let orientation = self.held_orientation();

@@ -174,11 +174,9 @@ impl<'d> Interpreter<'d> {
         let named = words.axes.given | words.axes.unread;
         let frames = &mut self.memory.frames;
         let absolute = !self.state.incremental;
-        if frames.fresh != 0 && named & frames.fresh != 0 {
-            if absolute {
-                end.known &= !(frames.fresh & !named);
-                frames.fresh &= !named;
-            }
+        if named & frames.fresh != 0 && absolute {
+            end.known &= !(frames.fresh & !named);
+            frames.fresh &= !named;
         }
         if frames.must_be_absolute & named != 0 {
             if !absolute {

@@ -85,6 +85,7 @@ impl Interpreter<'_> {
     fn push_call(&mut self, calling: Calling, (file, block): (u16, u32), running: &Running<'_>, from: u32) {
         let back = self.flow.next;
         let Some(deep) = &mut self.flow.deep else { return };
+        deep.variables.changes += 1;
         let caller = deep.place;
         let program = running.program();
         let frame = || Frame {
@@ -130,6 +131,7 @@ impl Interpreter<'_> {
             main_range: main.1,
         };
         self.flow.next = block;
+        self.flow.called_at = (file != 0).then_some(main.0);
     }
 
     /// Why a further call is one too many.
@@ -225,6 +227,7 @@ impl Interpreter<'_> {
         };
         if call.times > 0 && label.is_none() {
             call.times -= 1;
+            deep.variables.changes += 1;
             let start = call.start;
             if let Some(level) = &call.macro_level {
                 deep.variables.locals = level.1;
@@ -239,10 +242,12 @@ impl Interpreter<'_> {
             deep.ran.from = call.back;
         }
         deep.end_level(&call);
+        deep.variables.changes += 1;
         deep.place = call.place;
         deep.modal_active = call.modal_active;
         self.chain = call.chain;
         self.flow.next = call.back;
+        self.flow.called_at = (call.place.file != 0).then_some(call.place.main);
         let Some(number) = label else { return };
         let Some(deep) = &mut self.flow.deep else { return };
         let called = Self::called(deep, call.place.file);

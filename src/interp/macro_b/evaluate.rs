@@ -44,13 +44,18 @@ pub(crate) struct View<'a> {
     pub(crate) unknown: Cell<Option<i64>>,
     /// A named variable was asked for that is not known.
     pub(crate) unknown_name: Cell<bool>,
+    /// A variable of the control was asked for, whose value changes without being assigned.
+    pub(crate) asked_control: Cell<bool>,
 }
 
 impl trunnion_formula::Variables for View<'_> {
     fn numbered(&self, index: i64) -> Result<f64, ValueError> {
         let value = match (self.variables.get(index), class(index)) {
             (Some(held), _) => held.unwrap_or(0.0),
-            (None, Class::System(number)) => self.known.read(number),
+            (None, Class::System(number)) => {
+                self.asked_control.set(true);
+                self.known.read(number)
+            }
             _ => return Err(ValueError::OutOfRange),
         };
         if value.is_nan() && self.unknown.get().is_none() {

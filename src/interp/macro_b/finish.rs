@@ -75,6 +75,7 @@ impl Interpreter<'_> {
                     deep: &mut deep,
                     state: &self.state,
                     setup: &self.setup,
+                    frames: &self.memory.frames,
                 }),
                 report: |range: TextRange, kind: FaultKind| {
                     if is_of_text(&kind) {

@@ -131,7 +131,14 @@ impl Interpreter<'_> {
             let key = (deep.place.file, to);
             // loops beyond that are named by the block that ran last
             if deep.turns.len() < (1 << 16) || deep.turns.contains_key(&key) {
-                *deep.turns.entry(key).or_default() += 1;
+                let changes = deep.variables.changes;
+                let turns = deep.turns.entry(key).or_default();
+                if turns.count > 0 && turns.changes == changes {
+                    // nothing that decides anything has changed: every further turn is the same
+                    deep.endless = Some(key);
+                }
+                turns.count += 1;
+                turns.changes = changes;
             }
         }
         self.jump(to);

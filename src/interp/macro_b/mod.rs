@@ -40,6 +40,8 @@ pub(crate) struct Flow {
     pub(crate) finished: bool,
     /// Blocks are run by [`crate::Interpreter::advance`], so that jumps are followed.
     pub(crate) follows: bool,
+    /// The block of the main program whose call led to the other file that runs.
+    pub(crate) called_at: Option<BlockId>,
     /// What macros need; empty until the first statement of one.
     pub(crate) deep: Option<Box<Deep>>,
 }
@@ -49,6 +51,8 @@ pub(crate) struct Flow {
 pub(crate) struct Deep {
     pub(crate) variables: Variables,
     compiled: Compiled,
+    /// Offsets of the control that the block in hand writes: number of the variable, value in program units.
+    pub(crate) writes: Vec<(u32, f64)>,
     /// What the block in hand asks for, done when it has run.
     pub(crate) pending: Option<Pending>,
     /// A code of the block in hand that calls or returns.
@@ -70,8 +74,10 @@ pub(crate) struct Deep {
     executed: u64,
     /// The DO to which an END has just gone back.
     again: Option<u32>,
-    /// How often each loop, by file and opening block, began anew since it was entered.
-    turns: HashMap<(u16, u32), u64>,
+    /// How often each loop, by file and opening block, began anew since it was entered, and what had changed by then.
+    turns: HashMap<(u16, u32), Turns>,
+    /// A loop whose turns are all alike.
+    endless: Option<(u16, u32)>,
 }
 
 /// Where the run is.
@@ -92,6 +98,14 @@ pub(crate) struct Called {
     number: u32,
     path: String,
     program: Program,
+}
+
+/// Turns of a loop.
+#[derive(Clone, Copy, Debug, Default)]
+struct Turns {
+    count: u64,
+    /// [`Variables::changes`] when the last one began.
+    changes: u64,
 }
 
 /// One call.

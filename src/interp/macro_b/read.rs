@@ -1,9 +1,10 @@
 //! Reads macro statements as the reader meets them: assignments, IF, WHILE, GOTO, DO, END, and values that are expressions.
 use super::alarms::{Mistake, is_fanuc, rejected};
 use super::evaluate::{Assigned, Compiled, Form, Trouble, View, assigned, evaluate, only_read};
-use super::system::Known;
+use super::system::{Known, is_followed};
 use super::variables::{Class, Held, class};
 use super::{Deep, FlowCode, Pending};
+use crate::frames::Frames;
 use crate::reader::{LARGEST, Reader};
 use crate::words::{Number, Said};
 use crate::{FaultKind, ModalState, Refusal, Setup};
@@ -28,6 +29,7 @@ pub(crate) struct Macros<'a> {
     pub(crate) deep: &'a mut Option<Box<Deep>>,
     pub(crate) state: &'a ModalState,
     pub(crate) setup: &'a Setup,
+    pub(crate) frames: &'a Frames,
 }
 
 /// The words of macro statements.
@@ -79,7 +81,7 @@ impl Macros<'_> {
 
     /// What formulas read from.
     fn view<'v>(&'v mut self, dialect: &Dialect) -> (View<'v>, &'v mut Compiled, u16) {
-        let (state, setup) = (self.state, self.setup);
+        let (state, setup, frames) = (self.state, self.setup, self.frames);
         let Deep {
             variables,
             compiled,
@@ -91,10 +93,12 @@ impl Macros<'_> {
             known: Known {
                 state,
                 setup,
+                frames,
                 fanuc: is_fanuc(dialect),
             },
             unknown: Cell::new(None),
             unknown_name: Cell::new(false),
+            asked_control: Cell::new(false),
         };
         (view, compiled, place.file)
     }
@@ -116,6 +120,9 @@ impl Macros<'_> {
         let reason = held
             .is_some_and(f64::is_nan)
             .then(|| view.reason(program.text(range).trim()));
+        if view.asked_control.get() {
+            self.deep().variables.changes += 1;
+        }
         Ok((held, reason))
     }
 }
@@ -326,6 +333,10 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             Class::System(3000) if macros.mode == Mode::Follow => return self.alarm(held),
             // a stop with a message: the operator goes on
             Class::System(3006) if macros.mode == Mode::Follow => return,
+            Class::System(number) if is_followed(number) && held.is_some_and(f64::is_finite) => {
+                macros.deep().writes.push((number, held.unwrap_or(0.0)));
+                return;
+            }
             Class::System(number) => return self.system_word(format!("#{number}").as_bytes(), range),
             Class::Vacant => (
                 Mistake::ProtectedVariable,

@@ -31,7 +31,7 @@ impl Interpreter<'_> {
         let called = Self::called(deep, place.file);
         let block = if called.is_none() { BlockId(next) } else { place.main };
         deep.executed += 1;
-        if deep.executed > limit {
+        if deep.executed > limit || deep.endless.is_some() {
             self.out_of_fuel(main, sink);
             return Some(block);
         }
@@ -143,20 +143,18 @@ impl Interpreter<'_> {
         deep.told = through.told;
     }
 
-    /// The bounds of the run are reached: the loop that began anew most often does not end.
+    /// A loop is proved to be endless, or the bounds of the run are reached: then the loop that began anew most often does not end.
     fn out_of_fuel(&mut self, main: &Program, sink: &mut impl Sink) {
         self.stop();
         if let Some(deep) = &self.flow.deep {
-            let most = deep
-                .turns
-                .iter()
-                .max_by_key(|(place, turns)| (**turns, std::cmp::Reverse(**place)));
-            let block = match most {
-                Some(((0, block), _)) => BlockId(*block),
+            let most = deep.turns.iter();
+            let most = most.max_by_key(|(place, turns)| (turns.count, std::cmp::Reverse(**place)));
+            let block = match deep.endless.or(most.map(|most| *most.0)) {
+                Some((0, block)) => BlockId(block),
                 _ if deep.place.file != 0 => deep.place.main,
                 _ => BlockId(self.flow.next),
             };
-            let blocks = self.setup.limits.blocks;
+            let blocks = deep.executed - 1;
             sink.fault(Fault {
                 block,
                 range: main.block(block).range(),
@@ -184,6 +182,11 @@ impl super::Deep {
 }
 
 impl super::Flow {
+    /// The block of the main program to which a block of the program that runs belongs.
+    #[inline]
+    pub(crate) fn main_block(&self, block: BlockId) -> BlockId {
+        self.called_at.unwrap_or(block)
+    }
     /// The calls of a chain, outermost first.
     pub(crate) fn chain(&self, chain: crate::ChainId) -> Vec<crate::Frame> {
         self.deep

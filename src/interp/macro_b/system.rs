@@ -2,6 +2,8 @@
 //!
 //! Source: Fanuc Series 30i operator's manual, custom macro, system variables: #4001 to #4130 modal information of the block before,
 //! #5001 ff. its end point, #5021 ff. machine coordinates, #5041 ff. coordinates with the tool's length, #5221 to #5324 work offsets.
+use crate::frames::Frames;
+use crate::run::Interpreter;
 use crate::{FeedMode, ModalState, Setup};
 use trunnion_dialect::{Action, Plane};
 
@@ -30,6 +32,7 @@ fn is_probing(number: u32) -> bool {
 pub(crate) struct Known<'a> {
     pub(crate) state: &'a ModalState,
     pub(crate) setup: &'a Setup,
+    pub(crate) frames: &'a Frames,
     /// Numbers of modal groups and offsets are Fanuc's.
     pub(crate) fanuc: bool,
 }
@@ -43,7 +46,7 @@ impl Known<'_> {
             5001..=5003 => self.end(number as usize - 5001).unwrap_or(unknown),
             5021..=5023 => self.machine(number as usize - 5021).unwrap_or(unknown),
             5041..=5043 => self.with_length(number as usize - 5041).unwrap_or(unknown),
-            5221..=5323 => self.offset(number - 5221).unwrap_or(unknown),
+            5201..=5323 => self.offset(number).unwrap_or(unknown),
             _ => unknown,
         }
     }
@@ -105,6 +108,9 @@ impl Known<'_> {
 
     /// End point of the block before, program units.
     fn end(&self, axis: usize) -> Option<f64> {
+        if self.frames.active || self.state.frame_unknown {
+            return None;
+        }
         Some(self.state.position.get(axis)? / self.state.length_unit_mm)
     }
 
@@ -121,7 +127,8 @@ impl Known<'_> {
     }
 
     fn length(&self, axis: usize) -> Option<f64> {
-        if self.state.tcp || self.state.frame_unknown {
+        let shifted = self.frames.active || self.state.frame_unknown || self.state.compensation != 0;
+        if self.state.tcp || shifted {
             return None;
         }
         Some(if axis == 2 {
@@ -131,18 +138,58 @@ impl Known<'_> {
         })
     }
 
-    /// #5221 ff.: 20 numbers for each of G54 to G59, X Y Z first. Known where the setup declares the offset.
+    /// Known where the setup declares the offset, or the program has written it.
     fn offset(&self, number: u32) -> Option<f64> {
-        let (code, axis) = (54 + number / 20, (number % 20) as usize);
-        if axis > 2 || code > 59 {
-            return None;
+        let (name, axis) = offset_of(number)?;
+        let value = match name {
+            None => self.frames.external[axis],
+            Some(name) => {
+                let written = self.frames.written.iter().map(|(name, values)| (&**name, values));
+                let declared = self.setup.work_offsets.iter();
+                let declared = declared.map(|offset| (offset.name.as_str(), &offset.values));
+                let mut known = written.chain(declared);
+                known.find(|(known, _)| known.eq_ignore_ascii_case(&name))?.1[axis]
+            }
+        };
+        Some(value / self.state.length_unit_mm)
+    }
+}
+
+/// The work offset and axis of #5201 to #5323: 20 numbers for each, the offset of all zero points (`None`) first, then G54 to G59.
+/// `None` for other axes than X Y Z, whose order is the machine's.
+fn offset_of(number: u32) -> Option<(Option<String>, usize)> {
+    let place = number.checked_sub(5201)?;
+    let (code, axis) = (53 + place / 20, (place % 20) as usize);
+    (axis < 3 && code <= 59).then(|| ((code > 53).then(|| format!("G{code}")), axis))
+}
+
+/// Whether the run follows what an assignment to a system variable changes.
+pub(crate) fn is_followed(number: u32) -> bool {
+    offset_of(number).is_some()
+}
+
+impl Interpreter<'_> {
+    /// An assignment to #5201 to #5323: a zero point moves, the machine stays where it is. `value` in program units.
+    pub(crate) fn system_write(&mut self, number: u32, value: f64) {
+        let Some((name, axis)) = offset_of(number) else { return };
+        let value = value * self.state.length_unit_mm;
+        let Some(name) = name else {
+            self.memory.frames.external[axis] = value;
+            return self.refresh_zero();
+        };
+        let mut values = self.offset_values(&name).unwrap_or([0.0; 9]);
+        values[axis] = value;
+        let written = &mut self.memory.frames.written;
+        match written.iter_mut().find(|(known, _)| **known == *name) {
+            Some(known) => known.1 = values,
+            None => written.push((name.clone().into(), values)),
         }
-        let name = format!("G{code}");
-        let offset = self
-            .setup
-            .work_offsets
-            .iter()
-            .find(|offset| offset.name.eq_ignore_ascii_case(&name))?;
-        Some(offset.values[axis] / self.state.length_unit_mm)
+        let in_force = match self.state.work_offset.as_deref() {
+            Some(known) => known.eq_ignore_ascii_case(&name),
+            None => self.dialect.quirks.first_offset_at_start && name == "G54",
+        };
+        if in_force {
+            self.set_zero(Some(name.into()), values);
+        }
     }
 }

@@ -20,11 +20,7 @@ pub(crate) struct Through<'s, S> {
 impl<S: Sink> Sink for Through<'_, S> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
         self.moved |= !matches!(motion.kind, MotionKind::Dwell(_));
-        if self.called.is_none() {
-            return self.sink.motion(motion, state);
-        }
-        let block = self.place.main;
-        self.sink.motion(&Motion { block, ..*motion }, state);
+        self.sink.motion(motion, state);
     }
 
     fn fault(&mut self, fault: Fault) {

@@ -21,6 +21,8 @@ pub(crate) struct Variables {
     reasons: BTreeMap<i64, Box<str>>,
     /// Blocks ran, or did not run, that nobody followed: nothing is known any more.
     lost: bool,
+    /// Grows with whatever may make a decision come out otherwise than before: assignments, calls, values of the control.
+    pub(crate) changes: u64,
 }
 
 impl Default for Variables {
@@ -31,6 +33,7 @@ impl Default for Variables {
             named: BTreeMap::new(),
             reasons: BTreeMap::new(),
             lost: false,
+            changes: 0,
         }
     }
 }
@@ -76,6 +79,7 @@ impl Variables {
     }
     /// Assigns a local or common variable. `reason`: why its value is not known, where it is not.
     pub(crate) fn set(&mut self, index: i64, held: Held, reason: Option<&str>) {
+        self.changes += 1;
         match class(index) {
             Class::Local(place) => self.locals[place] = held,
             Class::Common(common) => {
@@ -102,10 +106,12 @@ impl Variables {
     }
     /// Assigns a named variable.
     pub(crate) fn set_named(&mut self, name: &str, held: Held) {
+        self.changes += 1;
         self.named.insert(name.into(), held.unwrap_or(0.0));
     }
     /// From here on no value is known: what assigns them is not followed.
     pub(crate) fn lose(&mut self) {
+        self.changes += 1;
         self.lost = true;
     }
     /// Why the value of a variable is not known, as a short text for people.

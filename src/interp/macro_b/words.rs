@@ -27,6 +27,7 @@ impl<'d> Interpreter<'d> {
             deep: &mut self.flow.deep,
             state: &self.state,
             setup: &self.setup,
+            frames: &self.memory.frames,
         };
         let mut reader = Reader {
             program: block.program(),
@@ -53,7 +54,14 @@ impl<'d> Interpreter<'d> {
         words: &mut Words,
         report: &mut Report<'_>,
     ) {
-        if !self.flow.follows || !self.dialect.quirks.macro_b {
+        if !self.dialect.quirks.macro_b {
+            return;
+        }
+        let writes = self.flow.deep.as_mut().map(|deep| std::mem::take(&mut deep.writes));
+        for (number, value) in writes.into_iter().flatten() {
+            self.system_write(number, value);
+        }
+        if !self.flow.follows {
             return;
         }
         if words.program_number.is_some() && self.begins_another(block) {
@@ -115,6 +123,7 @@ impl<'d> Interpreter<'d> {
                     deep: &mut slot,
                     state: &self.state,
                     setup: &self.setup,
+                    frames: &self.memory.frames,
                 };
                 let mut tell = |range: TextRange, kind| report.fault(range, kind);
                 let call = arguments::read(&mut macros, self.dialect, block, range, &mut tell);

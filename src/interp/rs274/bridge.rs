@@ -4,7 +4,7 @@ use super::faults::fault_of;
 use super::frames::Shift;
 use super::setup::SYSTEMS;
 use crate::memory::Chosen;
-use crate::{Fault, FaultKind, Feed, FeedMode, Interpreter, Motion, MotionKind, Orientation, Position, Sink};
+use crate::{Fault, FaultKind, Feed, Interpreter, Motion, MotionKind, Orientation, Position, Sink};
 use trunnion_dialect::{Action, Plane};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::{Arc, Turning};
@@ -23,9 +23,16 @@ pub(super) struct Told {
     synced: Option<f64>,
     /// The place from which the main program called what runs now.
     pub(super) caller: BlockId,
-    /// Codes that a refused or unmodelled line may hold have told that X Y Z are not known.
+    /// Something has happened after which X Y Z U V W are not known.
     pub(super) lost: bool,
+    /// The same of A B C.
+    pub(super) lost_rotary: bool,
+    /// A tilted plane that is not modelled is in force: X Y Z say nothing about the machine.
+    pub(super) hidden: bool,
 }
+
+/// X Y Z U V W.
+pub(super) const LINEAR_AXES: [usize; 6] = [0, 1, 2, 6, 7, 8];
 
 /// Chords stay within this of a spline, mm.
 const SPLINE_TOLERANCE_MM: f64 = 0.001;
@@ -36,13 +43,11 @@ pub(super) struct Bridge<'i, 'd, 'p, S: Sink> {
     pub(super) told: &'i mut Told,
     pub(super) program: &'p Program,
     pub(super) sink: &'i mut S,
-    /// Bytes of the line in hand, in the main program.
-    pub(super) line: TextRange,
 }
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// The block of the main program that stands for a place.
-    fn block(&mut self, at: At) -> BlockId {
+    pub(super) fn block(&mut self, at: At) -> BlockId {
         if at.file == FileId::MAIN {
             self.told.caller = super::block_of_line(self.program, at.line);
         }
@@ -66,6 +71,16 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     fn motion(&mut self, kind: MotionKind, end: Position, shift: &Shift, feed: Feed, at: At, state: &State) {
         let block = self.block(at);
         let start = shift.programmed(&self.told.machine);
+        let mut end = end;
+        let mut kind = kind;
+        if self.told.hidden {
+            for axis in LINEAR_AXES {
+                end.forget(axis);
+            }
+            if let MotionKind::Arc(arc) = &mut kind {
+                *arc = None;
+            }
+        }
         self.told.machine = shift.machine(&end);
         let interpreter = &mut *self.interpreter;
         interpreter.state.position = end;
@@ -93,27 +108,18 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     }
 
     /// The feed of a feed motion as programmed.
-    fn feed(&self, state: &State, end: &Position) -> Feed {
+    fn feed(&self, state: &State) -> Feed {
         if let Some(pitch) = self.told.synced {
             return Feed::PerRevolution(pitch);
         }
-        match state.feed_mode {
-            trunnion_ngc::FeedMode::InverseTime => match self.told.feed {
-                Some(rate) if rate > 0.0 => self.inverse_time(rate, end),
-                _ => Feed::Unknown,
-            },
-            _ => match self.told.feed {
-                Some(rate) if rate > 0.0 => Feed::PerMinute(rate),
-                _ => Feed::Unknown,
-            },
-        }
-    }
-
-    /// Under G93 the interpreter tells path length times F; what the control keeps is the time.
-    fn inverse_time(&self, _rate: f64, _end: &Position) -> Feed {
-        match self.interpreter.state.feed {
-            Some(per_minute) if per_minute > 0.0 => Feed::InverseTime(per_minute),
-            _ => Feed::Unknown,
+        let feed = match state.feed_mode {
+            trunnion_ngc::FeedMode::InverseTime => Some(state.inverse_time),
+            _ => self.told.feed,
+        };
+        match feed.filter(|feed| *feed > 0.0) {
+            Some(feed) if state.feed_mode == trunnion_ngc::FeedMode::InverseTime => Feed::InverseTime(feed),
+            Some(feed) => Feed::PerMinute(feed),
+            None => Feed::Unknown,
         }
     }
 
@@ -139,7 +145,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let end = shift.coordinates(&pose);
         let mut normal = Vec3::zeros();
         normal[order[2]] = 1.0;
-        let turning = if call.turns > 0 { Turning::CounterClockwise } else { Turning::Clockwise };
+        let turning = if call.turns > 0 {
+            Turning::CounterClockwise
+        } else {
+            Turning::Clockwise
+        };
         let extra = call.turns.unsigned_abs().checked_sub(1)?;
         let centre = shift.point(place(call.centre, call.axis_end));
         let arc = Arc::from_centre(start.xyz()?, end.xyz()?, centre, shift.turned(normal), turning, extra);
@@ -167,7 +177,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
             Canon::Feed(pose) => {
                 let shift = Shift::of(state);
                 let end = shift.coordinates(pose);
-                let feed = self.feed(state, &end);
+                let feed = self.feed(state);
                 self.motion(MotionKind::Linear, end, &shift, feed, at, state);
             }
             &Canon::Arc {
@@ -200,7 +210,8 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
                 let kind = MotionKind::Dwell(seconds.is_finite().then_some(*seconds));
                 self.motion(kind, end, &shift, Feed::Unknown, at, state);
             }
-            Canon::UserCode(number, ..) => self.user_code(*number, at),
+            Canon::UserCode(number, ..) => self.own_code(b'M', number.unsigned_abs() * 10, at),
+            Canon::OwnCode(own) => self.own_code(own.letter, own.tenths, at),
             _ => self.modal(call, at, state),
         }
     }
@@ -242,14 +253,14 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Some((arc, end)) => (MotionKind::Arc(Some(arc)), end),
             None => (MotionKind::Arc(None), shift.coordinates(&state.current)),
         };
-        let feed = self.feed(state, &end);
+        let feed = self.feed(state);
         self.motion(kind, end, &shift, feed, at, state);
     }
 
     fn spline(&mut self, order: u32, points: &[[f64; 3]], knots: &[f64], end: &Pose, at: At, state: &State) {
         let shift = Shift::of(state);
         let target = shift.coordinates(end);
-        let feed = self.feed(state, &target);
+        let feed = self.feed(state);
         let tolerance = SPLINE_TOLERANCE_MM / state.units.mm();
         self.not_modelled(
             at,
@@ -268,7 +279,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         for (index, [a, b]) in places.into_iter().enumerate() {
             let mut pose = *end;
             (pose[first], pose[second]) = (a, b);
-            let to = if index == last { target } else { shift.coordinates(&pose) };
+            let to = if index == last {
+                target
+            } else {
+                shift.coordinates(&pose)
+            };
             self.motion(MotionKind::Linear, to, &shift, feed, at, state);
         }
     }
@@ -306,19 +321,41 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.motion(MotionKind::Linear, start, &shift, feed, at, state);
     }
 
-    /// M100 to M199 run a program of the machine's own: what it does is not known here, but it does not move axes of this program.
-    fn user_code(&mut self, number: i32, at: At) {
-        let known = u32::try_from(number).ok().and_then(|number| self.interpreter.dialect.m(number * 10));
-        match known.map(|code| code.action) {
-            Some(Action::TcpOn) => self.tcp(true),
-            Some(Action::TcpOff) => self.tcp(false),
-            Some(Action::NoMotion | Action::PathMode) => {}
-            Some(_) => {
-                self.not_modelled(at, format!("M{number}"));
+    /// A code of the machine's own: what the dialect's table says of it, else nothing is known of the position behind it.
+    fn own_code(&mut self, letter: u8, tenths: u32, at: At) {
+        let dialect = self.interpreter.dialect;
+        let code = if letter == b'G' {
+            dialect.g(tenths)
+        } else {
+            dialect.m(tenths)
+        };
+        let Some(code) = code else {
+            self.fault(
+                at,
+                TextRange::default(),
+                FaultKind::UnknownCode { machine_builder: true },
+            );
+            return;
+        };
+        match code.action {
+            Action::TcpOn => self.tcp(true),
+            Action::TcpOff => self.tcp(false),
+            Action::NoMotion | Action::PathMode | Action::ProgramStop => {}
+            Action::FrameChange => {
+                self.not_modelled(at, code.id.clone());
+                self.told.hidden = true;
                 self.told.lost = true;
             }
-            None => self.fault(at, TextRange::default(), FaultKind::UnknownCode { machine_builder: true }),
+            Action::FrameReset => {
+                self.told.lost |= std::mem::take(&mut self.told.hidden);
+            }
+            _ => {
+                self.not_modelled(at, code.id.clone());
+                self.told.lost = true;
+                self.told.lost_rotary = true;
+            }
         }
+        self.interpreter.state.frame_unknown = self.told.hidden;
     }
 
     /// The linear axes of one kind of coordinates are not known from the other.
@@ -334,8 +371,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         match *call {
             Canon::FeedRate(rate) => {
                 self.told.feed = Some(rate * unit);
-                let modal = &mut self.interpreter.state;
-                modal.feed = Some(if modal.feed_mode == FeedMode::InverseTime { rate } else { rate * unit });
+                self.interpreter.state.feed = self.told.feed;
             }
             Canon::StartSync(synced) => self.told.synced = Some(synced.per_revolution * unit),
             Canon::StopSync => self.told.synced = None,

@@ -1,7 +1,8 @@
 //! What LinuxCNC's interpreter is told of a run's setup.
 use crate::{Setup, Tool};
 use std::sync::Arc;
-use trunnion_ngc::{Files, Limits, Loaded, Parameters, Setup as Told, Start, ToolEntry, ToolTable};
+use trunnion_dialect::{Code, CodeKind, Dialect};
+use trunnion_ngc::{Files, Limits, Loaded, Parameters, Setup as Told, Start, ToolEntry, ToolTable, Units};
 
 /// First parameter of the coordinate systems: X of G54; 20 further on that of G55 (LinuxCNC documentation, Parameters).
 const FIRST_SYSTEM: u32 = 5221;
@@ -21,6 +22,17 @@ impl Files for Library {
     }
 }
 
+/// Letter and ten times the number of a G or M code.
+fn numbered(code: &Code) -> Option<(u8, u32)> {
+    let letter = match code.kind {
+        CodeKind::G => b'G',
+        CodeKind::M => b'M',
+        CodeKind::Name => return None,
+    };
+    let number: f64 = code.id.get(1..)?.parse().ok()?;
+    Some((letter, (number * 10.0).round() as u32))
+}
+
 fn row(tool: &Tool) -> ToolEntry {
     let mut offset = [0.0; 9];
     offset[2] = tool.length_mm.unwrap_or(0.0);
@@ -34,29 +46,43 @@ fn row(tool: &Tool) -> ToolEntry {
     }
 }
 
-/// The setup of the interpreter: declared offsets as parameters, declared tools as its table.
-pub(super) fn told(setup: &Setup, declared: &[Tool]) -> Told {
+/// The setup of the interpreter: declared offsets as parameters, declared tools as its table, further codes of the dialect's table as
+/// codes of the machine's own. Offsets that are not declared are zero.
+pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told {
     let mut values = Vec::new();
     for (index, name) in SYSTEMS.iter().enumerate() {
         let offset = setup
             .work_offsets
             .iter()
             .find(|offset| offset.name.eq_ignore_ascii_case(name));
-        if let Some(offset) = offset {
-            for (axis, value) in offset.values.into_iter().enumerate() {
-                values.push((FIRST_SYSTEM + 20 * index as u32 + axis as u32, value));
-            }
-        }
+        let offset = offset.map_or([0.0; 9], |offset| offset.values);
+        let first = FIRST_SYSTEM + 20 * index as u32;
+        values.extend((first..).zip(offset));
+        // its rotation about Z
+        values.push((first + 9, 0.0));
     }
+    // G92 is off
+    values.extend((5210..=5219).map(|number| (number, 0.0)));
+    values.sort_unstable_by_key(|(number, _)| *number);
+    let mut own: Vec<(u8, u32)> = dialect.codes().iter().filter_map(numbered).collect();
+    own.sort_unstable();
     let tools = setup.tools.iter().chain(declared).filter(|tool| tool.number != 0);
     Told {
         start: Start::Unknown,
+        machine_units: Units::Millimetre,
+        own_codes: own.into(),
+        any_tool: true,
+        user_codes: true,
         tools: ToolTable {
             rows: tools.map(row).collect(),
             ..ToolTable::default()
         },
         parameters: Parameters { values },
-        files: setup.library.0.clone().map(|files| Arc::new(Library(files)) as Arc<dyn Files>),
+        files: setup
+            .library
+            .0
+            .clone()
+            .map(|files| Arc::new(Library(files)) as Arc<dyn Files>),
         limits: Limits {
             blocks: setup.limits.blocks,
             depth: setup.limits.depth,

@@ -20,7 +20,11 @@ pub(super) enum Corner {
 /// The corner between two directions from the contour to the cutter. `bulging`: the cutter runs around the outside of an arc at this
 /// corner, so that the ways meet even where the contour turns back.
 pub(super) fn corner(side: Side, before: Point, behind: Point, bulging: bool) -> Corner {
-    let angle = if side == Side::Left { plane::turn(before, behind) } else { plane::turn(behind, before) };
+    let angle = if side == Side::Left {
+        plane::turn(before, behind)
+    } else {
+        plane::turn(behind, before)
+    };
     let reversal = if bulging { PI + FLAT } else { PI - FLAT };
     // what is unknown is joined as it is
     if angle > FLAT && angle < reversal {

@@ -125,13 +125,7 @@ pub(crate) fn along(
 }
 
 /// One arc while compensation is on.
-pub(crate) fn arc(
-    engine: &mut Engine,
-    arc: &Arc,
-    block: &Block,
-    at: At,
-    sink: &mut dyn Sink,
-) -> Result<(), Error> {
+pub(crate) fn arc(engine: &mut Engine, arc: &Arc, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     if engine.state.feed_mode == FeedMode::InverseTime {
         exec::inverse_time(engine, block, arc.length, at, sink);
     }
@@ -139,7 +133,11 @@ pub(crate) fn arc(
     let target = plane::point(plane, &arc.end);
     let here = Here::new(engine);
     // from the centre of the arc to the cutter: outward or inward
-    let outward = if (arc.turns > 0) == (corner::sign(engine.state.side) > 0.0) { -1.0 } else { 1.0 };
+    let outward = if (arc.turns > 0) == (corner::sign(engine.state.side) > 0.0) {
+        -1.0
+    } else {
+        1.0
+    };
     let radial = plane::unit(plane::sub(target, arc.centre));
     let centre = plane::add(target, plane::scaled(radial, outward * here.radius));
     let bow = if here.radius == 0.0 {
@@ -156,12 +154,22 @@ pub(crate) fn arc(
         if chord <= here.radius {
             return Err(Error::new(&problems::ENTRY_ARC, block.range));
         }
-        tight(outward, here.radius, plane::length(plane::sub(target, arc.centre)), block)?;
+        tight(
+            outward,
+            here.radius,
+            plane::length(plane::sub(target, arc.centre)),
+            block,
+        )?;
         entry(engine, arc, &here, centre, at)
     } else {
         let start = plane::sub(here.contour, arc.centre);
         let radius = plane::length(start);
-        tight(outward, here.radius, plane::length(plane::sub(target, arc.centre)), block)?;
+        tight(
+            outward,
+            here.radius,
+            plane::length(plane::sub(target, arc.centre)),
+            block,
+        )?;
         let direction = plane::scaled(start, outward / radius);
         let found = corner::corner(engine.state.side, here.normal, direction, outward > 0.0);
         let new = Way::Circle(arc.centre, radius + outward * here.radius, arc.turns > 0);

@@ -39,7 +39,10 @@ const EDGES: [Point; 10] = [
 
 /// What is added to the centre's way before it is told to the machine.
 pub(super) fn shift(state: &State) -> Point {
-    let edge = usize::try_from(state.orientation).ok().and_then(|edge| EDGES.get(edge)).unwrap_or(&EDGES[0]);
+    let edge = usize::try_from(state.orientation)
+        .ok()
+        .and_then(|edge| EDGES.get(edge))
+        .unwrap_or(&EDGES[0]);
     [edge[0] * state.radius, edge[1] * state.radius]
 }
 
@@ -75,5 +78,9 @@ pub(super) fn unit(a: Point) -> Point {
 /// Angle from `from` to `to`, rad, counter-clockwise, from 0 to below a full turn.
 pub(super) fn turn(from: Point, to: Point) -> f64 {
     let angle = math::atan2(from[0] * to[1] - from[1] * to[0], dot(from, to));
-    if angle < 0.0 { angle + std::f64::consts::TAU } else { angle }
+    if angle < 0.0 {
+        angle + std::f64::consts::TAU
+    } else {
+        angle
+    }
 }

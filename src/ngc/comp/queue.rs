@@ -138,13 +138,20 @@ pub(super) fn settle(engine: &mut Engine, corner: Point, range: TextRange, sink:
             Held::Call(..) => {}
             Held::Line(line, _) => {
                 if plane::dot(line.along, plane::sub(corner, engine.queue.told)) < 0.0 {
-                    let problem = if line.rapid { &problems::GOUGE_RAPID } else { &problems::GOUGE_LINE };
+                    let problem = if line.rapid {
+                        &problems::GOUGE_RAPID
+                    } else {
+                        &problems::GOUGE_LINE
+                    };
                     return Err(Error::new(problem, range));
                 }
                 line.end = plane::with_point(plane, line.end, corner);
             }
             Held::Bow(bow, _) => {
-                if bow.sweep.is_some_and(|sweep| overrun(engine.queue.told, bow, sweep, corner)) {
+                if bow
+                    .sweep
+                    .is_some_and(|sweep| overrun(engine.queue.told, bow, sweep, corner))
+                {
                     return Err(Error::new(&problems::GOUGE_ARC, range));
                 }
                 bow.end = plane::with_point(plane, bow.end, corner);
@@ -164,7 +171,9 @@ fn overrun(start: Point, bow: &Bow, sweep: f64, corner: Point) -> bool {
 /// The control cannot cut the entry arc of a turning tool.
 fn mismatch(bow: &Bow, start: Point, corner: Point, range: TextRange) -> Error {
     let radius = |at: Point| plane::length(plane::sub(at, bow.centre));
-    let text = problems::MISMATCH.message.replacen("{}", &format!("{:.6}", radius(start)), 1);
+    let text = problems::MISMATCH
+        .message
+        .replacen("{}", &format!("{:.6}", radius(start)), 1);
     Error::with(
         &problems::MISMATCH,
         range,
@@ -190,7 +199,14 @@ fn tell(engine: &mut Engine, held: Held, sink: &mut dyn Sink) {
             let centre = plane::point(plane, &line.end);
             engine.queue.told = centre;
             let end = plane::with_point(plane, line.end, plane::add(centre, shift));
-            (if line.rapid { Canon::Traverse(end) } else { Canon::Feed(end) }, at)
+            (
+                if line.rapid {
+                    Canon::Traverse(end)
+                } else {
+                    Canon::Feed(end)
+                },
+                at,
+            )
         }
         Held::Bow(bow, at) => {
             let end = plane::point(plane, &bow.end);

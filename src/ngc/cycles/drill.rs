@@ -1,9 +1,10 @@
 //! G73, G74, G81-G89: what all have in common, and each one's way in the hole.
 use super::hole::{self, Axes, Hole};
 use super::{Work, problems};
+use crate::state::CycleWords;
 use crate::{
-    Canon, CycleWords, DistanceMode, Error, FeedMode, MotionMode, Problem, RetractMode, Side, SpindleTurn, Stop, Switch,
-    Units, exec,
+    Canon, DistanceMode, Error, FeedMode, MotionMode, Problem, RetractMode, Side, SpindleTurn, Stop, Switch, Units,
+    exec,
 };
 
 /// Whether a motion code is a canned cycle of drilling.
@@ -29,24 +30,33 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
     let r = if incremental { words.r + old } else { words.r };
     let bottom = if incremental { r + words.cc } else { words.cc };
     if r < bottom {
-        let text = problems::R_BELOW.message.replacen("{}", axes.axis, 1).replacen("{}", axes.plane, 1);
+        let text = problems::R_BELOW
+            .message
+            .replacen("{}", axes.axis, 1)
+            .replacen("{}", axes.plane, 1);
         return Err(Error::with(&problems::R_BELOW, work.block.range_of(b'R'), text));
     }
-    let clear = if work.engine.state.retract == RetractMode::OldZ && old > r { old } else { r };
-    let step = if incremental { [end[first] - start[first], end[second] - start[second]] } else { [0.0; 2] };
+    let clear = if work.engine.state.retract == RetractMode::OldZ && old > r {
+        old
+    } else {
+        r
+    };
+    let step = if incremental {
+        [end[first] - start[first], end[second] - start[second]]
+    } else {
+        [0.0; 2]
+    };
     let mut hole = Hole {
         places: axes.places,
-        at: if incremental { [start[first], start[second]] } else { [end[first], end[second]] },
+        at: if incremental {
+            [start[first], start[second]]
+        } else {
+            [end[first], end[second]]
+        },
         bottom,
         r,
         clear,
     };
-    let exact = work.engine.state.motion_mode == MotionMode::ExactPath;
-    if !exact {
-        work.emit(Canon::MotionMode(MotionMode::ExactPath));
-    }
-    missing(work, code, new_code)?;
-    work.engine.state.cycle = words;
     let mut level = start[third];
     if old < r {
         hole.rapid_beside(work, [start[first], start[second]], r);
@@ -54,6 +64,12 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
     } else if level < r {
         level = clear;
     }
+    let exact = work.engine.state.motion_mode == MotionMode::ExactPath;
+    if !exact {
+        work.emit(Canon::MotionMode(MotionMode::ExactPath));
+    }
+    missing(work, code, new_code)?;
+    work.engine.state.cycle = words;
     for _ in 0..words.l {
         hole.at = [hole.at[0] + step[0], hole.at[1] + step[1]];
         hole.rapid(work, level);
@@ -78,7 +94,11 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
 /// What is refused before anything happens, in the control's order.
 fn check(work: &Work<'_>, code: i16, before: i16, axes: Axes) -> Result<(), Error> {
     let block = work.block;
-    for (letter, problem) in [(b'A', &problems::AXIS_A), (b'B', &problems::AXIS_B), (b'C', &problems::AXIS_C)] {
+    for (letter, problem) in [
+        (b'A', &problems::AXIS_A),
+        (b'B', &problems::AXIS_B),
+        (b'C', &problems::AXIS_C),
+    ] {
         if block.has(letter) {
             return Err(Error::new(problem, block.range_of(letter)));
         }
@@ -86,9 +106,16 @@ fn check(work: &Work<'_>, code: i16, before: i16, axes: Axes) -> Result<(), Erro
     let foreign = if axes.places[0] < 3 { b"UVW" } else { b"XYZ" };
     for &letter in foreign {
         if block.has(letter) {
-            let article = if letter == b'X' { "an X".to_owned() } else { format!("a {}", char::from(letter)) };
+            let article = if letter == b'X' {
+                "an X".to_owned()
+            } else {
+                format!("a {}", char::from(letter))
+            };
             let plane = axes.plane.to_uppercase();
-            let text = problems::FOREIGN.message.replacen("{}", &article, 1).replacen("{}", &plane, 1);
+            let text = problems::FOREIGN
+                .message
+                .replacen("{}", &article, 1)
+                .replacen("{}", &plane, 1);
             return Err(Error::with(&problems::FOREIGN, block.range_of(letter), text));
         }
     }
@@ -120,7 +147,10 @@ fn words(work: &Work<'_>, axes: Axes, code: i16, new_code: bool) -> Result<Cycle
         Some(value) => words.cc = value,
         None if new_code => {
             let axis = axes.axis.to_uppercase();
-            let text = problems::NO_BOTTOM.message.replacen("{}", &axis, 1).replacen("{}", axes.plane, 1);
+            let text = problems::NO_BOTTOM
+                .message
+                .replacen("{}", &axis, 1)
+                .replacen("{}", axes.plane, 1);
             return Err(Error::with(&problems::NO_BOTTOM, work.code_range(), text));
         }
         None => {}
@@ -149,7 +179,11 @@ fn missing(work: &Work<'_>, code: i16, new_code: bool) -> Result<(), Error> {
     }
     let absent = |letter: u8| work.block.word(letter).is_none_or(|value| value == -1.0);
     let without = |letter: u8, problem: &'static Problem| {
-        if absent(letter) { Err(work.refuse(problem)) } else { Ok(()) }
+        if absent(letter) {
+            Err(work.refuse(problem))
+        } else {
+            Ok(())
+        }
     };
     match code {
         730 => without(b'Q', &problems::NO_Q_G73),
@@ -180,7 +214,11 @@ fn drill(work: &mut Work<'_>, code: i16, hole: &Hole, words: &CycleWords) -> Res
     }
     let (spindle, turning) = work.turning();
     if turning == 0 && matches!(code, 860 | 880) {
-        return Err(work.refuse(if code == 860 { &problems::STILL_G86 } else { &problems::STILL_G88 }));
+        return Err(work.refuse(if code == 860 {
+            &problems::STILL_G86
+        } else {
+            &problems::STILL_G88
+        }));
     }
     hole.feed(work, hole.bottom);
     if matches!(code, 820 | 860 | 880 | 890) {
@@ -206,7 +244,11 @@ fn drill(work: &mut Work<'_>, code: i16, hole: &Hole, words: &CycleWords) -> Res
 
 /// How a spindle that turns is started again.
 fn direction(turning: i8) -> SpindleTurn {
-    if turning < 0 { SpindleTurn::CounterClockwise } else { SpindleTurn::Clockwise }
+    if turning < 0 {
+        SpindleTurn::CounterClockwise
+    } else {
+        SpindleTurn::Clockwise
+    }
 }
 
 /// G73 breaks chips, G83 clears them: pecks of depth Q, each begun a little above the last one's end.
@@ -214,7 +256,11 @@ fn peck(work: &mut Work<'_>, code: i16, hole: &Hole, peck: f64) -> Result<(), Er
     if peck <= 0.0 {
         return Err(Error::new(&problems::NO_PECK, work.block.range_of(b'Q')));
     }
-    let above = if work.engine.state.units == Units::Inch { 0.01 } else { 0.254 };
+    let above = if work.engine.state.units == Units::Inch {
+        0.01
+    } else {
+        0.254
+    };
     let mut depth = hole.r - peck;
     let mut count = 0_u64;
     while depth > hole.bottom {
@@ -276,7 +322,9 @@ fn mixed_feed(work: &mut Work<'_>, hole: &Hole, level: f64) {
         [1, 2, 0] => Some([second, level, first]),
         _ => None,
     };
-    let Some(order) = order else { return hole.feed(work, level) };
+    let Some(order) = order else {
+        return hole.feed(work, level);
+    };
     let mut pose = work.engine.state.current;
     pose[..3].copy_from_slice(&order);
     work.emit(Canon::Feed(pose));
@@ -289,12 +337,12 @@ fn back_bore(work: &mut Work<'_>, hole: &Hole, words: &CycleWords) -> Result<(),
         return Err(work.refuse(&problems::STILL_G87));
     }
     let incremental = work.engine.state.distance == DistanceMode::Incremental;
-    let middle = if incremental { hole.bottom + words.k } else { words.k };
-    let shift = match hole.places {
-        [2, 0, 1] => [words.k, words.i],
-        [1, 2, 0] => [words.j, words.k],
-        _ => [words.i, words.j],
+    let (shift, middle) = match hole.places {
+        [2, 0, 1] => ([words.k, words.i], words.j),
+        [1, 2, 0] => ([words.j, words.k], words.i),
+        _ => ([words.i, words.j], words.k),
     };
+    let middle = if incremental { hole.bottom + middle } else { middle };
     let beside = [hole.at[0] + shift[0], hole.at[1] + shift[1]];
     let orient = |work: &mut Work<'_>| {
         work.emit(Canon::Spindle(spindle, SpindleTurn::Stop));

@@ -26,7 +26,11 @@ impl Work<'_> {
     }
     /// Bytes of the motion code, or of the line where the code is modal.
     fn code_range(&self) -> trunnion_syntax::TextRange {
-        if self.block.g[1] >= 0 { self.block.g_range[1] } else { self.block.range }
+        if self.block.g[1] >= 0 {
+            self.block.g_range[1]
+        } else {
+            self.block.range
+        }
     }
     /// A refusal at the motion code.
     fn refuse(&self, problem: &'static crate::Problem) -> Error {
@@ -40,19 +44,16 @@ impl Work<'_> {
 }
 
 /// Runs a block whose motion code is a cycle or a special motion. `code` is ten times its number.
-pub(crate) fn run(
-    engine: &mut Engine,
-    code: i16,
-    block: &Block,
-    at: At,
-    sink: &mut dyn Sink,
-) -> Result<(), Error> {
+pub(crate) fn run(engine: &mut Engine, code: i16, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let mut work = Work {
         engine,
         block,
         at,
         sink,
     };
+    if block.g[1] >= 0 && !block.has_axes() && !matches!(code, 52 | 53) {
+        return Err(work.refuse(&problems::NO_AXES));
+    }
     match code {
         330 => thread::synchronized(&mut work),
         331 => thread::rigid(&mut work),

@@ -55,7 +55,11 @@ impl Engine {
     /// Parameters that follow the state: position (5420-5428, program units) and the tool in the spindle (5400-5413, units of the table).
     pub(crate) fn refresh_parameters(&mut self) {
         let on_contour = self.state.side == crate::Side::Off || self.state.first_compensated;
-        let current = if on_contour { self.state.current } else { self.state.compensated };
+        let current = if on_contour {
+            self.state.current
+        } else {
+            self.state.compensated
+        };
         for (axis, value) in current.into_iter().enumerate() {
             self.set_parameter(5420 + axis, value);
         }
@@ -75,7 +79,11 @@ pub(crate) fn unit_of(files: Units, program: Units) -> f64 {
 impl Engine {
     /// A value that only the machine knows: NaN in checks, and what `rs274` takes otherwise.
     pub(crate) fn unknown(&self, otherwise: f64) -> f64 {
-        if self.setup.start == crate::Start::Unknown { f64::NAN } else { otherwise }
+        if self.setup.start == crate::Start::Unknown {
+            f64::NAN
+        } else {
+            otherwise
+        }
     }
 }
 
@@ -96,7 +104,10 @@ impl Engine {
         indices.extend((5161..=5390).filter(|&index| always_kept(index)));
         indices.sort_unstable();
         indices.dedup();
-        let values = indices.into_iter().map(|index| (index, self.parameter(index as usize))).collect();
+        let values = indices
+            .into_iter()
+            .map(|index| (index, self.parameter(index as usize)))
+            .collect();
         crate::Parameters { values }
     }
 }

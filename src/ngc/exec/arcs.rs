@@ -1,6 +1,8 @@
 //! G2 and G3: centre or radius format, in the three planes, with turns and a straight third coordinate.
 use super::{ends, motion, problems};
-use crate::{At, Block, Canon, Class, DistanceMode, Engine, Error, FeedMode, Plane, Pose, Problem, Side, Sink, Units, comp};
+use crate::{
+    At, Block, Canon, Class, DistanceMode, Engine, Error, FeedMode, Plane, Pose, Problem, Side, Sink, Units, comp,
+};
 use std::f64::consts::{PI, SQRT_2};
 use trunnion_geometry::math;
 
@@ -78,11 +80,11 @@ fn axes(plane: Plane) -> Option<Axes> {
 
 /// G2, G3.
 pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
-    motion::check_feed(engine, block, &problems::INVERSE_ARC, &problems::ZERO_FEED_ARC)?;
     let range = motion::code_range(block);
     let Some(axes) = axes(engine.state.plane) else {
         return Err(Error::new(&OTHER_PLANE, range));
     };
+    motion::check_feed(engine, block, &problems::INVERSE_ARC, &problems::ZERO_FEED_ARC)?;
     let by_radius = block.has(b'R');
     let centre_word = [b'I', b'J', b'K'].into_iter().find(|&letter| block.has(letter));
     match (by_radius, centre_word) {
@@ -257,7 +259,12 @@ fn check_radii(
     let error = (start_radius - end_radius).abs();
     let relative = error / start_radius.max(end_radius);
     if error > absolute * 100.0 || (error > absolute && relative > 0.001) {
-        let detail = format!("{} abs_err={} rel_err={:.4}%", points(), general(error), relative * 100.0);
+        let detail = format!(
+            "{} abs_err={} rel_err={:.4}%",
+            points(),
+            general(error),
+            relative * 100.0
+        );
         return Err(Error::with(&DIFFERENT, range, DIFFERENT.message.replace("{}", &detail)));
     }
     Ok(())
@@ -266,7 +273,10 @@ fn check_radii(
 /// Four significant digits as C's `%.4g` prints them.
 fn general(value: f64) -> String {
     let text = format!("{value:.3e}");
-    let exponent = text.split_once('e').and_then(|(_, e)| e.parse::<i32>().ok()).unwrap_or(0);
+    let exponent = text
+        .split_once('e')
+        .and_then(|(_, e)| e.parse::<i32>().ok())
+        .unwrap_or(0);
     if !(-4..4).contains(&exponent) {
         let (digits, _) = text.split_once('e').unwrap_or((&text, ""));
         let digits = digits.trim_end_matches('0').trim_end_matches('.');

@@ -1,10 +1,37 @@
 //! What must fit together in a block before anything of it is done.
 use super::{problems, unused};
-use crate::{Block, DistanceMode, Error, State};
+use crate::{Block, DistanceMode, Engine, Error, Plane, State};
+
+/// A line holds at most so many M codes.
+const M_CODES: u8 = 4;
+
+/// How many M codes there are, and whether the machine has the user's ones.
+pub(crate) fn codes(engine: &Engine, block: &Block) -> Result<(), Error> {
+    if block.m_count > M_CODES {
+        let last = block
+            .m
+            .iter()
+            .zip(block.m_range)
+            .filter(|(code, _)| **code >= 0)
+            .map(|(_, range)| range);
+        let range = last.max_by_key(|range| range.start).unwrap_or(block.range);
+        return Err(Error::new(&problems::TOO_MANY_M, range));
+    }
+    match block.m_code(10) {
+        Some(code) if !engine.setup.user_codes => {
+            let text = problems::UNKNOWN_M.message.replace("{}", &code.to_string());
+            Err(Error::with(&problems::UNKNOWN_M, block.m_range[10], text))
+        }
+        _ => Ok(()),
+    }
+}
 
 /// Finds out which motion applies to the block: the code given, or the one in force where axis words ask for it.
 pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Error> {
     let polar = block.radius.is_some() || block.angle.is_some();
+    if polar && state.plane != Plane::Xy {
+        return Err(Error::new(&problems::POLAR_PLANE, block.range));
+    }
     if polar && block.has(b'X') {
         return Err(Error::new(&problems::POLAR_X, block.range_of(b'X')));
     }
@@ -12,31 +39,36 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
         return Err(Error::new(&problems::POLAR_Y, block.range_of(b'Y')));
     }
     let axes = block.has_axes();
-    let setting = matches!(block.g[0], 100 | 280 | 300 | 520 | 920) || matches!(block.g[8], 431 | 432);
-    let group_16 = false;
-    if polar && (setting || group_16) && block.g[0] != 520 {
+    let setting = matches!(block.g[0], 100 | 280 | 300 | 520 | 920);
+    let tool_offset = matches!(block.g[8], 431 | 432);
+    if polar && (setting || tool_offset) && block.g[0] != 520 {
         return Err(Error::new(&problems::POLAR_NO_MOTION, block.range));
     }
-    let axis_words = block.given & crate::block::AXES != 0;
-    if matches!(block.g[0], 520 | 920) && !axis_words {
+    if matches!(block.g[0], 520 | 920) && block.given & crate::block::AXES == 0 {
         return Err(Error::new(&problems::AXES_MISSING_G92, block.g_range[0]));
     }
     block.motion = block.g[1];
-    if block.g[1] >= 0 && block.g[1] != 800 {
+    let given = block.g[1] >= 0;
+    if given && block.g[1] != 800 {
         if setting {
             return Err(Error::new(&problems::TWO_AXIS_CODES, block.g_range[1]));
         }
         if !axes && matches!(block.g[1], 382..=385) {
             return Err(Error::new(&problems::ALL_AXES_MISSING, block.g_range[1]));
         }
-    } else if block.g[1] == 800 {
+    } else if given {
         if axes && !setting {
             return Err(Error::new(&problems::AXES_WITH_G80, block.range));
         }
-    } else if axes && !setting {
+    } else if setting || tool_offset {
+        // the axis words are theirs
+    } else if axes {
         if state.motion == 800 {
             return Err(Error::new(&problems::AXES_WITHOUT_CODE, first_axis(block)));
         }
+        block.motion = state.motion;
+    } else if matches!(state.motion, 20 | 30) && [b'I', b'J', b'K'].into_iter().any(|letter| block.has(letter)) {
+        // a centre alone asks for another full circle
         block.motion = state.motion;
     }
     Ok(())
@@ -60,7 +92,7 @@ pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
         }
         100 => check_g10(block)?,
         530 => {
-            if !matches!(block.motion, 0 | 10) && !(block.motion == -1 && !block.has_axes()) {
+            if !matches!(block.motion, 0 | 10) {
                 return Err(Error::new(&problems::G53_MOTION, block.g_range[0]));
             }
             let incremental = match block.g[3] {
@@ -97,19 +129,27 @@ fn check_p(block: &Block) -> Result<(), Error> {
 
 fn check_g10(block: &Block) -> Result<(), Error> {
     let p = block.word(b'P').map(f64::trunc);
-    let p_range = if block.has(b'P') { block.range_of(b'P') } else { block.g_range[0] };
+    let p_range = if block.has(b'P') {
+        block.range_of(b'P')
+    } else {
+        block.g_range[0]
+    };
     let at_least = |least: f64| p.is_some_and(|p| p.is_nan() || p >= least);
     match block.word(b'L').map_or(-1, |l| l as i32) {
         0 => {}
         2 if !at_least(0.0) || p.is_some_and(|p| p > 9.0) => return Err(Error::new(&problems::G10_L2_P, p_range)),
         20 if !at_least(0.0) || p.is_some_and(|p| p > 9.0) => return Err(Error::new(&problems::G10_L20_P, p_range)),
-        2 => {}
         20 if block.has(b'R') => return Err(Error::new(&problems::G10_L20_R, block.range_of(b'R'))),
-        20 => {}
+        2 | 20 => {}
         1 if !at_least(1.0) => return Err(Error::new(&problems::G10_L1_P, p_range)),
         10 if !at_least(1.0) => return Err(Error::new(&problems::G10_L10_P, p_range)),
         11 if !at_least(1.0) => return Err(Error::new(&problems::G10_L11_P, p_range)),
-        1 | 10 | 11 => {}
+        1 | 10 | 11 => {
+            let written = [b'R', b'I', b'J', b'Q'].into_iter().any(|letter| block.has(letter));
+            if !written && block.given & crate::block::AXES == 0 {
+                return Err(Error::new(&problems::G10_NOTHING, block.g_range[0]));
+            }
+        }
         _ => return Err(Error::new(&problems::G10_NO_L, block.g_range[0])),
     }
     Ok(())

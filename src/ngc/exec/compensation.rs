@@ -31,7 +31,11 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
         return Err(Error::new(&ALREADY_ON, range));
     }
     let side = if code < 420 { Side::Left } else { Side::Right };
-    let (radius, orientation) = if code % 10 == 1 { by_diameter(engine, block)? } else { by_tool(engine, block)? };
+    let (radius, orientation) = if code % 10 == 1 {
+        by_diameter(engine, block)?
+    } else {
+        by_tool(engine, block)?
+    };
     comp::begin(engine, side, radius, orientation, at, sink);
     Ok(())
 }
@@ -60,7 +64,7 @@ fn by_diameter(engine: &Engine, block: &Block) -> Result<(f64, i32), Error> {
 }
 
 /// G41 and G42: the tool in the spindle, or tool D of the table.
-fn by_tool(engine: &Engine, block: &Block) -> Result<(f64, i32), Error> {
+fn by_tool(engine: &mut Engine, block: &Block) -> Result<(f64, i32), Error> {
     let row = match block.word(b'D') {
         None => 0,
         Some(d) => {
@@ -68,10 +72,16 @@ fn by_tool(engine: &Engine, block: &Block) -> Result<(f64, i32), Error> {
             if (d - whole).abs() > 0.0001 || whole < 0.0 {
                 return Err(named(&D_NOT_WHOLE, block, block.range_of(b'D')));
             }
-            if whole == 0.0 { 0 } else { engine.tool_row(whole as i32, block.range_of(b'D'))? }
+            if whole == 0.0 {
+                0
+            } else {
+                engine.tool_row(whole as i32, block.range_of(b'D'))?
+            }
         }
     };
-    let Some(tool) = engine.state.tools.get(row) else { return Ok((0.0, 0)) };
+    let Some(tool) = engine.state.tools.get(row) else {
+        return Ok((0.0, 0));
+    };
     if tool.orientation != 0 && engine.state.plane != Plane::Xz {
         return Err(named(&LATHE_TOOL, block, block.g_range[7]));
     }

@@ -1,8 +1,8 @@
 //! The calls before the first line, stops, and what M2 and M30 set back.
 use super::{After, access, frame, tools};
 use crate::{
-    At, Block, Canon, Coolant, DistanceMode, Engine, Error, FeedMode, Plane, Side, Sink, SpindleMode, SpindleTurn, Start, Stop,
-    Switch,
+    At, Block, Canon, Coolant, DistanceMode, Engine, Error, FeedMode, Plane, Side, Sink, SpindleMode, SpindleTurn,
+    Start, Stop, Switch,
 };
 
 /// The calls before the first line: parameters and tool table come into force.
@@ -27,13 +27,17 @@ pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
         _ => engine.stored_pose(access::G92),
     };
     if engine.setup.start == Start::Zero {
-        // machine zero in program coordinates; as on the control the rotation plays no part here
+        // machine zero in program coordinates; as on the control the rotation plays no part here, nor do the offsets of U V W
         let offsets = frame::sum(&engine.state.origin_offset, &engine.state.axis_offset);
-        engine.state.current = frame::difference(&[0.0; 9], &offsets);
+        engine.state.current = std::array::from_fn(|axis| if axis < 6 { 0.0 - offsets[axis] } else { 0.0 });
         engine.state.compensated = engine.state.current;
     }
     tools::start(engine);
-    engine.state.told = crate::state::Told::at(engine.state.current, engine.state.origin_offset, engine.state.axis_offset);
+    engine.state.told = crate::state::Told::at(
+        engine.state.current,
+        engine.state.origin_offset,
+        engine.state.axis_offset,
+    );
     engine.refresh_parameters();
     let state = engine.state.clone();
     for call in [
@@ -42,7 +46,6 @@ pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
         Canon::G92Offset(state.axis_offset),
         Canon::XyRotation(state.rotation_xy),
         Canon::FeedReference,
-        Canon::Reset,
     ] {
         engine.emit(call, at, sink);
     }

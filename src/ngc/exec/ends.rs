@@ -14,7 +14,9 @@ pub(crate) fn end(state: &State, block: &Block) -> Result<Pose, Error> {
     let mut end = state.current;
     let incremental = state.distance == DistanceMode::Incremental;
     for (place, letter) in AXES.into_iter().enumerate() {
-        let Some(value) = word(state, block, letter) else { continue };
+        let Some(value) = word(state, block, letter) else {
+            continue;
+        };
         end[place] = if incremental { end[place] + value } else { value };
     }
     if block.radius.is_some() || block.angle.is_some() {
@@ -26,7 +28,11 @@ pub(crate) fn end(state: &State, block: &Block) -> Result<Pose, Error> {
 /// An axis word in program units; an X diameter becomes a radius.
 pub(crate) fn word(state: &State, block: &Block, letter: u8) -> Option<f64> {
     let value = block.word(letter)?;
-    Some(if letter == b'X' && state.lathe_diameter { value / 2.0 } else { value })
+    Some(if letter == b'X' && state.lathe_diameter {
+        value / 2.0
+    } else {
+        value
+    })
 }
 
 /// G53: words are machine coordinates; axes without a word stay where the machine is.
@@ -40,11 +46,15 @@ fn machine_end(state: &State, block: &Block) -> Result<Pose, Error> {
             machine[place] = value;
         }
     }
-    let program = frame::to_program(state, &machine);
+    let program = frame::named_point(state, &machine);
     // an axis that is not named stays exactly; X and Y mix where the coordinate system is turned
     let mixed = state.rotation_xy != 0.0 && (block.has(b'X') || block.has(b'Y'));
     Ok(std::array::from_fn(|place| {
-        if block.has(AXES[place]) || (mixed && place < 2) { program[place] } else { state.current[place] }
+        if block.has(AXES[place]) || (mixed && place < 2) {
+            program[place]
+        } else {
+            state.current[place]
+        }
     }))
 }
 

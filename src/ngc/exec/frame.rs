@@ -42,8 +42,28 @@ pub(crate) fn to_program(state: &State, machine: &Pose) -> Pose {
     difference(&turned(shifted, -state.rotation_xy), &state.axis_offset)
 }
 
-/// The coordinate system changes to another origin and rotation while the machine stands still. As on the control, G92 does not take
-/// part in the rotation here.
+/// Program coordinates of a point that G28, G30 or G53 names: as on the control the tool offset plays no part in the rotary axes.
+pub(crate) fn named_point(state: &State, machine: &Pose) -> Pose {
+    let program = to_program(state, machine);
+    std::array::from_fn(|axis| {
+        if (3..6).contains(&axis) {
+            program[axis] + state.tool_offset[axis]
+        } else {
+            program[axis]
+        }
+    })
+}
+
+/// Another coordinate system comes into force while the machine stands still.
+pub(crate) fn move_origin(state: &mut State, origin: Pose, rotation: f64) {
+    let machine = [to_machine(state, &state.current), to_machine(state, &state.compensated)];
+    state.origin_offset = origin;
+    state.rotation_xy = rotation;
+    [state.current, state.compensated] = machine.map(|machine| to_program(state, &machine));
+}
+
+/// The coordinate system in force is written: another origin and rotation while the machine stands still. As on the control, G92 does
+/// not take part in the rotation here.
 pub(crate) fn change_origin(state: &mut State, origin: Pose, rotation: f64) {
     let shift = difference(&state.origin_offset, &origin);
     for pose in [&mut state.current, &mut state.compensated] {

@@ -34,10 +34,14 @@ fn go(engine: &mut Engine, first: usize, block: &Block, at: At, sink: &mut dyn S
     }
     let by_way_of = ends::end(&engine.state, block)?;
     rapid(engine, by_way_of, at, sink);
-    let home = frame::to_program(&engine.state, &engine.stored_pose(first));
+    let home = frame::named_point(&engine.state, &engine.stored_pose(first));
     let named = block.given & crate::block::AXES != 0;
     let end = std::array::from_fn(|axis| {
-        if named && !block.has(ends::AXES[axis]) { by_way_of[axis] } else { home[axis] }
+        if named && !block.has(ends::AXES[axis]) {
+            by_way_of[axis]
+        } else {
+            home[axis]
+        }
     });
     rapid(engine, end, at, sink);
     Ok(())

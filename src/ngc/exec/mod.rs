@@ -14,8 +14,6 @@ mod outputs;
 mod probe;
 mod problems;
 mod spindle;
-#[cfg(test)]
-mod tmp_reader;
 mod tools;
 mod unused;
 
@@ -38,12 +36,20 @@ pub(crate) enum After {
 /// What must fit together before anything of a block is done; `block.motion` is filled in. The line's comment comes between this and
 /// [`execute`].
 pub(crate) fn check(engine: &Engine, block: &mut Block) -> Result<(), Error> {
+    if block.own.is_some() {
+        // what its words mean is the machine's own affair
+        return Ok(());
+    }
+    checks::codes(engine, block)?;
     checks::choose_motion(block, &engine.state)?;
     checks::check(block, &engine.state)
 }
 
 /// Runs one block that was checked. What was done before a refusal stays done, as on the control.
 pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut dyn Sink) -> Result<After, Error> {
+    if let Some(own) = block.own {
+        engine.emit(Canon::OwnCode(own), at, sink);
+    }
     modes(engine, block, at, sink)?;
     switches(engine, block, at, sink)?;
     if flow::context::run(engine, block, at, sink)? {
@@ -65,9 +71,9 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
 
 /// Feed mode, F, S, T.
 fn modes(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    modal::spindle_mode(engine, block, at, sink);
     modal::feed_mode(engine, block, at, sink);
     modal::feed_rate(engine, block, at, sink);
-    modal::spindle_mode(engine, block, at, sink);
     spindle::speed(engine, block, at, sink)?;
     tools::select(engine, block, at, sink)
 }

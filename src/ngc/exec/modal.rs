@@ -1,7 +1,8 @@
 //! Modal changes of a block: feed mode, F, units, plane, path control, distance and retract modes, diameters.
 use super::{frame, problems};
 use crate::{
-    At, Block, Canon, DistanceMode, Engine, Error, FeedMode, MotionMode, Plane, RetractMode, Side, Sink, SpindleMode, Units,
+    At, Block, Canon, DistanceMode, Engine, Error, FeedMode, MotionMode, Plane, RetractMode, Side, Sink, SpindleMode,
+    Units,
 };
 use std::sync::Arc;
 
@@ -16,7 +17,10 @@ pub(crate) fn feed_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut d
     let (mode, text) = match code {
         930 => (FeedMode::InverseTime, "interpreter: feed mode set to inverse time"),
         940 => (FeedMode::PerMinute, "interpreter: feed mode set to units per minute"),
-        _ => (FeedMode::PerRevolution, "interpreter: feed mode set to units per revolution"),
+        _ => (
+            FeedMode::PerRevolution,
+            "interpreter: feed mode set to units per revolution",
+        ),
     };
     remark(engine, text, at, sink);
     let per_revolution = i32::from(mode == FeedMode::PerRevolution);
@@ -68,7 +72,7 @@ pub(crate) fn units(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
     change_units(engine, units);
 }
 
-/// Lengths of the state in other units.
+/// Lengths of the state in other units. The tool offset keeps its number: so does the control.
 fn change_units(engine: &mut Engine, units: Units) {
     let state = &mut engine.state;
     if state.units == units {
@@ -80,7 +84,6 @@ fn change_units(engine: &mut Engine, units: Units) {
         &mut state.compensated,
         &mut state.axis_offset,
         &mut state.origin_offset,
-        &mut state.tool_offset,
     ] {
         for axis in [0, 1, 2, 6, 7, 8] {
             pose[axis] *= factor;
@@ -144,7 +147,11 @@ pub(crate) fn arc_distance(engine: &mut Engine, block: &Block, at: At, sink: &mu
 }
 
 fn distance_of(absolute: bool) -> DistanceMode {
-    if absolute { DistanceMode::Absolute } else { DistanceMode::Incremental }
+    if absolute {
+        DistanceMode::Absolute
+    } else {
+        DistanceMode::Incremental
+    }
 }
 
 /// G7, G8.
@@ -186,13 +193,18 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
     };
     let index = i32::from(index);
     if index == engine.state.origin_index {
-        remark(engine, "interpreter: continuing to use same coordinate system", at, sink);
+        remark(
+            engine,
+            "interpreter: continuing to use same coordinate system",
+            at,
+            sink,
+        );
         return Ok(());
     }
     engine.state.origin_index = index;
     engine.set_parameter(5220, f64::from(index));
     let (origin, rotation) = engine.stored_origin(index);
-    frame::change_origin(&mut engine.state, origin, rotation);
+    frame::move_origin(&mut engine.state, origin, rotation);
     engine.emit(Canon::G5xOffset(index, origin), at, sink);
     let axis_offset = engine.state.axis_offset;
     engine.emit(Canon::G92Offset(axis_offset), at, sink);

@@ -3,7 +3,13 @@ use super::{ends, problems};
 use crate::{At, Block, Canon, Engine, Error, FeedMode, Pose, Problem, Side, Sink, comp};
 
 /// Rapid to a pose in program coordinates of the contour.
-pub(crate) fn traverse(engine: &mut Engine, end: Pose, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+pub(crate) fn traverse(
+    engine: &mut Engine,
+    end: Pose,
+    block: &Block,
+    at: At,
+    sink: &mut dyn Sink,
+) -> Result<(), Error> {
     if engine.state.side != Side::Off {
         return comp::straight(engine, true, end, block, at, sink);
     }
@@ -29,7 +35,12 @@ pub(crate) fn feed(engine: &mut Engine, end: Pose, block: &Block, at: At, sink: 
 
 /// Length that F of a straight motion is measured along: X Y Z, else U V W, else A B C; program units or deg.
 pub(crate) fn length(from: &Pose, to: &Pose) -> f64 {
-    let part = |axes: [usize; 3]| axes.iter().map(|&axis| (to[axis] - from[axis]).powi(2)).sum::<f64>().sqrt();
+    let part = |axes: [usize; 3]| {
+        axes.iter()
+            .map(|&axis| (to[axis] - from[axis]).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    };
     let linear = part([0, 1, 2]);
     if linear != 0.0 {
         return linear;
@@ -40,7 +51,9 @@ pub(crate) fn length(from: &Pose, to: &Pose) -> f64 {
 
 /// Under G93: the rate that makes a motion of this length last 1/F minutes, as the control gives it to the machine (at least 0.1).
 pub(crate) fn inverse_time(engine: &mut Engine, block: &Block, length: f64, at: At, sink: &mut dyn Sink) {
-    let rate = length * block.word(b'F').unwrap_or(0.0);
+    let per_minute = block.word(b'F').unwrap_or(0.0);
+    engine.state.inverse_time = per_minute;
+    let rate = length * per_minute;
     let rate = if rate < 0.1 { 0.1 } else { rate };
     engine.state.feed_rate = rate;
     engine.emit(Canon::FeedRate(rate), at, sink);

@@ -10,6 +10,9 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
     if engine.state.side != Side::Off && index == active {
         return Err(Error::new(&problems::G10_COMPENSATION, block.g_range[0]));
     }
+    if let Some(letter) = [b'I', b'J'].into_iter().find(|&letter| block.has(letter)) {
+        return Err(Error::new(&problems::G10_IJ, block.range_of(letter)));
+    }
     let (stored, stored_rotation) = engine.stored_origin(index);
     let rotation = block.word(b'R').unwrap_or(stored_rotation);
     let origin = if block.word(b'L') == Some(20.0) {
@@ -75,7 +78,11 @@ pub(crate) fn axis_offsets(engine: &mut Engine, block: &Block, at: At, sink: &mu
     };
     for pose in [&mut engine.state.current, &mut engine.state.compensated] {
         *pose = std::array::from_fn(|axis| {
-            if old[axis] == new[axis] { pose[axis] } else { pose[axis] + old[axis] - new[axis] }
+            if old[axis] == new[axis] {
+                pose[axis]
+            } else {
+                pose[axis] + old[axis] - new[axis]
+            }
         });
     }
     engine.state.axis_offset = new;

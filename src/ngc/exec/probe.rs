@@ -47,5 +47,11 @@ fn unknown_along(from: &Pose, to: &Pose) -> Pose {
 fn short_of(from: &Pose, to: &Pose, by: f64) -> Pose {
     let length = (0..3).map(|axis| (to[axis] - from[axis]).powi(2)).sum::<f64>().sqrt();
     let back = if length > 0.0 { by / length } else { 0.0 };
-    std::array::from_fn(|axis| if axis < 3 { to[axis] - (to[axis] - from[axis]) * back } else { to[axis] })
+    std::array::from_fn(|axis| {
+        if axis < 3 {
+            to[axis] - (to[axis] - from[axis]) * back
+        } else {
+            to[axis]
+        }
+    })
 }

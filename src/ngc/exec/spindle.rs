@@ -10,7 +10,16 @@ fn chosen(engine: &Engine, block: &Block, problem: &'static Problem) -> Result<R
         None => Ok(0..1),
         Some(-1) => Ok(0..count),
         Some(number) if (0..count as i32).contains(&number) => Ok(number as usize..number as usize + 1),
-        Some(_) => Err(Error::new(problem, block.range)),
+        Some(number) => {
+            // S alone says it in one line
+            let text = format!("{}\nnum_spindles ={count}. $={number}\n", problem.message);
+            let short = *problem == problems::SPINDLE_RANGE;
+            Err(if short {
+                Error::new(problem, block.range)
+            } else {
+                Error::with(problem, block.range, text)
+            })
+        }
     }
 }
 
@@ -27,8 +36,22 @@ pub(crate) fn speed(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
 /// M3, M4, M5, M19.
 pub(crate) fn turn(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     match block.m[7] {
-        3 => turn_to(engine, block, SpindleTurn::Clockwise, &problems::SPINDLE_RANGE_M3, at, sink),
-        4 => turn_to(engine, block, SpindleTurn::CounterClockwise, &problems::SPINDLE_RANGE_M4, at, sink),
+        3 => turn_to(
+            engine,
+            block,
+            SpindleTurn::Clockwise,
+            &problems::SPINDLE_RANGE_M3,
+            at,
+            sink,
+        ),
+        4 => turn_to(
+            engine,
+            block,
+            SpindleTurn::CounterClockwise,
+            &problems::SPINDLE_RANGE_M4,
+            at,
+            sink,
+        ),
         5 => turn_to(engine, block, SpindleTurn::Stop, &problems::SPINDLE_RANGE_M5, at, sink),
         19 => orient(engine, block, at, sink),
         _ => Ok(()),

@@ -9,13 +9,28 @@ const FIXTURE_SYSTEM: i32 = 9;
 
 impl Engine {
     /// The row of a tool in the table; row 0 is the spindle.
-    pub(crate) fn tool_row(&self, number: i32, range: TextRange) -> Result<usize, Error> {
-        if self.state.tools.first().is_some_and(|row| self.setup.random_tool_changer() && row.number == number) {
+    pub(crate) fn tool_row(&mut self, number: i32, range: TextRange) -> Result<usize, Error> {
+        if self
+            .state
+            .tools
+            .first()
+            .is_some_and(|row| self.setup.random_tool_changer() && row.number == number)
+        {
             return Ok(0);
         }
         let rows = self.state.tools.iter().skip(1);
         match rows.enumerate().find(|(_, row)| row.number == number) {
             Some((place, _)) => Ok(place + 1),
+            None if self.setup.any_tool => {
+                let entry = ToolEntry {
+                    number,
+                    pocket: number,
+                    ..ToolEntry::default()
+                };
+                let rows = Arc::make_mut(&mut self.state.tools);
+                rows.push(entry);
+                Ok(rows.len() - 1)
+            }
             None => {
                 let text = problems::TOOL_MISSING.message.replace("{}", &number.to_string());
                 Err(Error::with(&problems::TOOL_MISSING, range, text))
@@ -35,7 +50,9 @@ impl Engine {
     }
     /// The tool of row 0 is what is in the spindle: its parameters follow (5400-5413, units of the table).
     fn spindle_tool_changed(&mut self) {
-        let Some(tool) = self.state.tools.first().copied() else { return };
+        let Some(tool) = self.state.tools.first().copied() else {
+            return;
+        };
         self.state.tool = tool.number;
         self.set_parameter(5400, f64::from(tool.number));
         for (axis, value) in tool.offset.into_iter().enumerate() {
@@ -61,9 +78,19 @@ pub(crate) fn select(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
     if number < 0 {
         return Err(Error::new(&problems::TOOL_NEGATIVE, range));
     }
-    let row = if number == 0 { 0 } else { engine.tool_row(number, range)? };
+    let row = if number == 0 {
+        0
+    } else {
+        engine.tool_row(number, range)?
+    };
     engine.state.selected_tool = number;
-    engine.state.selected_pocket = row as i32;
+    engine.state.selected_row = row as i32;
+    let pocket = engine.state.tools.get(row).map_or(0, |entry| entry.pocket);
+    engine.state.selected_pocket = if engine.setup.random_tool_changer() {
+        row as i32
+    } else {
+        pocket
+    };
     engine.emit(Canon::SelectTool(number), at, sink);
     Ok(())
 }
@@ -81,7 +108,7 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
                 engine.state.turning[spindle] = 0;
                 engine.emit(Canon::Spindle(spindle as i32, SpindleTurn::Stop), at, sink);
             }
-            put_in_spindle(engine, engine.state.selected_pocket);
+            put_in_spindle(engine, engine.state.selected_row);
             let tool = engine.state.selected_tool.max(0);
             engine.emit(Canon::ChangeTool(tool), at, sink);
         }
@@ -103,8 +130,12 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
 /// Without random tool changer a row is copied to the spindle's row; with it the two change places.
 fn put_in_spindle(engine: &mut Engine, row: i32) {
     engine.state.current_row = row;
-    let Some(row) = usize::try_from(row).ok().filter(|&row| row > 0) else { return };
-    let Some(entry) = engine.state.tools.get(row).copied() else { return };
+    let Some(row) = usize::try_from(row).ok().filter(|&row| row > 0) else {
+        return;
+    };
+    let Some(entry) = engine.state.tools.get(row).copied() else {
+        return;
+    };
     if engine.setup.random_tool_changer() {
         let old = engine.state.tools[0];
         engine.write_tool_row(row, old);
@@ -167,7 +198,11 @@ pub(crate) fn table(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
     let mut entry = engine.state.tools[row];
     entry.offset = std::array::from_fn(|axis| {
         // untouched values stay as they were written in the table
-        if offset[axis] == stored[axis] { entry.offset[axis] } else { offset[axis] / access::scale(axis, unit) }
+        if offset[axis] == stored[axis] {
+            entry.offset[axis]
+        } else {
+            offset[axis] / access::scale(axis, unit)
+        }
     });
     if let Some(radius) = block.word(b'R') {
         entry.diameter = 2.0 * radius / unit;
@@ -198,8 +233,10 @@ fn offset_of_position(engine: &Engine, block: &Block, stored: &Pose, fixture: bo
     let state = &engine.state;
     let machine = frame::to_machine(state, &state.current);
     let mut with = state.clone();
+    // what the parameters say now, also where a program has written them
+    let index = if fixture { FIXTURE_SYSTEM } else { state.origin_index };
+    (with.origin_offset, with.rotation_xy) = engine.stored_origin(index);
     if fixture {
-        (with.origin_offset, with.rotation_xy) = engine.stored_origin(FIXTURE_SYSTEM);
         with.axis_offset = [0.0; 9];
     }
     with.tool_offset = *stored;

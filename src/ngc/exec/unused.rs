@@ -62,9 +62,7 @@ pub(crate) fn check(block: &Block) -> Result<(), Error> {
         b'D' => codes.g(7, &[410, 411, 420, 421]) || codes.g(14, &[960]) || codes.turning(),
         b'E' => codes.motion(&[760]) || codes.turning() || codes.m(5, &[66, 67, 68]),
         b'H' => codes.g(8, &[430, 432]) || codes.motion(&[760]),
-        b'I' => {
-            codes.arc() || codes.motion(&[50, 51, 331, 760, 870]) || codes.turning() || codes.g10()
-        }
+        b'I' => codes.arc() || codes.motion(&[50, 51, 331, 760, 870]) || codes.turning() || codes.g10(),
         b'J' => codes.arc() || codes.motion(&[50, 51, 760, 870]) || codes.g10(),
         b'K' => codes.arc() || codes.motion(&[330, 331, 760, 870, 61, 62]),
         b'L' => {
@@ -98,7 +96,9 @@ pub(crate) fn check(block: &Block) -> Result<(), Error> {
                 || codes.m(7, &[19])
                 || codes.user()
         }
-        b'R' => codes.arc() || codes.cycle() || codes.motion(&[760]) || codes.turning() || codes.g10() || codes.m(7, &[19]),
+        b'R' => {
+            codes.arc() || codes.cycle() || codes.motion(&[760]) || codes.turning() || codes.g10() || codes.m(7, &[19])
+        }
         _ => true,
     };
     for (letter, problem) in [

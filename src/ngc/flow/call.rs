@@ -61,14 +61,20 @@ impl Engine {
             back: self.flow.here,
             site,
             sub: self.flow.sub,
+            style: self.flow.style,
             chain: self.flow.chain,
-            style,
             body: known.map(|known| known.body),
             rounds,
             context: None,
         });
         self.flow.sub = name;
+        self.flow.style = style;
+        self.flow.called = true;
         self.flow.chain = chain;
+        if rounds == 0 {
+            // `M98 P1 L0`: as on the control the call is entered without going anywhere
+            return Ok(());
+        }
         if let Some(known) = known {
             self.flow.here = known.body;
             return Ok(());
@@ -82,6 +88,7 @@ impl Engine {
         self.flow.seeking = Some(Seeking {
             goal: Goal::Subprogram(name, style),
             opener: compiled.place,
+            leaving: false,
             again: false,
             satisfied: false,
             fixed: false,
@@ -103,7 +110,10 @@ impl Engine {
             Style::Sub => format!("o<{text}> call"),
             Style::Fanuc => format!("M98 P{text}"),
         };
-        let chain = self.flow.chains.call(parent, compiled.place.file, compiled.place.line, what);
+        let chain = self
+            .flow
+            .chains
+            .call(parent, compiled.place.file, compiled.place.line, what);
         compiled.memo.chain = Some((parent, chain));
         chain
     }
@@ -129,7 +139,11 @@ impl Engine {
         name: NameId,
         sought: Option<Seeking>,
     ) -> Result<(), Halt> {
-        let style = if line.keyword == Keyword::Sub { Style::Sub } else { Style::Fanuc };
+        let style = if line.keyword == Keyword::Sub {
+            Style::Sub
+        } else {
+            Style::Fanuc
+        };
         let subprogram = Subprogram {
             style,
             place: compiled.place,
@@ -151,6 +165,10 @@ impl Engine {
         }
         if let Some(flaw) = line.tail {
             return Err(Error::new(flaw.problem, flaw.range).into());
+        }
+        let head_inside = style == Style::Sub || !self.flow.calls.is_empty();
+        if head_inside && self.flow.style != style {
+            return Err(Self::refusal(wrong_style(style), line));
         }
         if style == Style::Fanuc {
             return Ok(());
@@ -181,6 +199,7 @@ impl Engine {
         self.flow.seeking = Some(Seeking {
             goal: Goal::Definition(name),
             opener: known.place,
+            leaving: false,
             again: false,
             satisfied: false,
             fixed: false,
@@ -193,32 +212,19 @@ impl Engine {
         self.files[file.0 as usize].path.clone()
     }
     /// `o... endsub [..]`, `o... return [..]`
-    pub(super) fn end_sub(
-        &mut self,
-        line: &OLine,
-        sought: Option<Seeking>,
-        sink: &mut dyn Sink,
-    ) -> Result<(), Halt> {
+    pub(super) fn end_sub(&mut self, line: &OLine, sought: Option<Seeking>, sink: &mut dyn Sink) -> Result<(), Halt> {
         let value = line.values.first().map(|formula| self.value(formula)).transpose();
         if let Some(seeking) = sought {
             if line.keyword == Keyword::Return || matches!(seeking.goal, Goal::Subprogram(..)) {
                 self.flow.seeking = sought;
             }
-            if line.keyword == Keyword::EndSub && matches!(seeking.goal, Goal::Subprogram(..)) {
-                return Err(Self::refusal(&problems::SEEKING_END, line));
-            }
-            if let Some(value) = value? {
-                // read is computed, and computed is set: the control does so in lines it skips, too
-                self.store.set_returned(Some(value));
-            }
+            // the control sets the value while it reads the line, in a skip, too
+            self.store.set_returned(value?);
             return Ok(());
         }
-        let Some(call) = self.flow.calls.last() else {
-            value?;
-            let detail = format!("{}: not in a subroutine definition: '{}'", self.line_number(), self.line_text());
-            return Err(Error::with(&problems::NOT_IN_SUB, line.label_range.cover(line.keyword_range), detail).into());
-        };
-        let style = call.style;
+        if self.flow.calls.is_empty() {
+            return self.end_sub_outside(line, value?);
+        }
         let value = match (value, line.tail) {
             (Ok(value), None) => value,
             (value, flaw) => {
@@ -233,12 +239,31 @@ impl Engine {
                 return Err(error.into());
             }
         };
-        if style == Style::Fanuc {
+        if self.flow.style == Style::Fanuc {
             self.abandon_call();
             return Err(Self::refusal(&problems::END_WITH_M99, line));
         }
         self.store.set_returned(value);
         self.leave_call(sink)
+    }
+    /// `endsub` and `return` in the main program.
+    fn end_sub_outside(&mut self, line: &OLine, value: Option<f64>) -> Result<(), Halt> {
+        if let Some(flaw) = line.tail {
+            return Err(Error::new(flaw.problem, flaw.range).into());
+        }
+        if !self.flow.called {
+            let detail = format!("{}: not in a subroutine definition: '{}'", self.line_number(), self.line_text());
+            let range = line.label_range.cover(line.keyword_range);
+            return Err(Error::with(&problems::NOT_IN_SUB, range, detail).into());
+        }
+        if self.flow.style == Style::Fanuc {
+            return Err(Self::refusal(&problems::END_WITH_M99, line));
+        }
+        if line.keyword == Keyword::EndSub {
+            return Err(Self::refusal(&problems::SEEKING_END, line));
+        }
+        self.store.set_returned(value);
+        Ok(())
     }
     /// Back to the line behind the call; what M73 saved is restored.
     pub(super) fn leave_call(&mut self, sink: &mut dyn Sink) -> Result<(), Halt> {
@@ -256,6 +281,7 @@ impl Engine {
         self.flow.here = call.back;
         self.flow.sub = call.sub;
         self.flow.chain = call.chain;
+        self.flow.style = call.style;
         self.flow.seeking = None;
     }
 }

@@ -1,7 +1,9 @@
 //! M70 to M73: the modal state is saved and restored. What is restored is what differs, by a block of the codes that set it, so that
 //! the machine is told in the order and with the quirks of the control: M51 comes back as on, F 0 stays where G94 has cleared it.
 use crate::exec;
-use crate::{At, Block, DistanceMode, Engine, Error, FeedMode, MotionMode, Plane, RetractMode, Side, Sink, SpindleMode, State};
+use crate::{
+    At, Block, DistanceMode, Engine, Error, FeedMode, MotionMode, Plane, RetractMode, Side, Sink, SpindleMode, State,
+};
 use crate::{Problem, Units};
 use trunnion_syntax::TextRange;
 
@@ -130,8 +132,22 @@ fn differs(a: f64, b: f64) -> bool {
 fn codes(state: &State) -> [(usize, i16); 10] {
     [
         (2, plane_code(state.plane)),
-        (3, if state.distance == DistanceMode::Absolute { 900 } else { 910 }),
-        (4, if state.arc_distance == DistanceMode::Absolute { 901 } else { 911 }),
+        (
+            3,
+            if state.distance == DistanceMode::Absolute {
+                900
+            } else {
+                910
+            },
+        ),
+        (
+            4,
+            if state.arc_distance == DistanceMode::Absolute {
+                901
+            } else {
+                911
+            },
+        ),
         (
             5,
             match state.feed_mode {
@@ -148,10 +164,24 @@ fn codes(state: &State) -> [(usize, i16); 10] {
                 Side::Right => 420,
             },
         ),
-        (8, if state.tool_offset.iter().all(|&offset| offset == 0.0) { 490 } else { 430 }),
+        (
+            8,
+            if state.tool_offset.iter().all(|&offset| offset == 0.0) {
+                490
+            } else {
+                430
+            },
+        ),
         (10, if state.retract == RetractMode::OldZ { 980 } else { 990 }),
         (12, system_code(state.origin_index)),
-        (14, if matches!(state.spindle_mode[0], SpindleMode::ConstantRpm) { 970 } else { 960 }),
+        (
+            14,
+            if matches!(state.spindle_mode[0], SpindleMode::ConstantRpm) {
+                970
+            } else {
+                960
+            },
+        ),
         (15, if state.lathe_diameter { 70 } else { 80 }),
     ]
 }
@@ -239,7 +269,11 @@ fn failed(error: &Error, block: &Block) -> Error {
     let mut text = String::new();
     for code in block.g.iter().filter(|&&code| code >= 0) {
         let (whole, tenth) = (code / 10, code % 10);
-        text.push_str(&if tenth == 0 { format!(" G{whole}") } else { format!(" G{whole}.{tenth}") });
+        text.push_str(&if tenth == 0 {
+            format!(" G{whole}")
+        } else {
+            format!(" G{whole}.{tenth}")
+        });
     }
     let problem: &'static Problem = error.problem;
     let detail = format!("M7x: restore_settings failed : '{text}': {}", error.message());

@@ -6,8 +6,9 @@ use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
 impl Engine {
-    /// Opens the program: blank lines and a first `%` are passed. A file that cannot be opened does nothing at all.
+    /// Opens the program: blank lines and a first `%` are passed.
     pub(super) fn begin(&mut self, sink: &mut dyn Sink) -> Option<Step> {
+        exec::start(self, sink);
         let mut place = Place::default();
         let source = Arc::clone(&self.files[0]);
         loop {
@@ -32,7 +33,7 @@ impl Engine {
             }
             break;
         }
-        exec::start(self, sink);
+        self.emit(Canon::Reset, At::default(), sink);
         None
     }
     /// The last line is behind: the end of the program is missing, or what is looked for.
@@ -46,7 +47,10 @@ impl Engine {
                 let file = self.flow.here.file;
                 let from = if file == opener.file { opener.line + 1 } else { 0 };
                 let name = self.flow.labels.text(name);
-                let detail = format!("EOF in file:{} seeking o-word: o<{name}> from line: {from}", self.file_name(file));
+                let detail = format!(
+                    "EOF in file:{} seeking o-word: o<{name}> from line: {from}",
+                    self.file_name(file)
+                );
                 let error = Error::with(&problems::NOT_FOUND, self.written_range(opener), detail);
                 self.flow.at = self.flow.calls.last().map_or(self.flow.at, |call| call.site);
                 self.abandon_call();
@@ -77,7 +81,10 @@ impl Engine {
     fn written_range(&self, place: Place) -> TextRange {
         let bytes = self.files[place.file.0 as usize].bytes();
         let text = fetch::trimmed(bytes, self.range_at(place));
-        let blanks = bytes[text.as_usize()].iter().take_while(|byte| byte.is_ascii_whitespace()).count() as u32;
+        let blanks = bytes[text.as_usize()]
+            .iter()
+            .take_while(|byte| byte.is_ascii_whitespace())
+            .count() as u32;
         TextRange::new(text.start + blanks, text.end)
     }
     /// The last line that ran, or the end of the file.

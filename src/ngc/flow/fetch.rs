@@ -51,7 +51,10 @@ pub(super) fn head(source: &[u8], range: TextRange) -> Head<'_> {
 pub(super) fn trimmed(source: &[u8], range: TextRange) -> TextRange {
     let bytes = &source[range.start as usize..range.end as usize];
     let end = memchr::memchr(0, bytes).unwrap_or(bytes.len());
-    let length = bytes[..end].iter().rposition(|byte| !byte.is_ascii_whitespace()).map_or(0, |last| last + 1);
+    let length = bytes[..end]
+        .iter()
+        .rposition(|byte| !byte.is_ascii_whitespace())
+        .map_or(0, |last| last + 1);
     TextRange::new(range.start, range.start + length as u32)
 }
 
@@ -161,6 +164,9 @@ fn compile_m(source: &[u8], head: &Head<'_>, text: TextRange, into: &mut Compile
 
 /// What is wrong with a line before its sense counts: comments, N. Lines of words look at these themselves.
 pub(super) fn text_flaw(source: &[u8], text: TextRange) -> Option<Error> {
-    read::comment_flaw(source, text)
-        .or_else(|| head(source, text).flaw.map(|range| Error::new(&problems::SEQUENCE_NUMBER, range)))
+    read::comment_flaw(source, text).or_else(|| {
+        head(source, text)
+            .flaw
+            .map(|range| Error::new(&problems::SEQUENCE_NUMBER, range))
+    })
 }

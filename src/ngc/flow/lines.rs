@@ -53,7 +53,9 @@ impl Lines {
     }
     /// Whether a line ran.
     pub(crate) fn has_run(&self, line: u32) -> bool {
-        self.ran.get((line / 64) as usize).is_some_and(|word| word & (1 << (line % 64)) != 0)
+        self.ran
+            .get((line / 64) as usize)
+            .is_some_and(|word| word & (1 << (line % 64)) != 0)
     }
     /// Whether a line that is skipped was skipped or run before; it is noted that it was looked at.
     pub(crate) fn glance(&mut self, line: u32) -> bool {

@@ -105,6 +105,8 @@ struct Seeking {
     goal: Goal,
     /// The line that began it; its memo takes down where it ended.
     opener: Place,
+    /// `break` or `continue` began it.
+    leaving: bool,
     /// `continue`: the loop goes on where it ends.
     again: bool,
     /// A branch of this `if` has run.
@@ -122,10 +124,10 @@ struct Call {
     back: Place,
     /// The line of the call.
     site: At,
-    /// Which subprogram made the call, and the chain that led there.
+    /// Which subprogram made the call, in which style it is written, and the chain that led there.
     sub: NameId,
-    chain: ChainId,
     style: Style,
+    chain: ChainId,
     /// The subprogram's second line, and the rounds (`L`) that are left.
     body: Option<Place>,
     rounds: i64,
@@ -149,7 +151,13 @@ pub(crate) struct Flow {
     sub: NameId,
     chain: ChainId,
     calls: Vec<Call>,
+    /// Style of the subprogram that runs.
+    style: Style,
+    /// Something was called: as on the control, the main program may `return` from then on.
+    called: bool,
     seeking: Option<Seeking>,
+    /// A `do` line has ended the skip of a `break`, which the next end of a loop obeys, as on the control.
+    broken: bool,
     labels: Labels,
     chains: Chains,
     lines: Vec<Lines>,
@@ -174,7 +182,10 @@ impl Clone for Flow {
             sub: self.sub,
             chain: self.chain,
             calls: self.calls.clone(),
+            style: self.style,
+            called: self.called,
             seeking: self.seeking,
+            broken: self.broken,
             labels: self.labels.clone(),
             chains: self.chains.clone(),
             lines: self.lines.clone(),
@@ -199,7 +210,10 @@ impl Flow {
             sub: NameId::MAIN,
             chain: ChainId::default(),
             calls: Vec::new(),
+            style: Style::Sub,
+            called: false,
             seeking: None,
+            broken: false,
             labels: Labels::new(),
             chains: Chains::default(),
             lines: vec![Lines::default()],

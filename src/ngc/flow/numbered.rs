@@ -19,9 +19,9 @@ impl Engine {
         let result = self.numbered_target(compiled, &line, &mut block, sink);
         self.block = Some(block);
         let result = match result {
-            Ok((_, 0)) => Ok(()),
             Ok((number, rounds)) => {
                 let name = self.flow.labels.name(&number.to_string());
+                self.store.set_returned(None);
                 self.enter(compiled, &line, name, Style::Fanuc, rounds, None)
             }
             Err(halt) => Err(halt),
@@ -56,7 +56,9 @@ impl Engine {
         self.apply(&compiled.line)?;
         for (value, letter) in [(number, 'P'), (rounds.unwrap_or(1.0), 'L')] {
             if value.is_nan() {
-                return Err(Halt::Undecided(self.undecided_word(letter, "which subprogram runs, and how often,")));
+                return Err(Halt::Undecided(
+                    self.undecided_word(letter, "which subprogram runs, and how often,"),
+                ));
             }
         }
         let whole = |value: f64, range| match oline::whole(value) {
@@ -75,7 +77,7 @@ impl Engine {
         let (Some(line), Some(call)) = (&compiled.o, self.flow.calls.last_mut()) else {
             return Ok(After::Go);
         };
-        let problem = match (self.flow.no_fanuc, call.style) {
+        let problem = match (self.flow.no_fanuc, self.flow.style) {
             (true, _) => Some(&problems::FANUC_RETURN_OFF),
             (_, Style::Sub) => Some(&problems::END_WITH_ENDSUB),
             _ => None,

@@ -1,7 +1,7 @@
 //! O lines as text: label, keyword, condition or arguments; and the `M98` / `M99` that a line may begin with.
 use super::problems;
 use crate::Problem;
-use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, value_or_error};
+use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, ValueError, Variables, value_or_error};
 use trunnion_syntax::TextRange;
 
 /// What an O line says.
@@ -133,7 +133,8 @@ pub(crate) fn numbered(cursor: &mut Cursor<'_>) -> Option<OLine> {
     if !matches!(number.peek(), Some(b'9' | b'0' | b'[' | b'+')) {
         return None;
     }
-    let code = value_or_error(&mut number, Grammar::Rs274).0.number()?;
+    let formula = value_or_error(&mut number, Grammar::Rs274).0;
+    let code = formula.number().or_else(|| formula.eval(&NoVariables).ok())?;
     let keyword = match code {
         98.0 => Keyword::CallNumbered,
         99.0 => Keyword::ReturnNumbered,
@@ -163,6 +164,21 @@ pub(crate) fn numbered(cursor: &mut Cursor<'_>) -> Option<OLine> {
         line.rest = rest.since(cursor.at());
     }
     Some(line)
+}
+
+/// An expression that says whether a line is `M98` before the line runs reads nothing.
+struct NoVariables;
+
+impl Variables for NoVariables {
+    fn numbered(&self, _: i64) -> Result<f64, ValueError> {
+        Err(ValueError::OutOfRange)
+    }
+    fn named(&self, _: &str) -> Result<f64, ValueError> {
+        Err(ValueError::NotDefined)
+    }
+    fn exists(&self, _: &str) -> bool {
+        false
+    }
 }
 
 fn label(cursor: &mut Cursor<'_>, errors: &mut Vec<FormulaError>) -> Label {

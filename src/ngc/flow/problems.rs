@@ -110,6 +110,11 @@ pub(crate) const END_WITH_ENDSUB: Problem = problem(
     "'O.... endsub' or 'O.... return' must follow 'O.... sub' subroutine definition",
     "End it with o... endsub.",
 );
+pub(crate) const LATE_M99: Problem = problem(
+    Class::Subprogram,
+    "Bug:  Reached convert_stop() from M99 as subprogram return",
+    "M99 returns from a subprogram only where it stands first in its line.",
+);
 pub(crate) const FANUC_CALL_OFF: Problem = problem(
     Class::Subprogram,
     "DISABLE_FANUC_STYLE_SUB set in INI file, but found m98",

@@ -49,12 +49,18 @@ impl Engine {
 
 /// Whether a line begins a subprogram.
 fn is_head(compiled: &Compiled) -> bool {
-    compiled.o.as_ref().is_some_and(|line| matches!(line.keyword, Keyword::Sub | Keyword::Bare) && line.flaw.is_none())
+    compiled
+        .o
+        .as_ref()
+        .is_some_and(|line| matches!(line.keyword, Keyword::Sub | Keyword::Bare) && line.flaw.is_none())
 }
 
 /// Whether a line ends a subprogram.
 fn is_end(compiled: &Compiled) -> bool {
-    compiled.o.as_ref().is_some_and(|line| matches!(line.keyword, Keyword::EndSub | Keyword::ReturnNumbered))
+    compiled
+        .o
+        .as_ref()
+        .is_some_and(|line| matches!(line.keyword, Keyword::EndSub | Keyword::ReturnNumbered))
 }
 
 fn tell(compiled: &Compiled, file: FileId, sink: &mut dyn Sink) {

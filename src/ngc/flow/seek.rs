@@ -38,6 +38,7 @@ impl Engine {
         self.flow.seeking.insert(Seeking {
             goal,
             opener: compiled.place,
+            leaving: false,
             again: false,
             satisfied: false,
             fixed: true,
@@ -147,9 +148,13 @@ impl Engine {
             Err(super::Halt::Undecided(why)) => return Glance::Undecided(why),
             Err(super::Halt::Told) => return Glance::Nothing,
         };
+        let definition = matches!(seeking.goal, Goal::Definition(_));
         if let Some(flaw) = line.flaw
             && flaw.problem == &problems::UNKNOWN_KEYWORD
         {
+            if definition {
+                return Glance::Nothing;
+            }
             return Glance::Refused(Error::new(flaw.problem, flaw.range));
         }
         if line.keyword == Keyword::Bare && self.flow.no_fanuc {
@@ -163,13 +168,20 @@ impl Engine {
             Goal::Label(_, wanted) => !is_global && name == wanted,
             Goal::Definition(wanted) => {
                 if matches!(line.keyword, Keyword::Sub | Keyword::Bare) {
-                    return Glance::Refused(Error::new(&problems::NESTED_SUB, line.label_range.cover(line.keyword_range)));
+                    return Glance::Refused(Error::new(
+                        &problems::NESTED_SUB,
+                        line.label_range.cover(line.keyword_range),
+                    ));
                 }
                 is_global && name == wanted
             }
             Goal::Subprogram(wanted, _) => is_global && name == wanted,
         };
-        if counts { Glance::Counts(Box::new(line)) } else { Glance::Nothing }
+        if counts {
+            Glance::Counts(Box::new(line))
+        } else {
+            Glance::Nothing
+        }
     }
 }
 

@@ -121,12 +121,7 @@ impl Engine {
         self.block = Some(block);
         result
     }
-    fn run_block(
-        &mut self,
-        compiled: &Compiled,
-        block: &mut crate::Block,
-        sink: &mut dyn Sink,
-    ) -> Result<After, Halt> {
+    fn run_block(&mut self, compiled: &Compiled, block: &mut crate::Block, sink: &mut dyn Sink) -> Result<After, Halt> {
         let line = &compiled.line;
         let at = self.flow.at;
         let evaluated = read::evaluate(line, &self.values(), block);
@@ -136,7 +131,18 @@ impl Engine {
         exec::check(self, block)?;
         self.apply(line)?;
         comment::run(self, line, at, sink)?;
-        Ok(exec::execute(self, block, at, sink)?)
+        if block.m[4] != 99 {
+            return Ok(exec::execute(self, block, at, sink)?);
+        }
+        // M99 ends the main program like M2; behind other words in a subprogram it is no return
+        let range = block.m_range[4];
+        let inside = !self.flow.calls.is_empty();
+        block.m[4] = if inside { -1 } else { 2 };
+        let after = exec::execute(self, block, at, sink)?;
+        if inside {
+            return Err(Error::new(&problems::LATE_M99, range).into());
+        }
+        Ok(after)
     }
     /// Assignments take effect behind the line, all at once.
     pub(super) fn apply(&mut self, line: &read::Line) -> Result<(), Error> {
@@ -152,7 +158,9 @@ impl Engine {
         if let Some(number) = formula.number() {
             return Ok(number);
         }
-        formula.eval(&self.values()).map_err(|error| read::formula_error(&error))
+        formula
+            .eval(&self.values())
+            .map_err(|error| read::formula_error(&error))
     }
     /// The value of a condition or count: it must be known.
     pub(super) fn decided(&self, formula: &Formula, line: &OLine) -> Result<f64, Halt> {
@@ -163,12 +171,7 @@ impl Engine {
         Ok(value)
     }
     /// The words of a line are wrong: the error that the control gives comes first, then all others of the line.
-    pub(super) fn refuse_text(
-        &mut self,
-        line: &read::Line,
-        evaluated: Result<(), Error>,
-        sink: &mut dyn Sink,
-    ) -> Halt {
+    pub(super) fn refuse_text(&mut self, line: &read::Line, evaluated: Result<(), Error>, sink: &mut dyn Sink) -> Halt {
         let first = match (evaluated, line.errors.first()) {
             (Err(error), _) if error.problem == &read::UNDECIDED => return Halt::Undecided(error.message().to_owned()),
             (Err(error), _) => error,

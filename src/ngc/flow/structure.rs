@@ -112,13 +112,15 @@ impl Engine {
             Keyword::While => self.run_while(compiled, line, (label, goal), sought, value)?,
             Keyword::EndWhile => {
                 let structure = self.opened(line, label, &[Opener::While])?;
-                if sought.is_none_or(|seeking| seeking.again) && !structure.once {
+                let broken = core::mem::take(&mut self.flow.broken);
+                if sought.is_none_or(|seeking| seeking.again) && !structure.once && !broken {
                     self.flow.here = structure.place;
                 } else {
                     self.left(label);
                 }
             }
             Keyword::Do => {
+                self.flow.broken |= sought.is_some_and(|seeking| seeking.leaving && !seeking.again);
                 let known = self.flow.labels.structure(label);
                 if known.is_none_or(|known| known.place == compiled.place) {
                     self.open(compiled, line, label, Opener::Do)?;
@@ -209,7 +211,8 @@ impl Engine {
             && known.opener == Opener::Do
         {
             let (place, once) = (known.place, known.once);
-            if value != 0.0 && sought.is_none_or(|seeking| seeking.again) && !once {
+            let broken = core::mem::take(&mut self.flow.broken);
+            if value != 0.0 && sought.is_none_or(|seeking| seeking.again) && !once && !broken {
                 self.flow.here = place;
             } else {
                 self.left(label);
@@ -262,8 +265,10 @@ impl Engine {
             }
             _ => self.opened(line, label, &[Opener::While, Opener::Do])?,
         };
-        let again = sought.map_or(line.keyword == Keyword::Continue, |seeking| seeking.again);
-        self.begin_seeking(compiled, goal).again = again;
+        let fresh = (true, line.keyword == Keyword::Continue);
+        let (leaving, again) = sought.map_or(fresh, |seeking| (seeking.leaving, seeking.again));
+        let seeking = self.begin_seeking(compiled, goal);
+        (seeking.leaving, seeking.again) = (leaving, again);
         Ok(())
     }
     /// After a refusal: structures count as opened and are gone through once, so that the lines inside are checked and their ends are
@@ -286,7 +291,11 @@ impl Engine {
         let label = self.label_of(compiled, line, name);
         let place = compiled.place;
         let fuel = self.flow.fuel;
-        let fresh = self.flow.labels.structure(label).is_none_or(|known| known.place == place);
+        let fresh = self
+            .flow
+            .labels
+            .structure(label)
+            .is_none_or(|known| known.place == place);
         if fresh {
             self.flow.labels.open(
                 label,

@@ -74,7 +74,8 @@ fn named(name: &str) -> &'static str {
         "a pin of the machine"
     } else if name.starts_with("_ini[") {
         "a value of the machine's INI file"
-    } else if matches!(name, "_x" | "_y" | "_z" | "_a" | "_b" | "_c" | "_u" | "_v" | "_w") || name.starts_with("_abs_") {
+    } else if matches!(name, "_x" | "_y" | "_z" | "_a" | "_b" | "_c" | "_u" | "_v" | "_w") || name.starts_with("_abs_")
+    {
         "the position of the machine"
     } else {
         "which was computed from values that are not known"

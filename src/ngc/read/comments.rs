@@ -20,14 +20,20 @@ pub(crate) fn flaw(source: &[u8], text: TextRange) -> Option<Error> {
     open.map(|at| Error::new(&problems::UNCLOSED_COMMENT, TextRange::new(at, text.end)))
 }
 
-/// One past the comment that begins at `start` with `(` or `;`.
+/// One past the comment that begins at `start` with `(` or `;`; comments inside it belong to it.
 pub(super) fn end(source: &[u8], start: u32, end: u32) -> u32 {
     let bytes = &source[start as usize..end as usize];
     if bytes.first() == Some(&b';') {
         return end;
     }
-    bytes
-        .iter()
-        .position(|&byte| byte == b')')
-        .map_or(end, |at| start + at as u32 + 1)
+    let mut depth = 0u32;
+    for (at, byte) in bytes.iter().enumerate() {
+        match byte {
+            b'(' => depth += 1,
+            b')' if depth == 1 => return start + at as u32 + 1,
+            b')' => depth -= 1,
+            _ => {}
+        }
+    }
+    end
 }

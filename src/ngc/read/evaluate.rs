@@ -23,7 +23,6 @@ pub(crate) fn evaluate(line: &Line, values: &Values<'_>, block: &mut Block) -> R
                 let values = created(line, index, values);
                 slot(assignment, &values)?;
                 value(&assignment.value, &values)?;
-                writable(assignment)?;
             }
             Item::Error(index) => return Err(line.errors[index as usize].clone()),
         }
@@ -34,7 +33,7 @@ pub(crate) fn evaluate(line: &Line, values: &Values<'_>, block: &mut Block) -> R
 /// Sets the parameters of a line, all at once: each right side has the values from before the line.
 ///
 /// # Errors
-/// None that [`evaluate`] has not told of the same line.
+/// A name that programs only read: the control finds it when it sets it, behind its checks of the block.
 pub(crate) fn apply(engine: &mut Engine, line: &Line) -> Result<(), Error> {
     match &line.assignments[..] {
         [] => Ok(()),
@@ -42,8 +41,7 @@ pub(crate) fn apply(engine: &mut Engine, line: &Line) -> Result<(), Error> {
             let values = Values::new(engine);
             let values = created(line, 0, &values);
             let (slot, value) = (slot(one, &values)?, value(&one.value, &values)?);
-            set(engine, one, slot, value);
-            Ok(())
+            set(engine, one, slot, value)
         }
         many => {
             let mut results = Vec::with_capacity(many.len());
@@ -53,19 +51,24 @@ pub(crate) fn apply(engine: &mut Engine, line: &Line) -> Result<(), Error> {
                 results.push((slot(assignment, &values)?, value(&assignment.value, &values)?));
             }
             for (assignment, (slot, value)) in many.iter().zip(results) {
-                set(engine, assignment, slot, value);
+                set(engine, assignment, slot, value)?;
             }
             Ok(())
         }
     }
 }
 
-fn set(engine: &mut Engine, assignment: &Assignment, slot: Option<Slot>, value: f64) {
+fn set(engine: &mut Engine, assignment: &Assignment, slot: Option<Slot>, value: f64) -> Result<(), Error> {
     match (&assignment.target, slot) {
         (Target::Numbered(_), Some(slot)) => engine.store.set(slot, value),
-        (Target::Named(name), _) => engine.store.set_named(name, value),
         (Target::Numbered(_), None) => engine.store.forget(),
+        (Target::Named(name), _) if Values::is_system(name) => {
+            let text = format!("Cannot assign to read-only parameter #<{name}>");
+            return Err(Error::with(&problems::READ_ONLY_NAME, assignment.target_range, text));
+        }
+        (Target::Named(name), _) => engine.store.set_named(name, value),
     }
+    Ok(())
 }
 
 /// The values as the control sees them at an item of a line: names that are set before it on the same line exist, with zero.
@@ -133,17 +136,6 @@ fn slot(assignment: &Assignment, values: &Created<'_>) -> Result<Option<Slot>, E
     }
 }
 
-/// Whether a name may be set: looked at behind the value.
-fn writable(assignment: &Assignment) -> Result<(), Error> {
-    match &assignment.target {
-        Target::Named(name) if Values::is_system(name) => {
-            let text = format!("Cannot assign to read-only parameter #<{name}>");
-            Err(Error::with(&problems::READ_ONLY_NAME, assignment.target_range, text))
-        }
-        _ => Ok(()),
-    }
-}
-
 /// A whole number within 1e-4, as parameter numbers and codes have it.
 fn integer(value: f64) -> Option<i64> {
     let below = value.floor();
@@ -179,8 +171,8 @@ fn word(word: &WordText, line: &Line, values: &Values<'_>, block: &mut Block) ->
         if holds { Err(Error::new(problem, range)) } else { Ok(()) }
     };
     match word.letter {
-        b'G' => return g_code(value, range, block),
-        b'M' => return m_code(value, range, block),
+        b'G' => return g_code(value, range, values, block),
+        b'M' => return m_code(value, range, values, block),
         b'@' => block.radius = Some(value),
         b'^' => block.angle = Some(value),
         b'$' => block.spindle = Some(value as i32),
@@ -203,7 +195,7 @@ fn word(word: &WordText, line: &Line, values: &Values<'_>, block: &mut Block) ->
     Ok(())
 }
 
-fn g_code(value: f64, range: TextRange, block: &mut Block) -> Result<(), Error> {
+fn g_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) -> Result<(), Error> {
     if value.is_nan() {
         return Err(undecided(range, 'G'));
     }
@@ -217,6 +209,9 @@ fn g_code(value: f64, range: TextRange, block: &mut Block) -> Result<(), Error> 
         return refuse(&problems::G_RANGE);
     }
     let Some(group) = g_group(code as i32) else {
+        if own(b'G', code as u32, range, values, block) {
+            return Ok(());
+        }
         return refuse(&problems::G_UNKNOWN);
     };
     let code = code as i16;
@@ -230,13 +225,16 @@ fn g_code(value: f64, range: TextRange, block: &mut Block) -> Result<(), Error> 
     Ok(())
 }
 
-fn m_code(value: f64, range: TextRange, block: &mut Block) -> Result<(), Error> {
+fn m_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) -> Result<(), Error> {
     if value.is_nan() {
         return Err(undecided(range, 'M'));
     }
     let code = int(value, range)?;
     if code < 0 {
         return Err(Error::new(&problems::NEGATIVE_M, range));
+    }
+    if m_group(code).is_none() && own(b'M', code as u32 * 10, range, values, block) {
+        return Ok(());
     }
     if code > 199 {
         let text = format!("M-code greater than 199: M{code}");
@@ -253,6 +251,16 @@ fn m_code(value: f64, range: TextRange, block: &mut Block) -> Result<(), Error> 
     block.m_range[group] = range;
     block.m_count += 1;
     Ok(())
+}
+
+/// Takes a code of the machine's own; whether it is one.
+#[cold]
+fn own(letter: u8, tenths: u32, range: TextRange, values: &Values<'_>, block: &mut Block) -> bool {
+    let owns = values.owns(letter, tenths);
+    if owns {
+        block.own = Some(crate::OwnCode { letter, tenths, range });
+    }
+    owns
 }
 
 fn undecided(range: TextRange, letter: char) -> Error {

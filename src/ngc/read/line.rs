@@ -189,7 +189,7 @@ impl Line {
         }
         self.items.push(Item::Word(self.words.len() as u32));
         self.words.push(WordText { letter, value, range });
-        self.recover(error, source, cursor);
+        self.recover(error, start, source, cursor);
     }
 
     /// A word that may be there once and is there twice. G and M go by groups; of `@` and `^` the last one counts.
@@ -205,17 +205,12 @@ impl Line {
         if !twice {
             return None;
         }
-        Some(match letter {
-            b'$' => Error::new(&problems::REPEATED_SPINDLE, range),
-            _ => {
-                let letter = char::from(letter.to_ascii_lowercase());
-                Error::with(
-                    &problems::REPEATED,
-                    range,
-                    format!("Multiple {letter} words on one line"),
-                )
-            }
-        })
+        if letter == b'$' {
+            return Some(Error::new(&problems::REPEATED_SPINDLE, range));
+        }
+        let letter = char::from(letter.to_ascii_lowercase());
+        let text = format!("Multiple {letter} words on one line");
+        Some(Error::with(&problems::REPEATED, range, text))
     }
 
     fn assignment(&mut self, source: &[u8], cursor: &mut Cursor<'_>) {
@@ -226,7 +221,8 @@ impl Line {
             Err(error) => {
                 // what is wrong about a name begins at its `#`
                 let range = TextRange::new(error.range.start.min(cursor.at()), error.range.end);
-                return self.wrong(FormulaError { range, ..error }, source, cursor);
+                self.fail(problems::formula(&FormulaError { range, ..error }));
+                return self.skip(start, source, cursor);
             }
         };
         let target_range = cursor.since(start);
@@ -234,11 +230,11 @@ impl Line {
             // the number is looked at first
             self.push_assignment(left, target_range, Formula::constant(0.0));
             self.fail(Error::new(&problems::EQUAL_SIGN, target_range));
-            return self.skip(source, cursor);
+            return self.skip(start, source, cursor);
         }
         let (value, error) = value_or_error(cursor, Grammar::Rs274);
         self.push_assignment(left, target_range, value);
-        self.recover(error, source, cursor);
+        self.recover(error, start, source, cursor);
     }
 
     fn push_assignment(&mut self, target: Target, target_range: TextRange, value: Formula) {
@@ -252,35 +248,56 @@ impl Line {
 
     /// Behind a value: where it is wrong, the error is kept and reading goes on where the next word may begin.
     #[inline]
-    fn recover(&mut self, error: Option<FormulaError>, source: &[u8], cursor: &mut Cursor<'_>) {
+    fn recover(&mut self, error: Option<FormulaError>, start: u32, source: &[u8], cursor: &mut Cursor<'_>) {
         if let Some(error) = error {
             // it is in its place already: the value fails when it is evaluated
             self.errors.push(problems::formula(&error));
-            self.skip(source, cursor);
+            self.skip(start, source, cursor);
         }
     }
 
-    fn wrong(&mut self, error: FormulaError, source: &[u8], cursor: &mut Cursor<'_>) {
-        self.fail(problems::formula(&error));
-        self.skip(source, cursor);
-    }
-
-    /// Goes to the next letter, `#` or comment behind a blank that no bracket holds.
-    fn skip(&mut self, source: &[u8], cursor: &mut Cursor<'_>) {
-        let mut depth = 0i32;
-        for at in cursor.at()..self.range.end {
-            let byte = source[at as usize];
+    /// Goes on where the next word may begin: behind the brackets that hold the place and are closed; else at the next letter or `#`
+    /// behind a blank that looks like a word, or at the next comment. `start` is where the value begins that is wrong.
+    fn skip(&mut self, start: u32, source: &[u8], cursor: &mut Cursor<'_>) {
+        let from = cursor.at();
+        if let Some(behind) = behind_brackets(source, start, from, self.range.end) {
+            return cursor.skip_to(behind);
+        }
+        for at in from..self.range.end {
+            let rest = &source[at as usize..self.range.end as usize];
             let blank = at > self.range.start && source[at as usize - 1].is_ascii_whitespace();
-            match byte {
-                b'[' => depth += 1,
-                b']' => depth -= 1,
-                b';' | b'(' => return cursor.skip_to(at),
-                b'#' | b'a'..=b'z' | b'A'..=b'Z' if blank && depth <= 0 => return cursor.skip_to(at),
-                _ => {}
+            let begins = match rest[0] {
+                b';' | b'(' => true,
+                b'#' => blank,
+                letter => blank && letter.is_ascii_alphabetic() && !rest.get(1).is_some_and(u8::is_ascii_alphabetic),
+            };
+            if begins && at > start {
+                return cursor.skip_to(at);
             }
         }
         cursor.skip_to(self.range.end);
     }
+}
+
+/// One past the `]` that closes the outermost bracket opened between `start` and `at`; `None` if none is open there, or it is not
+/// closed before `end`.
+fn behind_brackets(source: &[u8], start: u32, at: u32, end: u32) -> Option<u32> {
+    let mut depth = 0i32;
+    for (place, byte) in source[start as usize..end as usize].iter().enumerate() {
+        let place = start + place as u32;
+        if place == at && depth <= 0 {
+            return None;
+        }
+        match byte {
+            b'[' => depth += 1,
+            b']' if depth > 0 => depth -= 1,
+            _ => {}
+        }
+        if place >= at && depth == 0 {
+            return Some(place + 1);
+        }
+    }
+    None
 }
 
 /// The letter of a word is an axis that the machine has not.
@@ -293,9 +310,9 @@ pub(super) fn no_word(word: &WordText) -> Error {
     )
 }
 
-/// The control's message about a sign: as it is, or in octal where it cannot be printed.
+/// The control's message about a sign: as it is, or in octal.
 fn bad_character(byte: u8) -> String {
-    if byte.is_ascii_graphic() || byte == b' ' {
+    if (b'!'..=b'z').contains(&byte) {
         format!("Bad character '{}' used", char::from(byte))
     } else {
         format!("Bad character '\\{byte:03o}' used")

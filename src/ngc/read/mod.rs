@@ -10,5 +10,5 @@ pub(crate) use comments::flaw as comment_flaw;
 mod tests;
 
 pub(crate) use evaluate::{apply, evaluate};
-pub(crate) use line::{Line, WordText};
+pub(crate) use line::Line;
 pub(crate) use problems::{UNDECIDED, formula as formula_error};

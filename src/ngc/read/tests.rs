@@ -31,7 +31,10 @@ fn first_error(text: &str, engine: &Engine) -> Option<Error> {
         line.errors
     );
     for error in line.errors.iter().chain(&evaluated) {
-        assert!(error.range.start <= error.range.end && error.range.end as usize <= text.len(), "{text}: {error:?}");
+        assert!(
+            error.range.start <= error.range.end && error.range.end as usize <= text.len(),
+            "{text}: {error:?}"
+        );
     }
     evaluated
 }
@@ -56,10 +59,11 @@ fn every_answer_of_the_control() {
         let ours = first_error(text, &engine);
         let ours = ours.as_ref().map_or("", Error::message);
         // what the control finds only behind the line's end belongs to other modules
-        let later = !problems::ALL.iter().any(|problem| {
-            let (before, behind) = problem.message.split_once("{}").unwrap_or((problem.message, ""));
-            !problem.message.is_empty() && answer.starts_with(before) && answer.ends_with(behind)
-        });
+        let later = answer.contains("read-only")
+            || !problems::ALL.iter().any(|problem| {
+                let (before, behind) = problem.message.split_once("{}").unwrap_or((problem.message, ""));
+                !problem.message.is_empty() && answer.starts_with(before) && answer.ends_with(behind)
+            });
         let expected = if later || answer == "Unknown m code used: M100" || answer == "Unknown m code used: M199" {
             ""
         } else {
@@ -75,12 +79,27 @@ fn every_answer_of_the_control() {
 #[test]
 fn values_in_their_places() {
     let mut engine = engine(Start::Zero);
-    let block = run(&["N10 G01 G90 x 1 2.5 Y-.5 F#1 T2.00001 M3 $0 @5 ^30 H1 (c) g17"], &mut engine);
-    assert_eq!((block.word(b'X'), block.word(b'Y'), block.word(b'F')), (Some(12.5), Some(-0.5), Some(0.0)));
-    assert_eq!((block.word(b'T'), block.word(b'H'), block.word(b'Z')), (Some(2.0), Some(1.0), None));
-    assert_eq!((block.g_code(1), block.g_code(3), block.g_code(2), block.g_code(0)), (Some(10), Some(900), Some(170), None));
+    let block = run(
+        &["N10 G01 G90 x 1 2.5 Y-.5 F#1 T2.00001 M3 $0 @5 ^30 H1 (c) g17"],
+        &mut engine,
+    );
+    assert_eq!(
+        (block.word(b'X'), block.word(b'Y'), block.word(b'F')),
+        (Some(12.5), Some(-0.5), Some(0.0))
+    );
+    assert_eq!(
+        (block.word(b'T'), block.word(b'H'), block.word(b'Z')),
+        (Some(2.0), Some(1.0), None)
+    );
+    assert_eq!(
+        (block.g_code(1), block.g_code(3), block.g_code(2), block.g_code(0)),
+        (Some(10), Some(900), Some(170), None)
+    );
     assert_eq!((block.m_code(7), block.m_count), (Some(3), 1));
-    assert_eq!((block.number, block.radius, block.angle, block.spindle), (Some(10.0), Some(5.0), Some(30.0), Some(0)));
+    assert_eq!(
+        (block.number, block.radius, block.angle, block.spindle),
+        (Some(10.0), Some(5.0), Some(30.0), Some(0))
+    );
     assert_eq!(block.range_of(b'X'), TextRange::new(12, 19));
     let cycle = run(&["G80 G81 G80"], &mut engine);
     assert_eq!((cycle.g_code(1), cycle.g_range[1]), (Some(810), TextRange::new(4, 7)));
@@ -94,38 +113,84 @@ fn assignments_take_effect_behind_the_line() {
     assert_eq!(value(&run(&["X#3"], &mut engine)), 6.0);
     assert_eq!(value(&run(&["#1=2 #2=[#1+1]", "X[#1*10+#2]"], &mut engine)), 21.0);
     assert_eq!(value(&run(&["#<Foo Bar>=3", "X#<foobar>"], &mut engine)), 3.0);
-    assert_eq!(value(&run(&["#<new>=5 X#<new>"], &mut engine)), 0.0, "it exists, with zero");
+    assert_eq!(
+        value(&run(&["#<new>=5 X#<new>"], &mut engine)),
+        0.0,
+        "it exists, with zero"
+    );
     assert_eq!(value(&run(&["#1=#<new> #<new>=7 X#<new>"], &mut engine)), 5.0);
-    assert_eq!(value(&run(&["#[#<new>+1]=4 #<_g>=8", "X[#8+#<_g>]"], &mut engine)), 12.0);
+    assert_eq!(
+        value(&run(&["#[#<new>+1]=4 #<_g>=8", "X[#8+#<_g>]"], &mut engine)),
+        12.0
+    );
 }
 
 #[test]
 fn a_call_has_its_own_numbers_and_names() {
     let mut engine = engine(Start::Zero);
-    run(&["#1=3 #5=9 #31=1 #<a>=2 #<_b>=4"], &mut engine);
+    run(&["#1=3 #5=9 #31=1 #<a>=2 #<_g>=4"], &mut engine);
     engine.store.enter(&[7.0]);
-    let inside = run(&["X[#1+#5*10+#31*100] Y EXISTS[#<a>] Z#<_b> R#<_call_level>", "#1=0 #31=6 #<a>=0 #<_b>=5"], &mut engine);
+    let inside = run(
+        &[
+            "X[#1+#5*10+#31*100] Y EXISTS[#<a>] Z#<_g> R#<_call_level>",
+            "#1=0 #31=6 #<a>=0 #<_g>=5",
+        ],
+        &mut engine,
+    );
     assert!(!inside.has(b'X'));
     engine.store.leave();
-    let after = run(&["X[#1+#5*10+#31*100] Y#<a> Z#<_b> R#<_call_level>"], &mut engine);
-    assert_eq!([b'X', b'Y', b'Z', b'R'].map(|letter| after.word(letter)), [Some(693.0), Some(2.0), Some(5.0), Some(0.0)]);
+    let after = run(&["X[#1+#5*10+#31*100] Y#<a> Z#<_g> R#<_call_level>"], &mut engine);
+    assert_eq!(
+        [b'X', b'Y', b'Z', b'R'].map(|letter| after.word(letter)),
+        [Some(693.0), Some(2.0), Some(5.0), Some(0.0)]
+    );
 }
 
 #[test]
 fn all_errors_of_a_line_with_their_places() {
-    let text = "G0 X1 X2 ! Y[1+ Z1.2.3 #5=";
-    let told: Vec<_> = read(text)
-        .errors
-        .iter()
-        .map(|error| (error.message().to_owned(), &text[error.range.as_usize()]))
-        .collect();
-    let expected = [
-        ("Multiple x words on one line", "X2"),
-        ("Bad character '!' used", "!"),
-        ("Unknown operation name starting with z", ""),
+    let table: &[(&str, &[(&str, &str)])] = &[
+        (
+            "G0 X1 X2 ! Y[1+ Z1.2.3 #5=",
+            &[
+                ("Multiple x words on one line", "X2"),
+                ("Bad character '!' used", "!"),
+                ("Unknown word where unary operation could be", "Z"),
+                ("bad number format (trailing characters) parsing '1.2.3'", "1.2.3"),
+                ("No characters found in reading real value", ""),
+            ],
+        ),
+        (
+            "X[1 FOO 2 BAR [3]] Y[1 Z2",
+            &[("Unknown operation", "F"), ("Unknown operation", "Z")],
+        ),
+        ("#<a Y1", &[("Named parameter not terminated", "<")]),
+        (
+            "#1 5 #=5 (c) N7 \u{e9}",
+            &[
+                ("Equal sign missing in parameter setting", "#1 5"),
+                ("bad number format (conversion failed) parsing ''", "="),
+                ("Bad character 'n' used", "N"),
+                ("Bad character '\\303' used", "\u{e9}"),
+            ],
+        ),
+        (
+            "X1 (a (b) c) Y",
+            &[
+                ("Nested comment found", "("),
+                ("No characters found in reading real value", ""),
+            ],
+        ),
+        ("X1 (a", &[("Unclosed comment found", "(a")]),
+        ("N-5 X1", &[("Bad format unsigned integer", "N")]),
     ];
-    for ((message, part), (ours, place)) in told.iter().zip(&expected) {
-        assert_eq!((message.as_str(), *part), (*ours, *place));
+    for (text, expected) in table {
+        let line = read(text);
+        let told: Vec<_> = line
+            .errors
+            .iter()
+            .map(|error| (error.message(), &text[error.range.as_usize()]))
+            .collect();
+        assert_eq!(told, *expected, "{text}");
     }
 }
 

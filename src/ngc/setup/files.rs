@@ -84,7 +84,9 @@ fn row(words: &str) -> Result<ToolEntry, String> {
     for word in words.split_whitespace() {
         let letter = word.as_bytes()[0].to_ascii_uppercase();
         let number = word.get(1..).unwrap_or("");
-        let value: f64 = number.parse().map_err(|_| format!("`{word}` is no word: a letter and a number are expected"))?;
+        let value: f64 = number
+            .parse()
+            .map_err(|_| format!("`{word}` is no word: a letter and a number are expected"))?;
         match letter {
             b'T' => {
                 entry.number = value as i32;
@@ -101,7 +103,11 @@ fn row(words: &str) -> Result<ToolEntry, String> {
             },
         }
     }
-    if numbered { Ok(entry) } else { Err("a row of a tool table needs T".to_owned()) }
+    if numbered {
+        Ok(entry)
+    } else {
+        Err("a row of a tool table needs T".to_owned())
+    }
 }
 
 impl Parameters {
@@ -123,7 +129,9 @@ impl Parameters {
             let index = words.next().and_then(|word| word.parse::<u32>().ok());
             let value = words.next().and_then(|word| word.parse::<f64>().ok());
             // rs274 passes over lines that are no pair
-            let (Some(index), Some(value)) = (index, value) else { continue };
+            let (Some(index), Some(value)) = (index, value) else {
+                continue;
+            };
             if !(1..=LAST).contains(&index) {
                 return Err(bad("Parameter number out of range"));
             }
@@ -136,7 +144,10 @@ impl Parameters {
     }
     /// The text of a parameter file.
     pub fn text(&self) -> String {
-        self.values.iter().map(|(index, value)| format!("{index}\t{value:.6}\n")).collect()
+        self.values
+            .iter()
+            .map(|(index, value)| format!("{index}\t{value:.6}\n"))
+            .collect()
     }
 }
 

@@ -110,6 +110,13 @@ fn the_control_tells_what_is_in_force_and_where_it_is() {
 }
 
 #[test]
+fn writing_a_zero_point_moves_the_coordinates() {
+    // the machine stays: what was X10 over a zero at 0 is X7 over one at 3
+    let source = "G54G0X10.Y1.\n#5221=3.\nY2.\n#1=#5221\nX#1\nM30\n";
+    assert_eq!(lines(FANUC, source), ["R X10 Y1", "R X7 Y2", "R X3 Y2"]);
+}
+
+#[test]
 fn codes_and_words_take_variables() {
     let source = "#1=1\n#2=3\nG#1X5.F[100*#2]\nM#2S1000\nG#1X6.\nG4P#3\nM30\n";
     assert_eq!(lines(FANUC, source)[..2], ["L X5 F300", "L X6 F300"]);

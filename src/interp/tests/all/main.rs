@@ -4,10 +4,12 @@
 mod apt;
 mod arcs;
 mod compensation;
+mod corners;
 mod cycles;
 mod directives;
 mod faults;
 mod files;
+mod fold_samples;
 mod frames;
 mod macro_flow;
 mod macro_programs;

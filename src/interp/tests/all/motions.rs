@@ -292,7 +292,7 @@ fn writing_zero_points_and_tools_of_the_control_hides_the_position() {
     for (dialect, write) in [
         ("linuxcnc", "#5221=100"),
         ("linuxcnc", "#[#1+5000]=100"),
-        ("fanuc-30i", "#5203=100."),
+        ("fanuc-30i", "#5204=100."),
         ("fanuc-30i", "#2001=100."),
         ("fanuc-30i", "#7001=100."),
     ] {

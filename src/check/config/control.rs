@@ -1,0 +1,134 @@
+//! `[control]` of `trunnion.toml`: parameters of the control that decide what a program means.
+use super::ConfigError;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::Spanned;
+use trunnion_interp::{AxisLetter, ControlData, ImplicitDecimals, OuterCorner, Position};
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Decimals {
+    LeastIncrement,
+    Calculator,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Corner {
+    Lines,
+    Arc,
+}
+
+/// The section as written.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FileControl {
+    implicit_decimals: Option<Decimals>,
+    chip_break_retract: Option<Spanned<f64>>,
+    peck_clearance: Option<Spanned<f64>>,
+    outer_corner: Option<Corner>,
+    #[serde(default)]
+    reference_points: Vec<BTreeMap<Spanned<String>, Spanned<f64>>>,
+}
+
+impl FileControl {
+    /// As the interpreter wants it.
+    pub(super) fn data(&self) -> Result<ControlData, ConfigError> {
+        let mut reference_points = Vec::new();
+        for point in &self.reference_points {
+            reference_points.push(position(point)?);
+        }
+        Ok(ControlData {
+            implicit_decimals: self.implicit_decimals.map(|decimals| match decimals {
+                Decimals::LeastIncrement => ImplicitDecimals::LeastIncrement,
+                Decimals::Calculator => ImplicitDecimals::Calculator,
+            }),
+            chip_break_retract_mm: length("chip_break_retract", self.chip_break_retract.as_ref())?,
+            peck_clearance_mm: length("peck_clearance", self.peck_clearance.as_ref())?,
+            outer_corner: match self.outer_corner {
+                Some(Corner::Arc) => OuterCorner::Arc,
+                Some(Corner::Lines) | None => OuterCorner::Lines,
+            },
+            reference_points,
+        })
+    }
+}
+
+fn at<T>(place: &Spanned<T>, message: impl Into<String>) -> ConfigError {
+    ConfigError {
+        message: message.into(),
+        span: Some(place.span()),
+    }
+}
+
+fn length(key: &str, value: Option<&Spanned<f64>>) -> Result<Option<f64>, ConfigError> {
+    match value {
+        Some(value) if !(0.0..=1000.0).contains(value.get_ref()) => {
+            let message = format!("`{key}` must be from 0 to 1000 mm, not {}", value.get_ref());
+            Err(at(value, message))
+        }
+        value => Ok(value.map(|value| *value.get_ref())),
+    }
+}
+
+fn position(point: &BTreeMap<Spanned<String>, Spanned<f64>>) -> Result<Position, ConfigError> {
+    let mut position = Position::default();
+    for (letter, value) in point {
+        let axis = match letter.get_ref().as_bytes() {
+            [letter] => AxisLetter::new(*letter),
+            _ => None,
+        };
+        let Some(axis) = axis else {
+            return Err(at(
+                letter,
+                format!("`{}` is no axis: X Y Z A B C U V W", letter.get_ref()),
+            ));
+        };
+        if !value.get_ref().is_finite() {
+            return Err(at(value, "a reference point is a number of mm or degrees"));
+        }
+        position.set(usize::from(axis.0), *value.get_ref());
+    }
+    Ok(position)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Config;
+    use trunnion_interp::{ImplicitDecimals, OuterCorner};
+
+    #[test]
+    fn a_whole_section_is_read() {
+        let text = "[control]\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\n\
+                    outer_corner = \"arc\"\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
+        let control = Config::parse(text).expect("read").setup.control;
+        assert_eq!(control.implicit_decimals, Some(ImplicitDecimals::LeastIncrement));
+        assert_eq!(control.chip_break_retract_mm, Some(0.5));
+        assert_eq!(control.peck_clearance_mm, Some(1.0));
+        assert_eq!(control.outer_corner, OuterCorner::Arc);
+        let points: Vec<_> = control
+            .reference_points
+            .iter()
+            .map(|p| (p.get(0), p.get(1), p.get(2)))
+            .collect();
+        assert_eq!(points, [(Some(0.0), None, Some(400.0)), (None, None, Some(300.0))]);
+    }
+
+    #[test]
+    fn errors_point_at_their_place() {
+        for (text, wrong) in [
+            ("[control]\nimplicit_decimals = \"maybe\"", "\"maybe\""),
+            ("[control]\npeck_clearance = -1", "-1"),
+            ("[control]\nreference_points = [{ Q = 1 }]", "Q"),
+            ("[control]\nreference_points = [{ X = inf }]", "inf"),
+            ("[control]\nretract = 1", "retract"),
+        ] {
+            let error = Config::parse(text).expect_err(text);
+            let span = error
+                .span
+                .clone()
+                .unwrap_or_else(|| panic!("{text}: {error} has no place"));
+            assert_eq!(&text[span], wrong, "{error}");
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! The tree of a program: blocks, their items with addresses and values, expressions by their parts, problems beside them.
+use super::expression::{Part, parts};
+use crate::cli::{failure::Failure, load::Loaded};
+use serde_json::{Value, json};
+use std::io::Write;
+use trunnion_syntax::{Address, AptArg, Block, Item, LineIndex, TextRange, Value as Said, Word};
+
+/// Deeper parts are indented no further.
+const DEEPEST: u32 = 20;
+
+/// One node below a block.
+struct Node {
+    kind: &'static str,
+    range: TextRange,
+    /// `address` and `value` of words, `name` of calls; what the node says in short.
+    facts: Vec<(&'static str, Value)>,
+    /// The range whose parts are shown below it.
+    inside: Option<TextRange>,
+}
+
+impl Node {
+    fn plain(kind: &'static str, range: TextRange) -> Self {
+        Self {
+            kind,
+            range,
+            facts: Vec::new(),
+            inside: None,
+        }
+    }
+}
+
+/// The form for people: one line a node, bytes on the left.
+pub(super) fn text(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure> {
+    let program = &loaded.program;
+    let lines = LineIndex::new(program.source());
+    let mut errors = program.errors().iter().peekable();
+    for block in program.blocks() {
+        let nodes = nodes(loaded, &block);
+        let range = block.range();
+        if !nodes.is_empty() {
+            let (line, _) = lines.line_column(program.source(), range.start);
+            row(out, range, 0, &format!("block line {line}"))?;
+        }
+        for node in nodes {
+            row(out, node.range, 1, &describe(loaded, &node))?;
+            for part in node
+                .inside
+                .map(|range| parts(program, &block, range))
+                .unwrap_or_default()
+            {
+                let text = format!("{} {}", part.kind, program.text(part.range));
+                row(out, part.range, 2 + part.depth.min(DEEPEST), &text)?;
+            }
+        }
+        while let Some(error) = errors.next_if(|error| error.range.start < range.end.max(range.start + 1)) {
+            let (line, column) = lines.line_column(program.source(), error.range.start);
+            let text = format!(
+                "problem {line}:{column} {:?} {:?}",
+                error.kind,
+                program.text(error.range)
+            );
+            row(out, error.range, 1, &text)?;
+        }
+    }
+    for error in errors {
+        row(out, error.range, 0, &format!("problem {:?}", error.kind))?;
+    }
+    Ok(())
+}
+
+fn row(out: &mut impl Write, range: TextRange, depth: u32, text: &str) -> Result<(), Failure> {
+    let bytes = format!("{}..{}", range.start, range.end);
+    // one row is one line, whatever the text holds
+    let text: String = text
+        .chars()
+        .flat_map(|c| {
+            if c.is_control() {
+                c.escape_default().collect()
+            } else {
+                vec![c]
+            }
+        })
+        .collect();
+    writeln!(out, "{bytes:>15}  {:indent$}{text}", "", indent = 2 * depth as usize)?;
+    Ok(())
+}
+
+/// One line on a node.
+fn describe(loaded: &Loaded, node: &Node) -> String {
+    let facts: Vec<String> = node
+        .facts
+        .iter()
+        .map(|(key, value)| {
+            let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+            if matches!(*key, "address" | "name" | "value") {
+                text
+            } else {
+                format!("{key} {text}")
+            }
+        })
+        .collect();
+    match node.facts.is_empty() {
+        true => format!("{} {}", node.kind, loaded.program.text(node.range)),
+        false => format!("{} {}", node.kind, facts.join(" ")),
+    }
+}
+
+/// The form for programs, block by block: no more than one block is held as a document.
+pub(super) fn json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure> {
+    let program = &loaded.program;
+    let lines = LineIndex::new(program.source());
+    let dialect = json!(loaded.resolved.dialect.name);
+    write!(
+        out,
+        "{{\"schema\":\"trunnion-tree/2\",\"dialect\":{dialect},\"blocks\":["
+    )?;
+    for (number, block) in program.blocks().enumerate() {
+        let (line, _) = lines.line_column(program.source(), block.range().start);
+        let items: Vec<Value> = nodes(loaded, &block)
+            .iter()
+            .map(|node| node_json(loaded, &block, node))
+            .collect();
+        let value = json!({ "line": line, "start": block.range().start, "end": block.range().end, "items": items });
+        write!(out, "{}{value}", if number == 0 { "\n" } else { ",\n" })?;
+    }
+    writeln!(out, "\n],\"errors\":{}}}", Value::Array(errors_json(loaded)))?;
+    Ok(())
+}
+
+fn node_json(loaded: &Loaded, block: &Block<'_>, node: &Node) -> Value {
+    let program = &loaded.program;
+    let mut value = json!({ "kind": node.kind, "start": node.range.start, "end": node.range.end, "text": program.text(node.range) });
+    for (key, fact) in &node.facts {
+        value[*key] = fact.clone();
+    }
+    if let Some(range) = node.inside {
+        let part = |part: &Part| {
+            json!({ "kind": part.kind, "depth": part.depth, "start": part.range.start, "end": part.range.end,
+                    "text": program.text(part.range) })
+        };
+        value["parts"] = parts(program, block, range).iter().map(part).collect();
+    }
+    value
+}
+
+/// The problems of the text.
+pub(super) fn errors_json(loaded: &Loaded) -> Vec<Value> {
+    let errors = loaded.program.errors().iter();
+    errors
+        .map(|e| json!({ "kind": format!("{:?}", e.kind), "start": e.range.start, "end": e.range.end }))
+        .collect()
+}
+
+fn nodes(loaded: &Loaded, block: &Block<'_>) -> Vec<Node> {
+    let record = block.record();
+    let apt = record.is_some();
+    let mut nodes = Vec::new();
+    if let Some(record) = record {
+        nodes.push(Node::plain("major", record.major));
+        nodes.extend(record.args().map(|arg| match arg {
+            AptArg::Number(number, range) => Node {
+                facts: vec![("value", json!(number.to_string()))],
+                ..Node::plain("number", range)
+            },
+            AptArg::Word(range) => Node::plain("word", range),
+            AptArg::Other(range) => Node {
+                inside: Some(range),
+                ..Node::plain("other", range)
+            },
+        }));
+    }
+    nodes.extend(block.items().filter_map(|item| match item {
+        Item::Comment(comment) => Some(Node::plain("comment", comment.range)),
+        _ if apt => None,
+        Item::Word(each) => Some(word(loaded, &each)),
+        Item::Call(call) => Some(Node {
+            facts: vec![("name", json!(loaded.program.text(call.name)))],
+            inside: call.arguments,
+            ..Node::plain("call", call.range)
+        }),
+        Item::Skip(level, range) => Some(Node {
+            facts: vec![("level", json!(level))],
+            ..Node::plain("skip", range)
+        }),
+        Item::Percent(range) => Some(Node::plain("percent", range)),
+        Item::Label(range) => Some(Node::plain("label", range)),
+        Item::Other(range) => Some(Node {
+            inside: Some(range),
+            ..Node::plain("other", range)
+        }),
+    }));
+    nodes
+}
+
+fn word(loaded: &Loaded, word: &Word) -> Node {
+    let text = |range| loaded.program.text(range).into_owned();
+    let address = match word.address {
+        Address::Letter(letter) => char::from(letter).to_string(),
+        Address::Indexed(letter, index) => format!("{}{index}", char::from(letter)),
+        Address::Named(range) => text(range),
+    };
+    let (value, inside) = match word.value {
+        Said::Number(number) => (json!(number.to_string()), None),
+        Said::Call(name, number) => (json!(format!("{}({number})", text(name))), None),
+        Said::Text(range) => (json!(text(range)), None),
+        Said::Expression(range) => (json!("expression"), Some(range)),
+        Said::Missing => (json!("missing"), None),
+        Said::Bad => (json!(format!("bad {}", text(word.value_range))), None),
+    };
+    Node {
+        facts: vec![("address", json!(address)), ("value", value)],
+        inside,
+        ..Node::plain("word", word.range)
+    }
+}

@@ -1,0 +1,171 @@
+//! `,R` and `,C`: a corner between two straight motions rounded by an arc or cut off by a line (Fanuc: optional chamfering and corner R).
+use crate::arc::plane_axes;
+use crate::compensation::Told;
+use crate::run::{Interpreter, Report};
+use crate::{FaultKind, Motion, MotionKind, Refusal};
+use trunnion_geometry::Vec3;
+use trunnion_geometry::arc::Arc;
+use trunnion_geometry::math::{atan2, tan};
+
+/// A corner that waits for the motion behind it.
+#[derive(Clone, Debug)]
+struct Waiting {
+    told: Told,
+    /// `R` or `C`.
+    letter: u8,
+    /// mm.
+    size: f64,
+}
+
+/// See the module.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Corners {
+    /// What the block in hand says: letter and mm.
+    pub(crate) word: Option<(u8, f64)>,
+    waiting: Option<Box<Waiting>>,
+}
+
+impl Corners {
+    pub(crate) fn is_busy(&self) -> bool {
+        self.word.is_some() || self.waiting.is_some()
+    }
+}
+
+/// How far two motions in the plane are cut short at their corner, and the direction of each; `None` where they are no corner of lines.
+struct Cut {
+    axes: [usize; 3],
+    first: Vec3,
+    second: Vec3,
+    turn: f64,
+    by: f64,
+}
+
+fn flat(motion: &Motion, axes: [usize; 3]) -> Option<Vec3> {
+    let mut way = motion.end.xyz()? - motion.start.xyz()?;
+    let level = way[axes[2]].abs() <= 1e-9;
+    way[axes[2]] = 0.0;
+    (motion.kind == MotionKind::Linear && level && way.norm() > 1e-9).then_some(way)
+}
+
+impl Interpreter<'_> {
+    /// Takes a motion of the block; what can go on is pushed to `on`.
+    pub(crate) fn round_corner(&mut self, motion: &Motion, on: &mut Vec<Told>, report: &mut Report<'_>) {
+        let mut told = (*motion, self.state.clone());
+        if let Some(waiting) = self.memory.corners.waiting.take() {
+            self.cut_corner(*waiting, &mut told, on, report);
+        }
+        match self.memory.corners.word.take() {
+            Some((letter, size)) if motion.is_feed() => {
+                self.memory.corners.waiting = Some(Box::new(Waiting { told, letter, size }));
+            }
+            word => {
+                if word.is_some() {
+                    self.no_corner("a corner word needs a feed motion", "corner-no-move", report);
+                }
+                on.push(told);
+            }
+        }
+    }
+
+    /// Nothing comes behind the corner.
+    pub(crate) fn end_corners(&mut self, on: &mut Vec<Told>, report: &mut Report<'_>) {
+        self.memory.corners.word = None;
+        if let Some(waiting) = self.memory.corners.waiting.take() {
+            self.no_corner("no motion follows the corner", "corner-no-move", report);
+            on.push(waiting.told);
+        }
+    }
+
+    fn no_corner(&self, text: &str, mistake: &str, report: &mut Report<'_>) {
+        let kind = FaultKind::Rejected {
+            refusal: Refusal::Other,
+            message: text.to_owned(),
+            alarm: self.dialect.alarm(mistake).map(|alarm| alarm.number.clone()),
+        };
+        report.fault(report.whole(), kind);
+    }
+
+    fn cut_corner(&mut self, waiting: Waiting, next: &mut Told, on: &mut Vec<Told>, report: &mut Report<'_>) {
+        let mut before = waiting.told;
+        let axes = plane_axes(before.1.plane);
+        let arcs = matches!(before.0.kind, MotionKind::Arc(_)) || matches!(next.0.kind, MotionKind::Arc(_));
+        let ways = (flat(&before.0, axes), flat(&next.0, axes));
+        let (Some(first), Some(second)) = ways else {
+            if arcs {
+                let what = format!(",{} at an arc", char::from(waiting.letter));
+                report.fault(report.whole(), FaultKind::NotModelled { what });
+                for axis in &axes[..2] {
+                    before.0.end.forget(*axis);
+                    next.0.start.forget(*axis);
+                }
+            } else {
+                let text = "a straight feed motion in the plane must follow a rounded or chamfered corner";
+                self.no_corner(text, "corner-no-move", report);
+            }
+            on.push(before);
+            return;
+        };
+        let mut normal = Vec3::zeros();
+        normal[axes[2]] = 1.0;
+        let turn = atan2(normal.dot(&first.cross(&second)), first.dot(&second));
+        let by = if waiting.letter == b'R' {
+            waiting.size * tan(0.5 * turn.abs())
+        } else {
+            waiting.size
+        };
+        let cut = Cut {
+            axes,
+            first: first.normalize(),
+            second: second.normalize(),
+            turn,
+            by,
+        };
+        if by > first.norm() + 1e-9 || by > second.norm() + 1e-9 || by < 0.0 {
+            let text = format!(
+                "the corner takes {by:.3} mm of both motions, which are {:.3} mm and {:.3} mm long",
+                first.norm(),
+                second.norm()
+            );
+            self.no_corner(&text, "corner-too-large", report);
+            on.push(before);
+            return;
+        }
+        cut.apply(before, waiting.letter == b'R', next, on);
+    }
+}
+
+impl Cut {
+    fn apply(&self, mut before: Told, round: bool, next: &mut Told, on: &mut Vec<Told>) {
+        let Some(corner) = before.0.end.xyz() else { return };
+        let (from, to) = (corner - self.first * self.by, corner + self.second * self.by);
+        for axis in &self.axes[..2] {
+            before.0.end.set(*axis, from[*axis]);
+            next.0.start.set(*axis, to[*axis]);
+        }
+        let mut link = before.clone();
+        on.push(before);
+        if self.by <= 1e-9 || self.turn.abs() <= 1e-12 {
+            return;
+        }
+        link.0.start = link.0.end;
+        link.0.end = next.0.start;
+        link.0.kind = if round {
+            let mut normal = Vec3::zeros();
+            normal[self.axes[2]] = 1.0;
+            let radius = self.by / tan(0.5 * self.turn.abs());
+            let inward = normal.cross(&self.first) * self.turn.signum();
+            MotionKind::Arc(Some(Arc {
+                start: from,
+                end: to,
+                centre: from + inward * radius,
+                normal,
+                sweep: self.turn,
+                radius_start: radius,
+                radius_end: radius,
+            }))
+        } else {
+            MotionKind::Linear
+        };
+        on.push(link);
+    }
+}

@@ -1,0 +1,39 @@
+//! What is in force, as the rules read it.
+use super::frames::Shift;
+use crate::{FeedMode, ModalState};
+use trunnion_dialect::Action;
+use trunnion_ngc::{DistanceMode, Side, State};
+
+/// The motion code in force; 800 is G80.
+fn motion(code: i16) -> Option<Action> {
+    Some(match code {
+        0 => Action::Rapid,
+        10 => Action::Linear,
+        20 => Action::ArcClockwise,
+        30 => Action::ArcCounterClockwise,
+        730 | 740 | 810..=890 => Action::CannedCycle,
+        _ if code < 0 || code == 800 => return None,
+        _ => Action::NotModelled,
+    })
+}
+
+/// Takes over what the interpreter has in force but feed, spindle, tool and offsets, which calls tell in step with motions.
+pub(super) fn refresh(modal: &mut ModalState, state: &State, shift: &Shift) {
+    modal.motion = motion(state.motion);
+    modal.incremental = state.distance == DistanceMode::Incremental;
+    modal.arc_centre_absolute = state.arc_distance == DistanceMode::Absolute;
+    modal.feed_mode = match state.feed_mode {
+        trunnion_ngc::FeedMode::InverseTime => FeedMode::InverseTime,
+        trunnion_ngc::FeedMode::PerMinute => FeedMode::PerMinute,
+        trunnion_ngc::FeedMode::PerRevolution => FeedMode::PerRevolution,
+    };
+    if modal.feed_mode == FeedMode::InverseTime {
+        modal.feed = (state.inverse_time > 0.0).then_some(state.inverse_time);
+    }
+    modal.compensation = match state.side {
+        Side::Off => 0,
+        Side::Left => 41,
+        Side::Right => 42,
+    };
+    modal.zero = shift.zero;
+}

@@ -1,0 +1,62 @@
+//! Values of words: numbers, names, targets such as IC(5), and expressions where the dialect has them.
+use crate::FaultKind;
+use crate::reader::{LARGEST, Reader};
+use crate::words::{Number, Reading, Said};
+use trunnion_syntax::{Decimal, TextRange, Value, Word};
+
+/// A number, unless it is beyond what can be reckoned with.
+pub(crate) fn number(decimal: Decimal, range: TextRange) -> Said {
+    let value = decimal.to_f64();
+    if value.abs() <= LARGEST {
+        Said::Number(Number {
+            value,
+            has_point: decimal.has_point,
+            range,
+        })
+    } else {
+        Said::Unread
+    }
+}
+
+impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
+    /// A word that knows only numbers and names, kept by its letter too.
+    pub(crate) fn kept(&mut self, letter: u8, word: &Word) -> Said {
+        let said = self.said(word);
+        self.words.by_letter.keep(letter, said);
+        said
+    }
+
+    /// A word that knows only numbers and names.
+    fn said(&mut self, word: &Word) -> Said {
+        match word.value {
+            Value::Number(decimal) => number(decimal, word.range),
+            Value::Text(range) => Said::Name(range),
+            Value::Missing | Value::Bad => Said::Unread,
+            Value::Expression(range) if self.macros.is_some() => self.macro_value(word, range),
+            Value::Expression(_) | Value::Call(..) => {
+                self.not_modelled(word.value_range);
+                Said::Unread
+            }
+        }
+    }
+
+    /// A word that also knows AC(), IC(), DC(), ACP(), ACN().
+    pub(crate) fn said_place(&mut self, word: &Word) -> (Said, Reading) {
+        if let Value::Call(name, decimal) = word.value {
+            let name = self.program.source().get(name.as_usize()).unwrap_or_default();
+            let reading = READINGS.iter().find(|(known, _)| name.eq_ignore_ascii_case(known));
+            if let Some(&(_, reading)) = reading {
+                return (number(decimal, word.range), reading);
+            }
+        }
+        (self.said(word), Reading::Modal)
+    }
+}
+
+const READINGS: [(&[u8], Reading); 5] = [
+    (b"AC", Reading::Absolute),
+    (b"IC", Reading::Incremental),
+    (b"DC", Reading::Shortest),
+    (b"ACP", Reading::Positive),
+    (b"ACN", Reading::Negative),
+];

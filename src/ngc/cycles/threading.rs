@@ -1,0 +1,152 @@
+//! G76: a thread cut in many passes.
+use super::{Work, problems, thread};
+use crate::{Canon, Error, Pose, Side, Switch, exec};
+use trunnion_geometry::math;
+
+/// The words of a thread, program units, radii.
+struct Thread {
+    pitch: f64,
+    /// From the drive line to the peak.
+    peak: f64,
+    /// First depth, full depth.
+    first: f64,
+    full: f64,
+    /// Depth of pass n: first times n to the power of 1 / degression.
+    degression: f64,
+    /// Of the infeed against the X axis.
+    tangent: f64,
+    springs: i32,
+    taper: f64,
+    taper_in: bool,
+    taper_out: bool,
+    start: Pose,
+    end: Pose,
+}
+
+/// G76.
+pub(super) fn run(work: &mut Work<'_>) -> Result<(), Error> {
+    let thread = words(work)?;
+    work.engine.state.motion = 760;
+    let full = thread.full;
+    let mut depth = thread.first;
+    let mut pass = 1.0;
+    let mut count = 0_u64;
+    while depth < full && count < work.engine.setup.limits.blocks {
+        cut(work, &thread, depth);
+        pass += 1.0;
+        count += 1;
+        depth = thread.first * math::pow(pass, 1.0 / thread.degression);
+    }
+    for _ in 0..=thread.springs.max(-1) {
+        cut(work, &thread, full);
+    }
+    rapid(work, thread.end);
+    Ok(())
+}
+
+/// Reads and checks the words, in the control's order.
+fn words(work: &Work<'_>) -> Result<Thread, Error> {
+    let block = work.block;
+    let state = &work.engine.state;
+    let Some(pitch) = block.word(b'P').filter(|&pitch| pitch != -1.0) else {
+        return Err(work.refuse(&problems::NO_P_G76));
+    };
+    let (Some(i), Some(j), Some(k)) = (block.word(b'I'), block.word(b'J'), block.word(b'K')) else {
+        return Err(work.refuse(&problems::NO_IJK_G76));
+    };
+    if state.side != Side::Off {
+        return Err(work.refuse(&problems::NOT_G0_G1));
+    }
+    if let Some(&letter) = b"ABC".iter().find(|&&letter| block.has(letter)) {
+        return Err(Error::new(&problems::ROTARY_G76, block.range_of(letter)));
+    }
+    let (spindle, turning) = work.turning();
+    if turning == 0 {
+        let text = problems::STILL_G76.message.replace("{}", &spindle.to_string());
+        return Err(Error::with(&problems::STILL_G76, work.code_range(), text));
+    }
+    if i == 0.0 {
+        return Err(Error::new(&problems::ZERO_I_G76, block.range_of(b'I')));
+    }
+    if j <= 0.0 {
+        return Err(Error::new(&problems::ZERO_J_G76, block.range_of(b'J')));
+    }
+    if k <= j {
+        return Err(Error::new(&problems::SMALL_K_G76, block.range_of(b'K')));
+    }
+    let radius = if state.lathe_diameter { 0.5 } else { 1.0 };
+    let tapers = block.word(b'L').map_or(0, |l| l as i32);
+    let degression = block.word(b'R').unwrap_or(1.0);
+    let angle = block.word(b'Q').unwrap_or(0.0);
+    Ok(Thread {
+        pitch,
+        peak: i * radius,
+        first: j * radius,
+        full: k * radius,
+        degression: if degression < 1.0 { 1.0 } else { degression },
+        tangent: math::tan(angle.to_radians()),
+        springs: block.word(b'H').map_or(0, |h| h as i32),
+        taper: block.word(b'E').unwrap_or(0.0),
+        taper_in: matches!(tapers, 1 | 3),
+        taper_out: matches!(tapers, 2 | 3),
+        start: state.current,
+        end: exec::end_of(state, block)?,
+    })
+}
+
+/// Rapid to a pose.
+fn rapid(work: &mut Work<'_>, pose: Pose) {
+    work.engine.state.current = pose;
+    work.emit(Canon::Traverse(pose));
+}
+
+/// One pass at a depth below the peak.
+fn cut(work: &mut Work<'_>, thread: &Thread, depth: f64) {
+    // outside threads (I negative) are cut toward smaller X
+    let inward = if thread.peak > 0.0 { 1.0 } else { -1.0 };
+    let back = thread.start[0] - inward * (thread.full - depth);
+    let peak = back + thread.peak;
+    let bottom = thread.start[0] + thread.peak + inward * depth;
+    let first = thread.start[2] - depth * thread.tangent;
+    let last = thread.end[2] + (thread.full - depth) * thread.tangent;
+    let along = if thread.end[2] > thread.start[2] {
+        thread.taper
+    } else {
+        -thread.taper
+    };
+    let slanted = if thread.taper == 0.0 {
+        thread.pitch
+    } else {
+        thread.pitch * math::hypot(thread.taper, thread.full) / thread.taper
+    };
+    let at = |x: f64, z: f64| {
+        let mut pose = thread.start;
+        (pose[0], pose[2]) = (x, z);
+        pose
+    };
+    let feed = |work: &mut Work<'_>, x: f64, z: f64| {
+        work.engine.state.current = at(x, z);
+        work.emit(Canon::Feed(at(x, z)));
+    };
+    rapid(work, at(back, first));
+    if thread.taper_in {
+        work.emit(Canon::Switch(Switch::FeedOverride, false));
+        work.emit(thread::coupled(slanted));
+        feed(work, peak, first);
+        feed(work, bottom, first + along);
+    } else {
+        rapid(work, at(bottom, first));
+        work.emit(Canon::Switch(Switch::FeedOverride, false));
+    }
+    work.emit(thread::coupled(thread.pitch));
+    if thread.taper_out {
+        feed(work, bottom, last - along);
+        work.emit(thread::coupled(slanted));
+        feed(work, peak, last);
+    } else {
+        feed(work, bottom, last);
+    }
+    work.emit(Canon::StopSync);
+    rapid(work, at(back, last));
+    work.emit(Canon::Switch(Switch::FeedOverride, true));
+}

@@ -1,0 +1,74 @@
+//! Programs with the calls that `rs274 -g` of LinuxCNC 2.9 made of them, held against ours.
+//!
+//! A file is a row of cases: the program, `---`, the calls and, with a `!` in front, the error, `===`.
+use crate::listing;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Runs the cases of a file; what differs is reported whole.
+fn compare(name: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/all/oracle")
+        .join(name);
+    let text = std::fs::read_to_string(&path).unwrap();
+    let mut failures = String::new();
+    let mut count = 0;
+    for case in text.split("===\n").filter(|case| !case.trim().is_empty()) {
+        let (program, expected) = case.split_once("---\n").unwrap();
+        let expected: Vec<&str> = expected.lines().collect();
+        let listed = listing::list(program);
+        let mut ours = listed.lines();
+        ours.extend(listed.errors.first().map(|error| format!("! {error}")));
+        count += 1;
+        let same = ours.len() == expected.len() && ours.iter().zip(&expected).all(|(a, b)| listing::same(a, b));
+        if !same {
+            writeln!(
+                failures,
+                "{program}expected\n  {}\nours\n  {}\n",
+                expected.join("\n  "),
+                ours.join("\n  ")
+            )
+            .unwrap();
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+    assert!(count > 20, "only {count} cases in {name}");
+}
+
+#[test]
+fn compensation_is_that_of_the_control() {
+    compare("compensation.txt");
+}
+
+#[test]
+fn calls_under_compensation_come_in_the_controls_order() {
+    compare("held.txt");
+}
+
+#[test]
+fn cycles_are_those_of_the_control() {
+    compare("cycles.txt");
+}
+
+#[test]
+fn threads_and_splines_are_those_of_the_control() {
+    compare("threads.txt");
+}
+
+/// Writes our listing of each program of a folder beside it, for comparison with another control: `TRUNNION_NGC_DIR=folder`.
+#[test]
+#[ignore = "a tool for differential runs"]
+fn list_a_folder() {
+    let Ok(folder) = std::env::var("TRUNNION_NGC_DIR") else {
+        return;
+    };
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "ngc") {
+            let listed = listing::list(&String::from_utf8_lossy(&std::fs::read(&path).unwrap()));
+            let mut lines = listed.lines();
+            lines.extend(listed.errors.first().map(|error| format!("! {error}")));
+            std::fs::write(path.with_extension("ours"), lines.join("\n")).unwrap();
+        }
+    }
+}

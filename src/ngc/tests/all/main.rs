@@ -1,0 +1,3 @@
+//! Tests of the interpreter through its public interface.
+mod cycles_oracle;
+mod listing;

@@ -1,0 +1,28 @@
+//! A dialect table of one's own (`dialect_table` in `trunnion.toml`): what the builder of the machine has added to a control.
+use crate::LoadError;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+use trunnion_dialect::Dialect;
+
+/// Tables read so far, by their text. Dialects live as long as the process, so each text is kept once, however often the
+/// language server resolves.
+static TABLES: Mutex<Vec<(String, &'static Dialect)>> = Mutex::new(Vec::new());
+
+/// The dialect of a table's file.
+///
+/// # Errors
+/// The file cannot be read, or is no dialect table: with line and column.
+pub(crate) fn table(path: &Path) -> Result<&'static Dialect, LoadError> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| LoadError::file(path, format!("cannot read the dialect table: {error}")))?;
+    let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, known)) = tables.iter().find(|(known, _)| *known == text) {
+        return Ok(known);
+    }
+    let shown = path.display().to_string();
+    let dialect = Dialect::from_table(&text, &shown)
+        .map_err(|error| LoadError::at(path, &text, error.span.as_ref(), &error.message))?;
+    let kept: &'static Dialect = Box::leak(Box::new(dialect));
+    tables.push((text, kept));
+    Ok(kept)
+}

@@ -1,0 +1,94 @@
+//! `trunnion.toml` on disk: what a program is resolved with.
+use std::fs;
+use std::path::Path;
+use trunnion_workspace::{Overrides, resolve};
+
+fn write(folder: &Path, name: &str, text: &str) {
+    let path = folder.join(name);
+    fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+    fs::write(path, text).expect("written");
+}
+
+#[test]
+fn called_programs_are_found_beside_the_program_and_on_the_path() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write(
+        folder.path(),
+        "trunnion.toml",
+        "subprogram_path = [\"subs\"]\nport_to = [\"linuxcnc\"]\n[limits]\ndepth = 7\n",
+    );
+    write(folder.path(), "jobs/main.nc", "M98 P100\n");
+    write(folder.path(), "jobs/O0200.nc", "M99\n");
+    write(folder.path(), "subs/O0100.nc", "M99\n");
+    let main = folder.path().join("jobs/main.nc");
+    let overrides = Overrides {
+        port_to: vec!["iso-6983".to_owned()],
+        ..Overrides::default()
+    };
+    let resolved = resolve(Some(&main), b"M98 P100\n", &overrides).expect("resolved");
+    let files = resolved.setup.library.0.as_ref().expect("a library");
+    assert!(files.load("100").is_ok() && files.load("200").is_ok());
+    let searched = files.load("300").expect_err("not there");
+    assert_eq!(searched.len(), 2, "{searched:?}");
+    assert!(
+        searched[0].ends_with("jobs") && searched[1].ends_with("subs"),
+        "{searched:?}"
+    );
+    assert_eq!(resolved.port_to, ["linuxcnc", "iso-6983"]);
+    assert_eq!(resolved.settings().port_to, resolved.port_to);
+    assert_eq!(resolved.setup.limits.depth, 7);
+}
+
+#[test]
+fn a_folder_that_is_not_there_is_an_error_with_its_place() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write(
+        folder.path(),
+        "trunnion.toml",
+        "machine = \"mill-3axis\"\nsubprogram_path = [\"nowhere\"]\n",
+    );
+    write(folder.path(), "main.nc", "M30\n");
+    let main = folder.path().join("main.nc");
+    let Err(error) = resolve(Some(&main), b"M30\n", &Overrides::default()) else {
+        panic!("resolved")
+    };
+    assert!(error.place.ends_with("trunnion.toml:2:20"), "{error}");
+    assert!(error.message.contains("there is no folder"), "{error}");
+}
+
+#[test]
+fn standard_input_has_no_folder_beside_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write(folder.path(), "trunnion.toml", "");
+    let overrides = Overrides {
+        config: Some(folder.path().join("trunnion.toml")),
+        ..Overrides::default()
+    };
+    let resolved = resolve(None, b"M98 P100\n", &overrides).expect("resolved");
+    assert!(resolved.setup.library.0.is_none());
+}
+
+#[test]
+fn a_table_of_ones_own_is_the_dialect() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let table = "name = \"shop\"\nextends = \"fanuc-30i\"\n\n[codes]\nM321 = { action = \"none\", doc = \"Opens the door\", source = \"shop\" }\n";
+    write(folder.path(), "trunnion.toml", "dialect_table = \"shop.toml\"\n");
+    write(folder.path(), "shop.toml", table);
+    write(folder.path(), "main.nc", "M321\nM30\n");
+    let main = folder.path().join("main.nc");
+    let resolved =
+        resolve(Some(&main), b"M321\nM30\n", &Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(resolved.dialect.m(3210).is_some());
+    assert_eq!(resolved.dialect_reason, "the table shop.toml of trunnion.toml");
+    let again = resolve(Some(&main), b"M30\n", &Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(std::ptr::eq(resolved.dialect, again.dialect), "one text is kept once");
+    write(
+        folder.path(),
+        "shop.toml",
+        "name = \"shop\"\nextends = \"fanuc-30i\"\nbogus = 1\n",
+    );
+    let Err(error) = resolve(Some(&main), b"M30\n", &Overrides::default()) else {
+        panic!("resolved")
+    };
+    assert!(error.place.contains("shop.toml:3"), "{error}");
+}

@@ -25,6 +25,12 @@ pub enum Grammar {
     /// RS274/NGC as LinuxCNC reads it.
     Rs274,
     /// Fanuc's custom macro B.
+    ///
+    /// Documented (operator's manuals, chapter custom macro): five levels of brackets, those of functions counted (16/18-C, alarm 118);
+    /// numbers are doubles and EQ compares exactly (15i-MA, B-63324EN/03); `<vacant>` is zero but for EQ and NE (the same table stands in
+    /// Mitsubishi's M700V manual); AND, OR and XOR take the part before the point (Haas 96-8000). Trade knowledge, not read in a manual:
+    /// the ranks of the operators, MOD of rounded operands with the sign of the first, FIX towards zero and FUP away from it, variable
+    /// numbers rounded, angles of 0 to 360 degrees ([`Variables::positive_angles`]), BIN and BCD of eight digits, ADP as the value itself.
     MacroB,
 }
 

@@ -157,6 +157,9 @@ impl<'d> Interpreter<'d> {
     }
 
     pub(crate) fn finish(&mut self, program: &Program, sink: &mut impl Sink) {
+        if let Some(block) = self.memory.last_content {
+            self.put_out_rest(&program.block(block), sink);
+        }
         if let Some(block) = self.memory.last_content.filter(|_| !self.memory.proper_end) {
             let range = program.block(block).range();
             sink.fault(Fault {

@@ -50,15 +50,20 @@ impl Blocks<'_> {
             LONGEST
         };
         let too_long = laid.len() > longest && laid.len() > written.len();
-        if too_long
-            || !same_block(
-                &parse(written.to_vec(), self.program.options()),
-                &parse(laid.to_vec(), self.program.options()),
-            )
-        {
+        let again = |text: &[u8]| parse(text.to_vec(), self.program.options());
+        if too_long || !(self.is_simple(block) || same_block(&again(written), &again(laid))) {
             out.truncate(from);
             out.extend_from_slice(written);
         }
+    }
+
+    /// Whether a block is words in one piece and comments alone: with blanks between, they cannot be read in another way. The proof of
+    /// the whole text looks at them once more.
+    fn is_simple(&self, block: &Block<'_>) -> bool {
+        use TokenKind::{Blank, Comment, Newline, Word};
+        let table = self.program.tokens();
+        let simple = |id| matches!(table.kind(id), Word | Blank | Comment | Newline);
+        self.style.spacing == Spacing::One && block.tokens().all(simple)
     }
 
     /// Whether nothing of a block may be touched: problems, program names behind `%`, texts for a printer, bytes without meaning.

@@ -183,7 +183,7 @@ impl Reader<'_, '_> {
         for id in self.block.tokens().filter(|&id| table.kind(id) == TokenKind::Word) {
             let range = table.range(id);
             let text = self.program.bytes(range);
-            if range.start + 1 == own || !text[0].eq_ignore_ascii_case(&b'N') {
+            if (range.start..range.end).contains(&own) || !text[0].eq_ignore_ascii_case(&b'N') {
                 continue;
             }
             let digits = TextRange::new(range.start + 1, range.end);

@@ -125,7 +125,7 @@ impl Default for Setup {
             machine_units: Units::Inch,
             start: Start::default(),
             ini: Ini::default(),
-            tools: ToolTable::default(),
+            tools: ToolTable::sample(),
             parameters: Parameters::default(),
             files: None,
             limits: Limits::default(),
@@ -155,6 +155,14 @@ impl Setup {
         self.ini
             .whole("RS274NGC", "DISABLE_G92_PERSISTENCE")
             .is_none_or(|value| value == 0)
+    }
+    /// Which of A, B, C are wrapped: `[AXIS_A]WRAPPED_ROTARY`.
+    pub fn wrapped_axes(&self) -> [bool; 3] {
+        ["AXIS_A", "AXIS_B", "AXIS_C"].map(|section| {
+            self.ini
+                .whole(section, "WRAPPED_ROTARY")
+                .is_some_and(|value| value != 0)
+        })
     }
     /// Rows of the tool table as a run starts with them.
     pub(crate) fn tool_rows(&self) -> Arc<Vec<ToolEntry>> {

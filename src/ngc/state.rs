@@ -154,6 +154,8 @@ pub struct State {
     pub selected_row: i32,
     /// Row of the tool in the spindle.
     pub current_row: i32,
+    /// Whether A, B, C are wrapped rotary axes: absolute words are 0 to below 360 deg, their sign says which way round.
+    pub wrapped: [bool; 3],
     /// What the receiver of the calls takes for the position.
     pub told: Told,
     /// Override switches (M48-M53).
@@ -255,6 +257,14 @@ impl Told {
 }
 
 impl State {
+    /// Where the tool is, program coordinates: on the contour, or on its compensated way once compensation has led it there.
+    pub fn position(&self) -> Pose {
+        if self.side == Side::Off || self.first_compensated {
+            self.current
+        } else {
+            self.compensated
+        }
+    }
     /// As `rs274` starts: millimetres, XY plane, everything zero; `unknown`: the position is NaN instead.
     pub fn new(unknown: bool) -> Self {
         let position = [if unknown { f64::NAN } else { 0.0 }; 9];
@@ -297,6 +307,7 @@ impl State {
             tools: std::sync::Arc::new(vec![crate::ToolEntry::default()]),
             selected_row: -1,
             current_row: 1,
+            wrapped: [false; 3],
             told: Told::default(),
             feed_override: true,
             speed_override: true,

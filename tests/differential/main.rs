@@ -46,7 +46,13 @@ fn ask(program: &Path, oracle: bool) -> Option<Answer> {
         command
     };
     let folder = program.parent()?;
-    let output = command.arg(program.file_name()?).current_dir(folder).output().ok()?;
+    // rs274 keeps parameters in the folder that it runs in
+    for entry in std::fs::read_dir(folder).ok()?.flatten().filter(|entry| entry.path() != program) {
+        std::fs::remove_file(entry.path()).ok();
+    }
+    // rs274 shares its tool table between all runs of a user
+    command.arg(program.file_name()?).current_dir(folder).env("HOME", folder);
+    let output = command.output().ok()?;
     Some(answer(&output))
 }
 
@@ -60,13 +66,14 @@ fn agree(folder: &Path, text: &str) -> bool {
 /// The program without every line that plays no part in the difference.
 fn shrink(folder: &Path, text: &str) -> String {
     let mut lines: Vec<&str> = text.lines().collect();
+    let end = lines.pop().unwrap_or_default();
     let mut step = lines.len() / 2;
     while step > 0 {
         let mut at = 0;
         while at < lines.len() {
             let mut fewer = lines.clone();
             fewer.drain(at..(at + step).min(lines.len()));
-            let text = fewer.join("\n") + "\n";
+            let text = format!("{}\n{end}\n", fewer.join("\n"));
             if agree(folder, &text) {
                 at += step;
             } else {
@@ -75,7 +82,7 @@ fn shrink(folder: &Path, text: &str) -> String {
         }
         step /= 2;
     }
-    lines.join("\n") + "\n"
+    format!("{}\n{end}\n", lines.join("\n"))
 }
 
 fn number(name: &str, default: u64) -> u64 {

@@ -22,7 +22,7 @@ fn tenths(word: &Word) -> Option<(CodeKind, u32)> {
     };
     let Value::Number(number) = word.value else { return None };
     let tenths = number.to_f64() * 10.0;
-    (tenths >= 0.0 && tenths < 10_000.0 && tenths.fract() == 0.0).then_some((kind, tenths as u32))
+    ((0.0..10_000.0).contains(&tenths) && tenths.fract() == 0.0).then_some((kind, tenths as u32))
 }
 
 fn code<'d>(dialect: &'d Dialect, word: &Word) -> Option<&'d Code> {

@@ -274,17 +274,14 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             Ok((_, None)) if !follows => return,
             Ok((_, Some(what))) => Some((range, FaultKind::NotDecided { what })),
             Err(trouble) => Some(trouble),
-            Ok((held, None)) => match held.and_then(sequence_number) {
-                Some(number) => {
-                    self.pend(Pending::Goto(number, range));
-                    None
+            Ok((held, None)) => {
+                if let Some(number) = held.and_then(sequence_number) {
+                    return self.pend(Pending::Goto(number, range));
                 }
-                None => {
-                    let message = format!("`{}` is no sequence number", self.program.text(range).trim());
-                    let kind = rejected(self.dialect, Mistake::SequenceNumber, Refusal::Label, message);
-                    Some((range, kind))
-                }
-            },
+                let message = format!("`{}` is no sequence number", self.program.text(range).trim());
+                let kind = rejected(self.dialect, Mistake::SequenceNumber, Refusal::Label, message);
+                Some((range, kind))
+            }
         };
         if let Some((range, kind)) = wrong {
             (self.report)(range, kind);

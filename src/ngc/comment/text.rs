@@ -84,7 +84,11 @@ fn format(rest: &[u8]) -> Format {
     }
 }
 
+/// Smaller values are printed as zero (observed from `rs274`).
+const NOTHING: f64 = 1e-4;
+
 fn put(value: Option<f64>, decimals: usize, out: &mut Vec<u8>) {
+    let value = value.map(|value| if value.abs() < NOTHING { 0.0 } else { value });
     match value {
         Some(value) if value.is_nan() => out.push(b'?'),
         // writing to a vector does not fail

@@ -155,7 +155,7 @@ fn words(work: &Work<'_>, axes: Axes, code: i16, new_code: bool) -> Result<Cycle
         }
         None => {}
     }
-    let mut take = |letter: u8, place: &mut f64| {
+    let take = |letter: u8, place: &mut f64| {
         if let Some(value) = block.word(letter) {
             *place = value;
         }

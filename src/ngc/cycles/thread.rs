@@ -10,52 +10,60 @@ pub(super) fn coupled(per_revolution: f64) -> Canon {
     })
 }
 
-/// What both need: K, no F, a turning spindle.
-fn pitch(work: &Work<'_>, still: &'static Problem) -> Result<f64, Error> {
+/// What both need: K, no F.
+fn pitch(work: &Work<'_>) -> Result<f64, Error> {
     let Some(pitch) = work.block.word(b'K') else {
         return Err(work.refuse(&problems::NO_PITCH));
     };
     if work.block.has(b'F') {
         return Err(Error::new(&problems::FEED_WITH_PITCH, work.block.range_of(b'F')));
     }
-    if work.turning().1 == 0 {
-        return Err(work.refuse(still));
-    }
     Ok(pitch)
 }
 
-/// G33: one straight motion.
+/// The spindle turns.
+fn turns(work: &Work<'_>, still: &'static Problem) -> Result<(), Error> {
+    if work.turning().1 == 0 {
+        Err(work.refuse(still))
+    } else {
+        Ok(())
+    }
+}
+
+/// G33: one straight motion. Under compensation of the cutter radius the control moves without coupling the feed.
 pub(super) fn synchronized(work: &mut Work<'_>) -> Result<(), Error> {
-    let pitch = pitch(work, &problems::STILL_G33)?;
+    let pitch = pitch(work)?;
     let end = exec::end_of(&work.engine.state, work.block)?;
+    if work.engine.state.side != Side::Off {
+        work.engine.state.motion = 330;
+        return comp::along(work.engine, comp::Kind::Thread, end, work.block, work.at, work.sink);
+    }
+    turns(work, &problems::STILL_G33)?;
     work.engine.state.motion = 330;
     work.emit(coupled(pitch));
-    if work.engine.state.side == Side::Off {
-        work.engine.state.current = end;
-        work.engine.state.exit_pending = false;
-        work.emit(Canon::Feed(end));
-    } else {
-        comp::along(work.engine, comp::Kind::Thread, end, work.block, work.at, work.sink)?;
-    }
+    work.engine.state.current = end;
+    work.engine.state.exit_pending = false;
+    work.emit(Canon::Feed(end));
     work.emit(Canon::StopSync);
     Ok(())
 }
 
 /// G33.1: down and back with the spindle reversed; I is how much faster it turns on the way back. The tool ends where it began in X Y Z.
 pub(super) fn rigid(work: &mut Work<'_>) -> Result<(), Error> {
-    let pitch = pitch(work, &problems::STILL_G33_1)?;
+    let pitch = pitch(work)?;
     if work.engine.state.side != Side::Off {
         return Err(work.refuse(&problems::NOT_G0_G1));
     }
+    turns(work, &problems::STILL_G33_1)?;
     let end = exec::end_of(&work.engine.state, work.block)?;
     let ratio = work.block.word(b'I').unwrap_or(1.0);
     work.engine.state.motion = 331;
     work.emit(coupled(pitch));
     work.emit(Canon::RigidTap([end[0], end[1], end[2]], ratio));
     work.emit(Canon::StopSync);
-    // where the control takes the tool to be: the hole's place, Z as before
-    let start = work.engine.state.current[2];
+    // the tool comes back in X Y Z; the other axes are taken to be at their end
+    let start = work.engine.state.current;
     work.engine.state.current = end;
-    work.engine.state.current[2] = start;
+    work.engine.state.current[..3].copy_from_slice(&start[..3]);
     Ok(())
 }

@@ -1,5 +1,5 @@
 //! What must fit together in a block before anything of it is done.
-use super::{problems, unused};
+use super::{motion, problems, unused};
 use crate::{Block, DistanceMode, Engine, Error, Plane, State};
 
 /// A line holds at most so many M codes.
@@ -53,7 +53,7 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
         if setting {
             return Err(Error::new(&problems::TWO_AXIS_CODES, block.g_range[1]));
         }
-        if !axes && matches!(block.g[1], 382..=385) {
+        if !axes && matches!(block.g[1], 50 | 51 | 330 | 331 | 382..=385) {
             return Err(Error::new(&problems::ALL_AXES_MISSING, block.g_range[1]));
         }
     } else if given {
@@ -107,6 +107,14 @@ pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
         _ => {}
     }
     check_m(block)?;
+    if matches!(block.motion, 330 | 331) {
+        if !block.has(b'K') {
+            return Err(Error::new(&problems::G33_NO_K, motion::code_range(block)));
+        }
+        if block.has(b'F') {
+            return Err(Error::new(&problems::G33_F, block.range_of(b'F')));
+        }
+    }
     if block.g[14] == 960 && !block.has(b'S') {
         return Err(Error::new(&problems::G96_NO_S, block.g_range[14]));
     }

@@ -9,6 +9,7 @@ use crate::{
 pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
     let at = At::default();
     engine.state.tools = engine.setup.tool_rows();
+    engine.state.wrapped = engine.setup.wrapped_axes();
     engine.state.current_row = i32::from(!engine.setup.random_tool_changer());
     if !engine.setup.g92_persists() && engine.setup.start == Start::Zero {
         engine.store_pose(access::G92, &[0.0; 9]);
@@ -49,11 +50,6 @@ pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
     ] {
         engine.emit(call, at, sink);
     }
-}
-
-/// The end of the run, however it came: the machine is reset.
-pub(crate) fn finish(engine: &mut Engine, at: At, sink: &mut dyn Sink) {
-    engine.emit(Canon::Reset, at, sink);
 }
 
 /// M0, M1, M60, M2, M30.

@@ -6,6 +6,9 @@ use trunnion_geometry::math;
 /// Letters in the order of a pose.
 pub(crate) const AXES: [u8; 9] = *b"XYZABCUVW";
 
+/// A full turn, deg.
+const TURN: f64 = 360.0;
+
 /// The end of a motion of this block in program coordinates.
 pub(crate) fn end(state: &State, block: &Block) -> Result<Pose, Error> {
     if block.g[0] == 530 {
@@ -17,12 +20,39 @@ pub(crate) fn end(state: &State, block: &Block) -> Result<Pose, Error> {
         let Some(value) = word(state, block, letter) else {
             continue;
         };
-        end[place] = if incremental { end[place] + value } else { value };
+        end[place] = if incremental {
+            end[place] + value
+        } else {
+            absolute(state, block, place, state.current[place], value)?
+        };
     }
     if block.radius.is_some() || block.angle.is_some() {
         (end[0], end[1]) = polar(state, block)?;
     }
     Ok(end)
+}
+
+/// Where an absolute word leads from `here`: on a wrapped rotary axis the way round that its sign says.
+fn absolute(state: &State, block: &Block, place: usize, here: f64, value: f64) -> Result<f64, Error> {
+    if !(3..6).contains(&place) || !state.wrapped[place - 3] {
+        return Ok(value);
+    }
+    let letter = AXES[place];
+    if value.abs() >= TURN {
+        let text = format!(
+            "Invalid absolute position {value:5.2} for wrapped rotary axis {}",
+            char::from(letter)
+        );
+        return Err(Error::with(&problems::WRAPPED, block.range_of(letter), text));
+    }
+    let end = (here / TURN).floor() * TURN + value.abs();
+    Ok(if value.is_sign_negative() && end > here {
+        end - TURN
+    } else if !value.is_sign_negative() && end < here {
+        end + TURN
+    } else {
+        end
+    })
 }
 
 /// An axis word in program units; an X diameter becomes a radius.
@@ -43,7 +73,7 @@ fn machine_end(state: &State, block: &Block) -> Result<Pose, Error> {
     let mut machine = frame::to_machine(state, &state.current);
     for (place, letter) in AXES.into_iter().enumerate() {
         if let Some(value) = word(state, block, letter) {
-            machine[place] = value;
+            machine[place] = absolute(state, block, place, machine[place], value)?;
         }
     }
     let program = frame::named_point(state, &machine);

@@ -18,11 +18,10 @@ mod tools;
 mod unused;
 
 use crate::{At, Block, Canon, Engine, Error, Side, Sink, comp, cycles, flow};
-pub(crate) use arcs::sweep;
-pub(crate) use end::{finish, start};
+pub(crate) use end::start;
 pub(crate) use ends::{end as end_of, word as axis_word};
 pub(crate) use frame::to_machine;
-pub(crate) use motion::{check_feed, feed, inverse_time, length, traverse};
+pub(crate) use motion::{inverse_time, length};
 
 /// How a block ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +70,7 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
 
 /// Feed mode, F, S, T.
 fn modes(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
-    modal::spindle_mode(engine, block, at, sink);
+    modal::spindle_mode(engine, block, at, sink)?;
     modal::feed_mode(engine, block, at, sink);
     modal::feed_rate(engine, block, at, sink);
     spindle::speed(engine, block, at, sink)?;
@@ -114,6 +113,8 @@ fn setting(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> R
     match block.g[0] {
         100 if matches!(block.word(b'L'), Some(2.0 | 20.0)) => offsets::coordinate_system(engine, block, at, sink),
         100 => tools::table(engine, block, at, sink),
+        // the end of a spline is no modal motion
+        code @ (53 | 63) => cycles::run(engine, code, block, at, sink),
         280 | 281 | 300 | 301 => home::run(engine, block, at, sink),
         _ => offsets::axis_offsets(engine, block, at, sink),
     }

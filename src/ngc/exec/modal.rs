@@ -79,6 +79,8 @@ fn change_units(engine: &mut Engine, units: Units) {
         return;
     }
     let factor = state.units.mm() / units.mm();
+    engine.queue.scale(factor);
+    let state = &mut engine.state;
     for pose in [
         &mut state.current,
         &mut state.compensated,
@@ -89,6 +91,7 @@ fn change_units(engine: &mut Engine, units: Units) {
             pose[axis] *= factor;
         }
     }
+    state.radius *= factor;
     state.units = units;
 }
 
@@ -213,9 +216,13 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
 }
 
 /// G96, G97.
-pub(crate) fn spindle_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
-    let Some(code) = block.g_code(14) else { return };
-    let spindle = engine.state.active_spindle;
+pub(crate) fn spindle_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let Some(code) = block.g_code(14) else { return Ok(()) };
+    let spindle = match block.spindle.map(usize::try_from) {
+        None => engine.state.active_spindle,
+        Some(Ok(number)) if number < engine.setup.spindles() => number,
+        Some(_) => return Err(Error::new(&problems::SPINDLE_RANGE_MODE, block.range)),
+    };
     let mode = if code == 970 {
         SpindleMode::ConstantRpm
     } else {
@@ -228,4 +235,5 @@ pub(crate) fn spindle_mode(engine: &mut Engine, block: &Block, at: At, sink: &mu
         SpindleMode::ConstantSurface(ceiling) => ceiling,
     };
     engine.emit(Canon::SpindleMode(spindle as i32, ceiling), at, sink);
+    Ok(())
 }

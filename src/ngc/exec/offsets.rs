@@ -62,7 +62,7 @@ pub(crate) fn axis_offsets(engine: &mut Engine, block: &Block, at: At, sink: &mu
     } else {
         return Ok(());
     };
-    if engine.state.side != Side::Off {
+    if matches!(code, 520 | 920) && engine.state.side != Side::Off {
         return Err(Error::new(&problems::G92_COMPENSATION, range));
     }
     let old = engine.state.axis_offset;

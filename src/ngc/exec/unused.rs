@@ -66,7 +66,7 @@ pub(crate) fn check(block: &Block) -> Result<(), Error> {
         b'J' => codes.arc() || codes.motion(&[50, 51, 760, 870]) || codes.g10(),
         b'K' => codes.arc() || codes.motion(&[330, 331, 760, 870, 61, 62]),
         b'L' => {
-            codes.cycle()
+            (codes.cycle() && !codes.motion(&[740]))
                 || codes.g10()
                 || codes.g(7, &[410, 411, 420, 421])
                 || codes.motion(&[52, 53, 62, 63, 760])
@@ -101,6 +101,11 @@ pub(crate) fn check(block: &Block) -> Result<(), Error> {
         }
         _ => true,
     };
+    let spindle_used =
+        codes.m(7, &[3, 4, 5, 19]) || codes.m(9, &[51]) || codes.motion(&[330, 331, 760]) || codes.g(14, &[960, 970]);
+    if block.spindle.is_some() && !spindle_used {
+        return Err(Error::new(&DOLLAR, block.range));
+    }
     for (letter, problem) in [
         (b'D', &D),
         (b'E', &E),
@@ -116,14 +121,6 @@ pub(crate) fn check(block: &Block) -> Result<(), Error> {
         if block.has(letter) && !used(letter) {
             return Err(Error::new(problem, block.range_of(letter)));
         }
-    }
-    let spindle_used = codes.m(7, &[3, 4, 5, 19])
-        || codes.m(9, &[51])
-        || codes.motion(&[330, 331, 760])
-        || codes.g(5, &[950])
-        || codes.g(14, &[960, 970]);
-    if block.spindle.is_some() && !spindle_used {
-        return Err(Error::new(&DOLLAR, block.range));
     }
     Ok(())
 }

@@ -252,7 +252,11 @@ impl Engine {
             return Err(Error::new(flaw.problem, flaw.range).into());
         }
         if !self.flow.called {
-            let detail = format!("{}: not in a subroutine definition: '{}'", self.line_number(), self.line_text());
+            let detail = format!(
+                "{}: not in a subroutine definition: '{}'",
+                self.line_number(),
+                self.line_text()
+            );
             let range = line.label_range.cover(line.keyword_range);
             return Err(Error::with(&problems::NOT_IN_SUB, range, detail).into());
         }

@@ -129,7 +129,7 @@ fn differs(a: f64, b: f64) -> bool {
 }
 
 /// The codes of a state, by group.
-fn codes(state: &State) -> [(usize, i16); 10] {
+fn codes(state: &State) -> [(usize, i16); 11] {
     [
         (2, plane_code(state.plane)),
         (
@@ -183,6 +183,15 @@ fn codes(state: &State) -> [(usize, i16); 10] {
             },
         ),
         (15, if state.lathe_diameter { 70 } else { 80 }),
+        // G92 comes back by G92.2 or G92.3
+        (
+            16,
+            if state.axis_offset.iter().all(|&offset| offset == 0.0) {
+                922
+            } else {
+                923
+            },
+        ),
     ]
 }
 

@@ -8,7 +8,7 @@ type Read = fn(&Values<'_>) -> f64;
 
 /// All names, in order.
 pub(super) const NAMES: &[(&str, Read)] = &[
-    ("_a", |v| v.state.current[3]),
+    ("_a", |v| v.state.position()[3]),
     ("_abs_a", |v| machine(v, 3)),
     ("_abs_b", |v| machine(v, 4)),
     ("_abs_c", |v| machine(v, 5)),
@@ -17,8 +17,8 @@ pub(super) const NAMES: &[(&str, Read)] = &[
     ("_abs_z", |v| machine(v, 2)),
     ("_absolute", |v| truth(v.state.distance == DistanceMode::Absolute)),
     ("_adaptive_feed", |v| truth(v.state.adaptive_feed)),
-    ("_b", |v| v.state.current[4]),
-    ("_c", |v| v.state.current[5]),
+    ("_b", |v| v.state.position()[4]),
+    ("_c", |v| v.state.position()[5]),
     ("_call_level", |v| v.store.aside.len() as f64),
     ("_ccomp", compensation),
     ("_coord_system", |v| coordinate_system(v.state.origin_index)),
@@ -57,20 +57,20 @@ pub(super) const NAMES: &[(&str, Read)] = &[
     ("_tool_offset", |v| {
         truth(v.state.tool_offset.iter().any(|offset| *offset != 0.0))
     }),
-    ("_u", |v| v.state.current[6]),
+    ("_u", |v| v.state.position()[6]),
     ("_units_per_minute", |v| truth(v.state.feed_mode == FeedMode::PerMinute)),
     ("_units_per_rev", |v| {
         truth(v.state.feed_mode == FeedMode::PerRevolution)
     }),
-    ("_v", |v| v.state.current[7]),
+    ("_v", |v| v.state.position()[7]),
     ("_value", |v| v.store.value),
     ("_value_returned", |v| truth(v.store.returned)),
     ("_vmajor", |_| 2.9),
     ("_vminor", |_| 0.0),
-    ("_w", |v| v.state.current[8]),
-    ("_x", |v| v.state.current[0]),
-    ("_y", |v| v.state.current[1]),
-    ("_z", |v| v.state.current[2]),
+    ("_w", |v| v.state.position()[8]),
+    ("_x", |v| v.state.position()[0]),
+    ("_y", |v| v.state.position()[1]),
+    ("_z", |v| v.state.position()[2]),
 ];
 
 fn truth(holds: bool) -> f64 {
@@ -79,7 +79,7 @@ fn truth(holds: bool) -> f64 {
 
 /// A coordinate of the machine, in program units.
 fn machine(values: &Values<'_>, axis: usize) -> f64 {
-    exec::to_machine(values.state, &values.state.current)[axis]
+    exec::to_machine(values.state, &values.state.position())[axis]
 }
 
 fn surface_speed(values: &Values<'_>) -> bool {

@@ -158,6 +158,9 @@ fn word(word: &WordText, line: &Line, values: &Values<'_>, block: &mut Block) ->
     if word.letter.is_ascii_uppercase() && values.missing_axes() & (1 << (word.letter - b'A')) != 0 {
         return Err(super::line::no_word(word));
     }
+    if matches!(word.letter, b'P' | b'Q') && block.word(word.letter).is_some_and(|before| before > -1.0) {
+        return Err(super::line::twice_there(word.letter, word.range));
+    }
     let value = if line.assignments.is_empty() {
         value(&word.value, values)?
     } else {
@@ -201,11 +204,14 @@ fn g_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) 
     }
     let refuse = |problem: &'static Problem| Err(Error::new(problem, range));
     let code = (value * 10.0 + 0.5).floor();
+    if (value - code / 10.0).abs() > 1e-4 {
+        return refuse(&problems::G_RANGE);
+    }
     // a number beyond 32 bits is negative to the control
     if code < 0.0 || code > f64::from(i32::MAX) {
         return refuse(&problems::NEGATIVE_G);
     }
-    if code > 999.0 || (value - code / 10.0).abs() > 1e-4 {
+    if code > 999.0 {
         return refuse(&problems::G_RANGE);
     }
     let Some(group) = g_group(code as i32) else {

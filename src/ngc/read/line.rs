@@ -187,6 +187,10 @@ impl Line {
         if let Some(error) = self.repeated(letter, range) {
             self.fail(error);
         }
+        if matches!(letter, b'P' | b'Q') && !value.number().is_some_and(|number| number > -1.0) {
+            // the control takes a P or Q of -1 or less for none; where it is not written as a number, the value decides
+            self.seen &= !(1 << (letter - b'A'));
+        }
         self.items.push(Item::Word(self.words.len() as u32));
         self.words.push(WordText { letter, value, range });
         self.recover(error, start, source, cursor);
@@ -208,9 +212,7 @@ impl Line {
         if letter == b'$' {
             return Some(Error::new(&problems::REPEATED_SPINDLE, range));
         }
-        let letter = char::from(letter.to_ascii_lowercase());
-        let text = format!("Multiple {letter} words on one line");
-        Some(Error::with(&problems::REPEATED, range, text))
+        Some(twice_there(letter, range))
     }
 
     fn assignment(&mut self, source: &[u8], cursor: &mut Cursor<'_>) {
@@ -298,6 +300,16 @@ fn behind_brackets(source: &[u8], start: u32, at: u32, end: u32) -> Option<u32> 
         }
     }
     None
+}
+
+/// A word that may be there once is there a second time.
+pub(super) fn twice_there(letter: u8, range: TextRange) -> Error {
+    let letter = char::from(letter.to_ascii_lowercase());
+    Error::with(
+        &problems::REPEATED,
+        range,
+        format!("Multiple {letter} words on one line"),
+    )
 }
 
 /// The letter of a word is an axis that the machine has not.

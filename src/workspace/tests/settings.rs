@@ -71,7 +71,7 @@ fn standard_input_has_no_folder_beside_it() {
 #[test]
 fn a_table_of_ones_own_is_the_dialect() {
     let folder = tempfile::tempdir().expect("a folder");
-    let table = "name = \"shop\"\nextends = \"fanuc-30i\"\n\n[codes]\nM321 = { action = \"none\", doc = \"Opens the door\", source = \"shop\" }\n";
+    let table = "name = \"shop\"\nextends = \"fanuc-30i\"\n\n[codes]\nM321 = { action = \"no-motion\", doc = \"Opens the door\", source = \"shop\" }\n";
     write(folder.path(), "trunnion.toml", "dialect_table = \"shop.toml\"\n");
     write(folder.path(), "shop.toml", table);
     write(folder.path(), "main.nc", "M321\nM30\n");

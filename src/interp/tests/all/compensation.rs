@@ -123,8 +123,8 @@ fn arcs_change_their_radius() {
 
 #[test]
 fn a_line_that_meets_an_arc_inside() {
-    // along X to 0, then up a clockwise arc about (0, 20)... left side of a line that turns left into an arc of radius 20 about
-    // (-20, 0), counter-clockwise from (0, 0): inner corner. Beside the line y = 5; beside the arc radius 15:
+    // left of a line along X to 0 that turns left into an arc of radius 20 about (-20, 0), counter-clockwise from (0, 0): an inner
+    // corner. Beside the line y = 5; beside the arc radius 15:
     // x = -20 + sqrt(15^2 - 5^2) = -5.857864
     let source =
         "G0 X-60. Y0. Z0.\nG41 D1 G1 X-50. Y0. F100.\nX0.\nG3 X-20. Y20. I-20. J0.\nG1 X-30.\nG40 X-60.\nM30\n";

@@ -43,7 +43,7 @@ fn comments_stay_byte_for_byte_and_keep_the_column_they_are_set_to() {
     };
     let text = b"g1x1(a)\n(alone)\ng1x1y1z1a1b1c1f1000(far)\nn5(number)\n";
     assert_eq!(
-        String::from_utf8(laid_with(text, "iso-6983", &column)).unwrap(),
+        String::from_utf8(laid_with(text, "iso-6983", &column)).expect("UTF-8"),
         "G1 X1              (a)\n(alone)\nG1 X1 Y1 Z1 A1 B1 C1 F1000 (far)\nN5 (number)\n"
     );
 }
@@ -113,7 +113,7 @@ fn apt_statements_lose_only_blanks_between() {
 
 #[test]
 fn the_style_has_a_say() {
-    let styled = |text: &str, style| String::from_utf8(laid_with(text.as_bytes(), "iso-6983", &style)).unwrap();
+    let styled = |text: &str, style| String::from_utf8(laid_with(text.as_bytes(), "iso-6983", &style)).expect("UTF-8");
     let base = Style::default();
     let packed = Style {
         spacing: Spacing::Packed,

@@ -38,7 +38,7 @@ fn is_program(path: &Path) -> bool {
         ".template",
         ".min",
     ];
-    let points = name.ends_with(".txt") && path.to_string_lossy().contains("waypoints") && !name.contains("gcode");
+    let points = path.to_string_lossy().contains("waypoints") && !name.contains("gcode");
     !points && !foreign.iter().any(|ending| name.ends_with(ending))
 }
 

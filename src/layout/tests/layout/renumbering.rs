@@ -15,7 +15,7 @@ fn new(text: &str, name: &str, start: u32, step: u32) -> Renumbered {
 
 fn changed(text: &str, name: &str) -> String {
     match new(text, name, 100, 10) {
-        Renumbered::Changed { text, .. } => String::from_utf8(text).unwrap(),
+        Renumbered::Changed { text, .. } => String::from_utf8(text).expect("UTF-8"),
         other => panic!("{other:?}"),
     }
 }

@@ -4,13 +4,11 @@ use trunnion_ngc::{At, Canon, Engine, Error, Listing, Setup, Sink, Source, State
 
 /// What a run tells, as text.
 #[derive(Default)]
-pub struct Listed {
+pub(crate) struct Listed {
     listing: Listing,
     text: Vec<u8>,
     /// Messages of the refused lines.
-    pub errors: Vec<String>,
-    /// Text of the bytes that each error points at.
-    pub ranges: Vec<(u32, u32)>,
+    pub(crate) errors: Vec<String>,
 }
 
 impl Sink for Listed {
@@ -19,35 +17,50 @@ impl Sink for Listed {
     }
     fn error(&mut self, error: &Error, _: At) {
         self.errors.push(error.message().to_owned());
-        self.ranges.push((error.range.start, error.range.end));
     }
 }
 
 impl Listed {
-    /// The calls, one a line, without counter and sequence number.
-    pub fn lines(&self) -> Vec<String> {
+    /// The calls, one a line, without counter, sequence number and the resets of the program `rs274`.
+    pub(crate) fn lines(&self) -> Vec<String> {
         let text = String::from_utf8_lossy(&self.text);
-        let call = |line: &str| {
-            let line = line.trim_start();
-            let numbered = line.split_once(' ').filter(|(count, _)| count.parse::<u32>().is_ok());
-            let line = numbered.map_or(line, |(_, rest)| rest.trim_start());
-            line.strip_prefix("N..... ").unwrap_or(line).trim().to_owned()
-        };
-        text.lines().map(call).filter(|line| !line.is_empty()).collect()
+        text.lines()
+            .map(bare)
+            .filter(|line| !line.is_empty() && line != "ON_RESET()")
+            .collect()
     }
 }
 
+/// A listed line without counter, sequence number and the resets of the program `rs274`.
+pub(crate) fn bare(line: &str) -> String {
+    let line = line.trim_start();
+    let numbered = line.split_once(' ').filter(|(count, _)| count.parse::<u32>().is_ok());
+    let line = numbered.map_or(line, |(_, rest)| rest.trim_start());
+    let number = line.strip_prefix('N').map_or(0, |rest| {
+        rest.bytes()
+            .take_while(|byte| byte.is_ascii_digit() || *byte == b'.')
+            .count()
+    });
+    let line = if number > 0 { &line[number + 1..] } else { line };
+    line.trim().to_owned()
+}
+
 /// Runs a program to its first error.
-pub fn list(program: &str) -> Listed {
+pub(crate) fn list(program: &str) -> Listed {
+    list_with(program, &Setup::default())
+}
+
+/// Runs a program with a setup to its first error.
+pub(crate) fn list_with(program: &str, setup: &Setup) -> Listed {
     let source = Source::new(String::new(), Arc::from(program.as_bytes()));
-    let mut engine = Engine::new(Arc::new(source), &Setup::default());
+    let mut engine = Engine::new(Arc::new(source), setup);
     let mut listed = Listed::default();
     engine.run(true, &mut listed);
     listed
 }
 
 /// Two listed calls are the same but for a last decimal that was rounded the other way.
-pub fn same(ours: &str, theirs: &str) -> bool {
+pub(crate) fn same(ours: &str, theirs: &str) -> bool {
     if ours == theirs {
         return true;
     }

@@ -1,3 +1,8 @@
 //! Tests of the interpreter through its public interface.
+mod blocks_oracle;
 mod cycles_oracle;
+mod flow_oracle;
+mod flow_run;
 mod listing;
+mod setup_files;
+mod unknown_start;

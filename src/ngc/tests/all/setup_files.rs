@@ -1,0 +1,42 @@
+//! INI files, tool tables and parameter files.
+use trunnion_ngc::{Ini, Parameters, Setup, ToolTable};
+
+#[test]
+fn the_first_of_equal_keys_counts() {
+    let ini = Ini::parse(b"# c\n[TRAJ]\nSPINDLES = 3\nSPINDLES = 2\n; x\n[RS274NGC]\nDISABLE_G92_PERSISTENCE=1\n");
+    let setup = Setup {
+        ini,
+        ..Setup::default()
+    };
+    assert_eq!(
+        (setup.spindles(), setup.g92_persists(), setup.random_tool_changer()),
+        (3, false, false)
+    );
+}
+
+#[test]
+fn rows_of_a_tool_table_are_words_and_other_lines_are_told() {
+    let (table, bad) = ToolTable::parse(b"T1 P7 Z-.5 D2 Q9 ;a\n; only a comment\nT2 K3\nfoo\nP9 Z1\n");
+    assert_eq!(table.rows.len(), 1);
+    let row = table.rows[0];
+    assert_eq!(
+        (row.number, row.pocket, row.offset[2], row.diameter, row.orientation),
+        (1, 7, -0.5, 2.0, 9)
+    );
+    let lines: Vec<usize> = bad.iter().map(|bad| bad.line).collect();
+    assert_eq!(lines, [3, 4, 5]);
+}
+
+#[test]
+fn a_parameter_file_is_in_order_and_in_range() {
+    let parameters = Parameters::parse(b"5161\t1.5\nabc\n5220 2\n").unwrap();
+    assert_eq!(parameters.values, [(5161, 1.5), (5220, 2.0)]);
+    assert_eq!(parameters.text(), "5161\t1.500000\n5220\t2.000000\n");
+    let order = Parameters::parse(b"5162 1\n5161 2\n").unwrap_err();
+    assert_eq!((order.line, order.message.as_str()), (2, "Parameter file out of order"));
+    let range = Parameters::parse(b"6000 1\n").unwrap_err();
+    assert_eq!(
+        (range.line, range.message.as_str()),
+        (1, "Parameter number out of range")
+    );
+}

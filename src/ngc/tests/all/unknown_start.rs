@@ -1,0 +1,79 @@
+//! A check knows neither the position nor what parameters hold: such numbers are unknown until the program says them.
+use std::sync::Arc;
+use trunnion_ngc::{At, Canon, Engine, Error, Pose, Setup, Sink, Source, Start, State};
+
+#[derive(Default)]
+struct Motions(Vec<Pose>, Vec<String>);
+
+impl Sink for Motions {
+    fn call(&mut self, call: &Canon, _: At, _: &State) {
+        if let Canon::Traverse(pose) | Canon::Feed(pose) = call {
+            self.0.push(*pose);
+        }
+    }
+    fn error(&mut self, error: &Error, _: At) {
+        self.1.push(error.message().to_owned());
+    }
+}
+
+fn run(program: &str) -> Motions {
+    let source = Source::new(String::new(), Arc::from(program.as_bytes()));
+    let setup = Setup {
+        start: Start::Unknown,
+        ..Setup::default()
+    };
+    let mut motions = Motions::default();
+    Engine::new(Arc::new(source), &setup).run(true, &mut motions);
+    motions
+}
+
+/// Which of X Y Z are known.
+fn known(pose: &Pose) -> [bool; 3] {
+    [0, 1, 2].map(|axis| !pose[axis].is_nan())
+}
+
+#[test]
+fn axes_are_known_from_their_first_word() {
+    let motions = run("g0 x1\ng0 z2\ng91 y1\ng90 y5\nm2\n");
+    assert_eq!(motions.1, [""; 0]);
+    let known: Vec<_> = motions.0.iter().map(known).collect();
+    assert_eq!(
+        known,
+        [
+            [true, false, false],
+            [true, false, true],
+            [true, false, true],
+            [true, true, true]
+        ]
+    );
+    assert_eq!(motions.0[3][..3], [1.0, 5.0, 2.0]);
+}
+
+#[test]
+fn stored_points_are_unknown_and_raise_no_errors() {
+    let motions = run("g0 x1 y2 z3\ng28 z4\nf100\ng2 x3 y2 i1\ng2 x9 y9 i1 j1 z1\nm2\n");
+    // G28 goes by way of Z4, then Z is wherever the stored point is
+    assert_eq!(motions.0[1][2], 4.0);
+    assert_eq!(known(&motions.0[2]), [true, true, false]);
+    // the second arc's radii differ: that is known
+    assert_eq!(motions.1.len(), 1);
+    assert!(
+        motions.1[0].starts_with("Radius to end of arc differs"),
+        "{:?}",
+        motions.1
+    );
+}
+
+#[test]
+fn an_arc_from_an_unknown_point_is_no_error() {
+    let motions = run("f100 g2 x3 y2 i1\ng2 x5 y2 r1\ng1 x1\nm2\n");
+    assert_eq!(motions.1, [""; 0]);
+    assert_eq!(motions.0.len(), 1);
+}
+
+#[test]
+fn rotation_of_the_table_does_not_spoil_other_axes() {
+    let motions = run("g0 x1 y2 z3 a10\ng53 g0 z0\ng0 x5\nm2\n");
+    assert_eq!(known(&motions.0[1]), [true, true, false]);
+    assert_eq!(known(&motions.0[2]), [true, true, false]);
+}

@@ -60,7 +60,7 @@ fn compare(name: &str, text: &str, executed: u64) {
             ..Setup::default()
         };
         let mut count = Count::default();
-        Engine::new(Arc::new(Source::new(String::new(), source.clone())), &setup).run(&mut count);
+        Engine::new(Arc::new(Source::new(String::new(), source.clone())), &setup).run(true, &mut count);
         assert_eq!(count.errors, 0, "{name} runs");
         done = count.calls;
     });

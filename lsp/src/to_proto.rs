@@ -52,12 +52,12 @@ fn one(analysed: &Analysed, d: &trunnion_check::Diagnostic, encoding: Encoding) 
         message.insert_str(0, "Not decided: ");
     }
     if d.count > 1 {
-        let last = place(d.last).start.line + 1;
+        let last = place(d.last).start.line;
         // Writing into a String cannot fail.
-        let _ = if d.last == d.range {
+        let _ = if last == place(d.range).start.line {
             write!(message, " ({} times)", d.count)
         } else {
-            write!(message, " ({} blocks, to line {last})", d.count)
+            write!(message, " ({} blocks, to line {})", d.count, last + 1)
         };
     }
     for more in d.notes.iter().chain(&d.help) {

@@ -116,7 +116,8 @@ fn calls(frames: &[Frame]) -> Vec<String> {
         } else {
             format!("{} ", frame.file)
         };
-        notes.push(format!("called from {file}line {}: {}", frame.line, frame.what.trim()));
+        let how = if frame.is_place { "in" } else { "called from" };
+        notes.push(format!("{how} {file}line {}: {}", frame.line, frame.what.trim()));
     }
     notes
 }
@@ -130,6 +131,7 @@ mod tests {
             file: if line == 1 { String::new() } else { "sub.nc".to_owned() },
             line,
             what: "M98 P1 ".to_owned(),
+            is_place: false,
         };
         (1..=count).map(frame).collect()
     }
@@ -141,6 +143,16 @@ mod tests {
             ["called from line 1: M98 P1", "called from sub.nc line 2: M98 P1"]
         );
         assert_eq!(calls(&frames(6)).len(), 6);
+    }
+
+    #[test]
+    fn the_place_in_another_file_comes_last() {
+        let mut frames = frames(2);
+        frames[1].is_place = true;
+        assert_eq!(
+            calls(&frames),
+            ["called from line 1: M98 P1", "in sub.nc line 2: M98 P1"]
+        );
     }
 
     #[test]

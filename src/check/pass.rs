@@ -9,7 +9,7 @@ use crate::visited::Visited;
 use crate::{Level, Report, Settings};
 use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, Refusal, Sink};
 use trunnion_machine::{Follower, Leg};
-use trunnion_syntax::{BlockId, Program};
+use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
 
 /// One pass over a program.
 pub(crate) struct Pass<'a> {
@@ -28,6 +28,8 @@ pub(crate) struct Pass<'a> {
     time: CycleTime,
     summary: Summary,
     visited: Visited,
+    /// The block that ran last.
+    last_ran: Option<BlockId>,
     executed: u64,
 }
 
@@ -67,6 +69,7 @@ impl<'a> Pass<'a> {
             time: CycleTime::default(),
             summary: Summary::default(),
             visited: Visited::new(program.block_count()),
+            last_ran: None,
             executed: 0,
         }
     }
@@ -84,12 +87,19 @@ impl<'a> Pass<'a> {
     /// A block ran; whether for the first time.
     pub(crate) fn ran(&mut self, block: BlockId) -> bool {
         self.executed += 1;
+        self.last_ran = Some(block);
         self.visited.add(block)
     }
 
     pub(crate) fn read_text(&mut self, program: &Program) {
+        // the block whose comment ends too early: what stands behind that end is comment to its author
+        let mut nested = None;
         for error in program.errors() {
             let block = program.block_at(error.range.start).unwrap_or_default();
+            if nested == Some(block) {
+                continue;
+            }
+            nested = (error.kind == SyntaxErrorKind::NestedComment).then_some(block);
             for rule in &self.text {
                 self.reporter.enter(rule, Some(block), u64::from(block.0));
                 (rule.run)(error, &mut self.reporter);
@@ -138,13 +148,18 @@ impl<'a> Pass<'a> {
         let refused = matches!(
             fault.kind,
             FaultKind::Rejected {
-                refusal: Refusal::Syntax | Refusal::Number,
+                refusal: Refusal::Syntax | Refusal::Number | Refusal::Expression,
                 ..
             }
         );
         refused && {
-            let errors = self.reporter.program().errors();
-            let from = errors.partition_point(|error| error.range.end < fault.range.start);
+            let program = self.reporter.program();
+            let errors = program.errors();
+            // the value that a letter lacks is missed where it should begin, behind the blanks
+            let before = &program.source()[..fault.range.start as usize];
+            let blanks = before.iter().rev().take_while(|byte| matches!(byte, b' ' | b'\t'));
+            let start = fault.range.start - blanks.count() as u32;
+            let from = errors.partition_point(|error| error.range.end < start);
             errors[from..].iter().any(|error| error.range.start <= fault.range.end)
         }
     }
@@ -193,7 +208,10 @@ impl<'a> Pass<'a> {
 impl Sink for Pass<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
         self.summary.motions += 1;
-        self.reporter.origin(self.visited.has(motion.block), motion.chain);
+        // cutter compensation tells a motion when the next block is known: that is no further pass of its block
+        let late = motion.chain == ChainId::MAIN && self.last_ran == Some(motion.block);
+        self.reporter
+            .origin(self.visited.has(motion.block) && !late, motion.chain);
         for rule in &self.motions {
             self.reporter.enter(rule, Some(motion.block), self.summary.motions);
             (rule.run)(motion, state, &mut self.reporter);

@@ -246,6 +246,12 @@ impl Draft {
         self
     }
 
+    /// Says it in other words.
+    pub(crate) fn reword(&mut self, message: impl Into<String>) -> &mut Self {
+        self.diagnostic.message = message.into();
+        self
+    }
+
     /// What to do.
     pub fn help(&mut self, help: impl Into<String>) -> &mut Self {
         self.diagnostic.help = Some(help.into());

@@ -41,6 +41,9 @@ pub(crate) struct Global {
     /// Silence a rule (may be repeated).
     #[arg(long, global = true, value_name = "RULE", action = ArgAction::Append)]
     pub(crate) allow: Vec<String>,
+    /// A larger program is refused unread, megabytes: its blocks are all held in memory.
+    #[arg(long, global = true, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) max_file_mb: u64,
     /// Colours.
     #[arg(long, global = true, value_enum, default_value = "auto")]
     pub(crate) color: Color,

@@ -12,8 +12,10 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 use trunnion_ngc::{
-    At, Canon, Engine, Error, Files, Ini, Listing, Loaded, Parameters, Setup, Sink, Source, State, Step, ToolTable,
+    At, Canon, Engine, Error, FileId, Files, Ini, Listing, Loaded, Parameters, Setup, Sink, Source, State, Step,
+    ToolTable,
 };
+use trunnion_syntax::TextRange;
 
 /// Stands for the sequence number of a line without one.
 const NO_NUMBER: &[u8] = b".....";
@@ -175,12 +177,19 @@ impl<W: Write> Printer<W> {
     }
     /// Bytes of a line without its end.
     fn line(&self, at: At) -> Vec<u8> {
-        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
-        let source = sources.get(at.file.0 as usize);
-        let Some((source, range)) = source.and_then(|source| Some((source, source.line(at.line)?))) else {
-            return Vec::new();
+        let range = {
+            let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+            sources.get(at.file.0 as usize).and_then(|source| source.line(at.line))
         };
-        let line = &source.bytes()[range.as_usize()];
+        range.map_or_else(Vec::new, |range| self.text(at.file, range))
+    }
+    /// Bytes of a file without the line end behind them.
+    fn text(&self, file: FileId, range: TextRange) -> Vec<u8> {
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        let line = sources
+            .get(file.0 as usize)
+            .and_then(|source| source.bytes().get(range.as_usize()));
+        let line = line.unwrap_or_default();
         let line = line.strip_suffix(b"\n").unwrap_or(line);
         line.strip_suffix(b"\r").unwrap_or(line).to_vec()
     }
@@ -214,7 +223,11 @@ impl<W: Write> Sink for Printer<W> {
             self.failed.get_or_insert(error);
         }
         remark(false, error.message());
-        remark(false, &String::from_utf8_lossy(&self.line(at)));
+        let line = match error.read_last {
+            Some((file, range)) => self.text(file, range),
+            None => self.line(at),
+        };
+        remark(false, &String::from_utf8_lossy(&line));
     }
 }
 

@@ -12,7 +12,7 @@ use trunnion_certify::{Certificate, Claim, Outcome, certify, recheck};
 pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     let loaded = load::load(global, &command.before)?;
     let machine = loaded.machine_or_fail("certify")?;
-    let after = load::read(&command.after)?;
+    let after = load::read_program(global, &command.after)?;
     let before = loaded.program.source();
     let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
     let outcome = if let Some(file) = &command.certificate {

@@ -21,8 +21,13 @@ impl Failure {
     }
     /// A failure of a file as a whole.
     pub(crate) fn file(path: &Path, message: impl Display) -> Self {
+        let place = if path == Path::new("-") {
+            "<stdin>: ".to_owned()
+        } else {
+            format!("{}: ", path.display())
+        };
         Self {
-            place: format!("{}: ", path.display()),
+            place,
             message: message.to_string(),
             broken_pipe: false,
         }

@@ -1,6 +1,6 @@
 //! From a path to a parsed program with everything it is checked with.
 use super::{args::Global, failure::Failure};
-use std::{io::Read, path::Path};
+use std::{fs::File, io::Read, path::Path};
 use trunnion_machine::Machine;
 use trunnion_syntax::Program;
 use trunnion_workspace::{Overrides, Resolved, resolve};
@@ -57,25 +57,72 @@ pub(crate) fn is_stdin(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Bytes of a file, or of standard input for `-`.
+/// Bytes in a megabyte as `--max-file-mb` counts it.
+const MEGABYTE: u64 = 1_000_000;
+/// Places in a file are counted in 32 bits, so no larger one is read, megabytes.
+const MOST_MEGABYTES: u64 = 4_294;
+
+/// Bytes of a file of at most 4.29 GB, or of standard input for `-`.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    if is_stdin(path) {
-        let mut bytes = Vec::new();
-        std::io::stdin()
-            .lock()
-            .read_to_end(&mut bytes)
-            .map_err(|error| Failure::io(path, "read standard input", &error))?;
-        return Ok(bytes);
-    }
-    if path.is_dir() {
-        return Err(Failure::file(path, "is a directory; this command takes one program"));
-    }
-    std::fs::read(path).map_err(|error| Failure::io(path, "read the file", &error))
+    bytes(path, MOST_MEGABYTES)?.ok_or_else(|| {
+        Failure::file(
+            path,
+            format!("is larger than {MOST_MEGABYTES} MB, the most that can be read; split it"),
+        )
+    })
+}
+
+/// Bytes of a program whose blocks are all held at once: up to nine bytes of memory for each byte of it, so its size is bounded.
+pub(crate) fn read_program(global: &Global, path: &Path) -> Result<Vec<u8>, Failure> {
+    let most = global.max_file_mb;
+    bytes(path, most.min(MOST_MEGABYTES))?.ok_or_else(|| {
+        if most >= MOST_MEGABYTES {
+            let text = format!("is larger than {MOST_MEGABYTES} MB, the most that can be read; split it");
+            return Failure::file(path, text);
+        }
+        Failure::file(
+            path,
+            format!(
+                "is larger than {most} MB and was not read; `--max-file-mb N` raises the bound (memory: ten times the \
+                 file or more)"
+            ),
+        )
+    })
+}
+
+/// Bytes of a file or of standard input; `None` where there are more than `megabytes`. Reads no more than that, so a device or
+/// a pipe without an end is refused too.
+fn bytes(path: &Path, megabytes: u64) -> Result<Option<Vec<u8>>, Failure> {
+    let most = megabytes.saturating_mul(MEGABYTE);
+    let mut bytes = Vec::new();
+    let read = if is_stdin(path) {
+        std::io::stdin().lock().take(most + 1).read_to_end(&mut bytes)
+    } else {
+        if path.is_dir() {
+            return Err(Failure::file(path, "is a directory; this command takes one program"));
+        }
+        File::open(path).and_then(|file| {
+            // a regular file tells its size: one that is too large is not read in vain
+            let told = file.metadata()?.len();
+            if told > most {
+                return Ok(most as usize + 1);
+            }
+            bytes.reserve_exact(told as usize + 1);
+            file.take(most + 1).read_to_end(&mut bytes)
+        })
+    };
+    let doing = if is_stdin(path) {
+        "read standard input"
+    } else {
+        "read the file"
+    };
+    let length = read.map_err(|error| Failure::io(path, doing, &error))?;
+    Ok((length as u64 <= most).then_some(bytes))
 }
 
 /// Reads and parses a program with its settings.
 pub(crate) fn load(global: &Global, path: &Path) -> Result<Loaded, Failure> {
-    let source = read(path)?;
+    let source = read_program(global, path)?;
     let stdin = is_stdin(path);
     let resolved = resolve((!stdin).then_some(path), &source, &overrides(global))?;
     let program = trunnion_syntax::parse(source, resolved.dialect.lex);

@@ -15,6 +15,7 @@ mod parse;
 mod render;
 mod short;
 mod stats;
+mod stop;
 mod trace;
 mod walk;
 

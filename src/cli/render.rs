@@ -28,7 +28,8 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
     let mut out = String::new();
     for d in report.diagnostics.iter().take(shown) {
         let excerpt = Excerpt::new(loaded, lines, d.range);
-        let finding = Finding { d, excerpt };
+        let repeats = short::repeats(loaded, lines, d);
+        let finding = Finding { d, excerpt, repeats };
         // Writing into a String cannot fail; a rendering error must not hide the finding, so its one-line form stands in.
         if handler.render_report(&mut out, &finding).is_err() {
             let _ = writeln!(out, "{}[{}] {}", short::severity(d.severity), d.rule, d.message);
@@ -62,6 +63,8 @@ pub(super) fn verdict_line(file: &Checked, color: bool) -> String {
 struct Finding<'a> {
     d: &'a trunnion_check::Diagnostic,
     excerpt: Excerpt,
+    /// How often, with a blank before it; empty for once.
+    repeats: String,
 }
 
 impl fmt::Debug for Finding<'_> {
@@ -73,10 +76,7 @@ impl fmt::Debug for Finding<'_> {
 impl fmt::Display for Finding<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.d.message)?;
-        if self.d.count > 1 {
-            write!(f, " ({} blocks in a row)", self.d.count)?;
-        }
-        Ok(())
+        f.write_str(&self.repeats)
     }
 }
 
@@ -135,12 +135,14 @@ struct Excerpt {
     /// Line of the first byte, from 0.
     line: usize,
     column: usize,
+    /// Line and column of the finding, from 0.
+    place: (usize, usize),
 }
 
 impl Excerpt {
     fn new(loaded: &Loaded, lines: &LineIndex, range: TextRange) -> Self {
         let source = loaded.program.source();
-        let (line, _) = lines.line_column(source, range.start);
+        let (line, at) = lines.line_column(source, range.start);
         let (last, _) = lines.line_column(source, range.end.max(range.start));
         let start_of = |line: usize| lines.starts.get(line).map_or(source.len(), |&s| s as usize);
         let mut first = (line as usize - 1).saturating_sub(CONTEXT);
@@ -169,6 +171,7 @@ impl Excerpt {
             span,
             line: first,
             column,
+            place: (line as usize - 1, at as usize - 1),
         }
     }
 }
@@ -194,11 +197,23 @@ impl SourceCode for Excerpt {
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,
-        _before: usize,
+        before: usize,
         _after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         if span.offset() + span.len() > self.data.len() {
             return Err(MietteError::OutOfBounds);
+        }
+        // asked without context for the place that stands above the lines
+        if before == 0 {
+            let (line, column) = self.place;
+            return Ok(Box::new(MietteSpanContents::new_named(
+                self.name.clone(),
+                &self.data[span.offset()..span.offset() + span.len()],
+                *span,
+                line,
+                column,
+                1,
+            )));
         }
         let whole = SourceSpan::new(0.into(), self.data.len());
         let lines = self.data.split(|&b| b == b'\n').count();

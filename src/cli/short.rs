@@ -1,7 +1,7 @@
 //! One line per finding: `path:line:col: severity[rule] message`.
 use super::load::Loaded;
 use std::fmt::Write;
-use trunnion_check::{Report, Severity};
+use trunnion_check::{Diagnostic, Report, Severity};
 use trunnion_syntax::LineIndex;
 
 /// The findings of one file; at most `limit` of them (0: all), and a line that counts the rest.
@@ -18,14 +18,25 @@ pub(super) fn short(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: 
             d.rule,
             d.message
         );
-        if d.count > 1 {
-            let (last, _) = lines.line_column(loaded.program.source(), d.last.start);
-            let _ = write!(out, " ({} blocks, to line {last})", d.count);
-        }
+        out.push_str(&repeats(loaded, lines, d));
         out.push('\n');
     }
     out.push_str(&rest(report, shown, &loaded.name));
     out
+}
+
+/// How often a finding was found, where that was more than once: again and again in one place (a loop, a subprogram), or in one
+/// block after another.
+pub(super) fn repeats(loaded: &Loaded, lines: &LineIndex, d: &Diagnostic) -> String {
+    if d.count < 2 {
+        return String::new();
+    }
+    let line = |offset| lines.line_column(loaded.program.source(), offset).0;
+    let last = line(d.last.start);
+    if last == line(d.range.start) {
+        return format!(" ({} times)", d.count);
+    }
+    format!(" ({} blocks, to line {last})", d.count)
 }
 
 /// The line that counts what `limit` left out.

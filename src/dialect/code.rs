@@ -55,7 +55,9 @@ impl Code {
                 "\nThe change of coordinates is not modelled: machine positions are unknown until it ends.\n",
             ),
             Action::CompensationLeft | Action::CompensationRight => {
-                text.push_str("\nThe compensated path is modelled on Fanuc and Haas mills, where the radius of D is declared.\n");
+                text.push_str(
+                    "\nThe compensated path is modelled on Fanuc and Haas mills, where the radius of D is declared.\n",
+                );
             }
             _ => {}
         }

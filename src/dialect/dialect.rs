@@ -55,6 +55,8 @@ pub struct Quirks {
     pub offset_compensation: bool,
     /// G10 writes the diameter or the radius of a cutter as a setting says (Haas setting 40); else the radius.
     pub cutter_offset_ambiguous: bool,
+    /// What F without a decimal point means is a setting of the control.
+    pub whole_feed_ambiguous: bool,
     /// Custom macro B is part of the language: variables, IF, GOTO, WHILE, M98, G65.
     pub macro_b: bool,
     /// Machine data decide whether a block in machine coordinates is without the tool's length (Sinumerik 10760 MN_G53_TOOLCORR);

@@ -28,6 +28,7 @@ pub(crate) struct QuirksRow {
     corner_words: Option<bool>,
     offset_compensation: Option<bool>,
     cutter_offset_ambiguous: Option<bool>,
+    whole_feed_ambiguous: Option<bool>,
 }
 
 impl QuirksRow {
@@ -54,6 +55,7 @@ impl QuirksRow {
             corner_words: self.corner_words.unwrap_or(base.corner_words),
             offset_compensation: self.offset_compensation.unwrap_or(base.offset_compensation),
             cutter_offset_ambiguous: self.cutter_offset_ambiguous.unwrap_or(base.cutter_offset_ambiguous),
+            whole_feed_ambiguous: self.whole_feed_ambiguous.unwrap_or(base.whole_feed_ambiguous),
             rs274: self.rs274.unwrap_or(base.rs274),
             machine_data_suppress_length: self
                 .machine_data_suppress_length

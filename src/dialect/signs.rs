@@ -44,7 +44,9 @@ pub(crate) fn controls(code: &str, sign: &mut dyn FnMut(&'static str, u32, &str)
 
 /// Codes that a Haas has and a Fanuc mill has not.
 fn haas(code: &str, sign: &mut dyn FnMut(&'static str, u32, &str)) {
-    for number in ["101", "110", "111", "114", "115", "154", "187", "234", "254", "255", "268", "269"] {
+    for number in [
+        "101", "110", "111", "114", "115", "154", "187", "234", "254", "255", "268", "269",
+    ] {
         if has(code, b'G', number) && has_word(code, &format!("G{number}")) {
             sign("haas-ngc", 8, &format!("G{number}"));
         }

@@ -85,6 +85,9 @@ impl<'d> Interpreter<'d> {
             rest = after;
         }
         self.feed_word(codes, words);
+        if self.dialect.quirks.whole_feed_ambiguous {
+            self.whole_feed(codes, words, report);
+        }
         self.speed_word(codes, words);
         self.tool_word(words, report);
         for found in rest {
@@ -229,6 +232,17 @@ impl<'d> Interpreter<'d> {
         };
         self.state.feed = words.feed.number().map(|number| number.value * unit);
         self.memory.feed_unread = self.state.feed.is_none();
+    }
+
+    /// Tells F without a decimal point, which a setting of the control reads as it stands or as least increments.
+    fn whole_feed(&self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
+        let feed = words.feed.number().filter(|feed| !feed.has_point && feed.value != 0.0);
+        let Some(feed) = feed.filter(|_| self.state.feed_mode != FeedMode::InverseTime) else {
+            return;
+        };
+        if !dwell_reads(codes, "F") {
+            report.fault(feed.range, FaultKind::AmbiguousDecimal);
+        }
     }
 
     fn speed_word(&mut self, codes: &[Found<'_>], words: &Words) {

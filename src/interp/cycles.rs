@@ -4,6 +4,7 @@ mod hole;
 mod pass;
 mod pattern;
 mod pocket;
+mod steps;
 
 pub(crate) use data::{Hole, Stored};
 pub(crate) use pattern::Pattern;

@@ -98,15 +98,17 @@ impl ChainId {
     pub const MAIN: Self = Self(0);
 }
 
-/// One call in a chain, outermost first.
+/// One call in a chain, outermost first; the last may be the block of another file in which a motion stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// The file that calls; empty for the main program.
+    /// The file with the call or block; empty for the main program.
     pub file: String,
-    /// Line of the call, from 1.
+    /// Line of the call or block, from 1.
     pub line: u32,
-    /// What is called, as written: `o100 call [1]`, `M98 P1000`, `G65 P9010`.
+    /// What is called, as written: `o100 call [1]`, `M98 P1000`, `G65 P9010`; or the block of the motion.
     pub what: String,
+    /// Not a call: the block in which the motion stands, in a file that is called.
+    pub is_place: bool,
 }
 
 /// One motion as programmed.

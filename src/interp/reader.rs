@@ -380,6 +380,9 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         self.words.has_content = true;
         self.words.has_values = true;
         let source = self.program.source().get(range.as_usize()).unwrap_or_default();
+        if source.first() == Some(&b'<') {
+            return self.program_name(range);
+        }
         let assigns = source.first() == Some(&b'#') && source.contains(&b'=');
         if assigns {
             let name = source.split(|byte| *byte == b'=').next().unwrap_or_default();

@@ -180,6 +180,8 @@ pub(crate) struct Words {
     pub(crate) has_content: bool,
     /// Letters seen (A is bit 0).
     pub(crate) letters: u32,
+    /// `<SUB>`: the program that a call names.
+    pub(crate) program_name: Option<TextRange>,
     /// A macro statement, a call or a return stands in the block.
     pub(crate) flow: bool,
 }

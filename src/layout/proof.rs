@@ -170,7 +170,7 @@ fn same_fault(a: &FaultKind, b: &FaultKind, faults: Faults) -> bool {
                 alarm: number,
                 ..
             },
-        ) => refusal == other && alarm == number,
+        ) => refusal == other && (alarm == number || quotes(alarm) && quotes(number)),
         // a text as written
         (FaultKind::NotModelled { what: a }, FaultKind::NotModelled { what: b }) => {
             faults == Faults::Kinds || folded(a) == folded(b)
@@ -178,6 +178,11 @@ fn same_fault(a: &FaultKind, b: &FaultKind, faults: Faults) -> bool {
         (FaultKind::GroupConflict { group, .. }, FaultKind::GroupConflict { group: other, .. }) => group == other,
         _ => faults == Faults::Kinds || folded(&format!("{a:?}")) == folded(&format!("{b:?}")),
     }
+}
+
+/// LinuxCNC's messages may quote the text and name lines, too.
+fn quotes(alarm: &Option<String>) -> bool {
+    alarm.as_ref().is_some_and(|alarm| alarm.starts_with("LinuxCNC: "))
 }
 
 /// A text without blanks and case.

@@ -29,11 +29,11 @@ pub struct Block {
     /// 7: cutter compensation, 8: tool length, 10: retract, 12: coordinate system, 13: path control, 14: spindle mode, 15: lathe
     /// diameter mode, 16: G92.x); -1 where there is none.
     pub g: [i16; G_GROUPS],
-    /// Range of the code of each group.
+    /// Range of the code of each group; of the line where there is none.
     pub g_range: [TextRange; G_GROUPS],
     /// M codes by group (4: stopping, 5: digital I/O, 6: tool change, 7: spindle, 8: coolant, 9: overrides, 10: user-defined).
     pub m: [i16; M_GROUPS],
-    /// Range of the code of each group.
+    /// Range of the code of each group; of the line where there is none.
     pub m_range: [TextRange; M_GROUPS],
     /// How many M codes.
     pub m_count: u8,
@@ -78,11 +78,13 @@ impl Block {
             own: None,
         }
     }
-    /// Makes it empty again without touching what needs not be touched.
+    /// Makes it empty again; values of words stay where they are and count no more.
     pub fn clear(&mut self, range: TextRange) {
         self.range = range;
         self.g = [NONE; G_GROUPS];
+        self.g_range = [range; G_GROUPS];
         self.m = [NONE; M_GROUPS];
+        self.m_range = [range; M_GROUPS];
         self.m_count = 0;
         self.motion = NONE;
         self.given = 0;

@@ -45,6 +45,8 @@ pub enum Class {
     ProgramEnd,
     /// Anything else: offsets, planes, tools, probing.
     Other,
+    /// No mistake: the control runs it, this interpreter does not.
+    NotModelled,
 }
 
 /// One cause of refusal. Each module declares its own as constants, so that a cause is written down where it is found.
@@ -69,6 +71,8 @@ pub struct Error {
     pub file: FileId,
     /// Bytes in that file: the word or part that is wrong.
     pub range: TextRange,
+    /// The line that the control had read last, where that is not the line that is wrong: it is the one that `rs274` quotes.
+    pub read_last: Option<(FileId, TextRange)>,
 }
 
 impl Error {
@@ -79,6 +83,7 @@ impl Error {
             detail: None,
             file: FileId::MAIN,
             range,
+            read_last: None,
         }
     }
     /// A refusal whose message has details: the whole text as the control prints it.

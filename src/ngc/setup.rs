@@ -113,6 +113,8 @@ pub struct Setup {
     pub user_codes: bool,
     /// Codes of the machine's own (remaps) beside those of the control: letter and ten times the number, ascending.
     pub own_codes: Arc<[(u8, u32)]>,
+    /// Which G codes among them are motions, so that they stay in force: ten times the number, ascending.
+    pub own_motions: Arc<[u32]>,
     /// The tool table may lack tools that the machine has: any number exists, with offset and diameter zero.
     pub any_tool: bool,
     /// Lines that begin with `/` are skipped (the switch of the panel).
@@ -131,6 +133,7 @@ impl Default for Setup {
             limits: Limits::default(),
             user_codes: false,
             own_codes: Arc::from([]),
+            own_motions: Arc::from([]),
             any_tool: false,
             block_delete: false,
         }

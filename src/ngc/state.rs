@@ -94,6 +94,9 @@ pub struct State {
     pub inverse_time: f64,
     /// Motion code in force, ten times its number; -1 before the first, 800 for G80.
     pub motion: i16,
+    /// Ten times the number of a G code that is not modelled (`u32::MAX`: one that was refused) and may be the motion
+    /// code in force; never set while only canonical calls are listed, since the run ends there.
+    pub unmodelled: Option<u32>,
     /// Last motion code, for canned cycles that lean on it.
     pub last_motion: i16,
     /// Where the program is: program coordinates X Y Z A B C U V W, without compensation of the cutter radius.
@@ -277,6 +280,7 @@ impl State {
             feed_rate: 0.0,
             inverse_time: 0.0,
             motion: 800,
+            unmodelled: None,
             last_motion: 0,
             current: position,
             compensated: position,

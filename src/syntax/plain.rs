@@ -151,8 +151,7 @@ fn formula_part(source: &[u8], at: usize, out: &Builder) -> Option<(TokenKind, u
 fn stands_alone(out: &Builder) -> bool {
     let kinds = &out.table.kinds[out.first as usize..];
     let before = match kinds {
-        [.., before, TokenKind::Blank] => before,
-        [.., before] => before,
+        [.., before, TokenKind::Blank] | [.., before] => before,
         [] => return true,
     };
     matches!(

@@ -36,6 +36,8 @@ impl Items<'_> {
                 let end = scan.group(at, sink);
                 self.other(at, end, SyntaxErrorKind::UnexpectedCharacter, sink)
             }
+            // The program that a call names, on controls that know it: `M98 <SUB>`.
+            TokenKind::Less if let Some(end) = self.bracketed_name(at) => self.silent(at, end),
             TokenKind::ParenClose if self.closes_nested(at) => self.silent(at, at + 1),
             TokenKind::BracketClose | TokenKind::ParenClose => {
                 self.other(at, at + 1, SyntaxErrorKind::UnbalancedBracket, sink)
@@ -51,6 +53,20 @@ impl Items<'_> {
                 self.silent(at, end)
             }
         }
+    }
+
+    /// Behind `<NAME>` at `at`: nothing but letters, digits and `-+_.` between.
+    fn bracketed_name(&self, at: TokenId) -> Option<TokenId> {
+        let scan = self.scan;
+        let mut end = at + 1;
+        while scan.kind(end) != TokenKind::Greater {
+            let name = |byte: &u8| byte.is_ascii_alphanumeric() || b"-+_.".contains(byte);
+            if end >= scan.end || !scan.text(end).iter().all(name) {
+                return None;
+            }
+            end += 1;
+        }
+        (end > at + 1).then_some(end + 1)
     }
 
     /// The tokens `from..to` as text that fits nowhere; the first one is reported.

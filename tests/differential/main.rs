@@ -47,11 +47,18 @@ fn ask(program: &Path, oracle: bool) -> Option<Answer> {
     };
     let folder = program.parent()?;
     // rs274 keeps parameters in the folder that it runs in
-    for entry in std::fs::read_dir(folder).ok()?.flatten().filter(|entry| entry.path() != program) {
+    for entry in std::fs::read_dir(folder)
+        .ok()?
+        .flatten()
+        .filter(|entry| entry.path() != program)
+    {
         std::fs::remove_file(entry.path()).ok();
     }
     // rs274 shares its tool table between all runs of a user
-    command.arg(program.file_name()?).current_dir(folder).env("HOME", folder);
+    command
+        .arg(program.file_name()?)
+        .current_dir(folder)
+        .env("HOME", folder);
     let output = command.output().ok()?;
     Some(answer(&output))
 }

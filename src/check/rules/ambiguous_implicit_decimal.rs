@@ -19,11 +19,11 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for coordinates, arc centres and radii that are written as numbers other than zero. Consecutive blocks are told once, and
+//! Sound for coordinates, arc centres, radii and, on a Haas, feeds that are written as numbers other than zero. Consecutive blocks are told once, and
 //! only the first such word of a block.
 //!
 //! # Sources
-//! FANUC Series 30i parameter manual: parameter 3401, bit 0 (DPI).
+//! FANUC Series 30i parameter manual: parameter 3401, bit 0 (DPI). Haas Mill Operator's Manual: settings 77 and 162.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -35,12 +35,22 @@ pub(super) const RULE: Body = Body {
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::AmbiguousDecimal {
         let text = out.text(fault.range);
+        let feed = text.starts_with(['F', 'f']);
+        let note = match (out.dialect().starts_with("haas"), feed) {
+            (true, true) => "setting 77 (scale integer F) says what counts; F is taken here as it stands",
+            (true, false) => {
+                "setting 162 (default to float): off counts least increments (0.001 mm), on counts millimetres; millimetres are taken here"
+            }
+            _ => {
+                "parameter 3401 bit 0 (DPI): 0 counts least increments (0.001 mm), 1 counts millimetres; millimetres are taken here"
+            }
+        };
         out.report(
             fault.range,
             format!("`{text}` has no decimal point: its size hangs on a parameter of the control"),
         )
-        .note("parameter 3401 bit 0 (DPI): 0 counts least increments (0.001 mm), 1 counts millimetres; millimetres are taken here")
+        .note(note)
         .help(format!("write `{text}.`"))
-        .merge(0, 0.0);
+        .merge(u64::from(feed), 0.0);
     }
 }

@@ -71,11 +71,11 @@ mod tests {
     fn only_the_first_feed_motion_of_a_tool_is_judged() {
         assert_drawn(
             "gcode linuxcnc",
-            "T1 M6\nG43 H1 G0 X0 Y0 Z0\n;^^ tool-length-unset: \nG1 X1 F100\nG49 X2\nM2\n",
+            "T1 M6 S100 M3\nG43 H1 G0 X0 Y0 Z0\n;^^ tool-length-unset: \nG1 X1 F100\nG49 X2\nM2\n",
         );
         let report = assert_drawn(
             "gcode linuxcnc",
-            "T1 M6\nG0 X0 Y0 Z0\nG1 X1 F100\n;^^^^^^^^^ missing-tool-length: T1 cuts\nX2\nT1 M6\nG1 X3\nM2\n",
+            "T1 M6 S1 M3\nG0 X0 Y0 Z0\nG1 X1 F100\n;^^^^^^^^^ missing-tool-length: T1 cuts\nX2\nT1 M6 M3\nG1 X3\nM2\n",
         );
         assert_eq!(report.diagnostics[0].count, 1);
     }

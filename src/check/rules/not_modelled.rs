@@ -30,17 +30,20 @@ pub(super) const RULE: Body = Body {
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::NotModelled { what } = &fault.kind {
-        let short: String = what
-            .split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" ")
-            .chars()
-            .take(40)
-            .collect();
-        out.report(fault.range, format!("not modelled: {short}"))
+        out.report(fault.range, format!("not modelled: {}", short(what)))
             .note("positions that depend on it are unknown until the program gives them anew; nothing is checked from them")
             .unknown()
             .merge_everywhere(hash(what));
+    }
+}
+
+/// A cause may quote the program: its first 100 characters, in one line.
+fn short(what: &str) -> String {
+    const MOST: usize = 100;
+    let line = what.split_whitespace().collect::<Vec<_>>().join(" ");
+    match line.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}...", &line[..end]),
+        None => line,
     }
 }
 

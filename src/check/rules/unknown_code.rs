@@ -29,12 +29,18 @@ pub(super) const RULE: Body = Body {
 };
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    let text = out.text(fault.range);
+    let dialect = out.dialect().to_owned();
     let FaultKind::UnknownCode { machine_builder } = fault.kind else {
-        refused(fault, out, &[Refusal::UnknownCode]);
+        let message = format!("{dialect} knows no code {text}");
+        if let Some(draft) = refused(fault, out, &[Refusal::UnknownCode]) {
+            draft
+                .reword(message)
+                .help("correct the code, or name the dialect the program is written in: --dialect NAME")
+                .merge(hash(&text), 0.0);
+        }
         return;
     };
-    let text = out.text(fault.range);
-    let dialect = out.dialect();
     if machine_builder {
         out.report(
             fault.range,

@@ -4,7 +4,7 @@ use super::align::{Stretch, align};
 use super::event::{Body, Event, Tech};
 use super::point::{Point, Tolerance};
 use super::run::Events;
-use crate::cli::load::Loaded;
+use crate::cli::{load::Loaded, stop::Stop};
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use trunnion_machine::Machine;
@@ -52,11 +52,17 @@ pub(super) struct Found {
     pub(super) too_different: bool,
     /// Both were compared one by one, because they have the same number of motions and too many differences to be aligned.
     pub(super) one_by_one: bool,
+    /// Where the runs stopped before the end of their programs, unless both programs are the same letter for letter.
+    pub(super) stops: [Option<Stop>; 2],
 }
 
 impl Found {
-    /// Whether nothing differs.
+    /// Whether both were followed to their ends and nothing differs.
     pub(super) fn same(&self) -> bool {
+        self.no_difference() && self.stops.iter().all(Option::is_none)
+    }
+    /// Whether nothing differs as far as both were followed.
+    pub(super) fn no_difference(&self) -> bool {
         self.changes.is_empty() && self.techs.is_empty() && self.not_compared == 0 && !self.too_different
     }
 }
@@ -84,6 +90,9 @@ pub(super) fn compare(before: &Loaded, after: &Loaded, tolerance: Tolerance) -> 
     let mut techs = Techs::default();
     let a = keys(before, machine, tolerance, &mut techs, (0, &mut found));
     let b = keys(after, machine, tolerance, &mut techs, (1, &mut found));
+    if before.program.source() == after.program.source() {
+        found.stops = [None, None];
+    }
     let stretches = match align(&a.hashes, &b.hashes) {
         Some(stretches) => stretches,
         None if a.hashes.len() == b.hashes.len() => {
@@ -122,7 +131,8 @@ fn keys(
 ) -> Keys {
     let (side, found) = to;
     let mut keys = Keys::default();
-    for event in Events::new(loaded, machine) {
+    let mut events = Events::new(loaded, machine);
+    for event in &mut events {
         let mut state = DefaultHasher::new();
         let tech = match &event.body {
             Body::Motion(point, tech) => {
@@ -140,6 +150,7 @@ fn keys(
         keys.techs.push(tech);
         keys.blocks.push(event.block.0);
     }
+    found.stops[side] = events.stop().cloned();
     keys
 }
 

@@ -1,8 +1,9 @@
 //! A program as a stream of events: nothing is kept but the events of the block in hand.
 use super::event::{Body, Coolant, Event, Tech, coolant, says_more, statement};
 use super::point::Point;
-use crate::cli::load::Loaded;
+use crate::cli::{load::Loaded, stop::Stop, stop::Stops};
 use std::collections::VecDeque;
+use trunnion_dialect::Dialect;
 use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
 use trunnion_machine::{Follower, Machine};
 
@@ -22,6 +23,8 @@ struct Block<'a> {
     motions: Vec<(Motion, Point, Tech)>,
     /// A fault of the block says that its words hold more than its motions.
     whole: bool,
+    stops: Stops,
+    dialect: &'a Dialect,
 }
 
 impl<'a> Events<'a> {
@@ -34,10 +37,17 @@ impl<'a> Events<'a> {
                 follower: machine.map(Follower::new),
                 motions: Vec::new(),
                 whole: false,
+                stops: Stops::default(),
+                dialect: loaded.resolved.dialect,
             },
             coolant: 0,
             ready: VecDeque::new(),
         }
+    }
+
+    /// Where the run stopped before the end of its program; asked when there are no more events.
+    pub(super) fn stop(&self) -> Option<&Stop> {
+        self.block.stops.last()
     }
 
     /// Runs the next block; `false` at the end.
@@ -46,6 +56,7 @@ impl<'a> Events<'a> {
         let Some(id) = self.interpreter.advance(program, &mut self.block) else {
             return false;
         };
+        self.block.stops.block_done();
         let block = program.block(id);
         let now = coolant(&block, self.coolant);
         // M9 works at the end of its block, M7 and M8 at its start
@@ -92,5 +103,6 @@ impl Sink for Block<'_> {
     }
     fn fault(&mut self, fault: Fault) {
         self.whole |= says_more(&fault.kind);
+        self.stops.fault(&fault, self.dialect);
     }
 }

@@ -261,8 +261,15 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
             found.unknown
         )
     };
+    let stops = stops(lines, found);
     if found.same() {
         return format!("SAME {} motions {within}{unknown}\n", found.motions[0]);
+    }
+    if found.no_difference() {
+        return format!(
+            "UNKNOWN {} motions are the same {within}{unknown}; what comes behind was not compared\n{stops}",
+            found.motions[0]
+        );
     }
     let [moved, removed, added, techs] = counts(found);
     let mut parts = Vec::new();
@@ -300,7 +307,19 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
             "(too many differences to look for the best match: the motions were compared one by one, in order)\n",
         );
     }
-    text
+    text + &stops
+}
+
+/// Where the runs stopped before the end, one line each.
+fn stops(lines: &Lines<'_>, found: &Found) -> String {
+    let mut out = String::new();
+    for (side, stop) in found.stops.iter().enumerate() {
+        if let Some(stop) = stop {
+            let (name, line) = (lines.name(side), lines.line(side, stop.block));
+            let _ = writeln!(out, "{name}:{line}: not followed from here: {}", stop.why);
+        }
+    }
+    out
 }
 
 /// The form for programs.
@@ -349,10 +368,15 @@ pub(super) fn json(before: &Loaded, after: &Loaded, found: &Found, tolerance: To
         })
     });
     let [moved, removed, added, state] = counts(found);
+    let stop = |side: usize| {
+        let stop = found.stops[side].as_ref()?;
+        Some(json!({ "line": lines.line(side, stop.block), "why": stop.why }))
+    };
     json!({
         "schema": "trunnion-diff/1", "version": env!("CARGO_PKG_VERSION"),
         "before": before.name, "after": after.name, "machine": before.resolved.machine.as_ref().map(|machine| &machine.id),
         "tolerance_mm": tolerance.mm, "tolerance_deg": tolerance.deg, "same": found.same(),
+        "not_followed_before": stop(0), "not_followed_after": stop(1),
         "summary": {
             "motions_before": found.motions[0], "motions_after": found.motions[1], "moved": moved, "removed": removed,
             "added": added, "motions_with_other_state": state, "not_compared": found.not_compared,

@@ -61,6 +61,9 @@ pub(super) fn text(loaded: &Loaded, tally: &Tally) -> String {
         count => format!("{what}, {} times", number(*count)),
     });
     rows(&mut row, "not modelled", &unmodelled.collect::<Vec<_>>());
+    let stop = tally.stop.as_ref();
+    let stop = stop.map(|(line, why)| format!("from line {line}: {why}; nothing behind it is counted"));
+    rows(&mut row, "not followed", stop.as_slice());
     out
 }
 
@@ -282,5 +285,6 @@ pub(super) fn json(loaded: &Loaded, tally: &Tally) -> Value {
         "tool_changes": tally.tool_changes,
         "calls": calls.collect::<Vec<_>>(),
         "not_modelled": tally.not_modelled,
+        "not_followed": tally.stop.as_ref().map(|(line, why)| json!({ "line": line, "why": why })),
     })
 }

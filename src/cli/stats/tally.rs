@@ -1,6 +1,6 @@
 //! Counts what a run says.
 use super::calls::{Call, calls};
-use crate::cli::load::Loaded;
+use crate::cli::{load::Loaded, stop::Stops};
 use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{AXIS_LETTERS, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, Sink};
@@ -66,6 +66,8 @@ pub(super) struct Tally {
     pub(super) calls: Vec<Call>,
     /// What is recognised and not modelled, with how often.
     pub(super) not_modelled: BTreeMap<String, u64>,
+    /// Line where the run stopped before the end, and why: nothing behind it is counted.
+    pub(super) stop: Option<(u32, String)>,
     /// From the check.
     pub(super) cycle_time_s: Option<[f64; 2]>,
 }
@@ -77,6 +79,7 @@ struct Counting<'a> {
     follower: Option<Follower<'a>>,
     tally: Tally,
     tool: Option<u32>,
+    stops: Stops,
 }
 
 impl Tally {
@@ -101,9 +104,13 @@ impl Tally {
             follower: resolved.machine.as_ref().map(Follower::new),
             tally,
             tool: None,
+            stops: Stops::default(),
         };
         trunnion_interp::run(program, resolved.dialect, &resolved.setup, &mut counting);
+        let stop = counting.stops.last();
+        let stop = stop.map(|stop| (counting.line(stop.block), stop.why.clone()));
         let mut tally = counting.tally;
+        tally.stop = stop;
         if resolved.machine.is_some() {
             tally.cycle_time_s = trunnion_check::check(program, &resolved.settings()).cycle_time_s;
         }
@@ -244,12 +251,14 @@ impl Sink for Counting<'_> {
     }
 
     fn fault(&mut self, fault: Fault) {
+        self.stops.fault(&fault, self.loaded.resolved.dialect);
         if let FaultKind::NotModelled { what } = fault.kind {
             *self.tally.not_modelled.entry(what).or_default() += 1;
         }
     }
 
     fn block_done(&mut self, block: BlockId, interpreter: &Interpreter<'_>) {
+        self.stops.block_done();
         self.tally.run += u64::from(holds_something(&self.loaded.program.block(block)));
         if interpreter.state.tool != self.tool {
             self.tool = interpreter.state.tool;

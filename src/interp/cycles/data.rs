@@ -85,7 +85,9 @@ impl Interpreter<'_> {
         let r = words.radius.number().map(|number| number.value * unit);
         let r = stored(words.radius.is_said(), r, incremental);
         let q = self.length_word(words, b'Q');
-        let dwell = words.p.number().map(|p| {
+        // P of a call is a program
+        let p = words.p.number().filter(|_| !words.flow);
+        let dwell = p.map(|p| {
             let ms = self.dialect.quirks.dwell_in_ms && !p.has_point;
             if ms { p.value / 1000.0 } else { p.value }
         });

@@ -6,17 +6,15 @@ use crate::words::{Said, Words};
 use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
 use trunnion_dialect::Action;
 
-/// More steps than this are no drilling.
-const MOST_STEPS: f64 = 10_000.0;
 /// Holes of one block.
 const MOST_REPEATS: u32 = 10_000;
 
 /// One hole with its numbers, all as coordinates of the words.
 #[derive(Clone, Copy, Debug)]
-struct Plan {
+pub(super) struct Plan {
     axis: usize,
-    r: Option<f64>,
-    bottom: f64,
+    pub(super) r: Option<f64>,
+    pub(super) bottom: f64,
     initial: Option<f64>,
     back: Option<f64>,
     feed: Feed,
@@ -28,6 +26,8 @@ impl Interpreter<'_> {
         let axis = plane_axes(self.state.plane)[2];
         self.store_hole(words, axis);
         let repeats = match words.letter(self.memory.cycle.repeats) {
+            // L of a call repeats the call
+            _ if words.flow && words.p.is_said() => Some(1),
             Said::Nothing => Some(1),
             said => said.index().filter(|&count| count <= MOST_REPEATS),
         };
@@ -142,7 +142,7 @@ impl Interpreter<'_> {
     }
 
     /// A motion of the drilling axis alone; an unknown target is forgotten.
-    fn down(&mut self, plan: &Plan, kind: MotionKind, to: Option<f64>, report: &Report<'_>) {
+    pub(super) fn down(&mut self, plan: &Plan, kind: MotionKind, to: Option<f64>, report: &Report<'_>) {
         let position = self.state.position;
         let here = self.memory.frames.programmed(&position);
         let mut place = here;
@@ -232,64 +232,6 @@ impl Interpreter<'_> {
         let before = self.state.spindle_on.replace(false);
         run(self);
         self.state.spindle_on = before;
-    }
-
-    /// Drilling in steps of Q, or of I, less J each time, not below K.
-    fn steps(&mut self, plan: &Plan, action: Action, report: &mut Report<'_>) {
-        let hole = self.memory.cycle.hole;
-        let Some(r) = plan.r else {
-            self.down(plan, MotionKind::Linear, Some(plan.bottom), report);
-            return;
-        };
-        let (depth, way) = ((plan.bottom - r).abs(), (plan.bottom - r).signum());
-        let (mut step, less, least) = match (hole.ijk[0], hole.q) {
-            (Some(first), _) => (
-                first.abs(),
-                hole.ijk[1].map_or(0.0, f64::abs),
-                hole.ijk[2].map_or(0.0, f64::abs).max(depth / MOST_STEPS),
-            ),
-            (None, q) => (q.map_or(depth, f64::abs), 0.0, 0.0),
-        };
-        if step * MOST_STEPS < depth {
-            let what = format!("{} in more than 10000 steps", self.memory.cycle.id);
-            report.fault(report.whole(), FaultKind::NotModelled { what });
-            self.down(plan, MotionKind::Linear, Some(plan.bottom), report);
-            return;
-        }
-        let (back, clear) = (
-            self.setup.control.chip_break_retract_mm,
-            self.setup.control.peck_clearance_mm,
-        );
-        let mut done = 0.0;
-        loop {
-            done += step;
-            // the last step is what is left
-            if done >= depth - 1e-9 {
-                self.down(plan, MotionKind::Linear, Some(plan.bottom), report);
-                return;
-            }
-            self.down(plan, MotionKind::Linear, Some(r + way * done), report);
-            if action == Action::PeckCycle {
-                self.down(plan, MotionKind::Rapid, Some(r), report);
-                self.down(
-                    plan,
-                    MotionKind::Rapid,
-                    clear.map(|clear| r + way * (done - clear)),
-                    report,
-                );
-            } else {
-                self.down(
-                    plan,
-                    MotionKind::Rapid,
-                    back.map(|back| r + way * (done - back)),
-                    report,
-                );
-            }
-            step = (step - less).max(least);
-            if step <= 0.0 {
-                step = depth;
-            }
-        }
     }
 
     /// By how much the tool goes off the wall, first and second axis of the plane; `None`: a parameter of the control says which way.

@@ -1,42 +1,22 @@
 //! Calls and returns: M97, M98, M198, G65, G66, M99.
 use super::alarms::{Mistake, rejected};
+use super::name::ENDINGS;
 use super::run::Running;
 use super::variables::Locals;
-use super::{Call, Called, Calling, Deep, FlowCode, Place};
+use super::{Call, Called, Calling, Deep, FlowCode, Place, ProgramName};
 use crate::run::{Interpreter, Sink};
 use crate::{FaultKind, Frame, Refusal};
 use std::sync::Arc;
-use trunnion_syntax::{BlockId, TextRange, parse};
+use trunnion_dialect::{Action, Dialect};
+use trunnion_syntax::{Address, BlockId, Program, TextRange, Value, Word, parse};
 
 /// Macro calls inside macro calls on a Fanuc 30i (trade knowledge; four on a 16i: B-63684EN/01, p. 278).
 const MACRO_LEVELS: usize = 5;
 /// Calls by M98 inside each other on a Fanuc 30i (trade knowledge).
 const CALL_LEVELS: usize = 10;
 
-/// Where a called program was found.
-enum Found {
-    At {
-        file: u16,
-        block: u32,
-    },
-    /// The folders that were searched.
-    Missing(Vec<String>),
-    /// There is nothing to search in.
-    NoLibrary,
-}
-
-/// File names that a program number may have, without ending.
-fn names(number: u32) -> [String; 4] {
-    [
-        format!("O{number:04}"),
-        format!("O{number}"),
-        format!("{number:04}"),
-        format!("{number}"),
-    ]
-}
-
-/// Endings of file names that are tried.
-const ENDINGS: [&str; 7] = ["", ".nc", ".NC", ".cnc", ".tap", ".txt", ".prg"];
+/// Where a called program was found: file and block; else the folders that were searched.
+type Found = Result<(u16, u32), Vec<String>>;
 
 impl Interpreter<'_> {
     /// Begins a call.
@@ -44,24 +24,18 @@ impl Interpreter<'_> {
         if calling.times == 0 {
             return;
         }
-        let found = match calling.code {
-            FlowCode::CallLocal => self.local(calling.number, running, from),
-            code => self.find(calling.number, running, code == FlowCode::CallExternal),
+        let found = match (calling.code, &calling.program) {
+            (FlowCode::CallLocal, &ProgramName::Number(number)) => match self.local(number, running, from) {
+                Some(place) => Ok(place),
+                None => return self.no_label(number, calling.range, running, from, sink),
+            },
+            (code, program) => self.find(program, running, code == FlowCode::CallExternal),
         };
-        let (file, block) = match found {
-            Found::At { file, block } => (file, block),
-            Found::Missing(searched) => {
-                if calling.code == FlowCode::CallLocal {
-                    return self.no_label(calling.number, calling.range, running, from, sink);
-                }
-                let name = format!("O{:04}", calling.number);
+        let place = match found {
+            Ok(place) => place,
+            Err(searched) => {
+                let name = calling.program.to_string();
                 let kind = FaultKind::MissingSubprogram { name, searched };
-                self.tell_of_flow(running, from, (calling.range, kind), sink);
-                return self.call_is_not_followed();
-            }
-            Found::NoLibrary => {
-                let what = running.program().text(calling.range).trim().to_owned();
-                let kind = FaultKind::NotModelled { what };
                 self.tell_of_flow(running, from, (calling.range, kind), sink);
                 return self.call_is_not_followed();
             }
@@ -71,7 +45,7 @@ impl Interpreter<'_> {
             self.tell_of_flow(running, from, (calling.range, kind), sink);
             return self.stop();
         }
-        self.push_call(calling, (file, block), running, from);
+        self.push_call(calling, place, running, from);
     }
 
     /// What a program does that is not there is not known.
@@ -92,6 +66,7 @@ impl Interpreter<'_> {
             file: running.called.map_or_else(String::new, |called| called.path.clone()),
             line: from + 1,
             what: program.text(program.block(BlockId(from)).range()).trim().to_owned(),
+            is_place: false,
         };
         let chain = Arc::make_mut(&mut deep.chains).enter(self.chain, caller.file, from, frame);
         let macro_level = calling.arguments.map(|arguments| {
@@ -149,67 +124,58 @@ impl Interpreter<'_> {
     }
 
     /// M97: a sequence number of the program that runs.
-    fn local(&mut self, number: u32, running: &Running<'_>, from: u32) -> Found {
-        let Some(deep) = &mut self.flow.deep else {
-            return Found::NoLibrary;
-        };
+    fn local(&mut self, number: u32, running: &Running<'_>, from: u32) -> Option<(u16, u32)> {
+        let deep = self.flow.deep.as_mut()?;
         let file = deep.place.file;
         let index = deep.index(file, running.program());
-        match index.label(number, from, index.section(from)) {
-            Some(block) => Found::At { file, block },
-            None => Found::Missing(Vec::new()),
-        }
+        index
+            .label(number, from, index.section(from))
+            .map(|block| (file, block))
     }
 
-    /// A program by its number: in the file that runs, in the main program's, in others that were called, in the library.
-    fn find(&mut self, number: u32, running: &Running<'_>, only_library: bool) -> Found {
+    /// A program by its number or name: in the file that runs, in the main program's, in others that were called, in the library.
+    fn find(&mut self, name: &ProgramName, running: &Running<'_>, only_library: bool) -> Found {
         let Some(deep) = &mut self.flow.deep else {
-            return Found::NoLibrary;
+            return Err(Vec::new());
         };
         if !only_library {
             let own = deep.place.file;
-            if let Some(block) = deep.index(own, running.program()).program(number) {
-                return Found::At { file: own, block };
+            if let Some(block) = deep.index(own, running.program()).program(name) {
+                return Ok((own, block));
             }
-            if let Some(block) = deep.index(0, running.main).program(number) {
-                return Found::At { file: 0, block };
+            if let Some(block) = deep.index(0, running.main).program(name) {
+                return Ok((0, block));
             }
         }
-        if let Some(place) = deep.files.iter().position(|called| called.number == number) {
+        if let Some(place) = deep.files.iter().position(|called| called.name == *name) {
             let file = place as u16 + 1;
-            return Found::At {
-                file,
-                block: deep.first_block(file, number),
-            };
+            return Ok((file, deep.first_block(file, name)));
         }
         let Some(library) = &self.setup.library.0 else {
-            return Found::NoLibrary;
+            return Err(Vec::new());
         };
         let mut searched = Vec::new();
-        for name in names(number) {
+        for file in name.files() {
             for ending in ENDINGS {
-                match library.load(&format!("{name}{ending}")) {
+                match library.load(&format!("{file}{ending}")) {
                     Ok(loaded) => {
                         if deep.files.len() >= usize::from(u16::MAX) - 1 {
-                            return Found::Missing(searched);
+                            return Err(searched);
                         }
                         let program = parse(loaded.bytes.to_vec(), self.dialect.lex);
                         deep.files.push(Arc::new(Called {
-                            number,
+                            name: name.clone(),
                             path: loaded.path,
                             program,
                         }));
                         let file = deep.files.len() as u16;
-                        return Found::At {
-                            file,
-                            block: deep.first_block(file, number),
-                        };
+                        return Ok((file, deep.first_block(file, name)));
                     }
                     Err(folders) => searched = folders,
                 }
             }
         }
-        Found::Missing(searched)
+        Err(searched)
     }
 
     /// M99.
@@ -285,18 +251,39 @@ impl Interpreter<'_> {
         match target {
             Some((number, None)) => self.no_label(number, range, running, from, sink),
             Some((_, Some(to))) if to > from => self.jump(to),
-            _ => self.stop(),
+            _ => {
+                if !has_end(running.main, self.dialect) {
+                    let what = "M99 of the main program, which begins it anew: one pass is run".to_owned();
+                    self.tell_of_flow(running, from, (range, FaultKind::NotModelled { what }), sink);
+                }
+                self.stop();
+            }
         }
     }
 }
 
+/// Whether a program has a code that ends it, other than M99.
+fn has_end(program: &Program, dialect: &Dialect) -> bool {
+    let ends = |word: &Word| match (word.address, word.value) {
+        (Address::Letter(b'M'), Value::Number(number)) if number.scale == 0 => {
+            let tenths = u32::try_from(number.mantissa).ok().and_then(|m| m.checked_mul(10));
+            let code = tenths
+                .filter(|&tenths| tenths != 990)
+                .and_then(|tenths| dialect.m(tenths));
+            code.is_some_and(|code| code.action == Action::ProgramEnd)
+        }
+        _ => false,
+    };
+    program.blocks().any(|block| block.words().any(|word| ends(&word)))
+}
+
 impl Deep {
     /// The block where a program of another file begins: at its number, else behind the `%` at its start.
-    fn first_block(&mut self, file: u16, number: u32) -> u32 {
+    fn first_block(&mut self, file: u16, name: &ProgramName) -> u32 {
         let Some(called) = self.files.get(usize::from(file) - 1).map(Arc::clone) else {
             return 0;
         };
-        let at_number = self.index(file, &called.program).program(number);
+        let at_number = self.index(file, &called.program).program(name);
         at_number.unwrap_or_else(|| {
             let first = called.program.blocks().next();
             let percent = first.is_some_and(|block| {

@@ -28,6 +28,12 @@ impl Chains {
         id
     }
 
+    /// The chain of the block `block` of the called file `file`, whose calls are those of `parent`.
+    pub(crate) fn stand(&mut self, parent: ChainId, file: u16, block: u32, frame: impl FnOnce() -> Frame) -> ChainId {
+        // no file has that many blocks: the place is no call at the same block
+        self.enter(parent, file, block | 1 << 31, frame)
+    }
+
     /// Its calls, outermost first.
     pub(crate) fn frames(&self, chain: ChainId) -> Vec<Frame> {
         let mut frames = Vec::new();

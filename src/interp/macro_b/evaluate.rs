@@ -193,6 +193,9 @@ pub(crate) fn assigned(
     }
 }
 
+/// No more of an expression is quoted in a message, characters.
+const QUOTED: usize = 80;
+
 /// A mistake of an expression as a fact.
 fn trouble(dialect: &Dialect, program: &Program, whole: TextRange, error: &FormulaError) -> Trouble {
     use FormulaErrorKind as Kind;
@@ -214,6 +217,11 @@ fn trouble(dialect: &Dialect, program: &Program, whole: TextRange, error: &Formu
     let inside =
         error.range.start >= whole.start && error.range.end <= whole.end && error.range.start < error.range.end;
     let range = if inside { error.range } else { whole };
-    let message = format!("{error} in `{}`", program.text(whole).trim());
+    let text = program.text(whole);
+    let text = text.trim();
+    let message = match text.char_indices().nth(QUOTED) {
+        Some((end, _)) => format!("{error} in `{}...`", &text[..end]),
+        None => format!("{error} in `{text}`"),
+    };
     (range, rejected(dialect, mistake, Refusal::Expression, message))
 }

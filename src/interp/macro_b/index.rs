@@ -1,4 +1,5 @@
 //! Where jumps of a program may lead: sequence numbers, programs in the file, loops. Built once, when the first jump needs it.
+use super::ProgramName;
 use super::alarms::Mistake;
 use trunnion_syntax::{Address, Block, BlockId, Call, Item, Program, TextRange, Value};
 
@@ -23,8 +24,8 @@ pub(crate) struct Broken {
 pub(crate) struct Index {
     /// Sequence number and block, sorted.
     labels: Vec<(u32, u32)>,
-    /// First block and number of each program of the file.
-    programs: Vec<(u32, u32)>,
+    /// First block and name of each program of the file.
+    programs: Vec<(u32, ProgramName)>,
     /// Sorted by the opening block.
     loops: Vec<Loop>,
     /// Place in `loops` of the loop around each loop.
@@ -87,7 +88,13 @@ impl Index {
                     }
                     (Address::Letter(b'O'), Value::Number(number)) => {
                         self.unclosed(open);
-                        self.programs.extend(whole(number).map(|number| (at, number)));
+                        self.programs
+                            .extend(whole(number).map(|number| (at, ProgramName::Number(number))));
+                    }
+                    (Address::Letter(b'O'), Value::Expression(range)) => {
+                        self.unclosed(open);
+                        let name = ProgramName::bracketed(program.bytes(range));
+                        self.programs.extend(name.map(|name| (at, name)));
                     }
                     _ => {}
                 },
@@ -97,7 +104,7 @@ impl Index {
                         .and_then(|text| text.strip_prefix(':')?.parse().ok());
                     if let Some(number) = number {
                         self.unclosed(open);
-                        self.programs.push((at, number));
+                        self.programs.push((at, ProgramName::Number(number)));
                     }
                 }
                 Item::Call(call) => self.call(program, at, &call, open),
@@ -179,11 +186,11 @@ impl Index {
         (start, end)
     }
 
-    /// First block of the program of a number.
-    pub(crate) fn program(&self, number: u32) -> Option<u32> {
+    /// First block of the program of a number or name.
+    pub(crate) fn program(&self, name: &ProgramName) -> Option<u32> {
         self.programs
             .iter()
-            .find(|program| program.1 == number)
+            .find(|program| program.1 == *name)
             .map(|program| program.0)
     }
 

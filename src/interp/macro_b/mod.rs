@@ -12,6 +12,7 @@ mod evaluate;
 mod finish;
 mod index;
 mod jump;
+mod name;
 mod ran;
 mod read;
 mod run;
@@ -24,6 +25,7 @@ use crate::ChainId;
 use chains::Chains;
 use evaluate::Compiled;
 use index::Index;
+pub(crate) use name::ProgramName;
 use ran::{Ran, Told};
 pub(crate) use read::Macros;
 use std::collections::HashMap;
@@ -95,7 +97,7 @@ pub(crate) struct Place {
 /// Another file that is called.
 #[derive(Debug)]
 pub(crate) struct Called {
-    number: u32,
+    name: ProgramName,
     path: String,
     program: Program,
 }
@@ -129,7 +131,7 @@ struct Call {
 /// G66: a macro that is called after each motion.
 #[derive(Clone, Debug)]
 struct Modal {
-    number: u32,
+    program: ProgramName,
     times: u32,
     arguments: Box<Locals>,
 }
@@ -153,6 +155,13 @@ pub(crate) enum FlowCode {
     ModalOff,
 }
 
+impl FlowCode {
+    /// Whether the program may be called by its name.
+    fn takes_name(self) -> bool {
+        matches!(self, Self::Call | Self::CallExternal | Self::Macro | Self::Modal)
+    }
+}
+
 /// What a block asks for.
 #[derive(Clone, Debug)]
 pub(crate) enum Pending {
@@ -174,7 +183,7 @@ pub(crate) enum Pending {
 #[derive(Clone, Debug)]
 pub(crate) struct Calling {
     code: FlowCode,
-    number: u32,
+    program: ProgramName,
     times: u32,
     arguments: Option<Box<Locals>>,
     range: TextRange,

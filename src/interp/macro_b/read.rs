@@ -227,6 +227,19 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         true
     }
 
+    /// `<SUB>` names the program of the call in front of it; elsewhere it has no meaning.
+    pub(crate) fn program_name(&mut self, range: TextRange) {
+        let calls = self.macros.as_mut().is_some_and(|macros| {
+            let code = macros.deep.as_ref().and_then(|deep| deep.code);
+            macros.mode == Mode::Step || matches!(code, Some((code, _)) if code.takes_name())
+        });
+        if calls {
+            self.words.program_name = Some(range);
+        } else {
+            (self.report)(range, FaultKind::UnknownWord);
+        }
+    }
+
     /// Keeps what is to be done when the block has run; a run that cannot go on stays so.
     fn pend(&mut self, pending: Pending) {
         if let Some(macros) = &mut self.macros

@@ -2,7 +2,7 @@
 use super::through::Through;
 use super::{Called, Pending};
 use crate::run::{Interpreter, Sink};
-use crate::{Fault, FaultKind};
+use crate::{Fault, FaultKind, Frame};
 use std::sync::Arc;
 use trunnion_syntax::{BlockId, Program, TextRange};
 
@@ -49,7 +49,13 @@ impl Interpreter<'_> {
             moved: false,
             sink,
         };
+        let calls = self.chain;
+        if let (Some(called), Some(deep)) = (running.called, &mut self.flow.deep) {
+            let frame = || frame_of(called, next);
+            self.chain = Arc::make_mut(&mut deep.chains).stand(calls, place.file, next, frame);
+        }
         self.step_iso(&running.program().block(BlockId(next)), &mut through);
+        self.chain = calls;
         let (told, moved) = (through.told, through.moved);
         if let Some(deep) = &mut self.flow.deep {
             deep.told = told;
@@ -165,6 +171,17 @@ impl Interpreter<'_> {
     }
 }
 
+/// The block of another file as the place of a motion.
+fn frame_of(called: &Called, block: u32) -> Frame {
+    let program = &called.program;
+    Frame {
+        file: called.path.clone(),
+        line: block + 1,
+        what: program.text(program.block(BlockId(block)).range()).trim().to_owned(),
+        is_place: true,
+    }
+}
+
 impl super::Deep {
     /// The macro that is called after a motion, if one is.
     fn modal_call(&self, range: impl FnOnce() -> TextRange) -> Option<Pending> {
@@ -172,7 +189,7 @@ impl super::Deep {
         let modal = self.modal.get(place)?;
         Some(Pending::Call(super::Calling {
             code: super::FlowCode::Macro,
-            number: modal.number,
+            program: modal.program.clone(),
             times: modal.times,
             arguments: Some(modal.arguments.clone()),
             range: range(),

@@ -3,7 +3,7 @@ use super::alarms::{Mistake, is_fanuc, rejected};
 use super::arguments;
 use super::read::{Macros, Mode};
 use super::variables::Held;
-use super::{Calling, Deep, FlowCode, Modal, Pending};
+use super::{Calling, Deep, FlowCode, Modal, Pending, ProgramName};
 use crate::codes::Found;
 use crate::reader::Reader;
 use crate::run::{Interpreter, Report};
@@ -147,14 +147,16 @@ impl<'d> Interpreter<'d> {
                 (words.p.number().map(|number| number.value), times, None)
             }
         };
+        let name = words.program_name.take();
+        let name = name.and_then(|range| ProgramName::bracketed(report.program.bytes(range)));
         let place = report.program.block(report.block).range();
         let place = TextRange::new(range.start, place.end);
-        match numbers(self.dialect, code, program, times) {
-            Ok((number, times)) => {
+        match target(self.dialect, code, (name, program), times) {
+            Ok((program, times)) => {
                 let range = call_range(report, range, place);
                 if code == FlowCode::Modal {
                     deep.modal.push(Modal {
-                        number,
+                        program,
                         times,
                         arguments: arguments.unwrap_or_else(|| Box::new([None; 33])),
                     });
@@ -162,7 +164,7 @@ impl<'d> Interpreter<'d> {
                 } else {
                     deep.pending = Some(Pending::Call(Calling {
                         code,
-                        number,
+                        program,
                         times,
                         arguments,
                         range,
@@ -188,16 +190,12 @@ fn call_range(report: &Report<'_>, code: TextRange, block: TextRange) -> TextRan
 }
 
 /// Program and repetitions of a call. M98 without L: the digits above the last four of P are the repetitions.
-fn numbers(dialect: &Dialect, code: FlowCode, program: Held, times: Option<Held>) -> Result<(u32, u32), FaultKind> {
-    let Some(number) = program else {
-        let message = "the call has no P that says which program".to_owned();
-        return Err(rejected(
-            dialect,
-            Mistake::ProgramWordMissing,
-            Refusal::MissingWord,
-            message,
-        ));
-    };
+fn target(
+    dialect: &Dialect,
+    code: FlowCode,
+    (name, number): (Option<ProgramName>, Held),
+    times: Option<Held>,
+) -> Result<(ProgramName, u32), FaultKind> {
     let whole = |value: f64| {
         let fits = value >= 0.0 && value.fract() == 0.0 && value <= 99_999_999.0;
         fits.then_some(value as u32).ok_or_else(|| {
@@ -205,14 +203,23 @@ fn numbers(dialect: &Dialect, code: FlowCode, program: Held, times: Option<Held>
             rejected(dialect, Mistake::NumberNotFound, Refusal::Number, message)
         })
     };
-    let number = whole(number)?;
-    match times {
-        Some(times) => Ok((number, times.map_or(Ok(1), whole)?)),
-        None if matches!(code, FlowCode::Call | FlowCode::CallExternal) && number > 9999 && is_fanuc(dialect) => {
-            Ok((number % 10_000, number / 10_000))
-        }
-        None => Ok((number, 1)),
+    let repeats = times.map(|times| times.map_or(Ok(1), whole)).transpose()?;
+    if let Some(name) = name {
+        return Ok((name, repeats.unwrap_or(1)));
     }
+    let Some(number) = number else {
+        let message = "the call has no P that says which program".to_owned();
+        let kind = rejected(dialect, Mistake::ProgramWordMissing, Refusal::MissingWord, message);
+        return Err(kind);
+    };
+    let number = whole(number)?;
+    let folded = matches!(code, FlowCode::Call | FlowCode::CallExternal) && number > 9999 && is_fanuc(dialect);
+    let (number, repeats) = match repeats {
+        Some(repeats) => (number, repeats),
+        None if folded => (number % 10_000, number / 10_000),
+        None => (number, 1),
+    };
+    Ok((ProgramName::Number(number), repeats))
 }
 
 /// Whether a block has words of the control, numbers of blocks and programs apart.

@@ -2,13 +2,10 @@
 use super::chords::chords;
 use super::faults::fault_of;
 use super::frames::Shift;
-use super::setup::SYSTEMS;
-use crate::memory::Chosen;
 use crate::{Fault, FaultKind, Feed, Interpreter, Motion, MotionKind, Orientation, Position, Sink};
-use trunnion_dialect::{Action, Plane};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::{Arc, Turning};
-use trunnion_ngc::{At, Canon, Error, FileId, Pose, SpindleMode, SpindleTurn, State, Units};
+use trunnion_ngc::{At, Canon, Error, FileId, OwnCode, Pose, State};
 use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// What calls have told that a motion needs and [`State`] does not tell in step with them: compensation of the cutter radius holds
@@ -18,11 +15,13 @@ pub(super) struct Told {
     /// Where the machine is, mm and deg, as far as it is known.
     pub(super) machine: Position,
     /// F, mm/min.
-    feed: Option<f64>,
+    pub(super) feed: Option<f64>,
     /// mm per revolution while the feed is coupled to the spindle.
-    synced: Option<f64>,
+    pub(super) synced: Option<f64>,
     /// The place from which the main program called what runs now.
     pub(super) caller: BlockId,
+    /// Compensation of the cutter radius was on behind the last line.
+    compensated: bool,
     /// Something has happened after which X Y Z U V W are not known.
     pub(super) lost: bool,
     /// The same of A B C.
@@ -64,8 +63,20 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.sink.fault(Fault { block, range, kind });
     }
 
-    fn not_modelled(&mut self, at: At, what: String) {
-        self.fault(at, TextRange::default(), FaultKind::NotModelled { what });
+    /// `codes`: ten times the numbers of the G codes that may be meant, for the place.
+    fn not_modelled(&mut self, at: At, codes: core::ops::RangeInclusive<i64>, what: String) {
+        let range = self.code_range(at, b'G', |code| codes.contains(&code));
+        self.fault(at, range, FaultKind::NotModelled { what });
+    }
+
+    /// Says so where compensation begins with a radius of zero, because nothing is declared of the tool.
+    pub(super) fn radius_unset(&mut self, state: &State, at: At) {
+        let on = state.side != trunnion_ngc::Side::Off;
+        let was = std::mem::replace(&mut self.told.compensated, on);
+        if on && !was && state.radius == 0.0 {
+            let what = "cutter radius compensation: the diameter of the tool is not declared and taken as zero";
+            self.not_modelled(at, 410..=422, what.to_owned());
+        }
     }
 
     fn motion(&mut self, kind: MotionKind, end: Position, shift: &Shift, feed: Feed, at: At, state: &State) {
@@ -116,10 +127,13 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             trunnion_ngc::FeedMode::InverseTime => Some(state.inverse_time),
             _ => self.told.feed,
         };
-        match feed.filter(|feed| *feed > 0.0) {
-            Some(feed) if state.feed_mode == trunnion_ngc::FeedMode::InverseTime => Feed::InverseTime(feed),
-            Some(feed) => Feed::PerMinute(feed),
-            None => Feed::Unknown,
+        let Some(feed) = feed.filter(|feed| *feed > 0.0) else {
+            return Feed::Unknown;
+        };
+        match state.feed_mode {
+            trunnion_ngc::FeedMode::InverseTime => Feed::InverseTime(feed),
+            trunnion_ngc::FeedMode::PerMinute => Feed::PerMinute(feed),
+            trunnion_ngc::FeedMode::PerRevolution => Feed::PerRevolution(feed),
         }
     }
 
@@ -210,13 +224,19 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
                 let kind = MotionKind::Dwell(seconds.is_finite().then_some(*seconds));
                 self.motion(kind, end, &shift, Feed::Unknown, at, state);
             }
-            Canon::UserCode(number, ..) => self.own_code(b'M', number.unsigned_abs() * 10, at),
-            Canon::OwnCode(own) => self.own_code(own.letter, own.tenths, at),
+            Canon::UserCode(number, ..) => {
+                let tenths = number.unsigned_abs() * 10;
+                let range = self.code_range(at, b'M', |code| code == i64::from(tenths));
+                let letter = b'M';
+                self.own_code(OwnCode { letter, tenths, range }, at);
+            }
+            Canon::OwnCode(own) => self.own_code(*own, at),
             _ => self.modal(call, at, state),
         }
     }
 
     fn error(&mut self, error: &Error, at: At) {
+        self.told.lost |= error.problem.class == trunnion_ngc::Class::NotModelled;
         if at.file == FileId::MAIN {
             self.fault(at, error.range, fault_of(error));
             return;
@@ -264,6 +284,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let tolerance = SPLINE_TOLERANCE_MM / state.units.mm();
         self.not_modelled(
             at,
+            50..=63,
             format!("spline: checked along chords within {SPLINE_TOLERANCE_MM} mm of it"),
         );
         let Some(places) = chords(order as usize, points, knots, tolerance) else {
@@ -299,7 +320,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 end.forget(axis);
             }
         }
-        self.not_modelled(at, format!("G38.{kind}: where the probe touches"));
+        self.not_modelled(at, 382..=385, format!("G38.{kind}: where the probe touches"));
         self.motion(MotionKind::Unknown, end, &shift, Feed::Unknown, at, state);
     }
 
@@ -319,131 +340,5 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let feed = self.told.synced.map_or(Feed::Unknown, Feed::PerRevolution);
         self.motion(MotionKind::Linear, end, &shift, feed, at, state);
         self.motion(MotionKind::Linear, start, &shift, feed, at, state);
-    }
-
-    /// A code of the machine's own: what the dialect's table says of it, else nothing is known of the position behind it.
-    fn own_code(&mut self, letter: u8, tenths: u32, at: At) {
-        let dialect = self.interpreter.dialect;
-        let code = if letter == b'G' {
-            dialect.g(tenths)
-        } else {
-            dialect.m(tenths)
-        };
-        let Some(code) = code else {
-            self.fault(
-                at,
-                TextRange::default(),
-                FaultKind::UnknownCode { machine_builder: true },
-            );
-            return;
-        };
-        match code.action {
-            Action::TcpOn => self.tcp(true),
-            Action::TcpOff => self.tcp(false),
-            Action::NoMotion | Action::PathMode | Action::ProgramStop => {}
-            Action::FrameChange => {
-                self.not_modelled(at, code.id.clone());
-                self.told.hidden = true;
-                self.told.lost = true;
-            }
-            Action::FrameReset => {
-                self.told.lost |= std::mem::take(&mut self.told.hidden);
-            }
-            _ => {
-                self.not_modelled(at, code.id.clone());
-                self.told.lost = true;
-                self.told.lost_rotary = true;
-            }
-        }
-        self.interpreter.state.frame_unknown = self.told.hidden;
-    }
-
-    /// The linear axes of one kind of coordinates are not known from the other.
-    pub(super) fn tcp(&mut self, on: bool) {
-        if self.interpreter.state.tcp != on {
-            self.interpreter.state.tcp = on;
-            self.told.lost = true;
-        }
-    }
-
-    fn modal(&mut self, call: &Canon, at: At, state: &State) {
-        let unit = state.units.mm();
-        match *call {
-            Canon::FeedRate(rate) => {
-                self.told.feed = Some(rate * unit);
-                self.interpreter.state.feed = self.told.feed;
-            }
-            Canon::StartSync(synced) => self.told.synced = Some(synced.per_revolution * unit),
-            Canon::StopSync => self.told.synced = None,
-            Canon::Spindle(0, turn) => {
-                self.interpreter.state.spindle_on = Some(turn != SpindleTurn::Stop);
-            }
-            Canon::SpindleSpeed(0, speed) => {
-                let surface = matches!(state.spindle_mode[0], SpindleMode::ConstantSurface(_));
-                self.interpreter.state.spindle_rpm = (!surface && speed.is_finite()).then_some(speed);
-            }
-            Canon::SelectTool(number) => {
-                let number = u32::try_from(number).ok();
-                self.interpreter.state.tool_prepared = number;
-                self.interpreter.memory.prepared = number.map_or(Chosen::Unread, Chosen::Number);
-            }
-            Canon::ChangeTool(_) | Canon::ChangeToolNumber(_) => {
-                let number = u32::try_from(state.tool).ok();
-                let interpreter = &mut *self.interpreter;
-                interpreter.state.tool = number;
-                interpreter.memory.in_spindle = number.map_or(Chosen::Unread, Chosen::Number);
-                interpreter.merge_tool();
-                // the change may move the machine
-                self.told.lost |= matches!(call, Canon::ChangeTool(_));
-            }
-            Canon::ToolOffset(ref offset) => self.tool_offset(offset, at, state),
-            Canon::G5xOffset(index, ref offset) => self.work_offset(index, offset, at),
-            Canon::Units(units) => {
-                let modal = &mut self.interpreter.state;
-                modal.length_unit_mm = if units == Units::Inch { 25.4 } else { 1.0 };
-                modal.feed_unit_mm = modal.length_unit_mm;
-            }
-            Canon::Plane(plane) => {
-                self.interpreter.state.plane = match plane {
-                    trunnion_ngc::Plane::Xz => Plane::Zx,
-                    trunnion_ngc::Plane::Yz => Plane::Yz,
-                    _ => Plane::Xy,
-                };
-            }
-            _ => {}
-        }
-    }
-
-    fn tool_offset(&mut self, offset: &Pose, at: At, state: &State) {
-        let on = offset.iter().any(|value| *value != 0.0) || state.tool != 0;
-        let length = offset[2] * state.units.mm();
-        self.interpreter.state.tool_length_mm = (on && length.is_finite()).then_some(length);
-        let declared = self.interpreter.tool().and_then(|tool| tool.length_mm).is_some();
-        if on && length == 0.0 && !declared {
-            let tool = self.interpreter.tool_name();
-            if self.interpreter.memory.length_is_news(&tool) {
-                self.fault(at, TextRange::default(), FaultKind::ToolLengthUnset { tool });
-            }
-        }
-    }
-
-    fn work_offset(&mut self, index: i32, offset: &Pose, at: At) {
-        let Some(name) = usize::try_from(index - 1).ok().and_then(|index| SYSTEMS.get(index)) else {
-            return;
-        };
-        let changed = self.interpreter.state.work_offset.as_deref() != Some(*name);
-        self.interpreter.state.work_offset = Some((*name).into());
-        let declared = self
-            .interpreter
-            .setup
-            .work_offsets
-            .iter()
-            .any(|known| known.name.eq_ignore_ascii_case(name));
-        let zero = offset.iter().all(|value| *value == 0.0);
-        let begun = self.interpreter.memory.last_content.is_some();
-        if begun && changed && zero && !declared && self.interpreter.memory.offset_is_news(name) {
-            let name = (*name).to_owned();
-            self.fault(at, TextRange::default(), FaultKind::WorkOffsetUnset { name });
-        }
     }
 }

@@ -6,6 +6,10 @@ use trunnion_ngc::{Class, Error};
 pub(super) fn fault_of(error: &Error) -> FaultKind {
     let refusal = match error.problem.class {
         Class::ProgramEnd => return FaultKind::MissingProgramEnd,
+        Class::NotModelled => {
+            let what = error.message().to_owned();
+            return FaultKind::NotModelled { what };
+        }
         Class::Syntax => Refusal::Syntax,
         Class::Number => Refusal::Number,
         Class::Expression => Refusal::Expression,

@@ -1,5 +1,6 @@
 //! Programs for LinuxCNC: run by its own interpreter (`trunnion-ngc`), whose canonical calls become motions.
 mod bridge;
+mod calls;
 mod chords;
 mod faults;
 mod frames;
@@ -46,6 +47,7 @@ impl Rs274 {
                 file: self.engine.path(frame.file).to_owned(),
                 line: frame.line + 1,
                 what: frame.what,
+                is_place: false,
             })
             .collect()
     }
@@ -98,6 +100,7 @@ impl Interpreter<'_> {
                 *done = true;
             }
         }
+        bridge.radius_unset(&engine.state, at);
         if *done {
             engine.read_rest(&mut bridge);
             self.state.ended = true;

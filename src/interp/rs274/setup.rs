@@ -66,11 +66,16 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
     values.sort_unstable_by_key(|(number, _)| *number);
     let mut own: Vec<(u8, u32)> = dialect.codes().iter().filter_map(numbered).collect();
     own.sort_unstable();
+    let is_motion = |code: &&Code| code.group.as_deref() == Some("motion");
+    let motions = dialect.codes().iter().filter(is_motion).filter_map(numbered);
+    let mut motions: Vec<u32> = motions.filter(|code| code.0 == b'G').map(|code| code.1).collect();
+    motions.sort_unstable();
     let tools = setup.tools.iter().chain(declared).filter(|tool| tool.number != 0);
     Told {
         start: Start::Unknown,
         machine_units: Units::Millimetre,
         own_codes: own.into(),
+        own_motions: motions.into(),
         any_tool: true,
         user_codes: true,
         tools: ToolTable {

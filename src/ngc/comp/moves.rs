@@ -34,6 +34,8 @@ struct Here {
     contour: Point,
     /// Centre.
     centre: Point,
+    /// A point of the straight way before, where it is cut with an arc whose radii differ.
+    fitted: Point,
     radius: f64,
     /// From the contour to the cutter.
     normal: Point,
@@ -48,6 +50,7 @@ impl Here {
         Self {
             contour,
             centre,
+            fitted: centre,
             radius: state.radius,
             normal,
         }
@@ -172,7 +175,13 @@ pub(crate) fn arc(engine: &mut Engine, arc: &Arc, block: &Block, at: At, sink: &
         )?;
         let direction = plane::scaled(start, outward / radius);
         let found = corner::corner(engine.state.side, here.normal, direction, outward > 0.0);
-        let new = Way::Circle(arc.centre, radius + outward * here.radius, arc.turns > 0);
+        // the control fits the corner to the radius at the end of the arc, as if the contour came to that circle
+        let fitted = plane::length(plane::sub(target, arc.centre));
+        let new = Way::Circle(arc.centre, fitted + outward * here.radius, arc.turns > 0);
+        let mut here = here;
+        if engine.queue.last_arc().is_none() {
+            here.fitted = plane::add(here.centre, plane::scaled(start, fitted / radius - 1.0));
+        }
         turn(engine, found, Kind::Feed, &here, direction, new, block, at, sink)?;
         queue::Bow {
             end: plane::with_point(plane, arc.end, centre),
@@ -182,7 +191,8 @@ pub(crate) fn arc(engine: &mut Engine, arc: &Arc, block: &Block, at: At, sink: &
             fixed: false,
         }
     };
-    engine.queue.moves(Some((bow.centre, bow.turns)));
+    // the control does not remember the entry arc of a turning tool as an arc
+    engine.queue.moves((!bow.fixed).then_some((bow.centre, bow.turns)));
     queue::bow(engine, bow, at);
     arrive(engine, arc.end, centre, sink);
     Ok(())
@@ -244,7 +254,7 @@ fn turn(
     match found {
         Corner::Flat => queue::release(engine, sink),
         Corner::Inside => {
-            let last = corner::last_way(engine, here.centre, here.normal);
+            let last = corner::last_way(engine, here.fitted, here.normal);
             let Some(meeting) = corner::meeting(engine.state.side, last, new) else {
                 let problem = match (last, new) {
                     (Way::Circle(..), Way::Circle(..)) => &problems::ARC_TO_ARC,

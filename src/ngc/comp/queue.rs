@@ -56,10 +56,6 @@ impl Queue {
     pub(crate) fn is_empty(&self) -> bool {
         self.held.is_empty()
     }
-    /// Forgets everything: the program was refused or ends.
-    pub(crate) fn clear(&mut self) {
-        self.held.clear();
-    }
     /// The centre stands here, nothing is held.
     pub(super) fn start(&mut self, at: Point) {
         self.held.clear();

@@ -70,8 +70,15 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
     }
     missing(work, code, new_code)?;
     work.engine.state.cycle = words;
-    for _ in 0..words.l {
-        hole.at = [hole.at[0] + step[0], hole.at[1] + step[1]];
+    let polar = incremental && (work.block.radius.is_some() || work.block.angle.is_some());
+    for turn in 0..words.l {
+        hole.at = if polar && turn > 0 {
+            // each hole is turned and moved out from the one before
+            let end = exec::end_of(&work.engine.state, work.block)?;
+            [end[first], end[second]]
+        } else {
+            [hole.at[0] + step[0], hole.at[1] + step[1]]
+        };
         hole.rapid(work, level);
         if level != r {
             hole.rapid(work, r);

@@ -62,6 +62,13 @@ pub(crate) fn run(engine: &mut Engine, code: i16, block: &Block, at: At, sink: &
         51 => spline::quadratic(&mut work),
         52 => spline::point(&mut work),
         53 => spline::finish(&mut work),
+        700..=722 => {
+            // where the contour ends is not known
+            for axis in [0, 2] {
+                work.engine.state.current[axis] = f64::NAN;
+            }
+            Err(work.refuse(&problems::CONTOUR))
+        }
         _ => drill::run(&mut work, code),
     }
 }

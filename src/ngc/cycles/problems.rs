@@ -9,6 +9,8 @@ macro_rules! problems {
 
 problems! {
     NO_AXES MissingWord "All axes missing with motion code" "Add the axis words of the motion."
+    CONTOUR NotModelled "G70 to G72.2 (turning cycles): the way of the tool is not known from here on"
+        "This is no mistake of the program. Check it on the control."
     COMPENSATED CannedCycle "Cannot use canned cycles with cutter compensation on" "End compensation with G40 before the cycle."
     ZERO_FEED Feed "Cannot feed with zero feed rate" "Program F before the cycle."
     INVERSE_TIME CannedCycle "Cannot use inverse time feed with canned cycles" "Write G94 before the cycle."
@@ -61,5 +63,6 @@ problems! {
     NURBS_POINT MissingWord "You must specify both X and Y coordinates for Control Points" "Each control point needs X and Y."
     NURBS_WEIGHT MissingWord "Must specify positive weight P for every Control Point" "Add P, greater than 0."
     NURBS_POINTS MissingWord "You must specify a number of control points at least equal to the order L = {}" "Add control points, or lower L."
+    INCOMPLETE NotModelled "a spline of which a control point was refused" "Correct the control points first."
     NURBS_START Structure "Cannot use G5.3 without G5.2 first" "Begin the spline with G5.2."
 }

@@ -12,6 +12,8 @@ pub(crate) struct Spline {
     /// Control points of G5.2 so far: x, y, weight.
     points: Vec<[f64; 3]>,
     order: u32,
+    /// A control point was refused.
+    incomplete: bool,
     /// Where the last G5 ended and the direction in which it arrived: minus its P and Q.
     tail: Option<(Pose, [f64; 2])>,
 }
@@ -95,6 +97,12 @@ pub(super) fn quadratic(work: &mut Work<'_>) -> Result<(), Error> {
 
 /// G5.2 and the lines behind it: one control point.
 pub(super) fn point(work: &mut Work<'_>) -> Result<(), Error> {
+    let result = add_point(work);
+    work.engine.spline.incomplete |= result.is_err();
+    result
+}
+
+fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
     let block = work.block;
     if work.engine.state.feed_rate == 0.0 {
         return Err(work.refuse(&problems::NURBS_FEED));
@@ -143,6 +151,10 @@ pub(super) fn finish(work: &mut Work<'_>) -> Result<(), Error> {
         return Err(work.refuse(&problems::NURBS_START));
     }
     let spline = std::mem::take(&mut work.engine.spline);
+    if spline.incomplete {
+        work.engine.state.motion = 800;
+        return Err(work.refuse(&problems::INCOMPLETE));
+    }
     let count = spline.points.len();
     if count < spline.order as usize {
         let text = problems::NURBS_POINTS.message.replace("{}", &spline.order.to_string());

@@ -107,13 +107,10 @@ fn cut(work: &mut Work<'_>, thread: &Thread, depth: f64) {
     let back = thread.start[0] - inward * (thread.full - depth);
     let peak = back + thread.peak;
     let bottom = thread.start[0] + thread.peak + inward * depth;
-    let first = thread.start[2] - depth * thread.tangent;
-    let last = thread.end[2] + (thread.full - depth) * thread.tangent;
-    let along = if thread.end[2] > thread.start[2] {
-        thread.taper
-    } else {
-        -thread.taper
-    };
+    let forward = if thread.end[2] > thread.start[2] { 1.0 } else { -1.0 };
+    let first = thread.start[2] + forward * depth * thread.tangent;
+    let last = thread.end[2] - forward * (thread.full - depth) * thread.tangent;
+    let along = forward * thread.taper;
     let slanted = if thread.taper == 0.0 {
         thread.pitch
     } else {

@@ -185,7 +185,7 @@ fn by_radius_format(
     if from == to {
         return Err(Error::new(&SAME_POINT, block.range_of(b'R')));
     }
-    let middle = [(from[0] + to[0]) / 2.0, (from[1] + to[1]) / 2.0];
+    let middle = [f64::midpoint(from[0], to[0]), f64::midpoint(from[1], to[1])];
     let half = math::hypot(middle[0] - to[0], middle[1] - to[1]);
     // a chord that is longer by the rounding of the last decimal is a half circle
     let tolerance = if units == Units::Inch { 5e-5 } else { 5e-5 * 25.4 };

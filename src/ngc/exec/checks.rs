@@ -74,6 +74,21 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
     Ok(())
 }
 
+/// Axis words without a motion code, while the one in force may be one that is not modelled: what they do is not known.
+pub(crate) fn modelled(block: &Block, state: &State) -> Result<(), Error> {
+    let Some(tenths) = state.unmodelled else { return Ok(()) };
+    let setting = matches!(block.g[0], 100 | 280 | 300 | 520 | 920) || matches!(block.g[8], 431 | 432);
+    if block.g[1] >= 0 || setting || !block.has_axes() {
+        return Ok(());
+    }
+    let code = match tenths {
+        u32::MAX => problems::UNMODELLED.message.to_owned(),
+        whole if whole % 10 == 0 => format!("G{}", whole / 10),
+        _ => format!("G{}.{}", tenths / 10, tenths % 10),
+    };
+    Err(Error::with(&problems::UNMODELLED, block.range, code))
+}
+
 /// Bytes of the first axis word of the line.
 fn first_axis(block: &Block) -> trunnion_syntax::TextRange {
     super::ends::AXES
@@ -144,11 +159,10 @@ fn check_g10(block: &Block) -> Result<(), Error> {
     };
     let at_least = |least: f64| p.is_some_and(|p| p.is_nan() || p >= least);
     match block.word(b'L').map_or(-1, |l| l as i32) {
-        0 => {}
         2 if !at_least(0.0) || p.is_some_and(|p| p > 9.0) => return Err(Error::new(&problems::G10_L2_P, p_range)),
         20 if !at_least(0.0) || p.is_some_and(|p| p > 9.0) => return Err(Error::new(&problems::G10_L20_P, p_range)),
         20 if block.has(b'R') => return Err(Error::new(&problems::G10_L20_R, block.range_of(b'R'))),
-        2 | 20 => {}
+        0 | 2 | 20 => {}
         1 if !at_least(1.0) => return Err(Error::new(&problems::G10_L1_P, p_range)),
         10 if !at_least(1.0) => return Err(Error::new(&problems::G10_L10_P, p_range)),
         11 if !at_least(1.0) => return Err(Error::new(&problems::G10_L11_P, p_range)),

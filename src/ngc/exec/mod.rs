@@ -40,6 +40,7 @@ pub(crate) fn check(engine: &Engine, block: &mut Block) -> Result<(), Error> {
         return Ok(());
     }
     checks::codes(engine, block)?;
+    checks::modelled(block, &engine.state)?;
     checks::choose_motion(block, &engine.state)?;
     checks::check(block, &engine.state)
 }
@@ -48,6 +49,11 @@ pub(crate) fn check(engine: &Engine, block: &mut Block) -> Result<(), Error> {
 pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut dyn Sink) -> Result<After, Error> {
     if let Some(own) = block.own {
         engine.emit(Canon::OwnCode(own), at, sink);
+        let motion = engine.setup.own_motions.binary_search(&own.tenths).is_ok();
+        // what a remap runs may leave a motion code in force
+        if own.letter == b'G' && (motion || engine.state.motion == 800) {
+            engine.state.unmodelled = Some(own.tenths);
+        }
     }
     modes(engine, block, at, sink)?;
     switches(engine, block, at, sink)?;

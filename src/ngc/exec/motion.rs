@@ -69,14 +69,13 @@ pub(crate) fn check_feed(
     let state = &engine.state;
     match state.feed_mode {
         FeedMode::InverseTime if !block.has(b'F') => return Err(Error::new(missing_f, block.g_range[1])),
-        FeedMode::InverseTime => {}
         FeedMode::PerMinute | FeedMode::PerRevolution if state.feed_rate == 0.0 => {
             return Err(Error::new(zero, code_range(block)));
         }
         FeedMode::PerRevolution if state.speed[state.active_spindle] == 0.0 => {
             return Err(Error::new(&problems::ZERO_SPEED_PER_REV, code_range(block)));
         }
-        FeedMode::PerMinute | FeedMode::PerRevolution => {}
+        _ => {}
     }
     Ok(())
 }

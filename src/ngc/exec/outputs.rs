@@ -53,7 +53,10 @@ fn wait(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Resu
     if until > 0 && timeout <= 0.0 {
         return Err(Error::new(&problems::M66_TIMEOUT, range));
     }
-    let (Some(index), analog) = (digital.or(analog).filter(|&index| !(index < 0.0)), analog.is_some()) else {
+    let (Some(index), analog) = (
+        digital.or(analog).filter(|&index| index.is_nan() || index >= 0.0),
+        analog.is_some(),
+    ) else {
         return Err(Error::new(&problems::M66_NONE, range));
     };
     let call = Canon::WaitInput {

@@ -29,8 +29,8 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     } else {
         short_of(&engine.state.told.position, &end, SHORT_MM / engine.state.units.mm())
     };
-    for axis in 0..9 {
-        engine.set_parameter(5061 + axis, end[axis]);
+    for (axis, value) in end.into_iter().enumerate() {
+        engine.set_parameter(5061 + axis, value);
     }
     engine.state.current = touched;
     engine.state.told.reach(&touched);

@@ -2,8 +2,10 @@
 use super::labels::{NameId, Place, Style, Subprogram};
 use super::oline::{Keyword, OLine};
 use super::{Call, Compiled, Goal, Halt, Seeking, context, problems};
+use crate::parameters::Values;
 use crate::{Engine, Error, FileId, Sink, Source};
 use std::sync::Arc;
+use trunnion_formula::{Formula, ValueError, Variables};
 
 /// Most arguments of a call.
 const ARGUMENTS: usize = 30;
@@ -17,13 +19,14 @@ impl Engine {
         name: NameId,
         sought: Option<Seeking>,
     ) -> Result<(), Halt> {
+        if sought.is_some() {
+            // a call in the text of its own definition, which is passed over: as on the control its arguments are not evaluated
+            self.flow.seeking = sought;
+            return Ok(());
+        }
         let mut arguments = [0.0; ARGUMENTS];
         for (place, formula) in arguments.iter_mut().zip(&line.values) {
             *place = self.value(formula)?;
-        }
-        if sought.is_some() {
-            self.flow.seeking = sought;
-            return Ok(());
         }
         if let Some(flaw) = line.tail {
             return Err(Error::new(flaw.problem, flaw.range).into());
@@ -177,6 +180,7 @@ impl Engine {
             return Err(self.redefined(line, name, &known).into());
         }
         self.flow.labels.define(name, subprogram);
+        self.flow.first_sub.get_or_insert(name);
         self.begin_seeking(compiled, Goal::Definition(name));
         Ok(())
     }
@@ -213,7 +217,12 @@ impl Engine {
     }
     /// `o... endsub [..]`, `o... return [..]`
     pub(super) fn end_sub(&mut self, line: &OLine, sought: Option<Seeking>, sink: &mut dyn Sink) -> Result<(), Halt> {
-        let value = line.values.first().map(|formula| self.value(formula)).transpose();
+        let passed = matches!(sought, Some(seeking) if matches!(seeking.goal, Goal::Definition(_)));
+        let value = line.values.first().map(|formula| match passed {
+            true => self.value_in_passing(formula),
+            false => self.value(formula),
+        });
+        let value = value.transpose();
         if let Some(seeking) = sought {
             if line.keyword == Keyword::Return || matches!(seeking.goal, Goal::Subprogram(..)) {
                 self.flow.seeking = sought;
@@ -245,6 +254,11 @@ impl Engine {
         }
         self.store.set_returned(value);
         self.leave_call(sink)
+    }
+    /// A value in a definition that is passed over: names that are not defined there are no mistake, but have no value either.
+    fn value_in_passing(&self, formula: &Formula) -> Result<f64, Error> {
+        let value = formula.eval(&InPassing(self.values()));
+        value.map_err(|error| crate::read::formula_error(&error))
     }
     /// `endsub` and `return` in the main program.
     fn end_sub_outside(&mut self, line: &OLine, value: Option<f64>) -> Result<(), Halt> {
@@ -287,6 +301,25 @@ impl Engine {
         self.flow.chain = call.chain;
         self.flow.style = call.style;
         self.flow.seeking = None;
+    }
+}
+
+/// What formulas read from in a definition that is passed over.
+struct InPassing<'a>(Values<'a>);
+
+impl Variables for InPassing<'_> {
+    fn numbered(&self, index: i64) -> Result<f64, ValueError> {
+        self.0.numbered(index)
+    }
+    fn named(&self, name: &str) -> Result<f64, ValueError> {
+        match self.0.named(name) {
+            // observed: rs274 reads memory that was never written
+            Err(ValueError::NotDefined) => Ok(f64::NAN),
+            value => value,
+        }
+    }
+    fn exists(&self, name: &str) -> bool {
+        self.0.exists(name)
     }
 }
 

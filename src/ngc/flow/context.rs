@@ -5,6 +5,7 @@ use crate::{
     At, Block, DistanceMode, Engine, Error, FeedMode, MotionMode, Plane, RetractMode, Side, Sink, SpindleMode, State,
 };
 use crate::{Problem, Units};
+use std::fmt::Write;
 use trunnion_syntax::TextRange;
 
 use super::problems;
@@ -278,11 +279,12 @@ fn failed(error: &Error, block: &Block) -> Error {
     let mut text = String::new();
     for code in block.g.iter().filter(|&&code| code >= 0) {
         let (whole, tenth) = (code / 10, code % 10);
-        text.push_str(&if tenth == 0 {
-            format!(" G{whole}")
+        // writing to a string does not fail
+        let _ = if tenth == 0 {
+            write!(text, " G{whole}")
         } else {
-            format!(" G{whole}.{tenth}")
-        });
+            write!(text, " G{whole}.{tenth}")
+        };
     }
     let problem: &'static Problem = error.problem;
     let detail = format!("M7x: restore_settings failed : '{text}': {}", error.message());

@@ -1,7 +1,7 @@
 //! Beginning and end of a program: `%`, M2, the end of the file.
 use super::labels::Place;
 use super::{Goal, Seeking, fetch, problems};
-use crate::{At, Canon, Engine, Error, Problem, Sink, Step, exec};
+use crate::{At, Canon, Engine, Error, FileId, Problem, Sink, Start, Step, exec};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
@@ -51,12 +51,19 @@ impl Engine {
                     "EOF in file:{} seeking o-word: o<{name}> from line: {from}",
                     self.file_name(file)
                 );
-                let error = Error::with(&problems::NOT_FOUND, self.written_range(opener), detail);
+                let error = Error {
+                    read_last: self.last_line(),
+                    ..Error::with(&problems::NOT_FOUND, self.written_range(opener), detail)
+                };
                 self.flow.at = self.flow.calls.last().map_or(self.flow.at, |call| call.site);
                 self.abandon_call();
                 self.refuse(&error, sink)
             }
             seeking => {
+                if let (None, Some(why)) = (seeking, self.only_subprograms()) {
+                    self.flow.ended = true;
+                    return Step::Undecided(why);
+                }
                 let problem = match (self.flow.percent, seeking.is_some()) {
                     (true, _) => &problems::NO_END_PERCENT,
                     (false, true) => &problems::NO_STRUCTURE_END,
@@ -73,9 +80,38 @@ impl Engine {
                     }
                     None => self.last_range(),
                 };
-                self.stop(problem, range, sink)
+                self.flow.ended = true;
+                let error = Error {
+                    read_last: seeking.and_then(|_| self.last_line()),
+                    ..Error::new(problem, range)
+                };
+                self.refuse(&error, sink);
+                Step::Ended
             }
         }
+    }
+    /// The last line of the file in hand.
+    fn last_line(&self) -> Option<(FileId, TextRange)> {
+        let file = self.flow.here.file;
+        let bytes = self.files[file.0 as usize].bytes();
+        let end = bytes.len() - usize::from(bytes.ends_with(b"\n"));
+        let start = memchr::memrchr(b'\n', &bytes[..end]).map_or(0, |before| before + 1);
+        Some((file, TextRange::new(start as u32, end as u32)))
+    }
+    /// A file that only defines subprograms is one that another program calls: in a check its missing end is no mistake. Says so,
+    /// and makes the first definition the line in hand.
+    fn only_subprograms(&mut self) -> Option<String> {
+        let idle = !self.flow.did && !self.flow.called && !self.flow.percent;
+        let name = self
+            .flow
+            .first_sub
+            .filter(|_| idle && self.setup.start == Start::Unknown)?;
+        let place = self.flow.labels.subprogram(name)?.place;
+        (self.flow.at.file, self.flow.at.line) = (place.file, place.line);
+        let name = self.flow.labels.text(name);
+        Some(format!(
+            "the program that calls o<{name}>: this file defines it and runs nothing"
+        ))
     }
     /// A line's text without blanks at its ends.
     fn written_range(&self, place: Place) -> TextRange {
@@ -114,9 +150,14 @@ impl Engine {
             }
             None => (String::new(), self.flow.here),
         };
+        let here = self.flow.here;
+        let percent = (here.file, self.range_at(here));
         self.finish(sink);
         let detail = format!("Failed to find sub 'O{name}' before EOF");
-        let error = Error::with(&problems::NOT_FOUND_PERCENT, self.written_range(opener), detail);
+        let error = Error {
+            read_last: Some(percent),
+            ..Error::with(&problems::NOT_FOUND_PERCENT, self.written_range(opener), detail)
+        };
         self.flow.at.file = opener.file;
         self.flow.at.line = opener.line;
         self.refuse(&error, sink);

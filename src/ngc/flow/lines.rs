@@ -51,6 +51,11 @@ impl Lines {
         self.ran[word] |= bit;
         false
     }
+    /// Whether no line from this one on ever ran.
+    #[inline]
+    pub(crate) fn is_new(&self, line: u32) -> bool {
+        line >= self.frontier
+    }
     /// Whether a line ran.
     pub(crate) fn has_run(&self, line: u32) -> bool {
         self.ran

@@ -12,6 +12,7 @@ mod labels;
 mod lines;
 mod numbered;
 mod oline;
+mod plain;
 mod problems;
 mod rest;
 mod seek;
@@ -156,6 +157,10 @@ pub(crate) struct Flow {
     /// Something was called: as on the control, the main program may `return` from then on.
     called: bool,
     seeking: Option<Seeking>,
+    /// Some line of the main program had words.
+    did: bool,
+    /// The first subprogram that the main program defined.
+    first_sub: Option<NameId>,
     /// A `do` line has ended the skip of a `break`, which the next end of a loop obeys, as on the control.
     broken: bool,
     labels: Labels,
@@ -185,6 +190,8 @@ impl Clone for Flow {
             style: self.style,
             called: self.called,
             seeking: self.seeking,
+            did: self.did,
+            first_sub: self.first_sub,
             broken: self.broken,
             labels: self.labels.clone(),
             chains: self.chains.clone(),
@@ -213,6 +220,8 @@ impl Flow {
             style: Style::Sub,
             called: false,
             seeking: None,
+            did: false,
+            first_sub: None,
             broken: false,
             labels: Labels::new(),
             chains: Chains::default(),

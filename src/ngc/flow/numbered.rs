@@ -56,9 +56,10 @@ impl Engine {
         self.apply(&compiled.line)?;
         for (value, letter) in [(number, 'P'), (rounds.unwrap_or(1.0), 'L')] {
             if value.is_nan() {
-                return Err(Halt::Undecided(
-                    self.undecided_word(letter, "which subprogram runs, and how often,"),
-                ));
+                return Err(Halt::Undecided(Self::undecided_word(
+                    letter,
+                    "which subprogram runs, and how often,",
+                )));
             }
         }
         let whole = |value: f64, range| match oline::whole(value) {

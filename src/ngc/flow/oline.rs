@@ -110,16 +110,14 @@ pub(crate) fn read(cursor: &mut Cursor<'_>) -> OLine {
         line.tail = tail(cursor);
         return line;
     }
-    match keyword(cursor) {
-        Some((keyword, range)) => (line.keyword, line.keyword_range) = (keyword, range),
-        None => {
-            line.flaw = Some(Flaw {
-                problem: &problems::UNKNOWN_KEYWORD,
-                range: unknown(cursor),
-            });
-            return line;
-        }
-    }
+    let Some((keyword, range)) = keyword(cursor) else {
+        line.flaw = Some(Flaw {
+            problem: &problems::UNKNOWN_KEYWORD,
+            range: unknown(cursor),
+        });
+        return line;
+    };
+    (line.keyword, line.keyword_range) = (keyword, range);
     values(cursor, &mut line);
     line
 }

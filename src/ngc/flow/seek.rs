@@ -6,7 +6,7 @@ use super::fetch::{self, Head};
 use super::labels::Place;
 use super::oline::{self, Keyword, OLine};
 use super::{Compiled, Goal, Kind, Seeking, problems};
-use crate::{Engine, Error};
+use crate::{Class, Engine, Error};
 use trunnion_syntax::TextRange;
 
 /// How a skip went.
@@ -73,10 +73,9 @@ impl Engine {
             let range = self.range_at(place);
             let next = Self::behind(place, range);
             match self.glance(place, range, &mut seeking) {
-                Glance::Nothing => self.flow.here = next,
                 Glance::Counts(line) => return self.land(place, next, *line, seeking),
                 Glance::Percent if self.flow.percent => return Sought::Percent,
-                Glance::Percent => self.flow.here = next,
+                Glance::Nothing | Glance::Percent => self.flow.here = next,
                 Glance::Refused(error) => {
                     self.flow.here = next;
                     self.note(place);
@@ -144,6 +143,8 @@ impl Engine {
         }
         let name = match self.name_of(&line) {
             Ok(name) => name,
+            // a label that has no value yet is none that is looked for
+            Err(super::Halt::Refused(error)) if error.problem.class == Class::Variable => return Glance::Nothing,
             Err(super::Halt::Refused(error)) => return Glance::Refused(error),
             Err(super::Halt::Undecided(why)) => return Glance::Undecided(why),
             Err(super::Halt::Told) => return Glance::Nothing,

@@ -36,6 +36,9 @@ impl Engine {
         if here.offset as usize >= self.files[here.file.0 as usize].bytes().len() {
             return self.end_of_file(sink);
         }
+        if let Some(step) = self.plain_line(sink) {
+            return step;
+        }
         let (compiled, keep) = self.fetch();
         if self.flow.fuel == 0 {
             self.put_back(compiled, keep);
@@ -118,13 +121,31 @@ impl Engine {
     fn run_words(&mut self, compiled: &Compiled, sink: &mut dyn Sink) -> Result<After, Halt> {
         let mut block = self.block.take().unwrap_or_default();
         let result = self.run_block(compiled, &mut block, sink);
+        if let Err(halt) = &result {
+            self.refused_motion(block.g[1], halt);
+        }
         self.block = Some(block);
         result
+    }
+    /// A line with a motion code was refused. The lines behind it were written for that code: they are run in its mode, and not in the
+    /// one that was in force before.
+    fn refused_motion(&mut self, code: i16, halt: &Halt) {
+        let not_modelled = matches!(halt, Halt::Refused(error) if error.problem.class == crate::Class::NotModelled);
+        match code {
+            0 | 10 | 20 | 30 | 52 | 800 => self.state.motion = code,
+            code if code > 0 && not_modelled => self.state.unmodelled = Some(code.unsigned_abs().into()),
+            code if code > 0 => self.state.unmodelled = Some(u32::MAX),
+            _ => {}
+        }
     }
     fn run_block(&mut self, compiled: &Compiled, block: &mut crate::Block, sink: &mut dyn Sink) -> Result<After, Halt> {
         let line = &compiled.line;
         let at = self.flow.at;
         let evaluated = read::evaluate(line, &self.values(), block);
+        self.flow.did |= self.flow.calls.is_empty() && !line.words.is_empty();
+        if block.g[1] >= 0 {
+            self.state.unmodelled = None;
+        }
         if !line.errors.is_empty() || evaluated.is_err() {
             return Err(self.refuse_text(line, evaluated, sink));
         }
@@ -178,6 +199,10 @@ impl Engine {
             (Ok(()), Some(error)) => error.clone(),
             (Ok(()), None) => return Halt::Told,
         };
+        if first.problem == &read::G_UNKNOWN {
+            // it may have been meant as a motion code
+            self.state.unmodelled = Some(u32::MAX);
+        }
         self.tell(&first, sink);
         for error in &line.errors {
             if error.range != first.range {

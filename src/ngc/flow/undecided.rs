@@ -22,7 +22,7 @@ impl Engine {
         format!("{what} depends on {}", reasons.join(" and "))
     }
     /// A word is not known.
-    pub(super) fn undecided_word(&self, letter: char, what: &str) -> String {
+    pub(super) fn undecided_word(letter: char, what: &str) -> String {
         format!("{what} depends on {letter}, whose value is not known before the program runs")
     }
     /// The variables of a formula that are not known.

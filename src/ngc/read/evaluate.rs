@@ -169,11 +169,22 @@ fn word(word: &WordText, line: &Line, values: &Values<'_>, block: &mut Block) ->
             .partition_point(|assignment| assignment.target_range.start < word.range.start);
         value(&word.value, &created(line, before as u32, values))?
     };
-    let range = word.range;
+    put(word.letter, value, word.range, values, block)
+}
+
+/// Puts the value of a word into its place.
+#[inline]
+pub(super) fn put(
+    letter: u8,
+    value: f64,
+    range: TextRange,
+    values: &Values<'_>,
+    block: &mut Block,
+) -> Result<(), Error> {
     let least = |problem: &'static Problem, holds: bool| {
         if holds { Err(Error::new(problem, range)) } else { Ok(()) }
     };
-    match word.letter {
+    match letter {
         b'G' => return g_code(value, range, values, block),
         b'M' => return m_code(value, range, values, block),
         b'@' => block.radius = Some(value),

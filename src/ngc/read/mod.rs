@@ -3,6 +3,7 @@ mod codes;
 mod comments;
 mod evaluate;
 mod line;
+mod plain;
 mod problems;
 
 pub(crate) use comments::flaw as comment_flaw;
@@ -11,4 +12,5 @@ mod tests;
 
 pub(crate) use evaluate::{apply, evaluate};
 pub(crate) use line::Line;
-pub(crate) use problems::{UNDECIDED, formula as formula_error};
+pub(crate) use plain::plain;
+pub(crate) use problems::{G_UNKNOWN, UNDECIDED, formula as formula_error};

@@ -1,4 +1,6 @@
 //! The texts of INI files, tool tables and parameter files.
+use std::fmt::Write;
+
 use super::{Ini, Parameters, ToolEntry, ToolTable};
 
 /// A line of a setup file that means nothing.
@@ -144,10 +146,11 @@ impl Parameters {
     }
     /// The text of a parameter file.
     pub fn text(&self) -> String {
-        self.values
-            .iter()
-            .map(|(index, value)| format!("{index}\t{value:.6}\n"))
-            .collect()
+        self.values.iter().fold(String::new(), |mut text, (index, value)| {
+            // writing to a string does not fail
+            let _ = writeln!(text, "{index}\t{value:.6}");
+            text
+        })
     }
 }
 

@@ -85,7 +85,7 @@ fn dwells_at_the_bottom() {
     assert_eq!(got[3], "D0.25 Z-3");
 }
 
-fn pecking(dialect: &str, source: &str, control: ControlData) -> Vec<String> {
+pub(crate) fn pecking(dialect: &str, source: &str, control: ControlData) -> Vec<String> {
     let setup = Setup {
         control,
         ..Setup::default()

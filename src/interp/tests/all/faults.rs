@@ -5,8 +5,11 @@ use trunnion_interp::{FaultKind, Setup};
 #[test]
 fn unknown_codes_and_words() {
     assert_eq!(
-        faults("linuxcnc", "G777\n"),
-        ["1: G777: UnknownCode { machine_builder: false }"]
+        faults("linuxcnc", "G77.7\n"),
+        [
+            "1: G77.7: Rejected { refusal: UnknownCode, message: \"Unknown g code used: The control has no such code.\", \
+             alarm: Some(\"LinuxCNC: Unknown g code used\") }"
+        ]
     );
     assert_eq!(
         faults("sinumerik-840d", "M123\n"),

@@ -3,9 +3,11 @@
 #![expect(clippy::format_push_string, reason = "texts of tests are short")]
 mod apt;
 mod arcs;
+mod by_hand;
 mod compensation;
 mod corners;
 mod cycles;
+mod cycles_steps;
 mod directives;
 mod faults;
 mod files;

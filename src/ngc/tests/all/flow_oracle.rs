@@ -1,5 +1,7 @@
 //! The order of execution: programs with the calls that `rs274 -g` of LinuxCNC 2.9 made of them, held against ours; and, where it is
 //! installed, the control itself.
+// helpers of tests may panic, and say what they skip
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 use crate::listing;
 use std::fmt::Write;
 use std::path::Path;

@@ -125,11 +125,13 @@ fn a_subprogram_that_calls_itself_is_refused_where_it_gets_too_deep() {
 
 #[test]
 fn a_file_that_calls_itself_is_refused() {
-    let mut setup = Setup::default();
-    setup.files = Some(Arc::new(Folder(BTreeMap::from([(
-        "a",
-        "o<a> sub\ng0 x1\no<a> call\no<a> endsub\n",
-    )]))));
+    let setup = Setup {
+        files: Some(Arc::new(Folder(BTreeMap::from([(
+            "a",
+            "o<a> sub\ng0 x1\no<a> call\no<a> endsub\n",
+        )])))),
+        ..Setup::default()
+    };
     let (_, heard, step) = run(b"o<a> call\nm2\n", &setup, false);
     assert_eq!(step, Step::Ended);
     assert_eq!(heard.errors.len(), 1, "{:?}", heard.errors);
@@ -138,11 +140,13 @@ fn a_file_that_calls_itself_is_refused() {
 
 #[test]
 fn a_motion_knows_how_it_came_about() {
-    let mut setup = Setup::default();
-    setup.files = Some(Arc::new(Folder(BTreeMap::from([(
-        "hole",
-        "o<hole> sub\ng0 x[#1]\no<hole> endsub\n",
-    )]))));
+    let setup = Setup {
+        files: Some(Arc::new(Folder(BTreeMap::from([(
+            "hole",
+            "o<hole> sub\ng0 x[#1]\no<hole> endsub\n",
+        )])))),
+        ..Setup::default()
+    };
     let program =
         b"o1 sub\no<hole> call [#1]\no1 endsub\no2 repeat [2]\no1 call [3]\no2 endrepeat\nm98 p7\nm2\no7\ng0 y1\nm99\n";
     let (engine, heard, step) = run(program, &setup, false);

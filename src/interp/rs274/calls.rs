@@ -1,0 +1,145 @@
+//! Calls that move nothing: tools, offsets, feed, spindle, planes, units, and codes of the machine's own.
+use super::bridge::Bridge;
+use super::setup::SYSTEMS;
+use crate::memory::Chosen;
+use crate::{FaultKind, Sink};
+use trunnion_dialect::{Action, Plane};
+use trunnion_ngc::{At, Canon, OwnCode, Pose, SpindleMode, SpindleTurn, State, Units};
+use trunnion_syntax::{Address, TextRange, Value};
+
+impl<S: Sink> Bridge<'_, '_, '_, S> {
+    /// A code of the machine's own: what the dialect's table says of it, else nothing is known of the position behind it.
+    pub(super) fn own_code(&mut self, own: OwnCode, at: At) {
+        let dialect = self.interpreter.dialect;
+        let code = if own.letter == b'G' {
+            dialect.g(own.tenths)
+        } else {
+            dialect.m(own.tenths)
+        };
+        let Some(code) = code else {
+            self.fault(at, own.range, FaultKind::UnknownCode { machine_builder: true });
+            return;
+        };
+        match code.action {
+            Action::TcpOn => self.tcp(true),
+            Action::TcpOff => self.tcp(false),
+            Action::NoMotion | Action::PathMode | Action::ProgramStop => {}
+            Action::FrameReset => self.told.lost |= std::mem::take(&mut self.told.hidden),
+            action => {
+                let what = code.id.clone();
+                self.fault(at, own.range, FaultKind::NotModelled { what });
+                self.told.lost = true;
+                if action == Action::FrameChange {
+                    self.told.hidden = true;
+                } else {
+                    self.told.lost_rotary = true;
+                }
+            }
+        }
+        self.interpreter.state.frame_unknown = self.told.hidden;
+    }
+
+    /// The first code of the block in hand that `is` says, ten times its number; the whole block where it is not written as a number.
+    pub(super) fn code_range(&mut self, at: At, letter: u8, is: impl Fn(i64) -> bool) -> TextRange {
+        let block = self.block(at);
+        let mut words = self.program.block(block).words();
+        let found = words.find(|word| match (word.address, word.value) {
+            (Address::Letter(address), Value::Number(number)) if address == letter => {
+                is((number.to_f64() * 10.0).round() as i64)
+            }
+            _ => false,
+        });
+        found.map_or(TextRange::default(), |word| word.range)
+    }
+
+    /// The linear axes of one kind of coordinates are not known from the other.
+    pub(super) fn tcp(&mut self, on: bool) {
+        if self.interpreter.state.tcp != on {
+            self.interpreter.state.tcp = on;
+            self.told.lost = true;
+        }
+    }
+
+    pub(super) fn modal(&mut self, call: &Canon, at: At, state: &State) {
+        let unit = state.units.mm();
+        match *call {
+            Canon::FeedRate(rate) => {
+                self.told.feed = Some(rate * unit);
+                self.interpreter.state.feed = self.told.feed;
+            }
+            Canon::StartSync(synced) => self.told.synced = Some(synced.per_revolution * unit),
+            Canon::StopSync => self.told.synced = None,
+            Canon::Spindle(0, turn) => {
+                self.interpreter.state.spindle_on = Some(turn != SpindleTurn::Stop);
+            }
+            Canon::SpindleSpeed(0, speed) => {
+                let surface = matches!(state.spindle_mode[0], SpindleMode::ConstantSurface(_));
+                self.interpreter.state.spindle_rpm = (!surface && speed.is_finite()).then_some(speed);
+            }
+            Canon::SelectTool(number) => {
+                let number = u32::try_from(number).ok();
+                self.interpreter.state.tool_prepared = number;
+                self.interpreter.memory.prepared = number.map_or(Chosen::Unread, Chosen::Number);
+            }
+            Canon::ChangeTool(_) | Canon::ChangeToolNumber(_) => {
+                let number = u32::try_from(state.tool).ok();
+                let interpreter = &mut *self.interpreter;
+                interpreter.state.tool = number;
+                interpreter.memory.in_spindle = number.map_or(Chosen::Unread, Chosen::Number);
+                interpreter.merge_tool();
+                // the change may move the machine
+                self.told.lost |= matches!(call, Canon::ChangeTool(_));
+            }
+            Canon::ToolOffset(ref offset) => self.tool_offset(offset, at, state),
+            Canon::G5xOffset(index, ref offset) => self.work_offset(index, offset, at),
+            Canon::Units(units) => {
+                let modal = &mut self.interpreter.state;
+                modal.length_unit_mm = if units == Units::Inch { 25.4 } else { 1.0 };
+                modal.feed_unit_mm = modal.length_unit_mm;
+            }
+            Canon::Plane(plane) => {
+                self.interpreter.state.plane = match plane {
+                    trunnion_ngc::Plane::Xz => Plane::Zx,
+                    trunnion_ngc::Plane::Yz => Plane::Yz,
+                    _ => Plane::Xy,
+                };
+            }
+            _ => {}
+        }
+    }
+
+    fn tool_offset(&mut self, offset: &Pose, at: At, state: &State) {
+        let on = offset.iter().any(|value| *value != 0.0) || state.tool != 0;
+        let length = offset[2] * state.units.mm();
+        self.interpreter.state.tool_length_mm = (on && length.is_finite()).then_some(length);
+        let declared = self.interpreter.tool().and_then(|tool| tool.length_mm).is_some();
+        if on && length == 0.0 && !declared {
+            let tool = self.interpreter.tool_name();
+            if self.interpreter.memory.length_is_news(&tool) {
+                let range = self.code_range(at, b'G', |code| (430..=432).contains(&code));
+                self.fault(at, range, FaultKind::ToolLengthUnset { tool });
+            }
+        }
+    }
+
+    fn work_offset(&mut self, index: i32, offset: &Pose, at: At) {
+        let Some(name) = usize::try_from(index - 1).ok().and_then(|index| SYSTEMS.get(index)) else {
+            return;
+        };
+        let changed = self.interpreter.state.work_offset.as_deref() != Some(*name);
+        self.interpreter.state.work_offset = Some((*name).into());
+        let declared = self
+            .interpreter
+            .setup
+            .work_offsets
+            .iter()
+            .any(|known| known.name.eq_ignore_ascii_case(name));
+        let zero = offset.iter().all(|value| *value == 0.0);
+        let begun = self.interpreter.memory.last_content.is_some();
+        if begun && changed && zero && !declared && self.interpreter.memory.offset_is_news(name) {
+            let name = (*name).to_owned();
+            let range = self.code_range(at, b'G', |code| (540..=593).contains(&code));
+            self.fault(at, range, FaultKind::WorkOffsetUnset { name });
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! The contour with an allowance: every piece moved sideways, outer corners rounded, inner ones cut where the pieces meet.
+use super::problems;
+use super::segment::{NEAR, Point, Round, Segment, cross, distance};
+use crate::Problem;
+
+/// The contour at a distance to its left (negative: to its right).
+pub(super) fn offset(contour: &[Segment], distance_left: f64) -> Result<Vec<Segment>, &'static Problem> {
+    if distance_left == 0.0 {
+        return Ok(contour.to_vec());
+    }
+    let mut done: Vec<Segment> = Vec::with_capacity(contour.len());
+    let mut dropped = false;
+    for (index, piece) in contour.iter().enumerate() {
+        let Some(moved) = piece.shifted(distance_left) else {
+            dropped = true;
+            continue;
+        };
+        if let Some(before) = index.checked_sub(1).map(|at| &contour[at])
+            && !dropped
+            && !done.is_empty()
+        {
+            corner(&mut done, before, piece, moved, distance_left, &mut dropped)?;
+        } else if done.is_empty() {
+            if dropped {
+                return Err(&problems::SWALLOWED);
+            }
+            done.push(moved);
+        } else {
+            dropped = !inner(&mut done, moved)?;
+        }
+    }
+    let short = done.iter().any(|piece| distance(piece.from, piece.to) < 2.0 * NEAR);
+    if dropped || short {
+        return Err(&problems::SWALLOWED);
+    }
+    Ok(done)
+}
+
+/// Joins a piece to the one before it.
+fn corner(
+    done: &mut Vec<Segment>,
+    before: &Segment,
+    piece: &Segment,
+    moved: Segment,
+    distance_left: f64,
+    dropped: &mut bool,
+) -> Result<(), &'static Problem> {
+    let turn = cross(before.direction(before.to), piece.direction(piece.from));
+    if turn.abs() < 1e-6 {
+        if before.round.is_none() && piece.round.is_none() {
+            return Err(&problems::PARALLEL);
+        }
+        done.push(moved);
+        return Ok(());
+    }
+    if (turn > 0.0) == (distance_left > 0.0) {
+        *dropped = !inner(done, moved)?;
+        return Ok(());
+    }
+    let Some(last) = done.last().copied() else {
+        return Err(&problems::SWALLOWED);
+    };
+    done.push(Segment {
+        from: last.to,
+        to: moved.from,
+        round: Some(Round {
+            centre: piece.from,
+            positive: distance_left < 0.0,
+        }),
+    });
+    done.push(moved);
+    Ok(())
+}
+
+/// Cuts off the last pieces where the next one meets them. `false`: the next piece vanishes.
+fn inner(done: &mut Vec<Segment>, moved: Segment) -> Result<bool, &'static Problem> {
+    while let Some(last) = done.last().copied() {
+        match meeting(&last, &moved) {
+            Meeting::At(point) => {
+                if let Some(end) = done.last_mut() {
+                    end.to = point;
+                }
+                done.push(moved.with_ends(point, moved.to));
+                return Ok(true);
+            }
+            Meeting::BeforeLast => {
+                done.pop();
+            }
+            Meeting::BehindNext => return Ok(false),
+            Meeting::Unclear => return Err(&problems::SWALLOWED),
+        }
+    }
+    Err(&problems::SWALLOWED)
+}
+
+enum Meeting {
+    /// In both pieces, or beyond the end of the first and the start of the second.
+    At(Point),
+    /// The first piece is cut off whole.
+    BeforeLast,
+    /// The second piece is cut off whole.
+    BehindNext,
+    Unclear,
+}
+
+fn meeting(last: &Segment, next: &Segment) -> Meeting {
+    let mut best: Option<(f64, Point, f64, f64)> = None;
+    for point in last.meets(next).into_iter().flatten() {
+        let (a, b) = (last.share(point), next.share(point));
+        let gap = distance(point, last.to).min(distance(point, next.from));
+        let inside = a > 0.0 && b < 1.0 && a <= 1.0 + 1e-6 && b >= -1e-6;
+        let rank = if inside { gap } else { 1e9 + gap };
+        if best.is_none_or(|(other, ..)| rank < other) {
+            best = Some((rank, point, a, b));
+        }
+    }
+    match best {
+        None => Meeting::Unclear,
+        Some((_, _, a, b)) if a <= 0.0 && b >= 1.0 => Meeting::Unclear,
+        Some((_, _, a, _)) if a <= 0.0 => Meeting::BeforeLast,
+        Some((_, _, _, b)) if b >= 1.0 => Meeting::BehindNext,
+        Some((_, point, ..)) => Meeting::At(point),
+    }
+}

@@ -1,0 +1,37 @@
+//! Refusals of the turning cycles.
+use crate::{Class, Problem};
+
+macro_rules! problems {
+    ($($name:ident $class:ident $message:literal $help:literal)*) => {
+        $(pub(super) const $name: Problem = Problem { class: Class::$class, message: $message, help: $help };)*
+    };
+}
+
+problems! {
+    NO_Q MissingWord "G7x.x  requires a Q word" "Add Q: the number of the subprogram that holds the contour."
+    PLANE CannedCycle "G{} can only be used in XZ plane (G18)" "Write G18 before the cycle."
+    COMPENSATED CannedCycle "G{} cannot be used with cutter compensation enabled" "End compensation with G40 before the cycle."
+    NOT_INTEGER Number "Non integer value for integer" "Q is the number of a subprogram: a whole number."
+    ZERO_I CannedCycle "G7X error: I must be greater than zero." "I is the depth of one cut."
+    MONOTONIC CannedCycle "G7X error: Not monotonic"
+        "The contour must not turn back: along Z for G71, along X for G72, along one of both for G70."
+    PARALLEL CannedCycle "G7X error: Cannot intersect parallel lines"
+        "With an allowance (D, E) two straight blocks of a contour must not lie in one line: write them as one block."
+    NO_CENTRE ArcCentre "G7X error: either I or K must be present for arc" "Add the centre (I, K) or the radius (R)."
+    BOTH_CORNERS CannedCycle "G7X error: Both A and C parameters on a corner" "A rounds the corner, C chamfers it: write one of them."
+    BOTH_X CannedCycle "G7x error: Cannot use U and X in the same block" "Write X, or its increment U."
+    BOTH_Z CannedCycle "G7x error: Cannot use W and Z in the same block" "Write Z, or its increment W."
+    UNKNOWN NotModelled "turning cycle with a value that is not known here: the way of the tool is not known from here on"
+        "This is no mistake of the program. Write X and Z in the block of the cycle, or check it on the control."
+    CONTOUR NotModelled "block in the contour of a turning cycle: how the control takes it is not known"
+        "This is no mistake of the program. Write the contour with G0, G1, G2 and G3, or check it on the control."
+    CORNER NotModelled "corner of a turning contour that has no room for its radius or chamfer"
+        "Make the radius smaller, or check it on the control."
+    SWALLOWED NotModelled "contour of a turning cycle whose allowance is greater than its details at the ends: the way of the tool is not known"
+        "Make D smaller, or check it on the control."
+    ENDLESS CannedCycle "turning cycle that never ends: a cut would begin behind the contour"
+        "Let X and Z of the cycle lie outside of the contour with its allowance; the control hangs here."
+    STOP NotModelled "turning cycle together with a stop or end of the program in one block"
+        "Write the M code in a block of its own."
+    MANY CannedCycle "turning cycle with more cuts than the bound on executed lines" "I is the depth of one cut: make it greater."
+}

@@ -1,0 +1,45 @@
+//! Lines of words with plain numbers that run for the first time: most of every program.
+use super::labels::Place;
+use crate::exec::{self, After};
+use crate::{At, Block, Engine, Error, Sink, Step, read};
+
+impl Engine {
+    /// Runs the line at `here` if it is plain and never ran before; `None` where the general way has to look at it.
+    #[inline]
+    pub(super) fn plain_line(&mut self, sink: &mut dyn Sink) -> Option<Step> {
+        let here = self.flow.here;
+        if !self.flow.lines(here.file).is_new(here.line) {
+            return None;
+        }
+        let mut block = self.block.take().unwrap_or_default();
+        let source = self.files[here.file.0 as usize].bytes();
+        let Some(next) = read::plain(source, here.offset, &self.values(), &mut block) else {
+            self.block = Some(block);
+            return None;
+        };
+        self.flow.lines(here.file).run(here.line);
+        self.flow.at = At {
+            file: here.file,
+            line: here.line,
+            chain: self.flow.chain,
+        };
+        self.flow.here = Place {
+            file: here.file,
+            line: here.line + 1,
+            offset: next,
+        };
+        let result = self.run_plain(&mut block, sink);
+        self.block = Some(block);
+        Some(match result {
+            Ok(After::Go) => Step::Line,
+            Ok(After::Ended) => self.program_end(sink),
+            Err(error) => self.refuse(&error, sink),
+        })
+    }
+
+    #[inline]
+    fn run_plain(&mut self, block: &mut Block, sink: &mut dyn Sink) -> Result<After, Error> {
+        exec::check(self, block)?;
+        exec::execute(self, block, self.flow.at, sink)
+    }
+}

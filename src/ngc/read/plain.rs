@@ -1,0 +1,165 @@
+//! The line that programs are full of, words with plain numbers, straight into a block: no read form in between.
+//!
+//! It takes only lines that the line reader and [`super::evaluate`] would read in the same way without an error; all others it leaves
+//! to them (a test compares both).
+use super::evaluate::put;
+use crate::Block;
+use crate::parameters::Values;
+use trunnion_syntax::TextRange;
+
+/// Powers of ten that a double holds exactly.
+const POWERS: [f64; 19] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
+];
+/// Up to this whole number every one is a double.
+const EXACT: u64 = 1 << 53;
+/// Letters that begin a word of a value: all but N and O.
+const LETTERS: u32 = 0x03ff_ffff & !(1 << (b'N' - b'A')) & !(1 << (b'O' - b'A'));
+/// A line with more bytes is not plain.
+const LONGEST: usize = 250;
+
+/// Reads the line that begins at byte `start` into `block`; one past its line end. `None` where it is not plain: then the block holds
+/// nothing of use.
+#[inline]
+pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut Block) -> Option<u32> {
+    let from = start as usize;
+    let text = &source[from..source.len().min(from + LONGEST)];
+    let line_end = memchr::memchr(b'\n', text)?;
+    if line_end == 0 || !text[0].is_ascii_alphabetic() {
+        return None;
+    }
+    let mut stop = line_end - usize::from(text[line_end - 1] == b'\r');
+    while text[stop - 1] == b' ' {
+        stop -= 1;
+    }
+    // whatever stands there ends the number in front of it
+    let text = &text[..=stop];
+    block.clear(TextRange::new(start, start + stop as u32));
+    let missing = values.missing_axes();
+    let mut at = 0;
+    while at < stop {
+        if text[at] == b' ' {
+            at += 1;
+            continue;
+        }
+        let letter = text[at].to_ascii_uppercase();
+        let bit = 1u32.checked_shl(u32::from(letter.wrapping_sub(b'A')))?;
+        if LETTERS & bit == 0 || (block.given | missing) & bit != 0 {
+            return None;
+        }
+        let (value, end) = number(text, at + 1)?;
+        // M98 and M99 are calls and returns
+        if letter == b'M' && value >= 98.0 {
+            return None;
+        }
+        let range = TextRange::new(start + at as u32, start + end as u32);
+        put(letter, value, range, values, block).ok()?;
+        at = end;
+    }
+    Some(start + line_end as u32 + 1)
+}
+
+/// Sign, digits and point at `at`, and what stands behind them; nothing of a number may follow behind blanks.
+#[inline]
+fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
+    let negative = *text.get(at)? == b'-';
+    let first = at + usize::from(negative || text[at] == b'+');
+    let (mut mantissa, mut end, mut point) = (0u64, first, usize::MAX);
+    loop {
+        let byte = *text.get(end)?;
+        let digit = byte.wrapping_sub(b'0');
+        if digit < 10 {
+            mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+        } else if byte == b'.' && point == usize::MAX {
+            point = end;
+        } else {
+            break;
+        }
+        end += 1;
+    }
+    let digits = end - first - usize::from(point != usize::MAX);
+    if digits == 0 || digits > 18 || mantissa > EXACT {
+        return None;
+    }
+    if text[end] == b' ' {
+        let next = text[end..].iter().find(|byte| **byte != b' ');
+        if next.is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.') {
+            return None;
+        }
+    }
+    let places = if point == usize::MAX { 0 } else { end - point - 1 };
+    // both operands are exact, so the one operation rounds correctly
+    let value = mantissa as f64 / POWERS[places];
+    Some((if negative { -value } else { value }, end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+    use crate::read::{Line, evaluate};
+    use crate::{Block, Engine, Setup, Source};
+    use proptest::prelude::*;
+    use std::sync::Arc;
+    use trunnion_syntax::TextRange;
+
+    /// What both ways make of a line; `None` where the short way leaves it to the other.
+    fn both(text: &str) -> Option<(Block, u32, Block)> {
+        let bytes = text.as_bytes();
+        let engine = Engine::new(Arc::new(Source::new(String::new(), bytes.into())), &Setup::default());
+        let (mut short, mut long, mut line) = (Block::new(), Block::new(), Line::default());
+        let end = plain(bytes, 0, &engine.values(), &mut short)?;
+        let stop = text.lines().next().unwrap_or_default().trim_end().len() as u32;
+        Line::read(bytes, TextRange::new(0, stop), &mut line);
+        assert_eq!(line.errors, []);
+        assert_eq!(evaluate(&line, &engine.values(), &mut long), Ok(()));
+        Some((short, end, long))
+    }
+
+    fn same(text: &str) -> bool {
+        let Some((short, end, long)) = both(text) else {
+            return false;
+        };
+        assert_eq!(end as usize, text.find('\n').map_or(0, |at| at + 1));
+        let values = |block: &Block| {
+            (b'A'..=b'Z')
+                .map(|letter| (block.word(letter).map(f64::to_bits), block.range_of(letter)))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(values(&short), values(&long), "{text:?}");
+        assert_eq!(
+            (short.g, short.m, short.m_count),
+            (long.g, long.m, long.m_count),
+            "{text:?}"
+        );
+        assert_eq!(
+            (short.g_range, short.m_range, short.range),
+            (long.g_range, long.m_range, long.range)
+        );
+        true
+    }
+
+    #[test]
+    fn what_most_lines_are_is_plain() {
+        for text in [
+            "G1 X1.5 Y-2. Z.25 A+3 C-0\n",
+            "g0x1y2\r\n",
+            "F100  S2000 M3 \n",
+            "X12345678901234.5\n",
+        ] {
+            assert!(same(text), "{text:?}");
+        }
+        for text in [
+            "X1 2\n", "X1X2\n", "N1 X1\n", "(a) X1\n", "X[1]\n", "X#1\n", "M98 P1\n", "G77.7\n", "X1;\n", "X1",
+            "X- 1\n", "X1 .5\n", "F-1\n",
+        ] {
+            assert!(!same(text), "{text:?}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn both_ways_read_the_same(text in "([GMXYZFSTHPAx][-+]?[0-9]{0,3}[.]?[0-9]{0,3} ?){0,5}[\r]?\n") {
+            same(&text);
+        }
+    }
+}

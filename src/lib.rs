@@ -5,6 +5,7 @@ pub use trunnion_dialect as dialect;
 pub use trunnion_formula as formula;
 pub use trunnion_geometry as geometry;
 pub use trunnion_interp as interp;
+pub use trunnion_layout as layout;
 pub use trunnion_machine as machine;
 pub use trunnion_ngc as ngc;
 pub use trunnion_rewrite as rewrite;

@@ -27,32 +27,110 @@ fn inputs() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     let deep = format!("{}1{}", "[".repeat(MANY), "]".repeat(MANY));
     let words = "X1 Y2 ".repeat(MANY);
     vec![
-        ("deep.ngc", format!("g21 g90\ng0 x{deep}\nm2\n").into(), "at most 253 bytes long"),
-        ("deep.nc", format!("O1\nG21 G90\n#1={deep}\nG0 X#1\nM30\n").into(), "nested deeper than 5 levels"),
-        ("hash.nc", format!("O1\nG21 G90\n#1={}1\nM30\n", "#".repeat(MANY)).into(), ""),
-        ("deep.mpf", format!("G90 G71\nR1={}\nM30\n", deep.replace('[', "(").replace(']', ")")).into(), ""),
+        (
+            "deep.ngc",
+            format!("g21 g90\ng0 x{deep}\nm2\n").into(),
+            "at most 253 bytes long",
+        ),
+        (
+            "deep.nc",
+            format!("O1\nG21 G90\n#1={deep}\nG0 X#1\nM30\n").into(),
+            "nested deeper than 5 levels",
+        ),
+        (
+            "hash.nc",
+            format!("O1\nG21 G90\n#1={}1\nM30\n", "#".repeat(MANY)).into(),
+            "",
+        ),
+        (
+            "deep.mpf",
+            format!("G90 G71\nR1={}\nM30\n", deep.replace('[', "(").replace(']', ")")).into(),
+            "",
+        ),
         ("deep.apt", format!("PARTNO\nGOTO/{deep}\nFINI\n").into(), ""),
-        ("wide.ngc", format!("g21 g90\ng0 {words}\nm2\n").into(), "at most 253 bytes long"),
-        ("wide.nc", format!("O1\nG21 G90\n{words}\nM30\n").into(), "repeats a word"),
-        ("digits.nc", format!("O1\nG21 G90\nG0 X{}\nM30\n", "1".repeat(MANY)).into(), "is not a number"),
-        ("comment.nc", format!("O1\nG21 G90\n({}\nM30\n", "(".repeat(MANY)).into(), ""),
-        ("self.ngc", "o100 sub\no100 call\no100 endsub\no100 call\nm2\n".into(), "Too many subroutine levels"),
-        ("self.nc", "O1\nM98 P1\nM30\n".into(), "calls are nested deeper than 100 levels"),
+        (
+            "wide.ngc",
+            format!("g21 g90\ng0 {words}\nm2\n").into(),
+            "at most 253 bytes long",
+        ),
+        (
+            "wide.nc",
+            format!("O1\nG21 G90\n{words}\nM30\n").into(),
+            "repeats a word",
+        ),
+        (
+            "digits.nc",
+            format!("O1\nG21 G90\nG0 X{}\nM30\n", "1".repeat(MANY)).into(),
+            "is not a number",
+        ),
+        (
+            "comment.nc",
+            format!("O1\nG21 G90\n({}\nM30\n", "(".repeat(MANY)).into(),
+            "",
+        ),
+        (
+            "self.ngc",
+            "o100 sub\no100 call\no100 endsub\no100 call\nm2\n".into(),
+            "Too many subroutine levels",
+        ),
+        (
+            "self.nc",
+            "O1\nM98 P1\nM30\n".into(),
+            "calls are nested deeper than 100 levels",
+        ),
         ("macro.nc", "O1\nG65 P1 A#1\nM30\n".into(), "are nested deeper than"),
-        ("while.ngc", "g21 g90 f100\no1 while [1]\ng1 x1\ng1 x2\no1 endwhile\nm2\n".into(), "did not come to an end"),
-        ("repeat.ngc", "g21\no1 repeat [1e9]\no1 endrepeat\nm2\n".into(), "did not come to an end"),
-        ("while.nc", "O1\nG21 G90 G94 F100.\nWHILE[1EQ1]DO1\nG1X1.\nEND1\nM30\n".into(), "did not come to an end"),
-        ("count.nc", "O1\nG21\nWHILE[1EQ1]DO1\n#1=#1+1\nEND1\nM30\n".into(), "did not come to an end"),
-        ("goto.nc", "O1\nG21 G90 G94 F100.\nN10 G1 X1.\n#1=#1+1\nGOTO10\nM30\n".into(), "did not come to an end"),
-        ("times.nc", "O1\nM98 P2 L99999999\nM30\nO2\nM98 P3 L99999999\nM99\nO3\nM99\n".into(), ""),
+        (
+            "while.ngc",
+            "g21 g90 f100\no1 while [1]\ng1 x1\ng1 x2\no1 endwhile\nm2\n".into(),
+            "did not come to an end",
+        ),
+        (
+            "repeat.ngc",
+            "g21\no1 repeat [1e9]\no1 endrepeat\nm2\n".into(),
+            "did not come to an end",
+        ),
+        (
+            "while.nc",
+            "O1\nG21 G90 G94 F100.\nWHILE[1EQ1]DO1\nG1X1.\nEND1\nM30\n".into(),
+            "did not come to an end",
+        ),
+        (
+            "count.nc",
+            "O1\nG21\nWHILE[1EQ1]DO1\n#1=#1+1\nEND1\nM30\n".into(),
+            "did not come to an end",
+        ),
+        (
+            "goto.nc",
+            "O1\nG21 G90 G94 F100.\nN10 G1 X1.\n#1=#1+1\nGOTO10\nM30\n".into(),
+            "did not come to an end",
+        ),
+        (
+            "times.nc",
+            "O1\nM98 P2 L99999999\nM30\nO2\nM98 P3 L99999999\nM99\nO3\nM99\n".into(),
+            "",
+        ),
         ("nul.ngc", b"g21 g90\n\0g0 x1\0\n\0\0\0\nm2\n".to_vec(), ""),
         ("nul.nc", b"G21 G90\n\0G0 X1.\0\n\0\0\0\nM30\n".to_vec(), ""),
-        ("latin.nc", b"G21 G90\n(Gr\xf6\xdfe)\nG0 X1. \xe4\nM30\n".to_vec(), "belongs to no word"),
-        ("latin.ngc", b"g21 g90\n(Gr\xf6\xdfe)\ng0 x1 \xe4\nm2\n".to_vec(), "belongs to no word"),
+        (
+            "latin.nc",
+            b"G21 G90\n(Gr\xf6\xdfe)\nG0 X1. \xe4\nM30\n".to_vec(),
+            "belongs to no word",
+        ),
+        (
+            "latin.ngc",
+            b"g21 g90\n(Gr\xf6\xdfe)\ng0 x1 \xe4\nm2\n".to_vec(),
+            "belongs to no word",
+        ),
         ("return.nc", b"G21 G90\rG0 X1.\rM30\r".to_vec(), ""),
         ("return.ngc", b"g21 g90\rg0 x1\rm2\r".to_vec(), ""),
         ("lines.ngc", vec![b'\n'; 10 * MANY], ""),
-        ("random.nc", (0..MANY as u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect(), ""),
+        (
+            "random.nc",
+            (0..MANY as u32)
+                .map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8)
+                .collect(),
+            "",
+        ),
     ]
 }
 
@@ -103,11 +181,17 @@ fn a_comparison_that_was_not_followed_to_the_end_is_not_the_same() {
         let shown = text(&output.stdout);
         assert_eq!(status(&output), 1, "{shown}");
         let places = ["a", "b"].map(|name| format!("{name}.nc:{line}: not followed from here: "));
-        assert!(shown.contains("UNKNOWN 1 motions") && places.iter().all(|place| shown.contains(place)), "{shown}");
+        assert!(
+            shown.contains("UNKNOWN 1 motions") && places.iter().all(|place| shown.contains(place)),
+            "{shown}"
+        );
         assert!(shown.contains(why) && !shown.contains("SAME"), "{shown}");
         let output = run(&folder, &["stats", "a.nc"]);
         let shown = text(&output.stdout);
-        assert!(shown.contains(&format!("from line {line}: ")) && shown.contains(why), "{shown}");
+        assert!(
+            shown.contains(&format!("from line {line}: ")) && shown.contains(why),
+            "{shown}"
+        );
         // a program is the same as itself, wherever it goes
         assert_eq!(status(&run(&folder, &["diff", "a.nc", "a.nc"])), 0);
     }
@@ -131,7 +215,10 @@ fn a_file_over_the_bound_is_refused_and_the_flag_named() {
         let output = run(&folder, &[command, &["--max-file-mb", "1"]].concat());
         let errors = text(&output.stderr);
         assert_eq!(status(&output), 2, "{command:?}: {errors}");
-        assert!(errors.contains("larger than 1 MB") && errors.contains("--max-file-mb"), "{errors}");
+        assert!(
+            errors.contains("larger than 1 MB") && errors.contains("--max-file-mb"),
+            "{errors}"
+        );
     }
     // one byte less is read
     fs::write(&file, vec![b'\n'; 1_000_000]).expect("writable");
@@ -142,7 +229,11 @@ fn a_file_over_the_bound_is_refused_and_the_flag_named() {
         for command in ["check", "canon"] {
             let output = run(&folder, &[command, "huge.nc"]);
             assert_eq!(status(&output), 2, "{command}");
-            assert!(text(&output.stderr).contains("is larger than"), "{}", text(&output.stderr));
+            assert!(
+                text(&output.stderr).contains("is larger than"),
+                "{}",
+                text(&output.stderr)
+            );
         }
     }
 }
@@ -161,6 +252,10 @@ fn input_without_an_end_is_refused() {
             .output()
             .expect("runs");
         assert_eq!(status(&output), 2);
-        assert!(text(&output.stderr).contains("larger than 2 MB"), "{}", text(&output.stderr));
+        assert!(
+            text(&output.stderr).contains("larger than 2 MB"),
+            "{}",
+            text(&output.stderr)
+        );
     }
 }

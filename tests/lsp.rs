@@ -238,3 +238,109 @@ fn exit_without_shutdown_is_an_error() {
     client.notify("exit", Value::Null);
     assert_eq!(client.wait(), Some(1));
 }
+
+const LOOP: &str = "\
+g21 g90 g17 g94 g54 f500
+o100 sub
+  #2 = [#1 * 10]
+  g1 x#2
+o100 endsub
+#<n> = 1
+o101 while [#<n> le 3]
+  o100 call [#<n>]
+  #<n> = [#<n> + 1]
+o101 endwhile
+g0 x0
+m2
+";
+
+fn hover(client: &mut Client, uri: &str, text: &str, at: usize) -> Option<String> {
+    let params = json!({ "textDocument": { "uri": uri }, "position": position(text, at) });
+    let answer = client.request("textDocument/hover", params);
+    answer["result"]["contents"]["value"].as_str().map(str::to_owned)
+}
+
+#[test]
+fn hover_inside_loops_and_subprograms_tells_of_the_first_time() {
+    let mut client = Client::start(&json!({ "machine": "mill-3axis" }));
+    let uri = "untitled:/loop.ngc";
+    client.open(uri, LOOP);
+    client.diagnostics(uri, 1);
+    let mut at = |what: &str| hover(&mut client, uri, LOOP, LOOP.find(what).expect("there")).expect("an answer");
+    // 1 * 10 in the first of three turns
+    let text = at("g1 x#2");
+    assert!(text.contains("10.0000 mm") && !text.contains("is not run"), "{text}");
+    assert!(text.contains("500.0 mm/min"), "{text}");
+    for what in [
+        "#1 * 10",
+        "o101 while",
+        "o100 call",
+        "o100 sub",
+        "#<n> = [#<n> + 1]",
+        "o101 endwhile",
+        "g0 x0",
+    ] {
+        let text = at(what);
+        assert!(
+            text.contains("**In force**") && !text.contains("is not run"),
+            "{what}: {text}"
+        );
+    }
+    client.finish();
+}
+
+#[test]
+fn several_mistakes_of_a_linuxcnc_program_are_told_once_each() {
+    let program =
+        "g21 g90 g17 g94\ng1 x10\no<nosuch> call [1]\n#<a> = [1 + ]\ng0 x[acos[2]]\ng0 y#<undef>\no1 if [1]\nm2\n";
+    let mut client = Client::start(&json!({}));
+    let uri = "untitled:/wrong.ngc";
+    client.open(uri, program);
+    let diagnostics = client.diagnostics(uri, 1);
+    let errors = diagnostics.iter().filter(|d| d["severity"] == 1);
+    let found: Vec<(u64, &str)> = errors
+        .map(|d| {
+            (
+                d["range"]["start"]["line"].as_u64().expect("a line"),
+                d["code"].as_str().expect("a rule"),
+            )
+        })
+        .collect();
+    assert_eq!(
+        found,
+        [
+            (1, "missing-feed"),
+            (2, "missing-subprogram"),
+            (3, "syntax-error"),
+            (4, "bad-expression"),
+            (5, "undefined-variable"),
+        ]
+    );
+    client.finish();
+}
+
+#[test]
+fn a_finding_of_a_loop_says_how_often_and_an_endless_one_how_long() {
+    let program = "g21 g90 g17 g94\n#1 = 0\no1 while [#1 lt 4]\n  g1 x#1\n  #1 = [#1 + 1]\no1 endwhile\no2 while [1]\no2 endwhile\nm2\n";
+    let mut client = Client::start(&json!({}));
+    let uri = "untitled:/again.ngc";
+    client.open(uri, program);
+    let diagnostics = client.diagnostics(uri, 1);
+    let message = |rule: &str| {
+        let found = with_rule(&diagnostics, rule);
+        assert_eq!(found.len(), 1, "{rule}: {diagnostics:?}");
+        found[0]["message"].as_str().expect("there").to_owned()
+    };
+    assert!(
+        message("missing-feed").contains("(4 times)"),
+        "{}",
+        message("missing-feed")
+    );
+    // the server gives up sooner than the command line
+    assert!(
+        message("endless-loop").contains("within 1000000 executed blocks"),
+        "{}",
+        message("endless-loop")
+    );
+    client.finish();
+}

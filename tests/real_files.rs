@@ -87,19 +87,40 @@ fn programs_of_hobby_machines_and_plotters() {
 /// program is the control's message.
 #[test]
 fn programs_that_linuxcnc_rejects() {
-    let Some(folder) = data("linuxcnc-interp/bad") else { return };
+    let Some(folder) = data("linuxcnc-interp/bad") else {
+        return;
+    };
     let cases = [
         ("bad-arc.big.imperial.center-format", "6:9", "arc-radius-mismatch", true),
         ("bad-arc.big.metric.center-format", "6:10", "arc-radius-mismatch", true),
-        ("bad-arc.medium.imperial.center-format", "6:9", "arc-radius-mismatch", true),
-        ("bad-arc.medium.metric.center-format", "6:10", "arc-radius-mismatch", true),
-        ("bad-arc.small.metric.center-format", "6:14", "arc-radius-mismatch", true),
+        (
+            "bad-arc.medium.imperial.center-format",
+            "6:9",
+            "arc-radius-mismatch",
+            true,
+        ),
+        (
+            "bad-arc.medium.metric.center-format",
+            "6:10",
+            "arc-radius-mismatch",
+            true,
+        ),
+        (
+            "bad-arc.small.metric.center-format",
+            "6:14",
+            "arc-radius-mismatch",
+            true,
+        ),
         ("ccomp-arcexit", "7:1", "cutter-compensation", true),
         ("exists-2", "2:15", "bad-expression", false),
         ("exists-7", "2:19", "bad-expression", false),
         ("probe-no-axes", "2:1", "missing-word", true),
     ];
-    assert_eq!(programs(&folder, &["ngc"]).len(), cases.len(), "each of them has its case");
+    assert_eq!(
+        programs(&folder, &["ngc"]).len(),
+        cases.len(),
+        "each of them has its case"
+    );
     for (name, place, rule, endless) in cases {
         let path = folder.join(format!("{name}.ngc"));
         let program = fs::read_to_string(&path).expect("text");

@@ -227,7 +227,7 @@ impl<W: Write> Sink for Printer<W> {
             Some((file, range)) => self.text(file, range),
             None => self.line(at),
         };
-        remark(false, &String::from_utf8_lossy(&line));
+        remark(false, String::from_utf8_lossy(&line).trim_end());
     }
 }
 

@@ -27,7 +27,7 @@ impl Stops {
         let may_stop = !dialect.quirks.rs274;
         let (why, sure) = match &fault.kind {
             FaultKind::EndlessLoop { blocks } => (format!("no end within {blocks} executed blocks"), true),
-            FaultKind::NotDecided { what } => (format!("where it goes on depends on {what}"), true),
+            FaultKind::NotDecided { what } => (format!("not decided: {what}"), true),
             FaultKind::Rejected { message, .. } if may_stop => (format!("the control refuses it: {message}"), false),
             FaultKind::MissingSubprogram { name, .. } if may_stop => (format!("there is no program {name}"), false),
             _ => return,

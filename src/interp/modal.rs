@@ -71,7 +71,7 @@ pub struct ModalState {
 }
 
 impl ModalState {
-    /// What is in force before the first block: nothing is known of the position, lengths are mm, F is per minute.
+    /// What is in force before the first block: nothing is known of the position, lengths are mm, F is per minute, of a lathe per turn.
     pub(crate) fn at_start(dialect: &Dialect) -> Self {
         Self {
             motion: dialect.quirks.motion_at_start,
@@ -80,7 +80,12 @@ impl ModalState {
             arc_centre_absolute: false,
             length_unit_mm: 1.0,
             feed_unit_mm: 1.0,
-            feed_mode: FeedMode::PerMinute,
+            // of a lathe, parameter 3402.4 (FPM) as delivered: per turn
+            feed_mode: if dialect.quirks.diameter {
+                FeedMode::PerRevolution
+            } else {
+                FeedMode::PerMinute
+            },
             feed: None,
             spindle_on: None,
             spindle_rpm: None,

@@ -94,6 +94,9 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
 
     fn take_other(&mut self, item: Item) {
         if self.words.declares {
+            if let Item::Other(range) = item {
+                self.program_name_of_macro(range);
+            }
             return;
         }
         match item {

@@ -14,6 +14,9 @@ const PRINTS: [&[u8]; 5] = [b"DPRNT", b"BPRNT", b"POPEN", b"PCLOS", b"SETVN"];
 const LONGEST_NGC: usize = 250;
 const LONGEST: usize = 500;
 
+/// A longer block is no line of a program, bytes: it stays as it is, so that memory does not grow with it.
+const LAID_OUT: usize = 1 << 16;
+
 /// Lays out blocks of one program.
 pub(crate) struct Blocks<'p> {
     pub(crate) program: &'p Program,
@@ -66,10 +69,13 @@ impl Blocks<'_> {
         self.style.spacing == Spacing::One && block.tokens().all(simple)
     }
 
-    /// Whether nothing of a block may be touched: problems, program names behind `%`, texts for a printer, bytes without meaning.
+    /// Whether nothing of a block may be touched: too long, problems, program names behind `%`, texts for a printer, bytes without meaning.
     pub(crate) fn stays(&self, block: &Block<'_>) -> bool {
         let table = self.program.tokens();
         let range = block.range();
+        if range.as_usize().len() > LAID_OUT {
+            return true;
+        }
         let errors = self.program.errors();
         let next = errors.partition_point(|error| error.range.end <= range.start);
         if errors.get(next).is_some_and(|error| error.range.start < range.end) {

@@ -69,6 +69,8 @@ pub struct Engine {
     pub(crate) queue: crate::comp::Queue,
     /// The spline that is being described.
     pub(crate) spline: crate::cycles::Spline,
+    /// The turning cycle whose contour is being read.
+    pub(crate) turning: Option<Box<crate::cycles::Turning>>,
 }
 
 impl Engine {
@@ -83,6 +85,7 @@ impl Engine {
             store: crate::parameters::Store::new(setup),
             queue: crate::comp::Queue::default(),
             spline: crate::cycles::Spline::default(),
+            turning: None,
         }
     }
     /// A file as people are shown it; empty for the main program.

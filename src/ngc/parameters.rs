@@ -201,7 +201,7 @@ impl<'a> Values<'a> {
     }
     /// Whether a name is one of the control's own, which programs only read.
     pub(crate) fn is_system(name: &str) -> bool {
-        system::NAMES.binary_search_by(|(own, _)| (*own).cmp(name)).is_ok()
+        name.starts_with('_') && system::NAMES.binary_search_by(|(own, _)| (*own).cmp(name)).is_ok()
     }
     /// Values that only the machine knows are not known in a check.
     fn is_check(&self) -> bool {

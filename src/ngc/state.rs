@@ -316,7 +316,7 @@ impl State {
             feed_override: true,
             speed_override: true,
             adaptive_feed: false,
-            feed_hold: false,
+            feed_hold: true,
             probed: false,
             ended: false,
         }

@@ -1,4 +1,5 @@
 //! Running the built `trunnion` in tests.
+#![allow(dead_code, reason = "each test file uses its part")]
 use serde_json::Value;
 use std::{
     fs,

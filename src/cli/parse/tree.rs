@@ -35,9 +35,9 @@ pub(super) fn text(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure>
     let lines = LineIndex::new(program.source());
     let mut errors = program.errors().iter().peekable();
     for block in program.blocks() {
-        let nodes = nodes(loaded, &block);
+        let mut nodes = nodes(loaded, &block).peekable();
         let range = block.range();
-        if !nodes.is_empty() {
+        if nodes.peek().is_some() {
             let (line, _) = lines.line_column(program.source(), range.start);
             row(out, range, 0, &format!("block line {line}"))?;
         }
@@ -105,7 +105,7 @@ fn describe(loaded: &Loaded, node: &Node) -> String {
     }
 }
 
-/// The form for programs, block by block: no more than one block is held as a document.
+/// The form for programs, item by item: no more than one item is held as a document.
 pub(super) fn json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure> {
     let program = &loaded.program;
     let lines = LineIndex::new(program.source());
@@ -116,12 +116,14 @@ pub(super) fn json(out: &mut impl Write, loaded: &Loaded) -> Result<(), Failure>
     )?;
     for (number, block) in program.blocks().enumerate() {
         let (line, _) = lines.line_column(program.source(), block.range().start);
-        let items: Vec<Value> = nodes(loaded, &block)
-            .iter()
-            .map(|node| node_json(loaded, &block, node))
-            .collect();
-        let value = json!({ "line": line, "start": block.range().start, "end": block.range().end, "items": items });
-        write!(out, "{}{value}", if number == 0 { "\n" } else { ",\n" })?;
+        let (start, end) = (block.range().start, block.range().end);
+        let comma = if number == 0 { "\n" } else { ",\n" };
+        write!(out, "{comma}{{\"end\":{end},\"items\":[")?;
+        for (at, node) in nodes(loaded, &block).enumerate() {
+            let value = node_json(loaded, &block, &node);
+            write!(out, "{}{value}", if at == 0 { "" } else { "," })?;
+        }
+        write!(out, "],\"line\":{line},\"start\":{start}}}")?;
     }
     writeln!(out, "\n],\"errors\":{}}}", Value::Array(errors_json(loaded)))?;
     Ok(())
@@ -151,13 +153,12 @@ pub(super) fn errors_json(loaded: &Loaded) -> Vec<Value> {
         .collect()
 }
 
-fn nodes(loaded: &Loaded, block: &Block<'_>) -> Vec<Node> {
+/// What a block holds, one after the other: a line may be as long as a file.
+fn nodes<'a>(loaded: &'a Loaded, block: &'a Block<'a>) -> impl Iterator<Item = Node> + 'a {
     let record = block.record();
     let apt = record.is_some();
-    let mut nodes = Vec::new();
-    if let Some(record) = record {
-        nodes.push(Node::plain("major", record.major));
-        nodes.extend(record.args().map(|arg| match arg {
+    let record = record.into_iter().flat_map(|record| {
+        let args = record.args().map(|arg| match arg {
             AptArg::Number(number, range) => Node {
                 facts: vec![("value", json!(number.to_string()))],
                 ..Node::plain("number", range)
@@ -167,9 +168,10 @@ fn nodes(loaded: &Loaded, block: &Block<'_>) -> Vec<Node> {
                 inside: Some(range),
                 ..Node::plain("other", range)
             },
-        }));
-    }
-    nodes.extend(block.items().filter_map(|item| match item {
+        });
+        std::iter::once(Node::plain("major", record.major)).chain(args)
+    });
+    record.chain(block.items().filter_map(move |item| match item {
         Item::Comment(comment) => Some(Node::plain("comment", comment.range)),
         _ if apt => None,
         Item::Word(each) => Some(word(loaded, &each)),
@@ -188,8 +190,7 @@ fn nodes(loaded: &Loaded, block: &Block<'_>) -> Vec<Node> {
             inside: Some(range),
             ..Node::plain("other", range)
         }),
-    }));
-    nodes
+    }))
 }
 
 fn word(loaded: &Loaded, word: &Word) -> Node {

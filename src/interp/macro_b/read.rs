@@ -227,6 +227,15 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         true
     }
 
+    /// `<SUB>` behind G65 or G66, whose other words are arguments.
+    pub(crate) fn program_name_of_macro(&mut self, range: TextRange) {
+        let named = self.program.bytes(range).first() == Some(&b'<');
+        let deep = self.macros.as_ref().and_then(|macros| macros.deep.as_ref());
+        if named && deep.is_some_and(|deep| deep.code.is_some()) {
+            self.program_name(range);
+        }
+    }
+
     /// `<SUB>` names the program of the call in front of it; elsewhere it has no meaning.
     pub(crate) fn program_name(&mut self, range: TextRange) {
         let calls = self.macros.as_mut().is_some_and(|macros| {

@@ -88,7 +88,10 @@ impl Interpreter<'_> {
         let block = bridge.block(at);
         match step {
             Step::Line => {}
-            Step::Refused => forget(engine, bridge.told, &named_axes(program, block)),
+            Step::Refused => {
+                forget(engine, bridge.told, &named_axes(program, block));
+                bridge.refused_spindle(block);
+            }
             Step::Ended => *done = true,
             Step::Undecided(what) => {
                 bridge.fault(at, TextRange::default(), FaultKind::NotDecided { what });

@@ -61,7 +61,7 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
     if old < r {
         hole.rapid_beside(work, [start[first], start[second]], r);
         level = r;
-    } else if level < r {
+    } else if level <= r {
         level = clear;
     }
     let exact = work.engine.state.motion_mode == MotionMode::ExactPath;

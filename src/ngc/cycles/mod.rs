@@ -1,4 +1,4 @@
-//! Canned cycles (G73-G89), threads (G33, G33.1, G76), splines (G5-G5.3).
+//! Canned cycles (G73-G89), threads (G33, G33.1, G76), splines (G5-G5.3), turning cycles (G70-G72.2).
 //!
 //! Everything is told as the calls that `rs274` makes, in its order; the tests hold the programs they were compared with.
 mod drill;
@@ -7,9 +7,11 @@ mod problems;
 mod spline;
 mod thread;
 mod threading;
+mod turning;
 
 use crate::{At, Block, Engine, Error, Sink};
 pub(crate) use spline::Spline;
+pub(crate) use turning::Turning;
 
 /// What a cycle needs at hand.
 pub(super) struct Work<'a> {
@@ -51,7 +53,7 @@ pub(crate) fn run(engine: &mut Engine, code: i16, block: &Block, at: At, sink: &
         at,
         sink,
     };
-    if block.g[1] >= 0 && !block.has_axes() && !matches!(code, 52 | 53) {
+    if block.g[1] >= 0 && !block.has_axes() && !matches!(code, 52 | 53 | 700..=722) {
         return Err(work.refuse(&problems::NO_AXES));
     }
     match code {
@@ -62,13 +64,7 @@ pub(crate) fn run(engine: &mut Engine, code: i16, block: &Block, at: At, sink: &
         51 => spline::quadratic(&mut work),
         52 => spline::point(&mut work),
         53 => spline::finish(&mut work),
-        700..=722 => {
-            // where the contour ends is not known
-            for axis in [0, 2] {
-                work.engine.state.current[axis] = f64::NAN;
-            }
-            Err(work.refuse(&problems::CONTOUR))
-        }
+        700..=722 => turning::begin(&mut work, code),
         _ => drill::run(&mut work, code),
     }
 }

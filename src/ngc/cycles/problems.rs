@@ -9,8 +9,6 @@ macro_rules! problems {
 
 problems! {
     NO_AXES MissingWord "All axes missing with motion code" "Add the axis words of the motion."
-    CONTOUR NotModelled "G70 to G72.2 (turning cycles): the way of the tool is not known from here on"
-        "This is no mistake of the program. Check it on the control."
     COMPENSATED CannedCycle "Cannot use canned cycles with cutter compensation on" "End compensation with G40 before the cycle."
     ZERO_FEED Feed "Cannot feed with zero feed rate" "Program F before the cycle."
     INVERSE_TIME CannedCycle "Cannot use inverse time feed with canned cycles" "Write G94 before the cycle."

@@ -113,13 +113,15 @@ fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
         work.engine.spline.order = 3;
     }
     if let Some(order) = block.word(b'L') {
-        work.engine.spline.order = order as u32;
+        // observed: less than 3 counts as 3
+        work.engine.spline.order = (order as u32).max(3);
     }
     let both = block.has(b'X') && block.has(b'Y');
     if !both && (continued || block.has_axes()) {
         return Err(work.refuse(&problems::NURBS_POINT));
     }
-    let weight = block.word(b'P').unwrap_or(-1.0);
+    // the first line may leave P out
+    let weight = block.word(b'P').unwrap_or(if continued { -1.0 } else { 1.0 });
     if weight <= 0.0 {
         let range = if block.has(b'P') {
             block.range_of(b'P')

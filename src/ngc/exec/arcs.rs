@@ -34,8 +34,8 @@ problems! {
 }
 
 /// What depends on the plane: places of first, second and third coordinate in a pose, letters, centre letters, problems.
-struct Axes {
-    places: [usize; 3],
+pub(super) struct Axes {
+    pub(super) places: [usize; 3],
     centre: [u8; 2],
     foreign: u8,
     foreign_problem: &'static Problem,
@@ -45,7 +45,7 @@ struct Axes {
     first_missing: usize,
 }
 
-fn axes(plane: Plane) -> Option<Axes> {
+pub(super) fn axes(plane: Plane) -> Option<Axes> {
     Some(match plane {
         Plane::Xy => Axes {
             places: [0, 1, 2],
@@ -225,7 +225,7 @@ fn by_centre_format(
     Ok(centre)
 }
 
-fn check_radii(
+pub(super) fn check_radii(
     units: Units,
     block: &Block,
     axes: &Axes,

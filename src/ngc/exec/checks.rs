@@ -53,7 +53,7 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
         if setting {
             return Err(Error::new(&problems::TWO_AXIS_CODES, block.g_range[1]));
         }
-        if !axes && matches!(block.g[1], 50 | 51 | 330 | 331 | 382..=385) {
+        if !axes && matches!(block.g[1], 50 | 51 | 330 | 331 | 382..=385 | 730..=790 | 810..=890) {
             return Err(Error::new(&problems::ALL_AXES_MISSING, block.g_range[1]));
         }
     } else if given {

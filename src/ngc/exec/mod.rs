@@ -7,6 +7,7 @@ mod end;
 mod ends;
 pub(crate) mod frame;
 mod home;
+mod made;
 mod modal;
 mod motion;
 mod offsets;
@@ -21,7 +22,8 @@ use crate::{At, Block, Canon, Engine, Error, Side, Sink, comp, cycles, flow};
 pub(crate) use end::start;
 pub(crate) use ends::{end as end_of, word as axis_word};
 pub(crate) use frame::to_machine;
-pub(crate) use motion::{inverse_time, length};
+pub(crate) use made::{made_arc, made_straight};
+pub(crate) use motion::{inverse_time, length, traverse};
 
 /// How a block ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +71,12 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
     if matches!(block.m[6], 6 | 61) && engine.setup.start == crate::Start::Zero {
         engine.state.current = engine.state.told.position;
     }
-    let after = end::stop(engine, block, at, sink)?;
+    // a turning cycle goes into its subprogram from here, and stops of its block are lost
+    let after = if engine.turning.as_ref().is_some_and(|turning| turning.is_called()) {
+        After::Go
+    } else {
+        end::stop(engine, block, at, sink)?
+    };
     engine.refresh_parameters();
     Ok(after)
 }

@@ -86,7 +86,10 @@ pub(crate) fn axis_offsets(engine: &mut Engine, block: &Block, at: At, sink: &mu
         });
     }
     engine.state.axis_offset = new;
-    engine.emit(Canon::G92Offset(new), at, sink);
+    // observed: under compensation the offset changes without a word to the machine
+    if engine.state.side == Side::Off {
+        engine.emit(Canon::G92Offset(new), at, sink);
+    }
     match code {
         920 | 520 => engine.store_pose(access::G92, &new),
         921 => engine.store_pose(access::G92, &[0.0; 9]),

@@ -114,9 +114,6 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
         }
         61 => {
             let number = block.word(b'Q').unwrap_or(0.0).round() as i32;
-            if engine.state.side != Side::Off {
-                return Err(Error::new(&problems::TOOL_COMPENSATION, range));
-            }
             if number != 0 {
                 engine.tool_row(number, block.range_of(b'Q'))?;
             }

@@ -102,7 +102,8 @@ pub(crate) fn check(block: &Block) -> Result<(), Error> {
         _ => true,
     };
     let spindle_used =
-        codes.m(7, &[3, 4, 5, 19]) || codes.m(9, &[51]) || codes.motion(&[330, 331, 760]) || codes.g(14, &[960, 970]);
+        codes.m(7, &[3, 4, 5, 19]) || codes.m(9, &[51]) || codes.motion(&[330, 331, 760]) || codes.g(14, &[960, 970])
+            || block.has(b'S');
     if block.spindle.is_some() && !spindle_used {
         return Err(Error::new(&DOLLAR, block.range));
     }

@@ -286,14 +286,20 @@ impl Engine {
     /// Back to the line behind the call; what M73 saved is restored.
     pub(super) fn leave_call(&mut self, sink: &mut dyn Sink) -> Result<(), Halt> {
         let context = self.flow.calls.last_mut().and_then(|call| call.context.take());
+        let turning = self.take_turning();
         self.abandon_call();
         if let Some(context) = context {
             context::restore_after_call(self, &context, sink)?;
+        }
+        if let Some(turning) = turning {
+            self.finish_turning(*turning, sink)?;
         }
         Ok(())
     }
     /// Back to the line behind the call, nothing else.
     pub(super) fn abandon_call(&mut self) {
+        // a contour that is left on the way of an error is gone
+        self.take_turning();
         let Some(call) = self.flow.calls.pop() else { return };
         self.store.leave();
         self.flow.here = call.back;

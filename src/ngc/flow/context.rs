@@ -69,11 +69,23 @@ fn to(engine: &mut Engine, saved: &State, range: TextRange, at: At, sink: &mut d
     let units = unit_code(saved);
     let block = (units != unit_code(&engine.state)).then(|| with_g(range, &[(6, units)]));
     run(engine, block)?;
-    let block = modes(&engine.state, saved, range);
+    let mut block = modes(&engine.state, saved, range);
+    let mut changed = switches(&engine.state, saved)
+        .into_iter()
+        .filter_map(|(group, [wanted, now])| (wanted != now && wanted >= 0).then_some((group, wanted)))
+        .collect::<Vec<_>>()
+        .into_iter();
+    // one M code finds room in the block of G codes
+    if let Some(block) = block.as_mut().filter(|block| block.m_count == 0)
+        && let Some((group, code)) = changed.next()
+    {
+        block.m[group] = code;
+        block.m_range[group] = range;
+        block.m_count = 1;
+    }
     run(engine, block)?;
-    for (group, [wanted, now]) in switches(&engine.state, saved) {
-        let block = (wanted != now && wanted >= 0).then(|| with_m(range, group, wanted));
-        run(engine, block)?;
+    for (group, code) in changed {
+        run(engine, Some(with_m(range, group, code)))?;
     }
     Ok(any)
 }

@@ -6,6 +6,7 @@ pub(crate) mod context;
 
 mod call;
 mod chain;
+mod contour;
 mod ends;
 mod fetch;
 mod labels;

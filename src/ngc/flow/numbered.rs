@@ -42,7 +42,8 @@ impl Engine {
         }
         let evaluated = read::evaluate(&compiled.line, &self.values(), block);
         if !compiled.line.errors.is_empty() || evaluated.is_err() {
-            return Err(self.refuse_text(&compiled.line, evaluated, sink));
+            let all = read::errors(&compiled.line, &self.values(), block);
+            return Err(self.refuse_text(evaluated, &all, sink));
         }
         block.range = block.range.cover(line.keyword_range);
         let (number, rounds) = (block.word(b'P'), block.word(b'L'));

@@ -29,6 +29,10 @@ impl Engine {
             offset: next,
         };
         let result = self.run_plain(&mut block, sink);
+        if let Err(error) = &result {
+            let not_modelled = error.problem.class == crate::Class::NotModelled;
+            self.after_refusal(block.g[1], not_modelled, block.has(b'F'));
+        }
         self.block = Some(block);
         Some(match result {
             Ok(After::Go) => Step::Line,
@@ -39,6 +43,7 @@ impl Engine {
 
     #[inline]
     fn run_plain(&mut self, block: &mut Block, sink: &mut dyn Sink) -> Result<After, Error> {
+        self.note_values(block, true);
         exec::check(self, block)?;
         exec::execute(self, block, self.flow.at, sink)
     }

@@ -120,37 +120,60 @@ impl Engine {
     /// Words, assignments and comments: evaluated, checked, then the comment, then the block.
     fn run_words(&mut self, compiled: &Compiled, sink: &mut dyn Sink) -> Result<After, Halt> {
         let mut block = self.block.take().unwrap_or_default();
-        let result = self.run_block(compiled, &mut block, sink);
+        let mut result = self.run_block(compiled, &mut block, sink);
+        if result.is_ok() && self.turning.is_some() {
+            result = self.call_contour(compiled, &block).and(result);
+        }
         if let Err(halt) = &result {
-            self.refused_motion(block.g[1], halt);
+            let not_modelled = matches!(halt, Halt::Refused(error) if error.problem.class == crate::Class::NotModelled);
+            let feed = compiled.line.words.iter().any(|word| word.letter == b'F');
+            self.after_refusal(block.g[1], not_modelled, feed);
         }
         self.block = Some(block);
         result
     }
-    /// A line with a motion code was refused. The lines behind it were written for that code: they are run in its mode, and not in the
-    /// one that was in force before.
-    fn refused_motion(&mut self, code: i16, halt: &Halt) {
-        let not_modelled = matches!(halt, Halt::Refused(error) if error.problem.class == crate::Class::NotModelled);
-        match code {
-            0 | 10 | 20 | 30 | 52 | 800 => self.state.motion = code,
+    /// What a refused line would have left in force, so that the lines behind it are judged as they were meant: they are run in the
+    /// mode of its motion code and not in the one before, and its F is a feed, of which nothing is known.
+    pub(super) fn after_refusal(&mut self, motion: i16, not_modelled: bool, feed: bool) {
+        match motion {
+            0 | 10 | 20 | 30 | 52 | 800 => self.state.motion = motion,
             code if code > 0 && not_modelled => self.state.unmodelled = Some(code.unsigned_abs().into()),
             code if code > 0 => self.state.unmodelled = Some(u32::MAX),
             _ => {}
+        }
+        if feed && self.state.feed_rate == 0.0 {
+            self.state.feed_rate = f64::NAN;
+        }
+    }
+    /// Notes what a line with these values changes in the run, whatever becomes of it.
+    #[inline]
+    pub(super) fn note_values(&mut self, block: &crate::Block, words: bool) {
+        self.flow.did |= words && self.flow.calls.is_empty();
+        if block.g[1] >= 0 {
+            self.state.unmodelled = None;
         }
     }
     fn run_block(&mut self, compiled: &Compiled, block: &mut crate::Block, sink: &mut dyn Sink) -> Result<After, Halt> {
         let line = &compiled.line;
         let at = self.flow.at;
-        let evaluated = read::evaluate(line, &self.values(), block);
-        self.flow.did |= self.flow.calls.is_empty() && !line.words.is_empty();
-        if block.g[1] >= 0 {
-            self.state.unmodelled = None;
+        if let ([read::Item::Assignment(_)], [], None) =
+            (&line.items[..], &line.errors[..], line.comment.or(line.remark))
+        {
+            // alone on its line there is nothing else to fail
+            self.apply(line)?;
+            return Ok(After::Go);
         }
+        let evaluated = read::evaluate(line, &self.values(), block);
+        self.note_values(block, !line.words.is_empty());
         if !line.errors.is_empty() || evaluated.is_err() {
-            return Err(self.refuse_text(line, evaluated, sink));
+            let all = read::errors(line, &self.values(), block);
+            return Err(self.refuse_text(evaluated, &all, sink));
         }
         exec::check(self, block)?;
         self.apply(line)?;
+        if self.in_contour() {
+            return self.contour_block(block);
+        }
         comment::run(self, line, at, sink)?;
         if block.m[4] != 99 {
             return Ok(exec::execute(self, block, at, sink)?);
@@ -192,22 +215,20 @@ impl Engine {
         Ok(value)
     }
     /// The words of a line are wrong: the error that the control gives comes first, then all others of the line.
-    pub(super) fn refuse_text(&mut self, line: &read::Line, evaluated: Result<(), Error>, sink: &mut dyn Sink) -> Halt {
-        let first = match (evaluated, line.errors.first()) {
+    pub(super) fn refuse_text(&mut self, evaluated: Result<(), Error>, all: &[Error], sink: &mut dyn Sink) -> Halt {
+        let first = match (evaluated, all.first()) {
             (Err(error), _) if error.problem == &read::UNDECIDED => return Halt::Undecided(error.message().to_owned()),
             (Err(error), _) => error,
             (Ok(()), Some(error)) => error.clone(),
             (Ok(()), None) => return Halt::Told,
         };
-        if first.problem == &read::G_UNKNOWN {
+        if all.iter().any(|error| error.problem == &read::G_UNKNOWN) {
             // it may have been meant as a motion code
             self.state.unmodelled = Some(u32::MAX);
         }
         self.tell(&first, sink);
-        for error in &line.errors {
-            if error.range != first.range {
-                self.tell(error, sink);
-            }
+        for error in all.iter().filter(|error| error.range != first.range) {
+            self.tell(error, sink);
         }
         Halt::Told
     }

@@ -112,8 +112,9 @@ impl Engine {
             Keyword::While => self.run_while(compiled, line, (label, goal), sought, value)?,
             Keyword::EndWhile => {
                 let structure = self.opened(line, label, &[Opener::While])?;
-                let broken = core::mem::take(&mut self.flow.broken);
-                if sought.is_none_or(|seeking| seeking.again) && !structure.once && !broken {
+                // observed: a `break` out of a while loop is obeyed once more by the end of the next do loop
+                self.flow.broken |= sought.is_some_and(|seeking| seeking.leaving && !seeking.again);
+                if sought.is_none_or(|seeking| seeking.again) && !structure.once {
                     self.flow.here = structure.place;
                 } else {
                     self.left(label);
@@ -241,7 +242,7 @@ impl Engine {
         if structure.rounds > 0 {
             structure.rounds -= 1;
         } else {
-            structure.rounds = (value + 0.5).floor() as i64;
+            structure.rounds = value.round_ties_even() as i64;
             structure.fuel = fuel;
         }
         if structure.rounds <= 0 {

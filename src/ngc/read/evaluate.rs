@@ -30,6 +30,33 @@ pub(crate) fn evaluate(line: &Line, values: &Values<'_>, block: &mut Block) -> R
     Ok(())
 }
 
+/// All errors of a line in reading order: of the text, of values and of codes. What is undecided is none.
+#[cold]
+pub(crate) fn errors(line: &Line, values: &Values<'_>, block: &mut Block) -> Vec<Error> {
+    block.clear(line.range);
+    let mut found = line.errors.clone();
+    for item in &line.items {
+        let result = match *item {
+            Item::Word(index) => word(&line.words[index as usize], line, values, block),
+            Item::Assignment(index) => {
+                let assignment = &line.assignments[index as usize];
+                let values = created(line, index, values);
+                let slot = slot(assignment, &values).map(drop);
+                slot.and_then(|()| value(&assignment.value, &values).map(drop))
+            }
+            Item::Error(_) => Ok(()),
+        };
+        let known = |error: &Error| found.iter().any(|other| other.range == error.range);
+        if let Err(error) = result
+            && error.problem != &problems::UNDECIDED
+            && !known(&error)
+        {
+            found.push(error);
+        }
+    }
+    found
+}
+
 /// Sets the parameters of a line, all at once: each right side has the values from before the line.
 ///
 /// # Errors

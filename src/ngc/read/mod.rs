@@ -10,7 +10,7 @@ pub(crate) use comments::flaw as comment_flaw;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use evaluate::{apply, evaluate};
-pub(crate) use line::Line;
+pub(crate) use evaluate::{apply, errors, evaluate};
+pub(crate) use line::{Item, Line};
 pub(crate) use plain::plain;
 pub(crate) use problems::{G_UNKNOWN, UNDECIDED, formula as formula_error};

@@ -367,6 +367,6 @@ fn distances_of_a_lathe() {
     // U is a difference of diameters, W of Z
     assert_eq!(
         lines("fanuc-30i-lathe-a", "G0 X20. Z5.\nU4. W-2.\nG1 X30. W-1. F0.1\n"),
-        ["R X10 Z5", "R X12 Z3", "L X15 Z2 F0.1"]
+        ["R X10 Z5", "R X12 Z3", "L X15 Z2 F0.1/rev"]
     );
 }

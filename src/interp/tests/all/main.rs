@@ -13,6 +13,7 @@ mod faults;
 mod files;
 mod fold_samples;
 mod frames;
+mod macro_calls;
 mod macro_flow;
 mod macro_programs;
 mod macro_values;

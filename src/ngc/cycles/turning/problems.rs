@@ -18,6 +18,7 @@ problems! {
     PARALLEL CannedCycle "G7X error: Cannot intersect parallel lines"
         "With an allowance (D, E) two straight blocks of a contour must not lie in one line: write them as one block."
     NO_CENTRE ArcCentre "G7X error: either I or K must be present for arc" "Add the centre (I, K) or the radius (R)."
+    BOTH_CENTRES ArcCentre "G7X error: both R and I or K flag used for arc" "Write either the centre or the radius."
     BOTH_CORNERS CannedCycle "G7X error: Both A and C parameters on a corner" "A rounds the corner, C chamfers it: write one of them."
     BOTH_X CannedCycle "G7x error: Cannot use U and X in the same block" "Write X, or its increment U."
     BOTH_Z CannedCycle "G7x error: Cannot use W and Z in the same block" "Write Z, or its increment W."
@@ -31,7 +32,5 @@ problems! {
         "Make D smaller, or check it on the control."
     ENDLESS CannedCycle "turning cycle that never ends: a cut would begin behind the contour"
         "Let X and Z of the cycle lie outside of the contour with its allowance; the control hangs here."
-    STOP NotModelled "turning cycle together with a stop or end of the program in one block"
-        "Write the M code in a block of its own."
     MANY CannedCycle "turning cycle with more cuts than the bound on executed lines" "I is the depth of one cut: make it greater."
 }

@@ -1,9 +1,9 @@
 //! What a control reads into words before it acts on them: increments and diameters of a lathe, and numbers without a decimal point.
-use crate::codes::Found;
+use crate::codes::{Found, dwell_reads};
 use crate::offsets::LINEAR;
-use crate::run::Interpreter;
+use crate::run::{Interpreter, Report};
 use crate::words::{Said, Words};
-use crate::{FeedMode, ImplicitDecimals};
+use crate::{FaultKind, FeedMode, ImplicitDecimals};
 use trunnion_dialect::{Action, Role};
 
 /// Letters of distances and the axes that they move.
@@ -97,5 +97,16 @@ impl Interpreter<'_> {
             _ => 1.0,
         };
         scale(&mut words.feed, feed);
+    }
+
+    /// Tells F without a decimal point, which a setting of the control reads as it stands or as least increments.
+    pub(crate) fn whole_feed(&self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
+        let feed = words.feed.number().filter(|feed| !feed.has_point && feed.value != 0.0);
+        let Some(feed) = feed.filter(|_| self.state.feed_mode != FeedMode::InverseTime) else {
+            return;
+        };
+        if !dwell_reads(codes, "F") {
+            report.fault(feed.range, FaultKind::AmbiguousDecimal);
+        }
     }
 }

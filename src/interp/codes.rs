@@ -234,17 +234,6 @@ impl<'d> Interpreter<'d> {
         self.memory.feed_unread = self.state.feed.is_none();
     }
 
-    /// Tells F without a decimal point, which a setting of the control reads as it stands or as least increments.
-    fn whole_feed(&self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
-        let feed = words.feed.number().filter(|feed| !feed.has_point && feed.value != 0.0);
-        let Some(feed) = feed.filter(|_| self.state.feed_mode != FeedMode::InverseTime) else {
-            return;
-        };
-        if !dwell_reads(codes, "F") {
-            report.fault(feed.range, FaultKind::AmbiguousDecimal);
-        }
-    }
-
     fn speed_word(&mut self, codes: &[Found<'_>], words: &Words) {
         // G92 S, G26 S and the like limit the speed
         let limits = |found: &Found<'_>| match found.code.action {
@@ -374,7 +363,7 @@ fn not_modelled(found: &Found<'_>, report: &mut Report<'_>) {
 }
 
 /// Whether a dwell of the block takes the word for itself.
-fn dwell_reads(codes: &[Found<'_>], word: &str) -> bool {
+pub(crate) fn dwell_reads(codes: &[Found<'_>], word: &str) -> bool {
     codes
         .iter()
         .any(|found| found.code.action == Action::Dwell && found.code.words.iter().any(|known| known == word))

@@ -67,7 +67,7 @@ mod tests {
     fn inverse_time_wants_its_own_feed() {
         assert_drawn(
             "gcode linuxcnc",
-            "G0 X0 Y0 Z0\nG93 G1 X10 F2\nX20\n;^^ missing-feed: a feed motion under G93\nM2\n",
+            "G0 X0 Y0 Z0\nG93 G1 X10 F2\nX20\n;^^ missing-feed: F word missing with inverse time\nM2\n",
         );
     }
 }

@@ -47,6 +47,9 @@ impl Codes<'_> {
     fn turning(&self) -> bool {
         (700..=722).contains(&self.0.motion)
     }
+    fn roughing(&self) -> bool {
+        (710..=722).contains(&self.0.motion)
+    }
     fn g10(&self) -> bool {
         self.g(0, &[100])
     }
@@ -60,9 +63,9 @@ pub(crate) fn check(block: &Block) -> Result<(), Error> {
     let codes = Codes(block);
     let used = |letter: u8| match letter {
         b'D' => codes.g(7, &[410, 411, 420, 421]) || codes.g(14, &[960]) || codes.turning(),
-        b'E' => codes.motion(&[760]) || codes.turning() || codes.m(5, &[66, 67, 68]),
+        b'E' => codes.motion(&[700, 760]) || codes.m(5, &[66, 67, 68]),
         b'H' => codes.g(8, &[430, 432]) || codes.motion(&[760]),
-        b'I' => codes.arc() || codes.motion(&[50, 51, 331, 760, 870]) || codes.turning() || codes.g10(),
+        b'I' => codes.arc() || codes.motion(&[50, 51, 331, 760, 870]) || codes.roughing() || codes.g10(),
         b'J' => codes.arc() || codes.motion(&[50, 51, 760, 870]) || codes.g10(),
         b'K' => codes.arc() || codes.motion(&[330, 331, 760, 870, 61, 62]),
         b'L' => {
@@ -79,7 +82,7 @@ pub(crate) fn check(block: &Block) -> Result<(), Error> {
                 || codes.g(0, &[40])
                 || codes.g(13, &[640])
                 || codes.motion(&[50, 52, 61, 62, 740, 760, 820, 840, 860, 880, 890])
-                || codes.turning()
+                || codes.motion(&[700])
                 || codes.m(9, &[50, 51, 52, 53])
                 || codes.m(5, &[62, 63, 64, 65, 66])
                 || codes.m(7, &[19])
@@ -97,13 +100,15 @@ pub(crate) fn check(block: &Block) -> Result<(), Error> {
                 || codes.user()
         }
         b'R' => {
-            codes.arc() || codes.cycle() || codes.motion(&[760]) || codes.turning() || codes.g10() || codes.m(7, &[19])
+            codes.arc() || codes.cycle() || codes.motion(&[760]) || codes.roughing() || codes.g10() || codes.m(7, &[19])
         }
         _ => true,
     };
-    let spindle_used =
-        codes.m(7, &[3, 4, 5, 19]) || codes.m(9, &[51]) || codes.motion(&[330, 331, 760]) || codes.g(14, &[960, 970])
-            || block.has(b'S');
+    let spindle_used = codes.m(7, &[3, 4, 5, 19])
+        || codes.m(9, &[51])
+        || codes.motion(&[330, 331, 760])
+        || codes.g(14, &[960, 970])
+        || block.has(b'S');
     if block.spindle.is_some() && !spindle_used {
         return Err(Error::new(&DOLLAR, block.range));
     }

@@ -60,7 +60,8 @@ impl Engine {
     /// The cycle whose contour ends with the call in hand.
     pub(super) fn take_turning(&mut self) -> Option<Box<Turning>> {
         let depth = self.flow.calls.len();
-        self.turning.take_if(|turning| !turning.is_called() && turning.depth() + 1 == depth)
+        self.turning
+            .take_if(|turning| !turning.is_called() && turning.depth() + 1 == depth)
     }
     /// Runs the cycle behind its contour.
     pub(super) fn finish_turning(&mut self, turning: Turning, sink: &mut dyn Sink) -> Result<(), Halt> {

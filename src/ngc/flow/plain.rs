@@ -8,7 +8,7 @@ impl Engine {
     #[inline]
     pub(super) fn plain_line(&mut self, sink: &mut dyn Sink) -> Option<Step> {
         let here = self.flow.here;
-        if !self.flow.lines(here.file).is_new(here.line) {
+        if !self.flow.lines(here.file).is_new(here.line) || self.turning.is_some() {
             return None;
         }
         let mut block = self.block.take().unwrap_or_default();
@@ -17,6 +17,11 @@ impl Engine {
             self.block = Some(block);
             return None;
         };
+        if matches!(block.g[1], 700..=722) {
+            // a turning cycle calls a subprogram
+            self.block = Some(block);
+            return None;
+        }
         self.flow.lines(here.file).run(here.line);
         self.flow.at = At {
             file: here.file,

@@ -4,6 +4,7 @@
 mod apt;
 mod arcs;
 mod by_hand;
+mod by_hand_paths;
 mod compensation;
 mod corners;
 mod cycles;

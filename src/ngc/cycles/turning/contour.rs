@@ -171,7 +171,11 @@ fn fillet(one: &Segment, two: &Segment, corner: Corner) -> Result<Option<Fillet>
         return Err(&problems::CORNER);
     };
     let near = |p: &Point| distance(*p, one.to);
-    let centre = a.meets(&b).into_iter().flatten().min_by(|p, q| near(p).total_cmp(&near(q)));
+    let centre = a
+        .meets(&b)
+        .into_iter()
+        .flatten()
+        .min_by(|p, q| near(p).total_cmp(&near(q)));
     let Some(centre) = centre else {
         return Err(&problems::CORNER);
     };
@@ -198,5 +202,13 @@ fn fillet(one: &Segment, two: &Segment, corner: Corner) -> Result<Option<Fillet>
         centre,
         positive: turn > 0.0,
     });
-    Ok(Some((start, Segment { from: start, to: end, round }, end)))
+    Ok(Some((
+        start,
+        Segment {
+            from: start,
+            to: end,
+            round,
+        },
+        end,
+    )))
 }

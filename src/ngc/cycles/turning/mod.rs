@@ -58,6 +58,10 @@ pub(super) fn begin(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
     if work.engine.state.side != Side::Off && code != 700 {
         return Err(refuse(work, &problems::COMPENSATED, code));
     }
+    if work.engine.state.side != Side::Off {
+        lose(work.engine);
+        return Err(refuse(work, &problems::FINISH_COMPENSATED, code));
+    }
     let end = exec::end_of(&work.engine.state, block)?;
     work.engine.state.motion = 0;
     exec::traverse(work.engine, end, block, work.at, work.sink)?;
@@ -169,7 +173,9 @@ impl Turning {
             Ok(_) => return Err(refuse(engine, Error::new(&problems::UNKNOWN, range))),
             Err(error) => return Err(refuse(engine, error)),
         };
-        let [entry, contour @ ..] = &pieces[..] else { return Ok(()) };
+        let [entry, contour @ ..] = &pieces[..] else {
+            return Ok(());
+        };
         if contour.is_empty() {
             return Ok(());
         }
@@ -202,7 +208,13 @@ fn monotonic(contour: &[Segment], place: usize) -> Option<f64> {
     let sign = if last.to[place] > first.from[place] { 1.0 } else { -1.0 };
     let goes_on = |piece: &Segment| {
         let step = (piece.to[place] - piece.from[place]) * sign;
-        let ends = [piece.from, piece.to].map(|at| if piece.round.is_some() { piece.direction(at)[place] * sign } else { 0.0 });
+        let ends = [piece.from, piece.to].map(|at| {
+            if piece.round.is_some() {
+                piece.direction(at)[place] * sign
+            } else {
+                0.0
+            }
+        });
         step >= -1e-9 && ends[0] > -1e-6 && ends[1] > -1e-6
     };
     contour.iter().all(goes_on).then_some(sign)
@@ -212,7 +224,11 @@ fn monotonic(contour: &[Segment], place: usize) -> Option<f64> {
 fn clipped(start: Point, contour: &[Segment], place: usize, sign: f64) -> Point {
     let mut start = start;
     let first = contour.first().map_or(start[place], |piece| piece.from[place]);
-    start[place] = if sign < 0.0 { start[place].max(first) } else { start[place].min(first) };
+    start[place] = if sign < 0.0 {
+        start[place].max(first)
+    } else {
+        start[place].min(first)
+    };
     start
 }
 
@@ -228,7 +244,10 @@ fn with_allowance(start: Point, contour: &[Segment], allowance: f64) -> Result<V
         let forward = if last.to[0] > from[0] { 1.0 } else { -1.0 };
         side = if last.to[1] < from[1] { -forward } else { forward };
     }
-    Ok(offset::offset(contour, if side > 0.0 { allowance } else { -allowance })?)
+    Ok(offset::offset(
+        contour,
+        if side > 0.0 { allowance } else { -allowance },
+    )?)
 }
 
 /// G70: along the contour, P times, ever nearer.
@@ -260,13 +279,7 @@ fn finishing(out: &mut Out<'_>, start: Point, contour: &[Segment], words: &Words
 }
 
 /// G71 and G72 with their forms.
-fn roughing(
-    out: &mut Out<'_>,
-    code: i16,
-    start: Point,
-    contour: &[Segment],
-    words: &Words,
-) -> Result<(), Stopped> {
+fn roughing(out: &mut Out<'_>, code: i16, start: Point, contour: &[Segment], words: &Words) -> Result<(), Stopped> {
     let swapped = code >= 720;
     let place = usize::from(swapped);
     let Some(sign) = monotonic(contour, place) else {

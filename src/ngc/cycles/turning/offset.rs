@@ -48,7 +48,14 @@ fn corner(
     let turn = cross(before.direction(before.to), piece.direction(piece.from));
     if turn.abs() < 1e-6 {
         if before.round.is_none() && piece.round.is_none() {
-            return Err(&problems::PARALLEL);
+            let way = piece.direction(piece.from);
+            let along_an_axis = way[0] == 0.0 || way[1] == 0.0;
+            // slanted lines are parallel or not by the control's rounding
+            return Err(if along_an_axis {
+                &problems::PARALLEL
+            } else {
+                &problems::SHALLOW
+            });
         }
         done.push(moved);
         return Ok(());
@@ -56,6 +63,10 @@ fn corner(
     if (turn > 0.0) == (distance_left > 0.0) {
         *dropped = !inner(done, moved)?;
         return Ok(());
+    }
+    // the control leaves out short arcs in corners that are nearly straight
+    if turn.abs() < 0.3 {
+        return Err(&problems::SHALLOW);
     }
     let Some(last) = done.last().copied() else {
         return Err(&problems::SWALLOWED);

@@ -108,6 +108,9 @@ pub(super) fn run(
     let (Some(first), Some(last)) = (contour.first(), contour.last()) else {
         return Ok(());
     };
+    if contour.iter().any(Segment::is_unclear) {
+        return Err((&problems::ARC).into());
+    }
     let mut path = vec![Segment::line(start, first.from)];
     for piece in contour {
         piece.split(&mut path);

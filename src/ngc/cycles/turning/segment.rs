@@ -55,11 +55,7 @@ impl Segment {
             None => unit([self.to[0] - self.from[0], self.to[1] - self.from[1]]),
             Some(Round { centre, positive }) => {
                 let out = unit([at[0] - centre[0], at[1] - centre[1]]);
-                if positive {
-                    [-out[1], out[0]]
-                } else {
-                    [out[1], -out[0]]
-                }
+                if positive { [-out[1], out[0]] } else { [out[1], -out[0]] }
             }
         }
     }
@@ -134,6 +130,14 @@ impl Segment {
             (Some(round), None) => line_circle(other, round.centre, self.radius()),
             (Some(one), Some(two)) => circles(one.centre, self.radius(), two.centre, other.radius()),
         }
+    }
+    /// An arc whose radii differ, or that has its lowest point (second coordinate) inside.
+    pub(super) fn is_unclear(&self) -> bool {
+        let Some(round) = self.round else { return false };
+        let low = [round.centre[0], round.centre[1] - self.radius()];
+        let at = self.swept(low);
+        let inside = at > 1e-6 && at < self.swept(self.to) - 1e-6;
+        inside || (self.radius() - distance(self.to, round.centre)).abs() > 2.0 * NEAR
     }
     /// Cut where its second coordinate turns from rising to falling or back; an arc that begins at its top begins with an empty piece.
     pub(super) fn split(&self, into: &mut Vec<Self>) {

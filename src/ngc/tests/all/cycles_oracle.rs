@@ -55,6 +55,27 @@ fn threads_and_splines_are_those_of_the_control() {
     compare("threads.txt");
 }
 
+#[test]
+fn turning_cycles_are_those_of_the_control() {
+    compare("turning.txt");
+}
+
+/// In a check the start is not known: the cycle ends in one refusal where it would begin, and nothing hangs.
+#[test]
+fn a_turning_cycle_from_an_unknown_start_is_not_modelled() {
+    let setup = trunnion_ngc::Setup {
+        start: trunnion_ngc::Start::Unknown,
+        ..trunnion_ngc::Setup::default()
+    };
+    let contour = "g18 f100\no1 sub\ng0 x2 z0\ng1 z-3\nx8\no1 endsub\n";
+    for code in ["g70", "g71", "g71.1", "g71.2", "g72"] {
+        let unknown = listing::list_with(&format!("{contour}{code} q1\nm2\n"), &setup);
+        assert!(unknown.errors[0].contains("not known"), "{:?}", unknown.errors);
+        let known = listing::list_with(&format!("{contour}{code} q1 x9 z1\nm2\n"), &setup);
+        assert!(known.errors.is_empty(), "{:?}", known.errors);
+    }
+}
+
 /// Writes our listing of each program of a folder beside it, for comparison with another control: `TRUNNION_NGC_DIR=folder`.
 #[test]
 #[ignore = "a tool for differential runs"]

@@ -276,5 +276,5 @@ fn parse_tokens_are_lossless() {
         .collect();
     assert_eq!(all, FLIP);
     let tree = text(&trunnion(&["parse", str(&file)]).stdout);
-    assert!(tree.contains("C52.595"), "{tree}");
+    assert!(tree.contains("word C 52.595"), "{tree}");
 }

@@ -8,18 +8,21 @@ use tempfile::TempDir;
 const LOOP: &str = "\
 G21 G90 G17 G94
 #1=0
-WHILE[#1LT4]DO1
+O1 WHILE [#1 LT 4]
  X[#1*10.] G1
-#1=#1+1
-END1
+#1=[#1+1]
+O1 ENDWHILE
 G2 X1. Y1. R1.
 G2 X2. Y2. R1.
-M30
+M2
 ";
 
+/// Exit status and findings; `a.ngc` is read as LinuxCNC, `a.nc` as Fanuc.
 fn check(folder: &TempDir, name: &str, program: &str, more: &[&str]) -> (i32, String) {
     let file = write(folder, name, program);
-    let output = trunnion(&[&["check", "-q", str(&file), "--dialect", "fanuc-30i"], more].concat());
+    let ngc = file.extension().is_some_and(|end| end == "ngc");
+    let dialect = if ngc { "linuxcnc" } else { "fanuc-30i" };
+    let output = trunnion(&[&["check", "-q", str(&file), "--dialect", dialect], more].concat());
     assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
     (status(&output), text(&output.stdout).replace(str(&file), name))
 }
@@ -27,22 +30,22 @@ fn check(folder: &TempDir, name: &str, program: &str, more: &[&str]) -> (i32, St
 #[test]
 fn what_a_loop_repeats_is_counted_by_times() {
     let folder = TempDir::new().expect("works");
-    let (code, found) = check(&folder, "a.nc", LOOP, &["--format", "short"]);
+    let (code, found) = check(&folder, "a.ngc", LOOP, &["--format", "short"]);
     assert_eq!(code, 1);
-    let line = found.lines().find(|line| line.starts_with("a.nc:4:")).expect("there");
+    let line = found.lines().find(|line| line.starts_with("a.ngc:4:")).expect("there");
     assert!(
         line.contains("[missing-feed]") && line.ends_with("(4 times)"),
         "{found}"
     );
-    let (_, found) = check(&folder, "a.nc", LOOP, &["--format", "pretty"]);
+    let (_, found) = check(&folder, "a.ngc", LOOP, &["--format", "pretty"]);
     assert!(found.contains("(4 times)") && !found.contains("in a row"), "{found}");
 }
 
 #[test]
 fn the_place_above_an_excerpt_is_that_of_the_finding() {
     let folder = TempDir::new().expect("works");
-    let (_, short) = check(&folder, "a.nc", LOOP, &["--format", "short"]);
-    let (_, pretty) = check(&folder, "a.nc", LOOP, &["--format", "pretty"]);
+    let (_, short) = check(&folder, "a.ngc", LOOP, &["--format", "short"]);
+    let (_, pretty) = check(&folder, "a.ngc", LOOP, &["--format", "pretty"]);
     let places = short
         .lines()
         .filter_map(|line| line.split_once(": ").map(|(place, _)| place));

@@ -86,7 +86,7 @@ fn inputs() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         ),
         (
             "repeat.ngc",
-            "g21\no1 repeat [1e9]\no1 endrepeat\nm2\n".into(),
+            "g21\no1 repeat [1000000000]\no1 endrepeat\nm2\n".into(),
             "did not come to an end",
         ),
         (

@@ -114,6 +114,10 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
         }
         61 => {
             let number = block.word(b'Q').unwrap_or(0.0).round() as i32;
+            // rs274 goes on here, with motions that nobody could have meant
+            if engine.state.side != Side::Off {
+                return Err(Error::new(&problems::TOOL_COMPENSATION, range));
+            }
             if number != 0 {
                 engine.tool_row(number, block.range_of(b'Q'))?;
             }

@@ -324,21 +324,24 @@ fn turning_passes() {
         [
             "R X25 Z2",
             "R X20 Z2",
-            "L X20 Z-30 F0.2",
-            "L X25 Z-30 F0.2",
+            "L X20 Z-30 F0.2/rev",
+            "L X25 Z-30 F0.2/rev",
             "R X25 Z2",
             "R X18 Z2",
-            "L X18 Z-30 F0.2",
-            "L X25 Z-30 F0.2",
+            "L X18 Z-30 F0.2/rev",
+            "L X25 Z-30 F0.2/rev",
             "R X25 Z2",
             "R X30 Z2",
         ]
     );
     let taper = lines("fanuc-30i-lathe-a", "G0 X50. Z2.\nG90 X40. Z-30. R-2. F0.2\n");
-    assert_eq!(taper[1..3], ["R X18 Z2", "L X20 Z-30 F0.2"]);
+    assert_eq!(taper[1..3], ["R X18 Z2", "L X20 Z-30 F0.2/rev"]);
     // system B calls it G77; facing is G79: in along Z, cut along X, back along Z
     let facing = lines("fanuc-30i-lathe-b", "G90 G0 X50. Z2.\nG79 X0. Z-1. F0.2\n");
-    assert_eq!(facing[1..], ["R X25 Z-1", "L X0 Z-1 F0.2", "L X0 Z2 F0.2", "R X25 Z2"]);
+    assert_eq!(
+        facing[1..],
+        ["R X25 Z-1", "L X0 Z-1 F0.2/rev", "L X0 Z2 F0.2/rev", "R X25 Z2"]
+    );
 }
 
 #[test]

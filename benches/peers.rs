@@ -3,6 +3,10 @@
 //!
 //! The `gcode` crate's visitor stores nothing; ours stores the lossless table. `rs274` prints its calls (to /dev/null here).
 #![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
+#![expect(
+    clippy::disallowed_methods,
+    reason = "a surface to run over needs no reproducible last digit"
+)]
 use gcode::core::{
     BlockVisitor, CommandVisitor, ControlFlow, Diagnostics, HasDiagnostics, Number, ProgramVisitor, Span, Value,
 };

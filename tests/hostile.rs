@@ -23,6 +23,7 @@ fn run(folder: &TempDir, arguments: &[&str]) -> Output {
 }
 
 /// Name, bytes, and what `check` says of it (empty: nothing is asked).
+#[expect(clippy::too_many_lines, reason = "it is one list")]
 fn inputs() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     let deep = format!("{}1{}", "[".repeat(MANY), "]".repeat(MANY));
     let words = "X1 Y2 ".repeat(MANY);

@@ -1,4 +1,5 @@
 //! Runs the examples in every rule's header: what is drawn under an example is found, and exactly that; the cure is silent.
+#![expect(clippy::print_stdout, reason = "a rule that waits says so")]
 use trunnion::check::fixture::Fixture;
 use trunnion::check::{Rule, rules};
 

@@ -170,7 +170,7 @@ fn same_fault(a: &FaultKind, b: &FaultKind, faults: Faults) -> bool {
                 alarm: number,
                 ..
             },
-        ) => refusal == other && (alarm == number || quotes(alarm) && quotes(number)),
+        ) => refusal == other && (alarm == number || quotes(alarm.as_ref()) && quotes(number.as_ref())),
         // a text as written
         (FaultKind::NotModelled { what: a }, FaultKind::NotModelled { what: b }) => {
             faults == Faults::Kinds || folded(a) == folded(b)
@@ -181,8 +181,8 @@ fn same_fault(a: &FaultKind, b: &FaultKind, faults: Faults) -> bool {
 }
 
 /// LinuxCNC's messages may quote the text and name lines, too.
-fn quotes(alarm: &Option<String>) -> bool {
-    alarm.as_ref().is_some_and(|alarm| alarm.starts_with("LinuxCNC: "))
+fn quotes(alarm: Option<&String>) -> bool {
+    alarm.is_some_and(|alarm| alarm.starts_with("LinuxCNC: "))
 }
 
 /// A text without blanks and case.

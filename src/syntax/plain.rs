@@ -150,9 +150,8 @@ fn formula_part(source: &[u8], at: usize, out: &Builder) -> Option<(TokenKind, u
 #[inline]
 fn stands_alone(out: &Builder) -> bool {
     let kinds = &out.table.kinds[out.first as usize..];
-    let before = match kinds {
-        [.., before, TokenKind::Blank] | [.., before] => before,
-        [] => return true,
+    let ([.., before, TokenKind::Blank] | [.., before]) = kinds else {
+        return true;
     };
     matches!(
         before,

@@ -151,7 +151,7 @@ impl Program {
                     any = true;
                 }
             }
-            if any && !text.starts_with(['X', 'Y', 'Z', 'A', 'B', 'C', ' ']) || any {
+            if any {
                 self.line(&text);
             }
         }

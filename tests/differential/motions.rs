@@ -11,7 +11,7 @@ impl Program {
             _ => (1, 2, ["Y", "Z", "J", "K"], "X", "G19"),
         };
         let radius = self.random.between(1.0, 30.0);
-        let (from, sweep) = (self.random.between(0.0, 6.28), self.random.between(0.0, 6.28));
+        let (from, sweep) = (self.random.between(0.0, 6.27), self.random.between(0.0, 6.27));
         let centre = [
             self.at[first] - radius * from.cos(),
             self.at[second] - radius * from.sin(),
@@ -111,7 +111,7 @@ impl Program {
         let radius = self.random.between(0.0, 3.0);
         let code = self.random.pick(&["G41.1", "G42.1"]);
         self.line(&format!("{code} D{}", number(radius * 2.0)));
-        let mut heading = self.random.between(0.0, 6.28);
+        let mut heading = self.random.between(0.0, 6.27);
         let (mut x, mut y) = (self.at[0], self.at[1]);
         for step in 0..2 + self.random.below(6) {
             let length = self.random.between(4.0, 25.0);

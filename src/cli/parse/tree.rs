@@ -99,9 +99,10 @@ fn describe(loaded: &Loaded, node: &Node) -> String {
             }
         })
         .collect();
-    match node.facts.is_empty() {
-        true => format!("{} {}", node.kind, loaded.program.text(node.range)),
-        false => format!("{} {}", node.kind, facts.join(" ")),
+    if node.facts.is_empty() {
+        format!("{} {}", node.kind, loaded.program.text(node.range))
+    } else {
+        format!("{} {}", node.kind, facts.join(" "))
     }
 }
 

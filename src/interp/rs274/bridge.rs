@@ -183,6 +183,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 }
 
 /// An arc as it is called.
+#[derive(Clone, Copy)]
 struct ArcCall {
     end: [f64; 2],
     centre: [f64; 2],
@@ -272,14 +273,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     fn arc_motion(&mut self, call: ArcCall, at: At, state: &State) {
         let shift = Shift::of(state);
-        let found = self.arc(
-            ArcCall {
-                others: call.others,
-                ..call
-            },
-            &shift,
-            state,
-        );
+        let found = self.arc(call, &shift, state);
         let (kind, end) = match found {
             Some((arc, end)) => (MotionKind::Arc(Some(arc)), end),
             None => (MotionKind::Arc(None), shift.coordinates(&state.current)),

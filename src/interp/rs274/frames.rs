@@ -80,8 +80,8 @@ impl Shift {
         let mut pose = [0.0; 9];
         (pose[0], pose[1], pose[2]) = (x, y, z);
         let mut values = pose.map(|value| value * self.unit);
-        for axis in 0..3 {
-            values[axis] += self.inside[axis];
+        for (value, inside) in values.iter_mut().zip(self.inside).take(3) {
+            *value += inside;
         }
         self.turned(Vec3::new(values[0], values[1], values[2]))
     }

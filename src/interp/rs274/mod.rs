@@ -69,13 +69,13 @@ impl Interpreter<'_> {
         let block = if run.done {
             None
         } else {
-            self.step_rs274(&mut run, program, sink)
+            Some(self.step_rs274(&mut run, program, sink))
         };
         self.rs274 = Some(run);
         block
     }
 
-    fn step_rs274(&mut self, run: &mut Rs274, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
+    fn step_rs274(&mut self, run: &mut Rs274, program: &Program, sink: &mut impl Sink) -> BlockId {
         let Rs274 { engine, told, done } = run;
         let mut bridge = Bridge {
             interpreter: self,
@@ -118,7 +118,7 @@ impl Interpreter<'_> {
         let shift = Shift::of(&engine.state);
         modal::refresh(&mut self.state, &engine.state, &shift);
         self.state.position = shift.coordinates(&engine.state.current);
-        Some(block)
+        block
     }
 }
 

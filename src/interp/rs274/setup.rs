@@ -80,7 +80,6 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
         user_codes: true,
         tools: ToolTable {
             rows: tools.map(row).collect(),
-            ..ToolTable::default()
         },
         parameters: Parameters { values },
         files: setup

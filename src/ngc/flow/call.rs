@@ -218,9 +218,12 @@ impl Engine {
     /// `o... endsub [..]`, `o... return [..]`
     pub(super) fn end_sub(&mut self, line: &OLine, sought: Option<Seeking>, sink: &mut dyn Sink) -> Result<(), Halt> {
         let passed = matches!(sought, Some(seeking) if matches!(seeking.goal, Goal::Definition(_)));
-        let value = line.values.first().map(|formula| match passed {
-            true => self.value_in_passing(formula),
-            false => self.value(formula),
+        let value = line.values.first().map(|formula| {
+            if passed {
+                self.value_in_passing(formula)
+            } else {
+                self.value(formula)
+            }
         });
         let value = value.transpose();
         if let Some(seeking) = sought {

@@ -52,7 +52,7 @@ impl Engine {
                     self.file_name(file)
                 );
                 let error = Error {
-                    read_last: self.last_line(),
+                    read_last: Some(self.last_line()),
                     ..Error::with(&problems::NOT_FOUND, self.written_range(opener), detail)
                 };
                 self.flow.at = self.flow.calls.last().map_or(self.flow.at, |call| call.site);
@@ -82,7 +82,7 @@ impl Engine {
                 };
                 self.flow.ended = true;
                 let error = Error {
-                    read_last: seeking.and_then(|_| self.last_line()),
+                    read_last: seeking.map(|_| self.last_line()),
                     ..Error::new(problem, range)
                 };
                 self.refuse(&error, sink);
@@ -91,12 +91,12 @@ impl Engine {
         }
     }
     /// The last line of the file in hand.
-    fn last_line(&self) -> Option<(FileId, TextRange)> {
+    fn last_line(&self) -> (FileId, TextRange) {
         let file = self.flow.here.file;
         let bytes = self.files[file.0 as usize].bytes();
         let end = bytes.len() - usize::from(bytes.ends_with(b"\n"));
         let start = memchr::memrchr(b'\n', &bytes[..end]).map_or(0, |before| before + 1);
-        Some((file, TextRange::new(start as u32, end as u32)))
+        (file, TextRange::new(start as u32, end as u32))
     }
     /// A file that only defines subprograms is one that another program calls: in a check its missing end is no mistake. Says so,
     /// and makes the first definition the line in hand.

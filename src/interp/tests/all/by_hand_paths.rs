@@ -1,4 +1,5 @@
 //! As `by_hand`: turning cycles, and paths beside a contour.
+#![expect(clippy::too_many_lines, reason = "tables of programs")]
 use crate::by_hand::{Case, check};
 use crate::support::{line, run_bytes};
 use trunnion_interp::{MotionKind, Setup, Tool};

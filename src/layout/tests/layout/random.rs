@@ -22,6 +22,7 @@ fn styles() -> impl Strategy<Value = Style> {
 }
 
 /// Pieces that mean something together, in any order.
+#[expect(clippy::too_many_lines, reason = "it is one list")]
 fn pieces() -> impl Strategy<Value = Vec<u8>> {
     let piece = proptest::sample::select(vec![
         "G1",

@@ -56,7 +56,8 @@ impl Contour {
         };
         self.at = to;
         // too short pieces are left out; the first one is the way to the contour
-        if !(distance(piece.from, to) < NEAR) || self.pieces.is_empty() {
+        let short = distance(piece.from, to) < NEAR;
+        if !short || self.pieces.is_empty() {
             self.pieces.push((piece, corner));
         }
         Ok(())

@@ -61,22 +61,18 @@ impl Segment {
     }
     /// How far along a point lies: 0 at the start, 1 at the end; beyond for points outside. For arcs a share of the swept angle.
     pub(super) fn share(&self, point: Point) -> f64 {
-        match self.round {
-            None => {
-                let way = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
-                let gone = [point[0] - self.from[0], point[1] - self.from[1]];
-                (gone[0] * way[0] + gone[1] * way[1]) / (way[0] * way[0] + way[1] * way[1])
-            }
-            Some(_) => {
-                let sweep = self.swept(self.to);
-                let mut gone = self.swept(point);
-                // behind the end, or before the start: what is nearer
-                if gone > sweep && gone - sweep > std::f64::consts::PI - sweep / 2.0 {
-                    gone -= 2.0 * std::f64::consts::PI;
-                }
-                gone / sweep
-            }
+        if self.round.is_none() {
+            let way = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
+            let gone = [point[0] - self.from[0], point[1] - self.from[1]];
+            return (gone[0] * way[0] + gone[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
         }
+        let sweep = self.swept(self.to);
+        let mut gone = self.swept(point);
+        // behind the end, or before the start: what is nearer
+        if gone > sweep && gone - sweep > std::f64::consts::PI - sweep / 2.0 {
+            gone -= 2.0 * std::f64::consts::PI;
+        }
+        gone / sweep
     }
     /// Angle from the start to a point in the sense of the arc, rad, 0 to a full turn.
     fn swept(&self, point: Point) -> f64 {

@@ -14,7 +14,7 @@ fn compare(name: &str, at_least: usize) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/all/oracle")
         .join(name);
-    let text = std::fs::read_to_string(&path).unwrap();
+    let text = std::fs::read_to_string(&path).expect("there");
     let (tools, bad) = ToolTable::parse(TOOLS.as_bytes());
     assert!(bad.is_empty(), "{bad:?}");
     let setup = Setup {
@@ -24,7 +24,7 @@ fn compare(name: &str, at_least: usize) {
     let mut failures = String::new();
     let cases: Vec<&str> = text.split("===\n").filter(|case| !case.trim().is_empty()).collect();
     for case in &cases {
-        let (program, expected) = case.split_once("---\n").unwrap();
+        let (program, expected) = case.split_once("---\n").expect("there");
         let expected: Vec<&str> = expected.lines().collect();
         let listed = listing::list_with(program, &setup);
         let mut ours = listed.lines().split_off(START);
@@ -38,7 +38,7 @@ fn compare(name: &str, at_least: usize) {
                 expected.join("\n  "),
                 ours.join("\n  ")
             )
-            .unwrap();
+            .expect("memory takes all");
         }
     }
     assert!(failures.is_empty(), "{failures}");

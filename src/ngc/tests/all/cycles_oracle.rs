@@ -10,11 +10,11 @@ fn compare(name: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/all/oracle")
         .join(name);
-    let text = std::fs::read_to_string(&path).unwrap();
+    let text = std::fs::read_to_string(&path).expect("there");
     let mut failures = String::new();
     let mut count = 0;
     for case in text.split("===\n").filter(|case| !case.trim().is_empty()) {
-        let (program, expected) = case.split_once("---\n").unwrap();
+        let (program, expected) = case.split_once("---\n").expect("there");
         let expected: Vec<&str> = expected.lines().collect();
         let listed = listing::list(program);
         let mut ours = listed.lines();
@@ -28,7 +28,7 @@ fn compare(name: &str) {
                 expected.join("\n  "),
                 ours.join("\n  ")
             )
-            .unwrap();
+            .expect("there");
         }
     }
     assert!(failures.is_empty(), "{failures}");

@@ -13,7 +13,9 @@ pub(crate) struct Listed {
 
 impl Sink for Listed {
     fn call(&mut self, call: &Canon, _: At, _: &State) {
-        self.listing.write(call, b".....", &mut self.text).unwrap();
+        self.listing
+            .write(call, b".....", &mut self.text)
+            .expect("memory takes all");
     }
     fn error(&mut self, error: &Error, _: At) {
         self.errors.push(error.message().to_owned());

@@ -1,6 +1,5 @@
 //! `diff` on the command line: what is told about programs that move the tool differently, and that text alone says nothing.
 #![expect(clippy::print_stdout, reason = "a skipped test says so")]
-#![expect(clippy::print_stdout, reason = "a test that is skipped says so")]
 mod cli_tools;
 
 use cli_tools::{FLIP, json, status, str, text, trunnion, write};

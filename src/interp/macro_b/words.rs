@@ -197,6 +197,10 @@ fn target(
     times: Option<Held>,
 ) -> Result<(ProgramName, u32), FaultKind> {
     let whole = |value: f64| {
+        if value.is_nan() {
+            let what = "the numbers of the call".to_owned();
+            return Err(FaultKind::NotDecided { what });
+        }
         let fits = value >= 0.0 && value.fract() == 0.0 && value <= 99_999_999.0;
         fits.then_some(value as u32).ok_or_else(|| {
             let message = format!("{value} is no number of a program or of repetitions");

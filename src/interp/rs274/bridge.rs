@@ -18,10 +18,12 @@ pub(super) struct Told {
     pub(super) feed: Option<f64>,
     /// mm per revolution while the feed is coupled to the spindle.
     pub(super) synced: Option<f64>,
+    /// The block in which each line begins, where that is not its number.
+    pub(super) blocks: Option<std::sync::Arc<[u32]>>,
     /// The place from which the main program called what runs now.
     pub(super) caller: BlockId,
     /// Compensation of the cutter radius was on behind the last line.
-    compensated: bool,
+    pub(super) compensated: bool,
     /// Something has happened after which X Y Z U V W are not known.
     pub(super) lost: bool,
     /// The same of A B C.
@@ -48,7 +50,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// The block of the main program that stands for a place.
     pub(super) fn block(&mut self, at: At) -> BlockId {
         if at.file == FileId::MAIN {
-            self.told.caller = super::block_of_line(self.program, at.line);
+            let last = (self.program.block_count() as u32).saturating_sub(1);
+            let block = match &self.told.blocks {
+                None => at.line.min(last),
+                Some(blocks) => blocks.get(at.line as usize).copied().unwrap_or(last),
+            };
+            self.told.caller = BlockId(block);
         }
         self.told.caller
     }
@@ -249,12 +256,17 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
 
     fn error(&mut self, error: &Error, at: At) {
         self.told.lost |= error.problem.class == trunnion_ngc::Class::NotModelled;
+        let kind = fault_of(error);
+        if kind == FaultKind::MissingProgramEnd {
+            self.missing_end();
+            return;
+        }
         if at.file == FileId::MAIN {
-            self.fault(at, error.range, fault_of(error));
+            self.fault(at, error.range, kind);
             return;
         }
         let frames = format!("in a called program, line {}: ", at.line + 1);
-        let kind = match fault_of(error) {
+        let kind = match kind {
             FaultKind::Rejected {
                 refusal,
                 message,

@@ -2,10 +2,10 @@
 use super::bridge::Bridge;
 use super::setup::SYSTEMS;
 use crate::memory::Chosen;
-use crate::{FaultKind, Sink};
+use crate::{Fault, FaultKind, Sink};
 use trunnion_dialect::{Action, Plane};
 use trunnion_ngc::{At, Canon, OwnCode, Pose, SpindleMode, SpindleTurn, State, Units};
-use trunnion_syntax::{Address, TextRange, Value};
+use trunnion_syntax::{Address, BlockId, TextRange, Value};
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// A code of the machine's own: what the dialect's table says of it, else nothing is known of the position behind it.
@@ -140,6 +140,20 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             let name = (*name).to_owned();
             let range = self.code_range(at, b'G', |code| (540..=593).contains(&code));
             self.fault(at, range, FaultKind::WorkOffsetUnset { name });
+        }
+    }
+
+    /// The program has no end: told at its last line that is not blank.
+    pub(super) fn missing_end(&mut self) {
+        let blocks = (0..self.program.block_count() as u32).rev().map(BlockId);
+        let mut written = blocks.filter(|&block| {
+            let range = self.program.block(block).range();
+            !self.program.bytes(range).trim_ascii().is_empty()
+        });
+        if let Some(block) = written.next() {
+            let range = self.program.block(block).range();
+            let kind = FaultKind::MissingProgramEnd;
+            self.sink.fault(Fault { block, range, kind });
         }
     }
 }

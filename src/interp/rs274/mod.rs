@@ -23,10 +23,21 @@ pub(crate) struct Rs274 {
     done: bool,
 }
 
-/// The block that holds a line (from 0): the same number, but where a lone CR ends blocks and no lines.
-fn block_of_line(program: &Program, line: u32) -> BlockId {
-    let last = (program.block_count() as u32).saturating_sub(1);
-    BlockId(line.min(last))
+/// The block in which each line (from 0) has its first word; `None` where blocks are lines. A lone CR ends blocks and no lines.
+fn blocks_of_lines(program: &Program) -> Option<std::sync::Arc<[u32]>> {
+    let source = program.source();
+    let lone = |at: usize| source[at] == b'\r' && source.get(at + 1) != Some(&b'\n');
+    if !(0..source.len()).any(lone) {
+        return None;
+    }
+    let mut start = 0;
+    let lines = source.split_inclusive(|byte| *byte == b'\n').map(|line| {
+        let blanks = line.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
+        let first = start + blanks.min(line.len() - 1) as u32;
+        start += line.len() as u32;
+        program.block_at(first).unwrap_or_default().0
+    });
+    Some(lines.collect())
 }
 
 impl Rs274 {
@@ -35,7 +46,10 @@ impl Rs274 {
         let source = Source::new(String::new(), program.source().into());
         Self {
             engine: Engine::new(Arc::new(source), &told),
-            told: Told::default(),
+            told: Told {
+                blocks: blocks_of_lines(program),
+                ..Told::default()
+            },
             done: false,
         }
     }
@@ -56,7 +70,8 @@ impl Rs274 {
 impl Interpreter<'_> {
     /// Runs the next line of a LinuxCNC program; see [`Interpreter::advance`].
     pub(crate) fn advance_rs274(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
-        if program.block_count() == 0 {
+        let empty = || program.source().iter().all(|byte| *byte <= b' ');
+        if self.rs274.is_none() && empty() {
             return None;
         }
         if !self.memory.directives_read {
@@ -69,13 +84,13 @@ impl Interpreter<'_> {
         let block = if run.done {
             None
         } else {
-            Some(self.step_rs274(&mut run, program, sink))
+            self.step_rs274(&mut run, program, sink)
         };
         self.rs274 = Some(run);
         block
     }
 
-    fn step_rs274(&mut self, run: &mut Rs274, program: &Program, sink: &mut impl Sink) -> BlockId {
+    fn step_rs274(&mut self, run: &mut Rs274, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         let Rs274 { engine, told, done } = run;
         let mut bridge = Bridge {
             interpreter: self,
@@ -83,8 +98,11 @@ impl Interpreter<'_> {
             program,
             sink,
         };
+        let before = engine.at();
         let step = engine.step(&mut bridge);
         let at = engine.at();
+        // behind the last line nothing runs
+        let end_of_file = step == Step::Ended && before == at && bridge.interpreter.memory.last_content.is_some();
         let block = bridge.block(at);
         match step {
             Step::Line => {}
@@ -118,7 +136,7 @@ impl Interpreter<'_> {
         let shift = Shift::of(&engine.state);
         modal::refresh(&mut self.state, &engine.state, &shift);
         self.state.position = shift.coordinates(&engine.state.current);
-        block
+        (!end_of_file).then_some(block)
     }
 }
 

@@ -94,6 +94,7 @@ impl<'a> Run<'a> {
             events: Events {
                 ordinals: ordinals.collect(),
                 queue: VecDeque::new(),
+                refused: None,
             },
         }
     }
@@ -114,6 +115,8 @@ struct Events {
     /// How many blocks that hold something stand before each block.
     ordinals: Vec<u32>,
     queue: VecDeque<Event>,
+    /// The block whose first mistake was told last.
+    refused: Option<u32>,
 }
 
 enum Event {
@@ -149,8 +152,32 @@ impl Sink for Events {
     }
     fn fault(&mut self, fault: Fault) {
         let ordinal = self.ordinal(fault.block);
+        if is_refusal(&fault.kind) {
+            // behind the first mistake of a line, what else is found depends on its blanks: there reading goes on at what looks like
+            // a word. The control stops at the first.
+            let told = self
+                .queue
+                .iter()
+                .any(|event| matches!(event, Event::Fault(other, kind) if *other == ordinal && is_refusal(kind)));
+            if told || self.refused == Some(ordinal) {
+                return;
+            }
+            self.refused = Some(ordinal);
+        }
         self.queue.push_back(Event::Fault(ordinal, fault.kind));
     }
+}
+
+/// Whether a control stops at the fault.
+fn is_refusal(kind: &FaultKind) -> bool {
+    matches!(
+        kind,
+        FaultKind::Rejected { .. }
+            | FaultKind::UnknownCode { .. }
+            | FaultKind::UnknownWord
+            | FaultKind::RepeatedWord
+            | FaultKind::GroupConflict { .. }
+    )
 }
 
 /// Whether two faults are the same but for places and the spelling of texts that they quote.

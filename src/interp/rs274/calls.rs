@@ -20,6 +20,18 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.fault(at, own.range, FaultKind::UnknownCode { machine_builder: true });
             return;
         };
+        let block = self.block(at);
+        let known = matches!(
+            code.action,
+            Action::TcpOn | Action::TcpOff | Action::NoMotion | Action::PathMode | Action::ProgramStop
+        );
+        if known && !super::named_axes(self.program, block).is_empty() {
+            // the words are arguments of the remap, or a motion beside it: the interpreter does not run them
+            let what = format!("{} with axis words in its block", code.id);
+            self.fault(at, own.range, FaultKind::NotModelled { what });
+            self.told.lost = true;
+            self.told.lost_rotary = true;
+        }
         match code.action {
             Action::TcpOn => self.tcp(true),
             Action::TcpOff => self.tcp(false),

@@ -89,7 +89,7 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
             .map(|files| Arc::new(Library(files)) as Arc<dyn Files>),
         limits: Limits {
             blocks: setup.limits.blocks,
-            depth: setup.limits.depth,
+            depth: setup.limits.depth.min(Limits::default().depth),
         },
         ..Told::default()
     }

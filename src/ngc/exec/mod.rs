@@ -38,7 +38,10 @@ pub(crate) enum After {
 /// [`execute`].
 pub(crate) fn check(engine: &Engine, block: &mut Block) -> Result<(), Error> {
     if block.own.is_some() {
-        // what its words mean is the machine's own affair
+        // what its words mean is the machine's own affair; a motion code beside an M code is in force behind it all the same
+        if block.own.is_some_and(|own| own.letter == b'M') {
+            return checks::choose_motion(block, &engine.state);
+        }
         return Ok(());
     }
     checks::codes(engine, block)?;

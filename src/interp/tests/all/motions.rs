@@ -339,3 +339,17 @@ fn program_flow_of_sinumerik_is_not_followed() {
     let source = "G0 X1 Y1\nIF R1>3 GOTOF END\nX2\nEND:\nY3\n";
     assert_eq!(lines("sinumerik-840d", source), ["R X1 Y1", "R X2", "R X2 Y3"]);
 }
+
+#[test]
+fn axis_words_beside_a_code_of_the_machine_are_never_dropped_in_silence() {
+    let source = "G0 X1 Y2 Z3 A4\nG1 X9 F100 M428\nA5\nM2\n";
+    let motions = lines("linuxcnc", source);
+    assert_eq!(motions.last().map(String::as_str), Some("L A5 F100 tcp"));
+    assert!(faults("linuxcnc", source)[0].contains("M428 with axis words in its block"));
+}
+
+#[test]
+fn linuxcnc_nests_ten_calls() {
+    let source = "o1 sub\no2 if [#1 GT 0]\no1 call [#1-1]\no2 endif\no1 endsub\no1 call [15]\nM2\n";
+    assert_eq!(faults("linuxcnc", source).len(), 1);
+}

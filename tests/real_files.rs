@@ -1,15 +1,16 @@
 //! Programs that people wrote, checked as they come: every finding is listed with its reason, and each was judged by hand, for LinuxCNC
 //! programs beside the answer of `rs274 -g`. The programs lie in ../shared/data.
 #![expect(clippy::print_stdout, reason = "a skipped test says so")]
-mod cli_tools;
+#[path = "cli/tools.rs"]
+mod tools;
 
-use cli_tools::{str, text, trunnion};
 use std::{
     collections::BTreeSet,
     fmt::Write,
     fs,
     path::{Path, PathBuf},
 };
+use tools::{str, text, trunnion};
 
 /// Findings of one file that are listed; the command counts the others.
 const LISTED: &str = "30";
@@ -144,7 +145,7 @@ fn programs_that_linuxcnc_rejects() {
 fn all_mistakes_of_a_linuxcnc_program_are_told() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let program = "g0 x1 x2 g198\ng1 x[1/0] f100\ng2 x5 i1 r2\no1 if [1]\nm2\n";
-    let path = cli_tools::write(&folder, "bad.ngc", program);
+    let path = tools::write(&folder, "bad.ngc", program);
     let output = trunnion(&["check", "--format", "short", str(&path)]);
     let told = text(&output.stdout).replace(str(&path), "");
     let told: Vec<&str> = told

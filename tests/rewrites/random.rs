@@ -1,9 +1,8 @@
 //! Rewrites on random chains near the pole and on damaged programs.
-mod strategy_2;
 
+use crate::strategy_2::{ROWS, VECTORS, apt, ball, largest_c_step, run, settings, sinumerik, smooth, turned, words};
 use proptest::prelude::*;
 use std::fmt::Write;
-use strategy_2::{ROWS, VECTORS, apt, ball, largest_c_step, run, settings, sinumerik, smooth, turned, words};
 use trunnion::rewrite::{Attempt, Options, rewrites};
 
 proptest! {

@@ -1,7 +1,6 @@
 //! Rewrites on the published guide-vane rows, on hard cases, and on random chains.
-mod strategy_2;
 
-use strategy_2::{
+use crate::strategy_2::{
     ROWS, VECTORS, apt, axis, ball, certified, largest_c_step, refused, settings, sinumerik, smooth, tool, turned,
     words,
 };

@@ -1,7 +1,6 @@
 //! `fmt` on the command line: files written, lists for CI, diffs, numbers, refusals, hostile files.
-mod cli_tools;
 
-use cli_tools::{status, str, text, trunnion, write};
+use crate::tools::{status, str, text, trunnion, write};
 use std::{
     fs,
     io::Write,

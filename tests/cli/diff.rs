@@ -1,8 +1,6 @@
 //! `diff` on the command line: what is told about programs that move the tool differently, and that text alone says nothing.
-#![expect(clippy::print_stdout, reason = "a skipped test says so")]
-mod cli_tools;
 
-use cli_tools::{FLIP, json, status, str, text, trunnion, write};
+use crate::tools::{FLIP, json, status, str, text, trunnion, write};
 use std::fmt::Write;
 use std::path::Path;
 use tempfile::TempDir;

@@ -1,8 +1,6 @@
 //! `stats` and `parse --tree` on the command line.
-#![expect(clippy::print_stdout, reason = "a test that is skipped says so")]
-mod cli_tools;
 
-use cli_tools::{FLIP, json, status, str, text, trunnion, write};
+use crate::tools::{FLIP, json, status, str, text, trunnion, write};
 use std::path::Path;
 use tempfile::TempDir;
 

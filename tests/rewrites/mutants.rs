@@ -1,8 +1,7 @@
 //! Corrupts certificates and texts: every mutant must be refused.
-mod strategy_2;
 
+use crate::strategy_2::{ROWS, ball, certified, settings, sinumerik, smooth};
 use serde_json::Value;
-use strategy_2::{ROWS, ball, certified, settings, sinumerik, smooth};
 use trunnion::certify::{Certificate, Claim, Outcome, certify, recheck};
 use trunnion::check::Settings;
 

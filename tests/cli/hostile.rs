@@ -1,7 +1,6 @@
 //! Input that nobody writes in earnest: every command ends with a status of its own and a message, whatever it reads.
-mod cli_tools;
 
-use cli_tools::{status, str, text};
+use crate::tools::{status, str, text};
 use std::{
     fs,
     path::Path,

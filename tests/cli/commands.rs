@@ -1,7 +1,6 @@
 //! The command line as the interface says: formats, exit statuses, errors with their place.
-mod cli_tools;
 
-use cli_tools::{FLIP, json, status, str, text, trunnion, write};
+use crate::tools::{FLIP, json, status, str, text, trunnion, write};
 use serde_json::Value;
 use std::{
     fs,

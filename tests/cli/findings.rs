@@ -1,7 +1,6 @@
 //! How findings are worded on the command line, how they are silenced, and dialect tables of one's own.
-mod cli_tools;
 
-use cli_tools::{json, status, str, text, trunnion, write};
+use crate::tools::{json, status, str, text, trunnion, write};
 use std::path::Path;
 use tempfile::TempDir;
 

@@ -1,7 +1,6 @@
 //! `trace`, `fix` and `certify` on the command line: columns, diffs, files written, certificates.
-mod cli_tools;
 
-use cli_tools::{FLIP, json, status, str, text, trunnion, write};
+use crate::tools::{FLIP, json, status, str, text, trunnion, write};
 use std::fs;
 use tempfile::TempDir;
 

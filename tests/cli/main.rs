@@ -1,0 +1,11 @@
+//! The `trunnion` program as its users run it: one file here is one command or one kind of input.
+#![allow(clippy::print_stdout, reason = "a skipped test says so")]
+
+mod commands;
+mod diff;
+mod findings;
+mod fix;
+mod fmt;
+mod hostile;
+mod stats;
+mod tools;

@@ -1,0 +1,7 @@
+//! Rewrites and their certificates on published rows, on hard cases and on random chains.
+
+mod mutants;
+mod random;
+mod smoothing;
+mod strategy_2;
+mod unwinding;

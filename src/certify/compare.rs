@@ -101,6 +101,9 @@ impl Pair<'_> {
             NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown: program it before"),
             NoStance::Unreachable(_) | NoStance::OutsideLimits { .. } => "the machine cannot reach the pose".into(),
             NoStance::NotModelled => "the motion is not modelled".into(),
+            NoStance::HeldElsewhere { axis, .. } => {
+                format!("axis {} is held elsewhere by the machine file", char::from(*axis))
+            }
             NoStance::RotaryOffset(letter) => {
                 format!(
                     "a work offset in {} under tool centre point control is not modelled",

@@ -106,7 +106,7 @@ impl<'m> Path<'m> {
     fn joint_bend(&self) -> f64 {
         let machine = self.machine;
         let length = self.tool_length - self.height;
-        let mut ends = [machine.gauge_point - machine.tool_axis * length; 2];
+        let mut ends = [machine.home.gauge_point - machine.home.tool_axis * length; 2];
         let (mut speed, mut bend) = (0.0, 0.0);
         for (joint, axis) in machine.axes.iter().enumerate().rev() {
             let values = [self.joints[0][joint], self.joints[1][joint]];

@@ -105,6 +105,8 @@ pub struct AxisExtra {
     pub point_uncertainty: Option<f64>,
     /// Uncertainty of the axis' direction, rad; `None`: not declared.
     pub direction_uncertainty: Option<f64>,
+    /// A rotary axis beyond the two that inverse kinematics solves for stands at this value, rad; `None`: it moves.
+    pub hold: Option<f64>,
 }
 
 /// An axis that only mirrors another one (gantry); it is not a joint of the chain.
@@ -198,6 +200,15 @@ impl Default for Tolerances {
     }
 }
 
+/// Tool axis and gauge point with every joint at zero, machine frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Home {
+    /// Unit vector, tip -> spindle.
+    pub tool_axis: Vec3,
+    /// mm.
+    pub gauge_point: Vec3,
+}
+
 /// A machine: validated, ready for kinematics. Only `load` makes one; the axes and `constants` belong together, so change the file,
 /// not the fields.
 #[derive(Clone, Debug)]
@@ -208,17 +219,19 @@ pub struct Machine {
     pub name: String,
     /// Axes from workpiece to tool.
     pub axes: Vec<Axis>,
-    /// k0: unit tool axis tip -> spindle at home.
+    /// k0: unit tool axis tip -> spindle at home, carried by the held axes to where they hold it.
     pub tool_axis: Vec3,
-    /// Gauge point at home with all joints zero, machine frame, mm.
+    /// Gauge point at home with all moving joints zero, machine frame, carried by the held axes, mm.
     pub gauge_point: Vec3,
+    /// Tool axis and gauge point with all joints zero, also those of held axes; the same two where nothing is held.
+    pub home: Home,
     /// Control.
     pub control: Control,
     /// Thresholds.
     pub tolerances: Tolerances,
     /// Where the numbers come from.
     pub sources: Vec<String>,
-    /// Indices of the rotary axes in chain order (0, 1 or 2 of them).
+    /// Indices of the rotary axes that move, in chain order (0, 1 or 2 of them).
     pub rotary: Vec<usize>,
     /// Indices of the linear axes in chain order.
     pub linear: Vec<usize>,
@@ -232,6 +245,10 @@ pub struct Machine {
     pub bodies: Vec<Body>,
     /// What the file declares and nothing honours yet, one sentence each: rules that depend on it judge without it.
     pub not_used: Vec<String>,
+    /// What is odd about the file and yet usable, one sentence each.
+    pub warnings: Vec<String>,
+    /// How many `[[check]]` rows the file has; all of them hold, else it does not load.
+    pub checks: usize,
     /// Those of `not_used` that could change a verdict of the rules there are: with them nothing passes.
     pub not_judged: Vec<String>,
 }
@@ -241,5 +258,11 @@ impl Machine {
     pub fn joint(&self, letter: u8) -> Option<usize> {
         let upper = letter.to_ascii_uppercase();
         self.axes.iter().position(|axis| axis.letter == upper)
+    }
+
+    /// The axes that are held, with the joint values they are held at, rad.
+    pub fn held(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let axes = self.axes.iter().enumerate();
+        axes.filter_map(|(joint, axis)| Some((joint, axis.extra.hold?)))
     }
 }

@@ -92,6 +92,7 @@ fn random_machine(random: &mut SplitMix) -> Machine {
         machine.rotary = constants.rotary().iter().map(|rotary| rotary.joint).collect();
         machine.linear = constants.linear().iter().map(|linear| linear.joint).collect();
         machine.gauge_point = random_unit(random) * random.between(0.0, 300.0);
+        machine.home.tool_axis = tool_axis;
         (machine.axes, machine.tool_axis, machine.constants) = (axes, tool_axis, constants);
         return machine;
     }

@@ -1,4 +1,5 @@
 //! What forward and inverse kinematics need of a chain, worked out once when the machine is loaded.
+use crate::held::Carried;
 use crate::{Axis, AxisKind, MAX_AXES};
 use trunnion_geometry::math::{angle_between, atan2};
 use trunnion_geometry::{Mat3, Vec3};
@@ -92,18 +93,20 @@ const NO_LINEAR: LinearAxis = LinearAxis {
 };
 
 impl Constants {
-    /// From the axes (workpiece to tool) and the tool axis at home. `None` when the linear axes do not span space, when there are
-    /// more than two rotary axes, or when both rotary axes are parallel.
+    /// From the axes (workpiece to tool) and the tool axis at home. Held axes are no joints here: they carry what stands behind them.
+    /// `None` when the linear axes do not span space, when more than two rotary axes move, or when both of them are parallel.
     pub(crate) fn new(axes: &[Axis], tool_axis: &Vec3) -> Option<Self> {
         let (mut rotary, mut rotary_count) = ([NO_ROTARY; 2], 0);
         let (mut linear, mut linear_count) = ([NO_LINEAR; MAX_AXES], 0);
+        let mut carried = Carried::default();
         for (joint, axis) in axes.iter().enumerate() {
             match axis.kind {
+                AxisKind::Rotary if axis.extra.hold.is_some() => carried.hold(axis),
                 AxisKind::Rotary => {
                     *rotary.get_mut(rotary_count)? = RotaryAxis {
                         joint,
-                        direction: axis.direction,
-                        point: axis.point,
+                        direction: carried.turn(&axis.direction),
+                        point: carried.place(&axis.point),
                         sign: axis.sign,
                     };
                     rotary_count += 1;
@@ -111,7 +114,7 @@ impl Constants {
                 AxisKind::Linear => {
                     *linear.get_mut(linear_count)? = LinearAxis {
                         joint,
-                        motion: axis.direction * axis.sign,
+                        motion: carried.turn(&(axis.direction * axis.sign)),
                         segment: rotary_count,
                     };
                     linear_count += 1;
@@ -124,7 +127,7 @@ impl Constants {
         let segment = linear[solved[0]].segment;
         let shared = solved.iter().all(|&i| linear[i].segment == segment);
         let pair = if rotary_count == 2 {
-            Some(PairConstants::new(&rotary, tool_axis)?)
+            Some(PairConstants::new(&rotary, &carried.turn(tool_axis))?)
         } else {
             None
         };
@@ -148,7 +151,13 @@ impl Constants {
         &self.linear[..self.linear_count]
     }
 
-    /// The rotary axes.
+    /// Condition number of the directions of the three solved linear axes (Frobenius norm, divided so that a right-angled set has 1).
+    pub fn condition(&self) -> f64 {
+        let motions = Mat3::from_columns(&self.solved.map(|index| self.linear[index].motion));
+        motions.norm() * self.inverse_motion.norm() / 3.0
+    }
+
+    /// The rotary axes that move.
     pub fn rotary(&self) -> &[RotaryAxis] {
         &self.rotary[..self.rotary_count]
     }

@@ -1,5 +1,6 @@
 //! Motions to joints, block by block along one posture: the machine re-runs the program.
 use crate::choice::{cheapest_in_posture, choose};
+use crate::held::settle_held;
 use crate::forward::{Turn, segment_shifts};
 use crate::inverse::{inverse_turned, place};
 use crate::pole;
@@ -142,6 +143,7 @@ impl<'m> Follower<'m> {
     fn arrive(&self, motion: &Motion, start: Option<&Stance>, into: &mut (Joints, u16)) -> Result<Stance, NoStance> {
         let tip_words = has_tip_words(motion);
         *into = self.words.joints(motion, &motion.end, tip_words);
+        settle_held(self.machine, into)?;
         if into.1 != self.words.all() {
             self.keep(motion, start, into);
         }

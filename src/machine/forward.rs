@@ -61,8 +61,12 @@ pub(crate) fn segment_shifts(constants: &Constants, joints: &Joints) -> [Vec3; 3
     shifts
 }
 
-/// Forward kinematics: kinematics notes 2.1 (product of the chain's motions, workpiece to tool). `tool_length` in mm.
+/// Forward kinematics: kinematics notes 2.1 (product of the chain's motions, workpiece to tool). `tool_length` in mm. A held axis counts
+/// with its value in `joints`.
 pub fn forward(machine: &Machine, joints: &Joints, tool_length: f64) -> Pose {
+    if let Some(other) = machine.held_elsewhere(joints) {
+        return forward(&other, joints, tool_length);
+    }
     let constants = &machine.constants;
     let shifts = segment_shifts(constants, joints);
     let mut tip = machine.gauge_point - machine.tool_axis * tool_length + shifts[constants.rotary_count];

@@ -167,8 +167,11 @@ fn joint_value(t: f64, s: f64) -> f64 {
 }
 
 /// Linear joints for a tip with given rotary joints: `joints` holds the rotary values in and all values out. A fourth or further linear
-/// axis (a quill) keeps the value it has in `joints`. `None` when the linear axes do not span space at this posture.
+/// axis (a quill) keeps the value it has in `joints`, and so does a held axis. `None` when the linear axes do not span space at this posture.
 pub fn inverse(machine: &Machine, joints: &mut Joints, tip: &Vec3, tool_length: f64) -> Option<()> {
+    if let Some(other) = machine.held_elsewhere(joints) {
+        return inverse(&other, joints, tip, tool_length);
+    }
     let constants = &machine.constants;
     let mut turns = [Turn::NONE; 2];
     for (index, rotary) in constants.rotary().iter().enumerate() {

@@ -15,6 +15,8 @@ mod deviation;
 mod follow;
 mod formula;
 mod forward;
+mod gantry;
+mod held;
 mod inverse;
 mod limits;
 mod memory;
@@ -28,8 +30,10 @@ mod speed;
 mod spin;
 mod stance;
 mod text;
+mod uncertainty;
 mod validate;
 mod windings;
+mod witness;
 mod words;
 
 #[cfg(test)]
@@ -39,11 +43,13 @@ mod fault_tests;
 #[cfg(test)]
 mod kinematics_tests;
 #[cfg(test)]
+mod oracle_tests;
+#[cfg(test)]
 mod spec_tests;
 
 pub use builtin::{BUILTIN_MACHINES, builtin, builtin_source};
 pub use chain::{
-    Axis, AxisExtra, AxisKind, Body, Control, Gantry, Joints, Limits, MAX_AXES, Machine, RapidPath, Side, Tolerances,
+    Axis, AxisExtra, AxisKind, Body, Control, Gantry, Home, Joints, Limits, MAX_AXES, Machine, RapidPath, Side, Tolerances,
     Wrap,
 };
 pub use constants::{Constants, LinearAxis, PairConstants, RotaryAxis};
@@ -59,4 +65,5 @@ pub use selftest::{SelfTest, self_test};
 pub use spec::{MachineError, load};
 pub use speed::{FeedLimit, block_duration_s, feed_limit, feed_limit_tight};
 pub use stance::{Leg, NoStance, Stance};
+pub use uncertainty::{AxisUncertainty, PIVOT_SENSITIVITY, pivot_sensitivity, worst_pivot_error};
 pub use windings::{Windings, pole_angle, rotary_jacobian, solution_s, windings};

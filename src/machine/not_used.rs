@@ -25,7 +25,6 @@ pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
 pub(crate) fn not_judged(raw: &RawMachine) -> Vec<String> {
     let decisive = [
         "clamp on",
-        "follow on",
         "[control] branch",
         "[control] pole",
         "[control] rapid",
@@ -58,14 +57,10 @@ fn of_axis(axis: &RawAxis, out: &mut Vec<String>) {
         axis.limit_margin.is_some(),
         format!("limit_margin on {letter}: only the limits themselves are judged"),
     );
-    say(
-        axis.follow.is_some(),
-        format!("follow on {letter}: {letter} is no joint, its limits and speed are not judged"),
-    );
     let uncertainty = &axis.uncertainty;
     say(
         uncertainty.point.is_some() || uncertainty.dir_arcsec.is_some(),
-        format!("uncertainty on {letter}: bounds are for the axis as it is declared"),
+        format!("uncertainty on {letter}: `machine show` says what it does to the tip; bounds are for the axis as it is declared"),
     );
     let dynamics = &axis.dynamics;
     let smooth = [

@@ -30,6 +30,29 @@ pub(crate) struct RawMachine {
     pub(crate) tolerances: RawTolerances,
     #[serde(default)]
     pub(crate) body: Vec<RawBody>,
+    #[serde(default)]
+    pub(crate) check: Vec<Spanned<RawCheck>>,
+    #[serde(default)]
+    pub(crate) unknown: Vec<Word>,
+}
+
+/// What the axes must give: a pose, or travels and speeds written a second time.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RawCheck {
+    pub(crate) say: Option<String>,
+    #[serde(default)]
+    pub(crate) joints: BTreeMap<Word, Number>,
+    pub(crate) tool_length: Option<Number>,
+    pub(crate) tip: Option<Triple>,
+    pub(crate) axis: Option<Triple>,
+    pub(crate) within: Option<Number>,
+    #[serde(default)]
+    pub(crate) travel: BTreeMap<Word, Spanned<RawLimits>>,
+    #[serde(default)]
+    pub(crate) speed: BTreeMap<Word, Number>,
+    #[serde(default)]
+    pub(crate) acceleration: BTreeMap<Word, Number>,
 }
 
 #[derive(Deserialize, Default)]
@@ -72,6 +95,9 @@ pub(crate) struct RawAxis {
     pub(crate) spindle: bool,
     pub(crate) mode: Option<Spanned<RawMode>>,
     pub(crate) follow: Option<Word>,
+    pub(crate) hold: Option<Number>,
+    #[serde(default)]
+    pub(crate) unknown: Vec<Word>,
     pub(crate) resolution: Option<Number>,
     #[serde(default)]
     pub(crate) uncertainty: RawUncertainty,

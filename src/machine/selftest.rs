@@ -29,13 +29,27 @@ pub fn self_test(machine: &Machine, poses: usize, seed: u64) -> SelfTest {
         posture_missing: 0,
     };
     let mut random = SplitMix(seed);
-    for _ in 0..poses {
-        let joints = random_joints(machine, &mut random);
+    // held axes are tried at a few other values too: a machine of its own each time
+    let mut elsewhere = None;
+    for pose in 0..poses {
+        let mut joints = random_joints(machine, &mut random);
         let length = random.between(0.0, 200.0);
-        try_pose(machine, &joints, length, &mut result);
+        if pose % HELD_FOR == HELD_FOR / 2 {
+            elsewhere = machine.held_elsewhere(&joints);
+        } else if pose % HELD_FOR == 0 {
+            elsewhere = None;
+        }
+        let tried = elsewhere.as_ref().unwrap_or(machine);
+        for (joint, value) in tried.held() {
+            joints[joint] = value;
+        }
+        try_pose(tried, &joints, length, &mut result);
     }
     result
 }
+
+/// So many poses are tried before held axes change between their own value and another.
+const HELD_FOR: usize = 64;
 
 /// One pose: joints, pose, all postures, joints again, pose again.
 pub(crate) fn try_pose(machine: &Machine, joints: &Joints, length: f64, result: &mut SelfTest) {

@@ -1,9 +1,12 @@
 //! The machine file (TOML, schema `ncmachine/1`, kinematics notes 7): read, checked, turned into mm, rad and s, with clear errors.
 use crate::control::control;
+use crate::gantry::Rails;
+use crate::held::Carried;
 use crate::not_used::{not_judged, not_used};
 use crate::raw::{Number, RawBody, RawMachine, RawTolerances, RawUnits};
-use crate::validate::{Fault, axis, gantry, point, positive, unit_vector};
-use crate::{Axis, AxisKind, Body, Constants, Gantry, MAX_AXES, Machine, Side, Tolerances};
+use crate::validate::{Fault, axis, point, positive, unit_vector, usual_direction};
+use crate::witness::verify;
+use crate::{Axis, AxisKind, Body, Constants, Gantry, Home, MAX_AXES, Machine, Side, Tolerances};
 use core::ops::Range;
 use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, deg, rad};
@@ -11,6 +14,9 @@ use trunnion_interp::AXIS_LETTERS;
 
 /// Two directions nearer than this count as parallel, rad.
 const PARALLEL: f64 = 1e-3;
+
+/// Above this condition number of the linear axes the machine is warned about (kinematics notes 2.2).
+const ILL_CONDITIONED: f64 = 1e3;
 
 /// Why a machine file cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,6 +59,16 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
         });
     }
     units(&raw.units)?;
+    if let Some(first) = raw.unknown.first() {
+        let message = format!(
+            "`{}` of this machine is not known; find out, bring the file in order and take the list `unknown` out",
+            first.get_ref()
+        );
+        return Err(Fault {
+            message,
+            span: first.span(),
+        });
+    }
     let tool_axis = match &raw.spindle.tool_axis {
         Some(vector) => unit_vector("tool_axis", vector)?,
         None => Vec3::z(),
@@ -70,7 +86,7 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
     }
     let of_kind = |kind| {
         (0..chain.axes.len())
-            .filter(|&joint| chain.axes[joint].kind == kind)
+            .filter(|&joint| chain.axes[joint].kind == kind && chain.axes[joint].extra.hold.is_none())
             .collect::<Vec<_>>()
     };
     let (rotary, linear) = (of_kind(AxisKind::Rotary), of_kind(AxisKind::Linear));
@@ -81,13 +97,17 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
         .chain(raw.spindle.source.iter().map(|text| format!("spindle: {text}")))
         .chain(raw.spindle.note.iter().map(|text| format!("spindle: {text}")))
         .collect();
-    Ok(Machine {
+    let carried = Carried::by(&chain.axes);
+    let machine = Machine {
         not_used: not_used(raw),
         not_judged: not_judged(raw),
         id: id.to_owned(),
         name: raw.name.clone().unwrap_or_else(|| id.to_owned()),
-        tool_axis,
-        gauge_point,
+        tool_axis: carried.turn(&tool_axis),
+        gauge_point: carried.place(&gauge_point),
+        home: Home { tool_axis, gauge_point },
+        warnings: warnings(&chain.axes, &chain.constants),
+        checks: raw.check.len(),
         control: control(&raw.control, &chain.axes)?,
         tolerances: tolerances(&raw.tolerances)?,
         sources,
@@ -98,7 +118,32 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
         bodies: bodies(&raw.body, &chain.axes)?,
         gantries: chain.gantries,
         axes: chain.axes,
-    })
+    };
+    verify(&raw.check, &machine)?;
+    Ok(machine)
+}
+
+/// What is odd and yet usable.
+fn warnings(axes: &[Axis], constants: &Constants) -> Vec<String> {
+    let mut out = Vec::new();
+    let condition = constants.condition();
+    if condition > ILL_CONDITIONED {
+        out.push(format!(
+            "the directions of the three linear axes lie nearly in a plane (condition number {condition:.0}): small errors of the tip \
+             become large motions"
+        ));
+    }
+    for axis in axes {
+        let usual = usual_direction(axis.letter);
+        let along = usual.dot(&axis.direction);
+        if along < -1e-9 && axis.kind == AxisKind::Rotary {
+            out.push(format!(
+                "axis {}: dir points against the usual one, which turns the sense of its sign; turn dir round and change sign instead",
+                char::from(axis.letter)
+            ));
+        }
+    }
+    out
 }
 
 /// The axes of a file, proved usable.
@@ -110,7 +155,7 @@ struct Chain {
 
 impl Chain {
     fn new(raw: &RawMachine, tool_axis: &Vec3) -> Result<Self, Fault> {
-        let (mut axes, mut spans, mut gantries) = (Vec::<Axis>::new(), Vec::new(), Vec::new());
+        let (mut axes, mut spans, mut rails) = (Vec::<Axis>::new(), Vec::new(), Rails::default());
         let mut letters = Vec::new();
         for entry in raw.axis.get_ref() {
             let (span, written) = (entry.span(), entry.get_ref());
@@ -127,7 +172,7 @@ impl Chain {
             }
             letters.push(axis.letter);
             if let Some(leader) = &written.follow {
-                gantries.push((gantry(axis.letter, leader)?, leader.span()));
+                rails.add(axis, leader)?;
                 continue;
             }
             if axis.side == Side::Table && axes.iter().any(|other| other.side == Side::Head) {
@@ -143,23 +188,11 @@ impl Chain {
             axes.push(axis);
             spans.push(span);
         }
-        for (gantry, span) in &gantries {
-            if !axes.iter().any(|axis| axis.letter == gantry.leader) {
-                let message = format!(
-                    "axis {} follows {}, which is not an axis of this machine",
-                    char::from(gantry.letter),
-                    char::from(gantry.leader)
-                );
-                return Err(Fault {
-                    message,
-                    span: span.clone(),
-                });
-            }
-        }
+        rails.bind(&mut axes)?;
         let constants = check_chain(&axes, &spans, raw.axis.span(), tool_axis)?;
         Ok(Self {
             axes,
-            gantries: gantries.into_iter().map(|(gantry, _)| gantry).collect(),
+            gantries: rails.gantries(),
             constants,
         })
     }
@@ -167,7 +200,8 @@ impl Chain {
 
 /// Number of axes, rank of the linear ones, and that each rotary axis can turn the tool (kinematics notes 7, validation at load).
 fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Vec3) -> Result<Constants, Fault> {
-    let rotary: Vec<usize> = (0..axes.len()).filter(|&i| axes[i].kind == AxisKind::Rotary).collect();
+    let moves = |axis: &Axis| axis.kind == AxisKind::Rotary && axis.extra.hold.is_none();
+    let rotary: Vec<usize> = (0..axes.len()).filter(|&i| moves(&axes[i])).collect();
     if axes.len() > MAX_AXES {
         return Err(Fault {
             message: format!("{} axes; at most {MAX_AXES} are possible", axes.len()),
@@ -176,7 +210,7 @@ fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Ve
     }
     if let Some(&third) = rotary.get(2) {
         let message = format!(
-            "{} rotary axes; kinematics are solved for at most 2. Leave out the rotary axes that stand still ({} is the third)",
+            "{} rotary axes; kinematics are solved for at most 2. Say `hold = ANGLE` at those that stand still while cutting ({} is the third)",
             rotary.len(),
             char::from(axes[third].letter)
         );
@@ -190,7 +224,9 @@ fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Ve
             let angle = angle_between(a, b);
             !(PARALLEL..=core::f64::consts::PI - PARALLEL).contains(&angle)
         };
-        let (e1, e2) = (&axes[first].direction, &axes[second].direction);
+        // a held axis turns what stands behind it
+        let turned = |joint: usize| Carried::by(&axes[..joint]).turn(&axes[joint].direction);
+        let (e1, e2, k0) = (&turned(first), &turned(second), &Carried::by(axes).turn(k0));
         let (l1, l2) = (char::from(axes[first].letter), char::from(axes[second].letter));
         if parallel(e1, e2) {
             let message = format!(

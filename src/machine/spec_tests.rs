@@ -84,6 +84,18 @@ mesh = "base.stl"
 "#;
 
 #[test]
+fn every_shipped_file_loads_and_says_where_it_comes_from() {
+    assert!(BUILTIN_MACHINES.len() >= 24);
+    for name in BUILTIN_MACHINES {
+        let source = builtin_source(name).expect("embedded");
+        let machine = load(name, source).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!(!machine.sources.is_empty(), "{name}");
+        assert!(machine.checks >= machine.axes.len() + 3, "{name}: {} check rows", machine.checks);
+        assert_eq!(machine.warnings, Vec::<String>::new(), "{name}");
+    }
+}
+
+#[test]
 fn every_key_is_read() {
     let machine = load("everything", EVERYTHING).expect("valid");
     let [c, a, x, y, z] = &machine.axes[..] else {
@@ -272,10 +284,14 @@ fn a_changed_sign_or_offset_is_noticed() {
     let pose = crate::forward(honest, &joints, 100.0);
     for (from, to) in [
         ("sign = 1", "sign = -1"),
-        ("point = [0, 0, 0]", "point = [0, 5, 0]"),
+        ("dir = [1, 0, 0]\npoint = [0, 0, 0]", "dir = [1, 0, 0]\npoint = [0, 5, 0]"),
         ("dir = [0, 0, 1]", "dir = [0, 0, -1]"),
     ] {
-        let changed = load("changed", &source.replacen(from, to, 1)).expect("valid");
+        let text = source.replacen(from, to, 1);
+        let refused = load("changed", &text).expect_err("a check row contradicts it");
+        assert!(refused.message.contains("if the row is right"), "{refused}");
+        let unchecked = text.split("[[check]]").next().expect("a part");
+        let changed = load("changed", unchecked).expect("valid");
         let other = crate::forward(&changed, &joints, 100.0);
         assert!((other.tip - pose.tip).norm() > 1.0, "{from} -> {to}");
     }

@@ -82,6 +82,15 @@ pub enum NoStance {
     },
     /// A motion that is not modelled.
     NotModelled,
+    /// The program moves an axis that the machine file holds elsewhere; rad.
+    HeldElsewhere {
+        /// Letter.
+        axis: u8,
+        /// Where the program has it.
+        value: f64,
+        /// Where the machine file holds it.
+        held: f64,
+    },
     /// The program names an axis that the machine does not have.
     NoSuchAxis(u8),
     /// A work offset turns the axis with this letter while X Y Z are tip coordinates: how a control turns the workpiece frame with it

@@ -1,6 +1,6 @@
 //! Checks of single entries of a machine file, each with the place it stands at, and their conversion to mm, rad and s.
 use crate::raw::{Number, RawAxis, RawKind, RawLimits, RawMode, RawSide, RawWrap, Triple, Word};
-use crate::{Axis, AxisExtra, AxisKind, Gantry, Limits, Side, Wrap};
+use crate::{Axis, AxisExtra, AxisKind, Limits, Side, Wrap};
 use core::ops::Range;
 use trunnion_geometry::{Vec3, rad};
 use trunnion_interp::AXIS_LETTERS;
@@ -97,7 +97,7 @@ pub(crate) fn unit_vector(name: &str, triple: &Triple) -> Result<Vec3, Fault> {
 }
 
 /// The letter of an axis, which must be written in upper case.
-fn letter(word: &Word) -> Result<u8, Fault> {
+pub(crate) fn letter(word: &Word) -> Result<u8, Fault> {
     let text = word.get_ref();
     match text.as_bytes() {
         [byte] if AXIS_LETTERS.contains(byte) => Ok(*byte),
@@ -119,7 +119,7 @@ fn letter(word: &Word) -> Result<u8, Fault> {
 }
 
 /// The direction that ISO 841 gives a letter: A turns about X, U moves along X, and so on.
-fn usual_direction(letter: u8) -> Vec3 {
+pub(crate) fn usual_direction(letter: u8) -> Vec3 {
     match letter {
         b'X' | b'A' | b'U' => Vec3::x(),
         b'Y' | b'B' | b'V' => Vec3::y(),
@@ -127,25 +127,26 @@ fn usual_direction(letter: u8) -> Vec3 {
     }
 }
 
-/// An axis that mirrors another one.
-pub(crate) fn gantry(letter_of_axis: u8, leader: &Word) -> Result<Gantry, Fault> {
-    let named = letter(leader)?;
-    if named == letter_of_axis {
-        let message = format!("axis {} cannot follow itself", char::from(named));
-        return Err(Fault {
-            message,
-            span: leader.span(),
-        });
-    }
-    Ok(Gantry {
-        letter: letter_of_axis,
-        leader: named,
-    })
-}
-
 /// One axis, angles in rad.
 pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
     let letter = letter(&raw.letter)?;
+    if let Some(first) = raw.unknown.first() {
+        let keys: Vec<&str> = raw.unknown.iter().map(|word| word.get_ref().as_str()).collect();
+        let message = format!(
+            "axis {}: {} not known; find out, write {} and take the list `unknown` out",
+            char::from(letter),
+            if keys.len() == 1 {
+                format!("`{}` is", keys[0])
+            } else {
+                format!("`{}` are", keys.join("`, `"))
+            },
+            if keys.len() == 1 { "it" } else { "them" }
+        );
+        return Err(Fault {
+            message,
+            span: first.span(),
+        });
+    }
     let usual = if (b'A'..=b'C').contains(&letter) {
         RawKind::Rotary
     } else {
@@ -275,5 +276,29 @@ fn extra(raw: &RawAxis, kind: AxisKind, scale: impl Fn(f64) -> f64) -> Result<Ax
         point_uncertainty: non_negative("point", raw.uncertainty.point.as_ref())?,
         direction_uncertainty: non_negative("dir_arcsec", raw.uncertainty.dir_arcsec.as_ref())?
             .map(|seconds| rad(seconds / 3600.0)),
+        hold: hold(raw, kind)?.map(&scale),
     })
+}
+
+/// The value that a rotary axis is held at, deg.
+fn hold(raw: &RawAxis, kind: AxisKind) -> Result<Option<f64>, Fault> {
+    let Some(written) = &raw.hold else { return Ok(None) };
+    if kind == AxisKind::Linear || raw.follow.is_some() {
+        let message = "`hold` belongs to a rotary axis beyond the two that are solved for".to_owned();
+        return Err(Fault {
+            message,
+            span: written.span(),
+        });
+    }
+    let value = finite("hold", written)?;
+    if let Some(limits) = &raw.limits
+        && let RawLimits::Range(min, max) = *limits.get_ref()
+        && !(min..=max).contains(&value)
+    {
+        return Err(Fault {
+            message: format!("hold = {value} is outside the limits [{min}, {max}]"),
+            span: written.span(),
+        });
+    }
+    Ok(Some(value))
 }

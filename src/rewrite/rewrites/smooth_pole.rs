@@ -242,7 +242,10 @@ impl Task<'_> {
             let unknown = |why: &NoStance| {
                 matches!(
                     why,
-                    NoStance::PositionUnknown(_) | NoStance::NotModelled | NoStance::RotaryOffset(_)
+                    NoStance::PositionUnknown(_)
+                        | NoStance::NotModelled
+                        | NoStance::RotaryOffset(_)
+                        | NoStance::HeldElsewhere { .. }
                 )
             };
             point.feed && point.end.as_ref().is_err_and(unknown)
@@ -251,6 +254,9 @@ impl Task<'_> {
         let why = match &self.points[index].end {
             Err(NoStance::PositionUnknown(letters)) => format!("the position of {} is unknown", in_words(letters)),
             Err(NoStance::RotaryOffset(letter)) => format!("the work offset turns {}", char::from(*letter)),
+            Err(NoStance::HeldElsewhere { axis, .. }) => {
+                format!("axis {} is held elsewhere by the machine file", char::from(*axis))
+            }
             _ => "the motion is not modelled".into(),
         };
         Some(format!(

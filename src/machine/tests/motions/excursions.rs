@@ -68,7 +68,9 @@ fn a_tilting_head_lifts_by_the_length_of_its_tool() {
 
 #[test]
 fn an_axis_far_from_the_origin_carries_the_part_far() {
-    let text = include_str!("../../../../samples/machines/mikron-ucp710.toml").replacen(
+    // without the rows that would contradict the change
+    let source = include_str!("../../../../samples/machines/mikron-ucp710.toml");
+    let text = source.split("[[check]]").next().expect("a part").replacen(
         "dir = [1, 0, 0]\npoint = [0, 0, 0]",
         "dir = [1, 0, 0]\npoint = [0, 300, 0]",
         1,

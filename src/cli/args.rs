@@ -272,6 +272,48 @@ pub(crate) enum MachineCommand {
         #[arg(long, default_value_t = 10_000)]
         poses: usize,
     },
+    /// Where the tip goes when a control believes one machine file and another one is the truth: with a program, on its path; without,
+    /// with the tip held still while the rotary axes sweep, and on random poses.
+    Compare {
+        /// The machine that the control believes in: embedded or TOML file.
+        believed: String,
+        /// The machine as it is, for instance as it was measured: embedded or TOML file.
+        truth: String,
+        /// A program to run on both.
+        program: Option<PathBuf>,
+        /// Differences of the tip up to this are not told as a finding, mm.
+        #[arg(long, default_value_t = 0.02, value_name = "MM")]
+        tolerance_mm: f64,
+        /// Tool length of the sweep, mm.
+        #[arg(long, default_value_t = 100.0, value_name = "MM")]
+        tool_length: f64,
+        /// Where the sweep holds the tip, part frame, mm.
+        #[arg(long, default_value = "0,0,0", value_name = "X,Y,Z", allow_hyphen_values = true)]
+        tip: String,
+    },
+    /// Writes a machine file from a LinuxCNC INI file or a FreeCAD machine (.fcm), and lists what they do not say.
+    Import {
+        /// The file to read.
+        file: PathBuf,
+        /// What it is (default: by its extension).
+        #[arg(long, value_enum)]
+        format: Option<ImportFormat>,
+        /// Where to write the machine file (default: standard output).
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+        /// A value that the INI leaves to HAL files or panels, for instance nut-angle=55; may be repeated.
+        #[arg(long, value_name = "PIN=VALUE")]
+        set: Vec<String>,
+    },
+}
+
+/// What `machine import` reads.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ImportFormat {
+    /// LinuxCNC INI with its kinematics module and HALCMD lines.
+    LinuxcncIni,
+    /// Machine of FreeCAD's CAM workbench (.fcm, JSON).
+    Freecad,
 }
 
 /// `parse`

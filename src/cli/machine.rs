@@ -1,4 +1,7 @@
-//! `machine`: list, show in words and numbers, self-test.
+//! `machine`: list, show in words and numbers, self-test, compare, import.
+mod compare;
+mod import;
+
 use super::{
     Done,
     args::{Global, Machine, MachineCommand},
@@ -12,40 +15,82 @@ use trunnion_workspace::find_machine;
 const TOLERANCE: f64 = 1e-9;
 
 /// Runs `machine`.
-pub(super) fn run(_global: &Global, command: &Machine) -> Result<Done, Failure> {
-    let mut out = std::io::stdout().lock();
+pub(super) fn run(global: &Global, command: &Machine) -> Result<Done, Failure> {
     match &command.command {
-        MachineCommand::List => {
-            for name in BUILTIN_MACHINES {
-                let title = builtin(name).map_or("", |machine| machine.name.as_str());
-                writeln!(out, "{name:20} {title}")?;
-            }
-            Ok(Done::Clean)
-        }
-        MachineCommand::Show { name } => {
-            let machine = find_machine(name, None)?;
-            for line in describe(&machine).lines() {
-                writeln!(out, "{line}")?;
-            }
-            Ok(Done::Clean)
-        }
-        MachineCommand::Check { name, poses } => {
-            let machine = find_machine(name, None)?;
-            let result = self_test(&machine, *poses, 20_261_121);
-            writeln!(
-                out,
-                "{}: forward(inverse(pose)) on {} random poses",
-                machine.id, result.poses
-            )?;
-            writeln!(out, "  worst tool tip residual   {:.3e} mm", result.worst_tip_mm)?;
-            writeln!(out, "  worst tool axis residual  {:.3e} rad", result.worst_axis)?;
-            writeln!(out, "  true posture not found    {} times", result.posture_missing)?;
-            let good = result.poses > 0
-                && result.posture_missing == 0
-                && result.worst_tip_mm < TOLERANCE
-                && result.worst_axis < TOLERANCE;
-            writeln!(out, "{}", if good { "PASS" } else { "FAIL" })?;
-            Ok(if good { Done::Clean } else { Done::Found })
-        }
+        MachineCommand::List => list(),
+        MachineCommand::Show { name } => show(name),
+        MachineCommand::Check { name, poses } => check(name, *poses),
+        MachineCommand::Compare {
+            believed,
+            truth,
+            program,
+            tolerance_mm,
+            tool_length,
+            tip,
+        } => compare::run(
+            global,
+            &compare::Options {
+                believed,
+                truth,
+                program: program.as_deref(),
+                tolerance_mm: *tolerance_mm,
+                tool_length: *tool_length,
+                tip,
+            },
+        ),
+        MachineCommand::Import {
+            file,
+            format,
+            output,
+            set,
+        } => import::run(global, file, *format, output.as_deref(), set),
     }
+}
+
+fn list() -> Result<Done, Failure> {
+    let mut out = std::io::stdout().lock();
+    for name in BUILTIN_MACHINES {
+        let title = builtin(name).map_or("", |machine| machine.name.as_str());
+        writeln!(out, "{name:34} {title}")?;
+    }
+    Ok(Done::Clean)
+}
+
+fn show(name: &str) -> Result<Done, Failure> {
+    let machine = find_machine(name, None)?;
+    let mut out = std::io::stdout().lock();
+    for line in describe(&machine).lines() {
+        writeln!(out, "{line}")?;
+    }
+    Ok(Done::Clean)
+}
+
+fn check(name: &str, poses: usize) -> Result<Done, Failure> {
+    let machine = find_machine(name, None)?;
+    let mut out = std::io::stdout().lock();
+    let result = self_test(&machine, poses, 20_261_121);
+    writeln!(
+        out,
+        "{}: forward(inverse(pose)) on {} random poses",
+        machine.id, result.poses
+    )?;
+    writeln!(out, "  worst tool tip residual   {:.3e} mm", result.worst_tip_mm)?;
+    writeln!(out, "  worst tool axis residual  {:.3e} rad", result.worst_axis)?;
+    writeln!(out, "  true posture not found    {} times", result.posture_missing)?;
+    match machine.checks {
+        0 => writeln!(
+            out,
+            "  check rows                none: a wrong sign, point or order goes unnoticed"
+        )?,
+        count => writeln!(out, "  check rows                {count}, all hold")?,
+    }
+    for warning in &machine.warnings {
+        writeln!(out, "  warning: {warning}")?;
+    }
+    let good = result.poses > 0
+        && result.posture_missing == 0
+        && result.worst_tip_mm < TOLERANCE
+        && result.worst_axis < TOLERANCE;
+    writeln!(out, "{}", if good { "PASS" } else { "FAIL" })?;
+    Ok(if good { Done::Clean } else { Done::Found })
 }

@@ -1,8 +1,9 @@
 //! A machine in words and numbers, for people: chain, signs, limits, speeds, tool axis formula, reach and pole.
 use crate::formula::tool_axis_formula;
+use crate::reach::{pole, postures_by_tilt, reach};
 use crate::text::{direction, number, triple};
-use crate::{Axis, AxisKind, Limits, Machine, Orientations, RapidPath, Side, orientations, windings};
-use trunnion_geometry::math::atan2;
+use crate::uncertainty::{PIVOT_SENSITIVITY, worst_pivot_error};
+use crate::{Axis, AxisKind, Limits, Machine, RapidPath, Side};
 use trunnion_geometry::{Vec3, deg};
 
 /// One axis in words and numbers.
@@ -53,6 +54,10 @@ pub struct Description {
     pub reach: String,
     /// Where the first rotary axis is free; empty for machines without a pole.
     pub pole: String,
+    /// How many postures inside the travels each range of tilts from the first rotary axis has.
+    pub postures: Vec<String>,
+    /// What is odd about the file, and what its check rows say.
+    pub remarks: Vec<String>,
     /// What is known of the control.
     pub control: Vec<String>,
     /// What the file declares and nothing honours yet.
@@ -69,12 +74,14 @@ pub fn describe(machine: &Machine) -> Description {
     Description {
         id: machine.id.clone(),
         name: machine.name.clone(),
-        axes: machine.axes.iter().map(axis).collect(),
-        tool_axis: machine.tool_axis.into(),
-        gauge_point: machine.gauge_point.into(),
+        axes: (0..machine.axes.len()).map(|joint| axis(machine, joint)).collect(),
+        tool_axis: machine.home.tool_axis.into(),
+        gauge_point: machine.home.gauge_point.into(),
         formula: tool_axis_formula(machine),
         reach: reach(machine),
         pole: pole(machine),
+        postures: postures_by_tilt(machine),
+        remarks: remarks(machine),
         control: control(machine),
         not_used: machine.not_used.clone(),
         tolerances: vec![
@@ -127,7 +134,14 @@ impl Description {
         if !self.pole.is_empty() {
             lines.push(format!("Pole: {}", self.pole));
         }
+        if !self.postures.is_empty() {
+            lines.push(format!(
+                "Postures by tilt from the first rotary axis: {}",
+                self.postures.join("; ")
+            ));
+        }
         lines.extend(self.control.iter().map(|line| format!("Control: {line}")));
+        lines.extend(self.remarks.iter().cloned());
         lines.extend(
             self.not_used
                 .iter()
@@ -144,7 +158,8 @@ impl Description {
     }
 }
 
-fn axis(axis: &Axis) -> AxisDescription {
+fn axis(machine: &Machine, joint: usize) -> AxisDescription {
+    let axis = &machine.axes[joint];
     let rotary = axis.kind == AxisKind::Rotary;
     let unit = if rotary { "deg" } else { "mm" };
     let plain = |value: f64| if rotary { deg(value) } else { value };
@@ -178,8 +193,40 @@ fn axis(axis: &Axis) -> AxisDescription {
         limits,
         max_speed,
         speed,
-        notes: notes(axis, unit, plain),
+        notes: notes(axis, unit, plain)
+            .into_iter()
+            .chain(uncertainty(machine, joint))
+            .collect(),
     }
+}
+
+/// Distance of the tip from the axis' point for which an uncertain direction is told, mm.
+const ARM: f64 = 100.0;
+
+/// What the declared uncertainty of an axis does to the tip.
+fn uncertainty(machine: &Machine, joint: usize) -> Option<String> {
+    let worst = worst_pivot_error(machine, joint, ARM)?;
+    let extra = &machine.axes[joint].extra;
+    let far = if worst > PIVOT_SENSITIVITY { "more" } else { "not more" };
+    Some(format!(
+        "uncertainty: point {} mm, direction {} arcsec; under tool centre point control the tip is off by up to {} mm inside the travel, \
+         {} mm away from the axis' point ({far} than {} mm)",
+        number(extra.point_uncertainty.unwrap_or(0.0)),
+        number(deg(extra.direction_uncertainty.unwrap_or(0.0)) * 3600.0),
+        number(worst),
+        number(ARM),
+        number(PIVOT_SENSITIVITY)
+    ))
+}
+
+/// What is odd, and what was checked when the file was loaded.
+fn remarks(machine: &Machine) -> Vec<String> {
+    let mut lines: Vec<String> = machine.warnings.iter().map(|line| format!("Warning: {line}")).collect();
+    lines.push(match machine.checks {
+        0 => "Check rows: none; a wrong sign, point or order in this file would go unnoticed".to_owned(),
+        count => format!("Check rows: {count}, all hold"),
+    });
+    lines
 }
 
 /// What a positive motion of the axis does (kinematics notes 2.1 and 7).
@@ -238,6 +285,12 @@ fn notes(axis: &Axis, unit: &str, plain: impl Fn(f64) -> f64) -> Vec<String> {
             number(plain(margin))
         ));
     }
+    if let Some(value) = extra.hold {
+        notes.push(format!(
+            "held at {} {unit}: kinematics are solved for the other rotary axes; a program that moves it is not followed",
+            number(plain(value))
+        ));
+    }
     let flags = [
         (extra.clamp, "clamped while cutting (declared, not used yet)"),
         (extra.cable, "winds up a cable (declared, not used yet)"),
@@ -248,96 +301,6 @@ fn notes(axis: &Axis, unit: &str, plain: impl Fn(f64) -> f64) -> Vec<String> {
     notes.extend(axis.note.iter().map(|text| format!("note: {text}")));
     notes.extend(axis.source.iter().map(|text| format!("source: {text}")));
     notes
-}
-
-/// The cone of tool axes that the geometry allows, and what is left of it inside the travel of the second rotary axis.
-fn reach(machine: &Machine) -> String {
-    let constants = &machine.constants;
-    let Some(pair) = &constants.pair else {
-        let home = direction(&machine.tool_axis);
-        return match constants.rotary_count {
-            0 => format!("the tool axis is always {home}"),
-            _ => format!(
-                "the cone that {home} describes about {}",
-                direction(&constants.rotary[0].direction)
-            ),
-        };
-    };
-    let first = direction(&constants.rotary[0].direction);
-    let whole = if pair.reach_min < 1e-9 && pair.reach_max > core::f64::consts::PI - 1e-9 {
-        "every direction".to_owned()
-    } else {
-        format!(
-            "tool axes {} to {} deg from {first}",
-            number(deg(pair.reach_min)),
-            number(deg(pair.reach_max))
-        )
-    };
-    let second = &machine.axes[constants.rotary[1].joint];
-    let Limits::Range(min, max) = second.limits else {
-        return whole;
-    };
-    let [low, high] = legal_cone(machine, [min, max]);
-    format!(
-        "{whole} by geometry; inside the travel of {}: {} to {} deg from {first}",
-        char::from(second.letter),
-        number(deg(low)),
-        number(deg(high))
-    )
-}
-
-/// Smallest and largest angle between tool axis and first rotary axis while the second rotary axis runs over its travel, rad.
-fn legal_cone(machine: &Machine, [min, max]: [f64; 2]) -> [f64; 2] {
-    let constants = &machine.constants;
-    let e1 = constants.rotary[0].direction;
-    let angle = |q2: f64| {
-        let axis = crate::tool_axis_at(machine, [0.0, q2]);
-        atan2(e1.cross(&axis).norm(), e1.dot(&axis))
-    };
-    let azimuth = constants.pair.as_ref().map_or(0.0, |pair| pair.k_azimuth) * constants.rotary[1].sign;
-    // the angle is extreme at the ends and where S = 0: at q2 = k pi - azimuth; one turn holds them all
-    let pi = core::f64::consts::PI;
-    let first = ((min + azimuth) / pi).ceil();
-    let inside = (0..3)
-        .map(|k| (first + f64::from(k)) * pi - azimuth)
-        .filter(|&q2| q2 <= max);
-    let angles = [min, max].into_iter().chain(inside).map(angle);
-    angles.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], a| {
-        [low.min(a), high.max(a)]
-    })
-}
-
-fn pole(machine: &Machine) -> String {
-    let constants = &machine.constants;
-    if constants.pair.is_none() {
-        return String::new();
-    }
-    let [first, second] = constants
-        .rotary
-        .map(|rotary| char::from(machine.axes[rotary.joint].letter));
-    let e1 = constants.rotary[0].direction;
-    let ends: Vec<String> = [e1, -e1]
-        .iter()
-        .filter_map(|end| match orientations(machine, end) {
-            Orientations::Pole(q2) => {
-                let legal = !windings(machine, constants.rotary[1].joint, q2, 0.0).is_empty();
-                let outside = if legal { "" } else { ", outside its travel" };
-                Some(format!(
-                    "{} ({second} = {} deg{outside})",
-                    direction(end),
-                    number(deg(q2))
-                ))
-            }
-            _ => None,
-        })
-        .collect();
-    if ends.is_empty() {
-        return format!("none: the tool never stands along the axis of {first}");
-    }
-    format!(
-        "{first} is free where the tool stands along {}; near it, {first} must turn fast",
-        ends.join(" or ")
-    )
 }
 
 fn control(machine: &Machine) -> Vec<String> {
@@ -371,7 +334,7 @@ fn control(machine: &Machine) -> Vec<String> {
     );
     lines.extend(machine.gantries.iter().map(|gantry| {
         format!(
-            "axis {} mirrors {}",
+            "axis {} mirrors {}: travel and speed are what both allow",
             char::from(gantry.letter),
             char::from(gantry.leader)
         )

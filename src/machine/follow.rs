@@ -1,7 +1,7 @@
 //! Motions to joints, block by block along one posture: the machine re-runs the program.
 use crate::choice::{cheapest_in_posture, choose};
-use crate::held::settle_held;
 use crate::forward::{Turn, segment_shifts};
+use crate::held::settle_held;
 use crate::inverse::{inverse_turned, place};
 use crate::pole;
 use crate::words::{Words, XYZ, zero_point};

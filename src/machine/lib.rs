@@ -7,6 +7,7 @@ mod bound;
 mod builtin;
 mod chain;
 mod choice;
+mod compare;
 mod constants;
 mod control;
 mod course;
@@ -17,12 +18,14 @@ mod formula;
 mod forward;
 mod gantry;
 mod held;
+mod import;
 mod inverse;
 mod limits;
 mod memory;
 mod not_used;
 mod pole;
 mod raw;
+mod reach;
 mod row;
 mod selftest;
 mod spec;
@@ -39,7 +42,11 @@ mod words;
 #[cfg(test)]
 mod chain_tests;
 #[cfg(test)]
+mod compare_tests;
+#[cfg(test)]
 mod fault_tests;
+#[cfg(test)]
+mod import_tests;
 #[cfg(test)]
 mod kinematics_tests;
 #[cfg(test)]
@@ -49,14 +56,16 @@ mod spec_tests;
 
 pub use builtin::{BUILTIN_MACHINES, builtin, builtin_source};
 pub use chain::{
-    Axis, AxisExtra, AxisKind, Body, Control, Gantry, Home, Joints, Limits, MAX_AXES, Machine, RapidPath, Side, Tolerances,
-    Wrap,
+    Axis, AxisExtra, AxisKind, Body, Control, Gantry, Home, Joints, Limits, MAX_AXES, Machine, RapidPath, Side,
+    Tolerances, Wrap,
 };
+pub use compare::{Comparison, TipDifference};
 pub use constants::{Constants, LinearAxis, PairConstants, RotaryAxis};
 pub use describe::{AxisDescription, Description, describe};
 pub use deviation::{Deviation, tip_deviation};
 pub use follow::Follower;
 pub use forward::{Pose, forward, tool_axis_at};
+pub use import::{Imported, import_freecad, import_linuxcnc};
 pub use inverse::{Orientations, POLE_TOLERANCE, Postures, REACH_TOLERANCE, Solution, inverse, orientations};
 pub use limits::{Excess, limit_excess};
 pub use memory::Memory;

@@ -23,12 +23,7 @@ pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
 
 /// Those that could change a verdict of the rules there are: what moves, and which way, is not what is judged.
 pub(crate) fn not_judged(raw: &RawMachine) -> Vec<String> {
-    let decisive = [
-        "clamp on",
-        "[control] branch",
-        "[control] pole",
-        "[control] rapid",
-    ];
+    let decisive = ["clamp on", "[control] branch", "[control] pole", "[control] rapid"];
     let mut all = not_used(raw);
     all.retain(|text| decisive.iter().any(|start| text.starts_with(start)));
     all
@@ -60,7 +55,9 @@ fn of_axis(axis: &RawAxis, out: &mut Vec<String>) {
     let uncertainty = &axis.uncertainty;
     say(
         uncertainty.point.is_some() || uncertainty.dir_arcsec.is_some(),
-        format!("uncertainty on {letter}: `machine show` says what it does to the tip; bounds are for the axis as it is declared"),
+        format!(
+            "uncertainty on {letter}: `machine show` says what it does to the tip; bounds are for the axis as it is declared"
+        ),
     );
     let dynamics = &axis.dynamics;
     let smooth = [

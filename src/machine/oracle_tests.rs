@@ -97,7 +97,13 @@ fn xyzac_trt_in_both_conventions() {
     // another rotation point moves both axes
     let moved = changed(
         "linuxcnc-xyzac-trt",
-        &[("dir = [0, 0, 1]\npoint = [0, 0, 0]", "dir = [0, 0, 1]\npoint = [7, -8, 9]"), ("point = [0, 20, 10]", "point = [7, 12, 19]")],
+        &[
+            (
+                "dir = [0, 0, 1]\npoint = [0, 0, 0]",
+                "dir = [0, 0, 1]\npoint = [7, -8, 9]",
+            ),
+            ("point = [0, 20, 10]", "point = [7, 12, 19]"),
+        ],
     );
     agree(&moved, |g| xyzac(g, -1.0, offsets, [7.0, -8.0, 9.0]));
 }
@@ -119,14 +125,21 @@ fn xyzbc(g: &Given, con: f64, [dx, dz]: [f64; 2]) -> [f64; 3] {
 #[test]
 fn xyzbc_trt_in_both_conventions() {
     let offsets = [-20.0, -15.0];
-    agree(builtin("linuxcnc-xyzbc-trt").expect("shipped"), |g| xyzbc(g, -1.0, offsets));
+    agree(builtin("linuxcnc-xyzbc-trt").expect("shipped"), |g| {
+        xyzbc(g, -1.0, offsets)
+    });
     agree(builtin("linuxcnc-xyzbc-trt-conventional").expect("shipped"), |g| {
         xyzbc(g, 1.0, offsets)
     });
     // the notes' row: without the factor X would be 35.71 and Z 23.57 for joints that start at 10 and 30
     let machine = changed("linuxcnc-xyzbc-trt", &[("point = [-20, 0, -15]", "point = [5, 0, 20]")]);
     let mut joints: Joints = [0.0; MAX_AXES];
-    for (letter, value) in [(b'X', 10.0), (b'Z', 30.0), (b'B', 40_f64.to_radians()), (b'C', 25_f64.to_radians())] {
+    for (letter, value) in [
+        (b'X', 10.0),
+        (b'Z', 30.0),
+        (b'B', 40_f64.to_radians()),
+        (b'C', 25_f64.to_radians()),
+    ] {
         joints[machine.joint(letter).expect("an axis")] = value;
     }
     let tip = forward(&machine, &joints, 0.0).tip;
@@ -151,7 +164,9 @@ fn xyzab_tdr(g: &Given, s: f64, r: [f64; 3], dz: f64) -> [f64; 3] {
 #[test]
 fn xyzab_tdr_in_both_conventions() {
     let point = [-50.0, -50.0, -100.0];
-    agree(builtin("linuxcnc-xyzab-tdr").expect("shipped"), |g| xyzab_tdr(g, 1.0, point, -10.0));
+    agree(builtin("linuxcnc-xyzab-tdr").expect("shipped"), |g| {
+        xyzab_tdr(g, 1.0, point, -10.0)
+    });
     agree(&turned("linuxcnc-xyzab-tdr"), |g| xyzab_tdr(g, -1.0, point, -10.0));
 }
 
@@ -168,7 +183,9 @@ fn bridge(g: &Given, s: f64, pivot: f64) -> [f64; 3] {
 
 #[test]
 fn five_axis_bridge_mill_in_both_conventions() {
-    agree(builtin("linuxcnc-bridge-mill").expect("shipped"), |g| bridge(g, 1.0, 250.0));
+    agree(builtin("linuxcnc-bridge-mill").expect("shipped"), |g| {
+        bridge(g, 1.0, 250.0)
+    });
     agree(&turned("linuxcnc-bridge-mill"), |g| bridge(g, -1.0, 250.0));
 }
 
@@ -189,7 +206,11 @@ fn max5_in_both_conventions() {
     agree(builtin(name).expect("shipped"), |g| max(g, -1.0, 1.0, 0.0));
     agree(&turned(name), |g| max(g, 1.0, -1.0, 0.0));
     let longer = |con: &str| {
-        let source = builtin_source(name).expect("shipped").split("[[check]]").next().expect("a part");
+        let source = builtin_source(name)
+            .expect("shipped")
+            .split("[[check]]")
+            .next()
+            .expect("a part");
         let (table, head) = source.split_once("letter = \"B\"").expect("B");
         let head = head
             .replace("point = [0, 0, 0]", "point = [0, 0, 80]")
@@ -207,7 +228,11 @@ fn nutating(angle: f64, s: f64, along: f64, up: f64) -> [f64; 3] {
     let (sv, cv, ss, cs) = (sin(nu), cos(nu), s * sin(angle), cos(angle));
     let (r, t) = (cs + sv * sv * (1.0 - cs), sv * cv * (1.0 - cs));
     let up_up = cs + cv * cv * (1.0 - cs);
-    [sv * ss * up - cv * ss * along, t * up + r * along, up_up * up + t * along]
+    [
+        sv * ss * up - cv * ss * along,
+        t * up + r * along,
+        up_up * up + t * along,
+    ]
 }
 
 /// Table A about (y -1000, z -2000), head C and B, pivots y 50 and z 120.
@@ -248,9 +273,13 @@ fn nutating_heads_in_both_conventions() {
 fn tool_axes_of_the_notes() {
     type Formula = fn([f64; 3], [f64; 3]) -> [f64; 3];
     let rows: [(&str, Formula); 7] = [
-        ("linuxcnc-xyzac-trt-conventional", |s, c| [s[0] * s[2], -s[0] * c[2], c[0]]),
+        ("linuxcnc-xyzac-trt-conventional", |s, c| {
+            [s[0] * s[2], -s[0] * c[2], c[0]]
+        }),
         ("linuxcnc-xyzac-trt", |s, c| [s[0] * s[2], s[0] * c[2], c[0]]),
-        ("linuxcnc-xyzbc-trt-conventional", |s, c| [c[2] * s[1], s[2] * s[1], c[1]]),
+        ("linuxcnc-xyzbc-trt-conventional", |s, c| {
+            [c[2] * s[1], s[2] * s[1], c[1]]
+        }),
         ("linuxcnc-xyzbc-trt", |s, c| [-c[2] * s[1], s[2] * s[1], c[1]]),
         ("linuxcnc-xyzab-tdr", |s, c| [s[1], -s[0] * c[1], c[0] * c[1]]),
         ("pocketnc-v2revp", |s, c| [-s[1] * c[0], s[0], c[1] * c[0]]),

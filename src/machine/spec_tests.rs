@@ -90,7 +90,11 @@ fn every_shipped_file_loads_and_says_where_it_comes_from() {
         let source = builtin_source(name).expect("embedded");
         let machine = load(name, source).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(!machine.sources.is_empty(), "{name}");
-        assert!(machine.checks >= machine.axes.len() + 3, "{name}: {} check rows", machine.checks);
+        assert!(
+            machine.checks >= machine.axes.len() + 3,
+            "{name}: {} check rows",
+            machine.checks
+        );
         assert_eq!(machine.warnings, Vec::<String>::new(), "{name}");
     }
 }
@@ -284,7 +288,10 @@ fn a_changed_sign_or_offset_is_noticed() {
     let pose = crate::forward(honest, &joints, 100.0);
     for (from, to) in [
         ("sign = 1", "sign = -1"),
-        ("dir = [1, 0, 0]\npoint = [0, 0, 0]", "dir = [1, 0, 0]\npoint = [0, 5, 0]"),
+        (
+            "dir = [1, 0, 0]\npoint = [0, 0, 0]",
+            "dir = [1, 0, 0]\npoint = [0, 5, 0]",
+        ),
         ("dir = [0, 0, 1]", "dir = [0, 0, -1]"),
     ] {
         let text = source.replacen(from, to, 1);

@@ -127,9 +127,8 @@ pub(crate) fn usual_direction(letter: u8) -> Vec3 {
     }
 }
 
-/// One axis, angles in rad.
-pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
-    let letter = letter(&raw.letter)?;
+/// What an importer could not know must be filled in first.
+fn all_known(raw: &RawAxis, letter: u8) -> Result<(), Fault> {
     if let Some(first) = raw.unknown.first() {
         let keys: Vec<&str> = raw.unknown.iter().map(|word| word.get_ref().as_str()).collect();
         let message = format!(
@@ -147,6 +146,13 @@ pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
             span: first.span(),
         });
     }
+    Ok(())
+}
+
+/// One axis, angles in rad.
+pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
+    let letter = letter(&raw.letter)?;
+    all_known(raw, letter)?;
     let usual = if (b'A'..=b'C').contains(&letter) {
         RawKind::Rotary
     } else {

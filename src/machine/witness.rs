@@ -74,7 +74,10 @@ fn pose(about: &str, row: &RawCheck, machine: &Machine) -> Result<(), Fault> {
             moved.push_str(word.get_ref());
         }
     }
-    let length = row.tool_length.as_ref().map_or(Ok(0.0), |length| finite("tool_length", length))?;
+    let length = row
+        .tool_length
+        .as_ref()
+        .map_or(Ok(0.0), |length| finite("tool_length", length))?;
     let within = positive("within", row.within.as_ref())?.unwrap_or(TIP);
     let found = forward(machine, &joints, length);
     let look = look(&moved);

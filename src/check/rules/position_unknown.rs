@@ -37,6 +37,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let letters = match &view.leg.end {
         Err(NoStance::PositionUnknown(letters)) => letters,
         Err(NoStance::RotaryOffset(axis)) => return rotary_offset(*axis, view, out),
+        Err(NoStance::HeldElsewhere { axis, value, held }) => return held_elsewhere(*axis, [*value, *held], view, out),
         _ => return,
     };
     let cause = hash(letters);
@@ -84,6 +85,35 @@ fn rotary_offset(axis: u8, view: &LegView<'_>, out: &mut Reporter<'_>) {
         .merge_everywhere(cause);
 }
 
+/// The program moves an axis that the machine file holds: told once for each axis and place.
+fn held_elsewhere(axis: u8, [value, held]: [f64; 2], view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let cause = hash(&format!("{} {value}", char::from(axis)));
+    if !view.motion().is_feed() || out.repeats_unknown(view, cause, 0.0) {
+        return;
+    }
+    let name = letter(axis);
+    let range = code_range(out.program(), view.motion().block);
+    out.report(
+        range,
+        format!(
+            "the position of X, Y and Z is not known: {name} stands at {}, the machine file holds it at {}",
+            degrees(value),
+            degrees(held)
+        ),
+    )
+    .note(format!(
+        "{} has more rotary axes than kinematics are solved for, so {name} is held where the file says",
+        view.machine.id
+    ))
+    .note("limits, postures, speeds and the tip's path are not checked here")
+    .help(format!(
+        "check this part of the program with a copy of the machine file that says hold = {} at {name}",
+        deg(value)
+    ))
+    .unknown()
+    .merge_everywhere(cause);
+}
+
 #[cfg(test)]
 mod tests {
     use crate::fixture::assert_drawn;
@@ -118,6 +148,16 @@ mod tests {
             "{}",
             found[0].message
         );
+    }
+
+    #[test]
+    fn a_held_axis_that_moves_ends_what_is_known() {
+        let report = assert_drawn(
+            "gcode linuxcnc-xyzacb-trsrn",
+            "N1 G0 X0 Y0 Z50 B0 C0\nN2 G1 X10 A0 F500\nN3 X20\nN4 G1 A30\n;  ^^^^^^ position-unknown: the position of X, Y and Z is not known: A stands at 30 deg, the machine file holds it at 0 deg\nN5 X5\nN6 A0 X0\n",
+        );
+        assert_eq!(report.diagnostics[0].status, crate::Status::Unknown);
+        assert_eq!(report.diagnostics[0].count, 2);
     }
 
     #[test]

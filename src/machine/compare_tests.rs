@@ -1,0 +1,149 @@
+//! Two machines that should be one: the calibration sweep finds a pivot that is 0.05 mm off, in numbers.
+use crate::{
+    Comparison, MAX_AXES, Machine, builtin, builtin_source, forward, load, pivot_sensitivity, worst_pivot_error,
+};
+use trunnion_geometry::math::sin;
+use trunnion_geometry::{Vec3, rad};
+
+/// A shipped machine with one line of one axis replaced.
+fn planted(name: &str, letter: char, from: &str, to: &str) -> Machine {
+    let source = builtin_source(name)
+        .expect("shipped")
+        .split("[[check]]")
+        .next()
+        .expect("a part");
+    let (head, axis) = source.split_once(&format!("letter = \"{letter}\"")).expect("the axis");
+    let changed = axis.replacen(from, to, 1);
+    assert_ne!(changed, axis);
+    load("planted", &format!("{head}letter = \"{letter}\"{changed}")).expect("valid")
+}
+
+#[test]
+fn a_pivot_error_of_0_05_mm_is_found_by_the_fixed_tip_sweep() {
+    for (name, letter, from, to) in [
+        ("mikron-ucp710", 'A', "point = [0, 0, 0]", "point = [0, 0.05, 0]"),
+        ("mikron-ucp710", 'C', "point = [0, 0, 0]", "point = [0.05, 0, 0]"),
+        (
+            "linuxcnc-xyzac-trt",
+            'A',
+            "point = [0, 20, 10]",
+            "point = [0, 20, 10.05]",
+        ),
+        ("fork-head-ca", 'A', "point = [0, 0, 250]", "point = [0, 0, 250.05]"),
+        (
+            "nutating-head-b50",
+            'B',
+            "point = [0, 0, 160]",
+            "point = [0.05, 0, 160]",
+        ),
+        (
+            "linuxcnc-xyzacb-trsrn",
+            'B',
+            "point = [0, 50, 120]",
+            "point = [0, 50.05, 120]",
+        ),
+    ] {
+        let (believed, truth) = (builtin(name).expect("shipped"), planted(name, letter, from, to));
+        let comparison = Comparison::new(believed, &truth).expect("the same axes");
+        let worst = comparison
+            .fixed_tip_sweep(&Vec3::new(10.0, 5.0, 30.0), 120.0, 360)
+            .expect("a sweep");
+        // at the least the error itself, at most twice
+        assert!((0.02..=0.1001).contains(&worst.tip_mm), "{name} {letter}: {worst:?}");
+        let entries = comparison.entries();
+        assert!(
+            entries.len() == 1 && entries[0].contains("0.05 mm apart"),
+            "{entries:?}"
+        );
+        // with the axis at zero nothing shows: a comparison at home would miss it
+        assert!(comparison.at(&[0.0; MAX_AXES], 120.0).tip_mm < 1e-12);
+        let same = Comparison::new(believed, believed).expect("the same axes");
+        assert!(
+            same.fixed_tip_sweep(&Vec3::zeros(), 120.0, 360)
+                .expect("a sweep")
+                .tip_mm
+                < 1e-12
+        );
+        assert!(same.entries().is_empty());
+    }
+}
+
+#[test]
+fn the_error_is_twice_the_sine_of_half_the_angle() {
+    let believed = builtin("mikron-ucp710").expect("shipped");
+    let truth = planted("mikron-ucp710", 'A', "point = [0, 0, 0]", "point = [0, 0.03, 0.04]");
+    let comparison = Comparison::new(believed, &truth).expect("the same axes");
+    for angle in [1.0, 30.0, 90.0, 120.0] {
+        let mut joints = [0.0; MAX_AXES];
+        joints[believed.joint(b'A').expect("A")] = rad(angle);
+        joints[believed.joint(b'C').expect("C")] = rad(77.0);
+        let found = comparison.at(&joints, 50.0).tip_mm;
+        assert!((found - 0.1 * sin(rad(angle / 2.0))).abs() < 1e-12, "{angle}: {found}");
+    }
+}
+
+#[test]
+fn machines_with_other_axes_are_not_compared() {
+    let (a, b) = (
+        builtin("mikron-ucp710").expect("shipped"),
+        builtin("ferrari-bc").expect("shipped"),
+    );
+    let error = Comparison::new(a, b).err().expect("A against B");
+    assert!(
+        error.contains("mikron-ucp710 has A") && error.contains("ferrari-bc has B"),
+        "{error}"
+    );
+}
+
+/// The declared uncertainty bounds what a planted error of that size does, in every direction.
+#[test]
+fn the_uncertainty_bounds_what_planted_errors_do() {
+    let name = "nutating-table-b45";
+    let machine = builtin(name).expect("shipped");
+    let joint = machine.joint(b'B').expect("B");
+    let arc = machine.axes[joint].extra.direction_uncertainty.expect("declared");
+    let mut largest: f64 = 0.0;
+    let mut random = crate::selftest::SplitMix(3);
+    for _ in 0..200 {
+        let mut number = |size: f64| random.between(-size, size);
+        let off = Vec3::new(number(1.0), number(1.0), number(1.0)).normalize() * 0.01;
+        let e = machine.axes[joint].direction;
+        let tilt = e.cross(&Vec3::new(number(1.0), number(1.0), number(1.0))).normalize();
+        let turned = trunnion_geometry::math::rotate(&tilt, arc, &e);
+        let point = Vec3::new(0.0, 0.0, -120.0) + off;
+        let source = builtin_source(name)
+            .expect("shipped")
+            .split("[[check]]")
+            .next()
+            .expect("a part");
+        let (head, axis) = source.split_once("letter = \"B\"").expect("B");
+        let dir = axis.lines().find(|line| line.starts_with("dir")).expect("a direction");
+        let axis = axis
+            .replacen(dir, &format!("dir = [{}, {}, {}]", turned.x, turned.y, turned.z), 1)
+            .replacen(
+                "point = [0, 0, -120]",
+                &format!("point = [{}, {}, {}]", point.x, point.y, point.z),
+                1,
+            );
+        let truth = load("planted", &format!("{head}letter = \"B\"{axis}")).expect("valid");
+        let mut joints = [0.0; MAX_AXES];
+        for (slot, axis) in joints.iter_mut().zip(&machine.axes) {
+            *slot = if axis.kind == crate::AxisKind::Rotary {
+                number(3.0)
+            } else {
+                number(200.0)
+            };
+        }
+        // zeroed with the axis at zero: there both machines have the tip at one place
+        let found = (forward(&truth, &joints, 80.0).tip - forward(machine, &joints, 80.0).tip).norm();
+        let stated: Vec<_> = pivot_sensitivity(machine, &joints, 80.0);
+        let stated = stated.iter().find(|axis| axis.letter == b'B').expect("declared").tip_mm;
+        assert!(found <= stated * 1.0001, "{found} {stated}");
+        largest = largest.max(found / stated);
+    }
+    assert!(largest > 0.7, "the bound is far from what happens: {largest}");
+    // travel to 185 deg: the worst is at half a turn
+    let worst = worst_pivot_error(machine, joint, 100.0).expect("declared");
+    assert!((worst - 2.0 * (0.01 + 100.0 * arc)).abs() < 1e-12);
+    assert!(pivot_sensitivity(builtin("mikron-ucp710").expect("shipped"), &[1.0; MAX_AXES], 80.0).is_empty());
+}

@@ -1,0 +1,20 @@
+//! Machine files from the files of others: what those say becomes a machine file with its sources, what they do not say is listed and
+//! never guessed. An axis with something that nobody knows gets the key `unknown`, and the file does not load until it is filled in.
+mod draft;
+mod freecad;
+mod hal;
+mod ini;
+mod linuxcnc;
+mod modules;
+
+pub use freecad::import_freecad;
+pub use linuxcnc::import_linuxcnc;
+
+/// A machine file made from another file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Imported {
+    /// The text of the machine file.
+    pub toml: String,
+    /// What the source does not say or what was assumed, one sentence each.
+    pub open: Vec<String>,
+}

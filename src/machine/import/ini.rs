@@ -1,0 +1,93 @@
+//! INI files as LinuxCNC reads them: sections, `KEY = VALUE`, comments on lines of their own, keys that repeat.
+use crate::MachineError;
+use core::ops::Range;
+
+/// One `KEY = VALUE`.
+#[derive(Clone, Debug)]
+pub(super) struct Entry<'a> {
+    pub(super) section: &'a str,
+    pub(super) key: &'a str,
+    pub(super) value: &'a str,
+    /// Bytes of the value.
+    pub(super) span: Range<usize>,
+}
+
+/// A file.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Ini<'a> {
+    pub(super) entries: Vec<Entry<'a>>,
+    /// Files named by `#INCLUDE`, which are not read.
+    pub(super) includes: Vec<&'a str>,
+}
+
+impl<'a> Ini<'a> {
+    /// # Errors
+    /// A section without its closing bracket, or a line that is neither section, entry nor comment.
+    pub(super) fn read(text: &'a str) -> Result<Self, MachineError> {
+        let mut ini = Self::default();
+        let mut section = "";
+        let mut start = 0;
+        let mut continued = false;
+        for raw in text.split_inclusive('\n') {
+            let at = start + (raw.len() - raw.trim_start().len());
+            let line = raw.trim();
+            start += raw.len();
+            let goes_on = line.ends_with('\\');
+            if core::mem::replace(&mut continued, goes_on) {
+                // the rest of a value; no key that is read here is written on several lines
+                continue;
+            }
+            let error = |message: &str| MachineError {
+                message: format!("{message}: {line:?}"),
+                span: Some(at..at + line.len()),
+            };
+            if let Some(name) = line.strip_prefix("#INCLUDE") {
+                ini.includes.push(name.trim());
+            } else if line.is_empty() || line.starts_with(['#', ';']) {
+            } else if let Some(name) = line.strip_prefix('[') {
+                let Some((name, _)) = name.split_once(']') else {
+                    return Err(error("a section needs its closing bracket"));
+                };
+                section = name.trim();
+            } else if let Some((key, value)) = line.split_once('=') {
+                let value_at = at + line.len() - value.trim_start().len();
+                let value = value.trim();
+                ini.entries.push(Entry {
+                    section,
+                    key: key.trim(),
+                    value,
+                    span: value_at..value_at + value.len(),
+                });
+            } else {
+                return Err(error("neither [SECTION], nor KEY = VALUE, nor a comment"));
+            }
+        }
+        Ok(ini)
+    }
+
+    /// The first entry of a key in a section.
+    pub(super) fn get(&self, section: &str, key: &str) -> Option<&Entry<'a>> {
+        self.entries
+            .iter()
+            .find(|entry| entry.section == section && entry.key == key)
+    }
+
+    /// Its number: the first word of the value.
+    pub(super) fn number(&self, section: &str, key: &str) -> Result<Option<f64>, MachineError> {
+        self.get(section, key).map(Entry::number).transpose()
+    }
+}
+
+impl Entry<'_> {
+    /// The first word as a number.
+    pub(super) fn number(&self) -> Result<f64, MachineError> {
+        let word = self.value.split_whitespace().next().unwrap_or("");
+        match word.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => Err(MachineError {
+                message: format!("{} = {:?} of [{}] is not a number", self.key, self.value, self.section),
+                span: Some(self.span.clone()),
+            }),
+        }
+    }
+}

@@ -50,6 +50,8 @@ mod import_tests;
 #[cfg(test)]
 mod kinematics_tests;
 #[cfg(test)]
+mod mutant_tests;
+#[cfg(test)]
 mod oracle_tests;
 #[cfg(test)]
 mod spec_tests;

@@ -53,6 +53,8 @@ pub(crate) struct RawCheck {
     pub(crate) speed: BTreeMap<Word, Number>,
     #[serde(default)]
     pub(crate) acceleration: BTreeMap<Word, Number>,
+    #[serde(default)]
+    pub(crate) words: BTreeMap<Word, Word>,
 }
 
 #[derive(Deserialize, Default)]

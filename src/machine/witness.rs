@@ -3,7 +3,7 @@
 use crate::raw::{Number, RawCheck, RawLimits, Word};
 use crate::text::{number, triple};
 use crate::validate::{Fault, finite, point, positive, unit_vector};
-use crate::{AxisKind, Joints, Limits, MAX_AXES, Machine, forward};
+use crate::{AxisKind, Joints, Limits, MAX_AXES, Machine, Wrap, forward};
 use std::collections::BTreeMap;
 use toml::Spanned;
 use trunnion_geometry::math::angle_between;
@@ -24,9 +24,9 @@ pub(crate) fn verify(rows: &[Spanned<RawCheck>], machine: &Machine) -> Result<()
             Some(say) => format!("check {say:?}"),
             None => "check".to_owned(),
         };
-        let limits = written.travel.len() + written.speed.len() + written.acceleration.len();
+        let limits = written.travel.len() + written.speed.len() + written.acceleration.len() + written.words.len();
         if written.tip.is_none() && written.axis.is_none() && limits == 0 {
-            let message = format!("{about} says nothing: give tip, axis, travel, speed or acceleration");
+            let message = format!("{about} says nothing: give tip, axis, travel, speed, acceleration or words");
             return Err(Fault {
                 message,
                 span: row.span(),
@@ -36,6 +36,7 @@ pub(crate) fn verify(rows: &[Spanned<RawCheck>], machine: &Machine) -> Result<()
         travel(&about, &written.travel, machine)?;
         highest(&about, "speed", &written.speed, machine)?;
         highest(&about, "acceleration", &written.acceleration, machine)?;
+        words(&about, &written.words, machine)?;
     }
     Ok(())
 }
@@ -193,4 +194,30 @@ fn highest(about: &str, what: &str, rows: &BTreeMap<Word, Number>, machine: &Mac
 
 fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= SHARE * (1.0 + a.abs())
+}
+
+/// What the words of an axis mean: radius or diameter, and literal, shortest or modulo-sign.
+fn words(about: &str, rows: &BTreeMap<Word, Word>, machine: &Machine) -> Result<(), Fault> {
+    for (word, written) in rows {
+        let axis = &machine.axes[joint(word, machine)?];
+        let own = match (axis.kind, axis.extra.wrap) {
+            (AxisKind::Linear, _) if axis.extra.diameter => "diameter",
+            (AxisKind::Linear, _) => "radius",
+            (AxisKind::Rotary, Wrap::Literal) => "literal",
+            (AxisKind::Rotary, Wrap::Shortest) => "shortest",
+            (AxisKind::Rotary, Wrap::ModuloSign) => "modulo-sign",
+        };
+        if written.get_ref() != own {
+            let message = format!(
+                "{about}: the words of {} are {:?} here and {own:?} at the axis; one of them is wrong",
+                word.get_ref(),
+                written.get_ref()
+            );
+            return Err(Fault {
+                message,
+                span: written.span(),
+            });
+        }
+    }
+    Ok(())
 }

@@ -7,5 +7,6 @@ mod findings;
 mod fix;
 mod fmt;
 mod hostile;
+mod machines;
 mod stats;
 mod tools;

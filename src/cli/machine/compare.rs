@@ -190,7 +190,8 @@ impl Sink for Both<'_> {
             return;
         };
         self.compared += 1;
-        if self.worst.is_none_or(|(_, known)| found.tip_mm > known.tip_mm) {
+        // the first of equal ones, rounding aside
+        if self.worst.is_none_or(|(_, known)| found.tip_mm > known.tip_mm + 1e-9) {
             self.worst = Some((motion.block, found));
         }
     }

@@ -1,5 +1,6 @@
 //! One check of one program: run in the order in which the control runs it, follow, judge. Streams: what is kept beside the
 //! program is findings and one modal state.
+use crate::both;
 use crate::pass::Pass;
 use crate::suppress::{Suppressions, has_code};
 use crate::view::Overview;
@@ -37,11 +38,23 @@ impl Watch for Nobody {
 
 /// Checks a parsed program.
 pub fn check(program: &Program, settings: &Settings<'_>) -> Report {
-    analyse(program, settings, &mut Nobody).unwrap_or_default()
+    judge(program, settings, &mut Nobody).unwrap_or_default()
+}
+
+/// Checks with every state of the switch for block delete that is possible; `watch` looks on at the run that runs every block. `None`
+/// when it broke off.
+pub(crate) fn judge(program: &Program, settings: &Settings<'_>, watch: &mut impl Watch) -> Option<Report> {
+    let mut report = analyse(program, settings, watch)?;
+    if both::is_open(program, settings) {
+        let mut on = settings.clone();
+        on.setup.control.block_delete = Some(true);
+        both::join(&mut report, analyse(program, &on, &mut Nobody)?);
+    }
+    Some(report)
 }
 
 /// Checks a parsed program; `None` when `watch` broke off.
-pub(crate) fn analyse(program: &Program, settings: &Settings<'_>, watch: &mut impl Watch) -> Option<Report> {
+fn analyse(program: &Program, settings: &Settings<'_>, watch: &mut impl Watch) -> Option<Report> {
     let directives = directives(program);
     let suppressions = Suppressions::new(program, &directives);
     let mut pass = Pass::new(program, settings, &suppressions);

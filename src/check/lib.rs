@@ -3,6 +3,7 @@
 //! It does no I/O: texts come in, plain data goes out. It does not know terminals, JSON or LSP.
 mod again;
 mod analysis;
+mod both;
 pub mod config;
 mod diagnostic;
 pub mod fixture;

@@ -8,6 +8,7 @@ mod axis_limit;
 mod axis_overspeed;
 mod bad_expression;
 mod bad_number;
+mod block_delete_unset;
 mod block_number_order;
 mod branch_swap;
 mod broken_directive;
@@ -87,6 +88,7 @@ static RULES: &[&Rule] = table![
     axis_overspeed,
     bad_expression,
     bad_number,
+    block_delete_unset,
     block_number_order,
     branch_swap,
     broken_directive,

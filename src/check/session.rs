@@ -1,5 +1,5 @@
 //! A program that stays open: check-points let any block be described without running the whole file again.
-use crate::analysis::{Watch, analyse};
+use crate::analysis::{Watch, judge};
 use crate::{Report, Settings};
 use core::ops::ControlFlow;
 use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
@@ -120,7 +120,7 @@ impl Session {
             news: false,
             cancelled,
         };
-        let report = analyse(program, settings, &mut keeper)?;
+        let report = judge(program, settings, &mut keeper)?;
         Some(Self {
             report,
             check_points: keeper.check_points,

@@ -38,6 +38,9 @@ pub(crate) struct Global {
     /// Also say what would change its meaning on this control (a dialect's name; may be repeated).
     #[arg(long, global = true, value_name = "DIALECT", action = ArgAction::Append)]
     pub(crate) port_to: Vec<String>,
+    /// Blocks that begin with `/`: run them (off) or skip them (on); default: trunnion.toml, else check judges both.
+    #[arg(long, global = true, value_enum, value_name = "STATE")]
+    pub(crate) block_delete: Option<Switch>,
     /// Silence a rule (may be repeated).
     #[arg(long, global = true, value_name = "RULE", action = ArgAction::Append)]
     pub(crate) allow: Vec<String>,
@@ -53,6 +56,13 @@ pub(crate) struct Global {
     /// Say more: which dialect, machine and settings were taken, and why.
     #[arg(short, long, global = true)]
     pub(crate) verbose: bool,
+}
+
+/// `--block-delete`.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Switch {
+    On,
+    Off,
 }
 
 /// `--deny`.

@@ -1,5 +1,8 @@
 //! From a path to a parsed program with everything it is checked with.
-use super::{args::Global, failure::Failure};
+use super::{
+    args::{Global, Switch},
+    failure::Failure,
+};
 use std::{fs::File, io::Read, path::Path};
 use trunnion_machine::Machine;
 use trunnion_syntax::Program;
@@ -49,6 +52,7 @@ pub(crate) fn overrides(global: &Global) -> Overrides {
         tool: global.tool.clone(),
         allow: global.allow.clone(),
         port_to: global.port_to.clone(),
+        block_delete: global.block_delete.map(|switch| switch == Switch::On),
     }
 }
 

@@ -69,6 +69,9 @@ pub enum Action {
     TcpVectorOn,
     /// TRAFOOF, M129 ...
     TcpOff,
+    /// M428 ...: switches the kinematics. Which code means tool centre point control is said by the machine; unsaid, X Y Z mean nothing
+    /// from here on.
+    Kinematics,
     /// G53: this block in machine coordinates.
     MachineCoordinates,
     /// G54 ... : select a work offset; the code's own id is the offset's name.

@@ -5,11 +5,20 @@ use crate::run::{Interpreter, Report, Sink};
 use crate::words::Words;
 use crate::{FaultKind, Motion};
 use trunnion_dialect::{Action, Role};
-use trunnion_syntax::{Address, Block, Value};
+use trunnion_syntax::{Address, Block, Item, Value};
+
+/// Whether a block begins with `/`, comments aside.
+fn is_deleted(block: &Block<'_>) -> bool {
+    let mut items = block.items();
+    items.find(|item| !matches!(item, Item::Comment(_))).is_some_and(|item| matches!(item, Item::Skip(..)))
+}
 
 impl<'d> Interpreter<'d> {
-    /// Runs one ISO block. Blocks with `/` run as if the switch for skipping were off.
+    /// Runs one ISO block. Blocks that begin with `/` are skipped where the switch for that is known to be on.
     pub(crate) fn step_iso(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
+        if self.setup.control.block_delete == Some(true) && is_deleted(block) {
+            return;
+        }
         let mut codes = std::mem::take(&mut self.codes);
         codes.clear();
         let motion = {

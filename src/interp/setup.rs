@@ -113,6 +113,27 @@ pub enum OuterCorner {
     Arc,
 }
 
+/// Codes of the machine's builder for tool centre point control, as `M428`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TcpCodes {
+    /// On: X Y Z are the tip in the workpiece frame.
+    pub on: Vec<String>,
+    /// Off: X Y Z are the joints.
+    pub off: Vec<String>,
+}
+
+impl TcpCodes {
+    /// Whether a code switches it on or off; `None`: it is not among them.
+    pub fn meaning(&self, code: &str) -> Option<bool> {
+        let has = |list: &[String]| list.iter().any(|known| known.eq_ignore_ascii_case(code));
+        if has(&self.on) {
+            Some(true)
+        } else {
+            has(&self.off).then_some(false)
+        }
+    }
+}
+
 /// Parameters of the control that programs depend on; what is not declared is unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ControlData {
@@ -124,6 +145,10 @@ pub struct ControlData {
     pub peck_clearance_mm: Option<f64>,
     /// Way of cutter compensation around outer corners.
     pub outer_corner: OuterCorner,
+    /// Whether the switch for block delete (`/`) is on, so that such blocks are skipped; `None`: not known, they are run.
+    pub block_delete: Option<bool>,
+    /// Codes that switch the kinematics between tool centre point control and joints (`M428`); `None`: the machine does not say.
+    pub tcp_codes: Option<TcpCodes>,
     /// Reference points in machine coordinates, mm and degrees: G28 goes to the first, G30 P2 to the second.
     pub reference_points: Vec<crate::Position>,
 }

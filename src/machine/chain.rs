@@ -158,6 +158,8 @@ pub struct Control {
     pub corner_model: Option<String>,
     /// Shortest time the control needs per block, s; `None`: not declared.
     pub block_time: Option<f64>,
+    /// Codes of the builder that switch tool centre point control (LinuxCNC's M428 ...); `None`: not declared.
+    pub tcp_codes: Option<trunnion_interp::TcpCodes>,
 }
 
 /// Thresholds of the rules.

@@ -1,8 +1,9 @@
 //! The `[control]` part of a machine file: how the numerical control interpolates, picks postures and plans.
-use crate::raw::{Number, RawControl, RawOrientation, RawRapid, Word};
+use crate::raw::{Number, RawControl, RawOrientation, RawRapid, RawTcpCodes, Word};
 use crate::validate::{Fault, non_negative, positive};
 use crate::{Axis, Control, RapidPath};
 use trunnion_geometry::rad;
+use trunnion_interp::TcpCodes;
 
 /// Names that `family` may have (interface, section 7).
 const FAMILIES: &[&str] = &[
@@ -41,6 +42,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         pole_cone: None,
         corner_model: None,
         block_time: None,
+        tcp_codes: raw.tcp_codes.as_ref().map(tcp_codes).transpose()?,
     };
     if let Some(branch) = &raw.branch {
         control.branch_rule.clone_from(&branch.rule);
@@ -78,6 +80,30 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         control.block_time = non_negative("block_time", planner.block_time.as_ref())?;
     }
     Ok(control)
+}
+
+/// Codes that switch the kinematics: each a G or M code with its number, in one of the two lists.
+fn tcp_codes(raw: &RawTcpCodes) -> Result<TcpCodes, Fault> {
+    let is_code = |code: &str| matches!(code.split_at_checked(1), Some(("G" | "M", number)) if number.parse::<u16>().is_ok());
+    for word in raw.on.iter().chain(&raw.off) {
+        if !is_code(word.get_ref()) {
+            return Err(Fault {
+                message: format!("{:?} is no code: write G or M and its number, as \"M428\"", word.get_ref()),
+                span: word.span(),
+            });
+        }
+    }
+    if let Some(twice) = raw.off.iter().find(|off| raw.on.iter().any(|on| on.get_ref() == off.get_ref())) {
+        return Err(Fault {
+            message: format!("{:?} cannot switch tool centre point control both on and off", twice.get_ref()),
+            span: twice.span(),
+        });
+    }
+    let names = |words: &[Word]| words.iter().map(|word| word.get_ref().clone()).collect();
+    Ok(TcpCodes {
+        on: names(&raw.on),
+        off: names(&raw.off),
+    })
 }
 
 /// The word, which must be one of the known ones.

@@ -164,6 +164,15 @@ pub(crate) struct RawControl {
     pub(crate) rapid: Option<RawRapid>,
     pub(crate) corner: Option<RawCorner>,
     pub(crate) planner: Option<RawPlanner>,
+    pub(crate) tcp_codes: Option<RawTcpCodes>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RawTcpCodes {
+    pub(crate) on: Vec<Word>,
+    #[serde(default)]
+    pub(crate) off: Vec<Word>,
 }
 
 #[derive(Deserialize)]

@@ -19,7 +19,7 @@ pub struct Frame {
 }
 
 /// Where a call comes from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct At {
     /// File.
     pub file: FileId,
@@ -91,6 +91,13 @@ impl Engine {
     /// A file as people are shown it; empty for the main program.
     pub fn path(&self, file: FileId) -> &str {
         self.files.get(file.0 as usize).map_or("", |source| &source.path)
+    }
+    /// The text of a line (from 0) without the blanks around it; empty where there is no such line.
+    pub fn line_text(&self, file: FileId, line: u32) -> String {
+        let source = self.files.get(file.0 as usize);
+        let range = source.and_then(|source| source.line(line));
+        let bytes = source.zip(range).map_or(&[][..], |(source, range)| &source.bytes()[range.as_usize()]);
+        String::from_utf8_lossy(bytes.trim_ascii()).into_owned()
     }
     /// Tells a canonical call. While cutter compensation holds moves back, calls wait behind them in order.
     pub(crate) fn emit(&mut self, call: Canon, at: At, sink: &mut dyn Sink) {

@@ -123,6 +123,8 @@ pub struct State {
     pub radius: f64,
     /// The tool's edge orientation under lathe compensation, 0-9.
     pub orientation: i32,
+    /// The program itself says the radius (G41.1, G42.1): it does not come from the tool table.
+    pub radius_given: bool,
     /// No compensated move was made yet since G41/G42.
     pub first_compensated: bool,
     /// Compensation has ended and the tool still stands on its way: the next motion must be straight.
@@ -169,6 +171,10 @@ pub struct State {
     pub adaptive_feed: bool,
     /// See above.
     pub feed_hold: bool,
+    /// Axes with words in the block in hand: bit i is axis i of a [`Pose`].
+    pub named_axes: u16,
+    /// The motions of the block in hand lead to points that are told in the machine's own frame (G53, G28, G30).
+    pub machine_frame: bool,
     /// The last probing has touched.
     pub probed: bool,
     /// Length of a line for G93, program end etc. was reached.
@@ -294,6 +300,7 @@ impl State {
             side: Side::Off,
             radius: 0.0,
             orientation: 0,
+            radius_given: false,
             first_compensated: true,
             exit_pending: false,
             lathe_diameter: false,
@@ -317,6 +324,8 @@ impl State {
             speed_override: true,
             adaptive_feed: false,
             feed_hold: true,
+            named_axes: 0,
+            machine_frame: false,
             probed: false,
             ended: false,
         }

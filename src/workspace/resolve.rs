@@ -23,6 +23,8 @@ pub struct Overrides {
     pub allow: Vec<String>,
     /// Dialects of the controls that the program is meant to run on too (`--port-to`), beside those of the settings.
     pub port_to: Vec<String>,
+    /// Whether blocks that begin with `/` are skipped (`--block-delete`).
+    pub block_delete: Option<bool>,
 }
 
 /// Everything a check needs beside the program.
@@ -97,6 +99,10 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
         setup
             .tools
             .push(parse_tool_flag(flag).map_err(|error| LoadError::new(format!("--tool {flag}: {error}")))?);
+    }
+    setup.control.block_delete = overrides.block_delete.or(setup.control.block_delete);
+    if let (None, Some(machine)) = (&setup.control.tcp_codes, &machine) {
+        setup.control.tcp_codes.clone_from(&machine.control.tcp_codes);
     }
     setup.library = library(path, &config, config_file.as_ref())?;
     let mut port_to = config.port_to.clone();

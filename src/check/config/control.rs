@@ -3,7 +3,7 @@ use super::ConfigError;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
-use trunnion_interp::{AxisLetter, ControlData, ImplicitDecimals, OuterCorner, Position};
+use trunnion_interp::{AxisLetter, ControlData, ImplicitDecimals, OuterCorner, Position, TcpCodes};
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -19,6 +19,15 @@ enum Corner {
     Arc,
 }
 
+/// `tcp_codes = { on = ["M428"], off = ["M429"] }`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Codes {
+    on: Vec<String>,
+    #[serde(default)]
+    off: Vec<String>,
+}
+
 /// The section as written.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -27,6 +36,8 @@ pub(super) struct FileControl {
     chip_break_retract: Option<Spanned<f64>>,
     peck_clearance: Option<Spanned<f64>>,
     outer_corner: Option<Corner>,
+    block_delete: Option<bool>,
+    tcp_codes: Option<Codes>,
     #[serde(default)]
     reference_points: Vec<BTreeMap<Spanned<String>, Spanned<f64>>>,
 }
@@ -49,6 +60,11 @@ impl FileControl {
                 Some(Corner::Arc) => OuterCorner::Arc,
                 Some(Corner::Lines) | None => OuterCorner::Lines,
             },
+            block_delete: self.block_delete,
+            tcp_codes: self.tcp_codes.as_ref().map(|codes| TcpCodes {
+                on: codes.on.clone(),
+                off: codes.off.clone(),
+            }),
             reference_points,
         })
     }
@@ -100,12 +116,15 @@ mod tests {
     #[test]
     fn a_whole_section_is_read() {
         let text = "[control]\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\n\
-                    outer_corner = \"arc\"\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
+                    outer_corner = \"arc\"\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.implicit_decimals, Some(ImplicitDecimals::LeastIncrement));
         assert_eq!(control.chip_break_retract_mm, Some(0.5));
         assert_eq!(control.peck_clearance_mm, Some(1.0));
         assert_eq!(control.outer_corner, OuterCorner::Arc);
+        assert_eq!(control.block_delete, Some(true));
+        let codes = control.tcp_codes.expect("declared");
+        assert_eq!((codes.meaning("M429"), codes.meaning("M428")), (Some(true), None));
         let points: Vec<_> = control
             .reference_points
             .iter()

@@ -1,7 +1,9 @@
 //! Canonical calls of LinuxCNC's interpreter become motions and modal state.
 use super::chords::chords;
 use super::faults::fault_of;
+use super::feed::Rate;
 use super::frames::Shift;
+use super::places::Places;
 use crate::{Fault, FaultKind, Feed, Interpreter, Motion, MotionKind, Orientation, Position, Sink};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::{Arc, Turning};
@@ -14,14 +16,20 @@ use trunnion_syntax::{Address, BlockId, Program, TextRange, Value, Word};
 pub(super) struct Told {
     /// Where the machine is, mm and deg, as far as it is known.
     pub(super) machine: Position,
-    /// F, mm/min.
-    pub(super) feed: Option<f64>,
-    /// mm per revolution while the feed is coupled to the spindle.
-    pub(super) synced: Option<f64>,
+    /// F.
+    pub(super) rate: Option<Rate>,
+    /// F counts per revolution (G95).
+    pub(super) per_revolution: bool,
+    /// The pitch while the feed is coupled to the spindle.
+    pub(super) synced: Option<Rate>,
+    /// S is a cutting speed (G96).
+    pub(super) surface_speed: bool,
+    /// G92, mm and deg.
+    pub(super) g92: Pose,
     /// The block in which each line begins, where that is not its number.
     pub(super) blocks: Option<std::sync::Arc<[u32]>>,
-    /// The place from which the main program called what runs now.
-    pub(super) caller: BlockId,
+    /// Where lines stand and from where the main program called them.
+    pub(super) places: Places,
     /// Compensation of the cutter radius was on behind the last line.
     pub(super) compensated: bool,
     /// Something has happened after which X Y Z U V W are not known.
@@ -30,6 +38,15 @@ pub(super) struct Told {
     pub(super) lost_rotary: bool,
     /// A tilted plane that is not modelled is in force: X Y Z say nothing about the machine.
     pub(super) hidden: bool,
+    /// The kinematics were switched, nobody knows to which: X Y Z say nothing about the machine.
+    pub(super) kinematics_unknown: bool,
+}
+
+impl Told {
+    /// X Y Z say nothing about the machine.
+    pub(super) fn is_hidden(&self) -> bool {
+        self.hidden || self.kinematics_unknown
+    }
 }
 
 /// X Y Z U V W.
@@ -48,16 +65,21 @@ pub(super) struct Bridge<'i, 'd, 'p, S: Sink> {
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// The block of the main program that stands for a place.
-    pub(super) fn block(&mut self, at: At) -> BlockId {
+    pub(super) fn block(&self, at: At) -> BlockId {
         if at.file == FileId::MAIN {
             let last = (self.program.block_count() as u32).saturating_sub(1);
             let block = match &self.told.blocks {
                 None => at.line.min(last),
                 Some(blocks) => blocks.get(at.line as usize).copied().unwrap_or(last),
             };
-            self.told.caller = BlockId(block);
+            return BlockId(block);
         }
-        self.told.caller
+        self.told.places.caller(at.chain)
+    }
+
+    /// The offsets that the machine knows.
+    pub(super) fn shift(&self, state: &State) -> Shift {
+        Shift::of(state, &self.told.g92)
     }
 
     pub(super) fn fault(&mut self, at: At, range: TextRange, kind: FaultKind) {
@@ -71,7 +93,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     }
 
     /// `codes`: ten times the numbers of the G codes that may be meant, for the place.
-    fn not_modelled(&mut self, at: At, codes: core::ops::RangeInclusive<i64>, what: String) {
+    pub(super) fn not_modelled(&mut self, at: At, codes: core::ops::RangeInclusive<i64>, what: String) {
         let range = self.code_range(at, b'G', |code| codes.contains(&code));
         self.fault(at, range, FaultKind::NotModelled { what });
     }
@@ -91,7 +113,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     pub(super) fn radius_unset(&mut self, state: &State, at: At) {
         let on = state.side != trunnion_ngc::Side::Off;
         let was = std::mem::replace(&mut self.told.compensated, on);
-        if on && !was && state.radius == 0.0 {
+        if on && !was && state.radius == 0.0 && !state.radius_given {
             let what = "cutter radius compensation: the diameter of the tool is not declared and taken as zero";
             self.not_modelled(at, 410..=422, what.to_owned());
         }
@@ -102,7 +124,14 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let start = shift.programmed(&self.told.machine);
         let mut end = end;
         let mut kind = kind;
-        if self.told.hidden {
+        if self.interpreter.state.tcp && state.machine_frame {
+            self.frame_unknown(at);
+            kind = MotionKind::Unknown;
+            for axis in LINEAR_AXES {
+                end.forget(axis);
+            }
+        }
+        if self.told.is_hidden() {
             for axis in LINEAR_AXES {
                 end.forget(axis);
             }
@@ -113,7 +142,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.told.machine = shift.machine(&end);
         let interpreter = &mut *self.interpreter;
         interpreter.state.position = end;
-        interpreter.chain = crate::ChainId(at.chain.0);
+        interpreter.chain = self.told.places.chain(at);
         super::modal::refresh(&mut interpreter.state, state, shift);
         let modal = &interpreter.state;
         let motion = Motion {
@@ -136,33 +165,15 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.sink.motion(&motion, &self.interpreter.state);
     }
 
-    /// The feed of a feed motion as programmed.
-    fn feed(&self, state: &State) -> Feed {
-        if let Some(pitch) = self.told.synced {
-            return Feed::PerRevolution(pitch);
-        }
-        let feed = match state.feed_mode {
-            trunnion_ngc::FeedMode::InverseTime => Some(state.inverse_time),
-            _ => self.told.feed,
-        };
-        let Some(feed) = feed.filter(|feed| *feed > 0.0) else {
-            return Feed::Unknown;
-        };
-        match state.feed_mode {
-            trunnion_ngc::FeedMode::InverseTime => Feed::InverseTime(feed),
-            trunnion_ngc::FeedMode::PerMinute => Feed::PerMinute(feed),
-            trunnion_ngc::FeedMode::PerRevolution => Feed::PerRevolution(feed),
-        }
-    }
-
-    fn arc(&self, call: ArcCall, shift: &Shift, state: &State) -> Option<(Arc, Position)> {
+    /// Where an arc ends, and the arc as far as its start is known.
+    fn arc(&self, call: ArcCall, shift: &Shift, state: &State) -> (Option<Arc>, Position) {
         let start = shift.programmed(&self.told.machine);
         let order = match state.plane {
             trunnion_ngc::Plane::Xy => [0, 1, 2],
             trunnion_ngc::Plane::Xz => [2, 0, 1],
             trunnion_ngc::Plane::Yz => [1, 2, 0],
-            // arcs of U V W turn no point of the tool in X Y Z
-            _ => return None,
+            // the interpreter refuses arcs in planes of U V W
+            _ => return (None, Position::default()),
         };
         let place = |[first, second]: [f64; 2], along: f64| {
             let mut point = [0.0; 3];
@@ -182,10 +193,13 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         } else {
             Turning::Clockwise
         };
-        let extra = call.turns.unsigned_abs().checked_sub(1)?;
         let centre = shift.point(place(call.centre, call.axis_end));
-        let arc = Arc::from_centre(start.xyz()?, end.xyz()?, centre, shift.turned(normal), turning, extra);
-        arc.map(|arc| (arc, end))
+        let extra = call.turns.unsigned_abs().checked_sub(1);
+        let known = start.xyz().zip(end.xyz()).zip(extra);
+        let arc = known.and_then(|((start, to), extra)| {
+            Arc::from_centre(start, to, centre, shift.turned(normal), turning, extra)
+        });
+        (arc, end)
     }
 }
 
@@ -203,14 +217,14 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
     fn call(&mut self, call: &Canon, at: At, state: &State) {
         match call {
             Canon::Traverse(pose) => {
-                let shift = Shift::of(state);
+                let shift = self.shift(state);
                 let end = shift.coordinates(pose);
                 self.motion(MotionKind::Rapid, end, &shift, Feed::Rapid, at, state);
             }
             Canon::Feed(pose) => {
-                let shift = Shift::of(state);
+                let shift = self.shift(state);
                 let end = shift.coordinates(pose);
-                let feed = self.feed(state);
+                let feed = self.feed(&shift.machine(&end), at, state);
                 self.motion(MotionKind::Linear, end, &shift, feed, at, state);
             }
             &Canon::Arc {
@@ -238,7 +252,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
             Canon::Probe(kind, pose) => self.probe(*kind, pose, at, state),
             Canon::RigidTap(to, _) => self.tap(*to, at, state),
             Canon::Dwell(seconds) => {
-                let shift = Shift::of(state);
+                let shift = self.shift(state);
                 let end = shift.programmed(&self.told.machine);
                 let kind = MotionKind::Dwell(seconds.is_finite().then_some(*seconds));
                 self.motion(kind, end, &shift, Feed::Unknown, at, state);
@@ -247,9 +261,9 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
                 let tenths = number.unsigned_abs() * 10;
                 let range = self.code_range(at, b'M', |code| code == i64::from(tenths));
                 let letter = b'M';
-                self.own_code(OwnCode { letter, tenths, range }, at);
+                self.own_code(OwnCode { letter, tenths, range }, at, state);
             }
-            Canon::OwnCode(own) => self.own_code(*own, at),
+            Canon::OwnCode(own) => self.own_code(*own, at, state),
             _ => self.modal(call, at, state),
         }
     }
@@ -284,27 +298,25 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     fn arc_motion(&mut self, call: ArcCall, at: At, state: &State) {
-        let shift = Shift::of(state);
-        let found = self.arc(call, &shift, state);
-        let (kind, end) = match found {
-            Some((arc, end)) => (MotionKind::Arc(Some(arc)), end),
-            None => (MotionKind::Arc(None), shift.coordinates(&state.current)),
-        };
-        let feed = self.feed(state);
-        self.motion(kind, end, &shift, feed, at, state);
+        let shift = self.shift(state);
+        let (arc, end) = self.arc(call, &shift, state);
+        let feed = self.feed(&shift.machine(&end), at, state);
+        self.motion(MotionKind::Arc(arc), end, &shift, feed, at, state);
     }
 
     fn spline(&mut self, order: u32, points: &[[f64; 3]], knots: &[f64], end: &Pose, at: At, state: &State) {
-        let shift = Shift::of(state);
+        let shift = self.shift(state);
         let target = shift.coordinates(end);
-        let feed = self.feed(state);
+        let feed = self.feed(&shift.machine(&target), at, state);
         let tolerance = SPLINE_TOLERANCE_MM / state.units.mm();
-        self.not_modelled(
-            at,
-            50..=63,
-            format!("spline: checked along chords within {SPLINE_TOLERANCE_MM} mm of it"),
-        );
-        let Some(places) = chords(order as usize, points, knots, tolerance) else {
+        let places = chords(order as usize, points, knots, tolerance);
+        let judged = if places.is_some() {
+            format!("spline: judged along chords within {SPLINE_TOLERANCE_MM} mm of it; the control runs it as arcs of its own")
+        } else {
+            "spline: its path".to_owned()
+        };
+        self.not_modelled(at, 50..=63, judged);
+        let Some(places) = places else {
             self.motion(MotionKind::Unknown, target, &shift, feed, at, state);
             return;
         };
@@ -328,7 +340,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// Where the probe touches is known to the machine only: on every axis that the block moves the position is lost.
     fn probe(&mut self, kind: u8, pose: &Pose, at: At, state: &State) {
-        let shift = Shift::of(state);
+        let shift = self.shift(state);
         let target = shift.coordinates(pose);
         let start = shift.programmed(&self.told.machine);
         let mut end = target;
@@ -343,7 +355,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// Rigid tapping: in along the thread and back to where it began.
     fn tap(&mut self, to: [f64; 3], at: At, state: &State) {
-        let shift = Shift::of(state);
+        let shift = self.shift(state);
         let start = shift.programmed(&self.told.machine);
         let point = shift.point(to);
         let mut end = start;
@@ -354,7 +366,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 end.forget(axis);
             }
         }
-        let feed = self.told.synced.map_or(Feed::Unknown, Feed::PerRevolution);
+        let feed = self.told.synced.map_or(Feed::Unknown, |pitch| Feed::PerRevolution(pitch.mm));
         self.motion(MotionKind::Linear, end, &shift, feed, at, state);
         self.motion(MotionKind::Linear, start, &shift, feed, at, state);
     }

@@ -1,15 +1,17 @@
 //! Calls that move nothing: tools, offsets, feed, spindle, planes, units, and codes of the machine's own.
-use super::bridge::Bridge;
+use super::bridge::{Bridge, LINEAR_AXES};
+use super::feed::Rate;
+use super::frames::Shift;
 use super::setup::SYSTEMS;
 use crate::memory::Chosen;
 use crate::{Fault, FaultKind, Sink};
 use trunnion_dialect::{Action, Plane};
-use trunnion_ngc::{At, Canon, OwnCode, Pose, SpindleMode, SpindleTurn, State, Units};
+use trunnion_ngc::{At, Canon, OwnCode, Pose, Side, SpindleTurn, State, Units};
 use trunnion_syntax::{Address, BlockId, TextRange, Value};
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// A code of the machine's own: what the dialect's table says of it, else nothing is known of the position behind it.
-    pub(super) fn own_code(&mut self, own: OwnCode, at: At) {
+    pub(super) fn own_code(&mut self, own: OwnCode, at: At, state: &State) {
         let dialect = self.interpreter.dialect;
         let code = if own.letter == b'G' {
             dialect.g(own.tenths)
@@ -23,8 +25,21 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let block = self.block(at);
         let known = matches!(
             code.action,
-            Action::TcpOn | Action::TcpOff | Action::NoMotion | Action::PathMode | Action::ProgramStop
+            Action::TcpOn
+                | Action::TcpOff
+                | Action::Kinematics
+                | Action::NoMotion
+                | Action::PathMode
+                | Action::ProgramStop
         );
+        let harmless = matches!(code.action, Action::NoMotion | Action::PathMode | Action::ProgramStop);
+        if state.side != Side::Off && !harmless {
+            // motions before it in the text come behind it
+            let what = format!("{} under compensation of the cutter radius", code.id);
+            self.fault(at, own.range, FaultKind::NotModelled { what });
+            self.told.kinematics_unknown = true;
+            self.told.lost_rotary = true;
+        }
         if known && !super::named_axes(self.program, block).is_empty() {
             // the words are arguments of the remap, or a motion beside it: the interpreter does not run them
             let what = format!("{} with axis words in its block", code.id);
@@ -35,6 +50,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         match code.action {
             Action::TcpOn => self.tcp(true),
             Action::TcpOff => self.tcp(false),
+            Action::Kinematics => self.kinematics(&code.id, own, at),
             Action::NoMotion | Action::PathMode | Action::ProgramStop => {}
             Action::FrameReset => self.told.lost |= std::mem::take(&mut self.told.hidden),
             action => {
@@ -48,7 +64,34 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 }
             }
         }
-        self.interpreter.state.frame_unknown = self.told.hidden;
+        self.interpreter.state.frame_unknown = self.told.is_hidden();
+    }
+
+    /// A code that switches the kinematics.
+    fn kinematics(&mut self, code: &str, own: OwnCode, at: At) {
+        let declared = self.interpreter.setup.control.tcp_codes.as_ref();
+        match declared.and_then(|codes| codes.meaning(code)) {
+            Some(on) => {
+                self.told.lost |= std::mem::take(&mut self.told.kinematics_unknown);
+                self.tcp(on);
+            }
+            None => {
+                let what = format!("{code}: the machine says what it means, and none does");
+                self.fault(at, own.range, FaultKind::NotModelled { what });
+                self.tcp(false);
+                self.told.lost = true;
+                self.told.kinematics_unknown = true;
+            }
+        }
+    }
+
+    /// G53, G28 or G30 while tool centre point control is on.
+    pub(super) fn frame_unknown(&mut self, at: At) {
+        let what = "G53, G28 or G30 while tool centre point control is on: machine coordinates of the tip or of the joints, as the \
+                    machine's kinematics have it";
+        let range = self.code_range(at, b'G', |code| matches!(code, 280 | 300 | 530));
+        self.fault(at, range, FaultKind::NotModelled { what: what.to_owned() });
+        self.told.lost = true;
     }
 
     /// The first code of the block in hand that `is` says, ten times its number; the whole block where it is not written as a number.
@@ -76,16 +119,22 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let unit = state.units.mm();
         match *call {
             Canon::FeedRate(rate) => {
-                self.told.feed = Some(rate * unit);
-                self.interpreter.state.feed = self.told.feed;
+                self.told.rate = Some(Rate { mm: rate * unit, deg: rate });
+                self.interpreter.state.feed = Some(rate * unit);
             }
-            Canon::StartSync(synced) => self.told.synced = Some(synced.per_revolution * unit),
+            Canon::FeedMode(_, mode) => self.told.per_revolution = mode == 1,
+            Canon::StartSync(synced) => {
+                let deg = synced.per_revolution;
+                self.told.synced = Some(Rate { mm: deg * unit, deg });
+            }
+            Canon::SpindleMode(0, ceiling) => self.told.surface_speed = ceiling != 0.0,
+            Canon::G92Offset(ref offset) => self.told.g92 = Shift::metric(offset, unit),
             Canon::StopSync => self.told.synced = None,
             Canon::Spindle(0, turn) => {
                 self.interpreter.state.spindle_on = Some(turn != SpindleTurn::Stop);
             }
             Canon::SpindleSpeed(0, speed) => {
-                let surface = matches!(state.spindle_mode[0], SpindleMode::ConstantSurface(_));
+                let surface = self.told.surface_speed;
                 self.interpreter.state.spindle_rpm = (!surface && speed.is_finite()).then_some(speed);
             }
             Canon::SelectTool(number) => {
@@ -99,8 +148,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 interpreter.state.tool = number;
                 interpreter.memory.in_spindle = number.map_or(Chosen::Unread, Chosen::Number);
                 interpreter.merge_tool();
-                // the change may move the machine
-                self.told.lost |= matches!(call, Canon::ChangeTool(_));
+                // the change may move the machine: the interpreter has forgotten X Y Z too
+                if matches!(call, Canon::ChangeTool(_)) {
+                    for axis in LINEAR_AXES {
+                        self.told.machine.forget(axis);
+                    }
+                }
             }
             Canon::ToolOffset(ref offset) => self.tool_offset(offset, at, state),
             Canon::G5xOffset(index, ref offset) => self.work_offset(index, offset, at),

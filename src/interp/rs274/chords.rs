@@ -2,8 +2,10 @@
 
 /// Points on the curve, the start left out and the end exact, so that chords stay within `tolerance` of it (units of the points).
 ///
-/// Rational B-spline by de Boor's recurrence in homogeneous coordinates (Piegl, Tiller: The NURBS Book, 2nd ed., A4.1). Where a half
-/// of a span strays from its chord by more than the tolerance at its quarters, it is halved. `None` where the knots are no knots.
+/// A part of a span is a rational Bezier curve, whose control points are values of the span's polar form (Ramshaw: Blossoming, 1987;
+/// Piegl, Tiller: The NURBS Book, 2nd ed., 5.3). With positive weights it lies in the convex hull of its control points: a part whose
+/// control points are within the tolerance of its chord is proved to be; all others are halved. `None` where the knots are no knots, a
+/// weight is not positive, the curve tears, or halving comes to no end.
 pub(super) fn chords(order: usize, points: &[[f64; 3]], knots: &[f64], tolerance: f64) -> Option<Vec<[f64; 2]>> {
     if order < 2 || points.len() < order {
         return None;
@@ -17,7 +19,8 @@ pub(super) fn chords(order: usize, points: &[[f64; 3]], knots: &[f64], tolerance
     };
     let sorted = knots.windows(2).all(|pair| pair[0] <= pair[1]);
     let finite = points.iter().flatten().chain(knots).all(|value| value.is_finite());
-    if knots.len() != points.len() + order || !sorted || !finite {
+    let positive = points.iter().all(|[_, _, weight]| *weight > 0.0);
+    if knots.len() != points.len() + order || !sorted || !finite || !positive {
         return None;
     }
     let curve = Curve { order, points, knots };
@@ -25,8 +28,11 @@ pub(super) fn chords(order: usize, points: &[[f64; 3]], knots: &[f64], tolerance
     for span in order - 1..points.len() {
         let (from, to) = (knots[span], knots[span + 1]);
         if to > from {
-            let (a, b) = (curve.at(span, from)?, curve.at(span, to)?);
-            curve.divide(span, (from, a), (to, b), tolerance, 0, &mut out)?;
+            let torn = |last: &[f64; 2]| distance(curve.at(span, from, from, 0), *last, *last) > tolerance;
+            if out.last().is_some_and(torn) {
+                return None;
+            }
+            curve.divide(span, from, to, tolerance, 0, &mut out)?;
         }
     }
     Some(out)
@@ -50,8 +56,8 @@ struct Curve<'a> {
 const DEEPEST: u32 = 12;
 
 impl Curve<'_> {
-    /// The point at `u` in a span.
-    fn at(&self, span: usize, u: f64) -> Option<[f64; 2]> {
+    /// Control point `index` (from 0) of the part of a span from `from` to `to`: the polar form at `index` times `to`, else `from`.
+    fn at(&self, span: usize, from: f64, to: f64, index: usize) -> [f64; 2] {
         let degree = self.order - 1;
         let mut d: Vec<[f64; 3]> = (span - degree..=span)
             .map(|index| {
@@ -60,6 +66,7 @@ impl Curve<'_> {
             })
             .collect();
         for level in 1..=degree {
+            let u = if level <= index { to } else { from };
             for j in (level..=degree).rev() {
                 let low = self.knots[span - degree + j];
                 let high = self.knots[span + 1 + j - level];
@@ -71,31 +78,31 @@ impl Curve<'_> {
             }
         }
         let [x, y, weight] = d[degree];
-        (weight != 0.0).then(|| [x / weight, y / weight])
+        [x / weight, y / weight]
     }
 
     fn divide(
         &self,
         span: usize,
-        (from, a): (f64, [f64; 2]),
-        (to, b): (f64, [f64; 2]),
+        from: f64,
+        to: f64,
         tolerance: f64,
         depth: u32,
         out: &mut Vec<[f64; 2]>,
     ) -> Option<()> {
-        let mut straight = depth >= 2;
-        for part in [0.25, 0.5, 0.75] {
-            let point = self.at(span, from + part * (to - from))?;
-            straight &= distance(point, a, b) <= tolerance;
-        }
-        if straight || depth == DEEPEST {
+        let degree = self.order - 1;
+        let (a, b) = (self.at(span, from, to, 0), self.at(span, from, to, degree));
+        let straight = (1..degree).all(|index| distance(self.at(span, from, to, index), a, b) <= tolerance);
+        if straight {
             out.push(b);
             return Some(());
         }
+        if depth == DEEPEST {
+            return None;
+        }
         let middle = 0.5 * (from + to);
-        let point = self.at(span, middle)?;
-        self.divide(span, (from, a), (middle, point), tolerance, depth + 1, out)?;
-        self.divide(span, (middle, point), (to, b), tolerance, depth + 1, out)
+        self.divide(span, from, middle, tolerance, depth + 1, out)?;
+        self.divide(span, middle, to, tolerance, depth + 1, out)
     }
 }
 
@@ -137,10 +144,35 @@ mod tests {
         assert_eq!(chords.last(), Some(&[3.0, 0.0]));
     }
 
+    /// An S whose quarters lie on the chord: samples there would take it for a line.
+    #[test]
+    fn a_wave_through_the_quarters_of_its_chord_is_no_line() {
+        let points = [[0.0, 0.0, 1.0], [1.0, 3.0, 1.0], [3.0, -3.0, 1.0], [4.0, 0.0, 1.0]];
+        let tolerance = 1e-3;
+        let found = chords(4, &points, &[], tolerance).expect("a curve");
+        let curve = |t: f64| {
+            let s = 1.0 - t;
+            let b = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
+            [0, 1].map(|axis| (0..4).map(|i| b[i] * points[i][axis]).sum::<f64>())
+        };
+        let mut way = vec![[0.0, 0.0]];
+        way.extend(found);
+        for step in 0..=1000 {
+            let point = curve(f64::from(step) / 1000.0);
+            let nearest = way.windows(2).map(|pair| distance(point, pair[0], pair[1]));
+            let nearest = nearest.fold(f64::INFINITY, f64::min);
+            assert!(nearest <= tolerance, "{point:?}: {nearest}");
+        }
+    }
+
     #[test]
     fn what_is_no_curve_is_none() {
         assert_eq!(chords(3, &[[0.0; 3]; 2], &[], 1.0), None);
         assert_eq!(chords(3, &[[0.0, 0.0, 1.0]; 3], &[0.0; 3], 1.0), None);
         assert_eq!(chords(3, &[[f64::NAN, 0.0, 1.0]; 3], &[], 1.0), None);
+        let negative = [[0.0, 0.0, 1.0], [1.0, 1.0, -0.4], [2.0, 0.0, 1.0]];
+        assert_eq!(chords(3, &negative, &[], 1.0), None, "the hull says nothing");
+        let torn = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [5.0, 5.0, 1.0], [6.0, 5.0, 1.0]];
+        assert_eq!(chords(2, &torn, &[0.0, 0.0, 1.0, 1.0, 2.0, 2.0], 0.1), None, "it jumps");
     }
 }

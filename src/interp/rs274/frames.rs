@@ -26,7 +26,9 @@ pub(super) struct Shift {
 }
 
 impl Shift {
-    pub(super) fn of(state: &State) -> Self {
+    /// `g92`: the shift that the machine was told last, mm and deg. Under compensation of the cutter radius the interpreter changes its own
+    /// without telling the machine.
+    pub(super) fn of(state: &State, g92: &Pose) -> Self {
         let unit = state.units.mm();
         let scale = |axis: usize| if is_rotary(axis) { 1.0 } else { unit };
         let rotation = (state.rotation_xy != 0.0).then(|| {
@@ -41,9 +43,9 @@ impl Shift {
                 zero[axis] += state.tool_offset[axis] * scale(axis);
             }
             if rotation.is_some() {
-                inside[axis] = state.axis_offset[axis] * scale(axis);
+                inside[axis] = g92[axis];
             } else {
-                zero[axis] += state.axis_offset[axis] * scale(axis);
+                zero[axis] += g92[axis];
             }
         }
         Self {
@@ -57,9 +59,9 @@ impl Shift {
 
     /// A pose of a canonical call as coordinates of a motion; what is not a number is unknown.
     pub(super) fn coordinates(&self, pose: &Pose) -> Position {
-        let mut values = *pose;
-        for (axis, value) in values.iter_mut().enumerate() {
-            *value = *value * if is_rotary(axis) { 1.0 } else { self.unit } + self.inside[axis];
+        let mut values = Self::metric(pose, self.unit);
+        for (value, inside) in values.iter_mut().zip(self.inside) {
+            *value += inside;
         }
         if let Some((cosine, sine)) = self.rotation {
             let [x, y, ..] = values;
@@ -73,6 +75,11 @@ impl Shift {
             }
         }
         position
+    }
+
+    /// mm and deg from program units.
+    pub(super) fn metric(pose: &Pose, unit: f64) -> Pose {
+        std::array::from_fn(|axis| pose[axis] * if is_rotary(axis) { 1.0 } else { unit })
     }
 
     /// A point X Y Z of a canonical call, program units.
@@ -127,9 +134,10 @@ mod tests {
         let mut state = State::new(false);
         state.rotation_xy = 90.0;
         state.origin_offset[0] = 100.0;
-        state.axis_offset[1] = 5.0;
         state.tool_offset[2] = 50.0;
-        let shift = Shift::of(&state);
+        let mut g92 = [0.0; 9];
+        g92[1] = 5.0;
+        let shift = Shift::of(&state, &g92);
         let at = shift.coordinates(&[10.0, 0.0, 1.0, 7.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         let machine = shift.machine(&at);
         // (10, 0) + (0, 5) turned by 90 deg is (-5, 10)
@@ -143,7 +151,7 @@ mod tests {
 
     #[test]
     fn what_is_not_a_number_is_unknown() {
-        let shift = Shift::of(&State::new(false));
+        let shift = Shift::of(&State::new(false), &[0.0; 9]);
         let mut pose = [1.0; 9];
         pose[1] = f64::NAN;
         let at = shift.coordinates(&pose);
@@ -154,7 +162,7 @@ mod tests {
     fn inches_become_millimetres_and_degrees_stay() {
         let mut state = State::new(false);
         state.units = trunnion_ngc::Units::Inch;
-        let at = Shift::of(&state).coordinates(&[1.0; 9]);
+        let at = Shift::of(&state, &[0.0; 9]).coordinates(&[1.0; 9]);
         assert_eq!((at.get(0), at.get(3), at.get(6)), (Some(25.4), Some(1.0), Some(25.4)));
     }
 }

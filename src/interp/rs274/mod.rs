@@ -3,15 +3,17 @@ mod bridge;
 mod calls;
 mod chords;
 mod faults;
+mod feed;
 mod frames;
 mod modal;
+mod places;
 mod setup;
 
 use crate::{AXIS_LETTERS, FaultKind, Frame, Interpreter, Sink};
 use bridge::{Bridge, LINEAR_AXES, Told};
 use frames::Shift;
 use std::sync::Arc;
-use trunnion_ngc::{ChainId, Engine, Source, Step};
+use trunnion_ngc::{Engine, FileId, Source, Step};
 use trunnion_syntax::{Address, BlockId, Program, TextRange};
 
 /// A run between two lines.
@@ -55,15 +57,25 @@ impl Rs274 {
     }
     /// The calls of a chain.
     pub(crate) fn chain(&self, id: crate::ChainId) -> Vec<Frame> {
-        let frames = self.engine.chain(ChainId(id.0)).into_iter();
-        frames
+        let place = self.told.places.place(id);
+        let calls = self.engine.chain(place.chain).into_iter();
+        let mut frames: Vec<Frame> = calls
             .map(|frame| Frame {
                 file: self.engine.path(frame.file).to_owned(),
                 line: frame.line + 1,
                 what: frame.what,
                 is_place: false,
             })
-            .collect()
+            .collect();
+        if place.file != FileId::MAIN {
+            frames.push(Frame {
+                file: self.engine.path(place.file).to_owned(),
+                line: place.line + 1,
+                what: self.engine.line_text(place.file, place.line),
+                is_place: true,
+            });
+        }
+        frames
     }
 }
 
@@ -104,6 +116,8 @@ impl Interpreter<'_> {
         // behind the last line nothing runs
         let end_of_file = step == Step::Ended && before == at && bridge.interpreter.memory.last_content.is_some();
         let block = bridge.block(at);
+        let in_main = (at.file == FileId::MAIN).then_some(block);
+        bridge.told.places.ran(at.chain, in_main);
         match step {
             Step::Line => {}
             Step::Refused => {
@@ -133,7 +147,7 @@ impl Interpreter<'_> {
         if std::mem::take(&mut told.lost_rotary) {
             forget(engine, told, &[3, 4, 5]);
         }
-        let shift = Shift::of(&engine.state);
+        let shift = Shift::of(&engine.state, &told.g92);
         modal::refresh(&mut self.state, &engine.state, &shift);
         self.state.position = shift.coordinates(&engine.state.current);
         (!end_of_file).then_some(block)

@@ -78,6 +78,7 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
         own_motions: motions.into(),
         any_tool: true,
         user_codes: true,
+        block_delete: setup.control.block_delete == Some(true),
         tools: ToolTable {
             rows: tools.map(row).collect(),
         },

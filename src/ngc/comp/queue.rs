@@ -1,7 +1,7 @@
 //! Moves that are held back because their end depends on the corner that follows, and calls that wait behind them.
 use super::plane::{self, Point};
 use super::problems;
-use crate::{At, Canon, Engine, Error, Pose, Sink};
+use crate::{At, Canon, DistanceMode, Engine, Error, FeedMode, Pose, Sink, State};
 use std::f64::consts::{PI, TAU};
 use trunnion_syntax::TextRange;
 
@@ -11,9 +11,44 @@ enum Held {
     /// Not a motion.
     Call(Canon, At),
     /// A straight motion.
-    Line(Line, At),
+    Line(Line, Modes, At),
     /// An arc.
-    Bow(Bow, At),
+    Bow(Bow, Modes, At),
+}
+
+/// What was in force when a motion was held: it is told with that, not with what later lines have changed.
+#[derive(Clone, Copy, Debug)]
+struct Modes {
+    motion: i16,
+    distance: DistanceMode,
+    arc_distance: DistanceMode,
+    feed_mode: FeedMode,
+    inverse_time: f64,
+    named_axes: u16,
+}
+
+impl Modes {
+    fn of(state: &State) -> Self {
+        Self {
+            motion: state.motion,
+            distance: state.distance,
+            arc_distance: state.arc_distance,
+            feed_mode: state.feed_mode,
+            inverse_time: state.inverse_time,
+            named_axes: state.named_axes,
+        }
+    }
+    /// Puts these in force; what was in force before comes back.
+    fn swap(self, state: &mut State) -> Self {
+        let before = Self::of(state);
+        state.motion = self.motion;
+        state.distance = self.distance;
+        state.arc_distance = self.arc_distance;
+        state.feed_mode = self.feed_mode;
+        state.inverse_time = self.inverse_time;
+        state.named_axes = self.named_axes;
+        before
+    }
 }
 
 /// A straight motion of the centre.
@@ -80,8 +115,8 @@ impl Queue {
         for held in &mut self.held {
             match held {
                 Held::Call(..) => {}
-                Held::Line(line, _) => scale_pose(&mut line.end),
-                Held::Bow(bow, _) => {
+                Held::Line(line, ..) => scale_pose(&mut line.end),
+                Held::Bow(bow, ..) => {
                     scale_pose(&mut bow.end);
                     bow.centre = plane::scaled(bow.centre, factor);
                 }
@@ -100,12 +135,14 @@ impl Queue {
 
 /// Holds a straight motion.
 pub(super) fn line(engine: &mut Engine, line: Line, at: At) {
-    engine.queue.held.push(Held::Line(line, at));
+    let modes = Modes::of(&engine.state);
+    engine.queue.held.push(Held::Line(line, modes, at));
 }
 
 /// Holds an arc.
 pub(super) fn bow(engine: &mut Engine, bow: Bow, at: At) {
-    engine.queue.held.push(Held::Bow(bow, at));
+    let modes = Modes::of(&engine.state);
+    engine.queue.held.push(Held::Bow(bow, modes, at));
 }
 
 /// Tells everything that is held as it is.
@@ -122,7 +159,7 @@ pub(super) fn settle(engine: &mut Engine, corner: Point, range: TextRange, sink:
     let plane = engine.state.plane;
     let mut held = std::mem::take(&mut engine.queue.held);
     for one in &held {
-        if let Held::Bow(bow, _) = one
+        if let Held::Bow(bow, ..) = one
             && bow.fixed
             && plane::point(plane, &bow.end) != corner
         {
@@ -132,7 +169,7 @@ pub(super) fn settle(engine: &mut Engine, corner: Point, range: TextRange, sink:
     for mut one in held.drain(..) {
         match &mut one {
             Held::Call(..) => {}
-            Held::Line(line, _) => {
+            Held::Line(line, ..) => {
                 if plane::dot(line.along, plane::sub(corner, engine.queue.told)) < 0.0 {
                     let problem = if line.rapid {
                         &problems::GOUGE_RAPID
@@ -143,7 +180,7 @@ pub(super) fn settle(engine: &mut Engine, corner: Point, range: TextRange, sink:
                 }
                 line.end = plane::with_point(plane, line.end, corner);
             }
-            Held::Bow(bow, _) => {
+            Held::Bow(bow, ..) => {
                 if bow
                     .sweep
                     .is_some_and(|sweep| overrun(engine.queue.told, bow, sweep, corner))
@@ -189,9 +226,9 @@ pub(super) fn sweep_of(start: Point, centre: Point, end: Point, turns: i32) -> f
 fn tell(engine: &mut Engine, held: Held, sink: &mut dyn Sink) {
     let plane = engine.state.plane;
     let shift = plane::shift(&engine.state);
-    let (call, at) = match held {
-        Held::Call(call, at) => (call, at),
-        Held::Line(line, at) => {
+    let (call, modes, at) = match held {
+        Held::Call(call, at) => (call, None, at),
+        Held::Line(line, modes, at) => {
             let centre = plane::point(plane, &line.end);
             engine.queue.told = centre;
             let end = plane::with_point(plane, line.end, plane::add(centre, shift));
@@ -201,10 +238,11 @@ fn tell(engine: &mut Engine, held: Held, sink: &mut dyn Sink) {
                 } else {
                     Canon::Feed(end)
                 },
+                Some(modes),
                 at,
             )
         }
-        Held::Bow(bow, at) => {
+        Held::Bow(bow, modes, at) => {
             let end = plane::point(plane, &bow.end);
             engine.queue.told = end;
             let pose = &bow.end;
@@ -215,9 +253,13 @@ fn tell(engine: &mut Engine, held: Held, sink: &mut dyn Sink) {
                 axis_end: pose[plane::places(plane)[2]],
                 others: [pose[3], pose[4], pose[5], pose[6], pose[7], pose[8]],
             };
-            (arc, at)
+            (arc, Some(modes), at)
         }
     };
     engine.state.told.follow(&call);
+    let now = modes.map(|modes| modes.swap(&mut engine.state));
     sink.call(&call, at, &engine.state);
+    if let Some(now) = now {
+        now.swap(&mut engine.state);
+    }
 }

@@ -37,6 +37,7 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
         by_tool(engine, block)?
     };
     comp::begin(engine, side, radius, orientation, at, sink);
+    engine.state.radius_given = code % 10 == 1;
     Ok(())
 }
 

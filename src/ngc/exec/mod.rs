@@ -52,6 +52,8 @@ pub(crate) fn check(engine: &Engine, block: &mut Block) -> Result<(), Error> {
 
 /// Runs one block that was checked. What was done before a refusal stays done, as on the control.
 pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut dyn Sink) -> Result<After, Error> {
+    engine.state.named_axes = named_axes(block);
+    engine.state.machine_frame = matches!(block.g[0], 280 | 300 | 530);
     if let Some(own) = block.own {
         engine.emit(Canon::OwnCode(own), at, sink);
         let motion = engine.setup.own_motions.binary_search(&own.tenths).is_ok();
@@ -82,6 +84,13 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
     };
     engine.refresh_parameters();
     Ok(after)
+}
+
+/// Axes with words: bit i is axis i of a pose. Polar words lead along X and Y.
+fn named_axes(block: &Block) -> u16 {
+    let polar = u16::from(block.radius.is_some() || block.angle.is_some()) * 0b11;
+    let letters = |first: u8| (block.given >> (first - b'A') & 0b111) as u16;
+    letters(b'X') | letters(b'A') << 3 | letters(b'U') << 6 | polar
 }
 
 /// Feed mode, F, S, T.

@@ -111,6 +111,7 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
             put_in_spindle(engine, engine.state.selected_row);
             let tool = engine.state.selected_tool.max(0);
             engine.emit(Canon::ChangeTool(tool), at, sink);
+            forget_place(engine);
         }
         61 => {
             let number = block.word(b'Q').unwrap_or(0.0).round() as i32;
@@ -126,6 +127,18 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
         _ => {}
     }
     Ok(())
+}
+
+/// The change may move the machine: in a check nobody knows where X Y Z U V W are behind it, also for a motion of the same block. A
+/// position that the INI file gives to the changer is a known one only with that file.
+fn forget_place(engine: &mut Engine) {
+    if engine.setup.start != crate::Start::Unknown {
+        return;
+    }
+    for axis in [0, 1, 2, 6, 7, 8] {
+        engine.state.current[axis] = f64::NAN;
+        engine.state.compensated[axis] = f64::NAN;
+    }
 }
 
 /// Without random tool changer a row is copied to the spindle's row; with it the two change places.

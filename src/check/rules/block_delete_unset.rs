@@ -1,0 +1,100 @@
+//! Blocks begin with `/`, and nobody says whether the control skips them.
+//!
+//! # Why
+//! A switch on the panel decides whether such blocks run. A program can be safe in one state and hit something in the other. Where the
+//! state is not declared, both are judged: all of these blocks run, and all are skipped. With several switches (`/1`, `/2`) there are
+//! more states than these two, and they stay unknown.
+//!
+//! # Example
+//! ```gcode
+//! N10 G0 X0 Y0
+//! /N20 G0 X100
+//! ;^ block-delete-unset: 1 block begins with / and the state of the switch is not declared: judged with the block run and skipped
+//! ```
+//!
+//! # Use instead
+//! Declare the state in `trunnion.toml`: `[control] block_delete = true` (skipped) or `false` (run), or with `--block-delete on|off`.
+//!
+//! # Guarantee
+//! Sound; told once per program.
+//!
+//! # Sources
+//! ISO 6983-1: block delete. Fanuc Series 30i operator's manual: optional block skip with levels 1 to 9.
+use crate::both::levels;
+use crate::prelude::*;
+use trunnion_syntax::Item;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Info,
+    guarantee: Guarantee::Sound,
+    level: Level::Program(check),
+};
+
+fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
+    let declared = overview.settings.setup.control.block_delete.is_some();
+    if declared || !overview.program.source().contains(&b'/') {
+        return;
+    }
+    let (levels, count) = levels(overview.program);
+    let mut skips = overview.program.blocks().flat_map(|block| {
+        let first = block.items().find(|item| !matches!(item, Item::Comment(_)));
+        first.and_then(|item| if let Item::Skip(_, range) = item { Some(range) } else { None })
+    });
+    let Some(first) = skips.next().filter(|_| count > 0) else {
+        return;
+    };
+    let (begin, them) = if count == 1 {
+        ("block begins", "the block")
+    } else {
+        ("blocks begin", "them")
+    };
+    let text = format!(
+        "{count} {begin} with / and the state of the switch is not declared: judged with {them} run and skipped"
+    );
+    let draft = out.report(first, text);
+    draft.help("declare it: [control] block_delete = true or false in trunnion.toml, or --block-delete on or off");
+    if levels.len() > 1 {
+        let names: Vec<String> = levels.iter().map(|level| format!("/{level}")).collect();
+        draft.note(format!("{} are switches of their own: their mixed states are not judged", names.join(" ")));
+        draft.unknown();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::Fixture;
+    use crate::{Report, Severity};
+
+    fn report(text: &str) -> Report {
+        Fixture::parse("gcode", text).check().unwrap()
+    }
+
+    #[test]
+    fn both_states_are_judged() {
+        // skipped, no feed is known for the cut; run, the arc has no centre
+        let found = report("N10 G0 X0 Y0 Z0\n/N20 G2 X5 F100\nN30 G1 X7\nM30\n");
+        let note = |rule: &str| {
+            let found = found.diagnostics.iter().find(|d| d.rule == rule);
+            found.and_then(|d| d.notes.last()).map(String::as_str)
+        };
+        assert_eq!(note("missing-feed"), Some("only where the blocks with / are skipped"));
+        assert_eq!(note("arc-centre-missing"), Some("only where the blocks with / are run"));
+        assert_eq!(found.summary.errors, 2);
+        let own = found.diagnostics.iter().find(|d| d.rule == "block-delete-unset");
+        assert_eq!(own.map(|d| (d.severity, d.status)), Some((Severity::Info, crate::Status::Fail)));
+    }
+
+    #[test]
+    fn several_switches_stay_unknown() {
+        let found = report("N10 G0 X0 Y0 Z0\n/1 G0 X5\n/2 G0 X7\nM30\n");
+        let own = found.diagnostics.iter().find(|d| d.rule == "block-delete-unset");
+        assert_eq!(own.map(|d| d.status), Some(crate::Status::Unknown));
+    }
+
+    #[test]
+    fn a_division_and_a_comment_are_no_block_delete() {
+        for text in ["N10 G0 X0 Y0 Z0\n/\n/ (nothing)\nM30\n", "N10 G0 X0 (a/b)\nM30\n"] {
+            assert!(report(text).diagnostics.iter().all(|d| d.rule != "block-delete-unset"), "{text}");
+        }
+    }
+}

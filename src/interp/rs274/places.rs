@@ -1,0 +1,71 @@
+//! Where lines of called files stand: the calls that led there, the line itself, and the block of the main program that stands for it.
+use std::collections::HashMap;
+use std::sync::Arc;
+use trunnion_ngc::{At, ChainId, FileId};
+use trunnion_syntax::BlockId;
+
+/// Places kept; motions of lines beyond them are told with their calls alone.
+const KEPT: usize = 1 << 16;
+
+#[derive(Clone, Debug, Default)]
+struct Table {
+    /// The place of chain n + 1.
+    places: Vec<At>,
+    known: HashMap<At, crate::ChainId>,
+    /// The block of the main program from which a chain of calls goes out.
+    callers: HashMap<ChainId, BlockId>,
+}
+
+/// See the module. Cloning is cheap.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Places {
+    table: Arc<Table>,
+    /// The block of the main program that ran last.
+    last: BlockId,
+}
+
+impl Places {
+    /// A line has run: `block` where it is one of the main program.
+    pub(super) fn ran(&mut self, chain: ChainId, block: Option<BlockId>) {
+        match block {
+            Some(block) => self.last = block,
+            None if self.table.callers.contains_key(&chain) => {}
+            None => {
+                let last = self.last;
+                Arc::make_mut(&mut self.table).callers.insert(chain, last);
+            }
+        }
+    }
+    /// The block of the main program from which the chain of calls goes out: of a chain that is new, the one that ran last.
+    pub(super) fn caller(&self, chain: ChainId) -> BlockId {
+        self.table.callers.get(&chain).copied().unwrap_or(self.last)
+    }
+    /// The chain that a motion at a line is told with: in a called file it ends with the line itself.
+    pub(super) fn chain(&mut self, at: At) -> crate::ChainId {
+        let mut at = at;
+        if at.file == FileId::MAIN {
+            if at.chain == ChainId::default() {
+                return crate::ChainId::MAIN;
+            }
+            at.line = 0;
+        }
+        if let Some(known) = self.table.known.get(&at) {
+            return *known;
+        }
+        if self.table.places.len() >= KEPT && at.file != FileId::MAIN {
+            // its calls alone, as a line of the main program has them
+            at.file = FileId::MAIN;
+            return self.chain(at);
+        }
+        let table = Arc::make_mut(&mut self.table);
+        table.places.push(at);
+        let id = crate::ChainId(table.places.len() as u32);
+        table.known.insert(at, id);
+        id
+    }
+    /// The place of a chain.
+    pub(super) fn place(&self, chain: crate::ChainId) -> At {
+        let place = (chain.0 as usize).checked_sub(1);
+        place.and_then(|place| self.table.places.get(place)).copied().unwrap_or_default()
+    }
+}

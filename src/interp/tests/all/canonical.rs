@@ -1,0 +1,214 @@
+//! LinuxCNC's canonical calls as motions: what compensation of the cutter radius holds back keeps what was in force with it.
+use crate::support::{faults, line, lines, run_bytes};
+use std::sync::Arc;
+use trunnion_interp::{Feed, Files, Library, Loaded, MotionKind, Setup};
+
+/// One file under any name.
+struct OneFile(&'static str);
+
+impl Files for OneFile {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+        Ok(Loaded {
+            path: format!("{name}.ngc"),
+            bytes: self.0.as_bytes().into(),
+        })
+    }
+}
+
+fn with_file(text: &'static str) -> Setup {
+    Setup {
+        library: Library(Some(Arc::new(OneFile(text)))),
+        ..Setup::default()
+    }
+}
+
+fn feeds(source: &str) -> Vec<Feed> {
+    let log = run_bytes("linuxcnc", source.as_bytes(), &Setup::default()).1;
+    log.motions.iter().map(|motion| motion.feed).collect()
+}
+
+#[test]
+fn a_held_motion_has_its_own_feed_not_that_of_the_next_line() {
+    // G93: the control takes the length of the contour times F; the held line keeps that rate whatever the next line says
+    let source = "G21 G17 G90\nG0 X0 Y0 Z0\nG93\nG41.1 D2\nG1 X20 F10\nG1 X40 F5\nG1 Y40 F2\nG94 G1 X0 F100\nG40\nM2\n";
+    let mut got = feeds(source);
+    got.dedup();
+    let per_minute = |feed| Feed::PerMinute(feed);
+    assert_eq!(
+        got,
+        [
+            Feed::Rapid,
+            per_minute(200.0),
+            per_minute(100.0),
+            per_minute(80.0),
+            per_minute(100.0)
+        ]
+    );
+    // without compensation the block lasts 1/F
+    assert_eq!(feeds("G0 X0 Y0 Z0\nG93 G1 X20 F10\nM2\n")[1], Feed::InverseTime(10.0));
+    // the control feeds no slower than 0.1 per minute
+    assert_eq!(feeds("G0 X0 Y0 Z0\nG93 G1 X1 F0.05\nM2\n")[1], Feed::PerMinute(0.1));
+}
+
+#[test]
+fn a_held_motion_is_told_with_the_modes_of_its_own_line() {
+    let source = "G21 G17 G90 F100\nG0 X0 Y0 Z0\nG41.1 D2\nG1 X20\nG1 X40\nG91 G0 Y40\nG1 X-40\nG40\nM2\n";
+    let dialect = trunnion_dialect::builtin("linuxcnc").expect("built in");
+    let program = trunnion_syntax::parse(source.as_bytes().to_vec(), dialect.lex);
+    struct Modes(Vec<(u32, bool)>);
+    impl trunnion_interp::Sink for Modes {
+        fn motion(&mut self, motion: &trunnion_interp::Motion, state: &trunnion_interp::ModalState) {
+            self.0.push((motion.block.0, state.incremental));
+        }
+        fn fault(&mut self, _: trunnion_interp::Fault) {}
+    }
+    let mut modes = Modes(Vec::new());
+    trunnion_interp::run(&program, dialect, &Setup::default(), &mut modes);
+    for (block, incremental) in modes.0 {
+        assert_eq!(incremental, block >= 5, "block {block}");
+    }
+}
+
+#[test]
+fn the_block_of_a_held_motion_in_a_called_file_is_its_call() {
+    let sub = "o<part> sub\nG1 X20\nG1 X40\no<part> endsub\n";
+    let source = "G21 G17 G90 F100\nG0 X0 Y0 Z0\nG41.1 D2\no<part> call\nS500\nS600\nG1 Y40\nG40\nM2\n";
+    let log = run_bytes("linuxcnc", source.as_bytes(), &with_file(sub)).1;
+    let at: Vec<_> = log.motions.iter().map(|motion| (motion.block.0, line(motion))).collect();
+    let cuts = at.iter().filter(|(_, line)| line.contains("Y1 "));
+    let blocks: Vec<u32> = cuts.map(|(block, _)| *block).collect();
+    assert_eq!(blocks, [3, 3], "{at:?}");
+}
+
+#[test]
+fn the_place_inside_a_called_file_is_told() {
+    let sub = "o<part> sub\n  G1 X20\nG1 X40\no<part> endsub\n";
+    let source = "G21 G90 F100\nG0 X0 Y0 Z0\no<part> call\nG1 Y40\nM2\n";
+    let dialect = trunnion_dialect::builtin("linuxcnc").expect("built in");
+    let program = trunnion_syntax::parse(source.as_bytes().to_vec(), dialect.lex);
+    let mut log = crate::support::Log::default();
+    let mut interpreter = trunnion_interp::Interpreter::new(dialect, &with_file(sub));
+    while interpreter.advance(&program, &mut log).is_some() {}
+    let chain = |index: usize| interpreter.chain(log.motions[index].chain);
+    let told: Vec<_> = chain(1)
+        .into_iter()
+        .map(|frame| (frame.file, frame.line, frame.what, frame.is_place))
+        .collect();
+    assert_eq!(
+        told,
+        [
+            (String::new(), 3, "o<part> call".to_owned(), false),
+            ("part.ngc".to_owned(), 2, "G1 X20".to_owned(), true)
+        ]
+    );
+    assert_eq!(chain(2)[1].line, 3);
+    assert!(chain(3).is_empty(), "the main program");
+}
+
+#[test]
+fn g92_under_compensation_does_not_reach_the_machine() {
+    // the control changes its offset without a word to the machine, so that the same words lead to the same place as before
+    let source = "G21 G17 G90 F100\nG0 X0 Y0 Z0\nG92 X100\nG1 X110\nG41.1 D2\nG1 X130\nG92.1\nG1 X150\nG40\nM2\n";
+    let log = run_bytes("linuxcnc", source.as_bytes(), &Setup::default()).1;
+    let zeros: Vec<f64> = log.motions.iter().map(|motion| motion.zero[0]).collect();
+    assert_eq!(zeros[0], 0.0);
+    assert!(zeros[1..].iter().all(|zero| *zero == -100.0), "{zeros:?}");
+}
+
+#[test]
+fn an_inch_feed_of_rotary_axes_alone_is_degrees_per_minute() {
+    for dialect in ["linuxcnc", "fanuc-30i", "iso-6983"] {
+        let source = "G20 G90 G94\nG0 X0. Y0. Z0. A0. C0.\nG1 A90. F100.\nG1 X1. F10.\nG1 X2. A0.\nM2\n";
+        let log = run_bytes(dialect, source.as_bytes(), &Setup::default()).1;
+        let got: Vec<_> = log.motions[1..].iter().map(|motion| motion.feed).collect();
+        let linear = Feed::PerMinute(254.0);
+        assert_eq!(got, [Feed::PerMinute(100.0), linear, linear], "{dialect}");
+    }
+    // whether X moves is not known
+    let source = "G20 G91 G94\nG1 X1 A90 F100\nM2\n";
+    let log = run_bytes("linuxcnc", source.as_bytes(), &Setup::default()).1;
+    assert_eq!(log.motions[0].feed, Feed::Unknown);
+    assert!(faults("linuxcnc", source).iter().any(|fault| fault.contains("F in inch")), "{:?}", faults("linuxcnc", source));
+}
+
+#[test]
+fn a_motion_beside_a_tool_change_starts_nobody_knows_where() {
+    let log = run_bytes("linuxcnc", b"G21 F100\nG0 X1 Y2 Z3 A4\nT1 M6 G0 X10\nY5\nM2\n", &Setup::default()).1;
+    let motion = &log.motions[1];
+    assert_eq!(motion.start.xyz(), None);
+    assert_eq!(crate::support::position(&motion.start), "A4");
+    assert_eq!(line(motion), "R X10 A4");
+    assert_eq!(line(&log.motions[2]), "R X10 Y5 A4");
+}
+
+#[test]
+fn machine_coordinates_under_tcp_are_unknown() {
+    for words in ["G53 G0 Z0", "G28 Z5", "G30 Z5"] {
+        let source = format!("M428\nG0 X1 Y2 Z3 A4\n{words}\nG0 X5\nM429\nM2\n");
+        let log = run_bytes("linuxcnc", source.as_bytes(), &trt()).1;
+        assert_eq!(log.motions[1].kind, MotionKind::Unknown, "{words}");
+        assert_eq!(log.motions[1].end.xyz(), None, "{words}");
+        let last = log.motions.last().expect("a motion");
+        assert_eq!(crate::support::position(&last.end).split(' ').next(), Some("X5"), "{words}");
+        assert!(last.end.xyz().is_none(), "{words}");
+        let told = log.faults.iter().any(|fault| format!("{fault:?}").contains("while tool centre point control is on"));
+        assert!(told, "{words}: {:?}", log.faults);
+    }
+}
+
+/// A machine on which M428 is tool centre point control.
+fn trt() -> Setup {
+    let mut setup = Setup::default();
+    setup.control.tcp_codes = Some(trunnion_interp::TcpCodes {
+        on: vec!["M428".to_owned()],
+        off: vec!["M429".to_owned()],
+    });
+    setup
+}
+
+#[test]
+fn what_m428_means_is_said_by_the_machine() {
+    let source = "G21 F100\nM428\nG0 X1 Y2 Z3 A4\nM429\nG0 X1\nM2\n";
+    let lines = |setup: &Setup| -> Vec<String> {
+        let log = run_bytes("linuxcnc", source.as_bytes(), setup).1;
+        log.motions.iter().map(line).collect()
+    };
+    assert_eq!(lines(&trt()), ["R X1 Y2 Z3 A4 tcp", "R X1 A4"]);
+    let mut nutating = trt();
+    nutating.control.tcp_codes = Some(trunnion_interp::TcpCodes {
+        on: vec!["M429".to_owned()],
+        off: vec!["M428".to_owned()],
+    });
+    assert_eq!(lines(&nutating), ["R X1 Y2 Z3 A4", "R X1 A4 tcp"]);
+    // not declared: what coordinates mean is not known until the end
+    assert_eq!(lines(&Setup::default()), ["R A4", "R A4"]);
+    let told = faults("linuxcnc", source);
+    assert!(told[0].contains("M428: the machine says what it means"), "{told:?}");
+}
+
+#[test]
+fn a_code_of_the_machine_under_compensation_is_unknown() {
+    let source = "G21 F100\nG0 X0 Y0 Z0\nG41.1 D2\nG1 X20\nG1 X40\nM428\nG1 Y40\nG40\nM2\n";
+    let log = run_bytes("linuxcnc", source.as_bytes(), &trt()).1;
+    assert!(log.motions.iter().all(|motion| !motion.tcp || motion.block.0 > 5));
+    let told = log.faults.iter().any(|fault| format!("{fault:?}").contains("M428 under compensation"));
+    assert!(told, "{:?}", log.faults);
+}
+
+#[test]
+fn a_diameter_of_zero_that_the_program_says_is_declared() {
+    let told = |code: &str| faults("linuxcnc", &format!("G21 F100\nG0 X0 Y0\n{code}\nG1 X20\nG40\nM2\n"));
+    assert_eq!(told("G41.1 D0"), [""; 0]);
+    assert!(told("G41")[0].contains("the diameter of the tool is not declared"));
+    assert!(told("G42 D3")[0].contains("the diameter of the tool is not declared"));
+}
+
+#[test]
+fn a_spline_is_run_as_chords_and_said_to_be_unknown() {
+    let source = "G21 G17 G90 F100\nG0 X0 Y0 Z0\nG5 I0 J3 P0 Q-3 X10 Y10\nM2\n";
+    let told = faults("linuxcnc", source);
+    assert!(told[0].contains("spline: judged along chords within 0.001 mm of it"), "{told:?}");
+    let got = lines("linuxcnc", source);
+    assert!(got.len() > 5, "{got:?}");
+    assert_eq!(got.last().map(String::as_str), Some("L X10 Y10 Z0 F100"));
+}

@@ -55,7 +55,8 @@ impl Interpreter<'_> {
         let feed = if self.state.motion == Some(Action::Thread) {
             self.lead(words, report)
         } else {
-            self.feed_of(kind, words, report)
+            let feed = self.feed_of(kind, words, report);
+            self.turning_feed(feed, words)
         };
         let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
@@ -191,6 +192,20 @@ impl Interpreter<'_> {
                 report.fault(range.unwrap_or_default(), FaultKind::MissingFeed { inverse_time, zero });
                 Feed::Unknown
             }
+        }
+    }
+
+    /// F counts degrees, not inches, where only rotary axes are named and X Y Z are joints.
+    fn turning_feed(&self, feed: Feed, words: &Words) -> Feed {
+        let named = words.axes.given | words.axes.unread;
+        let inch = self.state.feed_unit_mm;
+        if inch == 1.0 || self.state.tcp || words.vector.any() || named & LINEAR != 0 || named & ROTARY == 0 {
+            return feed;
+        }
+        match feed {
+            Feed::PerMinute(feed) => Feed::PerMinute(feed / inch),
+            Feed::PerRevolution(feed) => Feed::PerRevolution(feed / inch),
+            feed => feed,
         }
     }
 

@@ -1,50 +1,7 @@
 //! Facts about what is wrong with a program's meaning. Words for people are made by the check floor.
-use trunnion_syntax::{BlockId, TextRange};
-
 /// The sort of mistake for which a control refuses a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Refusal {
-    /// The text is no block of the language.
-    Syntax,
-    /// A number is malformed or out of range for its word.
-    Number,
-    /// An expression is malformed or has no value (division by zero, root of a negative number).
-    Expression,
-    /// A variable that has no value or does not exist, or may not be written.
-    Variable,
-    /// A label, sequence number or O-word that is not there or there twice.
-    Label,
-    /// A subprogram that is not there.
-    Subprogram,
-    /// Control structures that do not fit together.
-    Structure,
-    /// Codes that exclude each other.
-    GroupConflict,
-    /// A word is there twice.
-    RepeatedWord,
-    /// A word that nothing in the block uses, or that may not be there.
-    UnusedWord,
-    /// A word is missing that a code needs.
-    MissingWord,
-    /// A code that the control does not know.
-    UnknownCode,
-    /// A word that the control does not know.
-    UnknownWord,
-    /// Feed or spindle speed is missing or zero.
-    Feed,
-    /// An arc's radius does not fit.
-    ArcRadius,
-    /// An arc without centre or radius, or with both.
-    ArcCentre,
-    /// Cutter radius compensation is impossible or used wrongly.
-    Compensation,
-    /// A canned cycle is used wrongly.
-    CannedCycle,
-    /// The program's end is missing.
-    ProgramEnd,
-    /// Anything else: offsets, planes, tools, probing.
-    Other,
-}
+pub use trunnion_ngc::Class as Refusal;
+use trunnion_syntax::{BlockId, TextRange};
 
 /// What is wrong.
 #[derive(Clone, Debug, PartialEq)]

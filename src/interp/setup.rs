@@ -1,5 +1,6 @@
 //! What a program is run with: tools, offsets, bounds, other programs. All lengths mm, angles deg.
 use std::sync::Arc;
+pub use trunnion_ngc::{Files, Limits, Loaded};
 
 /// Shape of a tool's cutting part.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,24 +35,6 @@ pub struct WorkOffset {
     pub values: [f64; 9],
 }
 
-/// A program that another one calls.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Loaded {
-    /// Where it was found, as people are shown it.
-    pub path: String,
-    /// Its bytes.
-    pub bytes: Arc<[u8]>,
-}
-
-/// Finds programs that a program calls (`M98 P1000`, `o<name> call`): beside it and in configured folders.
-pub trait Files: Send + Sync {
-    /// The program of a name, or the folders that were searched.
-    ///
-    /// # Errors
-    /// The folders that were searched, as people are shown them.
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>>;
-}
-
 /// Where called programs come from; without it there are no other files.
 #[derive(Clone, Default)]
 pub struct Library(pub Option<Arc<dyn Files>>);
@@ -72,24 +55,6 @@ impl PartialEq for Library {
             (None, None) => true,
             (Some(a), Some(b)) => Arc::ptr_eq(a, b),
             _ => false,
-        }
-    }
-}
-
-/// Bounds of a run: a program that does not end within them is reported, not awaited.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
-    /// Executed blocks.
-    pub blocks: u64,
-    /// Calls inside calls, where the control sets no lower bound itself.
-    pub depth: u32,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self {
-            blocks: 10_000_000,
-            depth: 100,
         }
     }
 }

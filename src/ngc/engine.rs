@@ -93,7 +93,7 @@ impl Engine {
         self.files.get(file.0 as usize).map_or("", |source| &source.path)
     }
     /// The text of a line (from 0) without the blanks around it; empty where there is no such line.
-    pub fn line_text(&self, file: FileId, line: u32) -> String {
+    pub fn text_of(&self, file: FileId, line: u32) -> String {
         let source = self.files.get(file.0 as usize);
         let range = source.and_then(|source| source.line(line));
         let bytes = source.zip(range).map_or(&[][..], |(source, range)| &source.bytes()[range.as_usize()]);

@@ -177,13 +177,9 @@ fn machine_text(call: &Canon) -> String {
         Canon::PalletShuttle => "PALLET_SHUTTLE()".to_owned(),
         Canon::ReloadTools => "RELOAD_TOOLDATA()".to_owned(),
         Canon::Finish => "FINISH()".to_owned(),
-        other => unreachable_text(other),
+        // calls that [`Listing::write`] treats itself have no line of their own
+        other => format!("{other:?}"),
     }
-}
-
-/// Calls that [`Listing::write`] treats itself have no line of their own.
-fn unreachable_text(call: &Canon) -> String {
-    format!("{call:?}")
 }
 
 fn output(with_motion: bool) -> &'static str {

@@ -142,7 +142,7 @@ fn controls_differ_where_their_manuals_do() {
     assert_eq!(action("linuxcnc", "G70"), Some(Action::NotModelled));
     assert_eq!(action("iso-6983", "G70"), Some(Action::Inch));
     assert_eq!(action("iso-6983", "G43.4"), None);
-    assert_eq!(action("linuxcnc", "M428"), Some(Action::TcpOn));
+    assert_eq!(action("linuxcnc", "M428"), Some(Action::Kinematics));
     assert_eq!(find("linuxcnc", "M428").unwrap().owner, Owner::MachineBuilder);
     assert_eq!(action("sinumerik-840d", "TRAORI"), Some(Action::TcpOn));
     assert_eq!(action("sinumerik-840d", "G500"), Some(Action::WorkOffsetNone));

@@ -39,6 +39,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.fault(at, own.range, FaultKind::NotModelled { what });
             self.told.kinematics_unknown = true;
             self.told.lost_rotary = true;
+            self.interpreter.state.frame_unknown = true;
+            return;
         }
         if known && !super::named_axes(self.program, block).is_empty() {
             // the words are arguments of the remap, or a motion beside it: the interpreter does not run them

@@ -1,5 +1,5 @@
 //! Refusals of LinuxCNC's interpreter as facts for the check floor.
-use crate::{FaultKind, Refusal};
+use crate::FaultKind;
 use trunnion_ngc::{Class, Error};
 
 /// The fact that tells an error.
@@ -10,25 +10,7 @@ pub(super) fn fault_of(error: &Error) -> FaultKind {
             let what = error.message().to_owned();
             return FaultKind::NotModelled { what };
         }
-        Class::Syntax => Refusal::Syntax,
-        Class::Number => Refusal::Number,
-        Class::Expression => Refusal::Expression,
-        Class::Variable => Refusal::Variable,
-        Class::Label => Refusal::Label,
-        Class::Subprogram => Refusal::Subprogram,
-        Class::Structure => Refusal::Structure,
-        Class::GroupConflict => Refusal::GroupConflict,
-        Class::RepeatedWord => Refusal::RepeatedWord,
-        Class::UnusedWord => Refusal::UnusedWord,
-        Class::MissingWord => Refusal::MissingWord,
-        Class::UnknownCode => Refusal::UnknownCode,
-        Class::UnknownWord => Refusal::UnknownWord,
-        Class::Feed => Refusal::Feed,
-        Class::ArcRadius => Refusal::ArcRadius,
-        Class::ArcCentre => Refusal::ArcCentre,
-        Class::Compensation => Refusal::Compensation,
-        Class::CannedCycle => Refusal::CannedCycle,
-        Class::Other => Refusal::Other,
+        refusal => refusal,
     };
     let control = error.message();
     let help = error.problem.help;

@@ -56,14 +56,16 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             (Some(pitch), _) => Some(pitch),
             (None, rate) => rate,
         };
-        let Some(rate) = rate.filter(|rate| rate.deg > 0.0) else {
-            return Feed::Unknown;
-        };
+        let Some(rate) = rate else { return Feed::Unknown };
         let per_revolution = self.told.synced.is_some() || self.told.per_revolution;
         let inverse_time = state.feed_mode == trunnion_ngc::FeedMode::InverseTime && !per_revolution;
         // the rate is that of the contour: the way of the cutter's centre takes longer or shorter than 1/F
-        if inverse_time && state.side == Side::Off && rate.deg > SLOWEST_INVERSE_TIME {
+        let slowest = rate.deg <= SLOWEST_INVERSE_TIME;
+        if inverse_time && state.side == Side::Off && !slowest && state.inverse_time > 0.0 {
             return Feed::InverseTime(state.inverse_time);
+        }
+        if rate.deg.is_nan() || rate.deg <= 0.0 {
+            return Feed::Unknown;
         }
         let moves = if state.units == Units::Millimetre {
             Moves::Linear

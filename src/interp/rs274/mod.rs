@@ -71,7 +71,7 @@ impl Rs274 {
             frames.push(Frame {
                 file: self.engine.path(place.file).to_owned(),
                 line: place.line + 1,
-                what: self.engine.line_text(place.file, place.line),
+                what: self.engine.text_of(place.file, place.line),
                 is_place: true,
             });
         }

@@ -1,26 +1,12 @@
 //! What LinuxCNC's interpreter is told of a run's setup.
 use crate::{Setup, Tool};
-use std::sync::Arc;
 use trunnion_dialect::{Code, CodeKind, Dialect};
-use trunnion_ngc::{Files, Limits, Loaded, Parameters, Setup as Told, Start, ToolEntry, ToolTable, Units};
+use trunnion_ngc::{Parameters, Setup as Told, Start, ToolEntry, ToolTable, Units};
 
 /// First parameter of the coordinate systems: X of G54; 20 further on that of G55 (LinuxCNC documentation, Parameters).
 const FIRST_SYSTEM: u32 = 5221;
 /// Names of the coordinate systems in the order of their parameters.
 pub(super) const SYSTEMS: [&str; 9] = ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"];
-
-/// Called programs by way of the run's library.
-struct Library(Arc<dyn crate::Files>);
-
-impl Files for Library {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
-        let loaded = self.0.load(name)?;
-        Ok(Loaded {
-            path: loaded.path,
-            bytes: loaded.bytes,
-        })
-    }
-}
 
 /// Letter and ten times the number of a G or M code.
 fn numbered(code: &Code) -> Option<(u8, u32)> {
@@ -83,15 +69,8 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
             rows: tools.map(row).collect(),
         },
         parameters: Parameters { values },
-        files: setup
-            .library
-            .0
-            .clone()
-            .map(|files| Arc::new(Library(files)) as Arc<dyn Files>),
-        limits: Limits {
-            blocks: setup.limits.blocks,
-            depth: setup.limits.depth.min(Limits::default().depth),
-        },
+        files: setup.library.0.clone(),
+        limits: setup.limits,
         ..Told::default()
     }
 }

@@ -3,7 +3,7 @@ use super::labels::{NameId, Place, Style, Subprogram};
 use super::oline::{Keyword, OLine};
 use super::{Call, Compiled, Goal, Halt, Seeking, context, problems};
 use crate::parameters::Values;
-use crate::{Engine, Error, FileId, Sink, Source};
+use crate::{Engine, Error, FileId, Limits, Sink, Source};
 use std::sync::Arc;
 use trunnion_formula::{Formula, ValueError, Variables};
 
@@ -45,7 +45,8 @@ impl Engine {
         rounds: i64,
         arguments: Option<&[f64]>,
     ) -> Result<(), Halt> {
-        if self.flow.calls.len() + 1 >= self.setup.limits.depth as usize {
+        let most = self.setup.limits.depth.min(Limits::LINUXCNC_DEPTH);
+        if self.flow.calls.len() + 1 >= most as usize {
             return Err(Self::refusal(&problems::TOO_DEEP, line));
         }
         let known = self.flow.labels.subprogram(name);

@@ -344,7 +344,7 @@ fn program_flow_of_sinumerik_is_not_followed() {
 fn axis_words_beside_a_code_of_the_machine_are_never_dropped_in_silence() {
     let source = "G0 X1 Y2 Z3 A4\nG1 X9 F100 M428\nA5\nM2\n";
     let motions = lines("linuxcnc", source);
-    assert_eq!(motions.last().map(String::as_str), Some("L A5 F100 tcp"));
+    assert_eq!(motions.last().map(String::as_str), Some("L A5 F100"));
     assert!(faults("linuxcnc", source)[0].contains("M428 with axis words in its block"));
 }
 

@@ -76,10 +76,14 @@ fn g49_ends_the_tcp_of_its_group_only() {
         lines("fanuc-30i", "G43.4 H0\nG0 X1 A1\nG49\nG0 X2\n"),
         ["R X1 A1 tcp", "R X2 A1"]
     );
-    assert_eq!(
-        lines("linuxcnc", "M428\nG0 X1 A1\nG49\nG0 X2\nM429\nX3\n"),
-        ["R X1 A1 tcp", "R X2 A1 tcp", "R X3 A1"]
-    );
+    let mut setup = Setup::default();
+    setup.control.tcp_codes = Some(trunnion_interp::TcpCodes {
+        on: vec!["M428".to_owned()],
+        off: vec!["M429".to_owned()],
+    });
+    let log = run_bytes("linuxcnc", b"M428\nG0 X1 A1\nG49\nG0 X2\nM429\nX3\n", &setup).1;
+    let got: Vec<_> = log.motions.iter().map(line).collect();
+    assert_eq!(got, ["R X1 A1 tcp", "R X2 A1 tcp", "R X3 A1"]);
 }
 
 #[test]

@@ -1,0 +1,314 @@
+//! Drilling cycles that are called with their numbers between parentheses (Sinumerik CYCLE81 to CYCLE89), where the tool stands or, after
+//! MCALL, behind every motion.
+//!
+//! Order of the numbers and of the motions: Sinumerik 840D sl Programming Manual, Cycles (drilling cycles). All begin with RTP, RFP, SDIS,
+//! DP, DPR: level of the retraction, level of the surface, clearance above it, depth as a coordinate, depth below the surface; where both
+//! depths are there the last one counts.
+use super::hole::Plan;
+use crate::arc::plane_axes;
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+use crate::{FaultKind, Feed, FeedMode, MotionKind};
+use trunnion_syntax::TextRange;
+
+/// One number of a call.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Given {
+    /// Left out.
+    Nothing,
+    /// A number.
+    Number(f64),
+    /// Something that is not evaluated.
+    Unread,
+}
+
+impl Given {
+    /// The number; 0 where it is left out.
+    fn or_zero(self) -> Option<f64> {
+        match self {
+            Self::Nothing => Some(0.0),
+            Self::Number(number) => Some(number),
+            Self::Unread => None,
+        }
+    }
+}
+
+/// What a cycle does in the hole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sort {
+    /// CYCLE81, CYCLE82: down, dwell, rapid out.
+    Drill,
+    /// CYCLE83: in steps.
+    Deep,
+    /// CYCLE84: rigid tap.
+    Tap,
+    /// CYCLE85: feed of its own in and out.
+    Ream,
+    /// CYCLE86: oriented, lifted off, out.
+    Bore,
+    /// CYCLE87, CYCLE88: stop at the bottom, out after the start button.
+    BoreStop,
+    /// CYCLE89: feed in and out.
+    BoreFeed,
+}
+
+/// The cycles with how many numbers of theirs are known here.
+const CYCLES: [(&str, Sort, usize); 9] = [
+    ("CYCLE81", Sort::Drill, 6),
+    ("CYCLE82", Sort::Drill, 6),
+    ("CYCLE83", Sort::Deep, 17),
+    ("CYCLE84", Sort::Tap, 18),
+    ("CYCLE85", Sort::Ream, 8),
+    ("CYCLE86", Sort::Bore, 11),
+    ("CYCLE87", Sort::BoreStop, 6),
+    ("CYCLE88", Sort::BoreStop, 7),
+    ("CYCLE89", Sort::BoreFeed, 6),
+];
+
+/// A cycle with its numbers.
+#[derive(Clone, Debug)]
+pub(crate) struct HoleCall {
+    id: &'static str,
+    sort: Sort,
+    numbers: Vec<Given>,
+    /// Numbers that are there have no meaning here.
+    further: bool,
+}
+
+impl HoleCall {
+    /// The call of a cycle; `None`: none of those that are known.
+    pub(crate) fn new(id: &str, numbers: Vec<Given>) -> Option<Self> {
+        let (id, sort, known) = *CYCLES.iter().find(|(name, ..)| *name == id)?;
+        let rest = numbers.get(known..).unwrap_or_default();
+        let further = rest.iter().any(|given| given.or_zero() != Some(0.0));
+        Some(Self {
+            id,
+            sort,
+            numbers,
+            further,
+        })
+    }
+    fn number(&self, place: usize) -> Given {
+        self.numbers.get(place).copied().unwrap_or(Given::Nothing)
+    }
+    /// Levels of retraction, beginning of the feed and bottom in program units. `None`: one is not known, or they make no hole.
+    fn levels(&self) -> Option<[f64; 3]> {
+        let Given::Number(retract) = self.number(0) else {
+            return None;
+        };
+        let (surface, clearance) = (self.number(1).or_zero()?, self.number(2).or_zero()?.abs());
+        let bottom = match (self.number(3), self.number(4)) {
+            (Given::Unread, _) | (_, Given::Unread) | (Given::Nothing, Given::Nothing) => return None,
+            (_, Given::Number(depth)) if depth != 0.0 => surface - depth.abs(),
+            (Given::Number(bottom), _) => bottom,
+            (Given::Nothing, Given::Number(_)) => return None,
+        };
+        (retract > surface && bottom < surface).then_some([retract, surface + clearance, bottom])
+    }
+}
+
+impl Interpreter<'_> {
+    /// What stands in the parentheses of a call.
+    pub(crate) fn call_numbers(text: &str) -> Vec<Given> {
+        let Some(inside) = text.split_once('(').map(|(_, rest)| rest.trim_end().trim_end_matches(')')) else {
+            return Vec::new();
+        };
+        if inside.contains(['"', '(']) {
+            // nested commas are not told apart
+            return vec![Given::Unread; 5];
+        }
+        inside
+            .split(',')
+            .map(|one| match (one.trim(), one.trim().parse::<f64>()) {
+                ("", _) => Given::Nothing,
+                (_, Ok(number)) if number.abs() <= crate::reader::LARGEST => Given::Number(number),
+                _ => Given::Unread,
+            })
+            .collect()
+    }
+
+    /// Runs a cycle where the tool stands.
+    pub(crate) fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
+        let axis = plane_axes(self.state.plane)[2];
+        let other_axis = match call.sort {
+            Sort::Deep | Sort::Tap => call.number(12).or_zero() != Some(0.0),
+            _ => false,
+        };
+        let why = if call.further || other_axis {
+            Some("with numbers that choose other meanings")
+        } else if call.levels().is_none() {
+            Some("without levels that are known and make a hole")
+        } else {
+            None
+        };
+        let Some([retract, begin, bottom]) = call.levels().filter(|_| why.is_none()) else {
+            let what = format!("{} {}", call.id, why.unwrap_or_default());
+            report.fault(TextRange::default(), FaultKind::NotModelled { what });
+            let mut motion = self.unknown_motion(&Words::default(), report);
+            motion.end.known &= !crate::offsets::LINEAR;
+            self.forget_linear();
+            self.memory.out.push(motion);
+            return;
+        };
+        let unit = self.state.length_unit_mm;
+        let feed = self.call_feed(call, words, report);
+        let plan = Plan {
+            axis,
+            r: Some(begin * unit),
+            bottom: bottom * unit,
+            initial: None,
+            back: Some(retract * unit),
+            feed,
+        };
+        self.call_spindle(call);
+        self.down(&plan, MotionKind::Rapid, plan.r, report);
+        self.in_hole(call, &plan, report);
+        if call.sort == Sort::Tap {
+            // direction after the cycle: 3, 4, else the spindle stands
+            let after = call.number(6).or_zero();
+            self.state.spindle_on = after.map(|code| code == 3.0 || code == 4.0);
+        }
+    }
+
+    /// The feed that a cycle goes down with.
+    fn call_feed(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) -> Feed {
+        let unit = self.state.length_unit_mm;
+        match call.sort {
+            Sort::Ream => self.own_feed(call.number(6)),
+            Sort::Tap => {
+                // PIT in mm, or in the units in force; threads per inch and MPIT are other numbers
+                let pitch = match (call.number(7), call.number(8), call.number(13).or_zero()) {
+                    (size, Given::Number(pitch), Some(unit_of_pitch)) if size.or_zero() == Some(0.0) => {
+                        let mm = match unit_of_pitch as i64 {
+                            0 => Some(pitch * unit),
+                            1 => Some(pitch),
+                            3 => Some(pitch * 25.4),
+                            _ => None,
+                        };
+                        mm.map(f64::abs).filter(|mm| *mm > 0.0)
+                    }
+                    _ => None,
+                };
+                if pitch.is_none() {
+                    let what = format!("{}: its pitch", call.id);
+                    report.fault(TextRange::default(), FaultKind::NotModelled { what });
+                }
+                pitch.map_or(Feed::Unknown, Feed::PerRevolution)
+            }
+            _ => self.feed_of(MotionKind::Linear, words, report),
+        }
+    }
+
+    /// A feed that the call itself gives.
+    fn own_feed(&self, given: Given) -> Feed {
+        let Given::Number(number) = given else {
+            return Feed::Unknown;
+        };
+        let feed = number * self.state.feed_unit_mm;
+        match self.state.feed_mode {
+            _ if feed <= 0.0 => Feed::Unknown,
+            FeedMode::PerMinute => Feed::PerMinute(feed),
+            FeedMode::PerRevolution => Feed::PerRevolution(feed),
+            FeedMode::InverseTime => Feed::Unknown,
+        }
+    }
+
+    /// Cycles that switch the spindle on themselves.
+    fn call_spindle(&mut self, call: &HoleCall) {
+        match call.sort {
+            Sort::Tap => {
+                self.state.spindle_on = Some(true);
+                let speed = call.number(10).or_zero().filter(|speed| *speed > 0.0);
+                self.state.spindle_rpm = speed;
+            }
+            Sort::Bore | Sort::BoreStop => {
+                let place = match (call.sort, call.id) {
+                    (Sort::BoreStop, "CYCLE87") => 5,
+                    _ => 6,
+                };
+                if let Some(code) = call.number(place).or_zero() {
+                    if code == 3.0 || code == 4.0 {
+                        self.state.spindle_on = Some(true);
+                    }
+                } else {
+                    self.state.spindle_on = None;
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn in_hole(&mut self, call: &HoleCall, plan: &Plan, report: &mut Report<'_>) {
+        let steps = match call.sort {
+            Sort::Deep => true,
+            Sort::Tap => call.number(15).or_zero() != Some(0.0),
+            _ => false,
+        };
+        if steps {
+            let what = format!("{}: the steps in the hole", call.id);
+            report.fault(TextRange::default(), FaultKind::NotModelled { what });
+            self.down(plan, MotionKind::Unknown, Some(plan.bottom), report);
+        } else {
+            self.down(plan, MotionKind::Linear, Some(plan.bottom), report);
+        }
+        if call.id != "CYCLE87" {
+            self.wait_at_bottom(call.number(if steps && call.sort == Sort::Deep { 8 } else { 5 }), report);
+        }
+        match call.sort {
+            Sort::Drill | Sort::Deep => {}
+            Sort::Tap => self.down(plan, MotionKind::Linear, plan.r, report),
+            Sort::Ream => {
+                let out = Plan {
+                    feed: self.own_feed(call.number(7)),
+                    ..*plan
+                };
+                self.down(&out, MotionKind::Linear, plan.r, report);
+            }
+            Sort::BoreFeed => self.down(plan, MotionKind::Linear, plan.r, report),
+            Sort::Bore => {
+                self.state.spindle_on = Some(false);
+                self.lift_off(call, 1.0, report);
+                self.down(plan, MotionKind::Rapid, plan.back, report);
+                self.lift_off(call, -1.0, report);
+                return;
+            }
+            Sort::BoreStop => self.state.spindle_on = Some(false),
+        }
+        self.down(plan, MotionKind::Rapid, plan.back, report);
+        if call.sort == Sort::BoreStop {
+            self.state.spindle_on = None;
+        }
+    }
+
+    /// CYCLE86: RPA, RPO and RPAP off the wall (1), and RPA and RPO back over the hole (-1).
+    fn lift_off(&mut self, call: &HoleCall, sign: f64, report: &mut Report<'_>) {
+        let axes = plane_axes(self.state.plane);
+        let position = self.state.position;
+        let mut place = self.memory.frames.programmed(&position);
+        for (number, axis) in [(7, axes[0]), (8, axes[1]), (9, axes[2])] {
+            if number == 9 && sign < 0.0 {
+                continue;
+            }
+            match (call.number(number).or_zero(), place.get(axis)) {
+                (Some(by), Some(at)) => place.set(axis, at + sign * by * self.state.length_unit_mm),
+                _ => place.forget(axis),
+            }
+        }
+        if sign > 0.0 || call.number(7) != Given::Nothing || call.number(8) != Given::Nothing {
+            self.goes(MotionKind::Rapid, place, Feed::Rapid, report);
+        }
+    }
+
+    /// DTB: seconds; turns of the spindle where it is negative.
+    fn wait_at_bottom(&mut self, given: Given, report: &Report<'_>) {
+        let seconds = match given {
+            Given::Nothing => return,
+            Given::Number(seconds) if seconds >= 0.0 => Some(seconds),
+            Given::Number(turns) => self.state.spindle_rpm.map(|rpm| -turns / rpm * 60.0),
+            Given::Unread => None,
+        };
+        if seconds != Some(0.0) {
+            self.pause(seconds, report);
+        }
+    }
+}

@@ -271,16 +271,21 @@ fn hover_inside_loops_and_subprograms_tells_of_the_first_time() {
     let text = at("g1 x#2");
     assert!(text.contains("10.0000 mm") && !text.contains("is not run"), "{text}");
     assert!(text.contains("500.0 mm/min"), "{text}");
-    for what in [
-        "#1 * 10",
-        "o101 while",
-        "o100 call",
-        "o100 sub",
-        "#<n> = [#<n> + 1]",
-        "o101 endwhile",
-        "g0 x0",
+    for (what, told) in [
+        ("#1 * 10", "**#1** = 1 before this block"),
+        ("#2 =", "**#2** = 0 before this block, = 10 after it"),
+        ("o101 while", "**o101**\n* line 7: while\n* line 10: endwhile"),
+        (
+            "o100 call",
+            "**o100** subprogram, begins in line 2\n* line 2: sub\n* line 5: endsub\n* line 8: call",
+        ),
+        ("o100 sub", "**o100** subprogram, begins in line 2"),
+        ("#<n> = [#<n> + 1]", "**#<n>** = 1 before this block, = 2 after it"),
+        ("o101 endwhile", "* line 10: endwhile"),
+        ("g0 x0", "Rapid"),
     ] {
         let text = at(what);
+        assert!(text.contains(told), "{what}: {text}");
         assert!(
             text.contains("**In force**") && !text.contains("is not run"),
             "{what}: {text}"

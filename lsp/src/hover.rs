@@ -1,6 +1,7 @@
 //! Hover: the code under the cursor, what is in force, and what the machine does in the block.
 use crate::{
     analysis::{Analysed, Judged},
+    names,
     position::{Encoding, offset, range},
 };
 use std::fmt::Write;
@@ -36,6 +37,10 @@ pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding)
     let info = judged
         .session
         .describe(&judged.program, &judged.resolved.settings(), id);
+    if let Some((said, word)) = names::at(&judged.program, &block, at, &info) {
+        let _ = writeln!(text, "{said}\n\n---\n");
+        shown = word;
+    }
     if !info.runs {
         text.push_str("This block is not run: the program ends before it, or every way leads past it.\n\n");
     }

@@ -9,6 +9,7 @@ mod document;
 mod event;
 mod exit;
 mod hover;
+mod names;
 mod outbox;
 mod owner;
 mod position;

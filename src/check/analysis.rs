@@ -48,7 +48,7 @@ pub(crate) fn judge(program: &Program, settings: &Settings<'_>, watch: &mut impl
     if both::is_open(program, settings) {
         let mut on = settings.clone();
         on.setup.control.block_delete = Some(true);
-        both::join(&mut report, analyse(program, &on, &mut Nobody)?);
+        both::join(&mut report, &analyse(program, &on, &mut Nobody)?);
     }
     Some(report)
 }

@@ -38,7 +38,7 @@ fn key(found: &Diagnostic) -> Key<'_> {
 }
 
 /// Adds what is found while the blocks are skipped to what is found while they run.
-pub(crate) fn join(off: &mut Report, on: Report) {
+pub(crate) fn join(off: &mut Report, on: &Report) {
     let absence = |found: &Diagnostic| ABSENCES.contains(&found.rule);
     let mut only_on: Vec<Diagnostic> = {
         let in_off: HashSet<Key<'_>> = off.diagnostics.iter().map(key).collect();
@@ -57,7 +57,8 @@ pub(crate) fn join(off: &mut Report, on: Report) {
         found.notes.push("only where the blocks with / are skipped".to_owned());
     }
     off.diagnostics.append(&mut only_on);
-    off.diagnostics.sort_by_key(|found| (found.range.start, found.range.end));
+    off.diagnostics
+        .sort_by_key(|found| (found.range.start, found.range.end));
     let (blocks, motions) = (off.summary.blocks, off.summary.motions);
     off.summary = Summary {
         blocks,

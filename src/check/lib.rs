@@ -31,6 +31,6 @@ pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
 pub use report::{Report, Summary, Verdict};
 pub use rule::{EndRule, Ending, FaultRule, Guarantee, LegRule, Level, MotionRule, ProgramRule, Rule, TextRule};
 pub use rules::{rule, rules};
-pub use session::{BlockInfo, Session};
+pub use session::{BlockInfo, Session, Variables};
 pub use sink::{Draft, Reporter};
 pub use view::{LegView, Overview};

@@ -20,6 +20,26 @@ pub struct BlockInfo {
     pub rows: Vec<Row>,
     /// Whether it is run: false behind the program's end and where every way leads past it. Then the states are those at the end.
     pub runs: bool,
+    /// The values of variables before and after it.
+    pub variables: Variables,
+}
+
+/// The run before and after a block, asked for variables.
+#[derive(Clone)]
+pub struct Variables(Box<[Interpreter<'static>; 2]>);
+
+impl core::fmt::Debug for Variables {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("Variables")
+    }
+}
+
+impl Variables {
+    /// The value of a variable as it is written (`#1`, `#<name>`), before and after the block; NaN where it is not known, `None` where
+    /// there is none or it is vacant.
+    pub fn value(&self, text: &str) -> [Option<f64>; 2] {
+        [0, 1].map(|at| self.0[at].variable(text))
+    }
 }
 
 /// What is in force between two blocks.
@@ -157,15 +177,16 @@ impl Session {
                 break;
             }
         }
-        let before = interpreter.state.clone();
+        let before = interpreter.clone();
         walk.keep = true;
         let reached = first.is_some_and(|at| at - from <= MOST_AGAIN);
         let runs = reached && interpreter.advance(program, &mut walk) == Some(wanted);
         BlockInfo {
-            before,
-            after: interpreter.state,
+            before: before.state.clone(),
+            after: interpreter.state.clone(),
             rows: walk.rows,
             runs,
+            variables: Variables(Box::new([before, interpreter])),
         }
     }
 }

@@ -10,7 +10,9 @@ use trunnion_syntax::{Address, Block, Item, Value};
 /// Whether a block begins with `/`, comments aside.
 fn is_deleted(block: &Block<'_>) -> bool {
     let mut items = block.items();
-    items.find(|item| !matches!(item, Item::Comment(_))).is_some_and(|item| matches!(item, Item::Skip(..)))
+    items
+        .find(|item| !matches!(item, Item::Comment(_)))
+        .is_some_and(|item| matches!(item, Item::Skip(..)))
 }
 
 impl<'d> Interpreter<'d> {

@@ -39,5 +39,6 @@ pub use modal::{FeedMode, ModalState};
 pub use motion::{AXIS_LETTERS, AxisLetter, ChainId, Feed, Frame, Motion, MotionKind, Orientation, Position};
 pub use run::{Interpreter, Sink, run};
 pub use setup::{
-    ControlData, Files, ImplicitDecimals, Library, Limits, Loaded, OuterCorner, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
+    ControlData, Files, ImplicitDecimals, Library, Limits, Loaded, OuterCorner, Setup, TcpCodes, Tool, ToolShape,
+    WorkOffset,
 };

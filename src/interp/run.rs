@@ -156,6 +156,15 @@ impl<'d> Interpreter<'d> {
         self.flow.chain(chain)
     }
 
+    /// The value of a variable as it is written (`#1`, `#<name>`, `#_NAME`), between two blocks; NaN where it is not known, `None` where
+    /// there is none or it is vacant.
+    pub fn variable(&self, text: &str) -> Option<f64> {
+        if let Some(run) = &self.rs274 {
+            return run.variable(text);
+        }
+        self.flow.variable(text)
+    }
+
     pub(crate) fn finish(&mut self, program: &Program, sink: &mut impl Sink) {
         if let Some(block) = self.memory.last_content {
             self.put_out_rest(&program.block(block), sink);

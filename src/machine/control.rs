@@ -84,18 +84,29 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
 
 /// Codes that switch the kinematics: each a G or M code with its number, in one of the two lists.
 fn tcp_codes(raw: &RawTcpCodes) -> Result<TcpCodes, Fault> {
-    let is_code = |code: &str| matches!(code.split_at_checked(1), Some(("G" | "M", number)) if number.parse::<u16>().is_ok());
+    let is_code =
+        |code: &str| matches!(code.split_at_checked(1), Some(("G" | "M", number)) if number.parse::<u16>().is_ok());
     for word in raw.on.iter().chain(&raw.off) {
         if !is_code(word.get_ref()) {
             return Err(Fault {
-                message: format!("{:?} is no code: write G or M and its number, as \"M428\"", word.get_ref()),
+                message: format!(
+                    "{:?} is no code: write G or M and its number, as \"M428\"",
+                    word.get_ref()
+                ),
                 span: word.span(),
             });
         }
     }
-    if let Some(twice) = raw.off.iter().find(|off| raw.on.iter().any(|on| on.get_ref() == off.get_ref())) {
+    if let Some(twice) = raw
+        .off
+        .iter()
+        .find(|off| raw.on.iter().any(|on| on.get_ref() == off.get_ref()))
+    {
         return Err(Fault {
-            message: format!("{:?} cannot switch tool centre point control both on and off", twice.get_ref()),
+            message: format!(
+                "{:?} cannot switch tool centre point control both on and off",
+                twice.get_ref()
+            ),
             span: twice.span(),
         });
     }

@@ -2,6 +2,7 @@
 use crate::flow::Flow;
 use crate::{Block, Canon, Error, FileId, Setup, Source, State};
 use std::sync::Arc;
+use trunnion_formula::Variables;
 
 /// A chain of calls; 0: the main program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -92,11 +93,25 @@ impl Engine {
     pub fn path(&self, file: FileId) -> &str {
         self.files.get(file.0 as usize).map_or("", |source| &source.path)
     }
+    /// The value of a parameter as it is written, `#1` or `#<name>`, between two lines; NaN where it is not known, `None` where there is none.
+    pub fn variable(&self, text: &str) -> Option<f64> {
+        let name = text.trim().strip_prefix('#')?;
+        let values = crate::parameters::Values::new(self);
+        match name.strip_prefix('<') {
+            Some(inside) => {
+                let plain = inside.strip_suffix('>')?.split_whitespace().collect::<String>();
+                values.named(&plain.to_ascii_lowercase()).ok()
+            }
+            None => values.numbered(name.trim().parse().ok()?).ok(),
+        }
+    }
     /// The text of a line (from 0) without the blanks around it; empty where there is no such line.
     pub fn text_of(&self, file: FileId, line: u32) -> String {
         let source = self.files.get(file.0 as usize);
         let range = source.and_then(|source| source.line(line));
-        let bytes = source.zip(range).map_or(&[][..], |(source, range)| &source.bytes()[range.as_usize()]);
+        let bytes = source
+            .zip(range)
+            .map_or(&[][..], |(source, range)| &source.bytes()[range.as_usize()]);
         String::from_utf8_lossy(bytes.trim_ascii()).into_owned()
     }
     /// Tells a canonical call. While cutter compensation holds moves back, calls wait behind them in order.

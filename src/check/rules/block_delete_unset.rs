@@ -36,9 +36,15 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         return;
     }
     let (levels, count) = levels(overview.program);
-    let mut skips = overview.program.blocks().flat_map(|block| {
+    let mut skips = overview.program.blocks().filter_map(|block| {
         let first = block.items().find(|item| !matches!(item, Item::Comment(_)));
-        first.and_then(|item| if let Item::Skip(_, range) = item { Some(range) } else { None })
+        first.and_then(|item| {
+            if let Item::Skip(_, range) = item {
+                Some(range)
+            } else {
+                None
+            }
+        })
     });
     let Some(first) = skips.next().filter(|_| count > 0) else {
         return;
@@ -55,7 +61,10 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     draft.help("declare it: [control] block_delete = true or false in trunnion.toml, or --block-delete on or off");
     if levels.len() > 1 {
         let names: Vec<String> = levels.iter().map(|level| format!("/{level}")).collect();
-        draft.note(format!("{} are switches of their own: their mixed states are not judged", names.join(" ")));
+        draft.note(format!(
+            "{} are switches of their own: their mixed states are not judged",
+            names.join(" ")
+        ));
         draft.unknown();
     }
 }
@@ -81,7 +90,10 @@ mod tests {
         assert_eq!(note("arc-centre-missing"), Some("only where the blocks with / are run"));
         assert_eq!(found.summary.errors, 2);
         let own = found.diagnostics.iter().find(|d| d.rule == "block-delete-unset");
-        assert_eq!(own.map(|d| (d.severity, d.status)), Some((Severity::Info, crate::Status::Fail)));
+        assert_eq!(
+            own.map(|d| (d.severity, d.status)),
+            Some((Severity::Info, crate::Status::Fail))
+        );
     }
 
     #[test]
@@ -94,7 +106,10 @@ mod tests {
     #[test]
     fn a_division_and_a_comment_are_no_block_delete() {
         for text in ["N10 G0 X0 Y0 Z0\n/\n/ (nothing)\nM30\n", "N10 G0 X0 (a/b)\nM30\n"] {
-            assert!(report(text).diagnostics.iter().all(|d| d.rule != "block-delete-unset"), "{text}");
+            assert!(
+                report(text).diagnostics.iter().all(|d| d.rule != "block-delete-unset"),
+                "{text}"
+            );
         }
     }
 }

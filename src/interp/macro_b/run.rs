@@ -205,6 +205,11 @@ impl super::Flow {
         self.called_at.unwrap_or(block)
     }
     /// The calls of a chain, outermost first.
+    /// The value of a variable as it is written.
+    pub(crate) fn variable(&self, text: &str) -> Option<f64> {
+        self.deep.as_ref()?.variables.written(text)
+    }
+
     pub(crate) fn chain(&self, chain: crate::ChainId) -> Vec<crate::Frame> {
         self.deep
             .as_ref()

@@ -97,6 +97,14 @@ impl Variables {
             }
         }
     }
+    /// A local, common or named variable as it is written; NaN where it is not known, `None` where it is vacant or there is none.
+    pub(crate) fn written(&self, text: &str) -> Option<f64> {
+        let name = text.trim().strip_prefix('#')?;
+        match name.parse() {
+            Ok(index) => self.get(index).flatten(),
+            Err(_) => self.named(&name.to_ascii_lowercase()),
+        }
+    }
     /// A named variable.
     pub(crate) fn named(&self, name: &str) -> Option<f64> {
         if self.lost {

@@ -196,9 +196,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let centre = shift.point(place(call.centre, call.axis_end));
         let extra = call.turns.unsigned_abs().checked_sub(1);
         let known = start.xyz().zip(end.xyz()).zip(extra);
-        let arc = known.and_then(|((start, to), extra)| {
-            Arc::from_centre(start, to, centre, shift.turned(normal), turning, extra)
-        });
+        let arc = known
+            .and_then(|((start, to), extra)| Arc::from_centre(start, to, centre, shift.turned(normal), turning, extra));
         (arc, end)
     }
 }
@@ -311,7 +310,9 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let tolerance = SPLINE_TOLERANCE_MM / state.units.mm();
         let places = chords(order as usize, points, knots, tolerance);
         let judged = if places.is_some() {
-            format!("spline: judged along chords within {SPLINE_TOLERANCE_MM} mm of it; the control runs it as arcs of its own")
+            format!(
+                "spline: judged along chords within {SPLINE_TOLERANCE_MM} mm of it; the control runs it as arcs of its own"
+            )
         } else {
             "spline: its path".to_owned()
         };
@@ -366,7 +367,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 end.forget(axis);
             }
         }
-        let feed = self.told.synced.map_or(Feed::Unknown, |pitch| Feed::PerRevolution(pitch.mm));
+        let feed = self
+            .told
+            .synced
+            .map_or(Feed::Unknown, |pitch| Feed::PerRevolution(pitch.mm));
         self.motion(MotionKind::Linear, end, &shift, feed, at, state);
         self.motion(MotionKind::Linear, start, &shift, feed, at, state);
     }

@@ -72,19 +72,16 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// A code that switches the kinematics.
     fn kinematics(&mut self, code: &str, own: OwnCode, at: At) {
         let declared = self.interpreter.setup.control.tcp_codes.as_ref();
-        match declared.and_then(|codes| codes.meaning(code)) {
-            Some(on) => {
-                self.told.lost |= std::mem::take(&mut self.told.kinematics_unknown);
-                self.tcp(on);
-            }
-            None => {
-                let what = format!("{code}: the machine says what it means, and none does");
-                self.fault(at, own.range, FaultKind::NotModelled { what });
-                self.tcp(false);
-                self.told.lost = true;
-                self.told.kinematics_unknown = true;
-            }
+        if let Some(on) = declared.and_then(|codes| codes.meaning(code)) {
+            self.told.lost |= std::mem::take(&mut self.told.kinematics_unknown);
+            self.tcp(on);
+            return;
         }
+        let what = format!("{code}: the machine says what it means, and none does");
+        self.fault(at, own.range, FaultKind::NotModelled { what });
+        self.tcp(false);
+        self.told.lost = true;
+        self.told.kinematics_unknown = true;
     }
 
     /// G53, G28 or G30 while tool centre point control is on.
@@ -121,7 +118,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let unit = state.units.mm();
         match *call {
             Canon::FeedRate(rate) => {
-                self.told.rate = Some(Rate { mm: rate * unit, deg: rate });
+                self.told.rate = Some(Rate {
+                    mm: rate * unit,
+                    deg: rate,
+                });
                 self.interpreter.state.feed = Some(rate * unit);
             }
             Canon::FeedMode(_, mode) => self.told.per_revolution = mode == 1,

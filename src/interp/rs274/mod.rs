@@ -55,6 +55,10 @@ impl Rs274 {
             done: false,
         }
     }
+    /// The value of a parameter as it is written.
+    pub(crate) fn variable(&self, text: &str) -> Option<f64> {
+        self.engine.variable(text)
+    }
     /// The calls of a chain.
     pub(crate) fn chain(&self, id: crate::ChainId) -> Vec<Frame> {
         let place = self.told.places.place(id);

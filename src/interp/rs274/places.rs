@@ -66,6 +66,9 @@ impl Places {
     /// The place of a chain.
     pub(super) fn place(&self, chain: crate::ChainId) -> At {
         let place = (chain.0 as usize).checked_sub(1);
-        place.and_then(|place| self.table.places.get(place)).copied().unwrap_or_default()
+        place
+            .and_then(|place| self.table.places.get(place))
+            .copied()
+            .unwrap_or_default()
     }
 }

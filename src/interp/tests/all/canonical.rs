@@ -50,18 +50,21 @@ fn a_held_motion_has_its_own_feed_not_that_of_the_next_line() {
     assert_eq!(feeds("G0 X0 Y0 Z0\nG93 G1 X1 F0.05\nM2\n")[1], Feed::PerMinute(0.1));
 }
 
+/// Block of each motion, and whether it is told with G91.
+struct Modes(Vec<(u32, bool)>);
+
+impl trunnion_interp::Sink for Modes {
+    fn motion(&mut self, motion: &trunnion_interp::Motion, state: &trunnion_interp::ModalState) {
+        self.0.push((motion.block.0, state.incremental));
+    }
+    fn fault(&mut self, _: trunnion_interp::Fault) {}
+}
+
 #[test]
 fn a_held_motion_is_told_with_the_modes_of_its_own_line() {
     let source = "G21 G17 G90 F100\nG0 X0 Y0 Z0\nG41.1 D2\nG1 X20\nG1 X40\nG91 G0 Y40\nG1 X-40\nG40\nM2\n";
     let dialect = trunnion_dialect::builtin("linuxcnc").expect("built in");
     let program = trunnion_syntax::parse(source.as_bytes().to_vec(), dialect.lex);
-    struct Modes(Vec<(u32, bool)>);
-    impl trunnion_interp::Sink for Modes {
-        fn motion(&mut self, motion: &trunnion_interp::Motion, state: &trunnion_interp::ModalState) {
-            self.0.push((motion.block.0, state.incremental));
-        }
-        fn fault(&mut self, _: trunnion_interp::Fault) {}
-    }
     let mut modes = Modes(Vec::new());
     trunnion_interp::run(&program, dialect, &Setup::default(), &mut modes);
     for (block, incremental) in modes.0 {
@@ -74,7 +77,11 @@ fn the_block_of_a_held_motion_in_a_called_file_is_its_call() {
     let sub = "o<part> sub\nG1 X20\nG1 X40\no<part> endsub\n";
     let source = "G21 G17 G90 F100\nG0 X0 Y0 Z0\nG41.1 D2\no<part> call\nS500\nS600\nG1 Y40\nG40\nM2\n";
     let log = run_bytes("linuxcnc", source.as_bytes(), &with_file(sub)).1;
-    let at: Vec<_> = log.motions.iter().map(|motion| (motion.block.0, line(motion))).collect();
+    let at: Vec<_> = log
+        .motions
+        .iter()
+        .map(|motion| (motion.block.0, line(motion)))
+        .collect();
     let cuts = at.iter().filter(|(_, line)| line.contains("Y1 "));
     let blocks: Vec<u32> = cuts.map(|(block, _)| *block).collect();
     assert_eq!(blocks, [3, 3], "{at:?}");
@@ -128,12 +135,23 @@ fn an_inch_feed_of_rotary_axes_alone_is_degrees_per_minute() {
     let source = "G20 G91 G94\nG1 X1 A90 F100\nM2\n";
     let log = run_bytes("linuxcnc", source.as_bytes(), &Setup::default()).1;
     assert_eq!(log.motions[0].feed, Feed::Unknown);
-    assert!(faults("linuxcnc", source).iter().any(|fault| fault.contains("F in inch")), "{:?}", faults("linuxcnc", source));
+    assert!(
+        faults("linuxcnc", source)
+            .iter()
+            .any(|fault| fault.contains("F in inch")),
+        "{:?}",
+        faults("linuxcnc", source)
+    );
 }
 
 #[test]
 fn a_motion_beside_a_tool_change_starts_nobody_knows_where() {
-    let log = run_bytes("linuxcnc", b"G21 F100\nG0 X1 Y2 Z3 A4\nT1 M6 G0 X10\nY5\nM2\n", &Setup::default()).1;
+    let log = run_bytes(
+        "linuxcnc",
+        b"G21 F100\nG0 X1 Y2 Z3 A4\nT1 M6 G0 X10\nY5\nM2\n",
+        &Setup::default(),
+    )
+    .1;
     let motion = &log.motions[1];
     assert_eq!(motion.start.xyz(), None);
     assert_eq!(crate::support::position(&motion.start), "A4");
@@ -149,9 +167,16 @@ fn machine_coordinates_under_tcp_are_unknown() {
         assert_eq!(log.motions[1].kind, MotionKind::Unknown, "{words}");
         assert_eq!(log.motions[1].end.xyz(), None, "{words}");
         let last = log.motions.last().expect("a motion");
-        assert_eq!(crate::support::position(&last.end).split(' ').next(), Some("X5"), "{words}");
+        assert_eq!(
+            crate::support::position(&last.end).split(' ').next(),
+            Some("X5"),
+            "{words}"
+        );
         assert!(last.end.xyz().is_none(), "{words}");
-        let told = log.faults.iter().any(|fault| format!("{fault:?}").contains("while tool centre point control is on"));
+        let told = log
+            .faults
+            .iter()
+            .any(|fault| format!("{fault:?}").contains("while tool centre point control is on"));
         assert!(told, "{words}: {:?}", log.faults);
     }
 }
@@ -191,7 +216,10 @@ fn a_code_of_the_machine_under_compensation_is_unknown() {
     let source = "G21 F100\nG0 X0 Y0 Z0\nG41.1 D2\nG1 X20\nG1 X40\nM428\nG1 Y40\nG40\nM2\n";
     let log = run_bytes("linuxcnc", source.as_bytes(), &trt()).1;
     assert!(log.motions.iter().all(|motion| !motion.tcp || motion.block.0 > 5));
-    let told = log.faults.iter().any(|fault| format!("{fault:?}").contains("M428 under compensation"));
+    let told = log
+        .faults
+        .iter()
+        .any(|fault| format!("{fault:?}").contains("M428 under compensation"));
     assert!(told, "{:?}", log.faults);
 }
 
@@ -207,7 +235,10 @@ fn a_diameter_of_zero_that_the_program_says_is_declared() {
 fn a_spline_is_run_as_chords_and_said_to_be_unknown() {
     let source = "G21 G17 G90 F100\nG0 X0 Y0 Z0\nG5 I0 J3 P0 Q-3 X10 Y10\nM2\n";
     let told = faults("linuxcnc", source);
-    assert!(told[0].contains("spline: judged along chords within 0.001 mm of it"), "{told:?}");
+    assert!(
+        told[0].contains("spline: judged along chords within 0.001 mm of it"),
+        "{told:?}"
+    );
     let got = lines("linuxcnc", source);
     assert!(got.len() > 5, "{got:?}");
     assert_eq!(got.last().map(String::as_str), Some("L X10 Y10 Z0 F100"));

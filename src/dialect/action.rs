@@ -103,10 +103,14 @@ pub enum Action {
     /// positions are unknown from here on, until a [`Action::FrameReset`] of the same group. A name without arguments and
     /// without words in its block (`TRANS`, `CYCLE800()`) resets.
     FrameChange,
+    /// TRANS, ATRANS of a Sinumerik: shifts the zero point, instead of earlier programmable frames or beside them. TRANS alone ends them.
+    ProgrammableShift,
     /// Ends every [`Action::FrameChange`] of the same group (G69).
     FrameReset,
     /// DEF, PROC, EXTERN: declares names; no motion and no positions in the rest of the block.
     Declaration,
+    /// CYCLE81 ... CYCLE89 of a Sinumerik: a drilling cycle with its numbers between parentheses.
+    HoleCall,
     /// G81: drill, rapid out.
     DrillCycle,
     /// G82: drill, dwell, rapid out.

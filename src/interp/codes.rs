@@ -38,6 +38,10 @@ pub(crate) struct BlockCodes {
     pub(crate) pattern: Option<Pattern>,
     /// A circular pocket.
     pub(crate) pocket: bool,
+    /// Which code of the block is a drilling cycle with its numbers.
+    pub(crate) hole_call: Option<usize>,
+    /// MCALL stands before it.
+    pub(crate) modal_call: bool,
 }
 
 /// Place in the order of execution (RS274/NGC, version 3, section 3.8: feed mode, F, S, T, tool change, spindle, dwell, plane,
@@ -74,6 +78,7 @@ impl<'d> Interpreter<'d> {
         }
         let mut block = BlockCodes {
             count: codes.len(),
+            hole_call: codes.iter().position(|found| found.code.action == Action::HoleCall),
             ..BlockCodes::default()
         };
         let mut rest = &*codes;
@@ -185,14 +190,18 @@ impl<'d> Interpreter<'d> {
             Action::FrameChange => self.frame_change(found, words, block, report),
             Action::CannedCycle => {
                 // MCALL with a cycle behind it begins, MCALL alone ends
-                let ends = found.code.kind == CodeKind::Name && !found.with_arguments && block.count == 1;
+                let alone = block.count == 1 && !words.forgets_all;
+                let ends = found.code.kind == CodeKind::Name && !found.with_arguments && alone;
                 if ends {
                     self.cycle_off(found.code);
+                } else if block.hole_call.is_some() {
+                    block.modal_call = true;
                 } else {
                     self.canned_cycle(found, block, report);
                 }
             }
             Action::CycleOff => self.cycle_off(found.code),
+            Action::HoleCall => {}
             Action::NotFollowed => {
                 block.takes_coordinates |= found.code.kind == CodeKind::G;
                 // a limit of the speed alone
@@ -294,7 +303,7 @@ impl<'d> Interpreter<'d> {
             .any(|code| code.group.as_deref() == group && meaning(code.action))
     }
 
-    fn motion_group(&self) -> Option<&'d str> {
+    pub(crate) fn motion_group(&self) -> Option<&'d str> {
         self.dialect.g(0)?.group.as_deref()
     }
 
@@ -322,42 +331,23 @@ impl<'d> Interpreter<'d> {
     pub(crate) fn frame_begins(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes) {
         block.takes_coordinates = true;
         self.memory.begin_frame(found.code, false);
+        // a shift by TRANS may end with it, or lie inside it
+        let shift = self
+            .dialect
+            .name("TRANS")
+            .filter(|_| self.memory.frames.local != [0.0; 9]);
+        if let Some(shift) = shift {
+            self.memory.begin_frame(shift, false);
+        }
         if (words.axes.given | words.axes.unread) & ROTARY != 0 {
             self.memory.frame_turns_axes(found.code);
         }
         self.forget_position();
     }
-
-    fn canned_cycle(&mut self, found: &Found<'d>, block: &mut BlockCodes, report: &mut Report<'_>) {
-        not_modelled(found, report);
-        block.not_modelled = true;
-        if !self
-            .state
-            .motion
-            .is_some_and(|motion| motion == Action::CannedCycle || motion.is_hole_cycle())
-        {
-            self.memory.before_cycle = self.state.motion;
-        }
-        self.state.motion = Some(Action::CannedCycle);
-    }
-
-    /// Ends a cycle: where it belongs to the motion group (LinuxCNC) no motion code is in force then, else the one before.
-    fn cycle_off(&mut self, code: &Code) {
-        let of_motion_group = code.group.is_some() && code.group.as_deref() == self.motion_group();
-        if of_motion_group {
-            self.state.motion = None;
-        } else if self
-            .state
-            .motion
-            .is_some_and(|motion| motion == Action::CannedCycle || motion.is_hole_cycle())
-        {
-            self.state.motion = self.memory.before_cycle;
-        }
-    }
 }
 
 /// The fact that a code is not modelled.
-fn not_modelled(found: &Found<'_>, report: &mut Report<'_>) {
+pub(crate) fn not_modelled(found: &Found<'_>, report: &mut Report<'_>) {
     let what = found.code.id.clone();
     report.fault(found.range, FaultKind::NotModelled { what });
 }

@@ -1,11 +1,15 @@
 //! `,R` and `,C`: a corner between two straight motions rounded by an arc or cut off by a line (Fanuc: optional chamfering and corner R).
 use crate::arc::plane_axes;
 use crate::compensation::Told;
+use crate::reader::Reader;
 use crate::run::{Interpreter, Report};
+use crate::values::number;
+use crate::words::Said;
 use crate::{FaultKind, Motion, MotionKind, Refusal};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
 use trunnion_geometry::math::{atan2, tan};
+use trunnion_syntax::{TextRange, Value, Word};
 
 /// A corner that waits for the motion behind it.
 #[derive(Clone, Debug)]
@@ -45,6 +49,25 @@ fn flat(motion: &Motion, axes: [usize; 3]) -> Option<Vec3> {
     let level = way[axes[2]].abs() <= 1e-9;
     way[axes[2]] = 0.0;
     (motion.kind == MotionKind::Linear && level && way.norm() > 1e-9).then_some(way)
+}
+
+impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
+    /// `,R5.` and `,C2.`, where the control has them.
+    pub(crate) fn corner(&mut self, name: &[u8], word: &Word) -> bool {
+        let letter = match name {
+            [b',', letter @ (b'R' | b'C' | b'r' | b'c')] => letter.to_ascii_uppercase(),
+            _ => return false,
+        };
+        let (true, Value::Number(decimal)) = (self.dialect.quirks.corner_words, word.value) else {
+            return false;
+        };
+        let Said::Number(number) = number(decimal, word.range) else {
+            return false;
+        };
+        self.words.has_values = true;
+        self.words.corner = Some((letter, number));
+        true
+    }
 }
 
 impl Interpreter<'_> {

@@ -1,4 +1,5 @@
 //! Canned cycles, expanded into the motions that a control makes of them.
+mod called;
 mod data;
 mod hole;
 mod pass;
@@ -6,12 +7,13 @@ mod pattern;
 mod pocket;
 mod steps;
 
+pub(crate) use called::HoleCall;
 pub(crate) use data::{Hole, Stored};
 pub(crate) use pattern::Pattern;
 
-use crate::codes::Found;
-use crate::run::Interpreter;
-use trunnion_dialect::Action;
+use crate::codes::{BlockCodes, Found, not_modelled};
+use crate::run::{Interpreter, Report};
+use trunnion_dialect::{Action, Code};
 
 /// What a cycle keeps from block to block.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +30,8 @@ pub(crate) struct Cycle {
     pub(crate) hole_place: [Option<f64>; 2],
     /// Data of drilling cycles.
     pub(crate) hole: Hole,
+    /// The cycle that runs behind every motion (MCALL).
+    pub(crate) call: Option<std::sync::Arc<HoleCall>>,
     /// Data of turning cycles: end of the cut in X and Z, taper.
     pub(crate) pass: [Stored; 3],
 }
@@ -55,5 +59,34 @@ impl<'d> Interpreter<'d> {
         cycle.repeats = if reads("L") { b'L' } else { b'K' };
         cycle.reads = [reads("I"), reads("J") && reads("I"), reads("K") && reads("L")];
         self.state.motion = Some(action);
+    }
+
+    pub(crate) fn canned_cycle(&mut self, found: &Found<'d>, block: &mut BlockCodes, report: &mut Report<'_>) {
+        not_modelled(found, report);
+        self.memory.cycle.call = None;
+        block.not_modelled = true;
+        if !self
+            .state
+            .motion
+            .is_some_and(|motion| motion == Action::CannedCycle || motion.is_hole_cycle())
+        {
+            self.memory.before_cycle = self.state.motion;
+        }
+        self.state.motion = Some(Action::CannedCycle);
+    }
+
+    /// Ends a cycle: where it belongs to the motion group (LinuxCNC) no motion code is in force then, else the one before.
+    pub(crate) fn cycle_off(&mut self, code: &Code) {
+        self.memory.cycle.call = None;
+        let of_motion_group = code.group.is_some() && code.group.as_deref() == self.motion_group();
+        if of_motion_group {
+            self.state.motion = None;
+        } else if self
+            .state
+            .motion
+            .is_some_and(|motion| motion == Action::CannedCycle || motion.is_hole_cycle())
+        {
+            self.state.motion = self.memory.before_cycle;
+        }
     }
 }

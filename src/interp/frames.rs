@@ -113,6 +113,7 @@ impl<'d> Interpreter<'d> {
     ) {
         match found.code.action {
             Action::LocalShift => self.local_shift(found, words, block, report),
+            Action::ProgrammableShift => self.programmable_shift(found, words, block, report),
             Action::PositionSet => self.position_set(found, words, block, report),
             Action::PositionPreset => self.position_preset(found, words, block),
             Action::RotationOn => self.rotation_on(found, words, block, report),

@@ -155,6 +155,7 @@ impl<'d> Interpreter<'d> {
             self.state.spindle_on = None;
         }
         let motion = self.motion(codes, words, &block, report);
+        let motion = self.called_cycle(codes, words, &block, motion, report);
         if words.forgets_all {
             self.forget_position();
         }

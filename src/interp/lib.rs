@@ -23,6 +23,7 @@ mod modal;
 mod motion;
 mod offsets;
 mod orientation;
+mod own;
 mod reader;
 mod rs274;
 mod run;

@@ -65,6 +65,8 @@ pub(crate) struct Memory<'d> {
     pub(crate) corners: crate::corner::Corners,
     /// Cutter radius compensation in the plane.
     pub(crate) compensation: crate::compensation::Compensation,
+    /// Variables of a Sinumerik program.
+    pub(crate) own: crate::own::Own,
     /// Motions of the block in hand beside its last.
     pub(crate) out: Vec<crate::Motion>,
     /// The last block with content, for a missing program end.

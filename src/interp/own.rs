@@ -3,6 +3,8 @@
 //!
 //! Arithmetic: Sinumerik 840D sl Programming Manual, Job Planning (variables; arithmetic operations and functions): angles in degrees,
 //! MOD and DIV before + and -, INT variables rounded when they are written.
+mod words;
+
 use std::collections::HashMap;
 use trunnion_geometry::math;
 
@@ -198,7 +200,10 @@ impl<'a> Expression<'a> {
             let value = self.sum()?;
             return self.eat(')').then_some(value);
         }
-        let digits = self.rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(self.rest.len());
+        let digits = self
+            .rest
+            .find(|c: char| !(c.is_ascii_digit() || c == '.'))
+            .unwrap_or(self.rest.len());
         if digits > 0 {
             let (number, rest) = self.rest.split_at(digits);
             if rest.starts_with(|c: char| c.is_ascii_alphabetic()) && !is_operator(rest) {
@@ -304,7 +309,12 @@ mod tests {
         ] {
             assert_eq!(own.value(text), value, "{text}");
         }
-        for (text, value) in [("SIN(30)", 0.5), ("ATAN2(1,-1)", 135.0), ("ACOS(0.5)", 60.0), ("TAN(45)", 1.0)] {
+        for (text, value) in [
+            ("SIN(30)", 0.5),
+            ("ATAN2(1,-1)", 135.0),
+            ("ACOS(0.5)", 60.0),
+            ("TAN(45)", 1.0),
+        ] {
             assert!((own.value(text).expect(text) - value).abs() < 1e-12, "{text}");
         }
         let deep = format!("{}1{}", "(".repeat(100_000), ")".repeat(100_000));
@@ -318,11 +328,18 @@ mod tests {
         own.define("INT COUNT=2.5");
         assert_eq!(own.value("B"), None, "written in the block in hand");
         own.begin_block();
-        assert_eq!((own.value("a"), own.value("B"), own.value("COUNT")), (Some(0.0), Some(2.5), Some(3.0)));
+        assert_eq!(
+            (own.value("a"), own.value("B"), own.value("COUNT")),
+            (Some(0.0), Some(2.5), Some(3.0))
+        );
         own.assign("GLOBAL", Some(0.5));
         own.assign("R5", Some(0.5));
         own.begin_block();
-        assert_eq!((own.value("GLOBAL"), own.value("R5")), (None, Some(0.5)), "the sort of GLOBAL is not known");
+        assert_eq!(
+            (own.value("GLOBAL"), own.value("R5")),
+            (None, Some(0.5)),
+            "the sort of GLOBAL is not known"
+        );
         own.assign("R[X]", Some(1.0));
         assert_eq!((own.value("R5"), own.value("B")), (None, Some(2.5)));
         own.lose();

@@ -1,6 +1,7 @@
 //! Reads the items of one ISO block in one pass, with the meaning that the dialect gives to letters and names.
 use crate::codes::Found;
 use crate::macro_b::Macros;
+use crate::own::Own;
 use crate::system::{SystemWrite, system_write};
 use crate::values::number;
 use crate::words::{Said, Words, put};
@@ -56,6 +57,8 @@ pub(crate) struct Reader<'a, 'd, F: FnMut(TextRange, FaultKind)> {
     pub(crate) codes: &'a mut Vec<Found<'d>>,
     /// Variables and flow, in dialects that have macros.
     pub(crate) macros: Option<Macros<'a>>,
+    /// Variables of a Sinumerik program.
+    pub(crate) own: Option<&'a mut Own>,
     pub(crate) report: F,
 }
 
@@ -170,26 +173,9 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             (Some(role), _) => self.role_word(role, b' ', word),
             (None, Some(b',')) if self.corner(stem, word) => {}
             (None, Some(b',')) => self.role_word(Role::NotModelled, b' ', word),
-            _ if variable => self.words.has_values = true,
+            _ if variable => self.own_assignment(range, word),
             _ => (self.report)(word.range, FaultKind::UnknownWord),
         }
-    }
-
-    /// `,R5.` and `,C2.`, where the control has them.
-    fn corner(&mut self, name: &[u8], word: &Word) -> bool {
-        let letter = match name {
-            [b',', letter @ (b'R' | b'C' | b'r' | b'c')] => letter.to_ascii_uppercase(),
-            _ => return false,
-        };
-        let (true, Value::Number(decimal)) = (self.dialect.quirks.corner_words, word.value) else {
-            return false;
-        };
-        let Said::Number(number) = number(decimal, word.range) else {
-            return false;
-        };
-        self.words.has_values = true;
-        self.words.corner = Some((letter, number));
-        true
     }
 
     /// An assignment to a variable of the control.
@@ -215,6 +201,9 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             divisor /= 10;
         }
         if let Some(role) = self.dialect.named_role(&name[..digits]) {
+            if role == Role::Variable {
+                self.own_value(&String::from_utf8_lossy(&name[..digits]), word);
+            }
             self.role_word(role, letter, word);
             return;
         }
@@ -352,6 +341,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         };
         if code.action == Action::Declaration {
             self.words.declares = true;
+            self.own_declaration(code, call.range);
         }
         let with_arguments = call.arguments.is_some_and(|inner| {
             self.program

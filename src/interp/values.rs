@@ -34,6 +34,9 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             Value::Missing | Value::Bad => Said::Unread,
             Value::Expression(range) if self.macros.is_some() => self.macro_value(word, range),
             Value::Expression(_) | Value::Call(..) => {
+                if let Some(number) = self.own_number(word.value_range) {
+                    return Said::Number(number);
+                }
                 self.not_modelled(word.value_range);
                 Said::Unread
             }
@@ -49,11 +52,14 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 return (number(decimal, word.range), reading);
             }
         }
+        if let Some(place) = self.own_place(word) {
+            return place;
+        }
         (self.said(word), Reading::Modal)
     }
 }
 
-const READINGS: [(&[u8], Reading); 5] = [
+pub(crate) const READINGS: [(&[u8], Reading); 5] = [
     (b"AC", Reading::Absolute),
     (b"IC", Reading::Incremental),
     (b"DC", Reading::Shortest),

@@ -6,9 +6,11 @@
 //! depths are there the last one counts.
 use super::hole::Plan;
 use crate::arc::plane_axes;
+use crate::codes::{BlockCodes, Found, not_modelled};
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
-use crate::{FaultKind, Feed, FeedMode, MotionKind};
+use crate::{FaultKind, Feed, FeedMode, Motion, MotionKind};
+use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
 /// One number of a call.
@@ -108,9 +110,46 @@ impl HoleCall {
 }
 
 impl Interpreter<'_> {
+    /// A cycle with its numbers in the block, or behind the block's motion under MCALL; the block's motion where neither takes it.
+    pub(crate) fn called_cycle(
+        &mut self,
+        codes: &[Found<'_>],
+        words: &Words,
+        block: &BlockCodes,
+        motion: Option<Motion>,
+        report: &mut Report<'_>,
+    ) -> Option<Motion> {
+        if let Some(found) = block.hole_call.and_then(|at| codes.get(at)) {
+            let numbers = self.call_numbers(&report.program.text(found.range));
+            let call = HoleCall::new(&found.code.id, numbers).filter(|_| !words.axes.any());
+            let Some(call) = call else {
+                not_modelled(found, report);
+                self.forget_position();
+                return motion;
+            };
+            if block.modal_call {
+                self.memory.cycle.call = Some(Arc::new(call));
+                return motion;
+            }
+            self.run_call(&call, words, report);
+            return None;
+        }
+        let call = self.memory.cycle.call.clone();
+        let moved = motion.filter(|motion| !matches!(motion.kind, MotionKind::Dwell(_)));
+        let (Some(call), Some(moved)) = (call, moved) else {
+            return motion;
+        };
+        self.memory.out.push(moved);
+        self.run_call(&call, words, report);
+        None
+    }
+
     /// What stands in the parentheses of a call.
-    pub(crate) fn call_numbers(text: &str) -> Vec<Given> {
-        let Some(inside) = text.split_once('(').map(|(_, rest)| rest.trim_end().trim_end_matches(')')) else {
+    fn call_numbers(&self, text: &str) -> Vec<Given> {
+        let Some(inside) = text
+            .split_once('(')
+            .map(|(_, rest)| rest.trim_end().trim_end_matches(')'))
+        else {
             return Vec::new();
         };
         if inside.contains(['"', '(']) {
@@ -122,13 +161,13 @@ impl Interpreter<'_> {
             .map(|one| match (one.trim(), one.trim().parse::<f64>()) {
                 ("", _) => Given::Nothing,
                 (_, Ok(number)) if number.abs() <= crate::reader::LARGEST => Given::Number(number),
-                _ => Given::Unread,
+                (one, _) => self.memory.own.value(one).map_or(Given::Unread, Given::Number),
             })
             .collect()
     }
 
     /// Runs a cycle where the tool stands.
-    pub(crate) fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
+    fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
         let axis = plane_axes(self.state.plane)[2];
         let other_axis = match call.sort {
             Sort::Deep | Sort::Tap => call.number(12).or_zero() != Some(0.0),
@@ -252,7 +291,10 @@ impl Interpreter<'_> {
             self.down(plan, MotionKind::Linear, Some(plan.bottom), report);
         }
         if call.id != "CYCLE87" {
-            self.wait_at_bottom(call.number(if steps && call.sort == Sort::Deep { 8 } else { 5 }), report);
+            self.wait_at_bottom(
+                call.number(if steps && call.sort == Sort::Deep { 8 } else { 5 }),
+                report,
+            );
         }
         match call.sort {
             Sort::Drill | Sort::Deep => {}
@@ -284,7 +326,8 @@ impl Interpreter<'_> {
     fn lift_off(&mut self, call: &HoleCall, sign: f64, report: &mut Report<'_>) {
         let axes = plane_axes(self.state.plane);
         let position = self.state.position;
-        let mut place = self.memory.frames.programmed(&position);
+        let before = self.memory.frames.programmed(&position);
+        let mut place = before;
         for (number, axis) in [(7, axes[0]), (8, axes[1]), (9, axes[2])] {
             if number == 9 && sign < 0.0 {
                 continue;
@@ -294,7 +337,7 @@ impl Interpreter<'_> {
                 _ => place.forget(axis),
             }
         }
-        if sign > 0.0 || call.number(7) != Given::Nothing || call.number(8) != Given::Nothing {
+        if place != before {
             self.goes(MotionKind::Rapid, place, Feed::Rapid, report);
         }
     }

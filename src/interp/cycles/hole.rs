@@ -12,12 +12,12 @@ const MOST_REPEATS: u32 = 10_000;
 /// One hole with its numbers, all as coordinates of the words.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
-    axis: usize,
+    pub(super) axis: usize,
     pub(super) r: Option<f64>,
     pub(super) bottom: f64,
-    initial: Option<f64>,
-    back: Option<f64>,
-    feed: Feed,
+    pub(super) initial: Option<f64>,
+    pub(super) back: Option<f64>,
+    pub(super) feed: Feed,
 }
 
 impl Interpreter<'_> {
@@ -161,15 +161,20 @@ impl Interpreter<'_> {
     }
 
     fn wait(&mut self, seconds: Option<f64>, report: &Report<'_>) {
-        if let Some(seconds) = seconds.filter(|seconds| *seconds > 0.0) {
-            let position = self.state.position;
-            let kind = MotionKind::Dwell(Some(seconds));
-            let mut motion = self.new_motion(kind, position, position, self.held_orientation(), Feed::Unknown, report);
-            if self.state.frame_unknown {
-                self.hide(&mut motion);
-            }
-            self.memory.out.push(motion);
+        if seconds.is_some_and(|seconds| seconds > 0.0) {
+            self.pause(seconds, report);
         }
+    }
+
+    /// A dwell; `None`: of unknown length.
+    pub(super) fn pause(&mut self, seconds: Option<f64>, report: &Report<'_>) {
+        let position = self.state.position;
+        let kind = MotionKind::Dwell(seconds);
+        let mut motion = self.new_motion(kind, position, position, self.held_orientation(), Feed::Unknown, report);
+        if self.state.frame_unknown {
+            self.hide(&mut motion);
+        }
+        self.memory.out.push(motion);
     }
 
     /// One hole, from where the tool stands above it.

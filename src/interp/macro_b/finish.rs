@@ -77,6 +77,7 @@ impl Interpreter<'_> {
                     setup: &self.setup,
                     frames: &self.memory.frames,
                 }),
+                own: None,
                 report: |range: TextRange, kind: FaultKind| {
                     if is_of_text(&kind) {
                         sink.fault(Fault { block, range, kind });

@@ -9,8 +9,8 @@ use crate::reader::Reader;
 use crate::run::{Interpreter, Report};
 use crate::words::{Said, Words};
 use crate::{FaultKind, Refusal};
-use trunnion_dialect::Dialect;
-use trunnion_syntax::{Block, TextRange};
+use trunnion_dialect::{Action, Dialect};
+use trunnion_syntax::{Block, Item, TextRange};
 
 impl<'d> Interpreter<'d> {
     /// Reads the words of a block; what macro statements ask for is done when it has run.
@@ -36,10 +36,22 @@ impl<'d> Interpreter<'d> {
             words,
             codes,
             macros: self.dialect.quirks.macro_b.then_some(macros),
+            own: self.dialect.quirks.user_names.then_some(&mut self.memory.own),
             report: |range: TextRange, kind| report.fault(range, kind),
         };
+        if let Some(own) = &mut reader.own {
+            own.begin_block();
+        }
         for item in block.items() {
+            // who jumps there may bring other values
+            if let (Item::Label(_), Some(own)) = (&item, &mut reader.own) {
+                own.lose();
+            }
             reader.take(item);
+        }
+        let calls = |found: &Found<'_>| found.code.action == Action::SubprogramCall;
+        if words.forgets_all || self.dialect.quirks.user_names && codes.iter().any(calls) {
+            self.memory.own.lose();
         }
         if words.flow || words.program_number.is_some() {
             self.flow_words(block, codes, words, report);

@@ -5,6 +5,7 @@ mod apt;
 mod arcs;
 mod by_hand;
 mod by_hand_paths;
+mod called_cycles;
 mod canonical;
 mod compensation;
 mod corners;

@@ -262,18 +262,58 @@ fn cycles_run_until_they_end() {
     let lathe = "G0 X2. Z9.\nG83 X2. Z-3. R1. F100.\nC5.\nG80\nX6.\n";
     assert_eq!(lines("fanuc-30i-lathe-a", lathe), ["R X1 Z9", "U -", "U -", "R X3"]);
     let sinumerik = "G0 X1 Y2 Z9\nMCALL CYCLE81(5,0,2,-3)\nX5\nMCALL\nX6\n";
-    assert_eq!(lines("sinumerik-840d", sinumerik), ["R X1 Y2 Z9", "U -", "R X6"]);
+    assert_eq!(
+        lines("sinumerik-840d", &sinumerik.replace("81", "99")),
+        ["R X1 Y2 Z9", "U -", "R X6"]
+    );
 }
 
 #[test]
 fn frames_that_are_not_modelled_hide_the_position() {
-    let source = "G0 X1 Y2 Z3\nTRANS X10\nX5\nG1 Y6 F10\nG0 SUPA Z100\nTRANS\nZ4\nX1\n";
+    let source = "G0 X1 Y2 Z3\nROT Z10\nX5\nG1 Y6 F10\nG0 SUPA Z100\nROT\nZ4\nX1\n";
     assert_eq!(
         lines("sinumerik-840d", source),
         ["R X1 Y2 Z3", "R -", "L - F10", "R Z100 machine", "R Z4", "R X1 Z4"]
     );
     let tilted = "G0 X1 Y2 Z3 A0\nG68.2 X0 Y0 Z0 I0 J30 K0\nX5 A30\nG69\nX6 Y7 Z8\n";
     assert_eq!(lines("fanuc-30i", tilted), ["R X1 Y2 Z3 A0", "R A30", "R X6 Y7 Z8"]);
+}
+
+#[test]
+fn trans_moves_the_zero_point() {
+    let source = "G0 G91 X1 Y2 Z3\nG90 X1 Y2 Z3 A4\nTRANS X10 A30\nX5\nATRANS X1 Y-2\nX5\nSUPA Z100\nTRANS\nX5 Y2\n";
+    let log = run_text("sinumerik-840d", source);
+    let got: Vec<_> = log.motions[1..].iter().map(line).collect();
+    assert_eq!(
+        got,
+        [
+            "R X1 Y2 Z3 A4",
+            "R X5 Y2 Z3 A-26",
+            "R X5 Y4 Z3 A-26",
+            "R X16 Y2 Z100 A4 machine",
+            "R X5 Y2 Z100 A4"
+        ]
+    );
+    let zeros: Vec<_> = log.motions[1..]
+        .iter()
+        .map(|motion| [motion.zero[0], motion.zero[1], motion.zero[3]])
+        .collect();
+    assert_eq!(zeros[1..4], [[10.0, 0.0, 30.0], [11.0, -2.0, 30.0], [11.0, -2.0, 30.0]]);
+    assert_eq!(zeros[4], [0.0; 3]);
+    assert_eq!(log.faults, []);
+    // inside a frame that is not modelled, or behind one, nothing is known
+    for source in [
+        "G0 X1 Y2 Z3\nROT Z10\nATRANS X10\nX5 Y6\n",
+        "G0 X1 Y2 Z3\nTRANS X10\nAROT Z10\nX5 Y6\n",
+        "G0 X1 Y2 Z3\nTRANS X=R1\nX5 Y6\n",
+        "G0 X1 Y2 Z3\nTRANS X10\nCYCLE800(1,\"T\",0,57,0,0,0,0,-15,0,0,0,0,-1,0)\nCYCLE800()\nX5 Y6\n",
+    ] {
+        assert_eq!(
+            lines("sinumerik-840d", source).last().map(String::as_str),
+            Some("R -"),
+            "{source}"
+        );
+    }
 }
 
 #[test]
@@ -330,7 +370,7 @@ fn a_tool_whose_data_are_written_has_no_known_length_under_supa() {
 
 #[test]
 fn a_frame_with_rotary_words_hides_rotary_axes_too() {
-    let source = "G0 X1 A4\nTRANS A10\nG0 X5 A6\nTRANS\nA7\n";
+    let source = "G0 X1 A4\nROT A10\nG0 X5 A6\nROT\nA7\n";
     assert_eq!(lines("sinumerik-840d", source), ["R X1 A4", "R -", "R A7"]);
 }
 

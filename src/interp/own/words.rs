@@ -1,0 +1,62 @@
+//! Words that write and read the variables of a Sinumerik program.
+use crate::FaultKind;
+use crate::reader::Reader;
+use crate::values::READINGS;
+use crate::words::{Number, Reading, Said};
+use trunnion_dialect::Code;
+use trunnion_syntax::{TextRange, Value, Word};
+
+impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
+    /// An assignment to a name of the program's own.
+    pub(crate) fn own_assignment(&mut self, name: TextRange, word: &Word) {
+        self.words.has_values = true;
+        let name = self.text(name);
+        self.own_value(&name, word);
+    }
+
+    /// Gives a variable the value of a word.
+    pub(crate) fn own_value(&mut self, name: &str, word: &Word) {
+        let number = match word.value {
+            Value::Number(decimal) => Some(decimal.to_f64()),
+            _ => self.own_number(word.value_range).map(|number| number.value),
+        };
+        if let Some(own) = &mut self.own {
+            own.assign(name, number);
+        }
+    }
+
+    /// DEF.
+    pub(crate) fn own_declaration(&mut self, code: &Code, range: TextRange) {
+        let text = self.text(range);
+        if let (Some(own), "DEF", Some(rest)) = (&mut self.own, code.id.as_str(), text.get(3..)) {
+            own.define(rest);
+        }
+    }
+
+    /// The value of an expression.
+    pub(crate) fn own_number(&self, range: TextRange) -> Option<Number> {
+        let value = self.own.as_ref()?.value(&self.text(range))?;
+        Some(Number {
+            value,
+            has_point: true,
+            range,
+        })
+    }
+
+    /// `IC(R1+2)`.
+    pub(crate) fn own_place(&self, word: &Word) -> Option<(Said, Reading)> {
+        let Value::Expression(_) = word.value else { return None };
+        let own = self.own.as_ref()?;
+        let text = self.text(word.value_range);
+        let (name, inside) = text.split_once('(')?;
+        let known = |(known, _): &&(&[u8], Reading)| name.trim().as_bytes().eq_ignore_ascii_case(known);
+        let (_, reading) = READINGS.iter().find(known)?;
+        let value = own.value(inside.strip_suffix(')')?)?;
+        let number = Number {
+            value,
+            has_point: true,
+            range: word.range,
+        };
+        Some((Said::Number(number), *reading))
+    }
+}

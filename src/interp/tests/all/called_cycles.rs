@@ -1,0 +1,132 @@
+//! Sinumerik: variables of the program's own, and drilling cycles that are called with numbers.
+use crate::support::{faults, line, lines, run_text};
+
+const HEAD: &str = "G17 G90 G94 F100\nS1000 M3\nG0 X0 Y0 Z50\n";
+
+fn cycle(text: &str) -> Vec<String> {
+    lines("sinumerik-840d", &format!("{HEAD}{text}\n"))[1..].to_vec()
+}
+
+#[test]
+fn cycle81_goes_down_in_feed_and_out_in_rapid() {
+    let hole = ["R X0 Y0 Z3", "L X0 Y0 Z-20 F100", "R X0 Y0 Z10"];
+    assert_eq!(cycle("CYCLE81(10,0,3,-20)"), hole);
+    assert_eq!(cycle("CYCLE81(10,0,3,,20)"), hole, "depth below the surface");
+    assert_eq!(cycle("CYCLE81(10,0,3,-5,20)"), hole, "the last depth counts");
+    assert_eq!(cycle("R1=10 R2=-20\nCYCLE81(R1,,3.,R2)"), hole);
+}
+
+#[test]
+fn mcall_runs_the_cycle_behind_every_motion_until_it_stands_alone() {
+    assert_eq!(
+        cycle("MCALL CYCLE82(10,0,3,-20,,0.5)\nX5\nG4 F1\nX7\nMCALL\nX9"),
+        [
+            "R X5 Y0 Z50",
+            "R X5 Y0 Z3",
+            "L X5 Y0 Z-20 F100",
+            "D0.5 X5 Y0 Z-20",
+            "R X5 Y0 Z10",
+            "D1 X5 Y0 Z10",
+            "R X7 Y0 Z10",
+            "R X7 Y0 Z3",
+            "L X7 Y0 Z-20 F100",
+            "D0.5 X7 Y0 Z-20",
+            "R X7 Y0 Z10",
+            "R X9 Y0 Z10"
+        ]
+    );
+}
+
+#[test]
+fn the_other_cycles_are_what_the_manual_says() {
+    // pitch 1.5 mm, in and out along the thread, the spindle turns on with M3
+    let tap = format!("{HEAD}CYCLE84(10,0,3,-20,,0,3,0,1.5,0,300,300)\n");
+    let log = run_text("sinumerik-840d", &tap);
+    let got: Vec<_> = log.motions[1..].iter().map(line).collect();
+    assert_eq!(
+        got,
+        [
+            "R X0 Y0 Z3",
+            "L X0 Y0 Z-20 F1.5/rev",
+            "L X0 Y0 Z3 F1.5/rev",
+            "R X0 Y0 Z10"
+        ]
+    );
+    assert_eq!(log.motions[2].spindle_rpm, Some(300.0));
+    assert_eq!(log.state.expect("ran").spindle_on, Some(true));
+    assert_eq!(
+        cycle("CYCLE85(10,0,3,-20,,0,60,120)"),
+        ["R X0 Y0 Z3", "L X0 Y0 Z-20 F60", "L X0 Y0 Z3 F120", "R X0 Y0 Z10"]
+    );
+    let bore = format!("{HEAD}CYCLE86(10,0,3,-20,,0,3,-0.2,0,0,0)\n");
+    let log = run_text("sinumerik-840d", &bore);
+    let got: Vec<_> = log.motions[1..].iter().map(line).collect();
+    assert_eq!(
+        got,
+        [
+            "R X0 Y0 Z3",
+            "L X0 Y0 Z-20 F100",
+            "R X-0.2 Y0 Z-20",
+            "R X-0.2 Y0 Z10",
+            "R X0 Y0 Z10"
+        ]
+    );
+    assert_eq!(log.motions[3].spindle_on, Some(false));
+    assert_eq!(
+        cycle("CYCLE89(10,0,3,-20,,1)"),
+        [
+            "R X0 Y0 Z3",
+            "L X0 Y0 Z-20 F100",
+            "D1 X0 Y0 Z-20",
+            "L X0 Y0 Z3 F100",
+            "R X0 Y0 Z10"
+        ]
+    );
+}
+
+#[test]
+fn what_a_cycle_does_not_tell_is_unknown() {
+    for (text, told) in [
+        ("CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0)", "the steps in the hole"),
+        (
+            "CYCLE84(10,0,3,-20,,0,3,0,1.5,0,300,300,0,1,0,1,2,1)",
+            "the steps in the hole",
+        ),
+        ("CYCLE84(10,0,3,-20,,0,3,8)", "its pitch"),
+        ("CYCLE81(10,0,3,R7)", "without levels"),
+        ("CYCLE81(-10,0,3,-20)", "without levels"),
+        ("CYCLE81(10,0,3,-20,,0,1)", "numbers that choose other meanings"),
+        (
+            "CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0,1)",
+            "numbers that choose other meanings",
+        ),
+    ] {
+        let got = faults("sinumerik-840d", &format!("{HEAD}{text}\n"));
+        assert!(got.iter().any(|fault| fault.contains(told)), "{text}: {got:?}");
+    }
+    // the place behind a hole in steps is known
+    assert_eq!(
+        cycle("CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0)"),
+        ["R X0 Y0 Z3", "U X0 Y0 Z-20", "R X0 Y0 Z10"]
+    );
+    assert_eq!(cycle("CYCLE81(10,0,3,R7)\nX5"), ["U -", "R X5"]);
+}
+
+#[test]
+fn variables_are_followed_until_the_flow_is_lost() {
+    let source =
+        "DEF REAL _HOME, _UP=2.5\n_HOME=-10 R1=4\nG0 X=_HOME+R1*2 Y=R1/8 Z=_UP\nX=IC(R1) Y=AC(R1)\nR1=R1+1\nX=R1\n";
+    assert_eq!(
+        lines("sinumerik-840d", source),
+        ["R X-2 Y0.5 Z2.5", "R X2 Y4 Z2.5", "R X5 Y4 Z2.5"]
+    );
+    assert_eq!(faults("sinumerik-840d", source), [""; 0]);
+    for flow in ["NEXT:", "IF R9>3 GOTOF END", "L20", "SOMETHING(1)", "WHILE R9<3"] {
+        let source = format!("R1=4\nG0 X0 Y0\n{flow}\nX=R1\n");
+        let got = faults("sinumerik-840d", &source);
+        assert!(
+            got.iter().any(|fault| fault.contains(r#"what: "R1""#)),
+            "{flow}: {got:?}"
+        );
+    }
+}

@@ -198,6 +198,33 @@ mod tests {
     }
 
     #[test]
+    fn a_session_describes_motions_that_are_told_late() {
+        let settings = Settings {
+            dialect: trunnion_dialect::builtin("linuxcnc").expect("built in"),
+            ..settings(&[])
+        };
+        let text = "G21 G17 G90 F100\nG0 X0 Y0 Z0\nG41.1 D2\nG1 X20\nG1 X40\n(there)\nG1 Y40\nG40\nM2\n";
+        let program = parse(text.as_bytes().to_vec(), settings.dialect.lex);
+        let session = Session::new(&program, &settings, &|| false).expect("nobody cancels");
+        // 1 mm beside the contour, and round the inside corner
+        for (block, place) in [(3, [20.0, 1.0]), (4, [39.0, 1.0]), (6, [39.0, 40.0])] {
+            let info = session.describe(&program, &settings, BlockId(block));
+            let tips: Vec<_> = info
+                .rows
+                .iter()
+                .map(|row| row.tip_mm.map(|tip| [tip[0], tip[1]]))
+                .collect();
+            assert_eq!(tips, [Some(place)], "{block}");
+            assert_eq!(
+                info.after.position.get(0),
+                Some(if block == 3 { 20.0 } else { 40.0 }),
+                "{block}"
+            );
+        }
+        assert!(session.describe(&program, &settings, BlockId(5)).rows.is_empty());
+    }
+
+    #[test]
     fn a_session_describes_blocks_as_a_run_from_the_start_does() {
         use core::fmt::Write;
         let mut text = String::from("G0 X0 Y0 Z0\nG1 F500\n");

@@ -9,6 +9,9 @@ use trunnion_syntax::{BlockId, Program};
 /// At most so many blocks are run again to describe one, where a program of loops leaves no check-point nearer to it.
 const MOST_AGAIN: u64 = 1_000_000;
 
+/// A motion that is told late, because its end depends on a later one, is waited for so many blocks.
+const LATE: u64 = 64;
+
 /// What is known about one block.
 #[derive(Clone, Debug)]
 pub struct BlockInfo {
@@ -169,7 +172,7 @@ impl Session {
         let mut walk = Walk {
             follower,
             rows: Vec::new(),
-            keep: false,
+            wanted: None,
         };
         let from = point.map_or(0, |point| point.executed);
         for _ in from..wanted_at.min(from.saturating_add(MOST_AGAIN)) {
@@ -178,15 +181,22 @@ impl Session {
             }
         }
         let before = interpreter.clone();
-        walk.keep = true;
+        walk.wanted = Some(wanted);
         let reached = first.is_some_and(|at| at - from <= MOST_AGAIN);
         let runs = reached && interpreter.advance(program, &mut walk) == Some(wanted);
+        let after = interpreter.clone();
+        for _ in 0..LATE {
+            let waits = runs && walk.rows.is_empty() && interpreter.motions_wait();
+            if !waits || interpreter.advance(program, &mut walk).is_none() {
+                break;
+            }
+        }
         BlockInfo {
             before: before.state.clone(),
-            after: interpreter.state.clone(),
+            after: after.state.clone(),
             rows: walk.rows,
             runs,
-            variables: Variables(Box::new([before, interpreter])),
+            variables: Variables(Box::new([before, after])),
         }
     }
 }
@@ -195,14 +205,14 @@ impl Session {
 struct Walk<'m> {
     follower: Option<Follower<'m>>,
     rows: Vec<Row>,
-    keep: bool,
+    wanted: Option<BlockId>,
 }
 
 impl Sink for Walk<'_> {
     fn motion(&mut self, motion: &Motion, _state: &ModalState) {
         let Some(follower) = &mut self.follower else { return };
         let leg = follower.follow(motion);
-        if self.keep {
+        if self.wanted == Some(motion.block) {
             self.rows.push(row(follower.machine(), &leg));
         }
     }

@@ -156,6 +156,14 @@ impl<'d> Interpreter<'d> {
         self.flow.chain(chain)
     }
 
+    /// Whether motions are held back until a later one is known: cutter compensation, rounded corners.
+    pub fn motions_wait(&self) -> bool {
+        match &self.rs274 {
+            Some(run) => run.motions_wait(),
+            None => self.memory.compensation.is_busy() || self.memory.corners.is_busy(),
+        }
+    }
+
     /// The value of a variable as it is written (`#1`, `#<name>`, `#_NAME`), between two blocks; NaN where it is not known, `None` where
     /// there is none or it is vacant.
     pub fn variable(&self, text: &str) -> Option<f64> {

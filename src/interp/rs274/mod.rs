@@ -55,6 +55,10 @@ impl Rs274 {
             done: false,
         }
     }
+    /// Whether compensation of the cutter radius may hold motions back.
+    pub(crate) fn motions_wait(&self) -> bool {
+        self.engine.state.side != trunnion_ngc::Side::Off && !self.done
+    }
     /// The value of a parameter as it is written.
     pub(crate) fn variable(&self, text: &str) -> Option<f64> {
         self.engine.variable(text)

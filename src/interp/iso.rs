@@ -154,8 +154,8 @@ impl<'d> Interpreter<'d> {
         if words.other_spindle {
             self.state.spindle_on = None;
         }
-        let motion = self.motion(codes, words, &block, report);
-        let motion = self.called_cycle(codes, words, &block, motion, report);
+        let mut motion = self.motion(codes, words, &block, report);
+        self.called_cycle(codes, words, &block, &mut motion, report);
         if words.forgets_all {
             self.forget_position();
         }

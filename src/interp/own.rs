@@ -179,10 +179,10 @@ impl<'a> Expression<'a> {
                 value /= by;
             } else if self.operator("DIV") {
                 let by = self.factor()?;
-                value = whole_operands(value, by).map(|_| (value / by).trunc())?;
+                value = whole_operands(value, by).map(|()| (value / by).trunc())?;
             } else if self.operator("MOD") {
                 let by = self.factor()?;
-                value = whole_operands(value, by).map(|_| value % by)?;
+                value = whole_operands(value, by).map(|()| value % by)?;
             } else {
                 return Some(value);
             }

@@ -110,38 +110,38 @@ impl HoleCall {
 }
 
 impl Interpreter<'_> {
-    /// A cycle with its numbers in the block, or behind the block's motion under MCALL; the block's motion where neither takes it.
+    /// A cycle with its numbers in the block, or behind the block's motion under MCALL, which then goes out before it.
     pub(crate) fn called_cycle(
         &mut self,
         codes: &[Found<'_>],
         words: &Words,
         block: &BlockCodes,
-        motion: Option<Motion>,
+        motion: &mut Option<Motion>,
         report: &mut Report<'_>,
-    ) -> Option<Motion> {
+    ) {
         if let Some(found) = block.hole_call.and_then(|at| codes.get(at)) {
             let numbers = self.call_numbers(&report.program.text(found.range));
             let call = HoleCall::new(&found.code.id, numbers).filter(|_| !words.axes.any());
             let Some(call) = call else {
                 not_modelled(found, report);
                 self.forget_position();
-                return motion;
+                return;
             };
             if block.modal_call {
                 self.memory.cycle.call = Some(Arc::new(call));
-                return motion;
+            } else {
+                self.run_call(&call, words, report);
             }
-            self.run_call(&call, words, report);
-            return None;
+            return;
         }
-        let call = self.memory.cycle.call.clone();
-        let moved = motion.filter(|motion| !matches!(motion.kind, MotionKind::Dwell(_)));
-        let (Some(call), Some(moved)) = (call, moved) else {
-            return motion;
-        };
-        self.memory.out.push(moved);
-        self.run_call(&call, words, report);
-        None
+        let moved = motion
+            .as_ref()
+            .filter(|motion| !matches!(motion.kind, MotionKind::Dwell(_)));
+        if let (Some(call), Some(moved)) = (self.memory.cycle.call.clone(), moved) {
+            self.memory.out.push(*moved);
+            *motion = None;
+            self.run_call(&call, words, report);
+        }
     }
 
     /// What stands in the parentheses of a call.
@@ -298,7 +298,7 @@ impl Interpreter<'_> {
         }
         match call.sort {
             Sort::Drill | Sort::Deep => {}
-            Sort::Tap => self.down(plan, MotionKind::Linear, plan.r, report),
+            Sort::Tap | Sort::BoreFeed => self.down(plan, MotionKind::Linear, plan.r, report),
             Sort::Ream => {
                 let out = Plan {
                     feed: self.own_feed(call.number(7)),
@@ -306,7 +306,6 @@ impl Interpreter<'_> {
                 };
                 self.down(&out, MotionKind::Linear, plan.r, report);
             }
-            Sort::BoreFeed => self.down(plan, MotionKind::Linear, plan.r, report),
             Sort::Bore => {
                 self.state.spindle_on = Some(false);
                 self.lift_off(call, 1.0, report);

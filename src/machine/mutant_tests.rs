@@ -7,13 +7,31 @@ use toml::{Table, Value};
 
 /// What can go wrong in a file, by the word it is counted under.
 const KINDS: [&str; 17] = [
-    "sign", "order", "point", "limit", "dir", "tilted dir", "letter", "kind", "tool axis", "gauge point", "hold", "speed", "acceleration",
-    "axis left out", "limits left out", "second motor", "words",
+    "sign",
+    "order",
+    "point",
+    "limit",
+    "dir",
+    "tilted dir",
+    "letter",
+    "kind",
+    "tool axis",
+    "gauge point",
+    "hold",
+    "speed",
+    "acceleration",
+    "axis left out",
+    "limits left out",
+    "second motor",
+    "words",
 ];
 
 /// How many mutants; `TRUNNION_MUTANTS` for more.
 fn mutants() -> usize {
-    std::env::var("TRUNNION_MUTANTS").ok().and_then(|text| text.parse().ok()).unwrap_or(2000)
+    std::env::var("TRUNNION_MUTANTS")
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(2000)
 }
 
 /// A random whole number below `n`.
@@ -111,7 +129,11 @@ fn of_axis(axis: &mut Table, kind: &str, random: &mut SplitMix) -> Option<()> {
             axis.insert("dir".to_owned(), array(&dir));
         }
         "kind" => {
-            let other = if axis.get("kind")?.as_str()? == "rotary" { "linear" } else { "rotary" };
+            let other = if axis.get("kind")?.as_str()? == "rotary" {
+                "linear"
+            } else {
+                "rotary"
+            };
             axis.insert("kind".to_owned(), other.into());
         }
         "hold" => {
@@ -136,7 +158,11 @@ fn of_axis(axis: &mut Table, kind: &str, random: &mut SplitMix) -> Option<()> {
         // how words become joints: diameters, and what a rotary word means
         _ => {
             if axis.get("kind")?.as_str()? == "rotary" {
-                let wrap = if axis.get("wrap").is_some_and(|wrap| wrap.as_str() == Some("shortest")) { "literal" } else { "shortest" };
+                let wrap = if axis.get("wrap").is_some_and(|wrap| wrap.as_str() == Some("shortest")) {
+                    "literal"
+                } else {
+                    "shortest"
+                };
                 axis.insert("wrap".to_owned(), wrap.into());
             } else if axis.remove("mode").is_none() {
                 axis.insert("mode".to_owned(), "diameter".into());
@@ -148,16 +174,26 @@ fn of_axis(axis: &mut Table, kind: &str, random: &mut SplitMix) -> Option<()> {
 
 /// Whether two machines move differently: other axes, another pose, another travel or speed, another meaning of words.
 fn differs(honest: &Machine, mutant: &Machine) -> bool {
-    let Ok(comparison) = Comparison::new(honest, mutant) else { return true };
-    let entry = |text: &String| !text.contains(": side ") && !text.contains(": dir ") && !text.starts_with("order") && !text.contains(": point ");
+    let Ok(comparison) = Comparison::new(honest, mutant) else {
+        return true;
+    };
+    let entry = |text: &String| {
+        !text.contains(": side ")
+            && !text.contains(": dir ")
+            && !text.starts_with("order")
+            && !text.contains(": point ")
+    };
     let words = |machine: &Machine| {
         let axes = machine.axes.iter();
-        axes.map(|axis| (axis.letter, axis.extra.diameter, axis.extra.wrap)).collect::<Vec<_>>()
+        axes.map(|axis| (axis.letter, axis.extra.diameter, axis.extra.wrap))
+            .collect::<Vec<_>>()
     };
     let (mut a, mut b) = (words(honest), words(mutant));
     a.sort_by_key(|axis| axis.0);
     b.sort_by_key(|axis| axis.0);
-    let pose = comparison.random_poses(40, 1).is_none_or(|worst| worst.tip_mm > 1e-6 || worst.axis > 1e-9 || worst.tip_mm.is_nan());
+    let pose = comparison
+        .random_poses(40, 1)
+        .is_none_or(|worst| worst.tip_mm > 1e-6 || worst.axis > 1e-9 || worst.tip_mm.is_nan());
     pose || a != b || comparison.entries().iter().any(entry)
 }
 
@@ -166,12 +202,18 @@ fn noticed(honest: &Machine, file: &Table) -> Option<usize> {
     let mut bare = file.clone();
     bare.remove("check");
     let text = |table: &Table| toml::to_string(table).expect("a table can be written");
-    let Ok(mutant) = load("mutant", &text(&bare)) else { return Some(0) };
+    let Ok(mutant) = load("mutant", &text(&bare)) else {
+        return Some(0);
+    };
     if !differs(honest, &mutant) {
         return None;
     }
     let result = self_test(&mutant, 30, 1);
-    if result.posture_missing > 0 || result.worst_tip_mm.is_nan() || result.worst_tip_mm > 1e-9 || result.worst_axis > 1e-9 {
+    if result.posture_missing > 0
+        || result.worst_tip_mm.is_nan()
+        || result.worst_tip_mm > 1e-9
+        || result.worst_axis > 1e-9
+    {
         return Some(1);
     }
     Some(if load("mutant", &text(file)).is_err() { 2 } else { 3 })
@@ -198,14 +240,23 @@ fn mutants_of_machine_files_are_noticed() {
             None => row[4] += 1,
         }
     }
-    eprintln!("{:16} {:>10} {:>9} {:>10} {:>7} {:>10}", "mutation", "validation", "self-test", "check rows", "missed", "no change");
+    eprintln!(
+        "{:16} {:>10} {:>9} {:>10} {:>7} {:>10}",
+        "mutation", "validation", "self-test", "check rows", "missed", "no change"
+    );
     let mut all = [0; 5];
     for (kind, row) in &table {
-        eprintln!("{kind:16} {:>10} {:>9} {:>10} {:>7} {:>10}", row[0], row[1], row[2], row[3], row[4]);
+        eprintln!(
+            "{kind:16} {:>10} {:>9} {:>10} {:>7} {:>10}",
+            row[0], row[1], row[2], row[3], row[4]
+        );
         all.iter_mut().zip(row).for_each(|(sum, one)| *sum += one);
     }
     let changing = all[0] + all[1] + all[2] + all[3];
-    eprintln!("{:16} {:>10} {:>9} {:>10} {:>7} {:>10}", "all", all[0], all[1], all[2], all[3], all[4]);
+    eprintln!(
+        "{:16} {:>10} {:>9} {:>10} {:>7} {:>10}",
+        "all", all[0], all[1], all[2], all[3], all[4]
+    );
     assert!(changing > mutants() / 2 && table.len() == KINDS.len(), "{table:?}");
     let share = 1.0 - all[3] as f64 / changing as f64;
     assert!(share >= 0.95, "only {:.1} % noticed", share * 100.0);

@@ -25,7 +25,10 @@ fn a_planted_pivot_error_is_found_with_its_block() {
     let output = trunnion(&["machine", "compare", "mikron-ucp710", str(&truth), str(&program)]);
     let said = text(&output.stdout);
     assert_eq!(status(&output), 1, "{said}{}", text(&output.stderr));
-    assert!(said.contains("axis A: point (0, 0, 0) against (0, 0.05, 0) mm, 0.05 mm apart"), "{said}");
+    assert!(
+        said.contains("axis A: point (0, 0, 0) against (0, 0.05, 0) mm, 0.05 mm apart"),
+        "{said}"
+    );
     // 2 sin(45 deg) 0.05 mm at A90
     assert!(said.contains("tip off by up to 0.070711 mm"), "{said}");
     assert!(said.contains("fixed-tip-sweep.mpf:14, the worst of"), "{said}");
@@ -33,11 +36,18 @@ fn a_planted_pivot_error_is_found_with_its_block() {
     // without a program, to the end of the travel: 2 sin(60 deg) 0.05 mm
     let output = trunnion(&["machine", "compare", "mikron-ucp710", str(&truth)]);
     let said = text(&output.stdout);
-    assert!(status(&output) == 1 && said.contains("swept: tip off by up to 0.086603 mm"), "{said}");
+    assert!(
+        status(&output) == 1 && said.contains("swept: tip off by up to 0.086603 mm"),
+        "{said}"
+    );
     let same = trunnion(&["machine", "compare", "mikron-ucp710", "mikron-ucp710", str(&program)]);
     assert_eq!(status(&same), 0, "{}", text(&same.stdout));
     let other = trunnion(&["machine", "compare", "mikron-ucp710", "ferrari-bc"]);
-    assert!(status(&other) == 2 && text(&other.stderr).contains("different axes"), "{}", text(&other.stderr));
+    assert!(
+        status(&other) == 2 && text(&other.stderr).contains("different axes"),
+        "{}",
+        text(&other.stderr)
+    );
 }
 
 #[test]
@@ -45,11 +55,18 @@ fn a_contradicting_row_refuses_the_file_with_its_place() {
     let folder = TempDir::new().expect("works");
     let source = trunnion::machine::builtin_source("mikron-ucp710").expect("embedded");
     let (head, a) = source.split_once("letter = \"A\"").expect("A");
-    let file = write(&folder, "ours.toml", &format!("{head}letter = \"A\"{}", a.replacen("sign = 1", "sign = -1", 1)));
+    let file = write(
+        &folder,
+        "ours.toml",
+        &format!("{head}letter = \"A\"{}", a.replacen("sign = 1", "sign = -1", 1)),
+    );
     let output = trunnion(&["machine", "show", str(&file)]);
     let said = text(&output.stderr);
     assert_eq!(status(&output), 2, "{said}");
-    assert!(said.contains("ours.toml:") && said.contains("if the row is right, look at sign"), "{said}");
+    assert!(
+        said.contains("ours.toml:") && said.contains("if the row is right, look at sign"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -61,16 +78,44 @@ fn an_ini_becomes_a_machine_file_that_says_what_is_open() {
     let output = trunnion(&["machine", "import", str(&ini), "-o", str(&made), "--set", "z-offset=10"]);
     let said = text(&output.stderr);
     assert_eq!(status(&output), 0, "{said}");
-    assert!(said.contains("open: pin x-rot-point: nothing in this file sets it; 0, the module's default, is assumed"), "{said}");
-    assert!(said.contains("open: axis X: MIN_LIMIT is not given and stays undeclared"), "{said}");
-    assert!(fs::read_to_string(&made).expect("written").contains("point = [0, 20, 10]"));
-    assert_eq!(status(&trunnion(&["machine", "check", str(&made), "--poses", "500"])), 0);
-    let trivial = write(&folder, "trivial.ini", &text_of.replace("xyzac-trt-kins\n", "trivkins\n"));
+    assert!(
+        said.contains("open: pin x-rot-point: nothing in this file sets it; 0, the module's default, is assumed"),
+        "{said}"
+    );
+    assert!(
+        said.contains("open: axis X: MIN_LIMIT is not given and stays undeclared"),
+        "{said}"
+    );
+    assert!(
+        fs::read_to_string(&made)
+            .expect("written")
+            .contains("point = [0, 20, 10]")
+    );
+    assert_eq!(
+        status(&trunnion(&["machine", "check", str(&made), "--poses", "500"])),
+        0
+    );
+    let trivial = write(
+        &folder,
+        "trivial.ini",
+        &text_of.replace("xyzac-trt-kins\n", "trivkins\n"),
+    );
     let output = trunnion(&["machine", "import", str(&trivial)]);
     assert_eq!(status(&output), 1, "{}", text(&output.stderr));
-    assert!(text(&output.stderr).contains("the machine file is not complete"), "{}", text(&output.stderr));
-    let broken = write(&folder, "broken.ini", "[KINS]\nKINEMATICS = notkins\n[TRAJ]\nCOORDINATES = XYZ\n");
+    assert!(
+        text(&output.stderr).contains("the machine file is not complete"),
+        "{}",
+        text(&output.stderr)
+    );
+    let broken = write(
+        &folder,
+        "broken.ini",
+        "[KINS]\nKINEMATICS = notkins\n[TRAJ]\nCOORDINATES = XYZ\n",
+    );
     let output = trunnion(&["machine", "import", str(&broken)]);
     let said = text(&output.stderr);
-    assert!(status(&output) == 2 && said.contains("broken.ini:2:14") && said.contains("is not known"), "{said}");
+    assert!(
+        status(&output) == 2 && said.contains("broken.ini:2:14") && said.contains("is not known"),
+        "{said}"
+    );
 }

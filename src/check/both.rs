@@ -11,11 +11,11 @@ const ABSENCES: [&str; 2] = ["machine-not-used", "unused-suppression"];
 pub(crate) fn levels(program: &Program) -> (Vec<u8>, usize) {
     let (mut levels, mut count) = (Vec::new(), 0);
     for block in program.blocks() {
-        let mut items = block.items().filter(|item| !matches!(item, Item::Comment(_)));
+        let mut items = block.items();
         let Some(Item::Skip(level, _)) = items.next() else {
             continue;
         };
-        if items.next().is_some() {
+        if items.any(|item| !matches!(item, Item::Comment(_))) {
             count += 1;
             levels.push(level);
         }

@@ -7,12 +7,9 @@ use crate::{FaultKind, Motion};
 use trunnion_dialect::{Action, Role};
 use trunnion_syntax::{Address, Block, Item, Value};
 
-/// Whether a block begins with `/`, comments aside.
+/// Whether a block begins with `/`.
 fn is_deleted(block: &Block<'_>) -> bool {
-    let mut items = block.items();
-    items
-        .find(|item| !matches!(item, Item::Comment(_)))
-        .is_some_and(|item| matches!(item, Item::Skip(..)))
+    matches!(block.items().next(), Some(Item::Skip(..)))
 }
 
 impl<'d> Interpreter<'d> {

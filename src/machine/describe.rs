@@ -319,6 +319,12 @@ fn control(machine: &Machine) -> Vec<String> {
         format!("family {}", control.family),
         format!("with tool centre point control the tip runs straight and the orientation {orientation}{said}"),
     ];
+    if let Some(codes) = &control.tcp_codes {
+        let (on, off) = (codes.on.join(", "), codes.off.join(", "));
+        lines.push(format!(
+            "tool centre point control is switched on by {on}, off by {off}"
+        ));
+    }
     match control.rapid {
         RapidPath::Undeclared => {}
         RapidPath::Synchronous => lines.push("in rapid motions all axes arrive together".to_owned()),

@@ -35,14 +35,13 @@ fn the_impeller_has_the_extents_of_its_own_footer() {
     // the machine that the program is for: M428 is tool centre point control
     let settings = "[control]\ntcp_codes = { on = [\"M428\"], off = [\"M429\"] }\n";
     let config = write(&folder, "trunnion.toml", settings);
-    let document = json(&trunnion(&[
-        "stats",
-        str(&path),
-        "--config",
-        str(&config),
-        "--format",
-        "json",
-    ]));
+    for said in [["--config", str(&config)], ["--machine", "linuxcnc-xyzac-trt"]] {
+        extents_of_the_impeller(&path, said);
+    }
+}
+
+fn extents_of_the_impeller(path: &Path, [option, value]: [&str; 2]) {
+    let document = json(&trunnion(&["stats", str(path), option, value, "--format", "json"]));
     let end = |axis: &str, at: usize| document["files"][0]["extents"][axis][at].as_f64().expect("known");
     // ( Rmax 45.44 Zmin -2.65 Zmax 39.77 ) ( Amin -74.49 Amax 0.00 ) ( Cmin -399.81 Cmax 0.00 ), and the last block goes to Z40
     for (axis, low, high) in [("z_mm", -2.65, 40.0), ("a_deg", -74.49, 0.0), ("c_deg", -399.81, 0.0)] {

@@ -36,16 +36,13 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         return;
     }
     let (levels, count) = levels(overview.program);
-    let mut skips = overview.program.blocks().filter_map(|block| {
-        let first = block.items().find(|item| !matches!(item, Item::Comment(_)));
-        first.and_then(|item| {
-            if let Item::Skip(_, range) = item {
-                Some(range)
-            } else {
-                None
-            }
-        })
-    });
+    let mut skips = overview
+        .program
+        .blocks()
+        .filter_map(|block| match block.items().next() {
+            Some(Item::Skip(_, range)) => Some(range),
+            _ => None,
+        });
     let Some(first) = skips.next().filter(|_| count > 0) else {
         return;
     };

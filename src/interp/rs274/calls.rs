@@ -77,7 +77,9 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.tcp(on);
             return;
         }
-        let what = format!("{code}: the machine says what it means, and none does");
+        let what = format!(
+            "{code}: to which kinematics it switches is for the machine to say ([control] tcp_codes), and nothing says it"
+        );
         self.fault(at, own.range, FaultKind::NotModelled { what });
         self.tcp(false);
         self.told.lost = true;

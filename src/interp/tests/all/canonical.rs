@@ -208,7 +208,7 @@ fn what_m428_means_is_said_by_the_machine() {
     // not declared: what coordinates mean is not known until the end
     assert_eq!(lines(&Setup::default()), ["R A4", "R A4"]);
     let told = faults("linuxcnc", source);
-    assert!(told[0].contains("M428: the machine says what it means"), "{told:?}");
+    assert!(told[0].contains("M428: to which kinematics it switches"), "{told:?}");
 }
 
 #[test]

@@ -70,6 +70,26 @@ pub const TOLERANCES: &[(&str, &str)] = &[
         "tip",
         "path-deviation: how far the tip may leave the programmed segment, mm",
     ),
+    (
+        "orientation",
+        "orientation-deviation: how far the tool axis may leave the great circle, deg",
+    ),
+    (
+        "swept",
+        "swept-deviation: how far the tool's end at the spindle may leave its path, mm",
+    ),
+    (
+        "rotary_ratio",
+        "excess-rotary-travel: turn of the rotary axes over turn of the tool axis",
+    ),
+    (
+        "linear_ratio",
+        "excess-linear-travel: way of the linear axes over way of the tip",
+    ),
+    (
+        "rapid_ratio",
+        "excess-rapid-travel: way of the rapid motions over the direct way",
+    ),
     ("pole_cone", "pole-flip: cone about the pole, deg"),
     ("pole_angle", "pole-flip: change of the rotary axis, deg"),
     (
@@ -122,6 +142,11 @@ impl Config {
 fn apply(tolerances: &mut Tolerances, name: &str, value: f64) -> bool {
     match name {
         "tip" => tolerances.tip_mm = value,
+        "orientation" => tolerances.orientation = rad(value),
+        "swept" => tolerances.swept_mm = value,
+        "rotary_ratio" => tolerances.rotary_ratio = value,
+        "linear_ratio" => tolerances.linear_ratio = value,
+        "rapid_ratio" => tolerances.rapid_ratio = value,
         "pole_cone" => tolerances.pole_cone = rad(value),
         "pole_angle" => tolerances.pole_angle = rad(value),
         "swap_excess" => tolerances.swap_excess = rad(value),
@@ -155,7 +180,7 @@ mod tests {
     #[test]
     fn every_named_tolerance_can_be_set() {
         for (name, _) in TOLERANCES {
-            assert!(apply(&mut Tolerances::default(), name, 0.5), "{name}");
+            assert!(apply(&mut Tolerances::default(), name, 1.5), "{name}");
         }
         assert!(!apply(&mut Tolerances::default(), "tipp", 0.5));
     }

@@ -21,6 +21,7 @@ mod session;
 mod sink;
 mod suppress;
 mod time;
+mod trail;
 mod view;
 mod visited;
 mod words;

@@ -4,6 +4,7 @@ use crate::rule::{EndRule, Ending, FaultRule, LegRule, MotionRule, ProgramRule, 
 use crate::sink::{Active, Reporter, active};
 use crate::suppress::Suppressions;
 use crate::time::CycleTime;
+use crate::trail::Trail;
 use crate::view::{LegView, Overview};
 use crate::visited::Visited;
 use crate::{Level, Report, Settings};
@@ -25,6 +26,7 @@ pub(crate) struct Pass<'a> {
     follower: Option<Follower<'a>>,
     /// Sign of the last posture off the pole.
     posture: i8,
+    trail: Trail,
     time: CycleTime,
     summary: Summary,
     visited: Visited,
@@ -66,6 +68,7 @@ impl<'a> Pass<'a> {
             ported: !settings.port_to.is_empty(),
             follower: settings.machine.map(Follower::new),
             posture: 0,
+            trail: Trail::default(),
             time: CycleTime::default(),
             summary: Summary::default(),
             visited: Visited::new(program.block_count()),
@@ -129,7 +132,8 @@ impl<'a> Pass<'a> {
 
     fn read_leg(&mut self, leg: &Leg) {
         let Some(follower) = &self.follower else { return };
-        let view = LegView::new(follower.machine(), leg, self.posture);
+        self.trail.add(follower.machine(), leg);
+        let view = LegView::new(follower.machine(), leg, self.posture, &self.trail);
         for rule in &self.legs {
             self.reporter.enter(rule, Some(leg.motion.block), self.summary.motions);
             (rule.run)(&view, &mut self.reporter);

@@ -18,6 +18,10 @@ mod cutter_compensation;
 mod decimal_comma;
 mod empty_program;
 mod endless_loop;
+mod excess_linear_travel;
+mod excess_rapid_travel;
+mod excess_rotary_travel;
+mod fast_pole;
 mod feed_drop;
 mod machine_not_used;
 mod machine_unset;
@@ -31,6 +35,7 @@ mod missing_word;
 mod modal_group_conflict;
 mod not_decided;
 mod not_modelled;
+mod orientation_deviation;
 mod path_deviation;
 mod pole_crossing;
 mod pole_flip;
@@ -40,6 +45,7 @@ mod program_alarm;
 mod rejected_block;
 mod repeated_word;
 mod spindle_off_cut;
+mod swept_deviation;
 mod syntax_error;
 mod tool_length_unset;
 mod tool_vector_not_unit;
@@ -98,6 +104,10 @@ static RULES: &[&Rule] = table![
     decimal_comma,
     empty_program,
     endless_loop,
+    excess_linear_travel,
+    excess_rapid_travel,
+    excess_rotary_travel,
+    fast_pole,
     feed_drop,
     machine_not_used,
     machine_unset,
@@ -111,6 +121,7 @@ static RULES: &[&Rule] = table![
     modal_group_conflict,
     not_decided,
     not_modelled,
+    orientation_deviation,
     path_deviation,
     pole_crossing,
     pole_flip,
@@ -120,6 +131,7 @@ static RULES: &[&Rule] = table![
     rejected_block,
     repeated_word,
     spindle_off_cut,
+    swept_deviation,
     syntax_error,
     tool_length_unset,
     tool_vector_not_unit,

@@ -1,6 +1,7 @@
 //! Merging: the same finding in consecutive blocks becomes one diagnostic at the first of them, with the worst values.
 use crate::again::Passes;
 use crate::place::code_range;
+use crate::trail::Trail;
 use crate::view::LegView;
 use crate::{Diagnostic, Severity, Status};
 use std::collections::BTreeMap;
@@ -51,6 +52,7 @@ struct Run {
 pub(crate) struct Kept {
     pub(crate) leg: Leg,
     pub(crate) posture_before: i8,
+    pub(crate) trail: Trail,
 }
 
 /// A run that has ended and waits for its words.
@@ -198,6 +200,7 @@ impl Log {
             let kept = Kept {
                 leg: view.leg.clone(),
                 posture_before: view.posture_before,
+                trail: *view.trail,
             };
             match &mut run.unworded {
                 Some(old) => **old = kept,

@@ -157,7 +157,7 @@ impl<'a> Reporter<'a> {
             let kept = &unworded.kept;
             let mut words = None;
             if let Some(rule) = rules.iter().find(|rule| rule.name == unworded.rule) {
-                let view = LegView::new(machine, &kept.leg, kept.posture_before);
+                let view = LegView::new(machine, &kept.leg, kept.posture_before, &kept.trail);
                 self.enter(rule, Some(kept.leg.motion.block), 0);
                 self.wording = true;
                 (rule.run)(&view, self);

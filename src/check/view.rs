@@ -1,5 +1,6 @@
 //! What rules look at: a leg with what is computed from it at most once, and the program as a whole.
 use crate::Settings;
+use crate::trail::Trail;
 use core::cell::OnceCell;
 use core::f64::consts::TAU;
 use trunnion_geometry::{deg, math};
@@ -31,17 +32,20 @@ pub struct LegView<'a> {
     pub leg: &'a Leg,
     /// Sign of the last posture that was not at the pole, before this leg; 0 when there was none.
     pub posture_before: i8,
+    /// What the legs up to this one tell.
+    pub(crate) trail: &'a Trail,
     feed_limit: OnceCell<Option<FeedLimit>>,
     deviation: OnceCell<Option<Deviation>>,
 }
 
 impl<'a> LegView<'a> {
     /// A view of `leg`.
-    pub(crate) fn new(machine: &'a Machine, leg: &'a Leg, posture_before: i8) -> Self {
+    pub(crate) fn new(machine: &'a Machine, leg: &'a Leg, posture_before: i8, trail: &'a Trail) -> Self {
         Self {
             machine,
             leg,
             posture_before,
+            trail,
             feed_limit: OnceCell::new(),
             deviation: OnceCell::new(),
         }
@@ -197,6 +201,12 @@ impl<'a> LegView<'a> {
                 inside: false,
             })
         })
+    }
+
+    /// Whether it is only assumed that the control turns the rotary axes evenly between tool vectors: neither the program nor the machine
+    /// file says how the orientation runs.
+    pub fn orientation_is_assumed(&self) -> bool {
+        self.motion().great_circle.is_none() && !self.machine.control.tcp_declared
     }
 
     /// Whether a rotary axis turns by more than half a turn, so that a whole turn less may reach the same place.

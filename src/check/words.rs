@@ -54,6 +54,11 @@ pub(crate) fn bound_mm(value: f64) -> String {
     format!("{} mm", number(((value * scale) * (1.0 - 1e-12)).ceil() / scale))
 }
 
+/// An upper bound of an angle, positive, rad, told in degrees: rounded up, as [`bound_mm`].
+pub(crate) fn bound_degrees(value: f64) -> String {
+    bound_mm(deg(value)).replace(" mm", " deg")
+}
+
 /// A length in mm.
 pub(crate) fn mm(value: f64) -> String {
     format!("{} mm", number(value))

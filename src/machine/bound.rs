@@ -13,16 +13,18 @@ pub(crate) struct Peak {
     pub(crate) bound: f64,
 }
 
-/// A piece of 0..=1 with the function's values at its ends.
+/// A piece of 0..=1 with the function's values at its ends, and what else was worked out there.
 #[derive(Clone, Copy)]
-pub(crate) struct Piece {
+pub(crate) struct Piece<T = ()> {
     pub(crate) from: f64,
     pub(crate) to: f64,
     pub(crate) value_from: f64,
     pub(crate) value_to: f64,
+    pub(crate) tag_from: T,
+    pub(crate) tag_to: T,
 }
 
-impl Piece {
+impl<T> Piece<T> {
     /// Bound where the second derivative is at most `curvature` (of a function whose chord has no value above its ends, such as the
     /// distance to a convex set): ends + q h^2 / 8, kinematics notes 3.
     pub(crate) fn below_parabola(&self, curvature: f64) -> f64 {
@@ -45,26 +47,26 @@ const SHORTEST: f64 = 1e-12;
 
 /// A piece that waits, ordered by its bound.
 #[derive(Clone, Copy)]
-struct Waiting {
+struct Waiting<T> {
     bound: f64,
-    piece: Piece,
+    piece: Piece<T>,
 }
 
-impl PartialEq for Waiting {
+impl<T> PartialEq for Waiting<T> {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Waiting {}
+impl<T> Eq for Waiting<T> {}
 
-impl PartialOrd for Waiting {
+impl<T> PartialOrd for Waiting<T> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Waiting {
+impl<T> Ord for Waiting<T> {
     fn cmp(&self, other: &Self) -> Ordering {
         self.bound.total_cmp(&other.bound)
     }
@@ -82,22 +84,33 @@ pub(crate) fn peak(
     over: impl Fn(&Piece) -> f64,
     enough: impl Fn(f64, f64, u32) -> bool,
 ) -> Peak {
-    let value = |t: f64| known(value(t));
-    let bounded = |piece: Piece| Waiting {
+    peak_tagged(|t| (value(t), ()), over, enough)
+}
+
+/// [`peak`] of a function that leaves something at each sample for the bounds of the pieces beside it.
+pub(crate) fn peak_tagged<T: Copy>(
+    value: impl Fn(f64) -> (f64, T),
+    over: impl Fn(&Piece<T>) -> f64,
+    enough: impl Fn(f64, f64, u32) -> bool,
+) -> Peak {
+    let value = |t: f64| {
+        let (value, tag) = value(t);
+        (known(value), tag)
+    };
+    let bounded = |piece: Piece<T>| Waiting {
         bound: known(over(&piece)),
         piece,
     };
+    let (start, end) = (value(0.0), value(1.0));
     let whole = Piece {
         from: 0.0,
         to: 1.0,
-        value_from: value(0.0),
-        value_to: value(1.0),
+        value_from: start.0,
+        value_to: end.0,
+        tag_from: start.1,
+        tag_to: end.1,
     };
-    let (mut sampled, mut at) = if whole.value_to > whole.value_from {
-        (whole.value_to, 1.0)
-    } else {
-        (whole.value_from, 0.0)
-    };
+    let (mut sampled, mut at) = if end.0 > start.0 { (end.0, 1.0) } else { (start.0, 0.0) };
     let mut top = bounded(whole);
     let mut samples = 2;
     // grows only where the first bound does not settle the question
@@ -108,7 +121,7 @@ pub(crate) fn peak(
             break;
         }
         let middle = 0.5 * (piece.from + piece.to);
-        let v = value(middle);
+        let (v, tag) = value(middle);
         samples += 1;
         if v > sampled {
             (sampled, at) = (v, middle);
@@ -116,11 +129,13 @@ pub(crate) fn peak(
         waiting.push(bounded(Piece {
             to: middle,
             value_to: v,
+            tag_to: tag,
             ..piece
         }));
         waiting.push(bounded(Piece {
             from: middle,
             value_from: v,
+            tag_from: tag,
             ..piece
         }));
         match waiting.pop() {

@@ -181,6 +181,14 @@ pub struct Tolerances {
     pub feed_drop_error: f64,
     /// orientation-deviation, rad.
     pub orientation: f64,
+    /// swept-deviation, mm.
+    pub swept_mm: f64,
+    /// excess-rotary-travel: turn of the rotary axes over turn of the tool axis.
+    pub rotary_ratio: f64,
+    /// excess-linear-travel: way of the linear axes over way of the tip.
+    pub linear_ratio: f64,
+    /// excess-rapid-travel: way of the rapid motions over the direct way.
+    pub rapid_ratio: f64,
     /// near-miss: clearance below which a warning is given, mm.
     pub near_mm: f64,
 }
@@ -197,6 +205,10 @@ impl Default for Tolerances {
             feed_drop_warning: 0.8,
             feed_drop_error: 0.3,
             orientation: deg(0.1),
+            swept_mm: 0.05,
+            rotary_ratio: 20.0,
+            linear_ratio: 5.0,
+            rapid_ratio: 2.0,
             near_mm: 2.0,
         }
     }

@@ -176,6 +176,8 @@ fn judge(
             to: 1.0,
             value_from: over(from),
             value_to: over(to),
+            tag_from: (),
+            tag_to: (),
         };
         // what the ends reach is told already, here or by the block before
         let told = over(from).max(over(to)).max(0.0) + SLACK;

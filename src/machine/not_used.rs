@@ -12,9 +12,6 @@ pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
         out.push("[[body]]: clearance between bodies is not checked".to_owned());
     }
     let tolerances = &raw.tolerances;
-    if tolerances.orientation.is_some() {
-        out.push("tolerance orientation: deviation of the tool axis inside a block is not judged by it".to_owned());
-    }
     if tolerances.collision_near.is_some() {
         out.push("tolerance collision_near: clearance between bodies is not checked".to_owned());
     }

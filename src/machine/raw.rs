@@ -236,6 +236,10 @@ pub(crate) struct RawPlanner {
 pub(crate) struct RawTolerances {
     pub(crate) tip: Option<Number>,
     pub(crate) orientation: Option<Number>,
+    pub(crate) swept: Option<Number>,
+    pub(crate) rotary_ratio: Option<Number>,
+    pub(crate) linear_ratio: Option<Number>,
+    pub(crate) rapid_ratio: Option<Number>,
     pub(crate) collision_near: Option<Number>,
     pub(crate) pole_cone: Option<Number>,
     pub(crate) pole_angle: Option<Number>,

@@ -296,9 +296,20 @@ fn tolerances(raw: &RawTolerances) -> Result<Tolerances, Fault> {
         }),
         share => Ok(share.unwrap_or(value)),
     };
+    let ratio = |name, written: Option<&Number>, value: f64| match positive(name, written)? {
+        Some(ratio) if ratio < 1.0 => Err(Fault {
+            message: format!("{name} is a way over the direct way, at least 1; {ratio} was given"),
+            span: written.map_or(0..0, toml::Spanned::span),
+        }),
+        ratio => Ok(ratio.unwrap_or(value)),
+    };
     Ok(Tolerances {
         tip_mm: positive("tip", raw.tip.as_ref())?.unwrap_or(default.tip_mm),
         orientation: angle("orientation", raw.orientation.as_ref(), default.orientation)?,
+        swept_mm: positive("swept", raw.swept.as_ref())?.unwrap_or(default.swept_mm),
+        rotary_ratio: ratio("rotary_ratio", raw.rotary_ratio.as_ref(), default.rotary_ratio)?,
+        linear_ratio: ratio("linear_ratio", raw.linear_ratio.as_ref(), default.linear_ratio)?,
+        rapid_ratio: ratio("rapid_ratio", raw.rapid_ratio.as_ref(), default.rapid_ratio)?,
         near_mm: positive("collision_near", raw.collision_near.as_ref())?.unwrap_or(default.near_mm),
         pole_cone: angle("pole_cone", raw.pole_cone.as_ref(), default.pole_cone)?,
         pole_angle: angle("pole_angle", raw.pole_angle.as_ref(), default.pole_angle)?,

@@ -69,6 +69,10 @@ tcp_codes = { on = ["M428"], off = ["M429"] }
 [tolerances]
 tip = 0.02
 orientation = 0.2
+swept = 0.06
+rotary_ratio = 21
+linear_ratio = 6
+rapid_ratio = 3
 collision_near = 3.0
 pole_cone = 3
 pole_angle = 11
@@ -155,6 +159,12 @@ fn every_key_is_read() {
     assert_eq!(
         (machine.tolerances.pole_angle, machine.tolerances.swap_excess),
         (rad(11.0), rad(6.0))
+    );
+    let tolerances = &machine.tolerances;
+    assert_eq!((tolerances.orientation, tolerances.swept_mm), (rad(0.2), 0.06));
+    assert_eq!(
+        (tolerances.rotary_ratio, tolerances.linear_ratio, tolerances.rapid_ratio),
+        (21.0, 6.0, 3.0)
     );
     assert_eq!((machine.bodies.len(), machine.sources.len()), (2, 3));
     assert_eq!(

@@ -184,13 +184,14 @@ fn tolerance(name: &Spanned<String>, value: &Spanned<f64>) -> Result<(String, f6
         ));
     }
     let number = *value.get_ref();
-    let most = if key.starts_with("feed_drop") { 1.0 } else { f64::MAX };
-    if !(0.0..=most).contains(&number) {
-        let range = if most == 1.0 {
-            "from 0 to 1, a share of the programmed feed"
-        } else {
-            "0 or more"
-        };
+    let (least, most, range) = if key.starts_with("feed_drop") {
+        (0.0, 1.0, "from 0 to 1, a share of the programmed feed")
+    } else if key.ends_with("_ratio") {
+        (1.0, f64::MAX, "1 or more, a way over the direct way")
+    } else {
+        (0.0, f64::MAX, "0 or more")
+    };
+    if !(least..=most).contains(&number) {
         return Err(at(value, format!("`{key}` must be {range}, not {number}")));
     }
     Ok((key.to_owned(), number))

@@ -22,8 +22,10 @@
 //!
 //! # Guarantee
 //! Sound: silence rests on a proven bound, not on samples. Where samples keep the tolerance but the bound does not prove it,
-//! and where a motion is not modelled, the rule says unknown. The deviation is the distance to the programmed segment. Up to
-//! 8 consecutive blocks are reported one by one, longer runs as one with their worst.
+//! and where a motion is not modelled, the rule says unknown. The deviation is the distance to the programmed segment: the line
+//! between the tips at both ends in the workpiece, or the arc as it lies in the workpiece at the start of the block, its end
+//! carried evenly to where the tip ends. With tool centre point control the control keeps the tip on its path. Up to 8
+//! consecutive blocks are reported one by one, longer runs as one with their worst.
 //!
 //! # Thresholds
 //! `tip`: 0.01 mm.
@@ -57,7 +59,6 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             range,
             "the tip's path is not modelled in this block: its deviation is not known",
         )
-        .note("arcs while rotary axes move are not modelled")
         .unknown()
         .merge_everywhere(0);
         return;
@@ -146,6 +147,14 @@ mod tests {
     }
 
     use crate::fixture::assert_drawn;
+
+    #[test]
+    fn arcs_are_judged_while_a_rotary_axis_turns() {
+        assert_drawn(
+            "gcode linuxcnc mikron-ucp710",
+            "G0 X30 Y0 Z0 A0 C0\nG2 X-30 Y0 I-30 J0 C0 F500\nG3 X30 Y0 I30 J0 C10\n;^^^^^^^^^^^^^^^^^^^ path-deviation: the tip leaves the programmed segment by\nM2\n",
+        );
+    }
 
     #[test]
     fn lines_without_rotary_motion_are_exact() {

@@ -52,6 +52,7 @@ fn errors_point_at_their_place() {
         ("[rules]\npole-flip = \"loud\"", "\"loud\""),
         ("[tolerances]\ntipp = 1", "tipp"),
         ("[tolerances]\ntip = -1", "-1"),
+        ("[tolerances]\nlinear_ratio = 0.5", "0.5"),
         ("[tolerances]\nfeed_drop_error = 30", "30"),
         ("dialect = \"klingon\"", "\"klingon\""),
         ("dialect = \"linuxcnc\"\ndialect_table = \"shop.toml\"", "\"shop.toml\""),

@@ -5,11 +5,11 @@ use trunnion_interp::{Motion, Position};
 use trunnion_machine::{Follower, Leg, Machine, builtin, feed_limit, row, tip_deviation};
 
 /// X Y Z I J K as printed in the APT listing, A C as printed in the ISO listing.
-type PrintedRow = [f64; 8];
+pub(crate) type PrintedRow = [f64; 8];
 
 #[rustfmt::skip]
 #[expect(clippy::unreadable_literal, reason = "as printed")]
-const STRATEGIES: [[PrintedRow; 5]; 4] = [
+pub(crate) const STRATEGIES: [[PrintedRow; 5]; 4] = [
     [
         [-28.39162, -0.59334, 59.98989, 0.000161, -0.034071, 0.999419, 1.953, 0.271],
         [-28.39223, -0.29671, 59.99747, 0.000040, -0.017043, 0.999855, 0.976, 0.134],
@@ -40,12 +40,12 @@ const STRATEGIES: [[PrintedRow; 5]; 4] = [
     ],
 ];
 
-fn machine() -> &'static Machine {
+pub(crate) fn machine() -> &'static Machine {
     builtin("mikron-ucp710").expect("built in")
 }
 
 /// The rows as tool vectors under TCP.
-fn vectors(rows: &[PrintedRow; 5]) -> Vec<Motion> {
+pub(crate) fn vectors(rows: &[PrintedRow; 5]) -> Vec<Motion> {
     let mut start = Position::default();
     rows.iter()
         .map(|&[x, y, z, i, j, k, ..]| {
@@ -56,7 +56,7 @@ fn vectors(rows: &[PrintedRow; 5]) -> Vec<Motion> {
         .collect()
 }
 
-fn follow(motions: &[Motion]) -> Vec<Leg> {
+pub(crate) fn follow(motions: &[Motion]) -> Vec<Leg> {
     let mut follower = Follower::new(machine());
     motions.iter().map(|motion| follower.follow(motion)).collect()
 }

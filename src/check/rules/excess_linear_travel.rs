@@ -1,0 +1,146 @@
+//! In a feed motion the linear axes run much farther than the tip does.
+//!
+//! # Why
+//! While the tool is turned the linear axes carry the tip along: far from the rotary axes, or near the pole, they run loops for
+//! a short cut. That costs time and accuracy, and the loop may lead out of the travel or into a clamp.
+//!
+//! # Example
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z200 A10 C0
+//! N30 G1 X5 A40 F50
+//! ;   ^^^^^^^^^^^^^ excess-linear-travel: the linear axes run
+//! N40 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z200 A10 C0
+//! N30 G1 X50 A40 F50
+//! N40 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound where the path of the axes is known: the length is bounded from both sides. Over the pole on a great circle it is not
+//! known, and `axis-limit` says so. Blocks without rotary motion are not judged: there the axes run as far as the tip. A tip
+//! path below 0.1 mm counts as 0.1 mm; without tool centre point control it counts from tip to tip in the workpiece.
+//!
+//! # Thresholds
+//! `linear_ratio`: 5, way of the linear axes (root of the sum of squares) over way of the tip. Noted are axes that run more
+//! than 1 mm beyond both their ends.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, section 5 (LIN-EXCESS, LIM-LIN-INTERNAL); the paper on tool-path optimisation on loops of
+//! machines with two rotary axes.
+use crate::prelude::*;
+use crate::runs::SHORT_RUN;
+use trunnion_machine::{excursions, linear_travel};
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
+
+/// A shorter tip path counts as this, mm.
+const LEAST_MM: f64 = 0.1;
+
+/// Axes that run farther than this beyond both ends are noted, mm.
+const BEYOND_MM: f64 = 1.0;
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    if !view.motion().is_feed() || !view.rotary_turns() {
+        return;
+    }
+    let Some((start, end)) = view.stances() else { return };
+    let tip = if view.leads_tip() && !view.motion().machine_coordinates {
+        view.leg.length
+    } else {
+        (end.tip - start.tip).norm()
+    };
+    let ratio = view.machine.tolerances.linear_ratio;
+    let allowed = ratio * tip.max(LEAST_MM);
+    let Some(travel) = linear_travel(view.machine, view.leg, allowed) else {
+        return;
+    };
+    if travel.least_mm <= allowed {
+        return;
+    }
+    let times = travel.least_mm / tip.max(LEAST_MM);
+    if out.repeats(view, 0, times) {
+        return;
+    }
+    let range = code_range(out.program(), view.motion().block);
+    let draft = out.report(
+        range,
+        format!(
+            "the linear axes run {} while the tip runs {}",
+            mm(travel.least_mm),
+            mm(tip)
+        ),
+    );
+    draft
+        .note(format!(
+            "{} times as far; allowed are {} times, a tip path below {LEAST_MM} mm counting as that",
+            number(times),
+            number(ratio)
+        ))
+        .help("lead the tool axis more evenly, set the part nearer to the rotary axes, or turn the axes out of the cut")
+        .value("value_mm", travel.least_mm)
+        .value("tip_mm", tip)
+        .value("limit_mm", allowed)
+        .merge_runs_over(SHORT_RUN, 0, times);
+    for excursion in excursions(view.machine, view.leg, BEYOND_MM) {
+        let name = letter(view.machine.axes[excursion.axis].letter);
+        let side = if excursion.upward { "above" } else { "below" };
+        draft.note(format!(
+            "inside the block {name} runs {} {side} both its ends",
+            mm(excursion.beyond_mm)
+        ));
+    }
+    if view.turns_far() {
+        draft.fix("unwind-rotary");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::{Fixture, assert_drawn};
+
+    #[test]
+    fn five_times_the_way_of_the_tip_is_the_threshold() {
+        // Y and Z run 200 mm * 30 deg = 104.72 mm along an arc while X runs with the tip
+        let text = |x: f64| format!("TRAORI\nG0 X0 Y0 Z200 A10 C0\nG1 X{x} A40 F50\nM30\n");
+        for (x, count) in [(21.2, 1), (21.5, 0)] {
+            let fixture = Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text(x));
+            let report = fixture.check().unwrap();
+            let own = report.diagnostics.iter().filter(|d| d.rule == "excess-linear-travel");
+            assert_eq!(own.count(), count, "X{x}: {:?}", report.diagnostics);
+        }
+    }
+
+    #[test]
+    fn axes_that_run_beyond_their_ends_are_noted() {
+        let report = assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "TRAORI\nG0 X0 Y0 Z100 A-25 C0\nG1 X1 A40 F50\n;^^^^^^^^^^^^^ excess-linear-travel: \n;     ^^^ pole-crossing: \nM30\n",
+        );
+        let notes = &report.diagnostics[0].notes;
+        // Z: 100 cos 25 deg = 90.6, 100, 76.6
+        assert!(
+            notes
+                .iter()
+                .any(|note| note == "inside the block Z runs 9.369 mm above both its ends"),
+            "{notes:?}"
+        );
+    }
+
+    #[test]
+    fn without_rotary_motion_nothing_is_judged() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "TRAORI\nG0 X0 Y0 Z100 A20 C0\nG1 X0.001 F50\nX50\nM30\n",
+        );
+    }
+}

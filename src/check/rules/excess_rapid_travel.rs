@@ -1,0 +1,156 @@
+//! The rapid motions from one cut to the next go a long way round.
+//!
+//! # Why
+//! Rapid motions cut nothing: what they run beyond the direct way is lost time in each part. Often it is a point left behind by
+//! an edit, or a return to a safe place that nothing needs.
+//!
+//! # Example
+//! ```gcode mill-3axis
+//! N10 G0 X0 Y0 Z50
+//! N20 G1 X10 F500
+//! N30 G0 Z60
+//! N40 G0 Y200
+//! N50 G0 X20
+//! N60 G0 Y0
+//! N70 G1 X30
+//! ;   ^^^^^^ excess-rapid-travel: the rapid motions to this block run 410 mm across the tool; the direct way is 10 mm
+//! N80 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode mill-3axis
+//! N10 G0 X0 Y0 Z50
+//! N20 G1 X10 F500
+//! N30 G0 Z60
+//! N50 G0 X20
+//! N70 G1 X30
+//! N80 M30
+//! ```
+//!
+//! # Guarantee
+//! Heuristic: what stands in the way is not known, and a way round a clamp is no waste. Judged are rapid motions in a row
+//! between two feed motions, with one tool, by the way of the linear axes across the tool (a retract along it counts nothing)
+//! and by the turn of each rotary axis, against the direct way between the same ends. A direct way below 0.1 mm or 0.1 deg counts as
+//! that; less than 10 mm or 10 deg of detour is not told.
+//!
+//! # Thresholds
+//! `rapid_ratio`: 2.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, sections 1 and 6 (R5); the paper on a minimum route for machine tool travel.
+use crate::prelude::*;
+use trunnion_geometry::rad;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Heuristic,
+    level: Level::Leg(check),
+};
+
+/// A shorter direct way counts as this, mm or deg.
+const LEAST: f64 = 0.1;
+
+/// A smaller detour is not told, mm or deg.
+const DETOUR: f64 = 10.0;
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let Some(rapids) = view.trail.rapids().filter(|rapids| rapids.count > 1) else {
+        return;
+    };
+    let ratio = view.machine.tolerances.rapid_ratio;
+    let far =
+        |way: f64, direct: f64, unit: f64| way > ratio * direct.max(LEAST * unit) && way - direct >= DETOUR * unit;
+    let range = code_range(out.program(), view.motion().block);
+    let first = code_range(out.program(), rapids.first);
+    let told = |out: &mut Reporter<'_>, message: String, values: [(&'static str, f64); 2], axis: Option<String>| {
+        let draft = out.report(range, message);
+        draft
+            .note(format!(
+                "{} rapid motions; allowed are {} times the direct way",
+                rapids.count,
+                number(ratio)
+            ))
+            .help("go there directly where nothing stands in the way")
+            .related(first, "the rapid motions begin here");
+        for (key, value) in values {
+            draft.value(key, value);
+        }
+        if let Some(axis) = axis {
+            draft.value_text("axis", axis);
+        }
+    };
+    if far(rapids.way_mm, rapids.direct_mm, 1.0) {
+        let message = format!(
+            "the rapid motions to this block run {} across the tool; the direct way is {}",
+            mm(rapids.way_mm),
+            mm(rapids.direct_mm)
+        );
+        let values = [("value_mm", rapids.way_mm), ("direct_mm", rapids.direct_mm)];
+        told(out, message, values, None);
+    }
+    for (slot, &axis) in view.machine.rotary.iter().enumerate().take(2) {
+        let (turned, direct) = (rapids.turned[slot], rapids.direct_turn[slot]);
+        if far(turned, direct, rad(1.0)) {
+            let name = letter(view.machine.axes[axis].letter);
+            let message = format!(
+                "the rapid motions to this block turn {name} by {}; the direct way is {}",
+                degrees(turned),
+                degrees(direct)
+            );
+            let values = [("value_deg", deg(turned)), ("direct_deg", deg(direct))];
+            told(out, message, values, Some(name));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::{Fixture, assert_drawn};
+
+    /// The obstacle of the paper, ten times as large: the long way round it is 127.97 mm, the shortest 84.72 mm, the direct way 60 mm.
+    #[test]
+    fn the_long_way_round_the_barrier_of_the_paper_is_told() {
+        let cut = "G0 X59 Y50 Z0\nG1 X60 F500\n";
+        assert_drawn(
+            "gcode mill-3axis",
+            &format!("{cut}G0 X40 Y60\nG0 Y100\nG0 X60 Y110\nG1 X61\nM30\n"),
+        );
+        assert_drawn(
+            "gcode mill-3axis",
+            &format!(
+                "{cut}G0 X90 Y60\nG0 X110 Y70\nG0 Y90\nG0 X90 Y100\nG0 X60 Y110\nG1 X61\n;^^^^^ excess-rapid-travel: the rapid motions to this block run 128 mm across the tool; the direct way is 60 mm\nM30\n"
+            ),
+        );
+    }
+
+    #[test]
+    fn retracts_and_tool_changes_are_no_detour() {
+        assert_drawn(
+            "gcode mill-3axis",
+            "G0 X0 Y0 Z0\nG1 X1 F500\nG0 Z200\nG0 X2\nG0 Z0\nG1 X3\nG0 Y100\nG4 F1\nG0 Y0\nG1 X4\nM30\n",
+        );
+        let text = |change: &str| format!("G0 X0 Y0 Z0 A0 C0\nG1 X1 F500\nG0 Y200\n{change}G0 Y0 Z0 X1\nG1 X4\nM30\n");
+        for (change, count) in [("T2 M6\n", 0), ("", 1)] {
+            let report = Fixture::parse("gcode mikron-ucp710", &text(change)).check().unwrap();
+            let own = report.diagnostics.iter().filter(|d| d.rule == "excess-rapid-travel");
+            assert_eq!(own.count(), count, "{change}: {:?}", report.diagnostics);
+        }
+    }
+
+    #[test]
+    fn turns_for_nothing_are_told_by_axis() {
+        assert_drawn(
+            "gcode mikron-ucp710",
+            "G0 X0 Y0 Z0 A0 C0\nG1 X1 F500\nG0 C90\nG0 C1\nG1 X4\n;^^^^ excess-rapid-travel: the rapid motions to this block turn C by 179 deg; the direct way is 1 deg\nM30\n",
+        );
+    }
+
+    #[test]
+    fn a_tilted_head_retracts_along_its_tool() {
+        // B 90: the tool lies along X
+        assert_drawn(
+            "gcode ferrari-bc",
+            "G0 X0 Y0 Z0 B90 C0\nG1 Y1 F500\nG0 X200\nG0 Y2\nG0 X0\nG1 Y3\nM30\n",
+        );
+    }
+}

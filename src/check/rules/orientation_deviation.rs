@@ -1,0 +1,192 @@
+//! Between the ends of a feed motion the tool axis leaves the programmed plane by more than the tolerance.
+//!
+//! # Why
+//! Two tool vectors mean the great circle between them. A control that turns its rotary axes evenly leads the tool axis along
+//! another way, the farther off the closer the pole: the flank of the tool gouges, although both ends are right.
+//!
+//! # Example
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A3=0 B3=-0.5 C3=0.866
+//! N30 G1 X100 A3=0.25 B3=-0.433 C3=0.866 F500
+//! ;           ^^^^^^^^^^^^^^^^^^^^^^^^^^ orientation-deviation: the tool axis leaves the great circle between the vectors by
+//! ;           ^^^^^^^^^^^^^^^^^^^^^^^^^^ swept-deviation: whether the body of the tool keeps its path is not known
+//! N40 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N15 ORIVECT
+//! N20 G0 X0 Y0 Z50 A3=0 B3=-0.5 C3=0.866
+//! N30 G1 X100 A3=0.25 B3=-0.433 C3=0.866 F500
+//! N40 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound: silence rests on a proven bound, not on samples. The deviation is the angle to the great-circle arc between the two
+//! vectors. Rotary words that the control runs evenly are what was programmed and have none, nor have vectors under a control
+//! that keeps the great circle. Where neither the program nor the machine file says which it is, and an even run would leave the
+//! tolerance, the rule says unknown, once; so it does where samples keep the tolerance but the bound does not prove it, and
+//! where the ends are opposite. Up to 8 consecutive blocks are reported one by one, longer runs as one with their worst.
+//!
+//! # Thresholds
+//! `orientation`: 0.1 deg.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, sections 3 and 5 (KIN-ORI).
+use crate::prelude::*;
+use crate::runs::SHORT_RUN;
+use trunnion_machine::{OrientationDeviation, orientation_deviation};
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
+
+/// Keys for merging: a deviation, one that is not proven, a control that is not known, ends that are opposite.
+const FOUND: u64 = 1;
+const BETWEEN: u64 = 2;
+const ASSUMED: u64 = 3;
+const OPPOSITE: u64 = 4;
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    if !view.motion().is_feed() || !view.rotary_turns() || view.stances().is_none() {
+        return;
+    }
+    let tolerance = view.machine.tolerances.orientation;
+    let Some(deviation) = orientation_deviation(view.machine, view.leg, tolerance) else {
+        return opposite(view, out);
+    };
+    if deviation.bound <= tolerance {
+        return;
+    }
+    if view.orientation_is_assumed() {
+        return assumed(view, out, &deviation);
+    }
+    let found = deviation.sampled > tolerance;
+    let repeats = if found {
+        out.repeats(view, FOUND, deviation.sampled)
+    } else {
+        out.repeats_unknown(view, BETWEEN, deviation.bound)
+    };
+    if repeats {
+        return;
+    }
+    let range = orientation_range(out.program(), view.motion().block);
+    let draft = if found {
+        out.report(
+            range,
+            format!(
+                "the tool axis leaves the great circle between the vectors by {}",
+                degrees(deviation.sampled)
+            ),
+        )
+        .note(format!(
+            "farthest after {} % of the block; proven to be at most {}; allowed are {}",
+            number((deviation.at * 100.0).round()),
+            bound_degrees(deviation.bound),
+            degrees(tolerance)
+        ))
+        .help("let the control keep the great circle (ORIVECT, G43.5 with vectors), or program the block in smaller steps")
+        .merge_runs_over(SHORT_RUN, FOUND, deviation.sampled)
+    } else {
+        out.report(
+            range,
+            format!(
+                "the tool axis leaves the great circle by between {} and {}: not proven to keep {}",
+                degrees(deviation.sampled),
+                bound_degrees(deviation.bound),
+                degrees(tolerance)
+            ),
+        )
+        .help("program the block in smaller steps, or allow a little more tolerance")
+        .unknown()
+        .merge_runs_over(SHORT_RUN, BETWEEN, deviation.bound)
+    };
+    draft
+        .value("deviation_deg", deg(deviation.sampled))
+        .value("deviation_bound_deg", deg(deviation.bound))
+        .value("limit_deg", deg(tolerance))
+        .value("farthest_at_percent", deviation.at * 100.0);
+}
+
+fn assumed(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &OrientationDeviation) {
+    if out.repeats_unknown(view, ASSUMED, 0.0) {
+        return;
+    }
+    let range = orientation_range(out.program(), view.motion().block);
+    out.report(
+        range,
+        format!(
+            "the tool axis leaves the great circle by {} if the control turns its axes evenly: {} does not say whether it does",
+            degrees(deviation.sampled),
+            view.machine.id
+        ),
+    )
+    .help("declare it in the machine file: [control] tcp = { orientation = \"joint\" } or \"great-circle\"")
+    .value("deviation_deg", deg(deviation.sampled))
+    .unknown()
+    .merge_everywhere(ASSUMED);
+}
+
+fn opposite(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    // an arc without a known centre is told by the fault that took it
+    let lost = matches!(view.motion().kind, trunnion_interp::MotionKind::Arc(None));
+    if lost || out.repeats_unknown(view, OPPOSITE, 0.0) {
+        return;
+    }
+    let range = orientation_range(out.program(), view.motion().block);
+    out.report(
+        range,
+        "the tool axes at both ends are opposite: which great circle is meant is not known",
+    )
+    .help("program a vector between them")
+    .unknown()
+    .merge_everywhere(OPPOSITE);
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::{Fixture, assert_drawn};
+    use crate::{Diagnostic, Severity, Status};
+
+    fn found(info: &str, text: &str) -> Vec<Diagnostic> {
+        let report = Fixture::parse(info, text).check().unwrap();
+        let own = |d: &Diagnostic| d.rule == "orientation-deviation";
+        report.diagnostics.into_iter().filter(own).collect()
+    }
+
+    #[test]
+    fn rotary_words_run_as_they_are_programmed() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "TRAORI\nG0 X0 Y0 Z50 A30 C0\nG1 X100 A30 C60 F500\nM30\n",
+        );
+    }
+
+    #[test]
+    fn a_tenth_of_a_degree_is_the_threshold() {
+        // at a tilt of A the way round the cone lies about dC^2 sin A cos A / 8 beside the great circle
+        let text = |j: f64| {
+            let (sin, cos) = (j.to_radians().sin() * 0.5, j.to_radians().cos() * 0.5);
+            format!("TRAORI\nG0 X0 Y0 Z50 A3=0 B3=-0.5 C3=0.866\nG1 X100 A3={sin} B3=-{cos} C3=0.866 F500\nM30\n")
+        };
+        assert_eq!(found("gcode sinumerik-840d mikron-ucp710", &text(10.0)).len(), 1);
+        assert_eq!(
+            found("gcode sinumerik-840d mikron-ucp710", &text(10.0))[0].severity,
+            Severity::Warning
+        );
+        assert_eq!(found("gcode sinumerik-840d mikron-ucp710", &text(9.0)), []);
+    }
+
+    #[test]
+    fn a_control_that_is_not_declared_is_not_judged() {
+        let text = "MULTAX/ON\nFEDRAT/500,MMPM\nGOTO/0,0,50,0,-0.5,0.866\nGOTO/100,0,50,0.25,-0.433,0.866\nGOTO/0,0,50,0,-0.5,0.866\nFINI\n";
+        let all = found("gcode apt ferrari-bc", text);
+        assert_eq!(all.len(), 1, "{all:?}");
+        assert_eq!((all[0].status, all[0].count), (Status::Unknown, 2));
+        assert!(all[0].message.contains("ferrari-bc does not say"));
+    }
+}

@@ -1,0 +1,197 @@
+//! Between the ends of a feed motion the body of the tool leaves its path by more than the tolerance.
+//!
+//! # Why
+//! The tip may be led exactly while the tool axis takes another way than the vectors mean: what lies above the tip then swings
+//! out, the more the longer the tool is. Where the flank cuts, that is the surface of the part.
+//!
+//! # Example
+//! ```gcode apt mikron-ucp710
+//! LOADTL/1,LENGTH,80
+//! MULTAX/ON
+//! FEDRAT/500,MMPM
+//! GOTO/0,0,50,0,-0.5,0.866
+//! GOTO/100,0,50,0.08,-0.494,0.866
+//! $$            ^^^^^^^^^^^^^^^^^ swept-deviation: 80 mm above its tip the tool leaves its path by
+//! FINI
+//! ```
+//!
+//! # Use instead
+//! ```gcode apt mikron-ucp710
+//! LOADTL/1,LENGTH,80
+//! MULTAX/ON
+//! FEDRAT/500,MMPM
+//! GOTO/0,0,50,0,-0.5,0.866
+//! GOTO/50,0,50,0.04,-0.4975,0.866
+//! GOTO/100,0,50,0.08,-0.494,0.866
+//! FINI
+//! ```
+//!
+//! # Guarantee
+//! Sound: silence rests on a proven bound, not on samples. Judged is the point on the tool axis at the tool's length above the
+//! tip, against the path it has when the tip runs along its segment and the tool axis evenly on the great circle. Without tool
+//! centre point control the tip itself strays and `path-deviation` judges it. Where the length of the tool is not known, a tool
+//! of 1 m is judged, and where that would leave the tolerance the rule says unknown, once; so it does where it is not known
+//! how the control turns the axes between vectors.
+//!
+//! # Thresholds
+//! `swept`: 0.05 mm.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, sections 3 and 5 (KIN-SWEEP).
+use crate::prelude::*;
+use crate::runs::SHORT_RUN;
+use trunnion_machine::{Deviation, swept_deviation};
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
+
+/// No tool is longer, mm.
+const LONGEST_MM: f64 = 1000.0;
+
+/// Keys for merging: a deviation, one that is not proven, what is not known.
+const FOUND: u64 = 1;
+const BETWEEN: u64 = 2;
+const NOT_KNOWN: u64 = 3;
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    if !view.motion().is_feed() || !view.rotary_turns() {
+        return;
+    }
+    let Some((_, end)) = view.stances() else { return };
+    let tolerance = view.machine.tolerances.swept_mm;
+    let declared = end.tool_length > 0.0;
+    let length = if declared { end.tool_length } else { LONGEST_MM };
+    // opposite tool axes are told by orientation-deviation, a straying tip by path-deviation
+    let Some(deviation) = swept_deviation(view.machine, view.leg, length, tolerance) else {
+        return;
+    };
+    if deviation.bound_mm <= tolerance {
+        return;
+    }
+    if !declared {
+        return not_known(
+            view,
+            out,
+            "the length of the tool is not declared",
+            "declare the tool's length in trunnion.toml: [[tool]] number = ..., length = ...",
+        );
+    }
+    if view.orientation_is_assumed() {
+        return not_known(
+            view,
+            out,
+            "the machine file does not say how the control turns the axes between vectors",
+            "declare it in the machine file: [control] tcp = { orientation = \"joint\" } or \"great-circle\"",
+        );
+    }
+    found(view, out, &deviation, length);
+}
+
+fn found(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &Deviation, length: f64) {
+    let tolerance = view.machine.tolerances.swept_mm;
+    let fails = deviation.sampled_mm > tolerance;
+    let repeats = if fails {
+        out.repeats(view, FOUND, deviation.sampled_mm)
+    } else {
+        out.repeats_unknown(view, BETWEEN, deviation.bound_mm)
+    };
+    if repeats {
+        return;
+    }
+    let range = orientation_range(out.program(), view.motion().block);
+    let draft = if fails {
+        out.report(
+            range,
+            format!(
+                "{} above its tip the tool leaves its path by {}",
+                mm(length),
+                mm(deviation.sampled_mm)
+            ),
+        )
+        .note(format!(
+            "farthest after {} % of the block; proven to be at most {}; allowed are {}",
+            number((deviation.at * 100.0).round()),
+            bound_mm(deviation.bound_mm),
+            mm(tolerance)
+        ))
+        .help("let the control keep the great circle (ORIVECT, G43.5 with vectors), or program the block in smaller steps")
+        .merge_runs_over(SHORT_RUN, FOUND, deviation.sampled_mm)
+    } else {
+        out.report(
+            range,
+            format!(
+                "{} above its tip the tool leaves its path by between {} and {}: not proven to keep {}",
+                mm(length),
+                mm(deviation.sampled_mm),
+                bound_mm(deviation.bound_mm),
+                mm(tolerance)
+            ),
+        )
+        .help("program the block in smaller steps, or allow a little more tolerance")
+        .unknown()
+        .merge_runs_over(SHORT_RUN, BETWEEN, deviation.bound_mm)
+    };
+    draft
+        .value("deviation_mm", deviation.sampled_mm)
+        .value("deviation_bound_mm", deviation.bound_mm)
+        .value("limit_mm", tolerance)
+        .value("above_tip_mm", length)
+        .value("farthest_at_percent", deviation.at * 100.0);
+}
+
+fn not_known(view: &LegView<'_>, out: &mut Reporter<'_>, why: &str, help: &str) {
+    if out.repeats_unknown(view, NOT_KNOWN, 0.0) {
+        return;
+    }
+    let range = orientation_range(out.program(), view.motion().block);
+    out.report(
+        range,
+        format!("whether the body of the tool keeps its path is not known: {why}"),
+    )
+    .note("between these tool vectors the rotary axes, turning evenly, leave the great circle")
+    .help(help)
+    .unknown()
+    .merge_everywhere(NOT_KNOWN);
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::Fixture;
+    use crate::{Diagnostic, Status};
+
+    fn found(text: &str) -> Vec<Diagnostic> {
+        let report = Fixture::parse("gcode apt mikron-ucp710", text).check().unwrap();
+        let own = |d: &Diagnostic| d.rule == "swept-deviation";
+        report.diagnostics.into_iter().filter(own).collect()
+    }
+
+    fn program(length: &str) -> String {
+        format!(
+            "LOADTL/1{length}\nMULTAX/ON\nFEDRAT/500,MMPM\nGOTO/0,0,50,0,-0.5,0.866\nGOTO/100,0,50,0.08,-0.494,0.866\nFINI\n"
+        )
+    }
+
+    #[test]
+    fn the_longer_the_tool_the_farther_its_body() {
+        assert_eq!(found(&program(",LENGTH,20")), []);
+        let all = found(&program(",LENGTH,160"));
+        assert_eq!((all.len(), all[0].status), (1, Status::Fail));
+    }
+
+    #[test]
+    fn a_tool_without_length_is_not_known_once() {
+        let twice = program("").replace("FINI", "GOTO/0,0,50,0,-0.5,0.866\nFINI");
+        let all = found(&twice);
+        assert_eq!((all.len(), all[0].status, all[0].count), (1, Status::Unknown, 2));
+    }
+
+    /// A turn so small that even a tool of a metre keeps its path.
+    #[test]
+    fn small_turns_need_no_length() {
+        let text = "LOADTL/1\nMULTAX/ON\nFEDRAT/500,MMPM\nGOTO/0,0,50,0,-0.5,0.8660254\nGOTO/100,0,50,0.008,-0.499936,0.8660254\nFINI\n";
+        assert_eq!(found(text), []);
+    }
+}

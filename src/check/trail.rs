@@ -1,0 +1,177 @@
+//! What the legs before tell a rule: how far the rotary axes turned in the last feed blocks, and the rapid motions since the last cut.
+use core::f64::consts::PI;
+use trunnion_geometry::Vec3;
+use trunnion_geometry::math::{asin, rotate};
+use trunnion_interp::MotionKind;
+use trunnion_machine::{Joints, Leg, Machine, Stance};
+use trunnion_syntax::BlockId;
+
+/// Feed blocks in the window of `excess-rotary-travel`.
+pub(crate) const WINDOW: usize = 10;
+
+/// What is remembered of the legs up to the one in hand.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Trail {
+    window: Window,
+    rapids: Rapids,
+    state: State,
+}
+
+/// What the last leg was.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum State {
+    /// Neither of the two below.
+    #[default]
+    Other,
+    /// A rapid motion: the path goes on.
+    Rapid,
+    /// The feed motion to which the rapid motions led.
+    Arrived,
+}
+
+/// The last feed blocks.
+#[derive(Clone, Copy, Debug, Default)]
+struct Window {
+    /// D1 + D2 of each, rad.
+    turned: [f64; WINDOW],
+    /// Chord between the tool axes at both ends of each.
+    chord: [f64; WINDOW],
+    next: usize,
+    count: usize,
+}
+
+impl Window {
+    fn push(&mut self, turned: f64, chord: f64) {
+        self.turned[self.next] = turned;
+        self.chord[self.next] = chord;
+        self.next = (self.next + 1) % WINDOW;
+        self.count = (self.count + 1).min(WINDOW);
+    }
+}
+
+/// Rapid motions in a row.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Rapids {
+    /// How many.
+    pub count: u32,
+    /// Block of the first.
+    pub first: BlockId,
+    /// Way of the linear axes across the tool, added up, mm.
+    pub way_mm: f64,
+    /// The direct way across the tool from start to end, mm.
+    pub direct_mm: f64,
+    /// Turns of the rotary axes, added up, rad.
+    pub turned: [f64; 2],
+    /// Turns from start to end, rad.
+    pub direct_turn: [f64; 2],
+    tool: Option<u32>,
+    net: Vec3,
+    from: Joints,
+}
+
+impl Trail {
+    /// Takes the next leg; then the rules look at it.
+    pub(crate) fn add(&mut self, machine: &Machine, leg: &Leg) {
+        let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
+            *self = Self::default();
+            return;
+        };
+        match leg.motion.kind {
+            MotionKind::Rapid => self.rapid(machine, leg, start, end),
+            MotionKind::Linear | MotionKind::Arc(_) => {
+                self.state = if self.state == State::Rapid {
+                    State::Arrived
+                } else {
+                    State::Other
+                };
+                if machine.constants.pair.is_some() {
+                    self.feed(leg, start, end);
+                }
+            }
+            MotionKind::Dwell(_) | MotionKind::Unknown => self.state = State::Other,
+        }
+    }
+
+    fn feed(&mut self, leg: &Leg, start: &Stance, end: &Stance) {
+        let turned = leg.rotary_change[0] + leg.rotary_change[1];
+        if turned == 0.0 {
+            return self.window.push(0.0, 0.0);
+        }
+        let chord = (end.axis - start.axis).norm();
+        let leads_tip = leg.motion.tcp || matches!(leg.motion.orientation, trunnion_interp::Orientation::Vector(..));
+        if !leads_tip && chord < 1e-9 {
+            // without TCP a table that turns about the tool feeds the part under it
+            return self.window.push(0.0, 0.0);
+        }
+        self.window.push(turned, chord);
+    }
+
+    fn rapid(&mut self, machine: &Machine, leg: &Leg, start: &Stance, end: &Stance) {
+        if self.state != State::Rapid || self.rapids.tool != leg.motion.tool {
+            self.rapids = Rapids {
+                first: leg.motion.block,
+                from: start.joints,
+                tool: leg.motion.tool,
+                ..Rapids::default()
+            };
+        }
+        self.state = State::Rapid;
+        let rapids = &mut self.rapids;
+        rapids.count += 1;
+        let mut way = Vec3::zeros();
+        for linear in machine.constants.linear() {
+            way += linear.motion * (end.joints[linear.joint] - start.joints[linear.joint]);
+        }
+        let tool = tool_in_machine(machine, end);
+        rapids.net += way;
+        rapids.way_mm += across(&way, &tool);
+        rapids.direct_mm = across(&rapids.net, &tool);
+        for (slot, rotary) in machine.constants.rotary().iter().enumerate().take(2) {
+            rapids.turned[slot] += (end.joints[rotary.joint] - start.joints[rotary.joint]).abs();
+            rapids.direct_turn[slot] = (end.joints[rotary.joint] - rapids.from[rotary.joint]).abs();
+        }
+    }
+
+    /// Turn of the rotary axes and of the tool axis in the last ten feed blocks, rad, where the first is more than `ratio` times the
+    /// second (which counts as `least` at least).
+    pub(crate) fn excess_turn(&self, ratio: f64, least: f64) -> Option<(f64, f64)> {
+        if self.window.count < WINDOW {
+            return None;
+        }
+        let turned: f64 = self.window.turned.iter().sum();
+        let chords: f64 = self.window.chord.iter().sum();
+        // a chord is never longer than its arc
+        if turned <= ratio * chords.max(least) {
+            return None;
+        }
+        let angle = |chord: &f64| if *chord < 2.0 { 2.0 * asin(0.5 * chord) } else { PI };
+        let tilted: f64 = self.window.chord.iter().map(angle).sum();
+        (turned > ratio * tilted.max(least)).then_some((turned, tilted))
+    }
+
+    /// The rapid motions that led to the feed motion in hand.
+    pub(crate) fn rapids(&self) -> Option<&Rapids> {
+        (self.state == State::Arrived).then_some(&self.rapids)
+    }
+}
+
+/// The part of a way at right angles to the tool, mm.
+fn across(way: &Vec3, tool: &Vec3) -> f64 {
+    (way - tool * tool.dot(way)).norm()
+}
+
+/// The tool axis in the frame in which the linear axes run: turned by the rotary axes between them and the tool.
+fn tool_in_machine(machine: &Machine, stance: &Stance) -> Vec3 {
+    let constants = &machine.constants;
+    let behind = constants
+        .linear()
+        .iter()
+        .map(|linear| linear.segment)
+        .max()
+        .unwrap_or(0);
+    let mut tool = machine.tool_axis;
+    for rotary in constants.rotary().iter().skip(behind).rev() {
+        tool = rotate(&rotary.direction, rotary.sign * stance.joints[rotary.joint], &tool);
+    }
+    tool
+}

@@ -170,15 +170,16 @@ mod tests {
     fn a_tenth_of_a_degree_is_the_threshold() {
         // at a tilt of A the way round the cone lies about dC^2 sin A cos A / 8 beside the great circle
         let text = |j: f64| {
-            let (sin, cos) = (j.to_radians().sin() * 0.5, j.to_radians().cos() * 0.5);
+            let (sin, cos) = trunnion_geometry::math::sin_cos(trunnion_geometry::rad(j));
+            let (sin, cos) = (0.5 * sin, 0.5 * cos);
             format!("TRAORI\nG0 X0 Y0 Z50 A3=0 B3=-0.5 C3=0.866\nG1 X100 A3={sin} B3=-{cos} C3=0.866 F500\nM30\n")
         };
-        assert_eq!(found("gcode sinumerik-840d mikron-ucp710", &text(10.0)).len(), 1);
+        assert_eq!(found("gcode sinumerik-840d mikron-ucp710", &text(10.6)).len(), 1);
         assert_eq!(
-            found("gcode sinumerik-840d mikron-ucp710", &text(10.0))[0].severity,
+            found("gcode sinumerik-840d mikron-ucp710", &text(10.6))[0].severity,
             Severity::Warning
         );
-        assert_eq!(found("gcode sinumerik-840d mikron-ucp710", &text(9.0)), []);
+        assert_eq!(found("gcode sinumerik-840d mikron-ucp710", &text(10.0)), []);
     }
 
     #[test]

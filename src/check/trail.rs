@@ -1,4 +1,5 @@
 //! What the legs before tell a rule: how far the rotary axes turned in the last feed blocks, and the rapid motions since the last cut.
+use crate::view::leads_tip;
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{asin, rotate};
@@ -98,8 +99,7 @@ impl Trail {
             return self.window.push(0.0, 0.0);
         }
         let chord = (end.axis - start.axis).norm();
-        let leads_tip = leg.motion.tcp || matches!(leg.motion.orientation, trunnion_interp::Orientation::Vector(..));
-        if !leads_tip && chord < 1e-9 {
+        if !leads_tip(&leg.motion) && chord < 1e-9 {
             // without TCP a table that turns about the tool feeds the part under it
             return self.window.push(0.0, 0.0);
         }

@@ -38,6 +38,11 @@ pub struct LegView<'a> {
     deviation: OnceCell<Option<Deviation>>,
 }
 
+/// Whether X Y Z are the tip's in the workpiece frame: tool centre point control, or vectors.
+pub(crate) fn leads_tip(motion: &Motion) -> bool {
+    motion.tcp || matches!(motion.orientation, Orientation::Vector(..))
+}
+
 impl<'a> LegView<'a> {
     /// A view of `leg`.
     pub(crate) fn new(machine: &'a Machine, leg: &'a Leg, posture_before: i8, trail: &'a Trail) -> Self {
@@ -70,7 +75,7 @@ impl<'a> LegView<'a> {
 
     /// Whether X Y Z are the tip's in the workpiece frame: tool centre point control, or vectors.
     pub fn leads_tip(&self) -> bool {
-        self.motion().tcp || matches!(self.motion().orientation, Orientation::Vector(..))
+        leads_tip(self.motion())
     }
 
     /// Whether F is meant in degrees: no X Y Z path, without tool centre point control (RS274/NGC on feed rate).

@@ -123,6 +123,19 @@ mod tests {
         );
     }
 
+    /// The tip stands 410 mm above A: Z is 371.6 mm at A-25 and 314.1 mm at A40, and 410 mm in between, where A passes 0.
+    #[test]
+    fn a_limit_broken_between_two_legal_ends_is_found() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "TRAORI\nG0 X0 Y0 Z410 A-25 C0\nG1 X200 A40 F500\n;^^^^^^^^^^^^^^^ axis-limit: Z reaches 410 mm inside the block, while both ends are legal, 10 mm beyond its limit of 400 mm\n;       ^^^ pole-crossing: \nM30\n",
+        );
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "TRAORI\nG0 X0 Y0 Z399 A-25 C0\nG1 X200 A40 F500\n;       ^^^ pole-crossing: \nM30\n",
+        );
+    }
+
     #[test]
     fn the_limit_itself_is_legal_and_each_axis_has_its_own_run() {
         assert_drawn(

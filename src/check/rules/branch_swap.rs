@@ -8,9 +8,9 @@
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z50 A20 C0
-//! N30 G1 X1 A-20 C180 F30
-//! ;         ^^^^^^^^^ branch-swap: the posture changes with 220 deg more rotary travel than needed
-//! ;              ^^^^ pole-flip: C turns 180 deg
+//! N30 G1 X10 A-20 C180 F300
+//! ;          ^^^^^^^^^ branch-swap: the posture changes with 220 deg more rotary travel than needed
+//! ;               ^^^^ pole-flip: C turns 180 deg
 //! N40 M30
 //! ```
 //!
@@ -107,6 +107,44 @@ mod tests {
         assert!(!found.help.as_deref().unwrap().contains("posture before"));
         let flip = report.diagnostics.iter().find(|d| d.rule == "pole-flip").unwrap();
         assert!(flip.fixes.is_empty() && !flip.help.as_deref().unwrap().contains("smooth-pole"));
+    }
+
+    /// Tool vectors that tilt from 10 to 40 deg towards +Y (A runs to -30) or towards -Y (A runs to 40).
+    fn tilting(towards: f64) -> Vec<crate::Diagnostic> {
+        use std::fmt::Write;
+        let mut text = String::from("MULTAX/ON\nFEDRAT/100,MMPM\n");
+        for step in 0..7 {
+            let (sin, cos) = trunnion_geometry::math::sin_cos(trunnion_geometry::rad(10.0 + 5.0 * f64::from(step)));
+            let _ = writeln!(text, "GOTO/{},0,0,0,{:.7},{cos:.7}", 10 * step, towards * sin);
+        }
+        text.push_str("FINI\n");
+        let report = crate::fixture::Fixture::parse("gcode apt mikron-ucp710", &text)
+            .check()
+            .unwrap();
+        let own = |d: &crate::Diagnostic| d.rule == "branch-swap";
+        report.diagnostics.into_iter().filter(own).collect()
+    }
+
+    /// The guide-vane paper, section 2: where A reaches its limit the other posture is taken and C turns by 180 deg.
+    #[test]
+    fn a_path_that_runs_an_axis_to_its_limit_swaps_there() {
+        let found = tilting(1.0);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let value = |key| {
+            found[0].values.iter().find_map(|(known, value)| match value {
+                crate::ValueKey::Number(value) if *known == key => Some(*value),
+                _ => None,
+            })
+        };
+        assert!((value("rotary_change_deg").unwrap() - 180.0).abs() < 1e-4, "{found:?}");
+        // at 30 deg A still stands on its limit; the block to 35 deg swaps
+        assert!(
+            (value("rotary_change_second_deg").unwrap() - 65.0).abs() < 1e-4,
+            "{found:?}"
+        );
+        assert!((value("limit_deg").unwrap() + 30.0).abs() < 1e-9 && (value("value_deg").unwrap() + 35.0).abs() < 1e-4);
+        assert_eq!(found[0].severity, crate::Severity::Error);
+        assert_eq!(tilting(-1.0), []);
     }
 
     #[test]

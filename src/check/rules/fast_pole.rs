@@ -25,8 +25,8 @@
 //!
 //! # Guarantee
 //! Heuristic: the distance at the end or inside the block is exact, the asked speed and acceleration are those of a straight pass at the
-//! block's mean turning speed. Blocks in which the first axis turns no farther than the tool axis are silent: over the pole itself the
-//! tool can pass with that axis at rest. Only what the machine file declares of the first axis is judged; `axis-overspeed` is the proof
+//! block's mean turning speed. Blocks in which the first axis turns less than five times as far as the tool axis are silent: that is not
+//! the pole's doing, and straight over the pole the tool can pass with that axis at rest. Only what the machine file declares of the first axis is judged; `axis-overspeed` is the proof
 //! for its speed.
 //!
 //! # Thresholds
@@ -44,6 +44,12 @@ pub(super) const RULE: Body = Body {
     guarantee: Guarantee::Heuristic,
     level: Level::Leg(check),
 };
+
+/// Where the first axis turns less than this many times as far as the tool axis the pole is not to blame.
+const AMPLIFIED: f64 = 5.0;
+
+/// A tool axis that turns less stands still, rad: 1e-4 deg.
+const STILL: f64 = 1.7e-6;
 
 /// Peak acceleration of the first axis on a straight pass is this times w^2 / d^2 (kinematics notes 2.4).
 const PASS: f64 = 0.6495;
@@ -67,10 +73,9 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     }
     let angle = angle_between(&start.axis, &end.axis);
     let distance = cone(angle);
-    if passes >= distance || turn <= angle {
+    if passes >= distance || angle <= STILL || turn <= AMPLIFIED * angle {
         return;
     }
-    // the tool axis cannot be told to keep a distance it has reached already: close to a right angle there is no pole
     if view.feed_is_ambiguous(out.dialect()) || out.repeats(view, 0, distance - passes) {
         return;
     }

@@ -8,7 +8,7 @@
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z50 A5 C0
-//! N30 G1 X1 A-5 F500
+//! N30 G1 X2 A-5 F500
 //! ;         ^^^ pole-crossing: the tool axis passes
 //! N40 M30
 //! ```

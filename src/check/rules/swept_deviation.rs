@@ -9,9 +9,9 @@
 //! LOADTL/1,LENGTH,80
 //! MULTAX/ON
 //! FEDRAT/500,MMPM
-//! GOTO/0,0,50,0,-0.5,0.866
-//! GOTO/100,0,50,0.08,-0.494,0.866
-//! $$            ^^^^^^^^^^^^^^^^^ swept-deviation: 80 mm above its tip the tool leaves its path by
+//! GOTO/0,0,50,0,-0.5,0.8660254
+//! GOTO/100,0,50,0.08,-0.4935585,0.8660254
+//! $$            ^^^^^^^^^^^^^^^^^^^^^^^^^ swept-deviation: 80 mm above its tip the tool leaves its path by
 //! FINI
 //! ```
 //!
@@ -20,9 +20,9 @@
 //! LOADTL/1,LENGTH,80
 //! MULTAX/ON
 //! FEDRAT/500,MMPM
-//! GOTO/0,0,50,0,-0.5,0.866
-//! GOTO/50,0,50,0.04,-0.4975,0.866
-//! GOTO/100,0,50,0.08,-0.494,0.866
+//! GOTO/0,0,50,0,-0.5,0.8660254
+//! GOTO/50,0,50,0.04,-0.4983974,0.8660254
+//! GOTO/100,0,50,0.08,-0.4935585,0.8660254
 //! FINI
 //! ```
 //!

@@ -4,7 +4,10 @@ use crate::guide_vane::{STRATEGIES, follow, machine, vectors};
 use trunnion_geometry::math::asin;
 use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_interp::{Motion, Position};
-use trunnion_machine::{Follower, Leg, Machine, orientation_deviation, swept_deviation, tool_axis_at};
+use trunnion_machine::{
+    Follower, Leg, Machine, Orientations, Solution, orientation_deviation, orientations, swept_deviation, tool_axis_at,
+    windings,
+};
 
 fn found(machine: &Machine, leg: &Leg) -> (f64, f64) {
     let found = orientation_deviation(machine, leg, 0.0).expect("known");
@@ -145,4 +148,34 @@ fn opposite_tool_axes_have_no_great_circle() {
     follower.follow(&first);
     let leg = follower.follow(&vector(first.end, [10.0, 0.0, 0.0], Vec3::new(0.0, -1.0, 0.0)));
     assert_eq!(orientation_deviation(&machine, &leg, 0.001), None);
+}
+
+/// Table 2 of the guide-vane paper for a machine whose A runs from -30 to 120 deg: by k there is no posture beyond 120 deg, one between
+/// 120 and 30 deg, two below, and at k = 1 any C does.
+#[test]
+fn how_many_postures_reach_a_direction_depends_on_k() {
+    let a_joint = machine().joint(b'A').expect("an axis");
+    let reached = |tilt: f64, turn: f64| match orientations(machine(), &tool_axis_at(machine(), [rad(turn), rad(tilt)]))
+    {
+        Orientations::Postures(postures) => {
+            let legal = |posture: &&Solution| !windings(machine(), a_joint, posture.q[1], 0.0).is_empty();
+            Some(postures.iter().filter(legal).count())
+        }
+        Orientations::Pole(_) => None,
+        Orientations::Unreachable(_) => Some(0),
+    };
+    for turn in [0.0, 37.0, -90.0, 171.0] {
+        for (tilt, count) in [
+            (179.0, 0),
+            (120.01, 0),
+            (119.99, 1),
+            (75.0, 1),
+            (30.01, 1),
+            (29.99, 2),
+            (0.01, 2),
+        ] {
+            assert_eq!(reached(tilt, turn), Some(count), "A{tilt} C{turn}");
+        }
+        assert_eq!(reached(0.0, turn), None);
+    }
 }

@@ -51,6 +51,13 @@ pub(super) fn run(command: &Command) -> Result<Done, Failure> {
         );
         return Err(Failure::file(&command.file, text));
     }
+    if let Step::Endless(at) = last {
+        let text = format!(
+            "does not end: the loop at line {} says nothing to the machine and comes back to the same values",
+            at.line + 1
+        );
+        return Err(Failure::file(&command.file, text));
+    }
     // without an INI file rs274 resets its machine twice
     let resets = if command.ini.is_some() { 1 } else { 2 };
     for _ in 0..resets {
@@ -99,6 +106,7 @@ fn setup(command: &Command, sources: &Sources) -> Result<Setup, Failure> {
         tools,
         parameters,
         files: Some(Arc::new(files)),
+        block_delete: command.block_delete,
         ..Setup::default()
     })
 }

@@ -176,10 +176,20 @@ pub enum Canon {
     SelectTool(i32),
     /// M6 begins: the spindle may stand still from here on.
     StartChange,
-    /// M6: the tool that is changed in.
-    ChangeTool(i32),
-    /// M61.
-    ChangeToolNumber(i32),
+    /// M6: the tool that is changed in, and its row of the tool table (0: no tool, -1: none was selected).
+    ChangeTool {
+        /// T.
+        tool: i32,
+        /// From 1; what `rs274` prints.
+        row: i32,
+    },
+    /// M61: the tool that is in the spindle, and its row of the tool table.
+    ChangeToolNumber {
+        /// Q.
+        tool: i32,
+        /// From 1; what `rs274` prints.
+        row: i32,
+    },
     /// Tool offset in force.
     ToolOffset(Pose),
     /// A row of the tool table is written (G10 L1, L10, L11): row (0: the spindle) and what it holds now.

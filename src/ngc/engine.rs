@@ -3,6 +3,7 @@ use crate::flow::Flow;
 use crate::{Block, Canon, Error, FileId, Setup, Source, State};
 use std::sync::Arc;
 use trunnion_formula::Variables;
+use trunnion_syntax::TextRange;
 
 /// A chain of calls; 0: the main program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -36,6 +37,8 @@ pub trait Sink {
     fn call(&mut self, call: &Canon, at: At, state: &State);
     /// A line was refused. `main`: the first error, where the control stops; further ones are of the same line.
     fn error(&mut self, error: &Error, at: At);
+    /// A NUL stands in a line that runs: the control does not read the bytes from there to the end of the line.
+    fn cut(&mut self, _range: TextRange, _at: At) {}
 }
 
 /// What a step did.
@@ -51,6 +54,8 @@ pub enum Step {
     Undecided(String),
     /// The bounds are used up; line that opens the innermost loop or call.
     OutOfFuel(At),
+    /// The loop that this line opens never ends: it tells nothing to the machine, and all values are as they were before.
+    Endless(At),
 }
 
 /// The interpreter between two lines. Cloning it makes a check-point.

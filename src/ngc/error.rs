@@ -1,5 +1,6 @@
 //! Why a line is refused.
 use crate::FileId;
+use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
 /// The sort of mistake; rules of the check floor choose by it.
@@ -73,6 +74,19 @@ pub struct Error {
     pub range: TextRange,
     /// The line that the control had read last, where that is not the line that is wrong: it is the one that `rs274` quotes.
     pub read_last: Option<(FileId, TextRange)>,
+    /// The file as people are shown it; empty for the main program. Filled in by the engine.
+    pub path: Arc<str>,
+    /// A subprogram that is not there.
+    pub missing: Option<Box<Missing>>,
+}
+
+/// A subprogram that was looked for in vain.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Missing {
+    /// As it is called.
+    pub name: String,
+    /// Folders that were searched, behind the rest of the program.
+    pub searched: Vec<String>,
 }
 
 impl Error {
@@ -84,6 +98,8 @@ impl Error {
             file: FileId::MAIN,
             range,
             read_last: None,
+            path: Arc::from(""),
+            missing: None,
         }
     }
     /// A refusal whose message has details: the whole text as the control prints it.

@@ -80,6 +80,22 @@ impl Store {
             missing_axes: missing_axes(setup),
         }
     }
+    /// Whether nothing differs, bit for bit; what callers keep aside is not looked at.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        let numbers = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
+        let names = |a: &BTreeMap<Box<str>, f64>, b: &BTreeMap<Box<str>, f64>| {
+            a.len() == b.len()
+                && a.iter()
+                    .zip(b)
+                    .all(|((a, x), (b, y))| a == b && x.to_bits() == y.to_bits())
+        };
+        numbers(&self.numbers, &other.numbers)
+            && names(&self.locals, &other.locals)
+            && names(&self.globals, &other.globals)
+            && self.value.to_bits() == other.value.to_bits()
+            && self.returned == other.returned
+            && self.aside.len() == other.aside.len()
+    }
     /// The value of a parameter; 0 where there is none.
     pub(crate) fn number(&self, index: usize) -> f64 {
         self.numbers.get(index).copied().unwrap_or(0.0)
@@ -146,6 +162,10 @@ impl Store {
             self.locals = aside.names;
         }
     }
+    /// Which axis letters are no words: those of the machine, without `extra`.
+    pub(crate) fn allow_axes(&mut self, setup: &Setup, extra: &str) {
+        self.missing_axes = missing_axes(setup) & !axis_bits(extra);
+    }
     /// What a subprogram returned: `#<_value>` and `#<_value_returned>`.
     pub(crate) fn set_returned(&mut self, value: Option<f64>) {
         self.value = value.unwrap_or(0.0);
@@ -155,18 +175,20 @@ impl Store {
 
 /// `rs274` has the axes X Y Z A B C whatever the INI file says (observed); on a machine it is `[TRAJ] COORDINATES` that says it.
 fn missing_axes(setup: &Setup) -> u32 {
-    let bits = |letters: &str| {
-        letters
-            .bytes()
-            .filter(u8::is_ascii_alphabetic)
-            .fold(0u32, |bits, letter| bits | 1 << (letter.to_ascii_uppercase() - b'A'))
-    };
     let key = ("TRAJ".to_owned(), "COORDINATES".to_owned());
     let there = match setup.ini.values.get(&key) {
-        Some(letters) if setup.start == Start::Unknown => bits(letters),
-        _ => bits("XYZABC"),
+        Some(letters) if setup.start == Start::Unknown => axis_bits(letters),
+        _ => axis_bits("XYZABC"),
     };
-    bits("XYZABCUVW") & !there
+    axis_bits("XYZABCUVW") & !there
+}
+
+/// Bit per letter from A.
+fn axis_bits(letters: &str) -> u32 {
+    letters
+        .bytes()
+        .filter(u8::is_ascii_alphabetic)
+        .fold(0, |bits, letter| bits | 1 << (letter.to_ascii_uppercase() - b'A'))
 }
 
 /// What formulas read from at one line.

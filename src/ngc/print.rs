@@ -150,8 +150,8 @@ fn machine_text(call: &Canon) -> String {
         Canon::Coolant(Coolant::FloodOff) => "FLOOD_OFF()".to_owned(),
         Canon::SelectTool(tool) => format!("SELECT_TOOL({tool})"),
         Canon::StartChange => "START_CHANGE()".to_owned(),
-        Canon::ChangeTool(tool) => format!("CHANGE_TOOL({tool})"),
-        Canon::ChangeToolNumber(tool) => format!("CHANGE_TOOL_NUMBER({tool})"),
+        Canon::ChangeTool { row, .. } => format!("CHANGE_TOOL({row})"),
+        Canon::ChangeToolNumber { row, .. } => format!("CHANGE_TOOL_NUMBER({row})"),
         Canon::Switch(switch, on) => {
             let verb = if *on { "ENABLE" } else { "DISABLE" };
             match switch {

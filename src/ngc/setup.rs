@@ -177,6 +177,7 @@ impl Setup {
         let random = self.random_tool_changer();
         let empty = ToolEntry {
             number: if random { -1 } else { 0 },
+            pocket: -1,
             ..ToolEntry::default()
         };
         let mut rows = vec![empty];

@@ -149,13 +149,13 @@ pub struct State {
     pub naive_tolerance: f64,
     /// T: tool number that was selected, -1 for none.
     pub selected_tool: i32,
-    /// Pocket (row) of the selected tool.
-    pub selected_pocket: i32,
     /// Tool in the spindle, 0 for none.
     pub tool: i32,
     /// Rows of the tool table as they are now; row 0 is the spindle.
     pub tools: std::sync::Arc<Vec<crate::ToolEntry>>,
-    /// Row of the selected tool, -1 for none.
+    /// Pocket of the row that was changed in last, which each change writes into row 0; -1 before the first.
+    pub(crate) spindle_pocket: i32,
+    /// Row of the selected tool, 0 for none.
     pub selected_row: i32,
     /// Row of the tool in the spindle.
     pub current_row: i32,
@@ -313,10 +313,10 @@ impl State {
             motion_mode: MotionMode::Continuous(0.0),
             naive_tolerance: 0.0,
             selected_tool: -1,
-            selected_pocket: -1,
             tool: 0,
             tools: std::sync::Arc::new(vec![crate::ToolEntry::default()]),
-            selected_row: -1,
+            spindle_pocket: -1,
+            selected_row: 0,
             current_row: 1,
             wrapped: [false; 3],
             told: Told::default(),

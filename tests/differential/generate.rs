@@ -1,11 +1,17 @@
 //! Random LinuxCNC programs: mostly such as people write, some with a mistake.
 use crate::random::Random;
+use crate::settings::Case;
 use core::fmt::Write;
 
 /// A program as it grows.
 pub(crate) struct Program {
     pub(crate) random: Random,
-    text: String,
+    pub(crate) case: Case,
+    /// Text behind the end of the program.
+    pub(crate) behind: String,
+    /// Numbers of the tool table.
+    pub(crate) tools: Vec<u32>,
+    pub(crate) spindles: usize,
     /// Last O-word number.
     pub(crate) label: u32,
     /// Where the program is in X Y Z while that is known.
@@ -20,14 +26,19 @@ pub(crate) fn number(value: f64) -> String {
 }
 
 /// The program of a seed.
-pub(crate) fn program(seed: u64) -> String {
+pub(crate) fn program(seed: u64) -> Case {
     let mut program = Program {
         random: Random::new(seed.wrapping_mul(0x1000_0001)),
-        text: String::new(),
+        case: Case::default(),
+        behind: String::new(),
+        // those of the table that rs274 takes without one
+        tools: vec![1, 2, 3, 99_999],
+        spindles: 1,
         label: 100,
         at: [0.0; 3],
         depth: 0,
     };
+    program.settings();
     program.head();
     let parts = 2 + program.random.below(7);
     for _ in 0..parts {
@@ -36,14 +47,19 @@ pub(crate) fn program(seed: u64) -> String {
     if program.random.one_in(12) {
         program.mistake();
     }
+    if program.random.one_in(4) {
+        program.spoil();
+    }
     program.line(if seed.is_multiple_of(3) { "M30" } else { "M2" });
-    program.text
+    let behind = core::mem::take(&mut program.behind);
+    program.case.text.push_str(&behind);
+    program.case
 }
 
 impl Program {
     pub(crate) fn line(&mut self, text: &str) {
-        self.text.push_str(text);
-        self.text.push('\n');
+        self.case.text.push_str(text);
+        self.case.text.push('\n');
     }
 
     fn head(&mut self) {
@@ -68,7 +84,7 @@ impl Program {
     }
 
     fn part(&mut self) {
-        match self.random.below(22) {
+        match self.random.below(42) {
             0..=3 => self.straight(),
             4..=5 => self.arc_by_centre(),
             6 => self.arc_by_radius(),
@@ -81,7 +97,21 @@ impl Program {
             18 => self.modes(),
             19 => self.messages(),
             20 => self.spline(),
-            _ => self.inverse_time(),
+            21 => self.inverse_time(),
+            22..=24 => self.tools(),
+            25..=26 => self.compensated_by_tool(),
+            27 => self.spindles(),
+            28 => self.signals(),
+            29..=30 => self.saved(),
+            31 => self.probing(),
+            32 => self.polar(),
+            33..=34 => self.names(),
+            35..=36 => self.systems(),
+            37 => self.threads(),
+            38 => self.splines(),
+            39 => self.turning(),
+            40 => self.called_file(),
+            _ => self.numbered(),
         }
     }
 
@@ -284,7 +314,7 @@ impl Program {
     }
 
     /// One line that a control refuses, or nearly so.
-    fn mistake(&mut self) {
+    pub(crate) fn mistake(&mut self) {
         let lines = [
             "G1 X1 X2",
             "G0 G1 X1",

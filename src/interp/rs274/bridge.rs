@@ -267,6 +267,11 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
         }
     }
 
+    fn cut(&mut self, range: TextRange, at: At) {
+        let what = "NUL character: the control does not read the rest of this line".to_owned();
+        self.fault(at, range, FaultKind::NotModelled { what });
+    }
+
     fn error(&mut self, error: &Error, at: At) {
         self.told.lost |= error.problem.class == trunnion_ngc::Class::NotModelled;
         let kind = fault_of(error);
@@ -278,7 +283,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
             self.fault(at, error.range, kind);
             return;
         }
-        let frames = format!("in a called program, line {}: ", at.line + 1);
+        let frames = format!("in {}, line {}: ", error.path, at.line + 1);
         let kind = match kind {
             FaultKind::Rejected {
                 refusal,

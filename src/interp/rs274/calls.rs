@@ -146,14 +146,14 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 self.interpreter.state.tool_prepared = number;
                 self.interpreter.memory.prepared = number.map_or(Chosen::Unread, Chosen::Number);
             }
-            Canon::ChangeTool(_) | Canon::ChangeToolNumber(_) => {
+            Canon::ChangeTool { .. } | Canon::ChangeToolNumber { .. } => {
                 let number = u32::try_from(state.tool).ok();
                 let interpreter = &mut *self.interpreter;
                 interpreter.state.tool = number;
                 interpreter.memory.in_spindle = number.map_or(Chosen::Unread, Chosen::Number);
                 interpreter.merge_tool();
                 // the change may move the machine: the interpreter has forgotten X Y Z too
-                if matches!(call, Canon::ChangeTool(_)) {
+                if matches!(call, Canon::ChangeTool { .. }) {
                     for axis in LINEAR_AXES {
                         self.told.machine.forget(axis);
                     }

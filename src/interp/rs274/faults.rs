@@ -4,6 +4,12 @@ use trunnion_ngc::{Class, Error};
 
 /// The fact that tells an error.
 pub(super) fn fault_of(error: &Error) -> FaultKind {
+    if let Some(missing) = &error.missing {
+        return FaultKind::MissingSubprogram {
+            name: missing.name.clone(),
+            searched: missing.searched.clone(),
+        };
+    }
     let refusal = match error.problem.class {
         Class::ProgramEnd => return FaultKind::MissingProgramEnd,
         Class::NotModelled => {

@@ -137,7 +137,8 @@ impl Interpreter<'_> {
                 bridge.fault(at, TextRange::default(), FaultKind::NotDecided { what });
                 *done = true;
             }
-            Step::OutOfFuel(opens) => {
+            Step::OutOfFuel(opens) | Step::Endless(opens) => {
+                // one that comes back to the same values ends within no bound
                 let blocks = bridge.interpreter.setup.limits.blocks;
                 bridge.fault(opens, TextRange::default(), FaultKind::EndlessLoop { blocks });
                 *done = true;

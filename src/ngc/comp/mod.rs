@@ -10,7 +10,7 @@ mod problems;
 mod queue;
 
 use crate::{At, Block, Canon, Engine, Error, Side, Sink};
-pub(crate) use moves::{Arc, Kind, along, arc, straight};
+pub(crate) use moves::{Arc, Kind, along, arc, check_entry_arc, straight};
 pub(crate) use queue::Queue;
 use std::sync::Arc as Shared;
 

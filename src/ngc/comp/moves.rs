@@ -2,7 +2,7 @@
 use super::corner::{self, Corner, Way};
 use super::plane::{self, Point};
 use super::{problems, queue};
-use crate::{At, Block, Engine, Error, FeedMode, Pose, Sink, exec};
+use crate::{At, Block, Engine, Error, FeedMode, Pose, Side, Sink, exec};
 
 /// What a straight motion is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -196,6 +196,23 @@ pub(crate) fn arc(engine: &mut Engine, arc: &Arc, block: &Block, at: At, sink: &
     queue::bow(engine, bow, at);
     arrive(engine, arc.end, centre, sink);
     Ok(())
+}
+
+/// What an arc that begins compensation must fulfil before its centre is looked for.
+pub(crate) fn check_entry_arc(engine: &Engine, end: &Pose, clockwise: bool, block: &Block) -> Result<(), Error> {
+    let state = &engine.state;
+    if state.side == Side::Off || !state.first_compensated || state.radius == 0.0 {
+        return Ok(());
+    }
+    let [from, to] = [&state.current, end].map(|pose| plane::point(state.plane, pose));
+    if plane::length(plane::sub(to, from)) <= state.radius {
+        return Err(Error::new(&problems::ENTRY_ARC, block.range));
+    }
+    let inside = clockwise != (state.side == Side::Left);
+    let outward = if inside { -1.0 } else { 1.0 };
+    block
+        .word(b'R')
+        .map_or(Ok(()), |radius| tight(outward, state.radius, radius.abs(), block))
 }
 
 /// Whether the last move is an arc around whose outside the cutter runs.

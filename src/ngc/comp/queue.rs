@@ -1,8 +1,8 @@
 //! Moves that are held back because their end depends on the corner that follows, and calls that wait behind them.
 use super::plane::{self, Point};
 use super::problems;
-use crate::{At, Canon, DistanceMode, Engine, Error, FeedMode, Pose, Sink, State};
-use std::f64::consts::{PI, TAU};
+use crate::{At, Canon, DistanceMode, Engine, Error, FeedMode, Pose, Sink, State, Units};
+use std::f64::consts::TAU;
 use trunnion_syntax::TextRange;
 
 /// One call that waits.
@@ -181,9 +181,11 @@ pub(super) fn settle(engine: &mut Engine, corner: Point, range: TextRange, sink:
                 line.end = plane::with_point(plane, line.end, corner);
             }
             Held::Bow(bow, ..) => {
+                let further = overrun(engine.state.units);
+                let told = engine.queue.told;
                 if bow
                     .sweep
-                    .is_some_and(|sweep| overrun(engine.queue.told, bow, sweep, corner))
+                    .is_some_and(|sweep| sweep_of(told, bow.centre, corner, bow.turns) > sweep + further)
                 {
                     return Err(Error::new(&problems::GOUGE_ARC, range));
                 }
@@ -196,9 +198,13 @@ pub(super) fn settle(engine: &mut Engine, corner: Point, range: TextRange, sink:
     Ok(())
 }
 
-/// Whether the arc's new end lies before its start: it would then run almost a full turn further than the contour.
-fn overrun(start: Point, bow: &Bow, sweep: f64, corner: Point) -> bool {
-    sweep_of(start, bow.centre, corner, bow.turns) > sweep + PI
+/// An arc whose cutter sweeps more than the contour by this angle, rad, is refused: so does one whose end lies before its start, and one
+/// that a nearly tangent line leads too early into. Observed from `rs274` by bisection: the same for every radius, another one for inches.
+fn overrun(units: Units) -> f64 {
+    match units {
+        Units::Inch => 0.001,
+        Units::Millimetre => 0.0254,
+    }
 }
 
 /// The control cannot cut the entry arc of a turning tool.

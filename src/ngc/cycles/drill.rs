@@ -25,7 +25,6 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
     let new_code = code != before;
     let words = words(work, axes, code, new_code)?;
     let incremental = work.engine.state.distance == DistanceMode::Incremental;
-    let end = exec::end_of(&work.engine.state, work.block)?;
     let old = words.old;
     let r = if incremental { words.r + old } else { words.r };
     let bottom = if incremental { r + words.cc } else { words.cc };
@@ -41,18 +40,9 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
     } else {
         r
     };
-    let step = if incremental {
-        [end[first] - start[first], end[second] - start[second]]
-    } else {
-        [0.0; 2]
-    };
     let mut hole = Hole {
         places: axes.places,
-        at: if incremental {
-            [start[first], start[second]]
-        } else {
-            [end[first], end[second]]
-        },
+        at: [start[first], start[second]],
         bottom,
         r,
         clear,
@@ -70,6 +60,13 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
     }
     missing(work, code, new_code)?;
     work.engine.state.cycle = words;
+    let end = exec::cycle_end(&work.engine.state, work.block)?;
+    let step = if incremental {
+        [end[first] - start[first], end[second] - start[second]]
+    } else {
+        hole.at = [end[first], end[second]];
+        [0.0; 2]
+    };
     let polar = incremental && (work.block.radius.is_some() || work.block.angle.is_some());
     for turn in 0..words.l {
         hole.at = if polar && turn > 0 {
@@ -101,15 +98,6 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
 /// What is refused before anything happens, in the control's order.
 fn check(work: &Work<'_>, code: i16, before: i16, axes: Axes) -> Result<(), Error> {
     let block = work.block;
-    for (letter, problem) in [
-        (b'A', &problems::AXIS_A),
-        (b'B', &problems::AXIS_B),
-        (b'C', &problems::AXIS_C),
-    ] {
-        if block.has(letter) {
-            return Err(Error::new(problem, block.range_of(letter)));
-        }
-    }
     let foreign = if axes.places[0] < 3 { b"UVW" } else { b"XYZ" };
     for &letter in foreign {
         if block.has(letter) {

@@ -38,6 +38,16 @@ impl Work<'_> {
     fn refuse(&self, problem: &'static crate::Problem) -> Error {
         Error::new(problem, self.code_range())
     }
+    /// The spindle of `$`: it counts for this and the following threads.
+    fn choose_spindle(&mut self, problem: &'static crate::Problem) -> Result<(), Error> {
+        let Some(number) = self.block.spindle else {
+            return Ok(());
+        };
+        let count = self.engine.setup.spindles();
+        let spindle = usize::try_from(number).ok().filter(|&number| number < count);
+        self.engine.state.active_spindle = spindle.ok_or_else(|| self.refuse(problem))?;
+        Ok(())
+    }
     /// The spindle whose turning counts, and which way it turns: 0, 1, -1.
     fn turning(&self) -> (i32, i8) {
         let spindle = self.engine.state.active_spindle;

@@ -42,18 +42,22 @@ fn check(work: &mut Work<'_>) -> Result<(), Error> {
 }
 
 /// Tells a Bezier curve through its control points, weights 1.
-fn bezier(work: &mut Work<'_>, points: &[[f64; 2]], end: Pose) {
+fn bezier(work: &mut Work<'_>, points: &[[f64; 2]], end: Pose) -> Result<(), Error> {
+    if !work.engine.spline.points.is_empty() {
+        return Err(work.refuse(&problems::OPEN));
+    }
     let order = points.len();
     let mut knots = vec![0.0; order];
     knots.resize(2 * order, 1.0);
+    // the motion code in force stays
     work.engine.state.current = end;
-    work.engine.state.motion = 800;
     work.emit(Canon::Nurbs {
         order: order as u32,
         points: points.iter().map(|point| [point[0], point[1], 1.0]).collect(),
         knots: Arc::from(knots),
         end,
     });
+    Ok(())
 }
 
 /// G5.
@@ -77,7 +81,7 @@ pub(super) fn cubic(work: &mut Work<'_>) -> Result<(), Error> {
         [end[0] + p, end[1] + q],
         [end[0], end[1]],
     ];
-    bezier(work, &points, end);
+    bezier(work, &points, end)?;
     work.engine.spline.tail = Some((end, [-p, -q]));
     Ok(())
 }
@@ -91,8 +95,7 @@ pub(super) fn quadratic(work: &mut Work<'_>) -> Result<(), Error> {
     let start = work.engine.state.current;
     let end = exec::end_of(&work.engine.state, work.block)?;
     let points = [[start[0], start[1]], [start[0] + i, start[1] + j], [end[0], end[1]]];
-    bezier(work, &points, end);
-    Ok(())
+    bezier(work, &points, end)
 }
 
 /// G5.2 and the lines behind it: one control point.
@@ -113,11 +116,12 @@ fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
         work.engine.spline.order = 3;
     }
     if let Some(order) = block.word(b'L') {
-        // observed: less than 3 counts as 3
-        work.engine.spline.order = (order as u32).max(3);
+        // observed: the greatest of a spline counts, at least 3
+        work.engine.spline.order = work.engine.spline.order.max(order as u32);
     }
     let both = block.has(b'X') && block.has(b'Y');
-    if !both && (continued || block.has_axes()) {
+    let one = block.has(b'X') != block.has(b'Y');
+    if one || (!both && !continued && block.has_axes()) {
         return Err(work.refuse(&problems::NURBS_POINT));
     }
     // the first line may leave P out
@@ -129,6 +133,9 @@ fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
             block.range
         };
         return Err(Error::new(&problems::NURBS_WEIGHT, range));
+    }
+    if continued && !both {
+        return Err(work.refuse(&problems::NURBS_FIRST));
     }
     if work.engine.state.side != Side::Off {
         return Err(work.refuse(&problems::SPLINE_COMPENSATED));
@@ -149,6 +156,9 @@ fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
 
 /// G5.3: the curve is complete.
 pub(super) fn finish(work: &mut Work<'_>) -> Result<(), Error> {
+    if work.block.g[1] >= 0 && work.block.g[1] != 52 {
+        return Err(work.refuse(&problems::NURBS_BETWEEN));
+    }
     if work.engine.state.motion != 52 {
         return Err(work.refuse(&problems::NURBS_START));
     }
@@ -167,7 +177,7 @@ pub(super) fn finish(work: &mut Work<'_>) -> Result<(), Error> {
         (end[0], end[1]) = (last[0], last[1]);
     }
     work.engine.state.current = end;
-    work.engine.state.motion = 800;
+    work.engine.state.motion = -1;
     work.emit(Canon::Nurbs {
         order: spline.order,
         knots: clamped(count, spline.order as usize),

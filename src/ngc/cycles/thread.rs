@@ -38,6 +38,7 @@ pub(super) fn synchronized(work: &mut Work<'_>) -> Result<(), Error> {
         work.engine.state.motion = 330;
         return comp::along(work.engine, comp::Kind::Thread, end, work.block, work.at, work.sink);
     }
+    work.choose_spindle(&problems::SPINDLE_G33)?;
     turns(work, &problems::STILL_G33)?;
     work.engine.state.motion = 330;
     work.emit(coupled(pitch));
@@ -54,6 +55,7 @@ pub(super) fn rigid(work: &mut Work<'_>) -> Result<(), Error> {
     if work.engine.state.side != Side::Off {
         return Err(work.refuse(&problems::NOT_G0_G1));
     }
+    work.choose_spindle(&problems::SPINDLE_G33_1)?;
     turns(work, &problems::STILL_G33_1)?;
     let end = exec::end_of(&work.engine.state, work.block)?;
     let ratio = work.block.word(b'I').unwrap_or(1.0);

@@ -27,15 +27,17 @@ struct Thread {
 pub(super) fn run(work: &mut Work<'_>) -> Result<(), Error> {
     let thread = words(work)?;
     work.engine.state.motion = 760;
+    // the control counts depths from the drive line, which decides by its rounding whether one more pass is left to do
+    let drive = thread.peak.abs();
     let full = thread.full;
-    let mut depth = thread.first;
+    let mut depth = drive + thread.first;
     let mut pass = 1.0;
     let mut count = 0_u64;
-    while depth < full && count < work.engine.setup.limits.blocks {
-        cut(work, &thread, depth);
+    while depth < drive + full && count < work.engine.setup.limits.blocks {
+        cut(work, &thread, depth - drive);
         pass += 1.0;
         count += 1;
-        depth = thread.first * math::pow(pass, 1.0 / thread.degression);
+        depth = drive + thread.first * math::pow(pass, 1.0 / thread.degression);
     }
     for _ in 0..=thread.springs.max(-1) {
         cut(work, &thread, full);
@@ -45,21 +47,22 @@ pub(super) fn run(work: &mut Work<'_>) -> Result<(), Error> {
 }
 
 /// Reads and checks the words, in the control's order.
-fn words(work: &Work<'_>) -> Result<Thread, Error> {
+fn words(work: &mut Work<'_>) -> Result<Thread, Error> {
     let block = work.block;
-    let state = &work.engine.state;
     let Some(pitch) = block.word(b'P').filter(|&pitch| pitch != -1.0) else {
         return Err(work.refuse(&problems::NO_P_G76));
     };
     let (Some(i), Some(j), Some(k)) = (block.word(b'I'), block.word(b'J'), block.word(b'K')) else {
         return Err(work.refuse(&problems::NO_IJK_G76));
     };
-    if state.side != Side::Off {
+    if work.engine.state.side != Side::Off {
         return Err(work.refuse(&problems::NOT_G0_G1));
     }
     if let Some(&letter) = b"ABC".iter().find(|&&letter| block.has(letter)) {
         return Err(Error::new(&problems::ROTARY_G76, block.range_of(letter)));
     }
+    work.choose_spindle(&problems::SPINDLE_G76)?;
+    let state = &work.engine.state;
     let (spindle, turning) = work.turning();
     if turning == 0 {
         let text = problems::STILL_G76.message.replace("{}", &spindle.to_string());
@@ -75,6 +78,7 @@ fn words(work: &Work<'_>) -> Result<Thread, Error> {
         return Err(Error::new(&problems::SMALL_K_G76, block.range_of(b'K')));
     }
     let radius = if state.lathe_diameter { 0.5 } else { 1.0 };
+    let taper = block.word(b'E').unwrap_or(0.0);
     let tapers = block.word(b'L').map_or(0, |l| l as i32);
     let degression = block.word(b'R').unwrap_or(1.0);
     let angle = block.word(b'Q').unwrap_or(0.0);
@@ -86,9 +90,10 @@ fn words(work: &Work<'_>) -> Result<Thread, Error> {
         degression: if degression < 1.0 { 1.0 } else { degression },
         tangent: math::tan(angle.to_radians()),
         springs: block.word(b'H').map_or(0, |h| h as i32),
-        taper: block.word(b'E').unwrap_or(0.0),
-        taper_in: matches!(tapers, 1 | 3),
-        taper_out: matches!(tapers, 2 | 3),
+        taper,
+        // observed: a taper of no length or a negative one is none
+        taper_in: matches!(tapers, 1 | 3) && taper > 0.0,
+        taper_out: matches!(tapers, 2 | 3) && taper > 0.0,
         start: state.current,
         end: exec::end_of(state, block)?,
     })

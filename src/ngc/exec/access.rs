@@ -101,7 +101,11 @@ impl Engine {
         indices.dedup();
         let values = indices
             .into_iter()
-            .map(|index| (index, self.parameter(index as usize)))
+            .map(|index| {
+                let forgotten = !self.setup.g92_persists() && matches!(index, 5210..=5219);
+                let value = if forgotten { 0.0 } else { self.parameter(index as usize) };
+                (index, value)
+            })
             .collect();
         crate::Parameters { values }
     }

@@ -109,6 +109,7 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     let start = engine.state.current;
     let (from, to) = ([start[first], start[second]], [end[first], end[second]]);
     let clockwise = block.motion == 20;
+    comp::check_entry_arc(engine, &end, clockwise, block)?;
     let centre = if by_radius {
         by_radius_format(engine.state.units, block, from, to, clockwise)?
     } else {

@@ -63,7 +63,7 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
     } else if setting || tool_offset {
         // the axis words are theirs
     } else if axes {
-        if state.motion == 800 {
+        if matches!(state.motion, 800 | -1) {
             return Err(Error::new(&problems::AXES_WITHOUT_CODE, first_axis(block)));
         }
         block.motion = state.motion;

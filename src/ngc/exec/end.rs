@@ -10,7 +10,7 @@ pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
     let at = At::default();
     engine.state.tools = engine.setup.tool_rows();
     engine.state.wrapped = engine.setup.wrapped_axes();
-    engine.state.current_row = i32::from(!engine.setup.random_tool_changer());
+    engine.state.current_row = 1;
     if !engine.setup.g92_persists() && engine.setup.start == Start::Zero {
         engine.store_pose(access::G92, &[0.0; 9]);
         engine.set_parameter(access::G92_ON, 0.0);
@@ -18,7 +18,11 @@ pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
     let index = engine.parameter(5220);
     // 0: not known which one is in force
     engine.state.origin_index = if index.is_nan() { 0 } else { (index as i32).clamp(1, 9) };
-    let (origin, rotation) = engine.stored_origin(engine.state.origin_index.max(1));
+    let (origin, mut rotation) = engine.stored_origin(engine.state.origin_index.max(1));
+    if !engine.setup.g92_persists() {
+        // observed: with this switch the control begins with the rotation of G54 in whatever system
+        rotation = engine.stored_origin(1).1;
+    }
     let unknown = engine.state.origin_index == 0;
     engine.state.origin_offset = if unknown { [f64::NAN; 9] } else { origin };
     engine.state.rotation_xy = if unknown { f64::NAN } else { rotation };

@@ -11,6 +11,18 @@ const TURN: f64 = 360.0;
 
 /// The end of a motion of this block in program coordinates.
 pub(crate) fn end(state: &State, block: &Block) -> Result<Pose, Error> {
+    let at_origin = state.current[0] == 0.0 && state.current[1] == 0.0;
+    if at_origin && block.radius.is_some() && block.angle.is_none() && state.distance == DistanceMode::Absolute {
+        if block.g[0] == 530 {
+            return Err(Error::new(&problems::POLAR_G53, block.range));
+        }
+        return Err(Error::new(&problems::POLAR_ORIGIN, block.range));
+    }
+    cycle_end(state, block)
+}
+
+/// The same of a canned cycle: at the origin a radius without angle leads along X.
+pub(crate) fn cycle_end(state: &State, block: &Block) -> Result<Pose, Error> {
     if block.g[0] == 530 {
         return machine_end(state, block);
     }
@@ -34,25 +46,62 @@ pub(crate) fn end(state: &State, block: &Block) -> Result<Pose, Error> {
 
 /// Where an absolute word leads from `here`: on a wrapped rotary axis the way round that its sign says.
 fn absolute(state: &State, block: &Block, place: usize, here: f64, value: f64) -> Result<f64, Error> {
-    if !(3..6).contains(&place) || !state.wrapped[place - 3] {
+    if !is_wrapped(state, place) {
         return Ok(value);
     }
-    let letter = AXES[place];
-    if value.abs() >= TURN {
-        let text = format!(
-            "Invalid absolute position {value:5.2} for wrapped rotary axis {}",
-            char::from(letter)
-        );
-        return Err(Error::with(&problems::WRAPPED, block.range_of(letter), text));
-    }
-    let end = (here / TURN).floor() * TURN + value.abs();
-    Ok(if value.is_sign_negative() && end > here {
+    wrapped_range(block, place, value)?;
+    Ok(turned_to(here, value.is_sign_negative(), value.abs()))
+}
+
+/// From `here` forward or backward to the next place at `size` deg behind a full turn.
+fn turned_to(here: f64, backward: bool, size: f64) -> f64 {
+    let end = (here / TURN).floor() * TURN + size;
+    if backward && end > here {
         end - TURN
-    } else if !value.is_sign_negative() && end < here {
+    } else if !backward && end < here {
         end + TURN
     } else {
         end
-    })
+    }
+}
+
+/// Where an axis goes to a place of the machine (G28, G30, G53), `end` in program coordinates: on a wrapped rotary axis the sign of the
+/// machine coordinate says which way round, and the program coordinate counts without its sign. Observed from `rs274`.
+pub(crate) fn named_end(
+    state: &State,
+    block: &Block,
+    place: usize,
+    here: f64,
+    machine: f64,
+    end: f64,
+) -> Result<f64, Error> {
+    if !is_wrapped(state, place) {
+        return Ok(end);
+    }
+    wrapped_range(block, place, machine)?;
+    Ok(turned_to(here, machine.is_sign_negative(), end.abs()))
+}
+
+/// Whether an axis is a wrapped rotary one.
+pub(crate) fn is_wrapped(state: &State, place: usize) -> bool {
+    (3..6).contains(&place) && state.wrapped[place - 3]
+}
+
+fn wrapped_range(block: &Block, place: usize, value: f64) -> Result<(), Error> {
+    if value.abs() < TURN || value.is_nan() {
+        return Ok(());
+    }
+    let letter = AXES[place];
+    let text = format!(
+        "Invalid absolute position {value:5.2} for wrapped rotary axis {}",
+        char::from(letter)
+    );
+    let range = if block.has(letter) {
+        block.range_of(letter)
+    } else {
+        block.range
+    };
+    Err(Error::with(&problems::WRAPPED, range, text))
 }
 
 /// An axis word in program units; an X diameter becomes a radius.
@@ -73,19 +122,19 @@ fn machine_end(state: &State, block: &Block) -> Result<Pose, Error> {
     let mut machine = frame::to_machine(state, &state.current);
     for (place, letter) in AXES.into_iter().enumerate() {
         if let Some(value) = word(state, block, letter) {
-            machine[place] = absolute(state, block, place, machine[place], value)?;
+            machine[place] = value;
         }
     }
     let program = frame::named_point(state, &machine);
     // an axis that is not named stays exactly; X and Y mix where the coordinate system is turned
     let mixed = state.rotation_xy != 0.0 && (block.has(b'X') || block.has(b'Y'));
-    Ok(std::array::from_fn(|place| {
+    let mut end = state.current;
+    for place in 0..9 {
         if block.has(AXES[place]) || (mixed && place < 2) {
-            program[place]
-        } else {
-            state.current[place]
+            end[place] = named_end(state, block, place, end[place], machine[place], program[place])?;
         }
-    }))
+    }
+    Ok(end)
 }
 
 /// `@` and `^`: X and Y of the end.
@@ -104,9 +153,6 @@ fn polar(state: &State, block: &Block) -> Result<(f64, f64), Error> {
             angle_here + given_angle.unwrap_or(0.0),
         )
     } else {
-        if at_origin && given_angle.is_none() {
-            return Err(Error::new(&problems::POLAR_ORIGIN, block.range));
-        }
         (block.radius.unwrap_or(radius_here), given_angle.unwrap_or(angle_here))
     };
     let (sin, cos) = math::sin_cos(angle);

@@ -23,7 +23,12 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
 }
 
 fn store(engine: &mut Engine, first: usize) {
-    let machine = frame::to_machine(&engine.state, &engine.state.current);
+    let mut machine = frame::to_machine(&engine.state, &engine.state.current);
+    for (axis, value) in machine.iter_mut().enumerate() {
+        if ends::is_wrapped(&engine.state, axis) {
+            *value = value.rem_euclid(360.0);
+        }
+    }
     engine.store_pose(first, &machine);
 }
 
@@ -34,15 +39,15 @@ fn go(engine: &mut Engine, first: usize, block: &Block, at: At, sink: &mut dyn S
     }
     let by_way_of = ends::end(&engine.state, block)?;
     rapid(engine, by_way_of, at, sink);
-    let home = frame::named_point(&engine.state, &engine.stored_pose(first));
+    let stored = engine.stored_pose(first);
+    let home = frame::named_point(&engine.state, &stored);
     let named = block.given & crate::block::AXES != 0;
-    let end = std::array::from_fn(|axis| {
-        if named && !block.has(ends::AXES[axis]) {
-            by_way_of[axis]
-        } else {
-            home[axis]
+    let mut end = by_way_of;
+    for axis in 0..9 {
+        if !named || block.has(ends::AXES[axis]) {
+            end[axis] = ends::named_end(&engine.state, block, axis, end[axis], stored[axis], home[axis])?;
         }
-    });
+    }
     rapid(engine, end, at, sink);
     Ok(())
 }

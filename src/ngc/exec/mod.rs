@@ -19,8 +19,9 @@ mod tools;
 mod unused;
 
 use crate::{At, Block, Canon, Engine, Error, Side, Sink, comp, cycles, flow};
+pub(crate) use access::G92_ON;
 pub(crate) use end::start;
-pub(crate) use ends::{end as end_of, word as axis_word};
+pub(crate) use ends::{cycle_end, end as end_of, word as axis_word};
 pub(crate) use frame::to_machine;
 pub(crate) use made::{made_arc, made_straight};
 pub(crate) use motion::{inverse_time, length, traverse};
@@ -72,9 +73,11 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
     geometry(engine, block, at, sink)?;
     setting(engine, block, at, sink)?;
     move_tool(engine, block, at, sink)?;
-    // after a change of the tool the control asks where the machine is; in a check nobody can answer otherwise
-    if matches!(block.m[6], 6 | 61) && engine.setup.start == crate::Start::Zero {
-        engine.state.current = engine.state.told.position;
+    // after a change of the tool or its table the control asks where the machine is; in a check nobody can answer otherwise
+    let reloads = block.g[0] == 100 && block.word(b'L') == Some(0.0);
+    if (matches!(block.m[6], 6 | 61) || reloads) && engine.setup.start == crate::Start::Zero {
+        let told = engine.state.told.position;
+        engine.state.current = told;
     }
     // a turning cycle goes into its subprogram from here, and stops of its block are lost
     let after = if engine.turning.as_ref().is_some_and(|turning| turning.is_called()) {

@@ -100,7 +100,6 @@ pub(crate) fn overrides(engine: &mut Engine, block: &Block, at: At, sink: &mut d
     if block.m[9] == 51 && block.spindle.is_some() {
         return Err(Error::new(&problems::SPINDLE_RANGE_M51, block.range));
     }
-    let spindle = engine.state.active_spindle as i32;
     match block.m[9] {
         code @ (48 | 49) => {
             let on = code == 48;
@@ -116,8 +115,11 @@ pub(crate) fn overrides(engine: &mut Engine, block: &Block, at: At, sink: &mut d
             engine.emit(Canon::Switch(Switch::FeedOverride, on), at, sink);
         }
         51 => {
+            // without $ it is for all
             engine.state.speed_override = on;
-            engine.emit(Canon::Switch(Switch::SpeedOverride(spindle), on), at, sink);
+            for spindle in 0..engine.setup.spindles() as i32 {
+                engine.emit(Canon::Switch(Switch::SpeedOverride(spindle), on), at, sink);
+            }
         }
         52 => {
             engine.state.adaptive_feed = on;

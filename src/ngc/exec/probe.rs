@@ -14,8 +14,8 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     if state.feed_rate == 0.0 || state.feed_mode == FeedMode::InverseTime {
         return Err(Error::new(&problems::ZERO_FEED_PROBE, motion::code_range(block)));
     }
-    if state.feed_mode == FeedMode::PerRevolution && state.speed[state.active_spindle] == 0.0 {
-        return Err(Error::new(&problems::ZERO_SPEED_PER_REV, motion::code_range(block)));
+    if state.feed_mode == FeedMode::PerRevolution {
+        return Err(Error::new(&problems::PROBE_PER_REV, motion::code_range(block)));
     }
     let end = ends::end(state, block)?;
     if end == state.current {

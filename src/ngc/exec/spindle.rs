@@ -88,8 +88,8 @@ fn orient(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Re
         return Err(Error::new(&problems::M19_P, block.range_of(b'P')));
     }
     for spindle in spindles {
+        engine.state.turning[spindle] = 0;
         if block.has(b'R') || block.has(b'P') {
-            engine.state.turning[spindle] = 0;
             engine.emit(Canon::OrientSpindle(spindle as i32, angle, mode as i32), at, sink);
         }
         if let Some(timeout) = block.word(b'Q') {

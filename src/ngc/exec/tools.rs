@@ -1,6 +1,6 @@
 //! T, M6, M61, tool offsets (G43, G43.1, G43.2, G49) and the tool table (G10 L0, L1, L10, L11).
 use super::{access, frame, problems};
-use crate::{At, Block, Canon, Engine, Error, Pose, Side, Sink, SpindleTurn, ToolEntry};
+use crate::{At, Block, Canon, Engine, Error, Pose, Side, Sink, SpindleTurn, Start, ToolEntry};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
@@ -14,7 +14,7 @@ impl Engine {
             .state
             .tools
             .first()
-            .is_some_and(|row| self.setup.random_tool_changer() && row.number == number)
+            .is_some_and(|row| self.changes_places() && row.number == number)
         {
             return Ok(0);
         }
@@ -36,6 +36,10 @@ impl Engine {
                 Err(Error::with(&problems::TOOL_MISSING, range, text))
             }
         }
+    }
+    /// Whether a change puts the old tool into the new one's row: `rs274` copies the new one, and forgets the old.
+    fn changes_places(&self) -> bool {
+        self.setup.random_tool_changer() && self.setup.start == Start::Unknown
     }
     /// A row's offset in program units.
     fn tool_row_offset(&self, row: usize) -> Pose {
@@ -85,12 +89,6 @@ pub(crate) fn select(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
     };
     engine.state.selected_tool = number;
     engine.state.selected_row = row as i32;
-    let pocket = engine.state.tools.get(row).map_or(0, |entry| entry.pocket);
-    engine.state.selected_pocket = if engine.setup.random_tool_changer() {
-        row as i32
-    } else {
-        pocket
-    };
     engine.emit(Canon::SelectTool(number), at, sink);
     Ok(())
 }
@@ -110,21 +108,32 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
             }
             put_in_spindle(engine, engine.state.selected_row);
             let tool = engine.state.selected_tool.max(0);
-            engine.emit(Canon::ChangeTool(tool), at, sink);
+            let row = engine.state.selected_row;
+            engine.emit(Canon::ChangeTool { tool, row }, at, sink);
             forget_place(engine);
         }
         61 => {
-            let number = block.word(b'Q').unwrap_or(0.0).round() as i32;
-            // rs274 goes on here, with motions that nobody could have meant
+            let tool = block.word(b'Q').unwrap_or(0.0).round() as i32;
+            // rs274 goes on from the place that it has told last, which is not where compensation is
             if engine.state.side != Side::Off {
-                return Err(Error::new(&problems::TOOL_COMPENSATION, range));
+                return Err(Error::new(&problems::TOOL_NUMBER_COMPENSATION, range));
             }
-            if number != 0 {
-                engine.tool_row(number, block.range_of(b'Q'))?;
+            let row = if tool == 0 {
+                0
+            } else {
+                engine.tool_row(tool, block.range_of(b'Q'))? as i32
+            };
+            if engine.setup.start == Start::Unknown {
+                put_in_spindle(engine, row);
             }
-            engine.emit(Canon::ChangeToolNumber(number), at, sink);
+            engine.state.current_row = row;
+            engine.emit(Canon::ChangeToolNumber { tool, row }, at, sink);
         }
-        _ => {}
+        _ => return Ok(()),
+    }
+    let pocket = engine.state.spindle_pocket;
+    if let Some(row) = Arc::make_mut(&mut engine.state.tools).first_mut() {
+        row.pocket = pocket;
     }
     Ok(())
 }
@@ -141,21 +150,27 @@ fn forget_place(engine: &mut Engine) {
     }
 }
 
-/// Without random tool changer a row is copied to the spindle's row; with it the two change places.
+/// Without random tool changer a row is copied to the spindle's row; with it the two change places. `rs274` leaves the spindle's row as
+/// it is for T0; on a machine the spindle is empty behind it.
 fn put_in_spindle(engine: &mut Engine, row: i32) {
     engine.state.current_row = row;
+    if row == 0 && engine.setup.start == Start::Unknown && !engine.setup.random_tool_changer() {
+        engine.write_tool_row(0, ToolEntry::default());
+        engine.spindle_tool_changed();
+    }
     let Some(row) = usize::try_from(row).ok().filter(|&row| row > 0) else {
         return;
     };
     let Some(entry) = engine.state.tools.get(row).copied() else {
         return;
     };
-    if engine.setup.random_tool_changer() {
+    if engine.changes_places() {
         let old = engine.state.tools[0];
         engine.write_tool_row(row, old);
         engine.state.current_row = 0;
     }
     engine.write_tool_row(0, entry);
+    engine.state.spindle_pocket = entry.pocket;
     engine.spindle_tool_changed();
 }
 
@@ -172,6 +187,10 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
         490 => [0.0; 9],
         430 => {
             let row = match h {
+                // observed of the random changer alone
+                Some(0) if engine.setup.random_tool_changer() && engine.setup.start == Start::Zero => {
+                    usize::try_from(engine.state.current_row).unwrap_or(0)
+                }
                 None | Some(0) => 0,
                 Some(number) => engine.tool_row(number, block.range_of(b'H'))?,
             };
@@ -267,12 +286,20 @@ fn offset_of_position(engine: &Engine, block: &Block, stored: &Pose, fixture: bo
 
 /// G10 L0: the table is read again; refused while a tool is in the spindle.
 fn reload(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    if engine.state.side != Side::Off {
+        return Err(Error::new(&problems::TOOL_NUMBER_COMPENSATION, block.g_range[0]));
+    }
     let tool = engine.state.tools.first().map_or(0, |row| row.number);
     if tool > 0 {
         let text = problems::G10_LOADED.message.replace("{}", &tool.to_string());
         return Err(Error::with(&problems::G10_LOADED, block.g_range[0], text));
     }
-    engine.state.tools = engine.setup.tool_rows();
+    if engine.setup.start == Start::Unknown {
+        engine.state.tools = engine.setup.tool_rows();
+    } else if let Some(row) = Arc::make_mut(&mut engine.state.tools).first_mut() {
+        // `rs274` reads no file: it takes the rows again as they are
+        row.pocket = engine.state.spindle_pocket;
+    }
     engine.emit(Canon::ReloadTools, at, sink);
     Ok(())
 }

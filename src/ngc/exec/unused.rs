@@ -25,6 +25,22 @@ unused! {
     DOLLAR "$ (spindle selection) word with no M3, M4, M5, M19, M51, G33, G33.1, G76, G95, G96 or G97 to use it"
 }
 
+macro_rules! rotary {
+    ($($name:ident $message:literal)*) => {
+        $(const $name: Problem = Problem {
+            class: Class::CannedCycle,
+            message: $message,
+            help: "Take the rotary axis out, or move it in a line of its own.",
+        };)*
+    };
+}
+
+rotary! {
+    AXIS_A "Cannot put an a in canned cycle"
+    AXIS_B "Cannot put a b in canned cycle"
+    AXIS_C "Cannot put a c in canned cycle"
+}
+
 /// Which codes a block has, for the question who uses its words.
 struct Codes<'b>(&'b Block);
 
@@ -109,6 +125,12 @@ pub(crate) fn check(block: &Block) -> Result<(), Error> {
         || codes.motion(&[330, 331, 760])
         || codes.g(14, &[960, 970])
         || block.has(b'S');
+    // the control looks at these before anything of the block is done, and before all other words
+    for (letter, problem) in [(b'A', &AXIS_A), (b'B', &AXIS_B), (b'C', &AXIS_C)] {
+        if block.has(letter) && codes.cycle() {
+            return Err(Error::new(problem, block.range_of(letter)));
+        }
+    }
     if block.spindle.is_some() && !spindle_used {
         return Err(Error::new(&DOLLAR, block.range));
     }

@@ -49,6 +49,7 @@ impl Engine {
         if self.flow.calls.len() + 1 >= most as usize {
             return Err(Self::refusal(&problems::TOO_DEEP, line));
         }
+        self.flow.watch.stir();
         let known = self.flow.labels.subprogram(name);
         if let Some(known) = known
             && known.style != style
@@ -123,8 +124,15 @@ impl Engine {
     }
     /// The file of a subprogram, if there is one.
     fn load(&mut self, name: NameId) -> Option<FileId> {
+        self.flow.searched.clear();
         let files = self.setup.files.clone()?;
-        let loaded = files.load(self.flow.labels.text(name)).ok()?;
+        let loaded = match files.load(self.flow.labels.text(name)) {
+            Ok(loaded) => loaded,
+            Err(searched) => {
+                self.flow.searched = searched;
+                return None;
+            }
+        };
         if u32::try_from(loaded.bytes.len()).is_err() {
             return None;
         }
@@ -143,6 +151,7 @@ impl Engine {
         name: NameId,
         sought: Option<Seeking>,
     ) -> Result<(), Halt> {
+        self.flow.watch.stir();
         let style = if line.keyword == Keyword::Sub {
             Style::Sub
         } else {
@@ -304,6 +313,7 @@ impl Engine {
     pub(super) fn abandon_call(&mut self) {
         // a contour that is left on the way of an error is gone
         self.take_turning();
+        self.flow.watch.stir();
         let Some(call) = self.flow.calls.pop() else { return };
         self.store.leave();
         self.flow.here = call.back;

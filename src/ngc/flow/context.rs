@@ -14,6 +14,8 @@ use super::problems;
 #[derive(Clone, Debug)]
 pub(crate) struct Context {
     state: State,
+    /// Parameter 5210: G92 is on, whatever its offsets are.
+    axis_offset_on: bool,
     /// M73: restored when the call ends.
     auto: bool,
 }
@@ -28,6 +30,7 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
         code @ (70 | 73) => {
             let context = Context {
                 state: engine.state.clone(),
+                axis_offset_on: axis_offset_on(engine),
                 auto: code == 73,
             };
             *engine.flow.saved() = Some(Box::new(context));
@@ -37,7 +40,7 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
             let Some(context) = engine.flow.saved().clone() else {
                 return Err(Error::new(&problems::NO_CONTEXT, range));
             };
-            return to(engine, &context.state, range, at, sink);
+            return to(engine, &context, range, at, sink);
         }
         _ => {}
     }
@@ -51,11 +54,12 @@ pub(super) fn restore_after_call(engine: &mut Engine, context: &Context, sink: &
     }
     let at = engine.at();
     let range = engine.files[at.file.0 as usize].line(at.line).unwrap_or_default();
-    to(engine, &context.state, range, at, sink).map(drop)
+    to(engine, context, range, at, sink).map(drop)
 }
 
 /// Blocks that set what differs.
-fn to(engine: &mut Engine, saved: &State, range: TextRange, at: At, sink: &mut dyn Sink) -> Result<bool, Error> {
+fn to(engine: &mut Engine, context: &Context, range: TextRange, at: At, sink: &mut dyn Sink) -> Result<bool, Error> {
+    let saved = &context.state;
     let mut any = false;
     let mut run = |engine: &mut Engine, block: Option<Block>| -> Result<(), Error> {
         let Some(mut block) = block else { return Ok(()) };
@@ -69,7 +73,8 @@ fn to(engine: &mut Engine, saved: &State, range: TextRange, at: At, sink: &mut d
     let units = unit_code(saved);
     let block = (units != unit_code(&engine.state)).then(|| with_g(range, &[(6, units)]));
     run(engine, block)?;
-    let mut block = modes(&engine.state, saved, range);
+    let g92 = [context.axis_offset_on, axis_offset_on(engine)];
+    let mut block = modes(&engine.state, saved, g92, range);
     let mut changed = switches(&engine.state, saved)
         .into_iter()
         .filter_map(|(group, [wanted, now])| (wanted != now && wanted >= 0).then_some((group, wanted)))
@@ -90,8 +95,12 @@ fn to(engine: &mut Engine, saved: &State, range: TextRange, at: At, sink: &mut d
     Ok(any)
 }
 
+fn axis_offset_on(engine: &Engine) -> bool {
+    engine.parameter(exec::G92_ON) != 0.0
+}
+
 /// One block of G codes, F, S and the spindle's direction: what differs.
-fn modes(now: &State, saved: &State, range: TextRange) -> Option<Block> {
+fn modes(now: &State, saved: &State, g92: [bool; 2], range: TextRange) -> Option<Block> {
     let mut block = Block::new();
     block.clear(range);
     let (wanted, present) = (codes(saved), codes(now));
@@ -102,6 +111,12 @@ fn modes(now: &State, saved: &State, range: TextRange) -> Option<Block> {
             block.g_range[group] = range;
             any = true;
         }
+    }
+    if g92[0] != g92[1] {
+        // G92 comes back by G92.2 or G92.3
+        block.g[16] = if g92[0] { 923 } else { 922 };
+        block.g_range[16] = range;
+        any = true;
     }
     if saved.motion_mode != now.motion_mode || saved.naive_tolerance.to_bits() != now.naive_tolerance.to_bits() {
         block.g[13] = path_code(saved.motion_mode);
@@ -115,11 +130,11 @@ fn modes(now: &State, saved: &State, range: TextRange) -> Option<Block> {
         any = true;
     }
     if differs(saved.feed_rate, now.feed_rate) {
-        put(&mut block, b'F', saved.feed_rate, range);
+        put(&mut block, b'F', rounded(saved.feed_rate, 1), range);
         any = true;
     }
     if differs(saved.speed[0], now.speed[0]) {
-        put(&mut block, b'S', saved.speed[0], range);
+        put(&mut block, b'S', rounded(saved.speed[0], 0), range);
         any = true;
     }
     let turn = |state: &State| match state.turning[0] {
@@ -136,13 +151,18 @@ fn modes(now: &State, saved: &State, range: TextRange) -> Option<Block> {
     any.then_some(block)
 }
 
+/// The control writes the block as text: F with one decimal, S with none. What comes back is rounded like that on the machine, too.
+fn rounded(value: f64, decimals: usize) -> f64 {
+    format!("{value:.decimals$}").parse().unwrap_or(value)
+}
+
 /// Whether two numbers are not the same; an unknown one is the same as an unknown one.
 fn differs(a: f64, b: f64) -> bool {
     a != b && !(a.is_nan() && b.is_nan())
 }
 
 /// The codes of a state, by group.
-fn codes(state: &State) -> [(usize, i16); 11] {
+fn codes(state: &State) -> [(usize, i16); 10] {
     [
         (2, plane_code(state.plane)),
         (
@@ -196,15 +216,6 @@ fn codes(state: &State) -> [(usize, i16); 11] {
             },
         ),
         (15, if state.lathe_diameter { 70 } else { 80 }),
-        // G92 comes back by G92.2 or G92.3
-        (
-            16,
-            if state.axis_offset.iter().all(|&offset| offset == 0.0) {
-                922
-            } else {
-                923
-            },
-        ),
     ]
 }
 

@@ -37,6 +37,9 @@ impl Engine {
         let entered = self.enter(&mut site, &line, name, Style::Sub, 1, Some(&[]));
         if entered.is_err() {
             self.turning = None;
+        } else {
+            // here U and W are increments of X and Z, whatever axes the machine has
+            self.store.allow_axes(&self.setup, "UW");
         }
         entered
     }
@@ -60,8 +63,13 @@ impl Engine {
     /// The cycle whose contour ends with the call in hand.
     pub(super) fn take_turning(&mut self) -> Option<Box<Turning>> {
         let depth = self.flow.calls.len();
-        self.turning
-            .take_if(|turning| !turning.is_called() && turning.depth() + 1 == depth)
+        let ended = self
+            .turning
+            .take_if(|turning| !turning.is_called() && turning.depth() + 1 == depth);
+        if ended.is_some() {
+            self.store.allow_axes(&self.setup, "");
+        }
+        ended
     }
     /// Runs the cycle behind its contour.
     pub(super) fn finish_turning(&mut self, turning: Turning, sink: &mut dyn Sink) -> Result<(), Halt> {

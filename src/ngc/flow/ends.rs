@@ -1,7 +1,7 @@
 //! Beginning and end of a program: `%`, M2, the end of the file.
 use super::labels::Place;
 use super::{Goal, Seeking, fetch, problems};
-use crate::{At, Canon, Engine, Error, FileId, Problem, Sink, Start, Step, exec};
+use crate::{At, Canon, Engine, Error, FileId, Missing, Problem, Sink, Start, Step, exec};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
@@ -46,13 +46,15 @@ impl Engine {
             }) => {
                 let file = self.flow.here.file;
                 let from = if file == opener.file { opener.line + 1 } else { 0 };
-                let name = self.flow.labels.text(name);
+                let name = self.flow.labels.text(name).to_owned();
+                let searched = core::mem::take(&mut self.flow.searched);
                 let detail = format!(
                     "EOF in file:{} seeking o-word: o<{name}> from line: {from}",
                     self.file_name(file)
                 );
                 let error = Error {
                     read_last: Some(self.last_line()),
+                    missing: Some(Box::new(Missing { name, searched })),
                     ..Error::with(&problems::NOT_FOUND, self.written_range(opener), detail)
                 };
                 self.flow.at = self.flow.calls.last().map_or(self.flow.at, |call| call.site);

@@ -113,6 +113,8 @@ impl Engine {
         into.o = None;
         into.kind = Kind::Blank;
         into.flaw = too_long(range);
+        let nul = memchr::memchr(0, &source[range.start as usize..range.end as usize]);
+        into.cut = nul.map(|at| TextRange::new(range.start + at as u32, range.end));
         let text = trimmed(source, range);
         if text.start == text.end || into.flaw.is_some() {
             return;

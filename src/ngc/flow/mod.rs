@@ -7,6 +7,7 @@ pub(crate) mod context;
 mod call;
 mod chain;
 mod contour;
+mod endless;
 mod ends;
 mod fetch;
 mod labels;
@@ -28,6 +29,7 @@ use context::Context;
 use labels::{LabelId, Labels, NameId, Place, Style};
 use lines::Lines;
 use oline::OLine;
+use trunnion_syntax::TextRange;
 
 /// Why a line did not run to its end.
 #[derive(Debug)]
@@ -38,6 +40,8 @@ pub(crate) enum Halt {
     Told,
     /// What happens depends on something unknown: the sentence that says so.
     Undecided(String),
+    /// The loop that this line opens never ends.
+    Endless(Place),
 }
 
 impl From<Error> for Halt {
@@ -84,6 +88,8 @@ pub(crate) struct Compiled {
     next: Place,
     kind: Kind,
     o: Option<OLine>,
+    /// What a NUL cuts off, until it was told.
+    cut: Option<TextRange>,
     /// What is wrong with its text as a whole; it is not read further then.
     flaw: Option<Error>,
     line: Line,
@@ -171,6 +177,10 @@ pub(crate) struct Flow {
     fuel: u64,
     /// Saved by M70 and M73 outside of calls.
     context: Option<Box<Context>>,
+    /// Passes of loops without a word to the machine.
+    watch: endless::Watch,
+    /// Where the last subprogram was looked for in vain.
+    searched: Vec<String>,
     /// Kept for its storage.
     spare: Option<Box<Compiled>>,
 }
@@ -199,6 +209,8 @@ impl Clone for Flow {
             lines: self.lines.clone(),
             fuel: self.fuel,
             context: self.context.clone(),
+            watch: self.watch.clone(),
+            searched: self.searched.clone(),
             spare: None,
         }
     }
@@ -229,6 +241,8 @@ impl Flow {
             lines: vec![Lines::default()],
             fuel: setup.limits.blocks,
             context: None,
+            watch: endless::Watch::default(),
+            searched: Vec::new(),
             spare: None,
         }
     }

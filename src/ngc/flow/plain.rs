@@ -48,6 +48,7 @@ impl Engine {
 
     #[inline]
     fn run_plain(&mut self, block: &mut Block, sink: &mut dyn Sink) -> Result<After, Error> {
+        self.flow.watch.stir();
         self.note_values(block, true);
         exec::check(self, block)?;
         exec::execute(self, block, self.flow.at, sink)

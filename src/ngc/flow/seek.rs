@@ -147,7 +147,7 @@ impl Engine {
             Err(super::Halt::Refused(error)) if error.problem.class == Class::Variable => return Glance::Nothing,
             Err(super::Halt::Refused(error)) => return Glance::Refused(error),
             Err(super::Halt::Undecided(why)) => return Glance::Undecided(why),
-            Err(super::Halt::Told) => return Glance::Nothing,
+            Err(super::Halt::Told | super::Halt::Endless(_)) => return Glance::Nothing,
         };
         let definition = matches!(seeking.goal, Goal::Definition(_));
         if let Some(flaw) = line.flaw

@@ -83,6 +83,9 @@ impl Engine {
             chain: self.flow.chain,
         };
         self.flow.here = compiled.next;
+        if let Some(range) = compiled.cut.take() {
+            sink.cut(range, self.flow.at);
+        }
         let result = match sought {
             None => self.run_line(&mut compiled, sink),
             Some(seeking) => self.run_label(&mut compiled, Some(seeking), sink),
@@ -94,6 +97,14 @@ impl Engine {
             Err(Halt::Refused(error)) => self.refuse(&error, sink),
             Err(Halt::Told) => Step::Refused,
             Err(Halt::Undecided(why)) => self.give_up(why),
+            Err(Halt::Endless(place)) => {
+                self.flow.ended = true;
+                Step::Endless(At {
+                    file: place.file,
+                    line: place.line,
+                    chain: self.flow.chain,
+                })
+            }
         }
     }
     fn run_line(&mut self, compiled: &mut Compiled, sink: &mut dyn Sink) -> Result<After, Halt> {
@@ -163,6 +174,7 @@ impl Engine {
             self.apply(line)?;
             return Ok(After::Go);
         }
+        self.flow.watch.stir();
         let evaluated = read::evaluate(line, &self.values(), block);
         self.note_values(block, !line.words.is_empty());
         if !line.errors.is_empty() || evaluated.is_err() {
@@ -232,10 +244,12 @@ impl Engine {
         }
         Halt::Told
     }
-    fn tell(&self, error: &Error, sink: &mut dyn Sink) {
+    fn tell(&mut self, error: &Error, sink: &mut dyn Sink) {
+        self.flow.watch.stir();
         let at = self.flow.at;
         let error = Error {
             file: at.file,
+            path: self.path(at.file).into(),
             ..error.clone()
         };
         sink.error(&error, at);

@@ -109,7 +109,16 @@ impl Engine {
             Keyword::EndIf => {
                 self.opened(line, label, &[Opener::If])?;
             }
-            Keyword::While => self.run_while(compiled, line, (label, goal), sought, value)?,
+            Keyword::While => {
+                let opener = self.flow.labels.structure(label).map(|known| known.place);
+                if sought.is_none()
+                    && value != 0.0
+                    && let Some(outermost) = self.comes_back(compiled.place, opener.unwrap_or(compiled.place))
+                {
+                    return Err(Halt::Endless(outermost));
+                }
+                self.run_while(compiled, line, (label, goal), sought, value)?;
+            }
             Keyword::EndWhile => {
                 let structure = self.opened(line, label, &[Opener::While])?;
                 // observed: a `break` out of a while loop is obeyed once more by the end of the next do loop
@@ -234,6 +243,8 @@ impl Engine {
         (label, goal): (LabelId, Goal),
         value: f64,
     ) -> Result<(), Halt> {
+        // its rounds are no parameter
+        self.flow.watch.stir();
         self.open(compiled, line, label, Opener::Repeat)?;
         let fuel = self.flow.fuel;
         let Some(structure) = self.flow.labels.structure_mut(label) else {

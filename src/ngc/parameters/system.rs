@@ -22,7 +22,7 @@ pub(super) const NAMES: &[(&str, Read)] = &[
     ("_call_level", |v| v.store.aside.len() as f64),
     ("_ccomp", compensation),
     ("_coord_system", |v| coordinate_system(v.state.origin_index)),
-    ("_current_pocket", current_pocket),
+    ("_current_pocket", |v| pocket(v, v.state.current_row)),
     ("_current_tool", |v| f64::from(v.state.tool)),
     ("_feed", |v| v.state.feed_rate),
     ("_feed_hold", |v| truth(v.state.feed_hold)),
@@ -45,7 +45,7 @@ pub(super) const NAMES: &[(&str, Read)] = &[
     ("_retract_old_z", |v| truth(v.state.retract == RetractMode::OldZ)),
     ("_retract_r_plane", |v| truth(v.state.retract == RetractMode::RPlane)),
     ("_rpm", |v| v.state.speed[v.state.active_spindle]),
-    ("_selected_pocket", |v| f64::from(v.state.selected_pocket)),
+    ("_selected_pocket", |v| pocket(v, v.state.selected_row)),
     ("_selected_tool", |v| f64::from(v.state.selected_tool.max(0))),
     ("_speed_override", |v| truth(v.state.speed_override)),
     ("_spindle_css_mode", |v| truth(surface_speed(v))),
@@ -117,11 +117,13 @@ fn plane(plane: Plane) -> f64 {
     }
 }
 
-/// The pocket of the tool in the spindle; before the first change it is that of the table's first row.
-fn current_pocket(values: &Values<'_>) -> f64 {
-    let rows = &values.setup.tools.rows;
-    let row = rows.iter().find(|row| row.number == values.state.tool).or(rows.first());
-    row.map_or(0.0, |row| f64::from(row.pocket))
+/// The pocket of a row of the table as it is now; with a random tool changer it is the row itself.
+fn pocket(values: &Values<'_>, row: i32) -> f64 {
+    if values.setup.random_tool_changer() {
+        return f64::from(row);
+    }
+    let entry = usize::try_from(row).ok().and_then(|row| values.state.tools.get(row));
+    entry.map_or(-1.0, |entry| f64::from(entry.pocket))
 }
 
 #[cfg(test)]

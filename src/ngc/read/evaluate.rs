@@ -20,7 +20,7 @@ pub(crate) fn evaluate(line: &Line, values: &Values<'_>, block: &mut Block) -> R
             Item::Word(index) => word(&line.words[index as usize], line, values, block)?,
             Item::Assignment(index) => {
                 let assignment = &line.assignments[index as usize];
-                let values = created(line, index, values);
+                let values = created(line, index + 1, values);
                 slot(assignment, &values)?;
                 value(&assignment.value, &values)?;
             }
@@ -40,7 +40,7 @@ pub(crate) fn errors(line: &Line, values: &Values<'_>, block: &mut Block) -> Vec
             Item::Word(index) => word(&line.words[index as usize], line, values, block),
             Item::Assignment(index) => {
                 let assignment = &line.assignments[index as usize];
-                let values = created(line, index, values);
+                let values = created(line, index + 1, values);
                 let slot = slot(assignment, &values).map(drop);
                 slot.and_then(|()| value(&assignment.value, &values).map(drop))
             }
@@ -66,7 +66,7 @@ pub(crate) fn apply(engine: &mut Engine, line: &Line) -> Result<(), Error> {
         [] => Ok(()),
         [one] => {
             let values = Values::new(engine);
-            let values = created(line, 0, &values);
+            let values = created(line, 1, &values);
             let (slot, value) = (slot(one, &values)?, value(&one.value, &values)?);
             set(engine, one, slot, value)
         }
@@ -74,7 +74,7 @@ pub(crate) fn apply(engine: &mut Engine, line: &Line) -> Result<(), Error> {
             let mut results = Vec::with_capacity(many.len());
             let values = Values::new(engine);
             for (index, assignment) in many.iter().enumerate() {
-                let values = created(line, index as u32, &values);
+                let values = created(line, index as u32 + 1, &values);
                 results.push((slot(assignment, &values)?, value(&assignment.value, &values)?));
             }
             for (assignment, (slot, value)) in many.iter().zip(results) {
@@ -98,7 +98,8 @@ fn set(engine: &mut Engine, assignment: &Assignment, slot: Option<Slot>, value: 
     Ok(())
 }
 
-/// The values as the control sees them at an item of a line: names that are set before it on the same line exist, with zero.
+/// The values as the control sees them at an item of a line: names that are set before it on the same line exist, with zero, and so does
+/// the one that is being set.
 struct Created<'a> {
     values: &'a Values<'a>,
     before: &'a [Assignment],

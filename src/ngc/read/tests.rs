@@ -1,4 +1,4 @@
-//! Lines against the control: every line of `lines.tsv` was given to `rs274` (2.9.0~pre1), most with ` ^` behind it, which no line
+//! Lines against the control: every line of `tests/lines.tsv` was given to `rs274` (2.9.0~pre1), most with ` ^` behind it, which no line
 //! survives; beside it stands the message.
 use super::{Line, apply, evaluate, problems};
 use crate::parameters::Values;
@@ -54,7 +54,7 @@ fn run(lines: &[&str], engine: &mut Engine) -> Block {
 fn every_answer_of_the_control() {
     let engine = engine(Start::Zero);
     let mut wrong = Vec::new();
-    for case in include_str!("lines.tsv").lines() {
+    for case in include_str!("../tests/lines.tsv").lines() {
         let (text, answer) = case.rsplit_once('\t').expect("two columns");
         let ours = first_error(text, &engine);
         let ours = ours.as_ref().map_or("", Error::message);

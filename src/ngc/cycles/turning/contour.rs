@@ -109,6 +109,12 @@ impl Contour {
         if unknown {
             return Err(Error::new(&problems::UNKNOWN, range));
         }
+        // the control crashes here
+        if let [(_, corner)] = &self.pieces[..]
+            && *corner != Corner::Sharp
+        {
+            return Err(Error::new(&problems::CORNER_ALONE, range));
+        }
         let nowhere = |(piece, _): &(Segment, Corner)| {
             piece
                 .round

@@ -291,7 +291,9 @@ fn roughing(out: &mut Out<'_>, code: i16, start: Point, contour: &[Segment], wor
     let (Some(first), Some(last)) = (contour.first(), contour.last()) else {
         return Ok(());
     };
-    let deeper = last.to[1 - place] < first.from[1 - place];
+    // a contour at one level counts as falling for G72, as rising for G71
+    let fall = first.from[1 - place] - last.to[1 - place];
+    let deeper = fall > 0.0 || (swapped && fall == 0.0);
     let frame = Frame {
         swapped,
         signs: [-sign, if deeper { -1.0 } else { 1.0 }],

@@ -28,6 +28,8 @@ problems! {
         "This is no mistake of the program. Write the contour with G0, G1, G2 and G3, or check it on the control."
     CORNER NotModelled "corner of a turning contour that has no room for its radius or chamfer"
         "Make the radius smaller, or check it on the control."
+    CORNER_ALONE NotModelled "corner of a turning contour with nothing before it: the control crashes"
+        "Take A or C out, or write the contour behind the move to it."
     SWALLOWED NotModelled "contour of a turning cycle whose allowance is greater than its details at the ends: the way of the tool is not known"
         "Make D smaller, or check it on the control."
     SHALLOW NotModelled "corner of a turning contour that is nearly straight, with an allowance: how the control rounds it is not known"

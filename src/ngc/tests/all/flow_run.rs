@@ -107,6 +107,86 @@ fn an_endless_loop_ends_at_the_line_that_opens_it() {
 }
 
 #[test]
+fn a_loop_that_comes_back_to_the_same_values_never_ends() {
+    let endless = [
+        "o1 while [1]\no1 endwhile\nm2\n",
+        "g0 x1\n#1=0\no1 while [1]\n#1=[1-#1]\no2 if [#1]\n#<a>=[#1*2]\no2 endif\no1 endwhile\nm2\n",
+        "#1=5\no1 do\no2 while [#2 lt 3]\n#2=[#2+1]\no2 endwhile\n#2=0\no1 while [#1 gt 2]\nm2\n",
+    ];
+    for program in endless {
+        let opener = program.lines().position(|line| line.starts_with("o1 "));
+        let (_, _, step) = run(program.as_bytes(), &bounded(1_000_000), false);
+        let Step::Endless(at) = step else {
+            panic!("{program}{step:?}")
+        };
+        assert_eq!(Some(at.line as usize), opener, "{program}");
+    }
+}
+
+#[test]
+fn a_loop_that_moves_counts_or_repeats_is_no_such_loop() {
+    let others = [
+        // what it moves may be meant: only the bound ends it
+        "o1 while [1]\ng0 x1\no1 endwhile\nm2\n",
+        "o1 while [1]\n#1=[#1+1]\no1 endwhile\nm2\n",
+        "o1 while [1]\no2 repeat [2]\no2 endrepeat\no1 endwhile\nm2\n",
+        "o3 sub\no3 endsub\no1 while [1]\no3 call\no1 endwhile\nm2\n",
+    ];
+    for program in others {
+        let (_, _, step) = run(program.as_bytes(), &bounded(20_000), false);
+        assert!(matches!(step, Step::OutOfFuel(_)), "{program}{step:?}");
+    }
+    let ends = "#1=20000\no1 while [#1 gt 0]\n#1=[#1-1]\no1 endwhile\nm2\n";
+    assert_eq!(run(ends.as_bytes(), &bounded(100_000), false).2, Step::Ended);
+}
+
+#[test]
+fn a_missing_subprogram_tells_the_folders_and_an_error_its_file() {
+    let setup = Setup {
+        files: Some(Arc::new(Folder(BTreeMap::from([(
+            "a",
+            "o<a> sub\ng1 x1\no<a> endsub\n",
+        )])))),
+        ..Setup::default()
+    };
+    let mut errors = Kept::default();
+    let program = "o<a> call\no<b> call\nm2\n";
+    let source = Arc::new(Source::new(String::new(), Arc::from(program.as_bytes())));
+    Engine::new(source, &setup).run(false, &mut errors);
+    let [zero_feed, missing] = &errors.0[..] else {
+        panic!("{:?}", errors.0)
+    };
+    assert_eq!((&*zero_feed.path, zero_feed.missing.is_none()), ("a.ngc", true));
+    let missing = missing.missing.as_ref().expect("the subprogram is named");
+    assert_eq!(
+        (missing.name.as_str(), &missing.searched[..]),
+        ("b", &["folder".to_owned()][..])
+    );
+}
+
+#[test]
+fn what_a_nul_cuts_off_is_told() {
+    let mut errors = Kept::default();
+    let source = Arc::new(Source::new(String::new(), Arc::from(&b"g0 x1\0y2\nm2\n"[..])));
+    Engine::new(source, &Setup::default()).run(false, &mut errors);
+    assert_eq!((errors.0.len(), &errors.1[..]), (0, &[(5, 9)][..]));
+}
+
+/// Errors, and what was cut off.
+#[derive(Default)]
+struct Kept(Vec<Error>, Vec<(u32, u32)>);
+
+impl Sink for Kept {
+    fn call(&mut self, _: &Canon, _: At, _: &State) {}
+    fn error(&mut self, error: &Error, _: At) {
+        self.0.push(error.clone());
+    }
+    fn cut(&mut self, range: trunnion_syntax::TextRange, _: At) {
+        self.1.push((range.start, range.end));
+    }
+}
+
+#[test]
 fn a_long_straight_program_needs_no_fuel() {
     let program = "g0 x1\n".repeat(3000) + "m2\n";
     let (_, heard, step) = run(program.as_bytes(), &bounded(10), false);

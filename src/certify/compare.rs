@@ -104,6 +104,7 @@ impl Pair<'_> {
             NoStance::HeldElsewhere { axis, .. } => {
                 format!("axis {} is held elsewhere by the machine file", char::from(*axis))
             }
+            NoStance::PlaneMisaligned(_) => "the tool does not stand on the tilted plane".into(),
             NoStance::RotaryOffset(letter) => {
                 format!(
                     "a work offset in {} under tool centre point control is not modelled",

@@ -52,7 +52,8 @@ impl Sink for Legs<'_> {
             Some((ToolShape::Ball, diameter)) => Some(0.5 * diameter),
             _ => None,
         };
-        self.whole |= leg.end.is_err();
+        // where the posture is not settled, the same text is all that can be said
+        self.whole |= leg.end.is_err() || leg.open.is_some();
         self.waiting.push_back(Step {
             leg,
             ball_radius,

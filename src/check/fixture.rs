@@ -37,7 +37,8 @@ pub struct Drawn {
 pub struct Fixture {
     /// Name of a built-in dialect.
     pub dialect: String,
-    /// Name of a built-in machine, if any; `NAME+clamp` is one whose first rotary axis has `clamp = true`.
+    /// Name of a built-in machine, if any; `NAME+clamp` is one whose first rotary axis has `clamp = true`, `NAME+A.cable` one whose A
+    /// has `cable = true`.
     pub machine: Option<String>,
     /// Dialects to carry the program over to.
     pub port_to: Vec<String>,
@@ -188,15 +189,26 @@ fn setup() -> Setup {
     }
 }
 
-/// A built-in machine; `NAME+KEY` has `KEY = true` added to its first rotary axis.
+/// A built-in machine; `NAME+KEY` has `KEY = true` added to its first rotary axis, `NAME+A.KEY` to axis A, `NAME+A.KEY=5` with
+/// that value; `NAME+undeclared` names no rule for postures.
 fn machine(name: &str) -> Result<Machine, String> {
     let none = || format!("no machine {name}");
     let Some((builtin, key)) = name.split_once('+') else {
         return trunnion_machine::builtin(name).cloned().ok_or_else(none);
     };
     let source = trunnion_machine::builtin_source(builtin).ok_or_else(none)?;
-    let kind = "kind = \"rotary\"";
-    let more = source.replacen(kind, &format!("{kind}\n{key} = true"), 1);
+    let more = match key.split_once('.') {
+        _ if key == "undeclared" => source.replace("branch = { rule = \"generic\" }", "#"),
+        Some((letter, key)) => {
+            let axis = format!("letter = \"{letter}\"\n");
+            let entry = if key.contains('=') { key.to_owned() } else { format!("{key} = true") };
+            source.replacen(&axis, &format!("{axis}{entry}\n"), 1)
+        }
+        None => {
+            let kind = "kind = \"rotary\"";
+            source.replacen(kind, &format!("{kind}\n{key} = true"), 1)
+        }
+    };
     trunnion_machine::load(builtin, &more).map_err(|error| error.message)
 }
 

@@ -1,5 +1,7 @@
 //! The list of rules, alphabetical. A rule is one file in `rules/`; its name stands in two lists here.
 mod ambiguous_implicit_decimal;
+mod ambiguous_posture;
+mod angle_wrap;
 mod apt_unknown_record;
 mod apt_vector_missing;
 mod arc_centre_missing;
@@ -14,6 +16,7 @@ mod branch_swap;
 mod broken_directive;
 mod broken_structure;
 mod canned_cycle;
+mod clamped_axis_moves;
 mod cutter_compensation;
 mod decimal_comma;
 mod empty_program;
@@ -35,6 +38,7 @@ mod missing_word;
 mod modal_group_conflict;
 mod not_decided;
 mod not_modelled;
+mod only_one_posture;
 mod orientation_deviation;
 mod path_deviation;
 mod pole_crossing;
@@ -47,6 +51,8 @@ mod repeated_word;
 mod spindle_off_cut;
 mod swept_deviation;
 mod syntax_error;
+mod tcp_state;
+mod tilted_plane_misaligned;
 mod tool_length_unset;
 mod tool_vector_not_unit;
 mod unclosed_comment;
@@ -56,6 +62,7 @@ mod unknown_word;
 mod unreachable_orientation;
 mod unused_suppression;
 mod unused_word;
+mod winding_limit;
 mod work_offset_unset;
 
 pub(crate) use syntax_error::{is_utf16, report_utf16};
@@ -86,6 +93,8 @@ macro_rules! table {
 
 static RULES: &[&Rule] = table![
     ambiguous_implicit_decimal,
+    ambiguous_posture,
+    angle_wrap,
     apt_unknown_record,
     apt_vector_missing,
     arc_centre_missing,
@@ -100,6 +109,7 @@ static RULES: &[&Rule] = table![
     broken_directive,
     broken_structure,
     canned_cycle,
+    clamped_axis_moves,
     cutter_compensation,
     decimal_comma,
     empty_program,
@@ -121,6 +131,7 @@ static RULES: &[&Rule] = table![
     modal_group_conflict,
     not_decided,
     not_modelled,
+    only_one_posture,
     orientation_deviation,
     path_deviation,
     pole_crossing,
@@ -133,6 +144,8 @@ static RULES: &[&Rule] = table![
     spindle_off_cut,
     swept_deviation,
     syntax_error,
+    tcp_state,
+    tilted_plane_misaligned,
     tool_length_unset,
     tool_vector_not_unit,
     unclosed_comment,
@@ -142,6 +155,7 @@ static RULES: &[&Rule] = table![
     unreachable_orientation,
     unused_suppression,
     unused_word,
+    winding_limit,
     work_offset_unset,
 ];
 
@@ -159,7 +173,7 @@ pub fn rule(name: &str) -> Option<&'static Rule> {
 mod tests {
     use crate::sink::{Reporter, active};
     use crate::suppress::Suppressions;
-    use trunnion_interp::{Fault, FaultKind, Refusal};
+    use trunnion_interp::{Fault, FaultKind, Refusal, TcpMistake};
     use trunnion_syntax::{BlockId, LexOptions, SyntaxError, SyntaxErrorKind, TextRange, parse};
 
     /// All sorts of refusals; one that is added must be added here, and to a rule.
@@ -222,6 +236,10 @@ mod tests {
             FaultKind::WorkOffsetUnset { name: text() },
             FaultKind::ToolLengthUnset { tool: text() },
             FaultKind::MissingProgramEnd,
+            FaultKind::TcpState(TcpMistake::RotaryWithout),
+            FaultKind::TcpState(TcpMistake::NoLength),
+            FaultKind::TcpState(TcpMistake::ToolChange),
+            FaultKind::TcpState(TcpMistake::MachineCoordinates),
             FaultKind::EndlessLoop { blocks: 3 },
             FaultKind::MissingSubprogram {
                 name: text(),

@@ -4,7 +4,7 @@ use crate::trail::Trail;
 use core::cell::OnceCell;
 use core::f64::consts::TAU;
 use trunnion_geometry::{deg, math};
-use trunnion_interp::{Directive, Feed, Motion, Orientation};
+use trunnion_interp::{Directive, Feed, Motion, Orientation, Swivel};
 use trunnion_machine::{
     Deviation, Excess, FeedLimit, Leg, Limits, Machine, Orientations, Stance, feed_limit, orientations, tip_deviation,
     windings,
@@ -40,7 +40,8 @@ pub struct LegView<'a> {
 
 /// Whether X Y Z are the tip's in the workpiece frame: tool centre point control, or vectors.
 pub(crate) fn leads_tip(motion: &Motion) -> bool {
-    motion.tcp || matches!(motion.orientation, Orientation::Vector(..))
+    let led = motion.tcp || matches!(motion.orientation, Orientation::Vector(..)) || motion.tilt.normal.is_some();
+    led && matches!(motion.tilt.swivel, Swivel::No | Swivel::TipStays)
 }
 
 impl<'a> LegView<'a> {
@@ -93,11 +94,13 @@ impl<'a> LegView<'a> {
             return false;
         }
         let by_way = matches!(motion.feed, Feed::PerMinute(_) | Feed::PerRevolution(_));
-        let says_which = match dialect {
-            "fanuc-30i" => false,
-            "iso-6983" => matches!(self.machine.control.family.as_str(), "linuxcnc" | "sinumerik-840d"),
-            _ => true,
-        };
+        let says_which = self.machine.control.feed.is_some();
+        let says_which = says_which
+            || match dialect {
+                "fanuc-30i" => false,
+                "iso-6983" => matches!(self.machine.control.family.as_str(), "linuxcnc" | "sinumerik-840d"),
+                _ => true,
+            };
         by_way && !says_which
     }
 

@@ -107,6 +107,14 @@ pub enum Action {
     ProgrammableShift,
     /// Ends every [`Action::FrameChange`] of the same group (G69).
     FrameReset,
+    /// G68.2, G68.4: X Y Z are coordinates of a tilted working plane.
+    TiltedPlane,
+    /// G53.1: turns the rotary axes so that the tool stands on the tilted plane.
+    TiltedPlaneTurn,
+    /// G53.6: the same with the tip held.
+    TiltedPlaneTurnTip,
+    /// CYCLE800: tilted working plane and turn of the rotary axes in one; without arguments it ends them.
+    SwivelCycle,
     /// DEF, PROC, EXTERN: declares names; no motion and no positions in the rest of the block.
     Declaration,
     /// CYCLE81 ... CYCLE89 of a Sinumerik: a drilling cycle with its numbers between parentheses.

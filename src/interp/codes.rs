@@ -61,7 +61,7 @@ fn rank(action: Action) -> u8 {
         Action::WorkOffset | Action::WorkOffsetNone | Action::MachineCoordinates => 10,
         Action::Absolute | Action::Incremental => 11,
         Action::FrameReset | Action::RotationOff | Action::ScalingOff | Action::MirrorOff | Action::PolarOff => 12,
-        Action::ProgramStop | Action::ProgramEnd => 14,
+        Action::TiltedPlaneTurn | Action::TiltedPlaneTurnTip | Action::ProgramStop | Action::ProgramEnd => 14,
         _ => 13,
     }
 }

@@ -63,6 +63,9 @@ impl Interpreter<'_> {
             motion.machine_coordinates = true;
             motion.tcp = false;
         }
+        if self.memory.tcp_used {
+            self.tcp_mistakes(&motion, words, report);
+        }
         if frame_hides {
             self.hide(&mut motion);
         }
@@ -76,7 +79,7 @@ impl Interpreter<'_> {
             *value += sign * zero;
         }
         position.values[2] += sign * self.state.tool_length_mm.unwrap_or(0.0);
-        if self.state.tcp || self.state.frame_unknown {
+        if self.state.tcp || self.state.frame_unknown || self.memory.frames.tilt.is_some() {
             position.known &= !LINEAR;
         }
         if self.memory.rotary_unknown() {
@@ -236,6 +239,7 @@ impl Interpreter<'_> {
             tool_length_mm: state.tool_length_mm.unwrap_or(0.0),
             machine_coordinates: false,
             tool: state.tool,
+            tilt: crate::Tilt::default(),
         }
     }
 

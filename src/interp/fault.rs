@@ -3,9 +3,24 @@
 pub use trunnion_ngc::Class as Refusal;
 use trunnion_syntax::{BlockId, TextRange};
 
+/// A wrong state of tool centre point control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TcpMistake {
+    /// Rotary words in a feed motion with TCP off, after it was on in the same tool's work.
+    RotaryWithout,
+    /// A feed motion under TCP while no tool length is in force.
+    NoLength,
+    /// The tool is changed under TCP.
+    ToolChange,
+    /// Machine coordinates (G53) under TCP.
+    MachineCoordinates,
+}
+
 /// What is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FaultKind {
+    /// Tool centre point control is in the wrong state.
+    TcpState(TcpMistake),
     /// The control refuses the block, or would.
     Rejected {
         /// Why, by sort: rules choose by it.

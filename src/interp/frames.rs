@@ -5,11 +5,14 @@ mod polar;
 mod reference;
 mod shape;
 mod shift;
+mod swivel;
+mod tilt;
 mod turn;
 
 pub(crate) use polar::Polar;
 pub(crate) use reference::Return;
 pub(crate) use shape::{Rotation, Scaling, Shape};
+pub(crate) use tilt::Tilted;
 
 use crate::codes::{BlockCodes, Found};
 use crate::cycles::Pattern;
@@ -30,6 +33,8 @@ pub(crate) struct Frames {
     pub(crate) shape: Shape,
     /// Radius and angle.
     pub(crate) polar: Option<Polar>,
+    /// The tilted working plane in whose coordinates everything is told until motions are put out.
+    pub(crate) tilt: Option<Tilted>,
     /// The position as the words have it, while a shape is in force; good as long as the work position is `synced`.
     programmed: Position,
     synced: Position,
@@ -117,7 +122,13 @@ impl<'d> Interpreter<'d> {
             Action::PositionSet => self.position_set(found, words, block, report),
             Action::PositionPreset => self.position_preset(found, words, block),
             Action::RotationOn => self.rotation_on(found, words, block, report),
-            Action::RotationOff => self.rotation_off(found),
+            Action::RotationOff => {
+                self.end_tilt(report);
+                self.rotation_off(found);
+            }
+            Action::TiltedPlane => self.tilted_plane(found, words, block, report),
+            Action::TiltedPlaneTurn | Action::TiltedPlaneTurnTip => self.tilted_plane_turn(found, words, block, report),
+            Action::SwivelCycle => self.swivel_cycle(found, words, block, report),
             Action::ScalingOn => self.scaling_on(found, words, block, report),
             Action::ScalingOff => self.scaling_off(found),
             Action::MirrorOn => self.mirror_on(found, words, block, report),

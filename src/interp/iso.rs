@@ -56,12 +56,12 @@ impl<'d> Interpreter<'d> {
         }
         if !self.memory.out.is_empty() {
             for motion in &self.memory.out {
-                sink.motion(motion, &self.state);
+                sink.motion(&self.untilted(motion), &self.state);
             }
             self.memory.out.clear();
         }
         if let Some(motion) = motion {
-            sink.motion(motion, &self.state);
+            sink.motion(&self.untilted(motion), &self.state);
         }
     }
 
@@ -93,7 +93,7 @@ impl<'d> Interpreter<'d> {
             self.end_compensation(&mut report);
         }
         for (motion, state) in std::mem::take(&mut self.memory.compensation.ready) {
-            sink.motion(&motion, &state);
+            sink.motion(&self.untilted(&motion), &state);
         }
     }
 

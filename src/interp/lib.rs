@@ -35,9 +35,11 @@ mod values;
 mod words;
 
 pub use directive::{Directive, directives};
-pub use fault::{Fault, FaultKind, Refusal};
+pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
 pub use modal::{FeedMode, ModalState};
-pub use motion::{AXIS_LETTERS, AxisLetter, ChainId, Feed, Frame, Motion, MotionKind, Orientation, Position};
+pub use motion::{
+    AXIS_LETTERS, AxisLetter, ChainId, Feed, Frame, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt,
+};
 pub use run::{Interpreter, Sink, run};
 pub use setup::{
     ControlData, Files, ImplicitDecimals, Library, Limits, Loaded, OuterCorner, Setup, TcpCodes, Tool, ToolShape,

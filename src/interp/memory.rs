@@ -34,6 +34,10 @@ pub(crate) struct Memory<'d> {
     hidden: Vec<Frame<'d>>,
     /// Data of tools were written by the program: no length is known.
     pub(crate) tool_data_written: bool,
+    /// Tool centre point control was on since the tool came into the spindle.
+    pub(crate) tcp_used: bool,
+    /// The tool for which a missing length under tool centre point control was told.
+    pub(crate) tcp_length_said: Option<u32>,
     /// The group of the code that switched tool centre point control on.
     pub(crate) tcp_group: Option<&'d str>,
     /// F has a value that is not evaluated.

@@ -74,6 +74,44 @@ pub enum Orientation {
     Vector(Option<Vec3>, Vec3),
 }
 
+/// Which of several postures the program asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Posture {
+    /// The control's own rule.
+    #[default]
+    ByRule,
+    /// The lower value of the axis for which the control is told a preferred direction (CYCLE800 with direction -1).
+    Lower,
+    /// The higher value of it (CYCLE800 with direction 1).
+    Higher,
+}
+
+/// Whether a motion only turns the rotary axes, so that the tool stands along its vector, and what the linear axes do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Swivel {
+    /// An ordinary motion.
+    #[default]
+    No,
+    /// The linear axes stay (G53.1).
+    AxesStay,
+    /// The tip stays (G53.6).
+    TipStays,
+    /// The linear axes go where the program does not say (CYCLE800 with a retract).
+    AxesLost,
+}
+
+/// What a tilted working plane makes of a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Tilt {
+    /// Unit normal, workpiece frame, of the tilted plane in which X Y Z are programmed; the tool has to stand along it. X Y Z of the
+    /// motion are then the tip's in the workpiece frame, as under TCP. `None`: no such plane, or TCP leads the tip anyway.
+    pub normal: Option<Vec3>,
+    /// Whether the motion only turns the rotary axes.
+    pub swivel: Swivel,
+    /// The posture that is asked for.
+    pub posture: Posture,
+}
+
 /// What kind of motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MotionKind {
@@ -145,6 +183,8 @@ pub struct Motion {
     pub machine_coordinates: bool,
     /// Number of the tool in use, if known.
     pub tool: Option<u32>,
+    /// Tilted working plane.
+    pub tilt: Tilt,
 }
 
 impl Motion {

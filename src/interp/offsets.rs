@@ -68,6 +68,9 @@ impl Interpreter<'_> {
         for ((value, old), new) in self.state.position.values.iter_mut().zip(self.state.zero).zip(zero) {
             *value += old - new;
         }
+        if self.memory.frames.tilt.is_some() && zero != self.state.zero {
+            self.forget_linear();
+        }
         self.state.zero = zero;
     }
 

@@ -1,8 +1,9 @@
 //! Tool centre point control on and off.
-use crate::Orientation;
 use crate::codes::Found;
+use crate::offsets::ROTARY;
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
+use crate::{FaultKind, Motion, Orientation, Position, TcpMistake};
 use trunnion_dialect::{Code, CodeKind};
 
 impl<'d> Interpreter<'d> {
@@ -12,6 +13,7 @@ impl<'d> Interpreter<'d> {
             self.forget_linear();
         }
         self.state.tcp = true;
+        self.memory.tcp_used = true;
         self.state.vector_mode = vectors;
         self.memory.tcp_group = code.group.as_deref();
     }
@@ -32,6 +34,50 @@ impl<'d> Interpreter<'d> {
             self.tcp_off();
         }
     }
+}
+
+impl Interpreter<'_> {
+    /// What is wrong with tool centre point control in a motion by words of a block.
+    pub(crate) fn tcp_mistakes(&mut self, motion: &Motion, words: &Words, report: &mut Report<'_>) {
+        let range = words.first.unwrap_or_default();
+        if let Some(mistake) = self.tcp_mistake(motion) {
+            report.fault(range, FaultKind::TcpState(mistake));
+        }
+    }
+
+    /// The mistake of a motion that is about to be told.
+    pub(crate) fn tcp_mistake(&mut self, motion: &Motion) -> Option<TcpMistake> {
+        let state = &self.state;
+        if state.tcp {
+            if motion.machine_coordinates {
+                return Some(TcpMistake::MachineCoordinates);
+            }
+            let without = motion.is_feed() && state.tool_length_mm.is_none() && state.tool.is_some_and(|tool| tool > 0);
+            let news = without && self.memory.tcp_length_said != state.tool;
+            if news {
+                self.memory.tcp_length_said = state.tool;
+            }
+            return news.then_some(TcpMistake::NoLength);
+        }
+        let turns = self.memory.tcp_used && motion.is_feed() && turned(&motion.start, &motion.end);
+        turns.then_some(TcpMistake::RotaryWithout)
+    }
+
+    /// The tool in the spindle changes.
+    pub(crate) fn tcp_at_tool_change(&mut self, report: &mut Report<'_>) {
+        if self.state.tcp {
+            report.fault(report.whole(), FaultKind::TcpState(TcpMistake::ToolChange));
+        }
+        self.memory.tcp_used = self.state.tcp;
+    }
+}
+
+/// Whether a rotary axis goes to another value, or to one from nobody knows where.
+fn turned(start: &Position, end: &Position) -> bool {
+    let rotary = (0..9).filter(|axis| ROTARY & (1 << axis) != 0);
+    rotary
+        .filter_map(|axis| Some((axis, end.get(axis)?)))
+        .any(|(axis, value)| start.get(axis) != Some(value))
 }
 
 /// What of a code for tool centre point control is not modelled: TRAORI of another transformation than the first, or with further

@@ -131,6 +131,7 @@ impl Interpreter<'_> {
     /// Puts the chosen tool into the spindle. The change may move the machine, so X Y Z are not known after it; rotary axes stay.
     pub(crate) fn change_tool(&mut self, report: &mut Report<'_>) {
         self.forget_linear();
+        self.tcp_at_tool_change(report);
         if self.memory.prepared == Chosen::Nothing {
             return;
         }

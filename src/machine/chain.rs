@@ -1,5 +1,5 @@
 //! The machine as a chain of axes from workpiece to tool. Internal units: mm, rad, s.
-use crate::Constants;
+use crate::{Branch, Constants};
 use trunnion_geometry::Vec3;
 
 /// The most axes a machine may have.
@@ -130,6 +130,27 @@ pub enum RapidPath {
     Dogleg,
 }
 
+/// What a control does inside its cone about the pole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum PoleAction {
+    /// It goes on as anywhere.
+    #[default]
+    Through,
+    /// It holds the first rotary axis.
+    Hold,
+    /// It stops with an alarm (Fanuc 30i: parameter 19696, bit NPC; PS5421).
+    Alarm,
+}
+
+/// What F counts along where rotary and linear axes move together without TCP.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeedMeaning {
+    /// The path of X Y Z, mm; where these stand still the angle, deg (RS274/NGC).
+    Xyz,
+    /// The root of the squares of mm and deg of all axes.
+    Combined,
+}
+
 /// A rigid body that hangs on a part of the machine (for clearance checks).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Body {
@@ -150,10 +171,14 @@ pub struct Control {
     pub tcp_declared: bool,
     /// How rapid motions run.
     pub rapid: RapidPath,
-    /// Rule by which the control picks a posture; `None`: not declared.
-    pub branch_rule: Option<String>,
+    /// How the control picks postures.
+    pub branch: Branch,
     /// Cone about the pole inside which the control acts, rad; `None`: not declared.
     pub pole_cone: Option<f64>,
+    /// What it does there.
+    pub pole_action: PoleAction,
+    /// What F counts along where rotary and linear axes move together without TCP; `None`: not declared, X Y Z are taken.
+    pub feed: Option<FeedMeaning>,
     /// Corner speed model (axis-jump, grbl, klipper, linuxcnc-g64, exact-stop, servo); `None`: not declared.
     pub corner_model: Option<String>,
     /// Shortest time the control needs per block, s; `None`: not declared.

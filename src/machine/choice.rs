@@ -1,15 +1,18 @@
-//! Which posture and winding of the rotary axes a control takes for a programmed tool vector.
+//! Which posture and winding of the rotary axes a control takes for a programmed tool vector, by the rule in
+//! [`crate::posture_rule`]; where the documentation leaves it open, which other posture it may take.
 //!
-//! The rule of the generic control: the posture that the slowest rotary axis reaches soonest from the previous one; ties by the
-//! smaller first, then the smaller second rotary move, then the value nearer zero. At the pole the first rotary axis stays where it
-//! is. Windings are chosen inside the limits; an endless axis takes the winding nearest the previous value. Without a previous
-//! posture the rotary axes are taken to stand at zero.
-use crate::{Limits, Machine, NoStance, Orientations, Solution, orientations, windings};
-use core::f64::consts::TAU;
+//! At the pole the first rotary axis stays where it is. Windings are chosen inside the limits (and the ranges that the control is given);
+//! an endless axis takes the winding nearest the previous value. Without a previous posture the rotary axes are taken to stand at zero.
+use crate::posture_rule::{Branch, Candidate, Criterion, PostureRule, TIE, comparisons, precedence};
+use crate::windings::windings_in;
+use crate::{Limits, Machine, NoStance, Open, OpenCause, Orientations, Side, Solution, orientations};
+use core::cmp::Ordering;
+use core::f64::consts::{PI, TAU};
 use trunnion_geometry::Vec3;
+use trunnion_interp::Posture;
 
-/// Differences below this are ties, rad or s: rounding must not choose a posture.
-const TIE: f64 = 1e-9;
+/// Postures that differ by less than this in every rotary axis are not told as a choice, rad: 5 deg (kinematics notes 5, CTRL-AMBIG).
+const DIFFERENT: f64 = 5.0 * PI / 180.0;
 
 /// Why an angle has no winding inside the limits: the winding nearest to legal and the limit it breaks, rad.
 #[derive(Clone, Copy, Debug)]
@@ -18,18 +21,53 @@ struct Outside {
     limit: f64,
 }
 
-/// The winding of `q` inside the limits of joint `axis` that is nearest to `near`, rad; of two equally near the one nearer zero, of two
-/// equally near zero the positive one.
-fn legal_winding(machine: &Machine, axis: usize, q: f64, near: f64) -> Result<f64, Outside> {
-    match *windings(machine, axis, q, near) {
-        [] => Err(least_bad(machine.axes[axis].limits, q)),
+/// What a choice starts from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Before {
+    /// Rotary joints, workpiece side first, rad; zeros where nothing is known.
+    pub(crate) q: [f64; 2],
+    /// Whether they are known.
+    pub(crate) known: bool,
+    /// Sign of the posture; 0 at the pole or where it is not known.
+    pub(crate) sign: i8,
+    /// Angle to the pole, rad.
+    pub(crate) pole_angle: f64,
+    /// The tool axis runs on a great circle that does not touch the pole: the posture cannot change on the way.
+    pub(crate) continuous: bool,
+    /// What the program asks for.
+    pub(crate) wish: Posture,
+}
+
+/// A chosen posture.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Chosen {
+    pub(crate) q: [f64; 2],
+    pub(crate) open: Option<Open>,
+}
+
+/// The winding of `q` inside limits that is nearest to `near`, rad; of two equally near the one nearer zero, of two equally near zero
+/// the positive one. Also whether both ways of half a turn are legal.
+fn legal_winding(limits: Limits, q: f64, near: f64) -> Result<(f64, bool), Outside> {
+    match *windings_in(limits, q, near) {
+        [] => Err(least_bad(limits, q)),
         [first, second, ..] => {
             let tie = (second - near).abs() < (first - near).abs() + TIE;
             let nearer_zero = first.abs() - second.abs();
             let takes_second = nearer_zero > TIE || (nearer_zero > -TIE && second > first);
-            Ok(if tie && takes_second { second } else { first })
+            Ok((if tie && takes_second { second } else { first }, tie))
         }
-        [first] => Ok(first),
+        [first] => Ok((first, false)),
+    }
+}
+
+/// The travel of a rotary axis, and where the control is given a range for it what both have in common.
+fn searched(machine: &Machine, joint: usize) -> Limits {
+    let axis = &machine.axes[joint];
+    let range = machine.control.branch.range.iter().find(|range| range.0 == axis.letter);
+    match (range, axis.limits) {
+        (None, limits) => limits,
+        (Some(&(_, low, high)), Limits::Unbounded) => Limits::Range(low, high),
+        (Some(&(_, low, high)), Limits::Range(least, most)) => Limits::Range(low.max(least), high.min(most)),
     }
 }
 
@@ -53,80 +91,247 @@ fn least_bad(limits: Limits, q: f64) -> Outside {
     }
 }
 
-/// A posture with its windings and what it costs to go there.
-#[derive(Clone, Copy)]
-struct Candidate {
-    q: [f64; 2],
-    cost: [f64; 5],
-}
-
-impl Candidate {
-    fn new(machine: &Machine, q: [f64; 2], from: [f64; 2]) -> Self {
-        let moves = [(q[0] - from[0]).abs(), (q[1] - from[1]).abs()];
-        let slowness = slowness(machine);
-        let time = (moves[0] * slowness[0]).max(moves[1] * slowness[1]);
-        Self {
-            q,
-            cost: [time, moves[0], moves[1], q[0].abs(), q[1].abs()],
-        }
-    }
-    /// Whether this one goes before `other`: lexicographic, differences below [`TIE`] are ties; the first named wins a full tie.
-    fn before(&self, other: &Self) -> bool {
-        for (mine, theirs) in self.cost.iter().zip(&other.cost) {
-            if (mine - theirs).abs() > TIE {
-                return mine < theirs;
-            }
-        }
-        true
-    }
-}
-
-/// Seconds per rad of the rotary axes; 1 for all where a speed is not declared.
-fn slowness(machine: &Machine) -> [f64; 2] {
-    let mut out = [1.0; 2];
-    for (slot, rotary) in out.iter_mut().zip(machine.constants.rotary()) {
-        match machine.axes[rotary.joint].max_speed {
-            Some(speed) if speed > 0.0 => *slot = 1.0 / speed,
-            _ => return [1.0; 2],
-        }
-    }
-    out
-}
-
-/// Rotary joints (rad, workpiece side first) for the unit tool axis `axis` in the workpiece frame, coming `from` the previous ones.
+/// Rotary joints (rad, workpiece side first) for the unit tool axis `axis` in the workpiece frame, coming from the previous ones.
 ///
 /// # Errors
 /// [`NoStance::Unreachable`], or [`NoStance::OutsideLimits`] where every posture breaks a limit (the least bad one is named).
-pub(crate) fn choose(machine: &Machine, axis: &Vec3, from: [f64; 2]) -> Result<[f64; 2], NoStance> {
-    match orientations(machine, axis) {
-        Orientations::Unreachable(off) => Err(NoStance::Unreachable(off)),
-        Orientations::Pole(q2) => legal(machine, [from[0], q2], from)
-            .map(|candidate| candidate.q)
-            .map_err(no_winding),
-        Orientations::Postures(postures) => {
-            let mut best: Option<Candidate> = None;
-            let mut worst: Option<(u8, Outside)> = None;
-            for solution in &postures {
-                match legal(machine, solution.q, from) {
-                    Ok(candidate) => {
-                        if best.as_ref().is_none_or(|b| !b.before(&candidate)) {
-                            best = Some(candidate);
-                        }
-                    }
-                    Err(failed) => {
-                        if worst.as_ref().is_none_or(|w| excess(&failed.1) < excess(&w.1)) {
-                            worst = Some(failed);
-                        }
-                    }
+pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<Chosen, NoStance> {
+    let postures = match orientations(machine, axis) {
+        Orientations::Unreachable(off) => return Err(NoStance::Unreachable(off)),
+        Orientations::Pole(q2) => {
+            let found = legal(machine, [before.q[0], q2], before.q).map_err(no_winding)?;
+            return Ok(Chosen {
+                q: found.0.q,
+                open: None,
+            });
+        }
+        Orientations::Postures(postures) => postures,
+    };
+    let mut found = Found::default();
+    let mut worst: Option<(u8, Outside)> = None;
+    for solution in &postures {
+        match legal(machine, solution.q, before.q) {
+            Ok((candidate, half_turn)) => found.add(candidate, solution.branch, half_turn),
+            Err(failed) => {
+                if worst.as_ref().is_none_or(|w| excess(&failed.1) < excess(&w.1)) {
+                    worst = Some(failed);
                 }
-            }
-            match (best, worst) {
-                (Some(candidate), _) => Ok(candidate.q),
-                (None, Some(failed)) => Err(no_winding(failed)),
-                (None, None) => Err(NoStance::NotModelled),
             }
         }
     }
+    if found.count == 0 {
+        return Err(worst.map_or(NoStance::NotModelled, no_winding));
+    }
+    let (taken, cause) = found.decide(machine, before);
+    let mut open = cause.and_then(|cause| {
+        let other = found.items.get(1 - taken.min(1)).filter(|_| found.count > 1)?;
+        let chosen = &found.items[taken];
+        (chosen.candidate.differs(&other.candidate) > DIFFERENT).then_some(Open {
+            cause,
+            taken: chosen.candidate.q,
+            other: other.candidate.q,
+        })
+    });
+    let chosen = &found.items[taken];
+    let rule = machine.control.branch.rule;
+    if open.is_none() && rule != Some(PostureRule::Generic) {
+        open = chosen
+            .open_turn(before)
+            .or_else(|| unfiltered(machine, &postures, before, chosen));
+    }
+    Ok(Chosen {
+        q: chosen.candidate.q,
+        open,
+    })
+}
+
+/// A Fanuc is told by parameters 19741 to 19744 in which range it looks for values. Where these are not declared and the choice without
+/// the axes' travel would be another, it is open which one is taken.
+fn unfiltered(machine: &Machine, postures: &[Solution], before: &Before, chosen: &Item) -> Option<Open> {
+    let branch = &machine.control.branch;
+    if branch.rule != Some(PostureRule::Fanuc) || !branch.range.is_empty() {
+        return None;
+    }
+    let mut free = Found::default();
+    for solution in postures {
+        let mut q = solution.q;
+        for (value, near) in q.iter_mut().zip(before.q) {
+            *value += TAU * ((near - *value) / TAU).round();
+        }
+        free.add(Candidate::new(machine, q, before.q), solution.branch, None);
+    }
+    let (taken, _) = free.decide(machine, before);
+    let other = &free.items[taken].candidate;
+    (chosen.candidate.differs(other) > DIFFERENT).then_some(Open {
+        cause: OpenCause::RangeNotDeclared,
+        taken: chosen.candidate.q,
+        other: other.q,
+    })
+}
+
+/// A legal posture.
+#[derive(Clone, Copy, Debug)]
+struct Item {
+    candidate: Candidate,
+    branch: i8,
+    /// The rotary axis that can reach its value by half a turn either way.
+    half_turn: Option<usize>,
+}
+
+impl Item {
+    fn open_turn(&self, before: &Before) -> Option<Open> {
+        let axis = self.half_turn.filter(|_| before.known)?;
+        let mut other = self.candidate.q;
+        other[axis] = 2.0 * before.q[axis] - other[axis];
+        Some(Open {
+            cause: OpenCause::HalfTurn,
+            taken: self.candidate.q,
+            other,
+        })
+    }
+}
+
+/// The legal postures, two at most.
+#[derive(Clone, Copy, Debug, Default)]
+struct Found {
+    items: [Item; 2],
+    count: usize,
+}
+
+impl Default for Item {
+    fn default() -> Self {
+        Self {
+            candidate: Candidate::NOWHERE,
+            branch: 0,
+            half_turn: None,
+        }
+    }
+}
+
+impl Found {
+    fn add(&mut self, candidate: Candidate, branch: i8, half_turn: Option<usize>) {
+        if let Some(slot) = self.items.get_mut(self.count) {
+            *slot = Item {
+                candidate,
+                branch,
+                half_turn,
+            };
+            self.count += 1;
+        }
+    }
+
+    /// The index of the posture that is taken, and why another might be.
+    fn decide(&self, machine: &Machine, before: &Before) -> (usize, Option<OpenCause>) {
+        if self.count < 2 {
+            return (0, None);
+        }
+        let branch = &machine.control.branch;
+        let generic = || self.compare(machine, PostureRule::Generic, &[]).1;
+        if before.wish != Posture::ByRule {
+            return self.by_direction(machine, before.wish);
+        }
+        let Some(rule) = branch.rule else {
+            let same = self.items.iter().position(|item| item.branch == before.sign);
+            return match same {
+                Some(index) if before.continuous && before.known && before.sign != 0 => (index, None),
+                _ => (generic(), Some(OpenCause::RuleNotDeclared)),
+            };
+        };
+        if rule != PostureRule::Generic && !before.known {
+            return (generic(), Some(OpenCause::StartUnknown));
+        }
+        if !branch.order.is_empty() {
+            let (order, index) = self.compare(machine, rule, &branch.order);
+            return (index, (order == Ordering::Equal).then_some(OpenCause::Tie));
+        }
+        match rule {
+            PostureRule::Generic => (generic(), None),
+            PostureRule::Fanuc => {
+                let (order, index) = self.compare(machine, rule, &[]);
+                (index, (order == Ordering::Equal).then_some(OpenCause::Tie))
+            }
+            PostureRule::Shortest => self.shortest(generic()),
+            PostureRule::Mitsubishi => self.passing(machine, branch, before),
+        }
+    }
+
+    /// The lexicographically smaller one, the first at a full tie.
+    fn compare(&self, machine: &Machine, rule: PostureRule, order: &[Criterion]) -> (Ordering, usize) {
+        let (own, modulo) = comparisons(rule);
+        let order = if order.is_empty() { own } else { order };
+        let [first, second] = &self.items;
+        let axes = precedence(machine, rule);
+        let found = first.candidate.compare(&second.candidate, order, axes, modulo);
+        (found, usize::from(found == Ordering::Greater))
+    }
+
+    /// The one whose moves are both no larger.
+    fn shortest(&self, otherwise: usize) -> (usize, Option<OpenCause>) {
+        let [first, second] = self.items.map(|item| item.candidate.moves);
+        let no_larger = |a: [f64; 2], b: [f64; 2]| a[0] <= b[0] + TIE && a[1] <= b[1] + TIE;
+        match (no_larger(first, second), no_larger(second, first)) {
+            (true, false) => (0, None),
+            (false, true) => (1, None),
+            _ => (otherwise, Some(OpenCause::Tie)),
+        }
+    }
+
+    /// Mitsubishi's passing types. Type 1 looks at the sign of the axis nearer the tool, which tilts; type 2 at the move of the other.
+    fn passing(&self, machine: &Machine, branch: &Branch, before: &Before) -> (usize, Option<OpenCause>) {
+        let cone = machine.control.pole_cone.unwrap_or(0.0);
+        let at_pole = before.sign == 0 || before.pole_angle < cone;
+        let tilt = |index: usize| self.items[index].candidate.q[1];
+        let signed = |negative: bool| {
+            let fits = |index: &usize| (tilt(*index) < -TIE) == negative;
+            let mut both = (0..2).filter(fits);
+            match (both.next(), both.next()) {
+                (Some(only), None) => (only, None),
+                _ => (0, Some(OpenCause::Tie)),
+            }
+        };
+        let first_type = if at_pole {
+            let joint = machine.constants.rotary().get(1).map(|rotary| rotary.joint);
+            match joint.map(|joint| machine.axes[joint].limits) {
+                Some(Limits::Range(low, high)) if (high + low).abs() > TIE => signed(high + low < 0.0),
+                _ => signed(true),
+            }
+        } else {
+            signed(before.q[1] < 0.0)
+        };
+        let moves = [0, 1].map(|index| self.items[index].candidate.moves[0]);
+        let second_type = if (moves[0] - moves[1]).abs() <= TIE {
+            (0, Some(OpenCause::Tie))
+        } else {
+            (usize::from(moves[1] < moves[0]), None)
+        };
+        match branch.passing_type {
+            Some(1) => first_type,
+            Some(_) => second_type,
+            None if first_type == second_type => first_type,
+            None => (first_type.0, Some(OpenCause::PassingTypeNotDeclared)),
+        }
+    }
+
+    /// The lower or higher value of the axis that a preferred direction is told for.
+    fn by_direction(&self, machine: &Machine, wish: Posture) -> (usize, Option<OpenCause>) {
+        let axis = direction_axis(machine);
+        let [first, second] = self.items.map(|item| item.candidate.q[axis]);
+        if (first - second).abs() <= TIE {
+            return (0, Some(OpenCause::Direction));
+        }
+        let lower = usize::from(second < first);
+        (if wish == Posture::Lower { lower } else { 1 - lower }, None)
+    }
+}
+
+/// The axis that a preferred direction is told for (CYCLE800, `_DIR`: rotary axis 1 of the swivel data; G53.1 P of LinuxCNC: the primary
+/// axis): the one nearer the machine's bed on a table or in a head, the head's on a machine with one axis on each side.
+fn direction_axis(machine: &Machine) -> usize {
+    let side = |index: usize| {
+        let rotary = machine.constants.rotary().get(index);
+        rotary.map(|rotary| machine.axes[rotary.joint].side)
+    };
+    usize::from(!(side(0) == Some(Side::Head) && side(1) == Some(Side::Head)))
 }
 
 fn excess(outside: &Outside) -> f64 {
@@ -137,13 +342,20 @@ fn no_winding((axis, Outside { value, limit }): (u8, Outside)) -> NoStance {
     NoStance::OutsideLimits { axis, value, limit }
 }
 
-/// The posture `q` with its best legal windings, or the letter of the axis that has none.
-fn legal(machine: &Machine, mut q: [f64; 2], from: [f64; 2]) -> Result<Candidate, (u8, Outside)> {
-    for (index, rotary) in machine.constants.rotary().iter().enumerate() {
+/// The posture `q` with its best legal windings, and the axis that can turn to it by half a turn either way; or the letter of the axis
+/// that has no legal winding.
+fn legal(machine: &Machine, mut q: [f64; 2], from: [f64; 2]) -> Result<(Candidate, Option<usize>), (u8, Outside)> {
+    let mut half_turn = None;
+    for (index, rotary) in machine.constants.rotary().iter().enumerate().take(2) {
         let letter = machine.axes[rotary.joint].letter;
-        q[index] = legal_winding(machine, rotary.joint, q[index], from[index]).map_err(|outside| (letter, outside))?;
+        let (value, either) = legal_winding(searched(machine, rotary.joint), q[index], from[index])
+            .map_err(|outside| (letter, outside))?;
+        q[index] = value;
+        if either {
+            half_turn = Some(index);
+        }
     }
-    Ok(Candidate::new(machine, q, from))
+    Ok((Candidate::new(machine, q, from), half_turn))
 }
 
 /// Sum of the rotary moves, rad, of the cheapest way from `from` to the tool axis `axis` in the posture with the sign `branch`, limits
@@ -161,89 +373,4 @@ pub(crate) fn cheapest_in_posture(machine: &Machine, axis: &Vec3, branch: i8, fr
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::builtin;
-    use trunnion_geometry::{deg, rad};
-
-    fn mikron() -> &'static Machine {
-        builtin("mikron-ucp710").expect("built in")
-    }
-
-    fn joints(axis: Vec3, from: [f64; 2]) -> [f64; 2] {
-        choose(mikron(), &axis.normalize(), from.map(rad))
-            .expect("reachable")
-            .map(deg)
-    }
-
-    fn assert_near(found: [f64; 2], wanted: [f64; 2]) {
-        assert!(
-            (found[0] - wanted[0]).abs() < 1e-4 && (found[1] - wanted[1]).abs() < 1e-4,
-            "{found:?}, not {wanted:?}"
-        );
-    }
-
-    #[test]
-    fn an_endless_axis_takes_the_nearest_winding() {
-        // |u| sin 20 deg along (3, 4) / 5: C 143.1301 A 20, or C -36.8699 A -20
-        let axis = Vec3::new(0.205_212_086, 0.273_616_115, 0.939_692_621);
-        assert_near(joints(axis, [0.0, 20.0]), [-36.8699, -20.0]);
-        assert_near(joints(axis, [1200.0, 20.0]), [143.1301 + 1080.0, 20.0]);
-        assert_near(joints(axis, [-400.0, -20.0]), [-36.8699 - 360.0, -20.0]);
-    }
-
-    #[test]
-    fn a_limit_excludes_a_posture() {
-        // A -60 is outside -30..120, so the long way it is
-        let axis = Vec3::new(0.0, 0.866_025, 0.5);
-        assert_near(joints(axis, [0.0, 0.0]), [180.0, 60.0]);
-        // pointing down at 150 deg: both postures leave the travel of A, +150 is the nearer
-        let down = Vec3::new(0.0, -0.5, -0.866_025).normalize();
-        let Err(NoStance::OutsideLimits { axis, value, limit }) = choose(mikron(), &down, [0.0; 2]) else {
-            panic!("a posture outside the limits was chosen")
-        };
-        assert_eq!(axis, b'A');
-        assert!((deg(value) - 150.0).abs() < 1e-3 && (deg(limit) - 120.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn ties_are_settled_the_same_way_everywhere() {
-        // half a turn either way: the winding nearer zero
-        let axis = Vec3::new(0.0, -0.5, 0.866_025);
-        assert_near(joints(axis, [180.0, 30.0]), [0.0, 30.0]);
-        assert_near(joints(axis, [-180.0, 30.0]), [0.0, 30.0]);
-        assert_near(joints(axis, [540.0, 30.0]), [360.0, 30.0]);
-    }
-
-    #[test]
-    fn the_pole_keeps_the_first_axis() {
-        assert_near(joints(Vec3::z(), [77.0, 3.0]), [77.0, 0.0]);
-        assert_near(joints(Vec3::z(), [-1000.0, 3.0]), [-1000.0, 0.0]);
-    }
-
-    #[test]
-    fn the_cheapest_move_of_a_posture_ignores_limits() {
-        let axis = Vec3::new(0.0, 0.866_025, 0.5).normalize();
-        let least = cheapest_in_posture(mikron(), &axis, 1, [0.0, rad(-10.0)]).expect("two postures");
-        assert!((deg(least) - 50.0).abs() < 1e-3, "{}", deg(least));
-        let least = cheapest_in_posture(mikron(), &axis, -1, [0.0, rad(10.0)]).expect("two postures");
-        assert!((deg(least) - 230.0).abs() < 1e-3, "{}", deg(least));
-    }
-
-    /// Both postures of one tool axis: C 10 A 20 and C -170 A -20. Coming from A -15 a slow A takes the far way of C.
-    #[test]
-    fn the_slowest_axis_decides_not_the_longest_way() {
-        let axis = trunnion_geometry::math::rotate(
-            &Vec3::z(),
-            rad(10.0),
-            &trunnion_geometry::math::rotate(&Vec3::x(), rad(20.0), &Vec3::z()),
-        );
-        let mut machine = mikron().clone();
-        let q = |machine: &Machine| choose(machine, &axis, [0.0, rad(-15.0)]).expect("reachable").map(deg);
-        let [c, a] = [machine.joint(b'C').expect("C"), machine.joint(b'A').expect("A")];
-        (machine.axes[c].max_speed, machine.axes[a].max_speed) = (Some(1.0), Some(1.0));
-        assert_near(q(&machine), [10.0, 20.0]);
-        (machine.axes[c].max_speed, machine.axes[a].max_speed) = (Some(100.0), Some(1.0));
-        assert_near(q(&machine), [-170.0, -20.0]);
-    }
-}
+mod tests;

@@ -1,8 +1,9 @@
 //! The `[control]` part of a machine file: how the numerical control interpolates, picks postures and plans.
-use crate::raw::{Number, RawControl, RawOrientation, RawRapid, RawTcpCodes, Word};
+use crate::raw::{Number, RawBranch, RawControl, RawOrientation, RawRapid, RawTcpCodes, Word};
+use crate::text::number;
 use crate::validate::{Fault, non_negative, positive};
-use crate::{Axis, Control, RapidPath};
-use trunnion_geometry::rad;
+use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction, PostureRule, RapidPath};
+use trunnion_geometry::{deg, rad};
 use trunnion_interp::TcpCodes;
 
 /// Names that `family` may have (interface, section 7).
@@ -29,42 +30,53 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         one_of("feed", tcp.feed.as_ref(), &["tip"])?;
         orientation = tcp.orientation;
     }
+    let family = family.unwrap_or_else(|| "generic".to_owned());
+    let feed = one_of("feed", raw.feed.as_ref(), &["xyz", "combined"])?;
     let mut control = Control {
-        family: family.unwrap_or_else(|| "generic".to_owned()),
         tcp_great_circle: orientation == Some(RawOrientation::GreatCircle),
         tcp_declared: orientation.is_some(),
         rapid: match raw.rapid {
+            // coordinated rapids are documented for LinuxCNC; elsewhere a parameter decides (Fanuc 1401 LRP, Haas setting 335)
+            None if family == "linuxcnc" => RapidPath::Synchronous,
             None => RapidPath::Undeclared,
             Some(RawRapid::Synchronous) => RapidPath::Synchronous,
             Some(RawRapid::Dogleg) => RapidPath::Dogleg,
         },
-        branch_rule: None,
+        branch: branch(raw.branch.as_ref(), &family, axes)?,
         pole_cone: None,
+        pole_action: PoleAction::Through,
+        feed: match feed.as_deref() {
+            Some("xyz") => Some(FeedMeaning::Xyz),
+            Some(_) => Some(FeedMeaning::Combined),
+            None => None,
+        },
+        family,
         corner_model: None,
         block_time: None,
         tcp_codes: raw.tcp_codes.as_ref().map(tcp_codes).transpose()?,
     };
-    if let Some(branch) = &raw.branch {
-        control.branch_rule.clone_from(&branch.rule);
-        for word in &branch.order {
-            one_of("order", Some(word), &["move1", "move2", "abs1", "abs2"])?;
-        }
-        for (letter, range) in &branch.range {
-            known_axis(letter, axes)?;
-            let [min, max] = *range.get_ref();
-            if !(min.is_finite() && max.is_finite() && min < max) {
-                let message = format!("range [{min}, {max}]: the lower end must be below the upper one, both finite");
-                return Err(Fault {
-                    message,
-                    span: range.span(),
-                });
-            }
-        }
-    }
     if let Some(pole) = &raw.pole {
-        one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;
+        let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;
+        control.pole_action = match action.as_deref() {
+            Some("hold") => PoleAction::Hold,
+            Some("alarm") => PoleAction::Alarm,
+            _ => PoleAction::Through,
+        };
         control.pole_cone = non_negative("cone", pole.cone.as_ref())?.map(rad);
-        passing_type(pole.passing_type.as_ref())?;
+        if let (true, None, Some(word)) = (
+            control.pole_action != PoleAction::Through,
+            control.pole_cone,
+            &pole.action,
+        ) {
+            return Err(Fault {
+                message: format!(
+                    "action {:?} needs the cone in which the control does it: give cone in degrees",
+                    word.get_ref()
+                ),
+                span: word.span(),
+            });
+        }
+        control.branch.passing_type = passing_type(pole.passing_type.as_ref())?;
     }
     if let Some(corner) = &raw.corner {
         let models = ["axis-jump", "grbl", "klipper", "linuxcnc-g64", "exact-stop", "servo"];
@@ -140,12 +152,114 @@ fn known_axis(word: &Word, axes: &[Axis]) -> Result<(), Fault> {
     })
 }
 
-fn passing_type(number: Option<&Number>) -> Result<(), Fault> {
+/// How the control picks postures: what the file names, else what the family documents.
+fn branch(raw: Option<&RawBranch>, family: &str, axes: &[Axis]) -> Result<Branch, Fault> {
+    let mut branch = Branch {
+        rule: PostureRule::of_family(family),
+        ..Branch::default()
+    };
+    let Some(raw) = raw else { return Ok(branch) };
+    let names = PostureRule::NAMES.map(|(name, _)| name);
+    if let Some(name) = one_of("rule", raw.rule.as_ref(), &names)? {
+        branch.rule = PostureRule::named(&name);
+        branch.declared = true;
+    }
+    let criteria = [
+        ("time", Criterion::Time),
+        ("move1", Criterion::Move(0)),
+        ("move2", Criterion::Move(1)),
+        ("abs1", Criterion::Value(0)),
+        ("abs2", Criterion::Value(1)),
+    ];
+    for word in &raw.order {
+        let name = one_of("order", Some(word), &criteria.map(|(name, _)| name))?;
+        let found = criteria.iter().filter(|(known, _)| name.as_deref() == Some(*known));
+        branch.order.extend(found.map(|(_, criterion)| *criterion));
+    }
+    if let (None, Some(word)) = (branch.rule, raw.order.first()) {
+        return Err(Fault {
+            message: format!("the family {family:?} has no documented rule that order could refine; name a rule too"),
+            span: word.span(),
+        });
+    }
+    for (letter, range) in &raw.range {
+        known_axis(letter, axes)?;
+        let [min, max] = *range.get_ref();
+        if !(min.is_finite() && max.is_finite() && min < max) {
+            let message = format!("range [{min}, {max}]: the lower end must be below the upper one, both finite");
+            return Err(Fault {
+                message,
+                span: range.span(),
+            });
+        }
+        let linear = |axis: &&Axis| letter.get_ref().as_bytes() == [axis.letter] && axis.kind == AxisKind::Linear;
+        if axes.iter().any(|axis| linear(&axis)) {
+            return Err(Fault {
+                message: format!(
+                    "{:?} is a linear axis; a posture is a choice of rotary axes",
+                    letter.get_ref()
+                ),
+                span: letter.span(),
+            });
+        }
+        branch.range.push((letter.get_ref().as_bytes()[0], rad(min), rad(max)));
+    }
+    Ok(branch)
+}
+
+fn passing_type(number: Option<&Number>) -> Result<Option<u8>, Fault> {
     match number {
         Some(number) if ![1.0, 2.0].contains(number.get_ref()) => Err(Fault {
             message: format!("passing_type = {}; 1 and 2 are known", number.get_ref()),
             span: number.span(),
         }),
-        _ => Ok(()),
+        number => Ok(number.map(|number| if *number.get_ref() < 1.5 { 1 } else { 2 })),
     }
+}
+
+/// What is known of the choice of postures, the pole and the meaning of F, for people.
+pub(crate) fn in_words(control: &Control) -> Vec<String> {
+    let branch = &control.branch;
+    let mut lines = Vec::new();
+    match branch.rule {
+        Some(PostureRule::Generic) if !branch.declared => {}
+        Some(rule) => {
+            let said = if branch.declared { "" } else { " (documented for the family)" };
+            lines.push(format!("picks postures for tool vectors by the rule {:?}{said}", rule.name()));
+        }
+        None => lines.push(
+            "which posture it picks for tool vectors is neither documented nor declared: reported as unknown where it matters"
+                .to_owned(),
+        ),
+    }
+    for &(letter, low, high) in &branch.range {
+        lines.push(format!(
+            "looks for values of {} between {} and {} deg",
+            char::from(letter),
+            number(deg(low)),
+            number(deg(high))
+        ));
+    }
+    if let Some(passing) = branch.passing_type {
+        lines.push(format!("passes the pole by type {passing}"));
+    }
+    match (control.pole_action, control.pole_cone) {
+        (PoleAction::Hold, Some(cone)) => lines.push(format!(
+            "holds the first rotary axis within {} deg of the pole",
+            number(deg(cone))
+        )),
+        (PoleAction::Alarm, Some(cone)) => lines.push(format!(
+            "stops with an alarm within {} deg of the pole",
+            number(deg(cone))
+        )),
+        _ => {}
+    }
+    match control.feed {
+        Some(FeedMeaning::Xyz) => lines.push("without tool centre point control F counts along X Y Z".to_owned()),
+        Some(FeedMeaning::Combined) => {
+            lines.push("without tool centre point control F counts along the root of mm2 + deg2".to_owned());
+        }
+        None => {}
+    }
+    lines
 }

@@ -333,15 +333,12 @@ fn control(machine: &Machine) -> Vec<String> {
         RapidPath::Undeclared => {}
         RapidPath::Synchronous => lines.push("in rapid motions all axes arrive together".to_owned()),
         RapidPath::Dogleg => {
-            lines.push("in rapid motions each axis runs at its own speed (declared, not used yet)".to_owned());
+            lines.push(
+                "in rapid motions each axis runs at its own speed: the path between the ends is not known".to_owned(),
+            );
         }
     }
-    lines.extend(
-        control
-            .branch_rule
-            .iter()
-            .map(|rule| format!("picks postures by the rule {rule:?} (declared, not used yet)")),
-    );
+    lines.extend(crate::control::in_words(control));
     lines.extend(machine.gantries.iter().map(|gantry| {
         format!(
             "axis {} mirrors {}: travel and speed are what both allow",

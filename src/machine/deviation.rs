@@ -3,7 +3,7 @@ use crate::bound::{Piece, peak};
 use crate::follow::has_tip_words;
 use crate::stray::Stray;
 use crate::tip_path::TipPath;
-use crate::{Leg, Machine};
+use crate::{Leg, Machine, RapidPath};
 use trunnion_interp::MotionKind;
 
 /// Deviation of the tip path from the programmed segment.
@@ -40,6 +40,10 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
         at: 0.0,
     };
     let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
+    if leg.motion.kind == MotionKind::Rapid && machine.control.rapid == RapidPath::Dogleg {
+        // where the tip runs between the ends is not known, nor is it programmed
+        return None;
+    }
     let arc = match &leg.motion.kind {
         MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => return None,
         MotionKind::Arc(Some(arc)) => Some(arc),

@@ -65,7 +65,11 @@ tail | [control];;family = "siemens" | "siemens" | known: generic
 tail | [control];;rapid = "fast" | "fast" | unknown variant
 tail | [control];;tcp = { path = "round" } | "round" | known: tip-linear
 tail | [control];;tcp = { orientation = "round" } | "round" | unknown variant
-tail | [control];;branch = { order = ["move3"] } | "move3" | known: move1
+tail | [control];;branch = { order = ["move3"] } | "move3" | known: time, move1
+tail | [control];;branch = { rule = "nearest" } | "nearest" | known: generic
+tail | [control];;branch = { range = { X = [0, 1] } } | X | linear axis
+tail | [control];;feed = "tip" | "tip" | known: xyz
+tail | [control];;pole = { action = "hold" } | "hold" | needs the cone
 tail | [control];;branch = { range = { Q = [0, 1] } } | Q | not an axis
 tail | [control];;branch = { range = { A = [1, 1] } } | [1, 1] | below the upper
 tail | [control];;pole = { passing_type = 3 } | 3 | 1 and 2

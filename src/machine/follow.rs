@@ -1,24 +1,32 @@
 //! Motions to joints, block by block along one posture: the machine re-runs the program.
-use crate::choice::{cheapest_in_posture, choose};
+use crate::choice::cheapest_in_posture;
 use crate::forward::{Turn, segment_shifts};
 use crate::held::settle_held;
 use crate::inverse::{inverse_turned, place};
 use crate::pole;
 use crate::words::{Words, XYZ, zero_point};
-use crate::{Joints, Leg, MAX_AXES, Machine, NoStance, Stance};
+use crate::{Joints, Leg, MAX_AXES, Machine, NoStance, Open, Stance};
 use core::f64::consts::FRAC_PI_2;
 use trunnion_geometry::Vec3;
-use trunnion_interp::{Motion, MotionKind, Orientation, Position};
+use trunnion_geometry::math::angle_between;
+use trunnion_interp::{Motion, MotionKind, Orientation, Position, Swivel};
+
+/// How far from its normal the tool may stand on a tilted plane, rad: 0.01 deg (kinematics notes 5, TWP-ALIGN).
+const PLANE_TOLERANCE: f64 = 0.01 * core::f64::consts::PI / 180.0;
 
 /// What a follower remembers between two motions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct State {
-    stance: Option<Stance>,
-    known_joints: (Joints, u16),
+    pub(crate) stance: Option<Stance>,
+    pub(crate) known_joints: (Joints, u16),
     /// Last known rotary joints, rad; zeros before the first: the reference of the posture choice.
-    rotary: [f64; 2],
+    pub(crate) rotary: [f64; 2],
+    /// Whether they are where the rotary axes stand now.
+    pub(crate) rotary_known: bool,
     /// Sign of the last stance that had one, 0 when there was none.
-    sign: i8,
+    pub(crate) sign: i8,
+    /// Rotary joints that a turn onto a tilted plane has set and no word has named since, as a mask.
+    aimed: u16,
     /// Letters that the last motion's end knew.
     named: u16,
     /// Whether the last motion's X Y Z were tip coordinates.
@@ -30,7 +38,7 @@ pub(crate) struct State {
 pub struct Follower<'m> {
     pub(crate) machine: &'m Machine,
     pub(crate) state: State,
-    words: Words,
+    pub(crate) words: Words,
 }
 
 impl<'m> Follower<'m> {
@@ -40,7 +48,9 @@ impl<'m> Follower<'m> {
             stance: None,
             known_joints: ([0.0; MAX_AXES], 0),
             rotary: [0.0; 2],
+            rotary_known: false,
             sign: 0,
+            aimed: 0,
             named: 0,
             tip_words: false,
         };
@@ -97,6 +107,7 @@ impl<'m> Follower<'m> {
             start: self.state.stance,
             start_given: false,
             end: Err(NoStance::NotModelled),
+            open: None,
             known_joints: self.state.known_joints,
             rotary_change: [0.0; 2],
             pole_angle_min: FRAC_PI_2,
@@ -108,7 +119,7 @@ impl<'m> Follower<'m> {
             MotionKind::Unknown => leg.known_joints.1 = 0,
             MotionKind::Arc(_) if self.words.diameters => leg.known_joints.1 = 0,
             MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(_) => {
-                leg.end = self.arrive(motion, leg.start.as_ref(), &mut leg.known_joints);
+                leg.end = self.arrive(motion, leg.start.as_ref(), &mut leg.known_joints, &mut leg.open);
             }
         }
         self.measure(&mut leg);
@@ -121,26 +132,41 @@ impl<'m> Follower<'m> {
         let state = &mut self.state;
         state.stance = leg.end.as_ref().ok().copied();
         state.known_joints = leg.known_joints;
+        if leg.motion.tilt.swivel != Swivel::No {
+            let rotary = self.machine.constants.rotary().iter();
+            state.aimed = rotary.fold(0, |mask, rotary| mask | 1 << rotary.joint);
+        }
+        state.aimed &= leg.known_joints.1;
         state.named = leg.motion.end.known;
         state.tip_words = has_tip_words(&leg.motion);
         if let Ok(stance) = &leg.end {
             state.rotary = stance.rotary(self.machine);
+            state.rotary_known = true;
             if stance.branch != 0 {
                 state.sign = stance.branch;
             }
             return;
         }
         state.sign = 0;
+        state.rotary_known = true;
         for (slot, rotary) in state.rotary.iter_mut().zip(self.machine.constants.rotary()) {
             if leg.known_joints.1 & (1 << rotary.joint) != 0 {
                 *slot = leg.known_joints.0[rotary.joint];
+            } else {
+                state.rotary_known = false;
             }
         }
     }
 
     /// The stance at the end of a motion; `into` takes the joints that are known even where there is no stance.
     #[inline]
-    fn arrive(&self, motion: &Motion, start: Option<&Stance>, into: &mut (Joints, u16)) -> Result<Stance, NoStance> {
+    fn arrive(
+        &self,
+        motion: &Motion,
+        start: Option<&Stance>,
+        into: &mut (Joints, u16),
+        open: &mut Option<Open>,
+    ) -> Result<Stance, NoStance> {
         let tip_words = has_tip_words(motion);
         *into = self.words.joints(motion, &motion.end, tip_words);
         settle_held(self.machine, into)?;
@@ -148,10 +174,13 @@ impl<'m> Follower<'m> {
             self.keep(motion, start, into);
         }
         if let (true, Some(start)) = (self.words.wraps, start) {
-            self.words.wrap(self.machine, motion, &start.joints, &mut into.0);
+            *open = self.words.wrap(self.machine, motion, &start.joints, &mut into.0);
         }
         if let Some(letter) = self.words.foreign(motion) {
             return Err(NoStance::NoSuchAxis(letter));
+        }
+        if motion.tilt.swivel == Swivel::AxesStay || motion.tilt.swivel == Swivel::AxesLost {
+            return self.swivel(motion, start, into, open);
         }
         if !tip_words {
             if into.1 != self.words.all() {
@@ -167,11 +196,7 @@ impl<'m> Follower<'m> {
             if !(1e-6..f64::INFINITY).contains(&length) {
                 return Err(NoStance::NotModelled);
             }
-            let q = choose(self.machine, &(axis / length), self.state.rotary)?;
-            for (value, rotary) in q.iter().zip(self.machine.constants.rotary()) {
-                into.0[rotary.joint] = *value;
-                into.1 |= 1 << rotary.joint;
-            }
+            *open = self.aim(motion, &(axis / length), start, into)?;
         }
         let known = into.1 | self.solved();
         let tip = self.tip(motion, start);
@@ -180,6 +205,13 @@ impl<'m> Follower<'m> {
         };
         let mut stance = self.stand(motion, &into.0, start, Some(tip));
         let turns = stance.turns(self.machine);
+        if let Some(normal) = motion.tilt.normal {
+            let off = angle_between(&normal, &stance.axis);
+            if off > PLANE_TOLERANCE {
+                into.1 &= !self.solved();
+                return Err(NoStance::PlaneMisaligned(off));
+            }
+        }
         inverse_turned(self.machine, &turns, &mut stance.joints, &tip, stance.tool_length)
             .ok_or(NoStance::NotModelled)?;
         Ok(stance)
@@ -213,17 +245,21 @@ impl<'m> Follower<'m> {
 
     /// Joints that no word names keep what the machine knows of them, unless the program itself lost their position.
     fn keep(&self, motion: &Motion, start: Option<&Stance>, into: &mut (Joints, u16)) {
-        if start.is_none() {
-            return;
-        }
+        // what a turn onto a plane has set is known also where the rest is not
+        let known = match start {
+            None => self.state.known_joints.1 & self.state.aimed,
+            Some(_) => self.state.known_joints.1,
+        };
         let keeps = self.keeps(motion);
+        let swivels = motion.tilt.swivel == Swivel::AxesStay;
         let lost = (self.state.named | motion.start.known) & !motion.end.known;
         for (joint, value) in into.0.iter_mut().enumerate().take(self.words.count()) {
             let bit = 1 << joint;
-            let is_lost =
-                self.words.names(lost, joint) && !(keeps && self.words.names(XYZ & !motion.start.known, joint));
+            let is_lost = !swivels
+                && self.words.names(lost, joint)
+                && !(keeps && self.words.names(XYZ & !motion.start.known, joint));
             let solved = has_tip_words(motion) && self.solved() & bit != 0;
-            if into.1 & bit == 0 && self.state.known_joints.1 & bit != 0 && !is_lost && !solved {
+            if into.1 & bit == 0 && known & bit != 0 && !is_lost && !solved {
                 *value = self.state.known_joints.0[joint];
                 into.1 |= bit;
             }
@@ -231,7 +267,7 @@ impl<'m> Follower<'m> {
     }
 
     /// Joints that inverse kinematics solves for, as a mask.
-    fn solved(&self) -> u16 {
+    pub(crate) fn solved(&self) -> u16 {
         let constants = &self.machine.constants;
         constants
             .solved
@@ -240,7 +276,7 @@ impl<'m> Follower<'m> {
     }
 
     /// The joints outside the mask are unknown.
-    fn unknown(&self, known: u16) -> NoStance {
+    pub(crate) fn unknown(&self, known: u16) -> NoStance {
         NoStance::PositionUnknown(self.letters(!known))
     }
 
@@ -267,7 +303,7 @@ impl<'m> Follower<'m> {
 
     /// A stance with the given joints (without `tip`) or with the given rotary joints and tip (linear joints left to be solved).
     #[inline]
-    fn stand(&self, motion: &Motion, joints: &Joints, start: Option<&Stance>, tip: Option<Vec3>) -> Stance {
+    pub(crate) fn stand(&self, motion: &Motion, joints: &Joints, start: Option<&Stance>, tip: Option<Vec3>) -> Stance {
         let machine = self.machine;
         let constants = &machine.constants;
         let mut turns = [Turn::NONE; 2];
@@ -326,6 +362,7 @@ impl<'m> Follower<'m> {
         let Some(start) = &leg.start else { return };
         let (from, to) = (start.rotary(self.machine), end.rotary(self.machine));
         leg.rotary_change = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
+        leg.length = self.feed_length(leg);
         let constants = &self.machine.constants;
         let Some(pair) = &constants.pair else { return };
         leg.pole_angle_min = if crate::course::on_great_circle(self.machine, &leg.motion) {
@@ -334,49 +371,18 @@ impl<'m> Follower<'m> {
         } else {
             pole::pole_angle_min(constants, pair, (from[1], start.pole_angle), (to[1], end.pole_angle))
         };
+        leg.open = leg.open.or_else(|| self.held_at_pole(leg));
         if self.state.sign * end.branch < 0 {
             let cheapest = cheapest_in_posture(self.machine, &end.axis, self.state.sign, from);
             let total = leg.rotary_change[0] + leg.rotary_change[1];
             leg.rotary_excess = cheapest.map_or(0.0, |least| (total - least).max(0.0));
         }
     }
-
-    /// Length of the tip path (TCP) or of the programmed X Y Z path, mm; 0 where it is not known.
-    fn length(&self, leg: &Leg) -> f64 {
-        let motion = &leg.motion;
-        match &motion.kind {
-            MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => 0.0,
-            MotionKind::Arc(Some(arc)) => arc.length(),
-            MotionKind::Rapid | MotionKind::Linear => {
-                if let (true, Some(start), Ok(end)) = (has_tip_words(motion), &leg.start, &leg.end) {
-                    return (end.point - start.point_with(end.tool_length)).norm();
-                }
-                match (self.words.point(&motion.start), self.words.point(&motion.end)) {
-                    (Some(from), Some(to)) => (to - from).norm(),
-                    _ => self.joint_length(leg),
-                }
-            }
-        }
-    }
-
-    /// Length of the X Y Z path by the joints of these letters, mm, where the program does not know all coordinates but the machine
-    /// knows the joints; else 0.
-    fn joint_length(&self, leg: &Leg) -> f64 {
-        let both = self.state.known_joints.1 & leg.known_joints.1;
-        let mut way = Vec3::zeros();
-        for (letter, joint) in self.machine.joint_of_letter.iter().take(3).enumerate() {
-            let Some(joint) = joint.map(usize::from) else { continue };
-            if both & (1 << joint) == 0 {
-                return 0.0;
-            }
-            way[letter] = leg.known_joints.0[joint] - self.state.known_joints.0[joint];
-        }
-        way.norm()
-    }
 }
 
 /// Whether X Y Z are coordinates of the tip in the workpiece: TCP, or tool vectors.
 #[inline]
 pub(crate) fn has_tip_words(motion: &Motion) -> bool {
-    (motion.tcp || matches!(motion.orientation, Orientation::Vector(..))) && !motion.machine_coordinates
+    let led = motion.tcp || matches!(motion.orientation, Orientation::Vector(..)) || motion.tilt.normal.is_some();
+    led && !motion.machine_coordinates && matches!(motion.tilt.swivel, Swivel::No | Swivel::TipStays)
 }

@@ -2,6 +2,7 @@
 //! what happens between two blocks. Formulas: Trunnion's kinematics notes; each function names its source.
 //!
 //! It does not know rules or severities; its only words for people are the description of a machine and what is wrong with its file.
+mod aim;
 mod bends;
 mod bound;
 mod builtin;
@@ -20,11 +21,13 @@ mod gantry;
 mod held;
 mod import;
 mod inverse;
+mod length;
 mod limits;
 mod memory;
 mod not_used;
 mod orientation;
 mod pole;
+mod posture_rule;
 mod raw;
 mod reach;
 mod row;
@@ -63,8 +66,8 @@ mod spec_tests;
 
 pub use builtin::{BUILTIN_MACHINES, builtin, builtin_source};
 pub use chain::{
-    Axis, AxisExtra, AxisKind, Body, Control, Gantry, Home, Joints, Limits, MAX_AXES, Machine, RapidPath, Side,
-    Tolerances, Wrap,
+    Axis, AxisExtra, AxisKind, Body, Control, FeedMeaning, Gantry, Home, Joints, Limits, MAX_AXES, Machine, PoleAction,
+    RapidPath, Side, Tolerances, Wrap,
 };
 pub use compare::{Comparison, TipDifference};
 pub use constants::{Constants, LinearAxis, PairConstants, RotaryAxis};
@@ -77,11 +80,12 @@ pub use inverse::{Orientations, POLE_TOLERANCE, Postures, REACH_TOLERANCE, Solut
 pub use limits::{Excess, limit_excess};
 pub use memory::Memory;
 pub use orientation::{OrientationDeviation, orientation_deviation};
+pub use posture_rule::{Branch, Criterion, PostureRule};
 pub use row::{Row, row};
 pub use selftest::{SelfTest, self_test};
 pub use spec::{MachineError, load};
 pub use speed::{FeedLimit, block_duration_s, feed_limit, feed_limit_tight};
-pub use stance::{Leg, NoStance, Stance};
+pub use stance::{Leg, NoStance, Open, OpenCause, Stance};
 pub use swept::swept_deviation;
 pub use travel::{Excursion, LinearTravel, excursions, linear_travel};
 pub use uncertainty::{AxisUncertainty, PIVOT_SENSITIVITY, pivot_sensitivity, worst_pivot_error};

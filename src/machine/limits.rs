@@ -4,7 +4,7 @@ use crate::bound::{Piece, peak};
 use crate::course::Course;
 use crate::follow::has_tip_words;
 use crate::spin::Spin;
-use crate::{Joints, Leg, Limits, Machine};
+use crate::{Joints, Leg, Limits, Machine, RapidPath};
 use trunnion_interp::MotionKind;
 
 /// One joint outside its travel.
@@ -41,7 +41,7 @@ pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) -> bool
     let (joints, known) = (&leg.known_joints.0, leg.known_joints.1);
     ends(machine, joints, known, out);
     // an arc that does not exist has no way between its ends: it is a fault of the program, told as one
-    if leg.motion.kind == MotionKind::Arc(None) || !may_bend(machine, leg) {
+    if leg.motion.kind == MotionKind::Arc(None) || !may_bend(machine, leg) || is_dogleg(machine, leg) {
         return true;
     }
     let Some(course) = Course::new(machine, leg) else {
@@ -49,6 +49,11 @@ pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) -> bool
     };
     inside(&course, out);
     true
+}
+
+/// Whether each axis runs at its own speed: between two legal ends each stays between them, however the tip gets there.
+fn is_dogleg(machine: &Machine, leg: &Leg) -> bool {
+    leg.motion.kind == MotionKind::Rapid && machine.control.rapid == RapidPath::Dogleg
 }
 
 /// The joints of a mask that stand outside their travel.

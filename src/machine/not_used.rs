@@ -1,5 +1,5 @@
 //! What a machine file may declare although nothing honours it yet: read and checked, and said plainly.
-use crate::raw::{RawAxis, RawControl, RawMachine, RawRapid};
+use crate::raw::{RawAxis, RawControl, RawMachine};
 
 /// One sentence for each declaration that no formula and no rule honours.
 pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
@@ -20,7 +20,7 @@ pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
 
 /// Those that could change a verdict of the rules there are: what moves, and which way, is not what is judged.
 pub(crate) fn not_judged(raw: &RawMachine) -> Vec<String> {
-    let decisive = ["clamp on", "[control] branch", "[control] pole", "[control] rapid"];
+    let decisive = ["limit_margin on"];
     let mut all = not_used(raw);
     all.retain(|text| decisive.iter().any(|start| text.starts_with(start)));
     all
@@ -33,14 +33,6 @@ fn of_axis(axis: &RawAxis, out: &mut Vec<String>) {
             out.push(text);
         }
     };
-    say(
-        axis.clamp,
-        format!("clamp on {letter}: whether {letter} moves while clamped is not judged"),
-    );
-    say(
-        axis.cable,
-        format!("cable on {letter}: how far the turns of {letter} wind it up is not judged"),
-    );
     say(
         axis.spindle,
         format!("spindle on {letter}: speeds as a spindle are not judged"),
@@ -75,18 +67,6 @@ fn of_axis(axis: &RawAxis, out: &mut Vec<String>) {
 }
 
 fn of_control(control: &RawControl, out: &mut Vec<String>) {
-    if control.branch.is_some() {
-        out.push("[control] branch: postures are chosen by the generic rule, inside the axis limits".to_owned());
-    }
-    if control.pole.is_some() {
-        out.push(
-            "[control] pole: what the control does near the pole (cone, action, passing_type) is not modelled"
-                .to_owned(),
-        );
-    }
-    if control.rapid == Some(RawRapid::Dogleg) {
-        out.push("[control] rapid = \"dogleg\": rapid motions are judged as if all axes arrived together".to_owned());
-    }
     if control.corner.is_some() {
         out.push("[control] corner: speed at corners is not considered".to_owned());
     }

@@ -162,6 +162,7 @@ pub(crate) struct RawControl {
     pub(crate) branch: Option<RawBranch>,
     pub(crate) pole: Option<RawPole>,
     pub(crate) rapid: Option<RawRapid>,
+    pub(crate) feed: Option<Word>,
     pub(crate) corner: Option<RawCorner>,
     pub(crate) planner: Option<RawPlanner>,
     pub(crate) tcp_codes: Option<RawTcpCodes>,
@@ -193,7 +194,7 @@ pub(crate) enum RawOrientation {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RawBranch {
-    pub(crate) rule: Option<String>,
+    pub(crate) rule: Option<Word>,
     #[serde(default)]
     pub(crate) order: Vec<Word>,
     #[serde(default)]

@@ -188,6 +188,7 @@ mod tests {
                     tool_length_mm: 0.0,
                     machine_coordinates: false,
                     tool: None,
+                    tilt: trunnion_interp::Tilt::default(),
                 })
             };
             go(vector(0.1, tilt));

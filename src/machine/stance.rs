@@ -64,6 +64,40 @@ fn rotary_joints(machine: &Machine, joints: &Joints) -> [f64; 2] {
     q
 }
 
+/// Why the posture at the end of a motion is not settled by what is documented and declared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OpenCause {
+    /// No rule is documented for the control family, and the machine file names none.
+    RuleNotDeclared,
+    /// By the control's rule two postures are equal.
+    Tie,
+    /// A rotary axis can reach its value by half a turn either way.
+    HalfTurn,
+    /// Mitsubishi: the types of passing the pole give different postures, and the machine file does not say which is set.
+    PassingTypeNotDeclared,
+    /// Fanuc: the ranges of parameters 19741 to 19744 are not declared, and without them another posture would be taken.
+    RangeNotDeclared,
+    /// The control's rule compares ways from the previous posture, which is not known.
+    StartUnknown,
+    /// The preferred direction that the program tells fits both postures.
+    Direction,
+    /// Inside the cone about the pole the control holds the first rotary axis.
+    PoleHeld,
+    /// Inside the cone about the pole the control stops with an alarm.
+    PoleAlarm,
+}
+
+/// A posture that is followed although another may be taken. Rotary joints, workpiece side first, rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Open {
+    /// Why.
+    pub cause: OpenCause,
+    /// The one that is followed.
+    pub taken: [f64; 2],
+    /// The other one.
+    pub other: [f64; 2],
+}
+
 /// Why there is no stance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoStance {
@@ -96,6 +130,8 @@ pub enum NoStance {
     /// A work offset turns the axis with this letter while X Y Z are tip coordinates: how a control turns the workpiece frame with it
     /// differs, so that no joint follows from the words for certain.
     RotaryOffset(u8),
+    /// The tool does not stand on the tilted plane in which X Y Z are programmed: angle between tool axis and normal, rad.
+    PlaneMisaligned(f64),
 }
 
 /// What the machine does in one motion.
@@ -109,6 +145,8 @@ pub struct Leg {
     pub start_given: bool,
     /// After.
     pub end: Result<Stance, NoStance>,
+    /// The posture at the end is one of several that the control may take.
+    pub open: Option<Open>,
     /// Joint values that are known even where the stance is not: value and bit mask (machine words without TCP).
     pub known_joints: (Joints, u16),
     /// Absolute increments of the rotary joints, rad (0 for missing).

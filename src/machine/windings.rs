@@ -26,12 +26,20 @@ impl core::ops::Deref for Windings {
 /// The values q + 2 pi m inside the limits of axis `axis` (joint index), nearest to `near` first, at most three; empty when no winding
 /// is legal or when the axis is missing. A value 1e-5 deg or less beyond a limit becomes the limit. All in rad. Source: kinematics notes 2.3.
 pub fn windings(machine: &Machine, axis: usize, q: f64, near: f64) -> Windings {
+    match machine.axes.get(axis) {
+        Some(axis) => windings_in(axis.limits, q, near),
+        None => Windings {
+            values: [0.0; 3],
+            count: 0,
+        },
+    }
+}
+
+/// [`windings`] inside given limits, rad; none where the lower limit is above the upper one.
+pub(crate) fn windings_in(limits: Limits, q: f64, near: f64) -> Windings {
     let mut found = Windings {
         values: [0.0; 3],
         count: 0,
-    };
-    let Some(limits) = machine.axes.get(axis).map(|axis| axis.limits) else {
-        return found;
     };
     let (lowest, highest) = match limits {
         Limits::Unbounded => (f64::NEG_INFINITY, f64::INFINITY),
@@ -41,7 +49,7 @@ pub fn windings(machine: &Machine, axis: usize, q: f64, near: f64) -> Windings {
         ),
     };
     let nearest = ((near - q) / TAU).round();
-    if nearest.is_nan() || lowest > highest {
+    if nearest.is_nan() || lowest > highest || matches!(limits, Limits::Range(min, max) if min > max) {
         return found;
     }
     // NaN and contradictory ranges were refused above, so clamp cannot panic
@@ -51,7 +59,7 @@ pub fn windings(machine: &Machine, axis: usize, q: f64, near: f64) -> Windings {
             let value = if turns == 0.0 { q } else { q + TAU * turns };
             found.values[found.count] = match limits {
                 Limits::Unbounded => value,
-                // validated at load: min < max
+                // refused above: min > max
                 Limits::Range(min, max) => value.clamp(min, max),
             };
             found.count += 1;

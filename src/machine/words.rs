@@ -1,8 +1,11 @@
 //! Axis words to joint values: what a program's coordinates mean for the joints of a machine.
-use crate::{AxisKind, Joints, MAX_AXES, Machine, Wrap};
+use crate::{AxisKind, Joints, MAX_AXES, Machine, Open, OpenCause, Wrap};
 use core::f64::consts::{PI, TAU};
 use trunnion_geometry::Vec3;
 use trunnion_interp::{AXIS_LETTERS, Motion, Position};
+
+/// A way that differs by less from half a turn is one, rad.
+const HALF_TURN: f64 = 1e-9;
 
 /// Bits of X, Y, Z in a [`Position`].
 pub(crate) const XYZ: u16 = 0b111;
@@ -119,7 +122,9 @@ impl Words {
 
     /// The turns that a control adds to rotary words it does not take literally, from where the machine stands: the shortest way (M126), or
     /// the way that the word's sign says to the word's amount (LinuxCNC wrapped rotary axes). A word that stays as it was moves nothing.
-    pub(crate) fn wrap(&self, machine: &Machine, motion: &Motion, from: &Joints, joints: &mut Joints) {
+    /// Half a turn either way is the same way: which one is taken is open.
+    pub(crate) fn wrap(&self, machine: &Machine, motion: &Motion, from: &Joints, joints: &mut Joints) -> Option<Open> {
+        let mut open = None;
         for rotary in machine.constants.rotary() {
             let joint = rotary.joint;
             let letter = usize::from(self.letter[joint]);
@@ -132,7 +137,11 @@ impl Words {
             joints[joint] = if motion.start.get(letter) == Some(word) {
                 before
             } else if wrap == Wrap::Shortest {
-                target + TAU * ((before - target) / TAU).round()
+                let turned = target + TAU * ((before - target) / TAU).round();
+                if ((turned - before).abs() - PI).abs() < HALF_TURN {
+                    open = Some((joint, 2.0 * before - turned));
+                }
+                turned
             } else {
                 let amount = target + (word.abs() - word) * self.scale[joint];
                 if word.is_sign_negative() {
@@ -142,6 +151,21 @@ impl Words {
                 }
             };
         }
+        let (joint, other) = open?;
+        let mut found = Open {
+            cause: OpenCause::HalfTurn,
+            taken: [0.0; 2],
+            other: [0.0; 2],
+        };
+        for (index, rotary) in machine.constants.rotary().iter().enumerate().take(2) {
+            found.taken[index] = joints[rotary.joint];
+            found.other[index] = if rotary.joint == joint {
+                other
+            } else {
+                joints[rotary.joint]
+            };
+        }
+        Some(found)
     }
 
     /// X, Y, Z of a position in mm, if all three are known.

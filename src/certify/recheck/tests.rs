@@ -171,9 +171,10 @@ fn what_is_not_modelled_is_no_proof() {
         (&TURNS, "G81 X10. Z-10. R2. F100.", "G81 X99. Z-60. R2. F100."),
         (
             &TURNS,
-            "G68.2 X0. Y0. Z0. I0. J30. K0.",
-            "G68.2 X0. Y0. Z9. I0. J60. K0.",
+            "G68.2 X0. Y0. Z0. I0. J30. K0.\nG0 X1. Y2. Z3.",
+            "G68.2 X0. Y0. Z9. I0. J60. K0.\nG0 X1. Y2. Z3.",
         ),
+        (&TURNS, "G68.3 X0. Y0. Z0.", "G68.3 X0. Y0. Z9."),
         (&TURNS, "G65 P9000 A5. C10.", "G65 P9000 A50. C100."),
         (&PATH, "M98 P1000", "M98 P2000"),
         (&PATH, "(no call)", "M98 P2000"),

@@ -1,14 +1,14 @@
 //! The machine file declares something that no check reads.
 //!
 //! # Why
-//! Who declares that an axis is clamped, or how a control treats the pole, expects it to be checked. A verdict must not pass over it.
+//! Who declares that an axis has to keep a distance from its limits expects it to be checked. A verdict must not pass over it.
 //!
 //! # Example
-//! The machine file has `clamp = true` at an axis.
+//! The machine file has `limit_margin = 5` at A.
 //!
-//! ```gcode mikron-ucp710+clamp
+//! ```gcode mikron-ucp710+A.limit_margin=5
 //! N10 G0 X0 Y0 Z0 A0 C0
-//! ;^ machine-not-used: the machine file of mikron-ucp710 says more than is checked: clamp on
+//! ;^ machine-not-used: the machine file of mikron-ucp710 says more than is checked: limit_margin on A
 //! N20 M30
 //! ```
 //!
@@ -19,9 +19,8 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for what could change a verdict of the rules there are: clamps, followers, and how the control picks postures, treats
-//! the pole or runs rapids. `trunnion machine show` lists everything else that is declared and not used yet. Each fact is told once
-//! per file, at its first byte.
+//! Sound for what could change a verdict of the rules there are: margins before limits. `trunnion machine show` lists everything else
+//! that is declared and not used yet. Each fact is told once per file, at its first byte.
 //!
 //! # Sources
 //! Trunnion's interface: what cannot be decided is unknown, and says what is missing.
@@ -54,11 +53,11 @@ mod tests {
     use crate::{Severity, Verdict};
 
     #[test]
-    fn a_declared_clamp_is_never_passed_over() {
+    fn a_declared_margin_is_never_passed_over() {
         let text = "G0 X0 Y0 Z0 A0 C0\nM30\n";
         for (info, verdict) in [
             ("mikron-ucp710", Verdict::Pass),
-            ("mikron-ucp710+clamp", Verdict::Unknown),
+            ("mikron-ucp710+A.limit_margin=5", Verdict::Unknown),
         ] {
             let report = Fixture::parse(&format!("gcode {info}"), text).check().unwrap();
             assert_eq!(

@@ -161,6 +161,7 @@ pub(super) fn says_more(kind: &FaultKind) -> bool {
             | FaultKind::ArcRadiusTooSmall { .. }
             | FaultKind::VectorNotUnit { .. }
             | FaultKind::AmbiguousDecimal
+            | FaultKind::TcpState(_)
             | FaultKind::MissingProgramEnd
             | FaultKind::WorkOffsetUnset { .. }
             | FaultKind::ToolLengthUnset { .. }

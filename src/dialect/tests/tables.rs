@@ -257,7 +257,7 @@ fn haas_and_grbl_have_their_own_lists() {
 fn names_with_digits_are_whole_words() {
     let sinumerik = dialect("sinumerik-840d");
     assert_eq!(sinumerik.name("cycle832").unwrap().id, "CYCLE832");
-    assert_eq!(sinumerik.name("Cycle800").unwrap().action, Action::FrameChange);
+    assert_eq!(sinumerik.name("Cycle800").unwrap().action, Action::SwivelCycle);
     assert!(sinumerik.name("CYCLE8321").is_none());
     assert!(sinumerik.name("CYCLE").is_none());
     assert!(sinumerik.name("").is_none());

@@ -8,6 +8,19 @@ use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
 use trunnion_geometry::math::sin_cos;
 
+/// Sine and cosine of an angle in degrees; quarter turns are exact.
+pub(crate) fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
+    let angle = degrees.rem_euclid(360.0);
+    let quarters = [
+        (0.0, (0.0, 1.0)),
+        (90.0, (1.0, 0.0)),
+        (180.0, (0.0, -1.0)),
+        (270.0, (-1.0, 0.0)),
+    ];
+    let exact = quarters.iter().find(|(quarter, _)| *quarter == angle);
+    exact.map_or_else(|| sin_cos(angle.to_radians()), |(_, turn)| *turn)
+}
+
 /// G68.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rotation {
@@ -21,15 +34,7 @@ pub(crate) struct Rotation {
 impl Rotation {
     /// By an angle in degrees, counter-clockwise; quarter turns are exact.
     pub(crate) fn new(plane: Plane, centre: [f64; 2], degrees: f64) -> Self {
-        let angle = degrees.rem_euclid(360.0);
-        let quarters = [
-            (0.0, (0.0, 1.0)),
-            (90.0, (1.0, 0.0)),
-            (180.0, (0.0, -1.0)),
-            (270.0, (-1.0, 0.0)),
-        ];
-        let exact = quarters.iter().find(|(quarter, _)| *quarter == angle);
-        let turn = exact.map_or_else(|| sin_cos(angle.to_radians()), |(_, turn)| *turn);
+        let turn = sin_cos_degrees(degrees);
         Self { plane, centre, turn }
     }
     fn apply(&self, point: &mut Position, sign: f64) {

@@ -23,7 +23,8 @@ impl<'d> Interpreter<'d> {
 
     /// Shifts can be told only where words are work coordinates.
     fn shifts_plainly(&self, words: &Words) -> bool {
-        self.memory.frames.shape.is_identity() && words.axes.unread == 0 && !self.state.tcp
+        let frames = &self.memory.frames;
+        frames.shape.is_identity() && words.axes.unread == 0 && !self.state.tcp && frames.tilt.is_none()
     }
 
     /// G52: the work coordinates' zero moves to the given place; 0 ends it.

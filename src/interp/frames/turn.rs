@@ -8,7 +8,10 @@ use crate::words::Words;
 impl<'d> Interpreter<'d> {
     /// Whether nothing is in force that would make a new frame's place unclear.
     fn frames_are_plain(&self) -> bool {
-        !self.state.frame_unknown && !self.state.tcp && self.memory.frames.polar.is_none()
+        !self.state.frame_unknown
+            && !self.state.tcp
+            && self.memory.frames.polar.is_none()
+            && self.memory.frames.tilt.is_none()
     }
 
     fn reshaped(&mut self) {

@@ -161,6 +161,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             tool_length_mm: shift.length,
             machine_coordinates: false,
             tool: modal.tool,
+            tilt: crate::Tilt::default(),
         };
         self.sink.motion(&motion, &self.interpreter.state);
     }

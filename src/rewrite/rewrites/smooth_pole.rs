@@ -246,6 +246,7 @@ impl Task<'_> {
                         | NoStance::NotModelled
                         | NoStance::RotaryOffset(_)
                         | NoStance::HeldElsewhere { .. }
+                        | NoStance::PlaneMisaligned(_)
                 )
             };
             point.feed && point.end.as_ref().is_err_and(unknown)

@@ -24,5 +24,6 @@ mod motions;
 mod orientation;
 mod properties;
 mod support;
+mod tilted;
 mod tools;
 mod words;

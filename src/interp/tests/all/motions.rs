@@ -275,7 +275,7 @@ fn frames_that_are_not_modelled_hide_the_position() {
         lines("sinumerik-840d", source),
         ["R X1 Y2 Z3", "R -", "L - F10", "R Z100 machine", "R Z4", "R X1 Z4"]
     );
-    let tilted = "G0 X1 Y2 Z3 A0\nG68.2 X0 Y0 Z0 I0 J30 K0\nX5 A30\nG69\nX6 Y7 Z8\n";
+    let tilted = "G0 X1 Y2 Z3 A0\nG68.3 X0 Y0 Z0\nX5 A30\nG69\nX6 Y7 Z8\n";
     assert_eq!(lines("fanuc-30i", tilted), ["R X1 Y2 Z3 A0", "R A30", "R X6 Y7 Z8"]);
 }
 

@@ -117,15 +117,18 @@ fn machine_coordinates_under_tcp_are_without_tcp() {
         lines,
         ["R X1 Y1 Z1 A0 C0 tcp", "R Z500 A0 C0 machine", "R X2 A0 C0 tcp"]
     );
-    assert_eq!(faults, [""; 0]);
+    assert_eq!(faults, ["4: Z500: TcpState(MachineCoordinates)"]);
     // machine data decide whether the length is suppressed too
     let (lines, faults) = run("SUPA G0 Z500");
     assert_eq!(lines, ["R X1 Y1 Z1 A0 C0 tcp", "R A0 C0 machine", "R X2 A0 C0 tcp"]);
     assert_eq!(
         faults,
-        [r#"4: Z500: NotModelled { what: "SUPA with tool length (MN_G53_TOOLCORR)" }"#]
+        [
+            r#"4: Z500: NotModelled { what: "SUPA with tool length (MN_G53_TOOLCORR)" }"#,
+            "4: Z500: TcpState(MachineCoordinates)"
+        ]
     );
     let (lines, faults) = run("SUPA G0 A10");
     assert_eq!(lines[1], "R A10 C0 machine", "no length along a rotary axis");
-    assert_eq!(faults, [""; 0]);
+    assert_eq!(faults, ["4: A10: TcpState(MachineCoordinates)"]);
 }

@@ -21,6 +21,7 @@ pub(crate) fn motion() -> Motion {
         tool_length_mm: 0.0,
         machine_coordinates: false,
         tool: None,
+        tilt: trunnion_interp::Tilt::default(),
     }
 }
 

@@ -319,7 +319,7 @@ fn constants_are_the_files() {
 }
 
 #[expect(clippy::print_stderr, reason = "a skipped test must be seen")]
-fn skipped(why: &str) {
+pub(crate) fn skipped(why: &str) {
     eprintln!("skipped: {why}");
 }
 

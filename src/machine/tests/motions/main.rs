@@ -1,6 +1,7 @@
 //! Motions built by hand, followed on machines: what happens at the end of a block and inside it.
 mod blocks;
 mod common;
+mod controls;
 mod excursions;
 mod great_circle;
 mod guide_vane;

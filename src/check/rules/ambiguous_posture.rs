@@ -1,0 +1,165 @@
+//! Several postures give the programmed tool vector, and which one the control takes is not settled.
+//!
+//! # Why
+//! Two settings of the rotary axes give the same tool direction. Controls pick one by rules of their own; where these are not
+//! documented, depend on a parameter that the machine file does not give, or leave two postures equal, a verdict for one of them would
+//! be a guess. The other posture needs other travel, and the way to it sweeps through other places.
+//!
+//! # Example
+//! The family documents no rule, and the machine file names none.
+//!
+//! ```gcode sinumerik-840d mikron-ucp710+undeclared
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A20 C0
+//! N30 G1 X10 A3=0.1 B3=-0.3 C3=0.95 F100
+//! ;          ^^^^^^^^^^^^^^^^^^^^^^ ambiguous-posture: for this tool vector the control may take C 18.435 deg and A 18.407 deg or C -161.6 deg and A -18.407 deg
+//! N40 M30
+//! ```
+//!
+//! # Use instead
+//! Program the rotary axes themselves, or declare the rule of the control (`[control] branch = { rule = ... }`):
+//! ```gcode sinumerik-840d mikron-ucp710+undeclared
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A20 C0
+//! N30 G1 X10 A18.407 C18.435 F100
+//! N40 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound: wherever what is documented and declared leaves more than one posture inside the travel of the axes, it is said, once per
+//! cause. The run goes on with the first of the two that are named.
+//!
+//! # Thresholds
+//! Postures that differ by 5 deg or less in every rotary axis count as one.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, section 5 (CTRL-AMBIG) and 8; Fanuc Series 30i operator's manual, tool centre point control type 2;
+//! Mitsubishi M700V programming manual, G43.4/G43.5.
+use crate::prelude::*;
+use trunnion_machine::{Open, OpenCause};
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let Some(open) = view.leg.open else { return };
+    let key = open.cause as u64;
+    if out.repeats_unknown(view, key, 0.0) {
+        return;
+    }
+    let range = orientation_range(out.program(), view.motion().block);
+    let posture = |q: [f64; 2]| {
+        let axes = view.machine.rotary.iter().zip(q);
+        let words: Vec<String> = axes
+            .map(|(axis, value)| format!("{} {}", letter(view.machine.axes[*axis].letter), degrees(value)))
+            .collect();
+        words.join(" and ")
+    };
+    let (why, help) = cause(&open, &view.machine.control.family);
+    out.report(
+        range,
+        format!(
+            "for this tool vector the control may take {} or {}",
+            posture(open.taken),
+            posture(open.other)
+        ),
+    )
+    .note(why)
+    .note("what follows is checked for the first of them")
+    .help(help)
+    .value("taken_first_deg", deg(open.taken[0]))
+    .value("taken_second_deg", deg(open.taken[1]))
+    .value("other_first_deg", deg(open.other[0]))
+    .value("other_second_deg", deg(open.other[1]))
+    .unknown()
+    .merge_everywhere(key);
+}
+
+fn cause(open: &Open, family: &str) -> (String, &'static str) {
+    let text = |why: &str| why.to_owned();
+    match open.cause {
+        OpenCause::RuleNotDeclared => (
+            format!(
+                "which one a control of the family {family} takes is not documented, and the machine file does not say"
+            ),
+            "program the rotary axes, or declare the rule in the machine file: [control] branch = { rule = ... }",
+        ),
+        OpenCause::Tie => (
+            text("by the control's rule both are equal"),
+            "program the rotary axes, or a vector a little off this one",
+        ),
+        OpenCause::HalfTurn => (
+            text("it is half a turn either way: which way the axis turns is not documented"),
+            "program a point in between",
+        ),
+        OpenCause::PassingTypeNotDeclared => (
+            text("the two types of passing the pole differ here, and the machine file does not say which one is set"),
+            "declare it in the machine file: [control] pole = { passing_type = 1 } or 2",
+        ),
+        OpenCause::RangeNotDeclared => (
+            text(
+                "the second one is nearer, but outside the travel: whether the control is told so (parameters 19741 to 19744) is not declared",
+            ),
+            "declare the ranges in the machine file: [control] branch = { range = { A = [-30, 120] } }",
+        ),
+        OpenCause::StartUnknown => (
+            text("the control compares ways from the posture before, which is not known here"),
+            "position the rotary axes before the first vector",
+        ),
+        OpenCause::Direction => (
+            text("the preferred direction that is programmed fits both"),
+            "position the rotary axes before",
+        ),
+        OpenCause::PoleHeld => (
+            text(
+                "inside its cone about the pole the control holds the first rotary axis: how it leaves the cone is not modelled",
+            ),
+            "keep the tool axis out of the cone",
+        ),
+        OpenCause::PoleAlarm => (
+            text("inside its cone about the pole the control stops with an alarm, as the machine file says"),
+            "keep the tool axis out of the cone",
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::{Fixture, assert_drawn};
+    use crate::{Severity, Status, Verdict};
+
+    #[test]
+    fn one_cause_is_told_once_and_makes_the_verdict_unknown() {
+        let text = "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 G1 X10 A3=0.1 B3=-0.3 C3=0.95 F100\nN40 G1 X20 A3=0.1 B3=-0.4 C3=0.9\nN50 M30\n";
+        let report = Fixture::parse("gcode sinumerik-840d mikron-ucp710+undeclared", text)
+            .check()
+            .unwrap();
+        let found: Vec<_> = report
+            .diagnostics
+            .iter()
+            .filter(|d| d.rule == "ambiguous-posture")
+            .collect();
+        assert_eq!((found.len(), found[0].count, found[0].status), (1, 2, Status::Unknown));
+        assert_eq!(report.verdict(Severity::Error), Verdict::Unknown);
+        assert_eq!(found[0].values.len(), 4);
+    }
+
+    #[test]
+    fn a_declared_rule_settles_it() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 G1 X10 A3=0.1 B3=-0.3 C3=0.95 F100\nN40 M30\n",
+        );
+    }
+
+    #[test]
+    fn on_a_great_circle_clear_of_the_pole_nothing_is_open() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710+undeclared",
+            "N10 TRAORI\nN15 ORIVECT\nN20 G0 X0 Y0 Z50 A20 C0\nN30 G1 X10 A3=0.1 B3=-0.3 C3=0.95 F100\nN40 M30\n",
+        );
+    }
+}

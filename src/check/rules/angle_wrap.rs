@@ -1,0 +1,154 @@
+//! A rotary axis turns the long way round, because its word is taken as it is written.
+//!
+//! # Why
+//! From 350 to 10 deg it is 20 deg on, or 340 deg back. A control that takes rotary words literally goes back: in the cut the tool
+//! sweeps around the part. Where a control takes the shorter way by itself (M126, a rollover axis), the machine file says so.
+//!
+//! # Example
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A20 C350
+//! N30 G1 X10 C10 F20
+//! ;          ^^^ angle-wrap: C turns back by 340 deg to reach 10 deg; the shorter way is 20 deg on
+//! N40 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode sinumerik-840d mikron-ucp710
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A20 C350
+//! N30 G1 X10 C370 F20
+//! N40 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound for feed motions between known positions; a rapid that turns the long way is an info. Without tool centre point control a
+//! word that turns by a whole turn or more is taken for meant.
+//!
+//! # Thresholds
+//! Half a turn.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, section 5 (ANGLE-WRAP); HEIDENHAIN TNC user's manual, M126.
+use crate::prelude::*;
+use core::f64::consts::{PI, TAU};
+use trunnion_interp::{AXIS_LETTERS, Orientation};
+use trunnion_machine::{Limits, Wrap};
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
+
+/// Turns that are half a turn but for rounding are none the less.
+const SLACK: f64 = 1e-6;
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let motion = view.motion();
+    if !view.turns_far() || motion.orientation != Orientation::Words {
+        return;
+    }
+    let Some((start, end)) = view.stances() else { return };
+    for &joint in &view.machine.rotary {
+        let axis = &view.machine.axes[joint];
+        let turn = end.joints[joint] - start.joints[joint];
+        let place = AXIS_LETTERS.iter().position(|letter| *letter == axis.letter);
+        let word = place.and_then(|place| motion.end.get(place));
+        let meant = turn.abs() >= TAU - SLACK && !view.leads_tip();
+        if axis.extra.wrap != Wrap::Literal || word.is_none() || turn.abs() <= PI + SLACK || meant {
+            continue;
+        }
+        let short = turn - TAU * (turn / TAU).round();
+        let name = letter(axis.letter);
+        let way = |turn: f64| if turn < 0.0 { "back" } else { "on" };
+        let reachable = match axis.limits {
+            Limits::Unbounded => true,
+            Limits::Range(low, high) => (low..=high).contains(&(start.joints[joint] + short)),
+        };
+        let range = axis_word(out.program(), motion.block, axis.letter);
+        let draft = out.report(
+            range,
+            format!(
+                "{name} turns {} by {} to reach {}; the shorter way is {} {}",
+                way(turn),
+                degrees(turn.abs()),
+                degrees(end.joints[joint]),
+                degrees(short.abs()),
+                way(short)
+            ),
+        );
+        draft
+            .value_text("axis", name.clone())
+            .value("rotary_change_deg", deg(turn))
+            .value("value_deg", deg(end.joints[joint]))
+            .value("shorter_deg", deg(short));
+        if reachable {
+            draft.help(format!("write {name} as {}", number(deg(start.joints[joint] + short))));
+            draft.fix("unwind-rotary");
+        } else {
+            draft
+                .note(format!("the shorter way would leave the travel of {name}"))
+                .help("retract and turn back out of the cut");
+        }
+        if !motion.is_feed() {
+            draft.severity(Severity::Info);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::{Fixture, assert_drawn};
+
+    /// The rows of M126: without it 350 to 10 is -340 and 10 to 340 is +330, with it +20 and -30.
+    #[test]
+    fn the_shortest_way_of_a_declared_axis_is_silent() {
+        let source = trunnion_machine::builtin_source("mikron-ucp710").unwrap();
+        let shortest = source.replace("wrap = \"literal\"", "wrap = \"shortest\"");
+        for (machine, turns) in [(source.to_owned(), [-340.0, 330.0]), (shortest, [20.0, -30.0])] {
+            let machine = trunnion_machine::load("mikron", &machine).unwrap();
+            for ((from, to), turn) in [(350, 10), (10, 340)].into_iter().zip(turns) {
+                let text = format!("TRAORI\nG0 X0 Y0 Z50 A20 C{from}\nG1 X10 C{to} F20\nM30\n");
+                let dialect = trunnion_dialect::builtin("sinumerik-840d").unwrap();
+                let report = crate::check(
+                    &trunnion_syntax::parse(text.into_bytes(), dialect.lex),
+                    &crate::Settings {
+                        dialect,
+                        machine: Some(&machine),
+                        setup: trunnion_interp::Setup::default(),
+                        rules: Vec::new(),
+                        port_to: Vec::new(),
+                    },
+                );
+                let found: Vec<_> = report.diagnostics.iter().filter(|d| d.rule == "angle-wrap").collect();
+                if f64::abs(turn) > 180.0 {
+                    let crate::ValueKey::Number(told) = found[0].values[1].1 else {
+                        panic!("no number")
+                    };
+                    assert!((told - turn).abs() < 1e-9, "{told}");
+                } else {
+                    assert!(found.is_empty(), "{found:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn rapids_are_infos_and_half_a_turn_is_none() {
+        let report = assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C400\nN30 G0 C0\n;      ^^ angle-wrap: C turns back by 400 deg\nN40 G0 C180\nN50 M30\n",
+        );
+        assert_eq!(report.diagnostics[0].severity, crate::Severity::Info);
+    }
+
+    #[test]
+    fn whole_turns_without_tcp_are_meant() {
+        let text = "N10 G0 X0 Y0 Z50 A0 C0\nN20 G1 X1 C3600 F20\nN30 M30\n";
+        let report = Fixture::parse("gcode sinumerik-840d mikron-ucp710", text)
+            .check()
+            .unwrap();
+        assert!(report.diagnostics.iter().all(|d| d.rule != "angle-wrap"));
+    }
+}

@@ -1,0 +1,114 @@
+//! Tool centre point control is in the wrong state for what the block does.
+//!
+//! # Why
+//! With tool centre point control X Y Z lead the tip and the control makes up for the rotary axes; without it they lead the axes.
+//! Rotary words after it was switched off, a tool without length under it, a tool change or machine coordinates under it: each is
+//! legal text and sends the tip elsewhere.
+//!
+//! # Example
+//! ```gcode fanuc-30i mikron-ucp710
+//! N10 G43.4 H1
+//! ;   ^^^^^^^^ tool-length-unset: the length of H1 is not declared
+//! N20 G0 X0. Y0. Z50. A20. C0.
+//! N30 G1 X10. F500.
+//! N40 G49
+//! N50 G0 X0. Y0. Z80. A20. C0.
+//! N60 G1 Z79. A20.01 F500.
+//! ;      ^^^^ tcp-state: a rotary axis turns in a feed motion without tool centre point control
+//! N70 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode fanuc-30i mikron-ucp710
+//! N10 G43.4 H1
+//! ;   ^^^^^^^^ tool-length-unset: the length of H1 is not declared
+//! N20 G0 X0. Y0. Z50. A20. C0.
+//! N30 G1 X10. A20.01 F500.
+//! N40 G49
+//! N70 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound for what it names: rotary words in a feed motion after tool centre point control was on with the same tool; a feed motion under
+//! it with a tool whose length is not in force; a tool change or machine coordinates under it. `path-deviation` judges what comes of it.
+//!
+//! # Sources
+//! Trunnion's interface, section 7; kinematics notes, section 5 (TCP-STATE).
+use crate::prelude::*;
+use trunnion_interp::TcpMistake;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Fault(check),
+};
+
+fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    let FaultKind::TcpState(mistake) = &fault.kind else {
+        return;
+    };
+    let (message, note, help) = match mistake {
+        TcpMistake::RotaryWithout => (
+            "a rotary axis turns in a feed motion without tool centre point control, which was on before with this tool",
+            "X Y Z lead the axes here: the tip does not stay on the programmed line",
+            "switch tool centre point control on again, or position the rotary axis in a rapid motion",
+        ),
+        TcpMistake::NoLength => (
+            "the tool cuts under tool centre point control while no tool length is in force",
+            "the control leads the spindle's nose as if it were the tip",
+            "activate the tool's length (H or D) before",
+        ),
+        TcpMistake::ToolChange => (
+            "the tool is changed under tool centre point control",
+            "the length changes while the axes follow the tip",
+            "switch tool centre point control off before the tool change",
+        ),
+        TcpMistake::MachineCoordinates => (
+            "machine coordinates under tool centre point control",
+            "whether they suspend it for the block depends on the control",
+            "switch tool centre point control off before",
+        ),
+    };
+    out.report(fault.range, message)
+        .note(note)
+        .help(help)
+        .merge(*mistake as u64, 0.0);
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::Fixture;
+
+    fn found(dialect: &str, text: &str) -> Vec<String> {
+        let report = Fixture::parse(&format!("gcode {dialect} mikron-ucp710"), text)
+            .check()
+            .unwrap();
+        let told = report.diagnostics.iter().filter(|d| d.rule == "tcp-state");
+        told.map(|d| {
+            format!(
+                "{} x{}",
+                d.message.split_whitespace().take(4).collect::<Vec<_>>().join(" "),
+                d.count
+            )
+        })
+        .collect()
+    }
+
+    #[test]
+    fn each_mistake_is_told() {
+        let change = "TRAORI\nG0 X0 Y0 Z50 A20 C0\nT2\nM6\nTRAFOOF\nM30\n";
+        assert_eq!(found("sinumerik-840d", change), ["the tool is changed x1"]);
+        let machine = "TRAORI\nG0 X0 Y0 Z50 A20 C0\nG0 SUPA Z0\nTRAFOOF\nM30\n";
+        assert_eq!(found("sinumerik-840d", machine), ["machine coordinates under tool x1"]);
+        let length = "T1 M6\nG43.4 H1\nG49\nG43.5 H0\nG0 X0. Y0. Z50. A20. C0.\nG1 X10. F500.\nM30\n";
+        assert!(found("fanuc-30i", length).is_empty());
+        let none = "T1 M6 D0\nTRAORI\nG0 X0 Y0 Z50 A20 C0 D0\nG1 X10 F500\nX20\nM30\n";
+        assert_eq!(found("sinumerik-840d", none), ["the tool cuts under x1"]);
+    }
+
+    #[test]
+    fn rotary_words_are_free_before_and_with_the_next_tool() {
+        let text = "T1 M6\nG0 X0 Y0 Z50 A0 C0\nG1 A5 F100\nTRAORI\nG1 X5 A6\nTRAFOOF\nG0 X0 Y0 Z50 A0\nG1 A1 F100\nA2\nT2 M6\nG0 X0 Y0 Z50\nG1 A3\nM30\n";
+        assert_eq!(found("sinumerik-840d", text), ["a rotary axis turns x2"]);
+    }
+}

@@ -1,0 +1,106 @@
+//! The tool cuts in a tilted working plane on which it does not stand.
+//!
+//! # Why
+//! A tilted plane turns the coordinates; the tool is turned by another code (G53.1), by the cycle's direction, or by hand. Where that is
+//! missing, or the rotary axes stand elsewhere, the tool cuts at a slant, with its length along the wrong line.
+//!
+//! # Example
+//! ```gcode fanuc-30i mikron-ucp710
+//! N10 G0 X0. Y0. Z50. A0. C0.
+//! N20 G68.2 X0. Y0. Z0. I0. J30. K0.
+//! N30 G0 X0. Y0. Z20.
+//! N40 G1 Z5. F500.
+//! ;   ^^^^^^^^^^^^ tilted-plane-misaligned: the tool stands 30 deg off the tilted plane's normal
+//! N50 G69
+//! N60 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode fanuc-30i mikron-ucp710
+//! N10 G0 X0. Y0. Z50. A0. C0.
+//! N20 G68.2 X0. Y0. Z0. I0. J30. K0.
+//! N25 G53.1
+//! N30 G0 X0. Y0. Z20.
+//! N40 G1 Z5. F500.
+//! N50 G69
+//! N60 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound for feed motions in planes that are modelled (G68.2 and G68.4 by Euler angles, CYCLE800 axis by axis) where the rotary axes'
+//! positions are known. Where the tool stands off, the linear axes are not followed.
+//!
+//! # Thresholds
+//! 0.01 deg between tool axis and normal.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, sections 5 (TWP-ALIGN) and 12.6.
+use crate::prelude::*;
+use trunnion_machine::NoStance;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Error,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let Err(NoStance::PlaneMisaligned(off)) = view.leg.end else {
+        return;
+    };
+    if !view.motion().is_feed() || out.repeats(view, 0, off) {
+        return;
+    }
+    let range = code_range(out.program(), view.motion().block);
+    out.report(
+        range,
+        format!("the tool stands {} off the tilted plane's normal", degrees(off)),
+    )
+    .note("X Y Z are coordinates of the tilted plane; where the axes go while the tool stands off it is not followed")
+    .help(
+        "turn the tool onto the plane before (G53.1, or CYCLE800 with a direction), or end the plane (G69, CYCLE800())",
+    )
+    .value("value_deg", deg(off))
+    .value("limit_deg", 0.01)
+    .merge(0, off);
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::{Fixture, assert_drawn};
+
+    #[test]
+    fn axes_that_stand_right_need_no_turn() {
+        assert_drawn(
+            "gcode fanuc-30i mikron-ucp710",
+            "G0 X0. Y0. Z50. A30. C0.\nG68.2 X0. Y0. Z0. I0. J30. K0.\nG0 X0. Y0. Z20.\nG1 Z5. F500.\nG69\nM30\n",
+        );
+    }
+
+    #[test]
+    fn a_hundredth_of_a_degree_is_the_threshold() {
+        for (angle, count) in [("30.009", 0), ("30.011", 1)] {
+            let text = format!(
+                "G0 X0. Y0. Z50. A{angle} C0.\nG68.2 X0. Y0. Z0. I0. J30. K0.\nG0 X0. Y0. Z20.\nG1 Z5. F500.\nX5.\nG69\nM30\n"
+            );
+            let report = Fixture::parse("gcode fanuc-30i mikron-ucp710", &text).check().unwrap();
+            let found = report
+                .diagnostics
+                .iter()
+                .filter(|d| d.rule == "tilted-plane-misaligned");
+            assert_eq!(found.count(), count, "{angle}");
+        }
+    }
+
+    #[test]
+    fn a_swivel_cycle_without_direction_turns_nothing() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "G0 X0 Y0 Z50 A0 C0\nCYCLE800(0,\"\",0,57,0,0,0,30,0,0,0,0,0,0)\nG0 X0 Y0 Z20\nG1 Z5 F500\n;^^^^^^^^^ tilted-plane-misaligned: the tool stands 30 deg\nCYCLE800()\nM30\n",
+        );
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "G0 X0 Y0 Z50 A0 C0\nCYCLE800(0,\"\",0,57,0,0,0,30,0,0,0,0,0,1)\nG0 X0 Y0 Z20\nG1 Z5 F500\nCYCLE800()\nM30\n",
+        );
+    }
+}

@@ -1,0 +1,128 @@
+//! An axis whose turns wind up a cable or hose comes near the end of its travel.
+//!
+//! # Why
+//! Such an axis has to turn back before its cable is taut. Near the end of its travel there is no reserve left for the next operation,
+//! and the control stops in the cut or turns back through it.
+//!
+//! # Example
+//! The machine file has `cable = true` at A, whose travel is -30 to 120 deg.
+//!
+//! ```gcode sinumerik-840d mikron-ucp710+A.cable
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A20 C0
+//! N30 G1 X10 A100 F500
+//! ;          ^^^^ winding-limit: A is left 20 deg from its limit of 120 deg
+//! ;          ^^^^ only-one-posture: only one posture is left
+//! N40 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode sinumerik-840d mikron-ucp710+A.cable
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A20 C0
+//! N30 G1 X10 A29 F500
+//! N40 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound at the ends of motions whose joints are known. An axis with a cable and without limits cannot be judged, and is told once.
+//!
+//! # Thresholds
+//! 30 deg of reserve.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, section 5 (WIND-LIMIT).
+use crate::prelude::*;
+use trunnion_geometry::rad;
+use trunnion_machine::Limits;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(check),
+};
+
+/// Least reserve, deg.
+const RESERVE_DEG: f64 = 30.0;
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let (joints, known) = (&view.leg.known_joints.0, view.leg.known_joints.1);
+    for &joint in &view.machine.rotary {
+        let axis = &view.machine.axes[joint];
+        if !axis.extra.cable || known & (1 << joint) == 0 {
+            continue;
+        }
+        let (name, key) = (letter(axis.letter), u64::from(axis.letter));
+        let Limits::Range(low, high) = axis.limits else {
+            if out.once(key) {
+                let range = axis_word(out.program(), view.motion().block, axis.letter);
+                out.report(range, format!("how far {name} may wind its cable up is not declared"))
+                    .help(format!("give {name} limits in the machine file"))
+                    .unknown();
+            }
+            continue;
+        };
+        let value = joints[joint];
+        let (reserve, limit) = if value - low < high - value {
+            (value - low, low)
+        } else {
+            (high - value, high)
+        };
+        // beyond the limit it is axis-limit
+        if reserve >= rad(RESERVE_DEG) - 1e-9 || reserve < 0.0 {
+            continue;
+        }
+        let badness = rad(RESERVE_DEG) - reserve;
+        // the lower end behind the upper one is another finding, however near the blocks
+        let key = key + 256 * u64::from(limit == high);
+        if out.repeats(view, key, badness) {
+            continue;
+        }
+        let range = axis_word(out.program(), view.motion().block, axis.letter);
+        out.report(
+            range,
+            format!(
+                "{name} is left {} from its limit of {}",
+                degrees(reserve),
+                degrees(limit)
+            ),
+        )
+        .note(format!(
+            "the turns of {name} wind up a cable: {RESERVE_DEG} deg of reserve are wanted"
+        ))
+        .help(format!("unwind {name} before, or set the part up turned"))
+        .value_text("axis", name)
+        .value("reserve_deg", deg(reserve))
+        .value("value_deg", deg(value))
+        .value("limit_deg", deg(limit))
+        .merge(key, badness);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::{Fixture, assert_drawn};
+
+    #[test]
+    fn a_cable_without_limits_is_unknown_once() {
+        let text = "G0 X0 Y0 Z50 A0 C0\nG0 C100\nM30\n";
+        let report = Fixture::parse("gcode sinumerik-840d mikron-ucp710+C.cable", text)
+            .check()
+            .unwrap();
+        let found: Vec<_> = report
+            .diagnostics
+            .iter()
+            .filter(|d| d.rule == "winding-limit")
+            .collect();
+        assert_eq!((found.len(), found[0].status), (1, crate::Status::Unknown));
+    }
+
+    #[test]
+    fn thirty_degrees_are_the_reserve_and_runs_are_told_once() {
+        let report = assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710+A.cable",
+            "G0 X0 Y0 Z50 A0 C0\nG0 A90\nG0 A91\n;  ^^^ winding-limit: A is left 25 deg from\nG0 A95\nG0 A94\nG0 A-0.5\n;  ^^^^^ winding-limit: A is left 29.5 deg from its limit of -30 deg\nM30\n",
+        );
+        assert_eq!(report.diagnostics[0].count, 3);
+    }
+}

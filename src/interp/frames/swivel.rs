@@ -1,0 +1,296 @@
+//! Codes of tilted working planes: G68.2, G68.4, G53.1, G53.6 of a Fanuc; CYCLE800 of a Sinumerik.
+use super::Tilted;
+use crate::codes::{BlockCodes, Found};
+use crate::offsets::{LINEAR, ROTARY};
+use crate::run::{Interpreter, Report};
+use crate::words::{Said, Words};
+use crate::{FaultKind, Feed, ImplicitDecimals, Motion, MotionKind, Orientation, Posture, Swivel};
+use trunnion_dialect::Action;
+use trunnion_geometry::Vec3;
+
+impl<'d> Interpreter<'d> {
+    /// A motion as it is put out: in the workpiece frame.
+    #[inline]
+    pub(crate) fn untilted(&self, motion: &Motion) -> Motion {
+        match &self.memory.frames.tilt {
+            Some(tilt) if !motion.machine_coordinates && !self.state.frame_unknown => tilt.motion_to_work(motion),
+            _ => *motion,
+        }
+    }
+
+    /// Positions are told in the coordinates of another plane from here on. The machine stays where it is; rotary axes that were set by
+    /// a vector are not known.
+    fn tilt_to(&mut self, tilt: Option<Tilted>, report: &mut Report<'_>) {
+        if self.memory.compensation.is_busy() || self.memory.corners.is_busy() {
+            let what = "a tilted plane begins or ends under cutter compensation".to_owned();
+            report.fault(report.whole(), FaultKind::NotModelled { what });
+            self.forget_position();
+        }
+        let mut position = self.state.position;
+        if let Some(old) = self.memory.frames.tilt {
+            position = old.to_work(&position);
+        }
+        if let Some(new) = tilt {
+            position = new.to_plane(&position);
+        }
+        self.memory.frames.tilt = tilt;
+        self.state.position = position;
+        self.state.orientation = Orientation::Words;
+        self.memory.frames.refresh(&position);
+    }
+
+    /// G69 and the like.
+    pub(crate) fn end_tilt(&mut self, report: &mut Report<'_>) {
+        if self.memory.frames.tilt.is_some() {
+            self.tilt_to(None, report);
+        }
+    }
+
+    /// G68.2 X Y Z I J K: zero of the plane, and Euler angles about Z, the turned X, the turned Z (Series 30i operator's manual, tilted
+    /// working plane). P1 tells turns about X, Y, Z with their order in Q: whether about fixed or turned axes makes no difference where
+    /// at most one is not zero; the other ways of P are not modelled. G68.4 is told in the plane in force.
+    pub(crate) fn tilted_plane(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        let adds = found.code.id == "G68.4";
+        let turns = self.plane_turns(words, report);
+        let clear = words.axes.unread == 0 && !self.state.incremental && self.memory.frames.shape.is_identity();
+        let outer = self.memory.frames.tilt.filter(|_| adds);
+        let (Some(turns), true) = (turns, clear && adds == outer.is_some() && !self.state.frame_unknown) else {
+            self.end_tilt(report);
+            self.frame_change(found, words, block, report);
+            return;
+        };
+        block.takes_coordinates = true;
+        let origin = Vec3::from_fn(|axis, _| self.axis_value(words, axis).unwrap_or(0.0));
+        let plane = Tilted::new(origin, &turns);
+        self.tilt_to(Some(outer.map_or(plane, |outer| outer.then(&plane))), report);
+    }
+
+    /// Axis and degrees of the turns that I J K tell.
+    fn plane_turns(&self, words: &Words, report: &mut Report<'_>) -> Option<[(usize, f64); 3]> {
+        let implicit = self.setup.control.implicit_decimals;
+        let angle = |letter| match words.letter(letter) {
+            Said::Nothing => Some(0.0),
+            said => said.number().map(|number| match implicit {
+                Some(ImplicitDecimals::LeastIncrement) if !number.has_point => number.value / 1000.0,
+                _ => number.value,
+            }),
+        };
+        let [i, j, k] = [angle(b'I')?, angle(b'J')?, angle(b'K')?];
+        let mut said = [b'I', b'J', b'K']
+            .into_iter()
+            .filter_map(|letter| words.letter(letter).number());
+        if let (None, Some(whole)) = (implicit, said.find(|number| !number.has_point && number.value != 0.0)) {
+            report.fault(whole.range, FaultKind::AmbiguousDecimal);
+        }
+        if words.radius.is_said() {
+            return None;
+        }
+        match words.letter(b'P') {
+            Said::Nothing => {}
+            said => match said.index()? {
+                0 => {}
+                1 => {
+                    let turning = [i, j, k].iter().filter(|angle| **angle != 0.0).count();
+                    return (turning <= 1).then_some([(0, i), (1, j), (2, k)]);
+                }
+                _ => return None,
+            },
+        }
+        (!words.letter(b'Q').is_said()).then_some([(2, i), (0, j), (2, k)])
+    }
+
+    /// G53.1: the rotary axes turn so that the tool stands on the plane; the linear axes stay. G53.6: the tip stays.
+    pub(crate) fn tilted_plane_turn(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        let plain = !words.axes.any() && matches!(words.letter(b'P'), Said::Nothing);
+        if self.memory.frames.tilt.is_none() || !plain || self.state.tcp {
+            self.unmodelled_code(found, words, block, report);
+            return;
+        }
+        block.takes_coordinates = true;
+        let swivel = if found.code.action == Action::TiltedPlaneTurnTip {
+            Swivel::TipStays
+        } else {
+            Swivel::AxesStay
+        };
+        self.swivel(swivel, Posture::ByRule, report);
+    }
+
+    /// Turns the rotary axes onto the plane's normal.
+    fn swivel(&mut self, swivel: Swivel, posture: Posture, report: &Report<'_>) {
+        let start = self.state.position;
+        if swivel != Swivel::TipStays {
+            self.forget_linear();
+        }
+        self.state.position.known &= !ROTARY;
+        let mut end = self.state.position;
+        end.known &= !LINEAR;
+        let orientation = Orientation::Vector(None, Vec3::z());
+        let mut motion = self.new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
+        (motion.tilt.swivel, motion.tilt.posture, motion.tcp) = (swivel, posture, false);
+        self.memory.out.push(motion);
+    }
+
+    /// CYCLE800(retract, data record, state, mode, X0, Y0, Z0, A, B, C, X1, Y1, Z1, direction, retract way): shift, turns about the axes
+    /// that the mode names in their order, shift in the turned plane; direction -1 or 1 turns the rotary axes, 0 does not (Sinumerik
+    /// 840D sl Programming Manual, Cycles).
+    pub(crate) fn swivel_cycle(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        if !found.with_arguments {
+            self.end_tilt(report);
+            self.frame_change(found, words, block, report);
+            return;
+        }
+        let text = report.program.text(found.range).into_owned();
+        let outer = self.memory.frames.tilt;
+        let plain = self.memory.frames.shape.is_identity() && !self.memory.compensation.is_busy();
+        let Some(call) = SwivelCall::read(&text).filter(|call| plain && (!call.adds || outer.is_some())) else {
+            self.end_tilt(report);
+            self.frame_change(found, words, block, report);
+            return;
+        };
+        let ended = self.memory.end_frame(found.code);
+        self.forget_if(ended);
+        block.takes_coordinates = true;
+        let unit = self.state.length_unit_mm;
+        let shifted = |by: [f64; 3]| Tilted::new(Vec3::from(by) * unit, &[]);
+        let plane = shifted(call.before)
+            .then(&Tilted::new(Vec3::zeros(), &call.turns))
+            .then(&shifted(call.behind));
+        let plane = outer.filter(|_| call.adds).map_or(plane, |outer| outer.then(&plane));
+        self.tilt_to(Some(plane), report);
+        let posture = match call.direction {
+            0 => return,
+            1 => Posture::Higher,
+            _ => Posture::Lower,
+        };
+        let swivel = match (call.retracts, call.holds_tip) {
+            (true, _) => Swivel::AxesLost,
+            (false, true) => Swivel::TipStays,
+            (false, false) => Swivel::AxesStay,
+        };
+        self.state.frame_unknown = self.memory.frame_unknown();
+        self.swivel(swivel, posture, report);
+    }
+}
+
+/// What a call of CYCLE800 says.
+#[derive(Clone, Debug, PartialEq)]
+struct SwivelCall {
+    retracts: bool,
+    adds: bool,
+    holds_tip: bool,
+    before: [f64; 3],
+    /// Axis and degrees.
+    turns: [(usize, f64); 3],
+    behind: [f64; 3],
+    direction: i32,
+}
+
+impl SwivelCall {
+    /// `None` where it says something that is not modelled: another mode than axis by axis, the end of a data record, values that are
+    /// no numbers.
+    fn read(text: &str) -> Option<Self> {
+        let inside = text.split_once('(')?.1.trim_end().strip_suffix(')')?;
+        let values: Vec<&str> = inside.split(',').map(str::trim).collect();
+        let number = |at: usize| match values.get(at).copied().unwrap_or_default() {
+            "" => Some(0.0),
+            value => value.parse::<f64>().ok().filter(|value| value.is_finite()),
+        };
+        let whole = |at: usize| {
+            number(at)
+                .filter(|value| value.fract() == 0.0 && value.abs() < 1e9)
+                .map(|v| v as i64)
+        };
+        let three = |at: usize| Some([number(at)?, number(at + 1)?, number(at + 2)?]);
+        if values.len() > 16
+            || values
+                .get(1)
+                .is_some_and(|record| record.trim_matches('"').trim() == "0")
+        {
+            return None;
+        }
+        let (state, mode) = (whole(2)?, whole(3)?);
+        // units: new or added; tens: the tip is held; hundreds and thousands belong to turning tools
+        let (adds, holds, others) = (state % 10, state / 10 % 10, state / 100 % 100);
+        if !(0..=1).contains(&adds) || !(0..=1).contains(&holds) || others != 0 {
+            return None;
+        }
+        let angles = three(7)?;
+        let axes = order(mode).or_else(|| (angles == [0.0; 3] && (0..=255).contains(&mode)).then_some([0, 1, 2]))?;
+        Some(Self {
+            retracts: whole(0)? != 0,
+            adds: adds == 1,
+            holds_tip: holds == 1,
+            before: three(4)?,
+            turns: [0, 1, 2].map(|index| (axes[index], angles[index])),
+            behind: three(10)?,
+            direction: i32::try_from(whole(13)?)
+                .ok()
+                .filter(|direction| (-1..=1).contains(direction))?,
+        })
+    }
+}
+
+/// The axes of a mode that turns axis by axis, two bits each from the lowest: 1 X, 2 Y, 3 Z, each once (57 is X Y Z, 27 Z Y X).
+fn order(mode: i64) -> Option<[usize; 3]> {
+    let axis = |shift: u32| usize::try_from((mode >> shift) & 3).ok()?.checked_sub(1);
+    let axes = [axis(0)?, axis(2)?, axis(4)?];
+    let all = axes.iter().fold(0, |mask, axis| mask | 1 << axis) == 0b111;
+    ((0..64).contains(&mode) && all).then_some(axes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn modes_name_the_order_of_axes() {
+        for (mode, axes) in [
+            (57, [0, 1, 2]),
+            (45, [0, 2, 1]),
+            (54, [1, 0, 2]),
+            (30, [1, 2, 0]),
+            (39, [2, 0, 1]),
+            (27, [2, 1, 0]),
+        ] {
+            assert_eq!(order(mode), Some(axes), "{mode}");
+        }
+        for mode in [0, 21, 58, 64 + 57, 192, -7] {
+            assert_eq!(order(mode), None, "{mode}");
+        }
+    }
+
+    #[test]
+    fn calls_are_read_or_not_modelled() {
+        let call = SwivelCall::read("CYCLE800(2,\"TISCH\",200001,54,35,-24,0,7,0,0,0,0,0,1,,1)").expect("modelled");
+        assert!(call.adds && call.retracts && !call.holds_tip);
+        assert_eq!((call.before, call.direction), ([35.0, -24.0, 0.0], 1));
+        assert_eq!(call.turns, [(1, 7.0), (0, 0.0), (2, 0.0)]);
+        for text in [
+            "CYCLE800(2,\"0\",200000,57,0,0,0,0,0,0,0,0,0,1,,1)",
+            "CYCLE800(0,\"\",0,192,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",0,57,R1,0,0,10,20,0)",
+            "CYCLE800(0,\"\",200,57,0,0,0,10,20,0)",
+            "CYCLE800(0,\"\",0,57,0,0,0,10,20,0,0,0,0,2)",
+        ] {
+            assert_eq!(SwivelCall::read(text), None, "{text}");
+        }
+    }
+}

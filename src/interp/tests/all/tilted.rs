@@ -1,0 +1,172 @@
+//! Tilted working planes: what G68.2 and CYCLE800 make of coordinates, arcs, cycles and lengths.
+use crate::support::{faults, line, run_bytes, run_text, shared};
+use trunnion_geometry::Vec3;
+use trunnion_interp::{Motion, MotionKind, Orientation, Posture, Setup, Swivel};
+
+fn motions(dialect: &str, text: &str) -> Vec<Motion> {
+    run_text(dialect, text).motions
+}
+
+fn near(found: Option<Vec3>, wanted: [f64; 3]) {
+    let found = found.expect("known");
+    assert!((found - Vec3::from(wanted)).norm() < 1e-9, "{found}, not {wanted:?}");
+}
+
+#[test]
+fn euler_angles_turn_lines_and_arcs_into_the_workpiece_frame() {
+    // front face: X stays, Y of the plane is Z of the part, Z of the plane is -Y of it
+    let text = "G68.2 X0. Y0. Z-50. I0. J90. K0.\nG53.1\nG0 X25. Y15. Z25.\nG1 Z-5. F100.\nG17 G3 X35. Y25. I0. J10.\nG69\nG0 X1. Y2. Z3.\n";
+    let found = motions("fanuc-30i", text);
+    assert_eq!(found.len(), 5, "{:#?}", found.iter().map(line).collect::<Vec<_>>());
+    let turn = &found[0];
+    assert_eq!(
+        (turn.tilt.swivel, turn.tilt.posture),
+        (Swivel::AxesStay, Posture::ByRule)
+    );
+    let Orientation::Vector(None, normal) = turn.orientation else {
+        panic!("no vector: {turn:?}")
+    };
+    near(Some(normal), [0.0, -1.0, 0.0]);
+    near(found[1].end.xyz(), [25.0, -25.0, -35.0]);
+    near(found[2].end.xyz(), [25.0, 5.0, -35.0]);
+    near(found[2].tilt.normal, [0.0, -1.0, 0.0]);
+    near(found[3].end.xyz(), [35.0, 5.0, -25.0]);
+    let MotionKind::Arc(Some(arc)) = found[3].kind else {
+        panic!("no arc: {:?}", found[3])
+    };
+    near(Some(arc.centre), [25.0, 5.0, -25.0]);
+    near(Some(arc.normal), [0.0, -1.0, 0.0]);
+    near(Some(arc.point_at(1.0)), [35.0, 5.0, -25.0]);
+    // after G69 the words are the part's again
+    near(found[4].end.xyz(), [1.0, 2.0, 3.0]);
+    assert_eq!(found[4].tilt.normal, None);
+    assert_eq!(faults("fanuc-30i", text), Vec::<String>::new());
+}
+
+#[test]
+fn the_tools_length_and_holes_lie_along_the_planes_normal() {
+    let mut setup = Setup::default();
+    setup.tools.push(trunnion_interp::Tool {
+        number: 1,
+        shape: None,
+        diameter_mm: None,
+        length_mm: Some(80.0),
+    });
+    let text = "T1 M6\nG68.2 X0. Y0. Z0. I90. J90. K0.\nG53.1\nG0 X10. Y5. Z100.\nG43 H1\nG81 X10. Y20. Z-3. R2. F100.\nG80\nG69\nM30\n";
+    let (_, log) = run_bytes("fanuc-30i", text.as_bytes(), &setup);
+    assert_eq!(log.faults, []);
+    // X of the plane is Y of the part, Y of it Z, Z of it X
+    let ends: Vec<_> = log.motions[1..].iter().map(|motion| motion.end.xyz()).collect();
+    near(ends[0], [100.0, 10.0, 5.0]);
+    // with the length in force the tip stands 80 mm down the normal
+    near(ends[1], [20.0, 10.0, 20.0]);
+    near(ends[2], [2.0, 10.0, 20.0]);
+    near(ends[3], [-3.0, 10.0, 20.0]);
+    near(ends[4], [20.0, 10.0, 20.0]);
+}
+
+#[test]
+fn a_swivel_cycle_shifts_turns_and_shifts_again() {
+    let text = "CYCLE800(0,\"\",0,39,10,0,0,90,30,0,0,0,5,-1)\nG0 X0 Y0 Z0\nG1 X2 F100\nCYCLE800(0,\"\",1,57,0,0,0,0,0,90,0,0,0,0)\nG1 X2 Y0 Z0\nCYCLE800()\nG1 X7 Y8 Z9\n";
+    let found = motions("sinumerik-840d", text);
+    // Z by 90, then the new X by 30: the normal leans to +X
+    let (sin, cos) = (0.5, 0.75f64.sqrt());
+    assert_eq!(
+        (found[0].tilt.swivel, found[0].tilt.posture),
+        (Swivel::AxesStay, Posture::Lower)
+    );
+    near(found[1].end.xyz(), [10.0 + 5.0 * sin, 0.0, 5.0 * cos]);
+    near(found[1].tilt.normal, [sin, 0.0, cos]);
+    near(found[2].end.xyz(), [10.0 + 5.0 * sin, 2.0, 5.0 * cos]);
+    // added: X of the new plane is Y of the old one, which is -X turned down
+    near(
+        found[3].end.xyz(),
+        [10.0 + 5.0 * sin - 2.0 * cos, 0.0, 5.0 * cos + 2.0 * sin],
+    );
+    near(found[4].end.xyz(), [7.0, 8.0, 9.0]);
+    assert_eq!(faults("sinumerik-840d", text), Vec::<String>::new());
+}
+
+#[test]
+fn what_is_not_modelled_says_so_and_hides_the_position() {
+    for (dialect, text) in [
+        ("fanuc-30i", "G68.2 P1 Q123 X0. Y0. Z0. I10. J20. K0.\n"),
+        ("fanuc-30i", "G68.2 P2 Q0 X0. Y0. Z0.\n"),
+        ("fanuc-30i", "G68.3 X0. Y0. Z0.\n"),
+        ("fanuc-30i", "G68.4 X0. Y0. Z0. I0. J10. K0.\n"),
+        ("sinumerik-840d", "CYCLE800(0,\"\",0,192,0,0,0,10,20,0,0,0,0,1)\n"),
+        ("sinumerik-840d", "CYCLE800(0,\"\",0,57,0,0,0,R1,20,0,0,0,0,1)\n"),
+    ] {
+        let text = format!("{text}G0 X1. Y2. Z3.\nG1 X4. F100.\n");
+        let log = run_text(dialect, &text);
+        assert!(!log.faults.is_empty(), "{text}");
+        let last = log.motions.last().expect("a motion");
+        assert_eq!((last.end.xyz(), last.tilt.normal), (None, None), "{text}");
+    }
+    // 30 without a point is 30 deg or 0.030 deg, as a parameter says
+    assert_eq!(
+        faults("fanuc-30i", "G68.2 X0. Y0. Z0. I0 J30 K0\n"),
+        ["1: J30: AmbiguousDecimal"]
+    );
+    // one angle alone is the same whatever the order
+    let one = motions("fanuc-30i", "G68.2 P1 Q321 X0. Y0. Z0. I90. J0. K0.\nG0 X1. Y2. Z3.\n");
+    near(one[0].end.xyz(), [1.0, -3.0, 2.0]);
+}
+
+#[test]
+fn machine_coordinates_and_zero_points_are_not_the_planes() {
+    let text = "G54\nG0 X0. Y0. Z0.\nG68.2 X0. Y0. Z0. I0. J90. K0.\nG0 X1. Y2. Z3.\nG53 G0 Z0.\nG0 X5.\nG69\n";
+    let found = motions("fanuc-30i", text);
+    assert!(found[2].machine_coordinates && found[2].tilt.normal.is_none());
+    assert_eq!((found[2].end.get(0), found[2].end.get(2)), (None, Some(0.0)));
+    // X of the plane alone is X of the part here; the others are not known any more
+    assert_eq!(
+        (found[3].end.get(0), found[3].end.get(1), found[3].end.get(2)),
+        (Some(5.0), None, None)
+    );
+}
+
+/// Ends of the feed motions in each tilted plane, in order: number of the plane's first line, ends.
+fn planes(dialect: &str, file: &str) -> Option<Vec<(Vec3, Vec<Vec3>)>> {
+    let (_, log) = run_bytes(dialect, &shared(file)?, &Setup::default());
+    let mut planes: Vec<(Vec3, Vec<Vec3>)> = Vec::new();
+    let mut inside = false;
+    for motion in &log.motions {
+        let Some(normal) = motion.tilt.normal else {
+            inside = false;
+            continue;
+        };
+        if !inside {
+            planes.push((normal, Vec::new()));
+            inside = true;
+        }
+        if let (true, Some(end), Some((_, ends))) = (motion.is_feed(), motion.end.xyz(), planes.last_mut()) {
+            ends.push(end);
+        }
+    }
+    Some(planes)
+}
+
+/// One 3+2 part posted for a Fanuc and for an 840D: what the 840D feeds to, the Fanuc feeds to in the same order, within the last
+/// decimal of the words. The Fanuc writes each turn of a helix; drilling cycles of the 840D are not expanded.
+#[test]
+fn a_part_for_two_controls_has_the_same_motions() {
+    let (Some(fanuc), Some(sinumerik)) = (
+        planes("fanuc-30i", "five-axis-pairs/smpl_sim08_5ax_fanuc_mm.nc"),
+        planes("sinumerik-840d", "five-axis-pairs/smpl_sim08_5ax_sinumerik_mm.mpf"),
+    ) else {
+        return;
+    };
+    assert_eq!((fanuc.len(), sinumerik.len()), (4, 4));
+    for (index, ((n1, fanuc), (n2, sinumerik))) in fanuc.iter().zip(&sinumerik).enumerate() {
+        assert!((n1 - n2).norm() < 1e-9, "{index}: {n1} {n2}");
+        let mut left = fanuc.iter();
+        for end in sinumerik {
+            let found = left.any(|other| (end - other).norm() < 2e-3);
+            assert!(found, "operation {index}: {end:?} is not there on the Fanuc");
+        }
+        if index != 1 {
+            assert!(sinumerik.len() > 20, "operation {index}: {}", sinumerik.len());
+        }
+    }
+}

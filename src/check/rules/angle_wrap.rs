@@ -105,6 +105,8 @@ mod tests {
     #[test]
     fn the_shortest_way_of_a_declared_axis_is_silent() {
         let source = trunnion_machine::builtin_source("mikron-ucp710").unwrap();
+        // the rows that check the file say that the words are literal
+        let source = source.split("[[check]]").next().unwrap();
         let shortest = source.replace("wrap = \"literal\"", "wrap = \"shortest\"");
         for (machine, turns) in [(source.to_owned(), [-340.0, 330.0]), (shortest, [20.0, -30.0])] {
             let machine = trunnion_machine::load("mikron", &machine).unwrap();

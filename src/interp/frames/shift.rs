@@ -73,7 +73,7 @@ impl<'d> Interpreter<'d> {
         if !words.axes.any() {
             return;
         }
-        if !plain || self.memory.frame_unknown() {
+        if !plain || self.memory.frame_unknown() || self.memory.frames.tilt.is_some() {
             self.frame_change(found, words, block, report);
             return;
         }

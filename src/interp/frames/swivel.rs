@@ -159,7 +159,9 @@ impl<'d> Interpreter<'d> {
         }
         let text = report.program.text(found.range).into_owned();
         let outer = self.memory.frames.tilt;
-        let plain = self.memory.frames.shape.is_identity() && !self.memory.compensation.is_busy();
+        // whether a shift by TRANS ends with it, or lies inside it, is not modelled
+        let shifted = self.memory.frames.local != [0.0; 9];
+        let plain = self.memory.frames.shape.is_identity() && !self.memory.compensation.is_busy() && !shifted;
         let Some(call) = SwivelCall::read(&text).filter(|call| plain && (!call.adds || outer.is_some())) else {
             self.end_tilt(report);
             self.frame_change(found, words, block, report);

@@ -246,7 +246,9 @@ fn followed<'m>(machine: &'m Machine, dialect: &str, file: &str) -> Option<Follo
         follower: Follower::new(machine),
         legs: Vec::new(),
     };
-    run(&program, dialect, &Setup::default(), &mut followed);
+    let mut setup = Setup::default();
+    setup.control.tcp_codes.clone_from(&machine.control.tcp_codes);
+    run(&program, dialect, &setup, &mut followed);
     Some(followed)
 }
 
@@ -296,55 +298,12 @@ fn a_part_for_two_controls_has_the_same_joints() {
     );
 }
 
-/// LinuxCNC's xyzac-trt as its INI and note describe it: both rotary axes turned round, A 20 mm beside and 10 mm above C.
-fn xyzac_trt() -> Machine {
-    let text = r#"schema = "ncmachine/1"
-[[axis]]
-letter = "C"
-kind = "rotary"
-side = "table"
-sign = -1
-limits = [-36000, 36000]
-dyn = { vmax = 30 }
-[[axis]]
-letter = "A"
-kind = "rotary"
-side = "table"
-point = [0, 20, 10]
-sign = -1
-limits = [-100, 50]
-dyn = { vmax = 30 }
-[[axis]]
-letter = "X"
-side = "table"
-sign = 1
-limits = [-200, 200]
-dyn = { vmax = 20 }
-[[axis]]
-letter = "Y"
-side = "head"
-sign = 1
-limits = [-100, 100]
-dyn = { vmax = 20 }
-[[axis]]
-letter = "Z"
-side = "head"
-sign = 1
-limits = [-120, 120]
-dyn = { vmax = 20 }
-[control]
-family = "linuxcnc"
-tcp = { path = "tip-linear", orientation = "joint", feed = "tip" }
-"#;
-    load("xyzac-trt", text).expect("valid")
-}
-
 /// Kinematics notes 10: 4 306 feed moves in inverse time, 1 078.7 s; C over-speeds in 6 blocks, worst 17.91 times at line 494; three jumps
 /// of C over 90 deg, all rapids; ranges of A and C.
 #[test]
 fn the_impeller_has_its_numbers() {
-    let machine = xyzac_trt();
-    let Some(run) = followed(&machine, "linuxcnc", "linuxcnc-5axis/impeller-7bl-xyzac.ngc") else {
+    let machine = trunnion_machine::builtin("linuxcnc-xyzac-trt").expect("built in");
+    let Some(run) = followed(machine, "linuxcnc", "linuxcnc-5axis/impeller-7bl-xyzac.ngc") else {
         return;
     };
     let feeds: Vec<_> = run.legs.iter().filter(|(_, leg)| leg.motion.is_feed()).collect();

@@ -201,7 +201,11 @@ fn machine(name: &str) -> Result<Machine, String> {
         _ if key == "undeclared" => source.replace("branch = { rule = \"generic\" }", "#"),
         Some((letter, key)) => {
             let axis = format!("letter = \"{letter}\"\n");
-            let entry = if key.contains('=') { key.to_owned() } else { format!("{key} = true") };
+            let entry = if key.contains('=') {
+                key.to_owned()
+            } else {
+                format!("{key} = true")
+            };
             source.replacen(&axis, &format!("{axis}{entry}\n"), 1)
         }
         None => {

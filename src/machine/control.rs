@@ -227,6 +227,8 @@ pub(crate) fn in_words(control: &Control) -> Vec<String> {
             let said = if branch.declared { "" } else { " (documented for the family)" };
             lines.push(format!("picks postures for tool vectors by the rule {:?}{said}", rule.name()));
         }
+        // programmed without tool vectors
+        None if matches!(control.family.as_str(), "linuxcnc" | "grbl") => {}
         None => lines.push(
             "which posture it picks for tool vectors is neither documented nor declared: reported as unknown where it matters"
                 .to_owned(),

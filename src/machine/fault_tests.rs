@@ -59,7 +59,7 @@ tail | [[check]];;joints = { Q = 90 };;axis = [0, 1, 0] | Q | not an axis
 tail | [[check]];;travel = { A = [0, 1] } | [0, 1] | not declared
 tail | [[check]];;speed = { A = 1 } | 1 | not declared
 tail | [[check]];;words = { A = "shortest" } | "shortest" | "literal" at the axis
-tail | [[check]];;say = "x" | say = "x" | says nothing
+tail | [[check]];;say = "x" | [[check]] | says nothing
 tail | [[check]];;axis = [0, 2, 0] | [0, 2, 0] | length 2
 tail | [control];;family = "siemens" | "siemens" | known: generic
 tail | [control];;rapid = "fast" | "fast" | unknown variant

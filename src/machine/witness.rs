@@ -63,6 +63,10 @@ fn plain(machine: &Machine, joint: usize, value: f64) -> f64 {
 
 fn pose(about: &str, row: &RawCheck, machine: &Machine) -> Result<(), Fault> {
     let mut joints: Joints = [0.0; MAX_AXES];
+    // a held axis that the row does not name stands where it is held
+    for (joint, value) in machine.held() {
+        joints[joint] = value;
+    }
     let mut moved = String::new();
     for (word, written) in &row.joints {
         let joint = joint(word, machine)?;

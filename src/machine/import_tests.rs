@@ -62,7 +62,8 @@ fn the_tilting_tables_import_whole() {
 
 #[test]
 fn nutating_heads_leave_their_offsets_open_until_they_are_given() {
-    let rows: [(&str, &str, [(&str, f64); 5]); 2] = [
+    type Row = (&'static str, &'static str, [(&'static str, f64); 5]);
+    let rows: [Row; 2] = [
         (
             "xyzacb-trsrn",
             "linuxcnc-xyzacb-trsrn",

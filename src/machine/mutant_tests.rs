@@ -115,7 +115,7 @@ fn of_axis(axis: &mut Table, kind: &str, random: &mut SplitMix) -> Option<()> {
         "dir" => {
             let mut dir = numbers(axis.get("dir"))?;
             if random.between(0.0, 1.0) < 0.5 {
-                dir.iter_mut().for_each(|value| *value = -*value);
+                dir = dir.iter().map(|value| -value).collect();
             } else {
                 dir.rotate_left(1 + below(random, 2));
             }
@@ -125,7 +125,7 @@ fn of_axis(axis: &mut Table, kind: &str, random: &mut SplitMix) -> Option<()> {
             let mut dir = numbers(axis.get("dir"))?;
             *dir.get_mut(below(random, 3))? += step(random, 1e-3, 0.1);
             let norm = dir.iter().map(|value| value * value).sum::<f64>().sqrt();
-            dir.iter_mut().for_each(|value| *value /= norm);
+            dir = dir.iter().map(|value| value / norm).collect();
             axis.insert("dir".to_owned(), array(&dir));
         }
         "kind" => {
@@ -255,7 +255,9 @@ fn mutants_of_machine_files_are_noticed() {
             "{kind:16} {:>10} {:>9} {:>10} {:>7} {:>10}",
             row[0], row[1], row[2], row[3], row[4]
         );
-        all.iter_mut().zip(row).for_each(|(sum, one)| *sum += one);
+        for (sum, one) in all.iter_mut().zip(row) {
+            *sum += one;
+        }
     }
     let changing = all[0] + all[1] + all[2] + all[3];
     eprintln!(

@@ -58,6 +58,11 @@ pub fn import_linuxcnc(name: &str, text: &str, given: &[(String, f64)]) -> Resul
         let text = format!("axis {letter}: the module hands it through without saying what it moves; it is left out");
         draft.open.push(text);
     }
+    if draft.tcp && ini.entries.iter().any(|entry| entry.key == "REMAP") {
+        draft.open.push(
+            "which codes switch the kinematics stands in the files of REMAP, which are not read: declare [control] tcp_codes".to_owned(),
+        );
+    }
     for file in &ini.includes {
         draft
             .open

@@ -4,7 +4,7 @@ use crate::blocks::with_arc;
 use crate::common::{vector, words};
 use crate::random::{Random, random_machine};
 use trunnion_geometry::math::{angle_between, cos, sin};
-use trunnion_geometry::{Vec3, rad};
+use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_interp::{Motion, MotionKind, Position};
 use trunnion_machine::{
     AxisKind, BUILTIN_MACHINES, Follower, Joints, Leg, Machine, builtin, forward, inverse, linear_travel,
@@ -67,6 +67,8 @@ fn ends(random: &mut Random, machine: &Machine, turn: f64, way: f64) -> (Positio
             AxisKind::Rotary => (170.0, turn),
         };
         let value = random.range(-range, range);
+        // a held axis that moves is not followed
+        let (value, step) = axis.extra.hold.map_or((value, step), |hold| (deg(hold), 0.0));
         from.set(usize::from(letter.0), value);
         to.set(usize::from(letter.0), value + random.range(-step, step));
     }
@@ -146,7 +148,8 @@ fn without_tcp(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
         tool_length_mm: random.range(0.0, 120.0),
         ..words(start, end)
     };
-    let is_arc = random.below(8) == 0;
+    // arcs in diameters are not followed
+    let is_arc = random.below(8) == 0 && machine.axes.iter().all(|axis| !axis.extra.diameter);
     if is_arc {
         second = with_arc(random, &second);
     }
@@ -217,6 +220,9 @@ fn with_vectors(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
     let Some(found) = orientation_deviation(machine, &leg, rad(AXIS)) else {
         return;
     };
+    // words may be diameters
+    let (tip, end) = (leg.start.expect("known").tip, leg.end.as_ref().expect("known").tip);
+    let way = end - tip;
     let angle = angle_between(&from, &to);
     let side = (to - from * from.dot(&to)).normalize();
     let circle = |s: f64| from * cos(angle * s) + side * sin(angle * s);

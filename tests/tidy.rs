@@ -17,6 +17,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("trunnion-check", 6),
     ("trunnion-layout", 6),
     ("trunnion-rewrite", 7),
+    ("trunnion-convert", 7),
     ("trunnion-workspace", 7),
     ("trunnion-lsp", 8),
     ("trunnion", 9),
@@ -34,6 +35,7 @@ const FORBIDDEN: &[(&str, &[&str])] = &[
         &["tokio", "clap", "miette", "tower-lsp", "trunnion-certify"],
     ),
     ("trunnion-rewrite", &["tokio", "clap", "miette", "tower-lsp"]),
+    ("trunnion-convert", &["tokio", "clap", "miette", "tower-lsp"]),
     ("trunnion-lsp", &["clap", "miette"]),
 ];
 

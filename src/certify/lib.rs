@@ -5,6 +5,7 @@
 mod certificate;
 mod claim;
 mod compare;
+pub mod conversion;
 mod difference;
 mod digest;
 mod library;

@@ -1,0 +1,396 @@
+//! Two readings held against each other.
+use super::{Posed, Reading, Track};
+use crate::Outcome;
+use trunnion_geometry::deg;
+use trunnion_geometry::math::{angle_between, asin};
+use trunnion_interp::{Feed, Fault, MotionKind};
+use trunnion_machine::{Machine, Pose};
+use trunnion_syntax::{BlockId, LineIndex, Program};
+
+/// Which motions of the two programs belong together; in order, as who converted them says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The next motion before is made by the next so many after, each an equal share of it.
+    Moves(u32),
+    /// The next motion before has none after. Only a rapid that ends nowhere known, where no known pose comes before it with the same tool,
+    /// or none after it.
+    Left,
+    /// The next so many after have none before: positioning rapids, where the pose before is not known.
+    Added(u32),
+}
+
+/// What is claimed of the program after. Lengths mm, angles deg, feeds mm/min.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConversionClaim {
+    /// At the ends of motions the tip is where it was within this.
+    pub end_mm: f64,
+    /// At the ends of motions the tool axis is where it was within this.
+    pub end_deg: f64,
+    /// At every moment of a feed motion the tip is where it was within this.
+    pub path_mm: f64,
+    /// At every moment of a feed motion the tool axis is where it was within this; `None`: it is told and not judged.
+    pub path_deg: Option<f64>,
+    /// Feeds in mm/min agree within this.
+    pub feed_mm_min: f64,
+    /// Where one of the programs tells times, these agree within this share.
+    pub time_share: f64,
+}
+
+/// What was proved, with the worst numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ConversionProof {
+    /// Motions before.
+    pub motions_before: u64,
+    /// Motions after.
+    pub motions_after: u64,
+    /// Rapids without a known end that were left out.
+    pub left_out: u64,
+    /// Positioning rapids that were added.
+    pub added: u64,
+    /// Tip at the ends of motions, mm.
+    pub end_mm: f64,
+    /// Tool axis at the ends of motions, deg.
+    pub end_deg: f64,
+    /// Proven bound on the distance of the tips at any moment of a feed motion, mm.
+    pub path_mm: f64,
+    /// Proven bound on the angle of the tool axes at any moment of a feed motion, deg.
+    pub path_deg: f64,
+    /// How far the tip can be from where it was in a rapid, if all axes run together, mm; not judged.
+    pub rapid_mm: f64,
+    /// Feeds in mm/min, largest difference.
+    pub feed_mm_min: f64,
+    /// Times, largest difference, as a share.
+    pub time_share: f64,
+    /// Feed motions whose feed or time could not be compared: no way is made, or the spindle's speed is not known.
+    pub feeds_not_compared: u64,
+}
+
+/// Most moments at which two ways are compared.
+const MOST_SAMPLES: f64 = 4096.0;
+
+struct Proof<'a> {
+    before: (&'a Reading, Option<&'a Machine>),
+    after: (&'a Reading, Option<&'a Machine>),
+    claim: &'a ConversionClaim,
+    found: ConversionProof,
+}
+
+/// Proves that `after` is what `before` says. The readings must be fresh: [`super::read`] of the texts.
+///
+/// # Errors
+/// Refuted with a witness, or unknown with the reason. Lines are those of the program after.
+pub fn converted(
+    before: (&Reading, Option<&Machine>),
+    after: (&Reading, Option<&Machine>),
+    parts: &[Part],
+    claim: &ConversionClaim,
+) -> Result<ConversionProof, Outcome> {
+    if let Some(fault) = after.0.grave().next() {
+        let line = line(&after.0.program, fault.block);
+        let text = fault_text(&after.0.program, fault);
+        return Err(Outcome::unknown(format!(
+            "line {line} after is not understood: `{text}` ({:?})",
+            fault.kind
+        )));
+    }
+    let mut proof = Proof {
+        before,
+        after,
+        claim,
+        found: ConversionProof::default(),
+    };
+    let (mut was, mut is) = (0, 0);
+    for part in parts {
+        match *part {
+            Part::Moves(count) => {
+                proof.moves(was, is, count as usize)?;
+                was += 1;
+                is += count as usize;
+            }
+            Part::Left => {
+                proof.left(was)?;
+                was += 1;
+            }
+            Part::Added(count) => {
+                proof.added(was, is, count as usize)?;
+                is += count as usize;
+            }
+        }
+    }
+    let (all_was, all_is) = (before.0.motions.len(), after.0.motions.len());
+    if (was, is) != (all_was, all_is) {
+        return Err(Outcome::unknown(format!(
+            "{was} of {all_was} motions before and {is} of {all_is} after were compared"
+        )));
+    }
+    (proof.found.motions_before, proof.found.motions_after) = (all_was as u64, all_is as u64);
+    Ok(proof.found)
+}
+
+fn line(program: &Program, block: BlockId) -> u32 {
+    let source = program.source();
+    LineIndex::new(source)
+        .line_column(source, program.block(block).range().start)
+        .0
+}
+
+fn fault_text(program: &Program, fault: &Fault) -> String {
+    program.text(fault.range).chars().take(40).collect()
+}
+
+/// The angle between two unit vectors whose tips are `chord` apart, rad.
+fn chord_angle(chord: f64) -> f64 {
+    2.0 * asin((0.5 * chord).min(1.0))
+}
+
+/// Above the limit, or not a number.
+fn above(value: f64, limit: f64) -> bool {
+    value.is_nan() || value > limit
+}
+
+impl Proof<'_> {
+    fn refute<T>(&self, is: usize, message: String) -> Result<T, Outcome> {
+        match self.after.0.motions.get(is) {
+            Some(posed) => {
+                let line = line(&self.after.0.program, posed.motion.block);
+                Err(Outcome::refuted_at(is, line, message))
+            }
+            None => Err(Outcome::refuted(message)),
+        }
+    }
+
+    fn motion(&self, was: usize) -> Result<&Posed, Outcome> {
+        let motions = &self.before.0.motions;
+        motions
+            .get(was)
+            .ok_or_else(|| Outcome::unknown(format!("there is no motion {was} before")))
+    }
+
+    /// A motion that is left out: a rapid to nowhere known, in front of all known poses of its tool or behind the last.
+    fn left(&mut self, was: usize) -> Result<(), Outcome> {
+        let motions = &self.before.0.motions;
+        let posed = self.motion(was)?;
+        let tool = posed.motion.tool;
+        let rapid = matches!(posed.motion.kind, MotionKind::Rapid | MotionKind::Unknown);
+        let known = |other: &Posed| other.end.is_ok() && !matches!(other.motion.kind, MotionKind::Dwell(_));
+        let first = !motions[..was].iter().any(|other| other.motion.tool == tool && known(other));
+        let next = motions[was..].iter().find(|other| known(other));
+        let last = next.is_none_or(|next| next.motion.tool != tool);
+        if posed.end.is_ok() || !rapid || !(first || last) {
+            return self.refute(usize::MAX, format!("motion {was} before must not be left out"));
+        }
+        self.found.left_out += 1;
+        Ok(())
+    }
+
+    /// Motions that only position, where nothing is said of where the tool comes from.
+    fn added(&mut self, was: usize, is: usize, count: usize) -> Result<(), Outcome> {
+        let open = self
+            .before
+            .0
+            .motions
+            .get(was)
+            .is_none_or(|next| next.start.is_none() || next.end.is_err());
+        let motions = self.after.0.motions.get(is..is + count).unwrap_or_default();
+        let rapid = |posed: &Posed| matches!(posed.motion.kind, MotionKind::Rapid | MotionKind::Unknown);
+        if !open || motions.len() != count || !motions.iter().all(rapid) {
+            return self.refute(is, "a motion is added that is no positioning".to_owned());
+        }
+        self.found.added += count as u64;
+        Ok(())
+    }
+
+    /// One motion before, and those that make it.
+    fn moves(&mut self, was: usize, is: usize, count: usize) -> Result<(), Outcome> {
+        let (before, after) = (self.before.0, self.after.0);
+        let Some(old) = before.motions.get(was) else {
+            return Err(Outcome::unknown(format!("there is no motion {was} before")));
+        };
+        let Some(new) = after.motions.get(is..is + count).filter(|new| !new.is_empty()) else {
+            return Err(Outcome::unknown("the program after ends too early"));
+        };
+        for (index, posed) in new.iter().enumerate() {
+            self.alike(old, posed, is + index)?;
+        }
+        if let MotionKind::Dwell(_) = old.motion.kind {
+            return Ok(());
+        }
+        let Ok(end) = &old.end else {
+            let why = old.end.as_ref().err().cloned().unwrap_or_default();
+            return Err(Outcome::unknown(format!("motion {was} before: {why}")));
+        };
+        let is_rapid = old.motion.kind == MotionKind::Rapid;
+        let track = Track::new(old, self.before.1);
+        match (&track, old.start) {
+            (None, None) if count == 1 && !matches!(old.motion.kind, MotionKind::Arc(_)) => {
+                // from nowhere: only the end is said
+                return self.end(end, &new[0], is);
+            }
+            (None, _) => return Err(Outcome::unknown(format!("motion {was} before: its way is not known"))),
+            (Some(_), _) => {}
+        }
+        let Some(track) = track else { return Ok(()) };
+        for (index, posed) in new.iter().enumerate() {
+            let (from, to) = (share(index, count), share(index + 1, count));
+            self.end(&track.at(to), posed, is + index)?;
+            self.way(&track, (from, to), posed, is + index, is_rapid)?;
+        }
+        if is_rapid { Ok(()) } else { self.feed(old, new, is) }
+    }
+
+    /// Kind, tool and spindle.
+    fn alike(&self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
+        let fits = match (old.motion.kind, new.motion.kind) {
+            (MotionKind::Dwell(Some(was)), MotionKind::Dwell(Some(is))) => (was - is).abs() <= 5e-4 + 1e-9,
+            (MotionKind::Rapid, MotionKind::Rapid)
+            | (MotionKind::Linear, MotionKind::Linear)
+            | (MotionKind::Arc(Some(_)), MotionKind::Arc(Some(_)) | MotionKind::Linear) => true,
+            _ => false,
+        };
+        if !fits {
+            return self.refute(is, "the kind of motion differs".to_owned());
+        }
+        let rpm = |posed: &Posed| posed.motion.spindle_rpm.filter(|_| posed.motion.spindle_on == Some(true));
+        let same_speed = match (rpm(old), rpm(new)) {
+            (Some(was), Some(is)) => (was - is).abs() <= 5e-4,
+            (was, is) => was.is_none() && is.is_none(),
+        };
+        if old.motion.spindle_on != new.motion.spindle_on || !same_speed {
+            return self.refute(is, "the spindle differs".to_owned());
+        }
+        if old.motion.tool != new.motion.tool {
+            return self.refute(is, "the tool differs".to_owned());
+        }
+        Ok(())
+    }
+
+    /// The end of one motion after.
+    fn end(&mut self, wanted: &Pose, new: &Posed, is: usize) -> Result<(), Outcome> {
+        let found = match &new.end {
+            Ok(found) => found,
+            Err(why) => return self.refute(is, why.clone()),
+        };
+        let (mm, degrees) = (
+            (found.tip - wanted.tip).norm(),
+            deg(angle_between(&found.axis, &wanted.axis)),
+        );
+        if above(mm, self.claim.end_mm) || above(degrees, self.claim.end_deg) {
+            return self.refute(
+                is,
+                format!(
+                    "the tip ends {mm:.6} mm and the tool axis {degrees:.6} deg from where it was; allowed are {:.6} mm, {:.6} deg",
+                    self.claim.end_mm, self.claim.end_deg
+                ),
+            );
+        }
+        self.found.end_mm = self.found.end_mm.max(mm);
+        self.found.end_deg = self.found.end_deg.max(degrees);
+        Ok(())
+    }
+
+    /// The way of one motion after, against its share of the one before: for the difference of the two points, bent by at most Q, the
+    /// largest sample + Q / (8 m^2) at m equal steps.
+    fn way(
+        &mut self,
+        track: &Track<'_>,
+        (from, to): (f64, f64),
+        new: &Posed,
+        is: usize,
+        is_rapid: bool,
+    ) -> Result<(), Outcome> {
+        let Some(made) = Track::new(new, self.after.1) else {
+            if is_rapid {
+                return Ok(());
+            }
+            return self.refute(is, "its way is not known".to_owned());
+        };
+        let h2 = (to - from) * (to - from);
+        let ((was_mm, was_axis), (is_mm, is_axis)) = (track.bend(), made.bend());
+        let (bend, bend_axis) = (was_mm * h2 + is_mm, was_axis * h2 + is_axis);
+        // so many that the bound is at most a twentieth of the tolerance above the samples
+        let steps = (bend / (0.4 * self.claim.path_mm)).sqrt().ceil().clamp(1.0, MOST_SAMPLES);
+        let (mut off, mut chord) = (0.0f64, 0.0f64);
+        for step in 0..=(steps as u32) {
+            let t = f64::from(step) / steps;
+            let (was, is) = (track.at(from + (to - from) * t), made.at(t));
+            off = off.max((was.tip - is.tip).norm());
+            chord = chord.max((was.axis - is.axis).norm());
+        }
+        let between = 1.0 / (8.0 * steps * steps);
+        let mm = off + bend * between;
+        let degrees = deg(chord_angle(chord + bend_axis * between));
+        if is_rapid {
+            self.found.rapid_mm = self.found.rapid_mm.max(mm);
+            return Ok(());
+        }
+        if above(mm, self.claim.path_mm) {
+            let limit = self.claim.path_mm;
+            return self.refute(
+                is,
+                format!("inside the block the tip may be {mm:.6} mm from where it was, allowed are {limit:.6} mm"),
+            );
+        }
+        if let Some(limit) = self.claim.path_deg.filter(|limit| above(degrees, *limit)) {
+            return self.refute(
+                is,
+                format!(
+                    "inside the block the tool axis may be {degrees:.6} deg from where it was, allowed are {limit:.6} deg"
+                ),
+            );
+        }
+        self.found.path_mm = self.found.path_mm.max(mm);
+        self.found.path_deg = self.found.path_deg.max(degrees);
+        Ok(())
+    }
+
+    /// Feeds in the same unit are compared as numbers, others by the time that the motion takes.
+    fn feed(&mut self, old: &Posed, new: &[Posed], is: usize) -> Result<(), Outcome> {
+        let per_minute = |posed: &Posed| match posed.motion.feed {
+            Feed::PerMinute(feed) if posed.tip_words() || !turns(posed) => Some(feed),
+            _ => None,
+        };
+        if let Some(was) = per_minute(old) {
+            let all: Option<Vec<f64>> = new.iter().map(per_minute).collect();
+            if let Some(all) = all {
+                let off = all.iter().fold(0.0f64, |worst, is| worst.max((was - is).abs()));
+                if above(off, self.claim.feed_mm_min) {
+                    return self.refute(is, format!("the feed differs by {off:.6} mm/min"));
+                }
+                self.found.feed_mm_min = self.found.feed_mm_min.max(off);
+                return Ok(());
+            }
+        }
+        if let (Feed::PerRevolution(was), [Posed { motion, .. }]) = (old.motion.feed, new)
+            && let Feed::PerRevolution(now) = motion.feed
+        {
+            let off = (was - now).abs();
+            if above(off, self.claim.feed_mm_min) {
+                return self.refute(is, format!("the feed differs by {off:.6} mm/rev"));
+            }
+            return Ok(());
+        }
+        let took: Option<f64> = new.iter().map(Posed::duration_s).sum();
+        match (old.duration_s(), took) {
+            (Some(was), Some(took)) if was > 0.0 => {
+                let share = (took - was).abs() / was;
+                if above(share, self.claim.time_share) {
+                    return self.refute(is, format!("it takes {took:.6} s and took {was:.6} s"));
+                }
+                self.found.time_share = self.found.time_share.max(share);
+            }
+            // no way is made: the feed has no time
+            (None, _) => self.found.feeds_not_compared += 1,
+            _ => return self.refute(is, "the feed is lost".to_owned()),
+        }
+        Ok(())
+    }
+}
+
+/// Whether a rotary axis moves.
+fn turns(posed: &Posed) -> bool {
+    posed.leg.as_ref().is_some_and(|leg| leg.rotary_change != [0.0; 2])
+}
+
+fn share(index: usize, count: usize) -> f64 {
+    index as f64 / count as f64
+}

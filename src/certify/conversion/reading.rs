@@ -1,0 +1,316 @@
+//! A program run from scratch, with the pose of the tool at both ends of every motion.
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use trunnion_dialect::Dialect;
+use trunnion_geometry::Vec3;
+use trunnion_interp::{
+    ChainId, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, Orientation, Refusal, Setup, Sink,
+    Tool,
+};
+use trunnion_machine::{Follower, Leg, Machine, NoStance, Pose, forward};
+use trunnion_syntax::{BlockId, Format, Program, parse};
+
+/// What holds at the start of a program that does not say it: an excerpt.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Assume {
+    /// Tool centre point control is on.
+    pub tcp: bool,
+    /// A feed is in force, mm/min.
+    pub feed_mm_min: Option<f64>,
+}
+
+/// A program with all it is read with.
+#[derive(Clone, Copy)]
+pub struct Run<'a> {
+    /// Its bytes.
+    pub text: &'a [u8],
+    /// Its dialect.
+    pub dialect: &'a Dialect,
+    /// The machine that runs it; `None`: poses are read from the words alone, which rotary words do not allow. CL data, which say
+    /// where the tool is, never need one.
+    pub machine: Option<&'a Machine>,
+    /// Tools, offsets, bounds.
+    pub setup: &'a Setup,
+    /// What holds at its start.
+    pub assume: Assume,
+}
+
+/// A motion with its poses.
+#[derive(Clone, Debug)]
+pub struct Posed {
+    /// As programmed.
+    pub motion: Motion,
+    /// Where the tool is before, workpiece frame without work offset, mm; `None`: unknown. Of a tool whose length is switched off, where
+    /// the tip would be with the length that was last in force for it.
+    pub start: Option<Pose>,
+    /// Where the tool is after, or why that is not known.
+    pub end: Result<Pose, String>,
+    /// What the machine does, where there is one.
+    pub leg: Option<Box<Leg>>,
+    /// Length of the tool that the poses are told for, mm.
+    pub tool_length: f64,
+}
+
+/// A block that ran.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ran {
+    /// Which.
+    pub block: BlockId,
+    /// How many motions there are after it.
+    pub motions: usize,
+    /// Cutter radius compensation in force after it, which holds motions back: 0 off, 41, 42.
+    pub compensation: u8,
+    /// Spindle after it.
+    pub spindle_on: Option<bool>,
+    /// Its speed, 1/min.
+    pub spindle_rpm: Option<f64>,
+    /// Tool in the spindle after it.
+    pub tool: Option<u32>,
+    /// What is declared of it.
+    pub tool_data: Option<Tool>,
+    /// Active work offset after it.
+    pub work_offset: Option<Arc<str>>,
+}
+
+/// A program that was read.
+pub struct Reading {
+    /// Parsed.
+    pub program: Program,
+    /// Motions in the order the control makes them.
+    pub motions: Vec<Posed>,
+    /// Blocks in the order the control runs them.
+    pub blocks: Vec<Ran>,
+    /// What is wrong.
+    pub faults: Vec<Fault>,
+    /// The first block that leads into another file.
+    pub elsewhere: Option<BlockId>,
+}
+
+/// Runs a program.
+pub fn read(run: &Run<'_>) -> Reading {
+    let program = parse(run.text.to_vec(), run.dialect.lex);
+    let is_apt = run.dialect.lex.format == Format::Apt;
+    let machine = run.machine.filter(|_| !is_apt);
+    let mut sink = Collector {
+        follower: machine.map(Follower::new),
+        machine,
+        is_apt,
+        last: None,
+        length: (None, 0.0),
+        motions: Vec::new(),
+        blocks: Vec::new(),
+        faults: Vec::new(),
+        chains: BTreeSet::new(),
+        elsewhere: None,
+    };
+    let mut interpreter = Interpreter::new(run.dialect, run.setup);
+    if run.assume.tcp {
+        interpreter.state.tcp = true;
+    }
+    if let Some(feed) = run.assume.feed_mm_min {
+        interpreter.state.feed = Some(feed);
+    }
+    while let Some(block) = interpreter.advance(&program, &mut sink) {
+        sink.block_done(block, &interpreter);
+    }
+    let Collector {
+        motions,
+        blocks,
+        faults,
+        elsewhere,
+        ..
+    } = sink;
+    Reading {
+        program,
+        motions,
+        blocks,
+        faults,
+        elsewhere,
+    }
+}
+
+struct Collector<'m> {
+    follower: Option<Follower<'m>>,
+    machine: Option<&'m Machine>,
+    is_apt: bool,
+    /// Where the last motion ended, without a machine.
+    last: Option<Pose>,
+    /// Tool and its length that was last in force.
+    length: (Option<u32>, f64),
+    motions: Vec<Posed>,
+    blocks: Vec<Ran>,
+    faults: Vec<Fault>,
+    /// Chains of calls that were looked at.
+    chains: BTreeSet<ChainId>,
+    elsewhere: Option<BlockId>,
+}
+
+impl Sink for Collector<'_> {
+    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
+        if self.length.0 != motion.tool || motion.tool_length_mm != 0.0 {
+            self.length = (motion.tool, motion.tool_length_mm);
+        }
+        let posed = if let (Some(follower), Some(machine)) = (&mut self.follower, self.machine) {
+            let leg = follower.follow(motion);
+            let pose = |joints| {
+                let mut pose = forward(machine, joints, self.length.1);
+                pose.tip -= Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2]);
+                pose
+            };
+            let start = leg.start.as_ref().map(|stance| pose(&stance.joints));
+            let end = match &leg.end {
+                Ok(stance) => Ok(pose(&stance.joints)),
+                Err(why) => Err(reason(why)),
+            };
+            (start, end, Some(Box::new(leg)))
+        } else {
+            let (start, end) = self.plain(motion);
+            self.last = end.as_ref().ok().copied();
+            (start, end, None)
+        };
+        self.motions.push(Posed {
+            motion: *motion,
+            start: posed.0,
+            end: posed.1,
+            leg: posed.2,
+            tool_length: self.length.1,
+        });
+    }
+
+    fn fault(&mut self, fault: Fault) {
+        self.faults.push(fault);
+    }
+
+    fn block_done(&mut self, block: BlockId, interpreter: &Interpreter<'_>) {
+        if let Some(posed) = self.motions.last()
+            && self.elsewhere.is_none()
+            && self.chains.insert(posed.motion.chain)
+        {
+            let frames = interpreter.chain(posed.motion.chain);
+            if frames.iter().any(|frame| !frame.file.is_empty()) {
+                self.elsewhere = Some(block);
+            }
+        }
+        let state = &interpreter.state;
+        self.blocks.push(Ran {
+            block,
+            motions: self.motions.len(),
+            compensation: state.compensation,
+            spindle_on: state.spindle_on,
+            spindle_rpm: state.spindle_rpm,
+            tool: state.tool,
+            tool_data: state.tool_data,
+            work_offset: state.work_offset.clone(),
+        });
+    }
+}
+
+impl Collector<'_> {
+    /// Poses by the words alone.
+    fn plain(&self, motion: &Motion) -> (Option<Pose>, Result<Pose, String>) {
+        let rotary = motion.end.known & 0b11_1000 != 0;
+        let axis = match motion.orientation {
+            Orientation::Vector(_, axis) => Ok(axis),
+            Orientation::Words if self.is_apt => Err("the tool axis is not known: program i, j, k".to_owned()),
+            Orientation::Words if rotary => {
+                Err("rotary words say where the tool points only together with a machine: add --machine".to_owned())
+            }
+            Orientation::Words => Ok(Vec3::z()),
+        };
+        let end = match (motion.kind, motion.end.xyz(), axis) {
+            (MotionKind::Unknown, ..) => Err("the motion is not modelled".to_owned()),
+            (MotionKind::Dwell(_), ..) => self.last.ok_or_else(|| "the position is not known".to_owned()),
+            (_, Some(_), Ok(_)) if motion.machine_coordinates => {
+                Err("machine coordinates have a meaning only together with a machine: add --machine".to_owned())
+            }
+            (_, Some(tip), Ok(axis)) => Ok(Pose { tip, axis }),
+            (_, None, _) => Err("the position of X, Y or Z is not known".to_owned()),
+            (_, _, Err(why)) => Err(why),
+        };
+        let start = match (motion.start.xyz(), motion.orientation) {
+            (Some(tip), Orientation::Vector(Some(axis), _)) => Some(Pose { tip, axis }),
+            (Some(tip), _) => self.last.map(|pose| Pose { tip, ..pose }),
+            (None, _) => None,
+        };
+        (start, end)
+    }
+}
+
+/// Why there is no pose.
+fn reason(why: &NoStance) -> String {
+    let deg = trunnion_geometry::deg;
+    match why {
+        NoStance::PositionUnknown(letters) => format!("the position of {letters} is not known"),
+        NoStance::Unreachable(off) => format!(
+            "the machine cannot point the tool there: the nearest tool axis it reaches is {:.4} deg away",
+            deg(*off)
+        ),
+        NoStance::OutsideLimits { axis, value, limit } => format!(
+            "{} would have to go to {:.4} deg, its limit is {:.4} deg",
+            char::from(*axis),
+            deg(*value),
+            deg(*limit)
+        ),
+        NoStance::NotModelled => "the motion is not modelled".to_owned(),
+        NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
+        NoStance::RotaryOffset(letter) => format!(
+            "a work offset in {} under tool centre point control is not modelled",
+            char::from(*letter)
+        ),
+    }
+}
+
+impl Posed {
+    /// Whether X Y Z are the tip: under tool centre point control, with vectors, or where no machine is needed to read them.
+    pub fn tip_words(&self) -> bool {
+        let motion = &self.motion;
+        let words = motion.tcp || matches!(motion.orientation, Orientation::Vector(..));
+        self.leg.is_none() || words && !motion.machine_coordinates
+    }
+
+    /// How long the motion takes at the programmed feed, without regard to what axes can do, s; `None`: not known, or a rapid. Feeds
+    /// count along the tip's path (tip words) or that of X Y Z.
+    pub fn duration_s(&self) -> Option<f64> {
+        let way = match (&self.leg, &self.motion.kind) {
+            (_, MotionKind::Arc(Some(arc))) => arc.length(),
+            (Some(leg), _) => leg.length,
+            (None, _) => (self.end.as_ref().ok()?.tip - self.start?.tip).norm(),
+        };
+        match self.motion.feed {
+            Feed::PerMinute(feed) if way > 0.0 => Some(way / feed * 60.0),
+            // where nothing but rotary axes moves, F counts degrees (RS274/NGC)
+            Feed::PerMinute(feed) if !self.tip_words() => {
+                let [first, second] = self.leg.as_ref()?.rotary_change.map(trunnion_geometry::deg);
+                let turned = (first * first + second * second).sqrt();
+                (turned > 0.0).then(|| turned / feed * 60.0)
+            }
+            Feed::PerRevolution(feed) if way > 0.0 => {
+                let rpm = self.motion.spindle_rpm.filter(|rpm| *rpm > 0.0)?;
+                Some(way / (feed * rpm) * 60.0)
+            }
+            Feed::InverseTime(per_minute) if per_minute > 0.0 => Some(60.0 / per_minute),
+            _ => None,
+        }
+    }
+}
+
+/// What of a fault makes it unsafe to tell what the program does; `None` where poses do not depend on it.
+pub(super) fn is_grave(kind: &FaultKind) -> bool {
+    match kind {
+        FaultKind::WorkOffsetUnset { .. }
+        | FaultKind::ToolLengthUnset { .. }
+        | FaultKind::MissingProgramEnd
+        | FaultKind::AptVectorMissing
+        | FaultKind::UnknownCode { machine_builder: true } => false,
+        FaultKind::VectorNotUnit { norm } => (norm - 1.0).abs() > 1e-2,
+        FaultKind::Rejected { refusal, .. } => *refusal != Refusal::ProgramEnd,
+        _ => true,
+    }
+}
+
+impl Reading {
+    /// Faults because of which it is not known what the program does.
+    pub fn grave(&self) -> impl Iterator<Item = &Fault> {
+        self.faults.iter().filter(|fault| is_grave(&fault.kind))
+    }
+}

@@ -1,0 +1,342 @@
+//! One conversion: read, plan, write, read back, prove.
+use crate::emit::parts;
+use crate::emit_apt::{self, AptWriter};
+use crate::emit_code::Writer;
+use crate::events::job;
+use crate::job::Job;
+use crate::number::rounding;
+use crate::plan::{Mode, Out, Planner};
+use crate::{Options, OrientationWords, Post, Refused, Target};
+use trunnion_certify::Outcome;
+use trunnion_certify::conversion::{Assume, ConversionClaim, ConversionProof, Reading, Run, converted, read};
+use trunnion_dialect::Dialect;
+use trunnion_geometry::deg;
+use trunnion_interp::{Fault, FaultKind, Setup};
+use trunnion_machine::{Machine, Side};
+use trunnion_syntax::{Format, LineIndex, Program};
+
+/// A program that is to be converted.
+#[derive(Clone, Copy)]
+pub struct Source<'a> {
+    /// Its bytes.
+    pub text: &'a [u8],
+    /// Its dialect.
+    pub dialect: &'a Dialect,
+    /// The machine it is for; not needed for CL data, nor where it has no rotary words.
+    pub machine: Option<&'a Machine>,
+    /// Tools, offsets.
+    pub setup: &'a Setup,
+    /// What holds at its start, where it is an excerpt.
+    pub assume: Assume,
+}
+
+/// A converted program, proved.
+#[derive(Clone, Debug)]
+pub struct Converted {
+    /// The text.
+    pub text: String,
+    /// Its dialect.
+    pub dialect: &'static Dialect,
+    /// What was proved.
+    pub claim: ConversionClaim,
+    /// With which numbers.
+    pub proof: ConversionProof,
+    /// What has no counterpart and moves nothing (path modes, marks), with the line of its first use.
+    pub left_out: Vec<(String, u32)>,
+    /// Lines of cuts in which the table turns to the other posture or winds back (only with `allow_swap`).
+    pub swaps: Vec<u32>,
+}
+
+/// Tolerance where neither machine nor user names one, mm.
+const TOLERANCE_MM: f64 = 0.01;
+
+/// Converts a program and proves it.
+///
+/// # Errors
+/// Why not, with the place in the program.
+pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> Result<Converted, Refused> {
+    let text = prepared(source, options);
+    let machine = source.machine.filter(|_| source.dialect.lex.format != Format::Apt);
+    if source.assume != Assume::default() && source.dialect.quirks.rs274 {
+        return Err(Refused::new(
+            "what holds at the start of an excerpt cannot be said of a LinuxCNC program: write it into the program",
+        ));
+    }
+    let reading = read(&Run {
+        text: &text,
+        dialect: source.dialect,
+        machine,
+        setup: source.setup,
+        assume: source.assume,
+    });
+    understood(&reading, options)?;
+    let job = job(&reading, source.dialect, options)?;
+    let setting = Setting::new(target, options)?;
+    let tolerance_mm = options.tolerance_mm.unwrap_or_else(|| setting.tolerance());
+    if !(tolerance_mm.is_finite() && tolerance_mm > 0.0) {
+        return Err(Refused::new("the tolerance must be a positive number of millimetres"));
+    }
+    let planner = Planner {
+        reading: &reading,
+        source: machine,
+        mode: setting.mode,
+        dialect: setting.dialect,
+        inverse_time: setting.has("feed-inverse-time"),
+        per_revolution: setting.has("feed-per-revolution"),
+        compensates: setting.compensates(),
+        apt: setting.post.is_none(),
+        setup: source.setup,
+        options,
+        tolerance_mm,
+    };
+    setting.head_lengths(&reading, &job)?;
+    let (outs, swaps) = planner.plan(&job)?;
+    let written = setting.write(&reading, &job, &outs, source.setup, options)?;
+    let claim = setting.claim(options, tolerance_mm);
+    let proof = prove(source, (&reading, machine), &setting, &written, &outs, &claim)?;
+    let line = |block| place(&reading.program, block);
+    Ok(Converted {
+        text: written,
+        dialect: setting.dialect,
+        claim,
+        proof,
+        left_out: job.left_out.iter().map(|(what, block)| (what.clone(), line(*block))).collect(),
+        swaps: swaps.iter().map(|&index| line(reading.motions[index].motion.block)).collect(),
+    })
+}
+
+fn place(program: &Program, block: trunnion_syntax::BlockId) -> u32 {
+    let source = program.source();
+    LineIndex::new(source)
+        .line_column(source, program.block(block).range().start)
+        .0
+}
+
+/// The text; where INSERT is to be a remark, every such record is one, byte for byte as long.
+fn prepared(source: &Source<'_>, options: &Options) -> Vec<u8> {
+    let mut text = source.text.to_vec();
+    if !options.insert_is_remark || source.dialect.lex.format != Format::Apt {
+        return text;
+    }
+    let program = trunnion_syntax::parse(text.clone(), source.dialect.lex);
+    for block in program.blocks() {
+        if let Some(record) = block.record().filter(|record| record.is("INSERT")) {
+            text[record.major.as_usize()].copy_from_slice(b"REMARK");
+        }
+    }
+    text
+}
+
+/// Refuses a program of which it is not known what it does.
+fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
+    let program = &reading.program;
+    if let Some(error) = program.errors().first() {
+        let message = "the text is not understood here; `trunnion check` says more";
+        return Err(Refused::range(program, error.range, message));
+    }
+    let dropped = |fault: &&Fault| {
+        let text = program.text(fault.range);
+        options.drop.iter().any(|drop| drop.eq_ignore_ascii_case(&text))
+    };
+    let feed_only = |fault: &&Fault| matches!(fault.kind, FaultKind::MissingFeed { .. });
+    let mut faults: Vec<&Fault> = reading.grave().filter(|fault| !dropped(fault)).collect();
+    // a missing feed is told where the cut is planned
+    faults.retain(|fault| !feed_only(fault));
+    let Some(fault) = faults.first() else { return Ok(()) };
+    Err(Refused::range(program, fault.range, wording(fault)))
+}
+
+fn wording(fault: &Fault) -> String {
+    match &fault.kind {
+        FaultKind::NotModelled { what } if what.starts_with("INSERT") => {
+            format!("{what}; where INSERT only carries remarks, say --insert-is-remark")
+        }
+        FaultKind::NotModelled { what } => {
+            format!("{what} is not modelled, so that it is not known what the tool does from here on")
+        }
+        FaultKind::Rejected { message, .. } => format!("the control refuses this block: {message}"),
+        FaultKind::NotDecided { what } => format!("what runs next depends on {what}, which is not known"),
+        FaultKind::AptUnknownRecord => "an unknown record: it may move the tool".to_owned(),
+        FaultKind::UnknownCode { .. } => "an unknown code".to_owned(),
+        FaultKind::AmbiguousDecimal => {
+            "a number without a point: a parameter of the control decides what it means; say so in trunnion.toml".to_owned()
+        }
+        _ => "the program has an error here; `trunnion check` says which".to_owned(),
+    }
+}
+
+/// What is written, and how.
+struct Setting<'a> {
+    mode: Mode<'a>,
+    post: Option<&'a Post>,
+    machine: Option<&'a Machine>,
+    dialect: &'static Dialect,
+    vectors: bool,
+    inch: bool,
+}
+
+impl<'a> Setting<'a> {
+    fn new(target: &Target<'a>, options: &Options) -> Result<Self, Refused> {
+        let inch = options.units == crate::Units::Inch;
+        let named = |name: &str| {
+            trunnion_dialect::builtin(name).ok_or_else(|| Refused::new(format!("no dialect is named {name}")))
+        };
+        let Target::Code { post, machine } = *target else {
+            return Ok(Self {
+                mode: Mode::Tip,
+                post: None,
+                machine: None,
+                dialect: named("apt")?,
+                vectors: false,
+                inch,
+            });
+        };
+        let vectors = options.orientation == OrientationWords::Vectors;
+        let rotary = machine.is_some_and(|machine| !machine.rotary.is_empty());
+        let lacks = |key: &str, what: &str| {
+            let message = format!(
+                "the post for {} has no {what} (`{key}`); use --no-tcp, or write one into a post of your own (--post)",
+                post.dialect
+            );
+            Err(Refused::new(message))
+        };
+        if vectors && !options.tcp {
+            return Err(Refused::new("tool vectors need tool centre point control: leave --no-tcp out"));
+        }
+        if vectors && (post.template("tcp-vectors-on").is_none() || post.template("vector").is_none()) {
+            return lacks("tcp-vectors-on", "tool vectors");
+        }
+        let mode = match machine {
+            _ if vectors => Mode::Tip,
+            None => Mode::Tip,
+            Some(machine) if rotary && options.tcp => {
+                if post.template("tcp-words-on").is_none() {
+                    return lacks("tcp-words-on", "tool centre point control");
+                }
+                Mode::TipRotary(machine)
+            }
+            Some(machine) => Mode::Joints(machine),
+        };
+        if let (Mode::Joints(machine), Some(_)) = (mode, machine)
+            && machine.joint_of_letter[..3].contains(&None)
+        {
+            return Err(Refused::new(format!("{} has no axes X Y Z to write words for", machine.id)));
+        }
+        Ok(Self {
+            mode,
+            post: Some(post),
+            machine,
+            dialect: named(&post.dialect)?,
+            vectors,
+            inch,
+        })
+    }
+
+    fn has(&self, key: &str) -> bool {
+        self.post.is_none_or(|post| post.template(key).is_some())
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.machine.map_or(TOLERANCE_MM, |machine| machine.tolerances.tip_mm)
+    }
+
+    /// Whether the tool's length is compensated in the output: by a code, or with the tool's change.
+    fn compensates(&self) -> bool {
+        let code = self.post.and_then(|post| post.template("length-on"));
+        self.dialect.quirks.edge_at_tool_change || code.is_some_and(|code| !code.trim().is_empty())
+    }
+
+    /// Without tool centre point control a head that turns needs the tool's length.
+    fn head_lengths(&self, reading: &Reading, job: &Job) -> Result<(), Refused> {
+        let Mode::Joints(machine) = self.mode else { return Ok(()) };
+        let turns = machine.rotary.iter().any(|&joint| machine.axes[joint].side == Side::Head);
+        let unknown = job.tools.iter().find(|(_, tool)| tool.is_none_or(|tool| tool.length_mm.is_none()));
+        if turns && (unknown.is_some() || job.tools.is_empty()) {
+            let which = unknown.map_or_else(|| "the tool".to_owned(), |(number, _)| format!("tool {number}"));
+            let message = format!(
+                "{} turns the tool, so that joints depend on the length of {which}, which is not declared: \
+                 (trunnion: tool 1 ball diameter 10 length 100)",
+                machine.id
+            );
+            return match reading.motions.first() {
+                Some(posed) => Err(Refused::at(&reading.program, posed.motion.block, message)),
+                None => Err(Refused::new(message)),
+            };
+        }
+        Ok(())
+    }
+
+    fn write(
+        &self,
+        reading: &Reading,
+        job: &Job,
+        outs: &[Out],
+        setup: &Setup,
+        options: &Options,
+    ) -> Result<String, Refused> {
+        match self.post {
+            None => AptWriter::new(reading, options, outs).write(job, outs),
+            Some(post) => {
+                let name = self.machine.map_or("", |machine| machine.name.as_str());
+                Writer::new(reading, post, self.mode, options, setup, name).write(job, outs)
+            }
+        }
+    }
+
+    /// What the digits of the output can hold.
+    fn claim(&self, options: &Options, path_mm: f64) -> ConversionClaim {
+        let unit = options.units.mm();
+        let (length, angle, vector, feed) = match self.post {
+            None => (emit_apt::LENGTH[usize::from(self.inch)], 0, emit_apt::VECTOR, emit_apt::FEED),
+            Some(post) => (post.length[usize::from(self.inch)], post.angle, post.vector, post.feed),
+        };
+        let end_mm = 3f64.sqrt() * rounding(length) * unit * (1.0 + 1e-9) + 1e-9;
+        let by_vector = deg(3f64.sqrt() * rounding(vector));
+        let end_deg = match self.mode {
+            Mode::TipRotary(_) | Mode::Joints(_) => 2.0 * rounding(angle),
+            Mode::Tip => by_vector,
+        };
+        ConversionClaim {
+            // rounded angles move the tip of a machine that runs its joints
+            end_mm: if matches!(self.mode, Mode::Joints(_)) { path_mm } else { end_mm },
+            end_deg: end_deg + 1e-7,
+            path_mm: path_mm.max(end_mm),
+            path_deg: None,
+            feed_mm_min: rounding(feed) * unit * (1.0 + 1e-9) + 1e-9,
+            time_share: 1e-4,
+        }
+    }
+}
+
+fn prove(
+    source: &Source<'_>,
+    before: (&Reading, Option<&Machine>),
+    setting: &Setting<'_>,
+    text: &str,
+    outs: &[Out],
+    claim: &ConversionClaim,
+) -> Result<ConversionProof, Refused> {
+    // vectors say by themselves where the tool points
+    let machine = setting.mode.machine().or(setting.machine.filter(|_| setting.vectors));
+    let after = read(&Run {
+        text: text.as_bytes(),
+        dialect: setting.dialect,
+        machine,
+        setup: source.setup,
+        assume: Assume::default(),
+    });
+    if let Some(error) = after.program.errors().first() {
+        let (line, column) = LineIndex::new(text.as_bytes()).line_column(text.as_bytes(), error.range.start);
+        return Err(Refused::new(format!(
+            "what was written is not understood in its line {line}, column {column}: mend the templates of the post"
+        )));
+    }
+    converted(before, (&after, machine), &parts(outs), claim).map_err(|outcome| {
+        let why = match outcome {
+            Outcome::Refuted(witness) => witness.to_string(),
+            Outcome::Unknown(gap) => gap.to_string(),
+            Outcome::Proved(_) => String::new(),
+        };
+        Refused::new(format!("the conversion could not be proved and was not written: {why}"))
+    })
+}

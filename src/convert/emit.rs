@@ -1,0 +1,60 @@
+//! What both writers share: texts of comments and tools, and which motions belong together.
+use crate::number::number;
+use crate::plan::Out;
+use core::fmt::Write;
+use trunnion_certify::conversion::Part;
+use trunnion_interp::{Tool, ToolShape};
+
+/// Which motions of the output belong to which before.
+pub(crate) fn parts(outs: &[Out]) -> Vec<Part> {
+    outs.iter()
+        .map(|out| match out {
+            Out::Left => Part::Left,
+            Out::Dwell(_) => Part::Moves(1),
+            Out::Moves(moves) => Part::Moves(moves.len() as u32),
+        })
+        .collect()
+}
+
+/// A tool as a comment declares it (`trunnion: tool 1 ball diameter 10 length 100`), as far as it is known.
+pub(crate) fn declaration(count: u32, tool: Option<&Tool>) -> String {
+    let mm = |value: f64| number(value, 6, false);
+    let mut text = String::new();
+    let Some(tool) = tool else { return format!("T{count}") };
+    match (tool.shape, tool.diameter_mm) {
+        (Some(shape), Some(diameter)) => {
+            let (name, radius) = match shape {
+                ToolShape::Ball => ("ball", None),
+                ToolShape::Flat => ("flat", None),
+                ToolShape::Bull(radius) => ("bull", Some(radius)),
+            };
+            let _ = write!(text, " {name} diameter {}", mm(diameter));
+            if let Some(radius) = radius {
+                let _ = write!(text, " radius {}", mm(radius));
+            }
+        }
+        (None, Some(diameter)) => {
+            let _ = write!(text, " diameter {}", mm(diameter));
+        }
+        (_, None) => {}
+    }
+    if let Some(length) = tool.length_mm {
+        let _ = write!(text, " length {}", mm(length));
+    }
+    if text.is_empty() {
+        format!("T{count}")
+    } else {
+        format!("trunnion: tool {count}{text}")
+    }
+}
+
+/// A text that every control can hold: one line, printable ASCII.
+pub(crate) fn plain(text: &str) -> String {
+    let letter = |c: char| match c {
+        ' '..='~' => c,
+        '\t' => ' ',
+        _ => '?',
+    };
+    let text: String = text.chars().map(letter).collect();
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,455 @@
+//! Writes G-code as a post says.
+use crate::emit::{declaration, plain};
+use crate::job::{Coolant, Event, Job, Placed};
+use crate::modal::Modal;
+use crate::number::{number, significant};
+use crate::plan::{Mode, Move, Out, Shape};
+use crate::post::ArcWords;
+use crate::template::fill;
+use crate::{Options, OrientationWords, Post, Refused};
+use core::fmt::Write;
+use trunnion_certify::conversion::Reading;
+use trunnion_geometry::{Vec3, deg};
+use trunnion_interp::{AXIS_LETTERS, Feed, Setup};
+use trunnion_syntax::BlockId;
+
+/// Names of words as the modal memory keeps them.
+const WORDS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
+
+/// Planes by their normal: code, letters of the centre, index of the two axes.
+const PLANES: [(&str, [char; 2], [usize; 2]); 3] = [
+    ("G19", ['J', 'K'], [1, 2]),
+    ("G18", ['I', 'K'], [0, 2]),
+    ("G17", ['I', 'J'], [0, 1]),
+];
+
+/// Writes G-code.
+pub(crate) struct Writer<'a> {
+    pub(crate) reading: &'a Reading,
+    pub(crate) post: &'a Post,
+    pub(crate) mode: Mode<'a>,
+    pub(crate) options: &'a Options,
+    pub(crate) setup: &'a Setup,
+    pub(crate) machine_name: &'a str,
+    text: String,
+    modal: Modal,
+    next_number: u32,
+    /// Tool centre point control, or compensation of the tool's length, is on.
+    ready: bool,
+    tool: Option<u32>,
+    zero: [f64; 9],
+}
+
+impl<'a> Writer<'a> {
+    pub(crate) fn new(
+        reading: &'a Reading,
+        post: &'a Post,
+        mode: Mode<'a>,
+        options: &'a Options,
+        setup: &'a Setup,
+        machine_name: &'a str,
+    ) -> Self {
+        Self {
+            reading,
+            post,
+            mode,
+            options,
+            setup,
+            machine_name,
+            text: String::new(),
+            modal: Modal::default(),
+            next_number: post.number_from,
+            ready: false,
+            tool: None,
+            zero: [0.0; 9],
+        }
+    }
+
+    /// The whole program.
+    pub(crate) fn write(mut self, job: &Job, outs: &[Out]) -> Result<String, Refused> {
+        self.header(job)?;
+        let names_offset = job.events.iter().any(|placed| matches!(placed.event, Event::WorkOffset(_)));
+        if !names_offset {
+            let name = self.options.work_offset.clone();
+            self.work_offset(&name, None)?;
+        }
+        for placed in &job.events {
+            self.event(placed, outs)?;
+        }
+        self.not_ready()?;
+        self.template("footer", None, |name| self_name(name, job, self.options, self.post))?;
+        Ok(self.text)
+    }
+
+    fn refuse(&self, block: Option<BlockId>, message: String) -> Refused {
+        match block {
+            Some(block) => Refused::at(&self.reading.program, block, message),
+            None => Refused::new(message),
+        }
+    }
+
+    /// Fills a template and writes its lines. A template that the post does not have refuses.
+    fn template(
+        &mut self,
+        key: &str,
+        block: Option<BlockId>,
+        value: impl Fn(&str) -> Option<String>,
+    ) -> Result<(), Refused> {
+        let Some(template) = self.post.template(key) else {
+            let message = format!(
+                "the post for {} has no `{key}`: write it into a post of your own (--post), or leave it out of the program",
+                self.post.dialect
+            );
+            return Err(self.refuse(block, message));
+        };
+        let filled = fill(template, value).map_err(str::to_owned);
+        let filled = filled.map_err(|name| {
+            let what = if name == "tool" {
+                "the number of the tool: load one before the first motion".to_owned()
+            } else {
+                format!("{{{name}}}")
+            };
+            self.refuse(block, format!("the post's `{key}` needs {what}, which the program does not say"))
+        })?;
+        for line in filled.lines().map(str::trim).filter(|line| !line.is_empty()) {
+            self.line(line);
+        }
+        Ok(())
+    }
+
+    /// A line; codes get a block number.
+    fn line(&mut self, line: &str) {
+        let comment = self.post.template("comment").unwrap_or_default();
+        let opens = comment.chars().next();
+        let first = line.chars().next();
+        let is_code = first.is_some_and(|c| c.is_ascii_alphabetic()) && !line.starts_with('O') && first != opens;
+        if is_code && self.post.number_step > 0 {
+            let _ = write!(self.text, "N{} ", self.next_number);
+            self.next_number += self.post.number_step;
+        }
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    fn comment_text(&self, text: &str) -> String {
+        let text = plain(text);
+        let text: String = if self.post.template("comment").unwrap_or_default().contains('(') {
+            text.chars()
+                .map(|c| match c {
+                    '(' => '[',
+                    ')' => ']',
+                    c => c,
+                })
+                .collect()
+        } else {
+            text
+        };
+        // a comment must not speak to the control: (ABORT,...)
+        let speaks = self.post.dialect == "linuxcnc" && text.contains(',') || text.starts_with('$');
+        let text = if speaks { format!("- {text}") } else { text };
+        if self.post.upper_case { text.to_ascii_uppercase() } else { text }
+    }
+
+    fn comment(&mut self, text: &str) -> Result<(), Refused> {
+        let text = self.comment_text(text);
+        self.template("comment", None, |name| (name == "text").then(|| text.clone()))
+    }
+
+    fn title(&self, text: &str) -> String {
+        let text = self.comment_text(text);
+        let template = self.post.template("comment").unwrap_or_default();
+        if text.is_empty() {
+            return text;
+        }
+        fill(template, |name| (name == "text").then(|| text.clone())).unwrap_or_default()
+    }
+
+    fn header(&mut self, job: &Job) -> Result<(), Refused> {
+        let tools: Vec<String> = job
+            .tools
+            .iter()
+            .map(|(number, tool)| self.title(&declaration(*number, tool.as_ref())))
+            .collect();
+        let units = match self.options.units {
+            crate::Units::Mm => "units-mm",
+            crate::Units::Inch => "units-inch",
+        };
+        let units = self.post.template(units).unwrap_or_default().to_owned();
+        let feed_mode = self.post.template("feed-per-minute").unwrap_or_default().to_owned();
+        let title = self.title(job.name.as_deref().unwrap_or_default());
+        let machine = plain(self.machine_name);
+        let (options, post) = (self.options, self.post);
+        self.template("header", None, |name| match name {
+            "tools" => Some(tools.join("\n")),
+            "units" => Some(units.clone()),
+            "feed_mode" => Some(feed_mode.clone()),
+            "title" => Some(title.clone()),
+            "machine" => Some(machine.clone()),
+            _ => self_name(name, job, options, post),
+        })?;
+        self.modal.set("mode", feed_mode);
+        Ok(())
+    }
+
+    fn work_offset(&mut self, name: &str, block: Option<BlockId>) -> Result<(), Refused> {
+        self.template("work-offset", block, |key| (key == "work_offset").then(|| name.to_owned()))?;
+        let declared = self.setup.work_offsets.iter();
+        let mut declared = declared.filter(|offset| offset.name.eq_ignore_ascii_case(name));
+        self.zero = declared.next().map_or([0.0; 9], |offset| offset.values);
+        self.forget_coordinates();
+        Ok(())
+    }
+
+    fn forget_coordinates(&mut self) {
+        for word in WORDS.into_iter().chain(["vector"]) {
+            self.modal.forget(word);
+        }
+    }
+
+    fn event(&mut self, placed: &Placed, outs: &[Out]) -> Result<(), Refused> {
+        let block = Some(placed.block);
+        let speed = |rpm: f64| number(rpm, self.post.speed, false);
+        match &placed.event {
+            Event::Comment(text) => self.comment(text),
+            Event::Message(text) if self.post.template("message").is_none() => self.comment(text),
+            Event::Message(text) => {
+                let text = plain(text).replace(['(', ')', '"'], "'");
+                self.template("message", block, |name| (name == "text").then(|| text.clone()))
+            }
+            Event::Tool(tool) => {
+                self.not_ready()?;
+                self.template("tool-change", block, |name| (name == "tool").then(|| tool.to_string()))?;
+                self.tool = Some(*tool);
+                self.modal_reset();
+                Ok(())
+            }
+            Event::SpindleOn(ccw, rpm) => {
+                let (key, rpm) = (
+                    if *ccw { "spindle-counter-clockwise" } else { "spindle-clockwise" },
+                    speed(*rpm),
+                );
+                self.template(key, block, |name| (name == "speed").then(|| rpm.clone()))
+            }
+            Event::SpindleOff => self.template("spindle-stop", block, |_| None),
+            Event::Coolant(coolant) => {
+                let key = match coolant {
+                    Coolant::Flood => "coolant-flood",
+                    Coolant::Mist => "coolant-mist",
+                    Coolant::Thru => "coolant-thru",
+                    Coolant::Air => "coolant-air",
+                    Coolant::Off => "coolant-off",
+                };
+                self.template(key, block, |_| None)
+            }
+            Event::Stop(optional) => {
+                let key = if *optional { "optional-stop" } else { "stop" };
+                self.template(key, block, |_| None)
+            }
+            Event::Auxiliary(code) => {
+                self.template("auxiliary", block, |name| (name == "number").then(|| code.to_string()))
+            }
+            Event::WorkOffset(name) => self.work_offset(name, block),
+            Event::Motion(index) => self.motion(&outs[*index], placed.block),
+        }
+    }
+
+    fn modal_reset(&mut self) {
+        self.modal.forget_all();
+        let mode = self.post.template("feed-per-minute").unwrap_or_default().to_owned();
+        self.modal.set("mode", mode);
+    }
+
+    /// Tool centre point control on, or the tool's length.
+    fn get_ready(&mut self, block: BlockId) -> Result<(), Refused> {
+        if self.ready {
+            return Ok(());
+        }
+        let vectors = self.options.orientation == OrientationWords::Vectors;
+        let key = match self.mode {
+            Mode::TipRotary(_) => "tcp-words-on",
+            Mode::Tip if vectors => "tcp-vectors-on",
+            Mode::Tip | Mode::Joints(_) => "length-on",
+        };
+        self.ready = true;
+        let tool = self.tool.map(|tool| tool.to_string());
+        // a length is compensated where there is a tool; without one the words are those of the spindle's nose
+        if key != "length-on" || tool.is_some() && self.post.template(key).is_some() {
+            self.template(key, Some(block), |name| tool.clone().filter(|_| name == "tool"))?;
+        }
+        self.forget_coordinates();
+        self.modal.forget("motion");
+        Ok(())
+    }
+
+    fn not_ready(&mut self) -> Result<(), Refused> {
+        let tcp = match self.mode {
+            Mode::TipRotary(_) => true,
+            Mode::Tip => self.options.orientation == OrientationWords::Vectors,
+            Mode::Joints(_) => false,
+        };
+        if std::mem::take(&mut self.ready) && tcp {
+            self.template("tcp-off", None, |_| None)?;
+        }
+        Ok(())
+    }
+
+    fn motion(&mut self, out: &Out, block: BlockId) -> Result<(), Refused> {
+        match out {
+            Out::Left => Ok(()),
+            Out::Dwell(seconds) => {
+                let (s, ms) = (
+                    number(*seconds, 3, self.post.point),
+                    number(seconds * 1000.0, 0, false),
+                );
+                self.template("dwell", Some(block), |name| match name {
+                    "seconds" => Some(s.clone()),
+                    "milliseconds" => Some(ms.clone()),
+                    _ => None,
+                })
+            }
+            Out::Moves(moves) => {
+                self.get_ready(block)?;
+                for one in moves {
+                    self.one(one, block)?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn length(&self, mm: f64) -> String {
+        let inch = self.options.units == crate::Units::Inch;
+        let decimals = self.post.length[usize::from(inch)];
+        number(mm / self.options.units.mm(), decimals, self.post.point)
+    }
+
+    fn one(&mut self, one: &Move, block: BlockId) -> Result<(), Refused> {
+        let mut words: Vec<String> = Vec::new();
+        self.feed_mode(one, &mut words, block)?;
+        let arc = match one.shape {
+            Shape::Arc(arc) => Some(arc),
+            Shape::Rapid | Shape::Line => None,
+        };
+        let axis = arc.map(|arc| (0..3).find(|axis| arc.normal[*axis].abs() > 0.5).unwrap_or(2));
+        if let Some(axis) = axis {
+            words.extend(self.modal.change("plane", PLANES[axis].0.to_owned()));
+        }
+        let code = match (one.shape, arc.zip(axis)) {
+            (Shape::Rapid, _) => "G0",
+            (_, Some((arc, axis))) if arc.sweep * arc.normal[axis] < 0.0 => "G2",
+            (_, Some(_)) => "G3",
+            _ => "G1",
+        };
+        words.extend(self.modal.change("motion", code.to_owned()));
+        let before = words.len();
+        self.coordinates(one, axis, &mut words);
+        if words.len() == before {
+            // nothing changes: a word makes it a motion
+            words.push(format!("X{}", self.length(one.xyz.x)));
+        }
+        if let Some((arc, axis)) = arc.zip(axis) {
+            self.arc_words(&arc, axis, &mut words);
+        }
+        self.feed(one, &mut words);
+        let line = words.join(" ");
+        self.line(&line);
+        Ok(())
+    }
+
+    fn coordinates(&mut self, one: &Move, arc_axis: Option<usize>, words: &mut Vec<String>) {
+        for (axis, word) in WORDS.into_iter().enumerate().take(3) {
+            let text = format!("{word}{}", self.length(one.xyz[axis]));
+            if arc_axis.is_some_and(|normal| normal != axis) {
+                // the plane's coordinates are always there
+                self.modal.forget(word);
+            }
+            words.extend(self.modal.change(word, text));
+        }
+        if let Some(machine) = self.mode.machine() {
+            for (index, &joint) in machine.rotary.iter().enumerate() {
+                let letter = machine.axes[joint].letter;
+                let Some(slot) = AXIS_LETTERS.iter().position(|known| *known == letter) else {
+                    continue;
+                };
+                let value = deg(one.q[index]) - self.zero[slot];
+                let text = format!("{}{}", WORDS[slot], number(value, self.post.angle, self.post.point));
+                words.extend(self.modal.change(WORDS[slot], text));
+            }
+        } else if self.options.orientation == OrientationWords::Vectors {
+            let part = |value: f64| number(value, self.post.vector, self.post.point);
+            let template = self.post.template("vector").unwrap_or_default();
+            let text = fill(template, |name| match name {
+                "i" => Some(part(one.axis.x)),
+                "j" => Some(part(one.axis.y)),
+                "k" => Some(part(one.axis.z)),
+                _ => None,
+            });
+            // arcs keep the vector: their I J K are the centre
+            if arc_axis.is_none() {
+                words.extend(self.modal.change("vector", text.unwrap_or_default()));
+            }
+        }
+    }
+
+    fn arc_words(&self, arc: &trunnion_geometry::arc::Arc, axis: usize, words: &mut Vec<String>) {
+        let (_, letters, axes) = PLANES[axis];
+        let radius = arc.radius_start;
+        let minor = arc.sweep.abs() < 3.0;
+        if self.post.arc == ArcWords::Radius && minor {
+            let text = self.length(radius);
+            let template = self.post.template("arc-radius").unwrap_or("R{radius}");
+            words.extend(fill(template, |name| (name == "radius").then(|| text.clone())));
+            return;
+        }
+        let centre: Vec3 = arc.centre - arc.start;
+        for (letter, axis) in letters.iter().zip(axes) {
+            words.push(format!("{letter}{}", self.length(centre[axis])));
+        }
+    }
+
+    /// The code of another meaning of F, where it changes.
+    fn feed_mode(&mut self, one: &Move, words: &mut Vec<String>, block: BlockId) -> Result<(), Refused> {
+        let key = match one.feed {
+            Feed::PerMinute(_) => "feed-per-minute",
+            Feed::PerRevolution(_) => "feed-per-revolution",
+            Feed::InverseTime(_) => "feed-inverse-time",
+            Feed::Rapid | Feed::Unknown => return Ok(()),
+        };
+        let Some(code) = self.post.template(key) else {
+            return Err(self.refuse(Some(block), format!("the post for {} has no `{key}`", self.post.dialect)));
+        };
+        if let Some(code) = self.modal.change("mode", code.to_owned()) {
+            self.modal.forget("F");
+            words.push(code);
+        }
+        Ok(())
+    }
+
+    fn feed(&mut self, one: &Move, words: &mut Vec<String>) {
+        let (point, unit) = (self.post.point, self.options.units.mm());
+        let text = match one.feed {
+            Feed::PerMinute(feed) | Feed::PerRevolution(feed) => number(feed / unit, self.post.feed, point),
+            Feed::InverseTime(feed) => {
+                // each block needs its own
+                self.modal.forget("F");
+                significant(feed, self.post.inverse_time_digits, point)
+            }
+            Feed::Rapid | Feed::Unknown => return,
+        };
+        words.extend(self.modal.change("F", format!("F{text}")));
+    }
+}
+
+/// Names that every frame of a program may use.
+fn self_name(name: &str, job: &Job, options: &Options, post: &Post) -> Option<String> {
+    match name {
+        "program" => {
+            let text = plain(job.name.as_deref().unwrap_or_default());
+            Some(if post.upper_case { text.to_ascii_uppercase() } else { text })
+        }
+        "title" => Some(String::new()),
+        "number" => Some(format!("{:04}", options.program_number)),
+        "work_offset" => Some(options.work_offset.clone()),
+        _ => None,
+    }
+}

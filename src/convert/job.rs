@@ -1,0 +1,66 @@
+//! What a program says, apart from any language: events in order, motions among them.
+use trunnion_interp::Tool;
+use trunnion_syntax::BlockId;
+
+/// Coolant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Coolant {
+    Flood,
+    Mist,
+    Thru,
+    Air,
+    Off,
+}
+
+/// One thing that a program says.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Event {
+    /// A comment for people.
+    Comment(String),
+    /// A text for the operator's screen.
+    Message(String),
+    /// A tool comes into the spindle.
+    Tool(u32),
+    /// The spindle turns: counter-clockwise, and its speed, 1/min.
+    SpindleOn(bool, f64),
+    /// It stops.
+    SpindleOff,
+    Coolant(Coolant),
+    /// The program waits for the operator; optional: only where the switch is set.
+    Stop(bool),
+    /// An M code without meaning to the control itself (APT AUXFUN).
+    Auxiliary(u32),
+    /// A work offset by its name.
+    WorkOffset(String),
+    /// A motion, by its index.
+    Motion(usize),
+}
+
+/// An event and where it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Placed {
+    pub(crate) event: Event,
+    pub(crate) block: BlockId,
+}
+
+/// A program's events.
+#[derive(Debug, Default)]
+pub(crate) struct Job {
+    pub(crate) name: Option<String>,
+    pub(crate) events: Vec<Placed>,
+    /// Tools in the order of their first use, with what is declared of them.
+    pub(crate) tools: Vec<(u32, Option<Tool>)>,
+    /// What is left out, once each, with its place.
+    pub(crate) left_out: Vec<(String, BlockId)>,
+}
+
+impl Job {
+    pub(crate) fn push(&mut self, event: Event, block: BlockId) {
+        self.events.push(Placed { event, block });
+    }
+    pub(crate) fn leave_out(&mut self, what: &str, block: BlockId) {
+        if !self.left_out.iter().any(|(known, _)| known == what) {
+            self.left_out.push((what.to_owned(), block));
+        }
+    }
+}

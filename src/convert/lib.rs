@@ -1,0 +1,27 @@
+//! Floor 7: one language, control or machine to another. APT/CL to G-code, G-code to APT/CL, dialect to dialect, machine to machine.
+//!
+//! It proposes a program; [`trunnion_certify::conversion`] reads both texts from scratch and compares them motion for motion. What cannot be
+//! proved within tolerance is refused with reason and place. *It never vouches for itself.*
+mod cl;
+mod convert;
+mod emit;
+mod emit_apt;
+mod emit_code;
+mod events;
+mod events_apt;
+mod job;
+mod modal;
+mod number;
+mod options;
+mod plan;
+mod post;
+mod posture;
+mod refuse;
+mod sample;
+mod template;
+
+pub use cl::{ClFeed, ClPoint, ClTool, cl_text};
+pub use convert::{Converted, Source, convert};
+pub use options::{Options, OrientationWords, Target, Units};
+pub use post::{BUILTIN_POSTS, Post, PostError, builtin_post, builtin_post_source, load_post};
+pub use refuse::Refused;

@@ -1,0 +1,92 @@
+//! What a conversion is asked for.
+use crate::Post;
+use trunnion_machine::Machine;
+
+/// Units of the program that is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Units {
+    /// Millimetres.
+    #[default]
+    Mm,
+    /// Inches.
+    Inch,
+}
+
+impl Units {
+    /// mm per unit.
+    pub(crate) fn mm(self) -> f64 {
+        match self {
+            Self::Mm => 1.0,
+            Self::Inch => 25.4,
+        }
+    }
+}
+
+/// How the tool's orientation is written under tool centre point control.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OrientationWords {
+    /// Rotary words, by inverse kinematics.
+    #[default]
+    Rotary,
+    /// Tool vectors.
+    Vectors,
+}
+
+/// What is written.
+#[derive(Clone, Copy)]
+pub enum Target<'a> {
+    /// APT / CL data: no machine is in it.
+    Apt,
+    /// G-code.
+    Code {
+        /// How the control is written for.
+        post: &'a Post,
+        /// The machine it shall run on; `None`: the program has no rotary words.
+        machine: Option<&'a Machine>,
+    },
+}
+
+/// What a conversion is asked for.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Units of the program that is written.
+    pub units: Units,
+    /// Rotary words or vectors.
+    pub orientation: OrientationWords,
+    /// Tool centre point control is used where the machine has rotary axes; else joints are written and linearised.
+    pub tcp: bool,
+    /// At every moment of a feed motion the tip stays within this of where it was, mm; `None`: the tolerance of the machine, or 0.01.
+    pub tolerance_mm: Option<f64>,
+    /// A cut may turn the table to the other posture, or wind back a rotary axis.
+    pub allow_swap: bool,
+    /// INSERT records are taken for remarks.
+    pub insert_is_remark: bool,
+    /// Codes that are left out: `M10`.
+    pub drop: Vec<String>,
+    /// Arcs are written as lines.
+    pub lines_only: bool,
+    /// Name of the program, where it says none itself.
+    pub program_name: Option<String>,
+    /// Number of the program (`O1`).
+    pub program_number: u32,
+    /// Work offset, where the program names none.
+    pub work_offset: String,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            units: Units::Mm,
+            orientation: OrientationWords::Rotary,
+            tcp: true,
+            tolerance_mm: None,
+            allow_swap: false,
+            insert_is_remark: false,
+            drop: Vec::new(),
+            lines_only: false,
+            program_name: None,
+            program_number: 1,
+            work_offset: "G54".to_owned(),
+        }
+    }
+}

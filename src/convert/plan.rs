@@ -1,0 +1,419 @@
+//! Motions to words of the target: joints chosen, arcs kept or cut into lines, feeds carried over.
+use crate::job::{Event, Job};
+use crate::posture::{Never, Wish, choose};
+use crate::sample::{Between, Frame, PartEnd, joints, words};
+use crate::{Options, Refused};
+use trunnion_certify::conversion::{Posed, Reading, Track, carried, rotary};
+use trunnion_dialect::Dialect;
+use trunnion_geometry::{Vec3, arc::Arc, deg};
+use trunnion_interp::{Feed, MotionKind, Orientation, Setup};
+use trunnion_machine::Machine;
+
+/// What X Y Z are in the program that is written.
+#[derive(Clone, Copy)]
+pub(crate) enum Mode<'m> {
+    /// The tip; the tool axis as vector or straight up.
+    Tip,
+    /// The tip; rotary words.
+    TipRotary(&'m Machine),
+    /// Joints.
+    Joints(&'m Machine),
+}
+
+impl<'m> Mode<'m> {
+    pub(crate) fn machine(self) -> Option<&'m Machine> {
+        match self {
+            Self::Tip => None,
+            Self::TipRotary(machine) | Self::Joints(machine) => Some(machine),
+        }
+    }
+}
+
+/// How a motion of the output is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Shape {
+    Rapid,
+    Line,
+    /// In the output's words.
+    Arc(Arc),
+}
+
+/// A motion of the output.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Move {
+    pub(crate) shape: Shape,
+    /// X Y Z as [`Mode`] says, mm.
+    pub(crate) xyz: Vec3,
+    /// Rotary joints, rad.
+    pub(crate) q: [f64; 2],
+    pub(crate) axis: Vec3,
+    pub(crate) feed: Feed,
+}
+
+/// What becomes of a motion.
+#[derive(Clone, Debug)]
+pub(crate) enum Out {
+    /// It ends nowhere known.
+    Left,
+    Dwell(f64),
+    Moves(Vec<Move>),
+}
+
+/// What a plan is made from.
+pub(crate) struct Planner<'a> {
+    pub(crate) reading: &'a Reading,
+    /// The machine that the program before was read with.
+    pub(crate) source: Option<&'a Machine>,
+    pub(crate) mode: Mode<'a>,
+    /// Dialect of the output.
+    pub(crate) dialect: &'a Dialect,
+    /// Whether the output knows inverse time, and feed per revolution.
+    pub(crate) inverse_time: bool,
+    pub(crate) per_revolution: bool,
+    /// Whether the output compensates the tool's length.
+    pub(crate) compensates: bool,
+    /// APT: arcs in any plane, but flat and of one turn.
+    pub(crate) apt: bool,
+    pub(crate) setup: &'a Setup,
+    pub(crate) options: &'a Options,
+    pub(crate) tolerance_mm: f64,
+}
+
+/// The motions of the output for each motion before, and the blocks with a swap.
+pub(crate) type Plan = (Vec<Out>, Vec<usize>);
+
+impl Planner<'_> {
+    pub(crate) fn plan(&self, job: &Job) -> Result<Plan, Refused> {
+        let motions = &self.reading.motions;
+        let (q, swaps) = self.rotary()?;
+        let frames = self.frames(job);
+        let mut outs = Vec::with_capacity(motions.len());
+        let mut before = [0.0; 2];
+        for (index, posed) in motions.iter().enumerate() {
+            let out = self.out(index, posed, (before, q[index]), &frames[index])?;
+            if let Out::Moves(_) = out {
+                before = q[index];
+            }
+            outs.push(out);
+        }
+        Ok((outs, swaps))
+    }
+
+    fn refuse(&self, posed: &Posed, message: String) -> Refused {
+        Refused::at(&self.reading.program, posed.motion.block, message)
+    }
+
+    /// Rotary joints at the ends of all motions.
+    fn rotary(&self) -> Result<(Vec<[f64; 2]>, Vec<usize>), Refused> {
+        let motions = &self.reading.motions;
+        let mut q = vec![[0.0; 2]; motions.len()];
+        let Some(machine) = self.mode.machine() else {
+            return Ok((q, Vec::new()));
+        };
+        if self.keeps() {
+            for (slot, posed) in q.iter_mut().zip(motions) {
+                if let Some(Ok(stance)) = posed.leg.as_ref().map(|leg| &leg.end) {
+                    *slot = rotary(machine, &stance.joints);
+                }
+            }
+            return Ok((q, Vec::new()));
+        }
+        let (mut wishes, mut whose) = (Vec::new(), Vec::new());
+        for (index, posed) in motions.iter().enumerate() {
+            if let (Ok(pose), MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(_)) =
+                (&posed.end, posed.motion.kind)
+            {
+                wishes.push(Wish {
+                    axis: pose.axis,
+                    cuts: posed.motion.kind != MotionKind::Rapid && posed.start.is_some(),
+                });
+                whose.push(index);
+            }
+        }
+        let chosen = choose(machine, &wishes).map_err(|(at, never)| {
+            let posed = &motions[whose[at]];
+            let axis = wishes[at].axis;
+            let tells = format!("the tool axis ({:.6}, {:.6}, {:.6})", axis.x, axis.y, axis.z);
+            let message = match never {
+                Never::Unreachable(off) => format!(
+                    "{} cannot point the tool along {tells}: the nearest it reaches is {:.4} deg away",
+                    machine.id,
+                    deg(off)
+                ),
+                Never::Limits => format!("{} reaches {tells} only outside the travel of its rotary axes", machine.id),
+            };
+            self.refuse(posed, message)
+        })?;
+        let mut swaps = Vec::new();
+        for (one, &index) in chosen.iter().zip(&whose) {
+            q[index] = one.q;
+            if one.swap {
+                swaps.push(index);
+            }
+        }
+        if let Some(&index) = swaps.first().filter(|_| !self.options.allow_swap) {
+            let message = format!(
+                "in this cut the table must turn to the other posture, or wind back ({} such places in all): retract there, turn and come \
+                 back, or say --allow-swap",
+                swaps.len()
+            );
+            return Err(self.refuse(&motions[index], message));
+        }
+        Ok((q, swaps))
+    }
+
+    /// Whether joints of the program before are those of the output: the same machine, and words.
+    fn keeps(&self) -> bool {
+        let same = match (self.source, self.mode.machine()) {
+            (Some(source), Some(target)) => source.id == target.id && source.axes == target.axes,
+            _ => false,
+        };
+        let words = |posed: &Posed| matches!(posed.motion.orientation, Orientation::Words);
+        same && self.reading.motions.iter().all(|posed| posed.leg.is_some() && words(posed))
+    }
+
+    /// Zero point and tool length in force at each motion of the output.
+    fn frames(&self, job: &Job) -> Vec<Frame> {
+        let zero_of = |name: &str| {
+            let known = self.setup.work_offsets.iter();
+            let mut known = known.filter(|offset| offset.name.eq_ignore_ascii_case(name));
+            known.next().map_or([0.0; 9], |offset| offset.values)
+        };
+        let length_of = |number: u32| {
+            let declared = job.tools.iter().find(|(known, _)| *known == number);
+            let own = declared.and_then(|(_, tool)| tool.as_ref()?.length_mm);
+            own.filter(|_| self.compensates).unwrap_or(0.0)
+        };
+        let mut frame = Frame {
+            zero: zero_of(&self.options.work_offset),
+            length: 0.0,
+        };
+        let mut frames = vec![frame; self.reading.motions.len()];
+        for placed in &job.events {
+            match &placed.event {
+                Event::WorkOffset(name) => frame.zero = zero_of(name),
+                Event::Tool(number) => frame.length = length_of(*number),
+                Event::Motion(index) => frames[*index] = frame,
+                _ => {}
+            }
+        }
+        frames
+    }
+
+    fn out(&self, index: usize, posed: &Posed, q: ([f64; 2], [f64; 2]), frame: &Frame) -> Result<Out, Refused> {
+        if let MotionKind::Dwell(seconds) = posed.motion.kind {
+            let why = "a dwell of a length that is not known";
+            return seconds.map(Out::Dwell).ok_or_else(|| self.refuse(posed, why.to_owned()));
+        }
+        if let Err(why) = &posed.end {
+            if self.may_leave(index) {
+                return Ok(Out::Left);
+            }
+            return Err(self.refuse(posed, format!("where this motion ends is not known: {why}")));
+        }
+        let is_rapid = posed.motion.kind == MotionKind::Rapid;
+        let track = Track::new(posed, self.source);
+        let Some(track) = track.filter(|_| !is_rapid) else {
+            if !is_rapid && !matches!(posed.motion.kind, MotionKind::Linear) {
+                return Err(self.refuse(posed, "an arc from a position that is not known".to_owned()));
+            }
+            if !is_rapid && posed.start.is_some() {
+                return Err(self.refuse(posed, "how the tool gets there is not known".to_owned()));
+            }
+            return self.at_once(posed, q.1, frame, is_rapid).map(Out::Moves);
+        };
+        let between = Between {
+            machine: self.mode.machine(),
+            from: q.0,
+            to: q.1,
+            keep: self.keeps(),
+            frame: *frame,
+        };
+        if let Some(arcs) = self.arcs(&track, q, frame, posed) {
+            return Ok(Out::Moves(arcs));
+        }
+        let ends = self
+            .parts(posed, &track, &between)
+            .map_err(|why| self.refuse(posed, why))?;
+        self.lines(posed, &track, &ends, frame).map(Out::Moves)
+    }
+
+    /// As the proof will see it: a rapid to nowhere known may go only in front of all known poses of its tool, or behind the last.
+    fn may_leave(&self, index: usize) -> bool {
+        let motions = &self.reading.motions;
+        let posed = &motions[index];
+        let known = |other: &Posed| other.end.is_ok() && !matches!(other.motion.kind, MotionKind::Dwell(_));
+        let tool = posed.motion.tool;
+        let first = !motions[..index].iter().any(|other| other.motion.tool == tool && known(other));
+        let next = motions[index..].iter().find(|other| known(other));
+        posed.motion.kind == MotionKind::Rapid && (first || next.is_none_or(|next| next.motion.tool != tool))
+    }
+
+    fn parts(&self, posed: &Posed, track: &Track<'_>, between: &Between<'_>) -> Result<Vec<PartEnd>, String> {
+        let Mode::Joints(machine) = self.mode else {
+            return between.chords(track, self.tolerance_mm);
+        };
+        if between.keep && !posed.tip_words() && !matches!(posed.motion.kind, MotionKind::Arc(_)) {
+            // the same joints, which run as they ran
+            return between.ends(track, 1, true);
+        }
+        let start = track.at(0.0);
+        let start = joints(machine, between.from, &start.tip, &between.frame).ok_or("the linear axes do not span space")?;
+        between.joint_parts(track, &start, self.tolerance_mm)
+    }
+
+    fn xyz(&self, end: &PartEnd, frame: &Frame) -> Option<Vec3> {
+        match self.mode {
+            Mode::Tip | Mode::TipRotary(_) => Some(end.tip),
+            Mode::Joints(machine) => {
+                let joints = end.joints.or_else(|| joints(machine, end.q, &end.tip, frame))?;
+                words(machine, &joints, frame)
+            }
+        }
+    }
+
+    /// A rapid, or a line from a position that is not known.
+    fn at_once(&self, posed: &Posed, q: [f64; 2], frame: &Frame, is_rapid: bool) -> Result<Vec<Move>, Refused> {
+        let Ok(pose) = &posed.end else { return Ok(Vec::new()) };
+        let end = PartEnd {
+            tip: pose.tip,
+            axis: pose.axis,
+            q,
+            joints: None,
+        };
+        let xyz = self
+            .xyz(&end, frame)
+            .ok_or_else(|| self.refuse(posed, "X Y Z of the machine do not reach it".to_owned()))?;
+        Ok(vec![Move {
+            shape: if is_rapid { Shape::Rapid } else { Shape::Line },
+            xyz,
+            q,
+            axis: pose.axis,
+            feed: self.plain_feed(posed)?,
+        }])
+    }
+
+    /// The feed as it is programmed, where it means the same in the output.
+    fn plain_feed(&self, posed: &Posed) -> Result<Feed, Refused> {
+        match posed.motion.feed {
+            Feed::Unknown => {
+                let message = "no feed is known for this cut: program one, or give --feed for an excerpt";
+                Err(self.refuse(posed, message.to_owned()))
+            }
+            Feed::InverseTime(_) if !self.inverse_time => {
+                let message = "a time without a way, and the control has no feed by inverse time";
+                Err(self.refuse(posed, message.to_owned()))
+            }
+            Feed::PerRevolution(per_turn) if !self.per_revolution => match posed.motion.spindle_rpm {
+                Some(rpm) => Ok(Feed::PerMinute(per_turn * rpm)),
+                None => Err(self.refuse(posed, "a feed per turn of a spindle whose speed is not known".to_owned())),
+            },
+            feed => Ok(feed),
+        }
+    }
+
+    fn lines(&self, posed: &Posed, track: &Track<'_>, ends: &[PartEnd], frame: &Frame) -> Result<Vec<Move>, Refused> {
+        let feed = self.plain_feed(posed)?;
+        let turning = |q: [f64; 2]| ends.iter().any(|end| end.q != q);
+        let turns = matches!(self.mode, Mode::Joints(_)) && ends.first().is_some_and(|end| turning(end.q));
+        let turns = turns || track.rotary_at(0.0).is_some_and(turning) && matches!(self.mode, Mode::Joints(_));
+        let by_path = posed.tip_words() || posed.leg.as_ref().is_none_or(|leg| leg.rotary_change == [0.0; 2]);
+        let mut from = track.at(0.0).tip;
+        let mut moves = Vec::with_capacity(ends.len());
+        for end in ends {
+            let xyz = self
+                .xyz(end, frame)
+                .ok_or_else(|| self.refuse(posed, "X Y Z of the machine do not reach it".to_owned()))?;
+            let way = (end.tip - from).norm();
+            from = end.tip;
+            let feed = match feed {
+                Feed::PerMinute(_) | Feed::PerRevolution(_) if by_path && !turns => feed,
+                Feed::Rapid | Feed::Unknown => feed,
+                _ => self.timed(posed, way, ends.len(), end)?,
+            };
+            moves.push(Move {
+                shape: Shape::Line,
+                xyz,
+                q: end.q,
+                axis: end.axis,
+                feed,
+            });
+        }
+        Ok(moves)
+    }
+
+    /// The feed of one of `count` equal parts by the time that the motion takes: inverse time, or mm/min where the control has none.
+    fn timed(&self, posed: &Posed, way: f64, count: usize, end: &PartEnd) -> Result<Feed, Refused> {
+        let turned = || {
+            // a turn on the spot: F counts degrees (RS274/NGC)
+            let before = posed.start?.axis;
+            let angle = deg(trunnion_geometry::math::angle_between(&before, &end.axis));
+            match posed.motion.feed {
+                Feed::PerMinute(feed) if angle > 0.0 => Some(angle / feed * 60.0),
+                _ => None,
+            }
+        };
+        let seconds = posed.duration_s().or_else(turned).filter(|seconds| *seconds > 0.0);
+        let Some(seconds) = seconds else {
+            return Err(self.refuse(posed, "how long this cut takes is not known".to_owned()));
+        };
+        let part = seconds / count as f64;
+        let keeps_minutes = matches!(self.mode, Mode::Tip | Mode::TipRotary(_))
+            && !matches!(posed.motion.feed, Feed::InverseTime(_))
+            && way > 0.0;
+        if self.inverse_time && !keeps_minutes {
+            return Ok(Feed::InverseTime(60.0 / part));
+        }
+        if way > 0.0 && matches!(self.mode, Mode::Tip | Mode::TipRotary(_)) {
+            return Ok(Feed::PerMinute(way / part * 60.0));
+        }
+        let message = "the control has no feed by inverse time, which this cut needs";
+        Err(self.refuse(posed, message.to_owned()))
+    }
+
+    /// The motion as arcs of the output, where it is one there: about a principal axis, with equal radii, the tool axis still.
+    fn arcs(&self, track: &Track<'_>, q: ([f64; 2], [f64; 2]), frame: &Frame, posed: &Posed) -> Option<Vec<Move>> {
+        let arc = track.tip_arc().filter(|_| !self.options.lines_only)?;
+        let still = (track.at(0.0).axis - track.at(1.0).axis).norm() < 1e-9
+            && (0..=8).all(|i| (track.at(f64::from(i) / 8.0).axis - track.at(1.0).axis).norm() < 1e-9);
+        if !still || (self.mode.machine().is_some() && q.0 != q.1) {
+            return None;
+        }
+        let arc = match self.mode {
+            Mode::Joints(machine) => carried(&arc, |tip| words(machine, &joints(machine, q.1, tip, frame)?, frame))?,
+            Mode::Tip | Mode::TipRotary(_) => arc,
+        };
+        let flat = arc.height().abs() < 1e-6;
+        let principal = (0..3).any(|axis| arc.normal[axis].abs() > 1.0 - 1e-12);
+        let slope = (arc.radius_start - arc.radius_end).abs();
+        let limit = 0.5 * self.dialect.arc_limit_mm(arc.radius_start, self.options.units == crate::Units::Inch);
+        if slope > limit || if self.apt { !flat } else { !principal } {
+            return None;
+        }
+        let feed = self.plain_feed(posed).ok()?;
+        let count = (arc.sweep.abs() / core::f64::consts::TAU - 1e-9).ceil().max(1.0) as usize;
+        let feed = match feed {
+            Feed::InverseTime(per_minute) => Feed::InverseTime(per_minute * count as f64),
+            feed => feed,
+        };
+        let part = |index: usize| {
+            let share = |index: usize| index as f64 / count as f64;
+            let (start, end) = (arc.point_at(share(index)), arc.point_at(share(index + 1)));
+            let centre = arc.centre + arc.normal * arc.normal.dot(&(start - arc.centre));
+            Move {
+                shape: Shape::Arc(Arc {
+                    start,
+                    end,
+                    centre,
+                    sweep: arc.sweep / count as f64,
+                    ..arc
+                }),
+                xyz: end,
+                q: q.1,
+                axis: track.at(1.0).axis,
+                feed,
+            }
+        };
+        Some((0..count).map(part).collect())
+    }
+}

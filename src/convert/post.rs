@@ -1,0 +1,347 @@
+//! How a control is written for: number formats and templates, as a TOML table in `grammar/posts` or a file of one's own.
+use crate::template::names;
+use core::ops::Range;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+use toml::Spanned;
+
+/// Names of the posts that are built in: those of their dialects.
+pub const BUILTIN_POSTS: &[&str] = &[
+    "iso-6983",
+    "linuxcnc",
+    "fanuc-30i",
+    "haas-ngc",
+    "sinumerik-840d",
+    "grbl",
+];
+
+/// Texts, in the order of [`BUILTIN_POSTS`]. A post may extend only one that stands before it.
+const TEXTS: [&str; 6] = [
+    include_str!("../../grammar/posts/iso-6983.toml"),
+    include_str!("../../grammar/posts/linuxcnc.toml"),
+    include_str!("../../grammar/posts/fanuc-30i.toml"),
+    include_str!("../../grammar/posts/haas-ngc.toml"),
+    include_str!("../../grammar/posts/sinumerik-840d.toml"),
+    include_str!("../../grammar/posts/grbl.toml"),
+];
+
+static LOADED: [OnceLock<Option<Post>>; 6] = [const { OnceLock::new() }; 6];
+
+/// Templates and the names that they may use.
+const TEMPLATES: &[(&str, &[&str])] = &[
+    (
+        "header",
+        &[
+            "program", "title", "number", "tools", "machine", "units", "feed_mode", "work_offset",
+        ],
+    ),
+    ("footer", &["program", "title", "number"]),
+    ("comment", &["text"]),
+    ("message", &["text"]),
+    ("work-offset", &["work_offset"]),
+    ("tool-change", &["tool"]),
+    ("spindle-clockwise", &["speed"]),
+    ("spindle-counter-clockwise", &["speed"]),
+    ("spindle-stop", &[]),
+    ("coolant-flood", &[]),
+    ("coolant-mist", &[]),
+    ("coolant-thru", &[]),
+    ("coolant-air", &[]),
+    ("coolant-off", &[]),
+    ("stop", &[]),
+    ("optional-stop", &[]),
+    ("auxiliary", &["number"]),
+    ("dwell", &["seconds", "milliseconds"]),
+    ("units-mm", &[]),
+    ("units-inch", &[]),
+    ("feed-per-minute", &[]),
+    ("feed-inverse-time", &[]),
+    ("feed-per-revolution", &[]),
+    ("length-on", &["tool"]),
+    ("tcp-words-on", &["tool"]),
+    ("tcp-vectors-on", &["tool"]),
+    ("tcp-off", &[]),
+    ("vector", &["i", "j", "k"]),
+    ("arc-radius", &["radius"]),
+];
+
+/// Why a post cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PostError {
+    /// What is wrong and what to do.
+    pub message: String,
+    /// Bytes in the file, where known.
+    pub span: Option<Range<usize>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct RawPost {
+    dialect: Option<Spanned<String>>,
+    extends: Option<Spanned<String>>,
+    extension: Option<String>,
+    #[serde(rename = "source")]
+    _source: Option<String>,
+    #[serde(default)]
+    numbers: RawNumbers,
+    #[serde(default)]
+    text: RawText,
+    #[serde(default)]
+    templates: BTreeMap<Spanned<String>, Spanned<String>>,
+    #[serde(default)]
+    without: RawWithout,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct RawNumbers {
+    length_mm: Option<Spanned<usize>>,
+    length_inch: Option<Spanned<usize>>,
+    angle: Option<Spanned<usize>>,
+    vector: Option<Spanned<usize>>,
+    feed: Option<Spanned<usize>>,
+    speed: Option<Spanned<usize>>,
+    inverse_time_digits: Option<Spanned<usize>>,
+    point: Option<bool>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct RawText {
+    number_from: Option<u32>,
+    number_step: Option<u32>,
+    upper_case: Option<bool>,
+    arc: Option<ArcWords>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawWithout {
+    #[serde(default)]
+    templates: Vec<Spanned<String>>,
+}
+
+/// How arcs are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum ArcWords {
+    Centre,
+    Radius,
+}
+
+/// How a control is written for.
+#[derive(Clone, Debug)]
+pub struct Post {
+    /// Its dialect.
+    pub dialect: String,
+    /// Extension of its files.
+    pub extension: String,
+    /// Digits behind the point: mm, inch.
+    pub(crate) length: [usize; 2],
+    pub(crate) angle: usize,
+    pub(crate) vector: usize,
+    pub(crate) feed: usize,
+    pub(crate) speed: usize,
+    pub(crate) inverse_time_digits: usize,
+    pub(crate) point: bool,
+    pub(crate) number_from: u32,
+    pub(crate) number_step: u32,
+    pub(crate) upper_case: bool,
+    pub(crate) arc: ArcWords,
+    templates: BTreeMap<String, String>,
+}
+
+/// A built-in post by its name; loaded once.
+pub fn builtin_post(name: &str) -> Option<&'static Post> {
+    let index = BUILTIN_POSTS.iter().position(|&known| known == name)?;
+    LOADED[index].get_or_init(|| load_post(TEXTS[index]).ok()).as_ref()
+}
+
+/// The text of a built-in post, as a start for one of one's own.
+pub fn builtin_post_source(name: &str) -> Option<&'static str> {
+    let index = BUILTIN_POSTS.iter().position(|&known| known == name)?;
+    Some(TEXTS[index])
+}
+
+/// Loads a post. What it does not say is as in the one that it `extends`.
+///
+/// # Errors
+/// What is wrong with it, and where.
+pub fn load_post(text: &str) -> Result<Post, PostError> {
+    let raw: RawPost = toml::from_str(text).map_err(|error| PostError {
+        message: error.message().to_owned(),
+        span: error.span(),
+    })?;
+    let mut post = base(&raw)?;
+    if let Some(name) = &raw.dialect {
+        if trunnion_dialect::builtin(name.get_ref()).is_none() || name.get_ref() == "apt" {
+            return Err(fault(name.span(), format!("no dialect of G-code is named {:?}", name.get_ref())));
+        }
+        post.dialect.clone_from(name.get_ref());
+    }
+    post.extension = raw.extension.unwrap_or(post.extension);
+    post.numbers(&raw.numbers)?;
+    let words = raw.text;
+    post.number_from = words.number_from.unwrap_or(post.number_from);
+    post.number_step = words.number_step.unwrap_or(post.number_step);
+    post.upper_case = words.upper_case.unwrap_or(post.upper_case);
+    post.arc = words.arc.unwrap_or(post.arc);
+    for key in &raw.without.templates {
+        if post.templates.remove(key.get_ref()).is_none() {
+            let message = format!("there is no template {:?} to do without", key.get_ref());
+            return Err(fault(key.span(), message));
+        }
+    }
+    for (key, value) in &raw.templates {
+        check_template(text, key, value)?;
+        post.templates.insert(key.get_ref().clone(), value.get_ref().clone());
+    }
+    for (key, _) in TEMPLATES.iter().take(3) {
+        if !post.templates.contains_key(*key) {
+            return Err(PostError {
+                message: format!("the template {key} is missing; write it, or `extends = \"iso-6983\"`"),
+                span: None,
+            });
+        }
+    }
+    Ok(post)
+}
+
+fn fault(span: Range<usize>, message: String) -> PostError {
+    PostError {
+        message,
+        span: Some(span),
+    }
+}
+
+/// The post that is extended, or one that says nothing.
+fn base(raw: &RawPost) -> Result<Post, PostError> {
+    if let Some(name) = &raw.extends {
+        return builtin_post(name.get_ref()).cloned().ok_or_else(|| {
+            let known = BUILTIN_POSTS.join(", ");
+            fault(
+                name.span(),
+                format!("no post is named {:?}; built in are {known}", name.get_ref()),
+            )
+        });
+    }
+    let Some(dialect) = &raw.dialect else {
+        return Err(PostError {
+            message: "a post names its `dialect`, or a built-in post that it `extends`".to_owned(),
+            span: None,
+        });
+    };
+    Ok(Post {
+        dialect: dialect.get_ref().clone(),
+        extension: "nc".to_owned(),
+        length: [4, 5],
+        angle: 4,
+        vector: 8,
+        feed: 4,
+        speed: 3,
+        inverse_time_digits: 7,
+        point: false,
+        number_from: 10,
+        number_step: 10,
+        upper_case: false,
+        arc: ArcWords::Centre,
+        templates: BTreeMap::new(),
+    })
+}
+
+/// A template must be known, and so must the names in it.
+fn check_template(text: &str, key: &Spanned<String>, value: &Spanned<String>) -> Result<(), PostError> {
+    let Some((_, allowed)) = TEMPLATES.iter().find(|(known, _)| known == key.get_ref()) else {
+        let known: Vec<&str> = TEMPLATES.iter().map(|(known, _)| *known).collect();
+        let message = format!("no template is named {:?}; there are {}", key.get_ref(), known.join(", "));
+        return Err(fault(key.span(), message));
+    };
+    let mut unknown = names(value.get_ref()).filter(|(_, name)| !allowed.contains(name));
+    let Some((_, name)) = unknown.next() else { return Ok(()) };
+    // the place in the file: escapes may shift offsets, so the name itself is looked for
+    let span = value.span();
+    let wanted = format!("{{{name}");
+    let at = text[span.clone()].find(&wanted).map_or(span.start, |at| span.start + at);
+    let may = if allowed.is_empty() {
+        "it takes none".to_owned()
+    } else {
+        format!("it takes {}", allowed.iter().map(|name| format!("{{{name}}}")).collect::<Vec<_>>().join(" "))
+    };
+    Err(fault(
+        at..at + wanted.len(),
+        format!("the template {} has the unknown name {{{name}}}; {may}", key.get_ref()),
+    ))
+}
+
+impl Post {
+    fn numbers(&mut self, raw: &RawNumbers) -> Result<(), PostError> {
+        let pairs = [
+            (&raw.length_mm, &mut self.length[0], 0..=9),
+            (&raw.angle, &mut self.angle, 0..=9),
+            (&raw.vector, &mut self.vector, 3..=12),
+            (&raw.feed, &mut self.feed, 0..=6),
+            (&raw.speed, &mut self.speed, 0..=6),
+            (&raw.inverse_time_digits, &mut self.inverse_time_digits, 4..=15),
+        ];
+        for (written, slot, range) in pairs {
+            digits(written.as_ref(), slot, range)?;
+        }
+        digits(raw.length_inch.as_ref(), &mut self.length[1], 0..=9)?;
+        self.point = raw.point.unwrap_or(self.point);
+        Ok(())
+    }
+
+    /// A template; `None`: the control has no such code.
+    pub(crate) fn template(&self, key: &str) -> Option<&str> {
+        self.templates.get(key).map(String::as_str)
+    }
+}
+
+fn digits(
+    written: Option<&Spanned<usize>>,
+    slot: &mut usize,
+    range: core::ops::RangeInclusive<usize>,
+) -> Result<(), PostError> {
+    let Some(written) = written else { return Ok(()) };
+    if !range.contains(written.get_ref()) {
+        let message = format!("{} digits; {} to {} are possible", written.get_ref(), range.start(), range.end());
+        return Err(fault(written.span(), message));
+    }
+    *slot = *written.get_ref();
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_post_loads_and_names_its_dialect() {
+        for (index, name) in BUILTIN_POSTS.iter().enumerate() {
+            let post = load_post(TEXTS[index]).unwrap_or_else(|error| panic!("{name}: {}", error.message));
+            assert_eq!(post.dialect, *name);
+        }
+    }
+
+    fn error(text: &str) -> (String, String) {
+        let error = load_post(text).expect_err("refused");
+        let at = error.span.map_or(String::new(), |span| text[span].to_owned());
+        (error.message, at)
+    }
+
+    #[test]
+    fn unknown_names_are_told_with_their_place() {
+        let (message, at) = error("extends = \"fanuc-30i\"\n[templates]\nheader = \"\"\"\n%\nO{number} {porgram}\n\"\"\"\n");
+        assert!(message.contains("{porgram}") && message.contains("{program}"), "{message}");
+        assert_eq!(at, "{porgram");
+        let (message, at) = error("extends = \"grbl\"\n[templates]\nheadr = \"\"\n");
+        assert!(message.contains("no template is named \"headr\""), "{message}");
+        assert_eq!(at, "headr");
+        assert_eq!(error("extends = \"grbel\"\n").1, "\"grbel\"");
+        assert_eq!(error("extends = \"grbl\"\n[numbers]\nangle = 40\n").1, "40");
+        assert!(error("extension = \"nc\"\n").0.contains("names its `dialect`"));
+        assert!(error("extends = \"grbl\"\n[without]\ntemplates = [\"vector\"]\n").0.contains("vector"));
+        assert!(error("dialect = \"apt\"\n").0.contains("no dialect of G-code"));
+    }
+}

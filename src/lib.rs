@@ -1,6 +1,7 @@
 //! Trunnion: a G-code language toolkit and NC verifier. This crate is the facade: it re-exports the floors.
 pub use trunnion_certify as certify;
 pub use trunnion_check as check;
+pub use trunnion_convert as convert;
 pub use trunnion_dialect as dialect;
 pub use trunnion_formula as formula;
 pub use trunnion_geometry as geometry;

@@ -1,5 +1,5 @@
 //! The arguments, as the interface says.
-use super::{diff::Diff, fmt::Fmt, stats::Stats};
+use super::{convert::Convert, diff::Diff, fmt::Fmt, stats::Stats};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trunnion_check::Severity;
@@ -116,6 +116,8 @@ pub(crate) enum Command {
     Fix(Fix),
     /// Re-check a certificate, or prove or refute that AFTER is the same tool path as BEFORE.
     Certify(Certify),
+    /// APT/CL to G-code and back, dialect to dialect, machine to machine. Proved motion for motion, or refused.
+    Convert(Convert),
     /// Layout only: spacing, case, indentation, block numbers. Proved not to change what the program does.
     Fmt(Fmt),
     /// Where two programs move the tool differently, not where their text differs.

@@ -3,6 +3,7 @@ mod args;
 mod canon;
 mod certify;
 mod check;
+mod convert;
 mod diff;
 mod explain;
 mod failure;
@@ -41,6 +42,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Canon(command) => canon::run(command),
         Command::Fix(command) => fix::run(global, command),
         Command::Certify(command) => certify::run(global, command),
+        Command::Convert(command) => convert::run(global, command),
         Command::Fmt(command) => fmt::run(global, command),
         Command::Diff(command) => diff::run(global, command),
         Command::Stats(command) => stats::run(global, command),

@@ -8,7 +8,7 @@ use crate::number::rounding;
 use crate::plan::{Mode, Out, Planner};
 use crate::{Options, OrientationWords, Post, Refused, Target};
 use trunnion_certify::Outcome;
-use trunnion_certify::conversion::{Assume, ConversionClaim, ConversionProof, Reading, Run, converted, read};
+use trunnion_certify::conversion::{Assume, ConversionClaim, ConversionProof, Part, Reading, Run, converted, read};
 use trunnion_dialect::Dialect;
 use trunnion_geometry::deg;
 use trunnion_interp::{Fault, FaultKind, Setup};
@@ -93,7 +93,16 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     let (outs, swaps) = planner.plan(&job)?;
     let written = setting.write(&reading, &job, &outs, source.setup, options)?;
     let claim = setting.claim(options, tolerance_mm);
-    let proof = prove(source, (&reading, machine), &setting, &written, &outs, &claim)?;
+    let (proof, turned) = prove(source, (&reading, machine), &setting, &written, &outs, &claim)?;
+    if let Some(&index) = turned.first().filter(|_| !options.allow_swap) {
+        let block = reading.motions[index].motion.block;
+        let message = format!(
+            "in this cut the control turns to the other posture for the vector ({} such places in all): retract there, or say --allow-swap",
+            turned.len()
+        );
+        return Err(Refused::at(&reading.program, block, message));
+    }
+    let swaps = if turned.is_empty() { swaps } else { turned };
     let line = |block| place(&reading.program, block);
     Ok(Converted {
         text: written,
@@ -315,7 +324,7 @@ fn prove(
     text: &str,
     outs: &[Out],
     claim: &ConversionClaim,
-) -> Result<ConversionProof, Refused> {
+) -> Result<(ConversionProof, Vec<usize>), Refused> {
     // vectors say by themselves where the tool points
     let machine = setting.mode.machine().or(setting.machine.filter(|_| setting.vectors));
     let after = read(&Run {
@@ -331,12 +340,32 @@ fn prove(
             "what was written is not understood in its line {line}, column {column}: mend the templates of the post"
         )));
     }
-    converted(before, (&after, machine), &parts(outs), claim).map_err(|outcome| {
+    let proof = converted(before, (&after, machine), &parts(outs), claim).map_err(|outcome| {
         let why = match outcome {
             Outcome::Refuted(witness) => witness.to_string(),
             Outcome::Unknown(gap) => gap.to_string(),
             Outcome::Proved(_) => String::new(),
         };
         Refused::new(format!("the conversion could not be proved and was not written: {why}"))
-    })
+    })?;
+    let turned = if setting.vectors { control_swaps(&after, outs, machine) } else { Vec::new() };
+    Ok((proof, turned))
+}
+
+/// Motions before whose cut makes a control that is given vectors turn to the other posture, as rule branch-swap counts it.
+fn control_swaps(after: &Reading, outs: &[Out], machine: Option<&Machine>) -> Vec<usize> {
+    let Some(machine) = machine else { return Vec::new() };
+    let mut motions = after.motions.iter();
+    let mut swaps = Vec::new();
+    for (index, part) in parts(outs).iter().enumerate() {
+        let (Part::Moves(count) | Part::Added(count)) = part else { continue };
+        let swaps_here = motions.by_ref().take(*count as usize).any(|posed| {
+            let excess = posed.leg.as_ref().map_or(0.0, |leg| leg.rotary_excess);
+            posed.motion.is_feed() && excess > machine.tolerances.swap_excess
+        });
+        if swaps_here {
+            swaps.push(index);
+        }
+    }
+    swaps
 }

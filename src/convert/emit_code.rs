@@ -1,5 +1,6 @@
 //! Writes G-code as a post says.
 use crate::emit::{declaration, plain};
+use crate::events::ACTIVE;
 use crate::job::{Coolant, Event, Job, Placed};
 use crate::modal::Modal;
 use crate::number::{number, significant};
@@ -145,7 +146,9 @@ impl<'a> Writer<'a> {
             text
         };
         // a comment must not speak to the control: (ABORT,...)
-        let speaks = self.post.dialect == "linuxcnc" && text.contains(',') || text.starts_with('$');
+        let head = text.split(',').next().unwrap_or_default().trim().to_ascii_uppercase();
+        let linuxcnc = self.post.dialect == "linuxcnc" && text.contains(',');
+        let speaks = linuxcnc && (ACTIVE.contains(&head.as_str()) || head == "PY") || text.starts_with('$');
         let text = if speaks { format!("- {text}") } else { text };
         if self.post.upper_case { text.to_ascii_uppercase() } else { text }
     }
@@ -366,11 +369,11 @@ impl<'a> Writer<'a> {
             words.extend(self.modal.change(word, text));
         }
         if let Some(machine) = self.mode.machine() {
-            for (index, &joint) in machine.rotary.iter().enumerate() {
-                let letter = machine.axes[joint].letter;
-                let Some(slot) = AXIS_LETTERS.iter().position(|known| *known == letter) else {
-                    continue;
-                };
+            let slot = |joint: usize| AXIS_LETTERS.iter().position(|known| *known == machine.axes[joint].letter);
+            let rotary = machine.rotary.iter().enumerate();
+            let mut rotary: Vec<_> = rotary.filter_map(|(index, &joint)| Some((slot(joint)?, index))).collect();
+            rotary.sort_unstable();
+            for (slot, index) in rotary {
                 let value = deg(one.q[index]) - self.zero[slot];
                 let text = format!("{}{}", WORDS[slot], number(value, self.post.angle, self.post.point));
                 words.extend(self.modal.change(WORDS[slot], text));

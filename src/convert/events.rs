@@ -1,5 +1,5 @@
 //! Events of a program: what its blocks say beside motions, in the order the control runs them.
-use crate::job::{Coolant, Event, Job};
+use crate::job::{Coolant, Event, Job, Placed};
 use crate::{Options, Refused};
 use trunnion_certify::conversion::{Ran, Reading};
 use trunnion_dialect::{Action, Dialect};
@@ -53,7 +53,18 @@ pub(crate) fn job(reading: &Reading, dialect: &Dialect, options: &Options) -> Re
         teller.block(reading, ran, said, motions)?;
         motions = ran.motions;
     }
-    Ok(teller.job)
+    let mut job = teller.job;
+    // G-code has no name of its own: the first comment is the title
+    if job.name.is_none()
+        && let Some(Placed {
+            event: Event::Comment(title),
+            ..
+        }) = job.events.first()
+    {
+        job.name = Some(title.clone());
+        job.events.remove(0);
+    }
+    Ok(job)
 }
 
 /// What was last said of the spindle.
@@ -171,8 +182,8 @@ pub(crate) fn comment(text: &str) -> Option<Event> {
 }
 
 /// The words by which a comment speaks to LinuxCNC.
-const ACTIVE: &[&str] = &[
-    "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE", "PROBEOPEN", "PROBECLOSE", "ABORT",
+pub(crate) const ACTIVE: &[&str] = &[
+    "MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE", "PROBEOPEN", "PROBECLOSE", "ABORT",
 ];
 
 /// What an ISO block says.

@@ -96,6 +96,10 @@ impl Planner<'_> {
             }
             outs.push(out);
         }
+        let known = |out: &Out| matches!(out, Out::Moves(_));
+        if let Some(posed) = motions.first().filter(|_| !outs.iter().any(known)) {
+            return Err(self.refuse(posed, "no motion of this program ends at a known position".to_owned()));
+        }
         Ok((outs, swaps))
     }
 
@@ -235,7 +239,7 @@ impl Planner<'_> {
         let ends = self
             .parts(posed, &track, &between)
             .map_err(|why| self.refuse(posed, why))?;
-        self.lines(posed, &track, &ends, frame).map(Out::Moves)
+        self.lines(posed, &track, (q.0, &ends), frame).map(Out::Moves)
     }
 
     /// As the proof will see it: a rapid to nowhere known may go only in front of all known poses of its tool, or behind the last.
@@ -312,11 +316,15 @@ impl Planner<'_> {
         }
     }
 
-    fn lines(&self, posed: &Posed, track: &Track<'_>, ends: &[PartEnd], frame: &Frame) -> Result<Vec<Move>, Refused> {
+    fn lines(
+        &self,
+        posed: &Posed,
+        track: &Track<'_>,
+        (start, ends): ([f64; 2], &[PartEnd]),
+        frame: &Frame,
+    ) -> Result<Vec<Move>, Refused> {
         let feed = self.plain_feed(posed)?;
-        let turning = |q: [f64; 2]| ends.iter().any(|end| end.q != q);
-        let turns = matches!(self.mode, Mode::Joints(_)) && ends.first().is_some_and(|end| turning(end.q));
-        let turns = turns || track.rotary_at(0.0).is_some_and(turning) && matches!(self.mode, Mode::Joints(_));
+        let turns = matches!(self.mode, Mode::Joints(_)) && ends.iter().any(|end| end.q != start);
         let by_path = posed.tip_words() || posed.leg.as_ref().is_none_or(|leg| leg.rotary_change == [0.0; 2]);
         let mut from = track.at(0.0).tip;
         let mut moves = Vec::with_capacity(ends.len());

@@ -63,9 +63,10 @@ pub(crate) fn choose(machine: &Machine, wishes: &[Wish]) -> Result<Vec<Chosen>, 
         swap: false,
         parent: 0,
     }];
+    let ahead = ahead(machine, wishes);
     for (index, wish) in wishes.iter().enumerate() {
         let before: &[State] = steps.last().map_or(&home, Vec::as_slice);
-        let found = successors(machine, before, wish, slowness).map_err(|never| (index, never))?;
+        let found = successors(machine, before, wish, ahead[index], slowness).map_err(|never| (index, never))?;
         steps.push(found);
     }
     let mut chosen = Vec::with_capacity(wishes.len());
@@ -80,6 +81,21 @@ pub(crate) fn choose(machine: &Machine, wishes: &[Wish]) -> Result<Vec<Chosen>, 
     }
     chosen.reverse();
     Ok(chosen)
+}
+
+/// For each pose the first rotary axis of the postures at the next pose off the pole: at the pole the axis is free, and may turn there
+/// already. None where no such pose follows.
+fn ahead(machine: &Machine, wishes: &[Wish]) -> Vec<[Option<f64>; 2]> {
+    let mut next = [None; 2];
+    let mut all: Vec<[Option<f64>; 2]> = Vec::with_capacity(wishes.len());
+    for wish in wishes.iter().rev() {
+        all.push(next);
+        if let Orientations::Postures(postures) = orientations(machine, &wish.axis) {
+            next = [0, 1].map(|index| postures.get(index).map(|one| one.q[0]));
+        }
+    }
+    all.reverse();
+    all
 }
 
 /// Seconds per rad of the rotary axes; 1 for all where a speed is not declared.
@@ -97,12 +113,21 @@ fn slowness(machine: &Machine) -> [f64; 2] {
 /// Rotary joints of a posture, `None` where one is free, and its sign.
 type Posture = ([Option<f64>; 2], i8);
 
-fn successors(machine: &Machine, before: &[State], wish: &Wish, slowness: [f64; 2]) -> Result<Vec<State>, Never> {
+fn successors(
+    machine: &Machine,
+    before: &[State],
+    wish: &Wish,
+    ahead: [Option<f64>; 2],
+    slowness: [f64; 2],
+) -> Result<Vec<State>, Never> {
     let mut found: Vec<State> = Vec::new();
     let postures: Vec<Posture> = match orientations(machine, &wish.axis) {
         Orientations::Unreachable(off) => return Err(Never::Unreachable(off)),
-        // at the pole the first axis is free: it stays
-        Orientations::Pole(q2) => vec![([None, Some(q2)], 0)],
+        // at the pole the first axis is free: it stays, or turns to where it will be needed
+        Orientations::Pole(q2) => {
+            let early = ahead.into_iter().flatten().map(|q1| ([Some(q1), Some(q2)], 0));
+            core::iter::once(([None, Some(q2)], 0)).chain(early).collect()
+        }
         Orientations::Postures(postures) => {
             let both = postures.iter().map(|one| (one.q.map(Some), one.branch));
             both.collect()

@@ -255,10 +255,16 @@ impl Proof<'_> {
             (Some(was), Some(is)) => (was - is).abs() <= 5e-4,
             (was, is) => was.is_none() && is.is_none(),
         };
-        if old.motion.spindle_on != new.motion.spindle_on || !same_speed {
+        // where nothing was said of it, it must not be told to turn
+        let same_turning = match old.motion.spindle_on {
+            None => new.motion.spindle_on != Some(true),
+            on => new.motion.spindle_on == on,
+        };
+        if !same_turning || !same_speed {
             return self.refute(is, "the spindle differs".to_owned());
         }
-        if old.motion.tool != new.motion.tool {
+        let by_hand = !self.after.0.changes_tools && new.motion.tool.is_none();
+        if old.motion.tool != new.motion.tool && !by_hand {
             return self.refute(is, "the tool differs".to_owned());
         }
         Ok(())

@@ -84,6 +84,8 @@ pub struct Reading {
     pub faults: Vec<Fault>,
     /// The first block that leads into another file.
     pub elsewhere: Option<BlockId>,
+    /// The control changes tools itself; where it does not, nobody knows which one is in the spindle.
+    pub changes_tools: bool,
 }
 
 /// Runs a program.
@@ -126,6 +128,7 @@ pub fn read(run: &Run<'_>) -> Reading {
         blocks,
         faults,
         elsewhere,
+        changes_tools: is_apt || run.dialect.quirks.tool_word_changes || run.dialect.m(60).is_some(),
     }
 }
 

@@ -48,3 +48,12 @@ pub(crate) fn assuming(
 pub(crate) fn text(converted: Result<Converted, Refused>) -> String {
     converted.unwrap_or_else(|refused| panic!("{refused}")).text
 }
+
+/// The refusal of a conversion that must not succeed.
+#[track_caller]
+pub(crate) fn refusal(converted: Result<Converted, Refused>) -> Refused {
+    match converted {
+        Ok(converted) => panic!("converted:\n{}", converted.text),
+        Err(refused) => refused,
+    }
+}

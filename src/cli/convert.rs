@@ -1,0 +1,305 @@
+//! `convert`: APT/CL to G-code and back, dialect to dialect, machine to machine.
+use super::{
+    Done,
+    args::{Global, ListFormat},
+    failure::{Failure, remark},
+    fix::write_atomic,
+    load::{self, Loaded},
+};
+use clap::ValueEnum;
+use serde_json::json;
+use std::{io::Write, path::PathBuf};
+use trunnion_certify::conversion::Assume;
+use trunnion_convert::{
+    BUILTIN_POSTS, Converted, Options, OrientationWords, Post, Source, Target, Units, builtin_post, convert, load_post,
+};
+use trunnion_machine::Machine;
+use trunnion_workspace::{LoadError, find_machine};
+
+/// `convert`
+#[derive(clap::Args)]
+pub(crate) struct Convert {
+    /// The program; `-` reads standard input.
+    pub(crate) file: PathBuf,
+    /// What is written: a dialect, or `apt`. Default: the control of the machine it is written for.
+    #[arg(long, value_name = "DIALECT|apt")]
+    to: Option<String>,
+    /// The machine it is written for. Default: that of --machine, which is the one the program is for.
+    #[arg(long, value_name = "NAME|FILE")]
+    to_machine: Option<String>,
+    /// A post of one's own (TOML): number formats, header, footer and the codes of the machine.
+    #[arg(long, value_name = "FILE")]
+    post: Option<PathBuf>,
+    /// The tool's orientation as rotary words or as tool vectors.
+    #[arg(long, value_enum, default_value = "words")]
+    orientation: OrientationChoice,
+    /// Without tool centre point control: joints are written, and cuts in which rotary axes move are linearised.
+    #[arg(long)]
+    no_tcp: bool,
+    /// How far the tip may be from where it was inside a cut, mm. Default: the machine's tolerance.
+    #[arg(long, value_name = "MM")]
+    tolerance_mm: Option<f64>,
+    /// A cut may turn the table to the other posture or wind it back; each place is told.
+    #[arg(long)]
+    allow_swap: bool,
+    /// Units that are written.
+    #[arg(long, value_enum, default_value = "mm")]
+    units: UnitsChoice,
+    /// Arcs become lines.
+    #[arg(long)]
+    lines_only: bool,
+    /// APT: INSERT records carry remarks only.
+    #[arg(long)]
+    insert_is_remark: bool,
+    /// Leave these codes out, for example M10 (may be repeated).
+    #[arg(long, value_delimiter = ',', value_name = "CODE")]
+    drop: Vec<String>,
+    /// An excerpt: tool centre point control is on at its start.
+    #[arg(long)]
+    assume_tcp: bool,
+    /// An excerpt: the feed at its start, mm/min.
+    #[arg(long, value_name = "MM_MIN")]
+    feed: Option<f64>,
+    /// Name of the program that is written. Default: its own.
+    #[arg(long, value_name = "TEXT")]
+    name: Option<String>,
+    /// Number of the program that is written (Fanuc, Haas: O).
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=99_999_999))]
+    program_number: u32,
+    /// Work offset, where the program names none.
+    #[arg(long, value_name = "CODE", default_value = "G54")]
+    work_offset: String,
+    /// Write the program to this file; default: standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// The program as text, or one JSON document with program and proof.
+    #[arg(long, value_enum, default_value = "text")]
+    format: ListFormat,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum OrientationChoice {
+    Words,
+    Vectors,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum UnitsChoice {
+    Mm,
+    Inch,
+}
+
+/// Runs `convert`. A refused conversion makes the exit status 1; nothing is written then.
+pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
+    let loaded = load::load(global, &command.file)?;
+    if global.verbose {
+        remark(false, &loaded.explanation());
+    }
+    let source_machine = loaded.resolved.machine.as_ref();
+    let target_machine = match &command.to_machine {
+        Some(name) => Some(find_machine(name, None)?),
+        None => source_machine.cloned(),
+    };
+    let own = command.post.as_ref().map(own_post).transpose()?;
+    let post = target_post(command, &loaded, target_machine.as_ref(), own.as_ref())?;
+    let target = match post {
+        None => Target::Apt,
+        Some(post) => Target::Code {
+            post,
+            machine: target_machine.as_ref(),
+        },
+    };
+    let source = Source {
+        text: loaded.program.source(),
+        dialect: loaded.resolved.dialect,
+        machine: source_machine,
+        setup: &loaded.resolved.setup,
+        assume: Assume {
+            tcp: command.assume_tcp,
+            feed_mm_min: command.feed,
+        },
+    };
+    let converted = match convert(&source, &target, &options(command)?) {
+        Ok(converted) => converted,
+        Err(refused) => {
+            let place = refused
+                .place
+                .map_or_else(String::new, |(line, column)| format!(":{line}:{column}"));
+            remark(false, &format!("{}{place}: refused: {}", loaded.name, refused.message));
+            return Ok(Done::Found);
+        }
+    };
+    let text = match command.format {
+        ListFormat::Text => converted.text.clone(),
+        ListFormat::Json => document(&loaded, target_machine.as_ref(), &converted),
+    };
+    match &command.output {
+        Some(file) => write_atomic(file, text.as_bytes())?,
+        None => std::io::stdout().lock().write_all(text.as_bytes())?,
+    }
+    for line in summary(&loaded.name, &converted) {
+        remark(global.quiet, &line);
+    }
+    Ok(Done::Clean)
+}
+
+fn options(command: &Convert) -> Result<Options, Failure> {
+    for (name, value) in [("--tolerance-mm", command.tolerance_mm), ("--feed", command.feed)] {
+        if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
+            return Err(Failure::new(format!("{name} must be a positive number")));
+        }
+    }
+    Ok(Options {
+        units: match command.units {
+            UnitsChoice::Mm => Units::Mm,
+            UnitsChoice::Inch => Units::Inch,
+        },
+        orientation: match command.orientation {
+            OrientationChoice::Words => OrientationWords::Rotary,
+            OrientationChoice::Vectors => OrientationWords::Vectors,
+        },
+        tcp: !command.no_tcp,
+        tolerance_mm: command.tolerance_mm,
+        allow_swap: command.allow_swap,
+        insert_is_remark: command.insert_is_remark,
+        drop: command.drop.clone(),
+        lines_only: command.lines_only,
+        program_name: command.name.clone(),
+        program_number: command.program_number,
+        work_offset: command.work_offset.clone(),
+    })
+}
+
+/// A post of the user's own, with the place of a mistake in it.
+fn own_post(path: &PathBuf) -> Result<Post, Failure> {
+    let bytes = load::read(path)?;
+    let text = String::from_utf8(bytes).map_err(|_| Failure::file(path, "is not UTF-8, which TOML must be"))?;
+    load_post(&text).map_err(|error| LoadError::at(path, &text, error.span.as_ref(), &error.message).into())
+}
+
+/// How it is written; `None`: as APT.
+fn target_post<'p>(
+    command: &Convert,
+    loaded: &Loaded,
+    machine: Option<&Machine>,
+    own: Option<&'p Post>,
+) -> Result<Option<&'p Post>, Failure> {
+    if let Some(post) = own {
+        if command.to.as_ref().is_some_and(|name| *name != post.dialect) {
+            return Err(Failure::new(format!("the post is for {}, --to says otherwise", post.dialect)));
+        }
+        return Ok(Some(post));
+    }
+    let family = machine.map(|machine| machine.control.family.clone());
+    let same = Some(loaded.resolved.dialect.name.clone()).filter(|name| name != "apt");
+    let known = |name: &String| builtin_post(name).is_some();
+    let name = match &command.to {
+        Some(name) => name.clone(),
+        None => family.filter(known).or(same.filter(known)).ok_or_else(|| {
+            Failure::new(format!(
+                "what shall be written? add --to apt, or --to with one of {}",
+                BUILTIN_POSTS.join(", ")
+            ))
+        })?,
+    };
+    if name == "apt" {
+        return Ok(None);
+    }
+    builtin_post(&name).map(Some).ok_or_else(|| {
+        Failure::new(format!(
+            "there is no post for `{name}`; there are {} and apt, or write one (--post FILE)",
+            BUILTIN_POSTS.join(", ")
+        ))
+    })
+}
+
+/// What was proved, in words.
+fn summary(name: &str, converted: &Converted) -> Vec<String> {
+    let (proof, claim) = (&converted.proof, &converted.claim);
+    let mut lines = vec![format!(
+        "{name}: converted to {} and proved by running both: {} motions became {}; at their ends the tip is within {:.6} mm and the tool axis \
+         within {:.6} deg of what it was (allowed {:.6} mm, {:.6} deg)",
+        converted.dialect.name,
+        proof.motions_before,
+        proof.motions_after,
+        proof.end_mm,
+        proof.end_deg,
+        claim.end_mm,
+        claim.end_deg
+    )];
+    lines.push(format!(
+        "{name}: at every moment of a cut the tip is proved within {:.6} mm (allowed {:.6} mm) and the tool axis within {:.4} deg; feeds \
+         within {:.6} mm/min, times within {:.4} %",
+        proof.path_mm,
+        claim.path_mm,
+        proof.path_deg,
+        proof.feed_mm_min,
+        proof.time_share * 100.0
+    ));
+    if proof.rapid_mm > 1e-3 {
+        lines.push(format!(
+            "{name}: rapids are compared at their ends; on the way the tip may be {:.3} mm from where it was",
+            proof.rapid_mm
+        ));
+    }
+    if proof.feeds_not_compared > 0 {
+        lines.push(format!(
+            "{name}: in {} cuts the tip makes no way, so that their feed could not be compared",
+            proof.feeds_not_compared
+        ));
+    }
+    if proof.left_out > 0 {
+        lines.push(format!(
+            "{name}: {} rapids that end nowhere known (before the first known position of a tool, or behind its last) are left out",
+            proof.left_out
+        ));
+    }
+    if !converted.swaps.is_empty() {
+        let places: Vec<String> = converted.swaps.iter().take(20).map(u32::to_string).collect();
+        lines.push(format!(
+            "{name}: {} cuts turn to the other posture or wind back: lines {}",
+            converted.swaps.len(),
+            places.join(", ")
+        ));
+    }
+    for (what, line) in &converted.left_out {
+        lines.push(format!("{name}:{line}: {what} has no counterpart and is left out"));
+    }
+    lines
+}
+
+fn document(loaded: &Loaded, machine: Option<&Machine>, converted: &Converted) -> String {
+    let (proof, claim) = (&converted.proof, &converted.claim);
+    let left_out: Vec<_> = converted
+        .left_out
+        .iter()
+        .map(|(what, line)| json!({ "what": what, "line": line }))
+        .collect();
+    let document = json!({
+        "schema": "trunnion-convert/1",
+        "version": env!("CARGO_PKG_VERSION"),
+        "path": loaded.name,
+        "from": loaded.resolved.dialect.name,
+        "to": converted.dialect.name,
+        "machine": machine.map(|machine| machine.id.clone()),
+        "program": converted.text,
+        "proof": {
+            "motions_before": proof.motions_before,
+            "motions_after": proof.motions_after,
+            "left_out": proof.left_out,
+            "end_mm": proof.end_mm, "end_limit_mm": claim.end_mm,
+            "end_deg": proof.end_deg, "end_limit_deg": claim.end_deg,
+            "path_mm": proof.path_mm, "path_limit_mm": claim.path_mm,
+            "path_deg": proof.path_deg,
+            "rapid_mm": proof.rapid_mm,
+            "feed_mm_min": proof.feed_mm_min, "feed_limit_mm_min": claim.feed_mm_min,
+            "time_share": proof.time_share, "time_limit_share": claim.time_share,
+            "feeds_not_compared": proof.feeds_not_compared,
+        },
+        "left_out": left_out,
+        "swap_lines": converted.swaps,
+    });
+    let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
+    text.push('\n');
+    text
+}

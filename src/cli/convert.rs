@@ -186,7 +186,10 @@ fn target_post<'p>(
 ) -> Result<Option<&'p Post>, Failure> {
     if let Some(post) = own {
         if command.to.as_ref().is_some_and(|name| *name != post.dialect) {
-            return Err(Failure::new(format!("the post is for {}, --to says otherwise", post.dialect)));
+            return Err(Failure::new(format!(
+                "the post is for {}, --to says otherwise",
+                post.dialect
+            )));
         }
         return Ok(Some(post));
     }

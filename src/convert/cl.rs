@@ -41,7 +41,10 @@ pub struct ClTool {
 /// CL data of a path: PARTNO to FINI, millimetres, eight decimals (vectors: twelve).
 pub fn cl_text(name: &str, tool: &ClTool, points: &[ClPoint]) -> String {
     let mm = |value: f64| number(value, 8, false);
-    let plain: String = name.chars().map(|c| if c.is_ascii_graphic() && c != '$' { c } else { ' ' }).collect();
+    let plain: String = name
+        .chars()
+        .map(|c| if c.is_ascii_graphic() && c != '$' { c } else { ' ' })
+        .collect();
     let mut text = format!("PARTNO {plain}\nUNITS/MM\nMULTAX/ON\n");
     let _ = writeln!(text, "CUTTER/{},{}", mm(tool.diameter_mm), mm(tool.corner_radius_mm));
     let _ = write!(text, "LOADTL/{}", tool.number);

@@ -1,5 +1,5 @@
 //! One conversion: read, plan, write, read back, prove.
-use crate::emit::parts;
+use crate::emit::{parts, parts_beside};
 use crate::emit_apt::{self, AptWriter};
 use crate::emit_code::Writer;
 use crate::events::job;
@@ -8,7 +8,9 @@ use crate::number::rounding;
 use crate::plan::{Mode, Out, Planner};
 use crate::{Options, OrientationWords, Post, Refused, Target};
 use trunnion_certify::Outcome;
-use trunnion_certify::conversion::{Assume, ConversionClaim, ConversionProof, Part, Reading, Run, converted, read};
+use trunnion_certify::conversion::{
+    Assume, ConversionClaim, ConversionProof, Part, Posed, Reading, Run, converted, read,
+};
 use trunnion_dialect::Dialect;
 use trunnion_geometry::deg;
 use trunnion_interp::{Fault, FaultKind, Setup};
@@ -91,9 +93,9 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     };
     setting.head_lengths(&reading, &job)?;
     let (outs, swaps) = planner.plan(&job)?;
-    let written = setting.write(&reading, &job, &outs, source.setup, options)?;
+    let (written, moved) = setting.write(&reading, &job, &outs, source.setup, options)?;
     let claim = setting.claim(options, tolerance_mm);
-    let (proof, turned) = prove(source, (&reading, machine), &setting, &written, &outs, &claim)?;
+    let (proof, turned) = prove(source, (&reading, machine), &setting, (&written, &moved), &outs, &claim)?;
     if let Some(&index) = turned.first().filter(|_| !options.allow_swap) {
         let block = reading.motions[index].motion.block;
         let message = format!(
@@ -109,8 +111,15 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         dialect: setting.dialect,
         claim,
         proof,
-        left_out: job.left_out.iter().map(|(what, block)| (what.clone(), line(*block))).collect(),
-        swaps: swaps.iter().map(|&index| line(reading.motions[index].motion.block)).collect(),
+        left_out: job
+            .left_out
+            .iter()
+            .map(|(what, block)| (what.clone(), line(*block)))
+            .collect(),
+        swaps: swaps
+            .iter()
+            .map(|&index| line(reading.motions[index].motion.block))
+            .collect(),
     })
 }
 
@@ -168,7 +177,8 @@ fn wording(fault: &Fault) -> String {
         FaultKind::AptUnknownRecord => "an unknown record: it may move the tool".to_owned(),
         FaultKind::UnknownCode { .. } => "an unknown code".to_owned(),
         FaultKind::AmbiguousDecimal => {
-            "a number without a point: a parameter of the control decides what it means; say so in trunnion.toml".to_owned()
+            "a number without a point: a parameter of the control decides what it means; say so in trunnion.toml"
+                .to_owned()
         }
         _ => "the program has an error here; `trunnion check` says which".to_owned(),
     }
@@ -210,7 +220,9 @@ impl<'a> Setting<'a> {
             Err(Refused::new(message))
         };
         if vectors && !options.tcp {
-            return Err(Refused::new("tool vectors need tool centre point control: leave --no-tcp out"));
+            return Err(Refused::new(
+                "tool vectors need tool centre point control: leave --no-tcp out",
+            ));
         }
         if vectors && (post.template("tcp-vectors-on").is_none() || post.template("vector").is_none()) {
             return lacks("tcp-vectors-on", "tool vectors");
@@ -229,7 +241,10 @@ impl<'a> Setting<'a> {
         if let (Mode::Joints(machine), Some(_)) = (mode, machine)
             && machine.joint_of_letter[..3].contains(&None)
         {
-            return Err(Refused::new(format!("{} has no axes X Y Z to write words for", machine.id)));
+            return Err(Refused::new(format!(
+                "{} has no axes X Y Z to write words for",
+                machine.id
+            )));
         }
         Ok(Self {
             mode,
@@ -257,9 +272,17 @@ impl<'a> Setting<'a> {
 
     /// Without tool centre point control a head that turns needs the tool's length.
     fn head_lengths(&self, reading: &Reading, job: &Job) -> Result<(), Refused> {
-        let Mode::Joints(machine) = self.mode else { return Ok(()) };
-        let turns = machine.rotary.iter().any(|&joint| machine.axes[joint].side == Side::Head);
-        let unknown = job.tools.iter().find(|(_, tool)| tool.is_none_or(|tool| tool.length_mm.is_none()));
+        let Mode::Joints(machine) = self.mode else {
+            return Ok(());
+        };
+        let turns = machine
+            .rotary
+            .iter()
+            .any(|&joint| machine.axes[joint].side == Side::Head);
+        let unknown = job
+            .tools
+            .iter()
+            .find(|(_, tool)| tool.is_none_or(|tool| tool.length_mm.is_none()));
         if turns && (unknown.is_some() || job.tools.is_empty()) {
             let which = unknown.map_or_else(|| "the tool".to_owned(), |(number, _)| format!("tool {number}"));
             let message = format!(
@@ -282,9 +305,9 @@ impl<'a> Setting<'a> {
         outs: &[Out],
         setup: &Setup,
         options: &Options,
-    ) -> Result<String, Refused> {
+    ) -> Result<(String, Vec<u32>), Refused> {
         match self.post {
-            None => AptWriter::new(reading, options, outs).write(job, outs),
+            None => Ok((AptWriter::new(reading, options, outs).write(job, outs)?, Vec::new())),
             Some(post) => {
                 let name = self.machine.map_or("", |machine| machine.name.as_str());
                 Writer::new(reading, post, self.mode, options, setup, name).write(job, outs)
@@ -296,7 +319,12 @@ impl<'a> Setting<'a> {
     fn claim(&self, options: &Options, path_mm: f64) -> ConversionClaim {
         let unit = options.units.mm();
         let (length, angle, vector, feed) = match self.post {
-            None => (emit_apt::LENGTH[usize::from(self.inch)], 0, emit_apt::VECTOR, emit_apt::FEED),
+            None => (
+                emit_apt::LENGTH[usize::from(self.inch)],
+                0,
+                emit_apt::VECTOR,
+                emit_apt::FEED,
+            ),
             Some(post) => (post.length[usize::from(self.inch)], post.angle, post.vector, post.feed),
         };
         let end_mm = 3f64.sqrt() * rounding(length) * unit * (1.0 + 1e-9) + 1e-9;
@@ -307,7 +335,11 @@ impl<'a> Setting<'a> {
         };
         ConversionClaim {
             // rounded angles move the tip of a machine that runs its joints
-            end_mm: if matches!(self.mode, Mode::Joints(_)) { path_mm } else { end_mm },
+            end_mm: if matches!(self.mode, Mode::Joints(_)) {
+                path_mm
+            } else {
+                end_mm
+            },
             end_deg: end_deg + 1e-7,
             path_mm: path_mm.max(end_mm),
             path_deg: None,
@@ -321,7 +353,7 @@ fn prove(
     source: &Source<'_>,
     before: (&Reading, Option<&Machine>),
     setting: &Setting<'_>,
-    text: &str,
+    (text, moved): (&str, &[u32]),
     outs: &[Out],
     claim: &ConversionClaim,
 ) -> Result<(ConversionProof, Vec<usize>), Refused> {
@@ -340,7 +372,12 @@ fn prove(
             "what was written is not understood in its line {line}, column {column}: mend the templates of the post"
         )));
     }
-    let proof = converted(before, (&after, machine), &parts(outs), claim).map_err(|outcome| {
+    let parts = if setting.post.is_some() {
+        parts_beside(outs, &after, moved)
+    } else {
+        parts(outs)
+    };
+    let proof = converted(before, (&after, machine), &parts, claim).map_err(|outcome| {
         let why = match outcome {
             Outcome::Refuted(witness) => witness.to_string(),
             Outcome::Unknown(gap) => gap.to_string(),
@@ -348,24 +385,33 @@ fn prove(
         };
         Refused::new(format!("the conversion could not be proved and was not written: {why}"))
     })?;
-    let turned = if setting.vectors { control_swaps(&after, outs, machine) } else { Vec::new() };
+    let turned = if setting.vectors {
+        control_swaps(&after, &parts, machine)
+    } else {
+        Vec::new()
+    };
     Ok((proof, turned))
 }
 
 /// Motions before whose cut makes a control that is given vectors turn to the other posture, as rule branch-swap counts it.
-fn control_swaps(after: &Reading, outs: &[Out], machine: Option<&Machine>) -> Vec<usize> {
+fn control_swaps(after: &Reading, parts: &[Part], machine: Option<&Machine>) -> Vec<usize> {
     let Some(machine) = machine else { return Vec::new() };
-    let mut motions = after.motions.iter();
-    let mut swaps = Vec::new();
-    for (index, part) in parts(outs).iter().enumerate() {
-        let (Part::Moves(count) | Part::Added(count)) = part else { continue };
-        let swaps_here = motions.by_ref().take(*count as usize).any(|posed| {
-            let excess = posed.leg.as_ref().map_or(0.0, |leg| leg.rotary_excess);
-            posed.motion.is_feed() && excess > machine.tolerances.swap_excess
-        });
-        if swaps_here {
-            swaps.push(index);
+    let swaps_in = |posed: &Posed| {
+        let excess = posed.leg.as_ref().map_or(0.0, |leg| leg.rotary_excess);
+        posed.motion.is_feed() && excess > machine.tolerances.swap_excess
+    };
+    let (mut swaps, mut was, mut is) = (Vec::new(), 0, 0);
+    for part in parts {
+        let (before, count) = match part {
+            Part::Moves(count) => (1, *count as usize),
+            Part::Left => (1, 0),
+            Part::Added(count) => (0, *count as usize),
+        };
+        if before == 1 && after.motions[is..is + count].iter().any(swaps_in) {
+            swaps.push(was);
         }
+        was += before;
+        is += count;
     }
     swaps
 }

@@ -2,8 +2,9 @@
 use crate::number::number;
 use crate::plan::Out;
 use core::fmt::Write;
-use trunnion_certify::conversion::Part;
+use trunnion_certify::conversion::{Part, Reading};
 use trunnion_interp::{Tool, ToolShape};
+use trunnion_syntax::LineIndex;
 
 /// Which motions of the output belong to which before.
 pub(crate) fn parts(outs: &[Out]) -> Vec<Part> {
@@ -14,6 +15,37 @@ pub(crate) fn parts(outs: &[Out]) -> Vec<Part> {
             Out::Moves(moves) => Part::Moves(moves.len() as u32),
         })
         .collect()
+}
+
+/// The same, with the motions that templates of the post make: those whose line is not one of `moved` (ascending).
+pub(crate) fn parts_beside(outs: &[Out], after: &Reading, moved: &[u32]) -> Vec<Part> {
+    let source = after.program.source();
+    let index = LineIndex::new(source);
+    let line = |block| index.line_column(source, after.program.block(block).range().start).0;
+    let own = after
+        .motions
+        .iter()
+        .map(|posed| moved.binary_search(&line(posed.motion.block)).is_err());
+    let mut own = own.peekable();
+    let mut all = Vec::with_capacity(outs.len());
+    let added = |all: &mut Vec<Part>, own: &mut core::iter::Peekable<_>| {
+        let mut count = 0;
+        while own.next_if(|beside| *beside).is_some() {
+            count += 1;
+        }
+        if count > 0 {
+            all.push(Part::Added(count));
+        }
+    };
+    for part in parts(outs) {
+        added(&mut all, &mut own);
+        if let Part::Moves(count) = part {
+            own.by_ref().take(count as usize).for_each(drop);
+        }
+        all.push(part);
+    }
+    added(&mut all, &mut own);
+    all
 }
 
 /// A tool as a comment declares it (`trunnion: tool 1 ball diameter 10 length 100`), as far as it is known.

@@ -70,7 +70,11 @@ impl<'a> AptWriter<'a> {
                 }
                 event => {
                     let record = plain_record(event).ok_or_else(|| {
-                        Refused::at(&self.reading.program, placed.block, "this has no record in APT".to_owned())
+                        Refused::at(
+                            &self.reading.program,
+                            placed.block,
+                            "this has no record in APT".to_owned(),
+                        )
                     })?;
                     self.record(&record);
                 }
@@ -89,7 +93,9 @@ impl<'a> AptWriter<'a> {
         let mut rest = record;
         let textual = record.starts_with("PARTNO") || record.starts_with("PPRINT") || record.starts_with("DISPLY");
         while rest.len() > COLUMNS && !textual {
-            let Some(comma) = rest[..COLUMNS - 1].rfind(',') else { break };
+            let Some(comma) = rest[..COLUMNS - 1].rfind(',') else {
+                break;
+            };
             self.text.push_str(&rest[..=comma]);
             self.text.push_str("$\n");
             rest = &rest[comma + 1..];
@@ -104,7 +110,12 @@ impl<'a> AptWriter<'a> {
     }
 
     fn point(&self, point: &Vec3) -> String {
-        format!("{},{},{}", self.length(point.x), self.length(point.y), self.length(point.z))
+        format!(
+            "{},{},{}",
+            self.length(point.x),
+            self.length(point.y),
+            self.length(point.z)
+        )
     }
 
     fn tool(&mut self, number: u32, tool: Option<&Tool>) {

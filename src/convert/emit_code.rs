@@ -35,6 +35,9 @@ pub(crate) struct Writer<'a> {
     text: String,
     modal: Modal,
     next_number: u32,
+    /// Lines written so far, and which of them make motions of the program before.
+    lines: u32,
+    moved: Vec<u32>,
     /// Tool centre point control, or compensation of the tool's length, is on.
     ready: bool,
     tool: Option<u32>,
@@ -60,16 +63,21 @@ impl<'a> Writer<'a> {
             text: String::new(),
             modal: Modal::default(),
             next_number: post.number_from,
+            lines: 0,
+            moved: Vec::new(),
             ready: false,
             tool: None,
             zero: [0.0; 9],
         }
     }
 
-    /// The whole program.
-    pub(crate) fn write(mut self, job: &Job, outs: &[Out]) -> Result<String, Refused> {
+    /// The whole program, and its lines (from 1, ascending) that make motions of the program before.
+    pub(crate) fn write(mut self, job: &Job, outs: &[Out]) -> Result<(String, Vec<u32>), Refused> {
         self.header(job)?;
-        let names_offset = job.events.iter().any(|placed| matches!(placed.event, Event::WorkOffset(_)));
+        let names_offset = job
+            .events
+            .iter()
+            .any(|placed| matches!(placed.event, Event::WorkOffset(_)));
         if !names_offset {
             let name = self.options.work_offset.clone();
             self.work_offset(&name, None)?;
@@ -79,7 +87,7 @@ impl<'a> Writer<'a> {
         }
         self.not_ready()?;
         self.template("footer", None, |name| self_name(name, job, self.options, self.post))?;
-        Ok(self.text)
+        Ok((self.text, self.moved))
     }
 
     fn refuse(&self, block: Option<BlockId>, message: String) -> Refused {
@@ -110,7 +118,10 @@ impl<'a> Writer<'a> {
             } else {
                 format!("{{{name}}}")
             };
-            self.refuse(block, format!("the post's `{key}` needs {what}, which the program does not say"))
+            self.refuse(
+                block,
+                format!("the post's `{key}` needs {what}, which the program does not say"),
+            )
         })?;
         for line in filled.lines().map(str::trim).filter(|line| !line.is_empty()) {
             self.line(line);
@@ -130,6 +141,7 @@ impl<'a> Writer<'a> {
         }
         self.text.push_str(line);
         self.text.push('\n');
+        self.lines += 1;
     }
 
     fn comment_text(&self, text: &str) -> String {
@@ -150,7 +162,11 @@ impl<'a> Writer<'a> {
         let linuxcnc = self.post.dialect == "linuxcnc" && text.contains(',');
         let speaks = linuxcnc && (ACTIVE.contains(&head.as_str()) || head == "PY") || text.starts_with('$');
         let text = if speaks { format!("- {text}") } else { text };
-        if self.post.upper_case { text.to_ascii_uppercase() } else { text }
+        if self.post.upper_case {
+            text.to_ascii_uppercase()
+        } else {
+            text
+        }
     }
 
     fn comment(&mut self, text: &str) -> Result<(), Refused> {
@@ -195,7 +211,9 @@ impl<'a> Writer<'a> {
     }
 
     fn work_offset(&mut self, name: &str, block: Option<BlockId>) -> Result<(), Refused> {
-        self.template("work-offset", block, |key| (key == "work_offset").then(|| name.to_owned()))?;
+        self.template("work-offset", block, |key| {
+            (key == "work_offset").then(|| name.to_owned())
+        })?;
         let declared = self.setup.work_offsets.iter();
         let mut declared = declared.filter(|offset| offset.name.eq_ignore_ascii_case(name));
         self.zero = declared.next().map_or([0.0; 9], |offset| offset.values);
@@ -228,7 +246,11 @@ impl<'a> Writer<'a> {
             }
             Event::SpindleOn(ccw, rpm) => {
                 let (key, rpm) = (
-                    if *ccw { "spindle-counter-clockwise" } else { "spindle-clockwise" },
+                    if *ccw {
+                        "spindle-counter-clockwise"
+                    } else {
+                        "spindle-clockwise"
+                    },
                     speed(*rpm),
                 );
                 self.template(key, block, |name| (name == "speed").then(|| rpm.clone()))
@@ -300,15 +322,14 @@ impl<'a> Writer<'a> {
         match out {
             Out::Left => Ok(()),
             Out::Dwell(seconds) => {
-                let (s, ms) = (
-                    number(*seconds, 3, self.post.point),
-                    number(seconds * 1000.0, 0, false),
-                );
+                let (s, ms) = (number(*seconds, 3, self.post.point), number(seconds * 1000.0, 0, false));
                 self.template("dwell", Some(block), |name| match name {
                     "seconds" => Some(s.clone()),
                     "milliseconds" => Some(ms.clone()),
                     _ => None,
-                })
+                })?;
+                self.moved.push(self.lines);
+                Ok(())
             }
             Out::Moves(moves) => {
                 self.get_ready(block)?;
@@ -356,6 +377,7 @@ impl<'a> Writer<'a> {
         self.feed(one, &mut words);
         let line = words.join(" ");
         self.line(&line);
+        self.moved.push(self.lines);
         Ok(())
     }
 
@@ -369,9 +391,15 @@ impl<'a> Writer<'a> {
             words.extend(self.modal.change(word, text));
         }
         if let Some(machine) = self.mode.machine() {
-            let slot = |joint: usize| AXIS_LETTERS.iter().position(|known| *known == machine.axes[joint].letter);
+            let slot = |joint: usize| {
+                AXIS_LETTERS
+                    .iter()
+                    .position(|known| *known == machine.axes[joint].letter)
+            };
             let rotary = machine.rotary.iter().enumerate();
-            let mut rotary: Vec<_> = rotary.filter_map(|(index, &joint)| Some((slot(joint)?, index))).collect();
+            let mut rotary: Vec<_> = rotary
+                .filter_map(|(index, &joint)| Some((slot(joint)?, index)))
+                .collect();
             rotary.sort_unstable();
             for (slot, index) in rotary {
                 let value = deg(one.q[index]) - self.zero[slot];
@@ -419,7 +447,10 @@ impl<'a> Writer<'a> {
             Feed::Rapid | Feed::Unknown => return Ok(()),
         };
         let Some(code) = self.post.template(key) else {
-            return Err(self.refuse(Some(block), format!("the post for {} has no `{key}`", self.post.dialect)));
+            return Err(self.refuse(
+                Some(block),
+                format!("the post for {} has no `{key}`", self.post.dialect),
+            ));
         };
         if let Some(code) = self.modal.change("mode", code.to_owned()) {
             self.modal.forget("F");
@@ -448,7 +479,11 @@ fn self_name(name: &str, job: &Job, options: &Options, post: &Post) -> Option<St
     match name {
         "program" => {
             let text = plain(job.name.as_deref().unwrap_or_default());
-            Some(if post.upper_case { text.to_ascii_uppercase() } else { text })
+            Some(if post.upper_case {
+                text.to_ascii_uppercase()
+            } else {
+                text
+            })
         }
         "title" => Some(String::new()),
         "number" => Some(format!("{:04}", options.program_number)),

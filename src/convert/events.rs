@@ -28,7 +28,8 @@ pub(crate) type Cannot = (TextRange, String);
 pub(crate) fn job(reading: &Reading, dialect: &Dialect, options: &Options) -> Result<Job, Refused> {
     let program = &reading.program;
     if let Some(block) = reading.elsewhere {
-        let message = "the program calls another file, whose M codes and comments are not carried over: convert a single file";
+        let message =
+            "the program calls another file, whose M codes and comments are not carried over: convert a single file";
         return Err(Refused::at(program, block, message));
     }
     let mut teller = Teller {
@@ -98,8 +99,10 @@ impl Teller<'_> {
             self.job.leave_out(what, block);
         }
         self.job.name = self.job.name.take().or(said.name);
-        let (comments, before): (Vec<_>, Vec<_>) =
-            said.before.into_iter().partition(|event| matches!(event, Event::Comment(_)));
+        let (comments, before): (Vec<_>, Vec<_>) = said
+            .before
+            .into_iter()
+            .partition(|event| matches!(event, Event::Comment(_)));
         self.say(comments, block);
         self.tool(ran, said.tool_change)?;
         self.say(before, block);
@@ -142,7 +145,8 @@ impl Teller<'_> {
         let name = ran.work_offset.as_deref();
         if name.is_some() && name != self.work_offset.as_deref() {
             self.work_offset = name.map(str::to_owned);
-            self.job.push(Event::WorkOffset(name.unwrap_or_default().to_owned()), block);
+            self.job
+                .push(Event::WorkOffset(name.unwrap_or_default().to_owned()), block);
         }
         Ok(())
     }
@@ -153,7 +157,8 @@ impl Teller<'_> {
             (Some(false), _) => Spindle::Off,
             (Some(true), Some(rpm)) => Spindle::On(self.counter_clockwise, rpm),
             (Some(true), None) => {
-                let message = "the spindle turns with a speed that is not known (none is programmed, or a cutting speed)";
+                let message =
+                    "the spindle turns with a speed that is not known (none is programmed, or a cutting speed)";
                 return Err(Refused::at(self.program, block, message));
             }
         };
@@ -183,7 +188,16 @@ pub(crate) fn comment(text: &str) -> Option<Event> {
 
 /// The words by which a comment speaks to LinuxCNC.
 pub(crate) const ACTIVE: &[&str] = &[
-    "MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE", "PROBEOPEN", "PROBECLOSE", "ABORT",
+    "MSG",
+    "DEBUG",
+    "PRINT",
+    "LOG",
+    "LOGOPEN",
+    "LOGAPPEND",
+    "LOGCLOSE",
+    "PROBEOPEN",
+    "PROBECLOSE",
+    "ABORT",
 ];
 
 /// What an ISO block says.
@@ -194,7 +208,9 @@ fn said(block: &Block<'_>, dialect: &Dialect, options: &Options) -> Result<Said,
         match item {
             Item::Comment(found) => {
                 let text = program.text(found.inner);
-                let head = text.split_once(',').map(|(head, rest)| (head.trim().to_ascii_uppercase(), rest));
+                let head = text
+                    .split_once(',')
+                    .map(|(head, rest)| (head.trim().to_ascii_uppercase(), rest));
                 match head {
                     Some((head, rest)) if dialect.quirks.rs274 && head == "MSG" => {
                         said.before.push(Event::Message(rest.trim().to_owned()));
@@ -206,7 +222,8 @@ fn said(block: &Block<'_>, dialect: &Dialect, options: &Options) -> Result<Said,
                 }
             }
             Item::Skip(_, range) => {
-                let message = "block delete: whether the block runs depends on a switch; take the `/` or the block away";
+                let message =
+                    "block delete: whether the block runs depends on a switch; take the `/` or the block away";
                 return Err((range, message.to_owned()));
             }
             Item::Word(word) => said_by_word(&word, program, dialect, options, &mut said)?,

@@ -6,8 +6,8 @@ use trunnion_syntax::{AptArg, Block, Record};
 
 /// Records that are carried over otherwise: by motions and the modal state, or by the header.
 const KNOWN: &[&str] = &[
-    "GOTO", "GODLTA", "FROM", "RAPID", "CIRCLE", "DELAY", "FEDRAT", "UNITS", "UNIT", "MULTAX", "TLAXIS", "CUTTER", "CUTCOM",
-    "CSYS", "END", "FINI", "CYCLE",
+    "GOTO", "GODLTA", "FROM", "RAPID", "CIRCLE", "DELAY", "FEDRAT", "UNITS", "UNIT", "MULTAX", "TLAXIS", "CUTTER",
+    "CUTCOM", "CSYS", "END", "FINI", "CYCLE",
 ];
 
 /// What a record says.

@@ -144,7 +144,10 @@ impl Planner<'_> {
                     machine.id,
                     deg(off)
                 ),
-                Never::Limits => format!("{} reaches {tells} only outside the travel of its rotary axes", machine.id),
+                Never::Limits => format!(
+                    "{} reaches {tells} only outside the travel of its rotary axes",
+                    machine.id
+                ),
             };
             self.refuse(posed, message)
         })?;
@@ -173,7 +176,11 @@ impl Planner<'_> {
             _ => false,
         };
         let words = |posed: &Posed| matches!(posed.motion.orientation, Orientation::Words);
-        same && self.reading.motions.iter().all(|posed| posed.leg.is_some() && words(posed))
+        same && self
+            .reading
+            .motions
+            .iter()
+            .all(|posed| posed.leg.is_some() && words(posed))
     }
 
     /// Zero point and tool length in force at each motion of the output.
@@ -207,7 +214,9 @@ impl Planner<'_> {
     fn out(&self, index: usize, posed: &Posed, q: ([f64; 2], [f64; 2]), frame: &Frame) -> Result<Out, Refused> {
         if let MotionKind::Dwell(seconds) = posed.motion.kind {
             let why = "a dwell of a length that is not known";
-            return seconds.map(Out::Dwell).ok_or_else(|| self.refuse(posed, why.to_owned()));
+            return seconds
+                .map(Out::Dwell)
+                .ok_or_else(|| self.refuse(posed, why.to_owned()));
         }
         if let Err(why) = &posed.end {
             if self.may_leave(index) {
@@ -248,7 +257,9 @@ impl Planner<'_> {
         let posed = &motions[index];
         let known = |other: &Posed| other.end.is_ok() && !matches!(other.motion.kind, MotionKind::Dwell(_));
         let tool = posed.motion.tool;
-        let first = !motions[..index].iter().any(|other| other.motion.tool == tool && known(other));
+        let first = !motions[..index]
+            .iter()
+            .any(|other| other.motion.tool == tool && known(other));
         let next = motions[index..].iter().find(|other| known(other));
         posed.motion.kind == MotionKind::Rapid && (first || next.is_none_or(|next| next.motion.tool != tool))
     }
@@ -262,7 +273,8 @@ impl Planner<'_> {
             return between.ends(track, 1, true);
         }
         let start = track.at(0.0);
-        let start = joints(machine, between.from, &start.tip, &between.frame).ok_or("the linear axes do not span space")?;
+        let start =
+            joints(machine, between.from, &start.tip, &between.frame).ok_or("the linear axes do not span space")?;
         between.joint_parts(track, &start, self.tolerance_mm)
     }
 
@@ -310,7 +322,10 @@ impl Planner<'_> {
             }
             Feed::PerRevolution(per_turn) if !self.per_revolution => match posed.motion.spindle_rpm {
                 Some(rpm) => Ok(Feed::PerMinute(per_turn * rpm)),
-                None => Err(self.refuse(posed, "a feed per turn of a spindle whose speed is not known".to_owned())),
+                None => Err(self.refuse(
+                    posed,
+                    "a feed per turn of a spindle whose speed is not known".to_owned(),
+                )),
             },
             feed => Ok(feed),
         }
@@ -394,7 +409,10 @@ impl Planner<'_> {
         let flat = arc.height().abs() < 1e-6;
         let principal = (0..3).any(|axis| arc.normal[axis].abs() > 1.0 - 1e-12);
         let slope = (arc.radius_start - arc.radius_end).abs();
-        let limit = 0.5 * self.dialect.arc_limit_mm(arc.radius_start, self.options.units == crate::Units::Inch);
+        let limit = 0.5
+            * self
+                .dialect
+                .arc_limit_mm(arc.radius_start, self.options.units == crate::Units::Inch);
         if slope > limit || if self.apt { !flat } else { !principal } {
             return None;
         }

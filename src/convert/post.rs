@@ -33,7 +33,14 @@ const TEMPLATES: &[(&str, &[&str])] = &[
     (
         "header",
         &[
-            "program", "title", "number", "tools", "machine", "units", "feed_mode", "work_offset",
+            "program",
+            "title",
+            "number",
+            "tools",
+            "machine",
+            "units",
+            "feed_mode",
+            "work_offset",
         ],
     ),
     ("footer", &["program", "title", "number"]),
@@ -176,7 +183,10 @@ pub fn load_post(text: &str) -> Result<Post, PostError> {
     let mut post = base(&raw)?;
     if let Some(name) = &raw.dialect {
         if trunnion_dialect::builtin(name.get_ref()).is_none() || name.get_ref() == "apt" {
-            return Err(fault(name.span(), format!("no dialect of G-code is named {:?}", name.get_ref())));
+            return Err(fault(
+                name.span(),
+                format!("no dialect of G-code is named {:?}", name.get_ref()),
+            ));
         }
         post.dialect.clone_from(name.get_ref());
     }
@@ -254,7 +264,11 @@ fn base(raw: &RawPost) -> Result<Post, PostError> {
 fn check_template(text: &str, key: &Spanned<String>, value: &Spanned<String>) -> Result<(), PostError> {
     let Some((_, allowed)) = TEMPLATES.iter().find(|(known, _)| known == key.get_ref()) else {
         let known: Vec<&str> = TEMPLATES.iter().map(|(known, _)| *known).collect();
-        let message = format!("no template is named {:?}; there are {}", key.get_ref(), known.join(", "));
+        let message = format!(
+            "no template is named {:?}; there are {}",
+            key.get_ref(),
+            known.join(", ")
+        );
         return Err(fault(key.span(), message));
     };
     let mut unknown = names(value.get_ref()).filter(|(_, name)| !allowed.contains(name));
@@ -262,11 +276,20 @@ fn check_template(text: &str, key: &Spanned<String>, value: &Spanned<String>) ->
     // the place in the file: escapes may shift offsets, so the name itself is looked for
     let span = value.span();
     let wanted = format!("{{{name}");
-    let at = text[span.clone()].find(&wanted).map_or(span.start, |at| span.start + at);
+    let at = text[span.clone()]
+        .find(&wanted)
+        .map_or(span.start, |at| span.start + at);
     let may = if allowed.is_empty() {
         "it takes none".to_owned()
     } else {
-        format!("it takes {}", allowed.iter().map(|name| format!("{{{name}}}")).collect::<Vec<_>>().join(" "))
+        format!(
+            "it takes {}",
+            allowed
+                .iter()
+                .map(|name| format!("{{{name}}}"))
+                .collect::<Vec<_>>()
+                .join(" ")
+        )
     };
     Err(fault(
         at..at + wanted.len(),
@@ -305,7 +328,12 @@ fn digits(
 ) -> Result<(), PostError> {
     let Some(written) = written else { return Ok(()) };
     if !range.contains(written.get_ref()) {
-        let message = format!("{} digits; {} to {} are possible", written.get_ref(), range.start(), range.end());
+        let message = format!(
+            "{} digits; {} to {} are possible",
+            written.get_ref(),
+            range.start(),
+            range.end()
+        );
         return Err(fault(written.span(), message));
     }
     *slot = *written.get_ref();
@@ -332,8 +360,12 @@ mod tests {
 
     #[test]
     fn unknown_names_are_told_with_their_place() {
-        let (message, at) = error("extends = \"fanuc-30i\"\n[templates]\nheader = \"\"\"\n%\nO{number} {porgram}\n\"\"\"\n");
-        assert!(message.contains("{porgram}") && message.contains("{program}"), "{message}");
+        let (message, at) =
+            error("extends = \"fanuc-30i\"\n[templates]\nheader = \"\"\"\n%\nO{number} {porgram}\n\"\"\"\n");
+        assert!(
+            message.contains("{porgram}") && message.contains("{program}"),
+            "{message}"
+        );
         assert_eq!(at, "{porgram");
         let (message, at) = error("extends = \"grbl\"\n[templates]\nheadr = \"\"\n");
         assert!(message.contains("no template is named \"headr\""), "{message}");
@@ -341,7 +373,11 @@ mod tests {
         assert_eq!(error("extends = \"grbel\"\n").1, "\"grbel\"");
         assert_eq!(error("extends = \"grbl\"\n[numbers]\nangle = 40\n").1, "40");
         assert!(error("extension = \"nc\"\n").0.contains("names its `dialect`"));
-        assert!(error("extends = \"grbl\"\n[without]\ntemplates = [\"vector\"]\n").0.contains("vector"));
+        assert!(
+            error("extends = \"grbl\"\n[without]\ntemplates = [\"vector\"]\n")
+                .0
+                .contains("vector")
+        );
         assert!(error("dialect = \"apt\"\n").0.contains("no dialect of G-code"));
     }
 }

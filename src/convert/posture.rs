@@ -136,7 +136,15 @@ fn successors(
     for (parent, from) in before.iter().enumerate() {
         for (q, branch) in &postures {
             for values in values(machine, *q, from.q) {
-                let state = arrive(machine, from, parent as u8, values, (*branch, &postures), wish.cuts, slowness);
+                let state = arrive(
+                    machine,
+                    from,
+                    parent as u8,
+                    values,
+                    (*branch, &postures),
+                    wish.cuts,
+                    slowness,
+                );
                 match found.iter_mut().find(|known| same(known, &state)) {
                     Some(known) if known.cost <= state.cost => {}
                     Some(known) => *known = state,
@@ -148,7 +156,11 @@ fn successors(
     // a stable sort: equal costs keep the order in which they were found, so that the choice is the same everywhere
     found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     found.truncate(BEAM);
-    if found.is_empty() { Err(Never::Limits) } else { Ok(found) }
+    if found.is_empty() {
+        Err(Never::Limits)
+    } else {
+        Ok(found)
+    }
 }
 
 fn same(a: &State, b: &State) -> bool {
@@ -166,7 +178,10 @@ fn values(machine: &Machine, q: [Option<f64>; 2], from: [f64; 2]) -> Vec<[f64; 2
     };
     let second = near(1);
     let first = near(0);
-    first.iter().flat_map(|a| second.iter().map(move |b| [*a, *b])).collect()
+    first
+        .iter()
+        .flat_map(|a| second.iter().map(move |b| [*a, *b]))
+        .collect()
 }
 
 fn arrive(

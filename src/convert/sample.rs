@@ -82,9 +82,9 @@ impl Between<'_> {
             };
             before = q;
             let joints = match self.machine.filter(|_| joints_too) {
-                Some(machine) => Some(
-                    joints(machine, q, &pose.tip, &self.frame).ok_or("the linear axes do not span space there")?,
-                ),
+                Some(machine) => {
+                    Some(joints(machine, q, &pose.tip, &self.frame).ok_or("the linear axes do not span space there")?)
+                }
                 None => None,
             };
             ends.push(PartEnd {

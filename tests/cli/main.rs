@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
 mod commands;
+mod convert;
 mod diff;
 mod findings;
 mod fix;

@@ -3,7 +3,7 @@ use super::{Posed, Reading, Track};
 use crate::Outcome;
 use trunnion_geometry::deg;
 use trunnion_geometry::math::{angle_between, asin};
-use trunnion_interp::{Feed, Fault, MotionKind};
+use trunnion_interp::{Fault, Feed, MotionKind};
 use trunnion_machine::{Machine, Pose};
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
@@ -173,7 +173,9 @@ impl Proof<'_> {
         let tool = posed.motion.tool;
         let rapid = matches!(posed.motion.kind, MotionKind::Rapid | MotionKind::Unknown);
         let known = |other: &Posed| other.end.is_ok() && !matches!(other.motion.kind, MotionKind::Dwell(_));
-        let first = !motions[..was].iter().any(|other| other.motion.tool == tool && known(other));
+        let first = !motions[..was]
+            .iter()
+            .any(|other| other.motion.tool == tool && known(other));
         let next = motions[was..].iter().find(|other| known(other));
         let last = next.is_none_or(|next| next.motion.tool != tool);
         if posed.end.is_ok() || !rapid || !(first || last) {
@@ -250,7 +252,12 @@ impl Proof<'_> {
         if !fits {
             return self.refute(is, "the kind of motion differs".to_owned());
         }
-        let rpm = |posed: &Posed| posed.motion.spindle_rpm.filter(|_| posed.motion.spindle_on == Some(true));
+        let rpm = |posed: &Posed| {
+            posed
+                .motion
+                .spindle_rpm
+                .filter(|_| posed.motion.spindle_on == Some(true))
+        };
         let same_speed = match (rpm(old), rpm(new)) {
             (Some(was), Some(is)) => (was - is).abs() <= 5e-4,
             (was, is) => was.is_none() && is.is_none(),
@@ -314,7 +321,10 @@ impl Proof<'_> {
         let ((was_mm, was_axis), (is_mm, is_axis)) = (track.bend(), made.bend());
         let (bend, bend_axis) = (was_mm * h2 + is_mm, was_axis * h2 + is_axis);
         // so many that the bound is at most a twentieth of the tolerance above the samples
-        let steps = (bend / (0.4 * self.claim.path_mm)).sqrt().ceil().clamp(1.0, MOST_SAMPLES);
+        let steps = (bend / (0.4 * self.claim.path_mm))
+            .sqrt()
+            .ceil()
+            .clamp(1.0, MOST_SAMPLES);
         let (mut off, mut chord) = (0.0f64, 0.0f64);
         for step in 0..=(steps as u32) {
             let t = f64::from(step) / steps;

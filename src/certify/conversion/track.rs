@@ -93,9 +93,7 @@ impl<'m> Track<'m> {
                     None => start.tip + (end.tip - start.tip) * t,
                 },
                 axis: match rotary {
-                    Some((machine, from, to)) => {
-                        tool_axis_at(machine, [0, 1].map(|i| from[i] + (to[i] - from[i]) * t))
-                    }
+                    Some((machine, from, to)) => tool_axis_at(machine, [0, 1].map(|i| from[i] + (to[i] - from[i]) * t)),
                     None => great_circle(&start.axis, &end.axis, t),
                 },
             },

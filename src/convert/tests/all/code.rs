@@ -3,31 +3,9 @@ use crate::support::{text, to};
 use std::fmt::Write;
 use trunnion_convert::{Options, OrientationWords};
 
-const PIECE: &str = "PARTNO SMALL PIECE
-UNITS/MM
-MULTAX/ON
-CUTTER/10,5
-LOADTL/1,LENGTH,100
-PPRINT ball nose, finishing
-SPINDL/12000,RPM,CLW
-COOLNT/FLOOD
-RAPID
-GOTO/0,0,50,0,0,1
-RAPID
-GOTO/0,0,2,0,0,1
-FEDRAT/1000,MMPM
-GOTO/0,0,0,0,0,1
-GOTO/10,0,0,0.1,0,0.994987437
-GOTO/20,0,0,0.1,0.1,0.989949494
-DELAY/1.5
-CIRCLE/20,10,0,0,0,1,10
-GOTO/30,10,0,0.1,0.1,0.989949494
-COOLNT/OFF
-RAPID
-GOTO/30,10,50,0.1,0.1,0.989949494
-SPINDL/OFF
-FINI
-";
+const PIECE: &str = include_str!("../../../../samples/programs/apt/small-piece.apt");
+
+const PLATE: &str = include_str!("../../../../samples/programs/apt/plate.apt");
 
 fn options(tcp: bool) -> Options {
     Options {
@@ -54,27 +32,6 @@ fn every_control_has_its_words() {
     insta::assert_snapshot!(all);
 }
 
-const PLATE: &str = "PARTNO PLATE
-UNITS/MM
-CUTTER/6
-LOADTL/2
-SPINDL/8000,RPM,CCLW
-RAPID
-GOTO/0,0,5
-FEDRAT/400
-GOTO/0,0,-1
-FEDRAT/800
-GOTO/20,0,-1
-CIRCLE/20,5,-1,0,0,-1,5
-GOTO/20,10,-1
-CIRCLE/10,10,-1,0,0,1,10
-GOTO/20,10,-1
-OPSTOP
-RAPID
-GOTO/20,10,5
-FINI
-";
-
 #[test]
 fn three_axes_need_no_tool_centre_point_control() {
     let mut all = String::new();
@@ -95,10 +52,16 @@ fn inches_scale_lengths_and_feeds() {
         ..Options::default()
     };
     let written = text(to((PLATE, "apt", ""), "fanuc-30i", "mill-3axis", &inch));
-    assert!(written.contains("G20 G94") && written.contains("Y0.3937 I0. J0.19685") && written.contains("F31.4961"), "{written}");
+    assert!(
+        written.contains("G20 G94") && written.contains("Y0.3937 I0. J0.19685") && written.contains("F31.4961"),
+        "{written}"
+    );
     let back = text(to((&written, "fanuc-30i", ""), "apt", "", &Options::default()));
     // 31.4961 inch/min and 0.7874 inch
-    assert!(back.contains("FEDRAT/800.00094,MMPM") && back.contains("GOTO/19.99996,0,"), "{back}");
+    assert!(
+        back.contains("FEDRAT/800.00094,MMPM") && back.contains("GOTO/19.99996,0,"),
+        "{back}"
+    );
 }
 
 /// Joints of a machine with two rotary axes, cut into pieces that keep the tip within the tolerance, each with the time it takes.
@@ -111,13 +74,23 @@ fn without_tool_centre_point_control_cuts_are_linearised() {
         ..Options::default()
     };
     let fine = to((PIECE, "apt", ""), "linuxcnc", "mikron-ucp710", &fine).expect("proved");
-    assert!(coarse.proof.path_mm <= 0.01 && coarse.proof.path_mm > 0.001, "{:?}", coarse.proof);
+    assert!(
+        coarse.proof.path_mm <= 0.01 && coarse.proof.path_mm > 0.001,
+        "{:?}",
+        coarse.proof
+    );
     assert!(fine.proof.path_mm <= 0.001, "{:?}", fine.proof);
     // pieces grow with the root of the precision
     let (few, many) = (coarse.proof.motions_after as f64, fine.proof.motions_after as f64);
     assert!((2.0..4.5).contains(&(many / few)), "{few} {many}");
     assert!(coarse.text.contains("G93") && !coarse.text.contains("M428"));
-    let back = to((&coarse.text, "linuxcnc", "mikron-ucp710"), "apt", "", &Options::default()).expect("proved");
+    let back = to(
+        (&coarse.text, "linuxcnc", "mikron-ucp710"),
+        "apt",
+        "",
+        &Options::default(),
+    )
+    .expect("proved");
     assert!(back.proof.path_mm <= 0.01);
 }
 
@@ -138,6 +111,6 @@ fn a_post_of_ones_own_writes_its_own_codes() {
     let machine = trunnion_machine::builtin("mill-3axis");
     let target = trunnion_convert::Target::Code { post: &post, machine };
     let written = text(trunnion_convert::convert(&source, &target, &Options::default()));
-    assert!(written.starts_with("%\nO0001 (PLATE)\n(FOR Three-axis mill)\nG21 G94\nG54\nT2 M6\n"), "{written}");
+    assert!(written.starts_with("%\nO0001 (PLATE)\n(FOR Three-axis mill)\nG21 G94\nG54\n(MADE UP TO BE CONVERTED: SAMPLES/README.MD)\nT2 M6\n"), "{written}");
     assert!(written.contains("\nM51\n"), "{written}");
 }

@@ -56,7 +56,10 @@ fn vectors(text: &str) -> Vec<Vec<f64>> {
     let records = joined.lines().filter_map(|line| line.trim().strip_prefix("GOTO"));
     let numbers = |record: &str| {
         let record = record.trim_start_matches([' ', '/']);
-        record.split(',').map(|number| number.trim().parse().expect("a number")).collect()
+        record
+            .split(',')
+            .map(|number| number.trim().parse().expect("a number"))
+            .collect()
     };
     records.map(numbers).collect()
 }
@@ -73,13 +76,23 @@ fn apt_to_iso_gives_the_printed_words() {
             tcp: false,
             ..excerpt()
         };
-        let made = assuming((&apt, "apt", ""), assume, "sinumerik-840d", MACHINE, &Options::default()).expect("proved");
+        let made = assuming(
+            (&apt, "apt", ""),
+            assume,
+            "sinumerik-840d",
+            MACHINE,
+            &Options::default(),
+        )
+        .expect("proved");
         assert_eq!((made.proof.motions_before, made.proof.motions_after), (5, 5));
         let (wanted, found) = (words(&mpf), words(&made.text));
         assert_eq!((wanted.len(), found.len()), (5, 5), "{}", made.text);
         for (row, (wanted, found)) in wanted.iter().zip(&found).enumerate() {
             for axis in 0..3 {
-                assert!((wanted[axis] - found[axis]).abs() < 1e-4, "strategy {strategy} row {row}");
+                assert!(
+                    (wanted[axis] - found[axis]).abs() < 1e-4,
+                    "strategy {strategy} row {row}"
+                );
             }
             if POLE.contains(&(strategy, row)) {
                 continue;
@@ -91,10 +104,16 @@ fn apt_to_iso_gives_the_printed_words() {
             } else {
                 0.0020
             };
-            assert!((wanted[3] - found[3]).abs() <= limit_a, "A: strategy {strategy} row {row}: {wanted:?} {found:?}");
+            assert!(
+                (wanted[3] - found[3]).abs() <= limit_a,
+                "A: strategy {strategy} row {row}: {wanted:?} {found:?}"
+            );
             // the post wound C on by whole turns
             let off_c = (wanted[4] - found[4] + 180.0).rem_euclid(360.0) - 180.0;
-            assert!(off_c.abs() <= 0.0006, "C: strategy {strategy} row {row}: {wanted:?} {found:?}");
+            assert!(
+                off_c.abs() <= 0.0006,
+                "C: strategy {strategy} row {row}: {wanted:?} {found:?}"
+            );
             compared += 1;
         }
     }
@@ -108,7 +127,14 @@ fn apt_to_iso_gives_the_printed_words() {
 fn iso_to_apt_gives_the_printed_vectors() {
     for strategy in 1..=4 {
         let Some((apt, mpf)) = printed(strategy) else { continue };
-        let made = assuming((&mpf, "sinumerik-840d", MACHINE), excerpt(), "apt", "", &Options::default()).expect("proved");
+        let made = assuming(
+            (&mpf, "sinumerik-840d", MACHINE),
+            excerpt(),
+            "apt",
+            "",
+            &Options::default(),
+        )
+        .expect("proved");
         let (wanted, found) = (vectors(&apt), vectors(&made.text));
         assert_eq!((wanted.len(), found.len()), (5, 5), "{}", made.text);
         for (row, (wanted, found)) in wanted.iter().zip(&found).enumerate() {
@@ -132,9 +158,15 @@ fn whole_programs_go_both_ways() {
         assert_eq!(wanted.len(), found.len());
         for (wanted, found) in wanted.iter().zip(&found) {
             let off = |range: core::ops::Range<usize>| {
-                range.map(|i| (wanted[i] - found[i]) * (wanted[i] - found[i])).sum::<f64>().sqrt()
+                range
+                    .map(|i| (wanted[i] - found[i]) * (wanted[i] - found[i]))
+                    .sum::<f64>()
+                    .sqrt()
             };
-            assert!(off(0..3) < 2e-4 && off(3..6) < 3e-6, "strategy {strategy}: {wanted:?} {found:?}");
+            assert!(
+                off(0..3) < 2e-4 && off(3..6) < 3e-6,
+                "strategy {strategy}: {wanted:?} {found:?}"
+            );
         }
         let mpf = sample(strategy, "mpf");
         let made = to((&mpf, "sinumerik-840d", MACHINE), "apt", "", &Options::default()).expect("proved");
@@ -147,15 +179,26 @@ fn whole_programs_go_both_ways() {
 fn another_machine_holds_the_tool_the_same_way() {
     for strategy in 1..=4 {
         let mpf = sample(strategy, "mpf");
-        let made = to((&mpf, "sinumerik-840d", MACHINE), "sinumerik-840d", "ferrari-bc", &Options::default());
+        let made = to(
+            (&mpf, "sinumerik-840d", MACHINE),
+            "sinumerik-840d",
+            "ferrari-bc",
+            &Options::default(),
+        );
         let made = made.expect("proved");
         assert!(made.text.contains(" B") && !made.text.contains(" A"), "{}", made.text);
-        let (there, here) = (("ferrari-bc", made.text.as_str()), to((&mpf, "sinumerik-840d", MACHINE), "apt", "", &Options::default()));
+        let (there, here) = (
+            ("ferrari-bc", made.text.as_str()),
+            to((&mpf, "sinumerik-840d", MACHINE), "apt", "", &Options::default()),
+        );
         let back = to((there.1, "sinumerik-840d", there.0), "apt", "", &Options::default()).expect("proved");
         let (wanted, found) = (vectors(&here.expect("proved").text), vectors(&back.text));
         assert_eq!(wanted.len(), found.len());
         for (wanted, found) in wanted.iter().zip(&found) {
-            assert!(wanted.iter().zip(found).all(|(a, b)| (a - b).abs() < 2e-4), "{wanted:?} {found:?}");
+            assert!(
+                wanted.iter().zip(found).all(|(a, b)| (a - b).abs() < 2e-4),
+                "{wanted:?} {found:?}"
+            );
         }
     }
 }

@@ -55,9 +55,14 @@ fn claim() -> ConversionClaim {
 fn outcome(after: &str, parts: &[Part], claim: &ConversionClaim) -> Result<f64, String> {
     let name = "mikron-ucp710";
     let after = reading(after, "sinumerik-840d", name);
-    converted((&reading(BEFORE, "apt", ""), None), (&after, machine(name)), parts, claim)
-        .map(|proof| proof.end_deg)
-        .map_err(|outcome| format!("{outcome:?}"))
+    converted(
+        (&reading(BEFORE, "apt", ""), None),
+        (&after, machine(name)),
+        parts,
+        claim,
+    )
+    .map(|proof| proof.end_deg)
+    .map_err(|outcome| format!("{outcome:?}"))
 }
 
 const ONE_EACH: [Part; 5] = [Part::Moves(1); 5];
@@ -99,8 +104,20 @@ fn a_wrong_hint_proves_nothing() {
     for parts in [
         &[Part::Moves(1); 4][..],
         &[Part::Moves(2), Part::Moves(1), Part::Moves(1), Part::Moves(1)],
-        &[Part::Left, Part::Moves(1), Part::Moves(1), Part::Moves(1), Part::Moves(1)],
-        &[Part::Added(1), Part::Moves(1), Part::Moves(1), Part::Moves(1), Part::Moves(1)],
+        &[
+            Part::Left,
+            Part::Moves(1),
+            Part::Moves(1),
+            Part::Moves(1),
+            Part::Moves(1),
+        ],
+        &[
+            Part::Added(1),
+            Part::Moves(1),
+            Part::Moves(1),
+            Part::Moves(1),
+            Part::Moves(1),
+        ],
         &[],
     ] {
         outcome(AFTER, parts, &claim()).expect_err("refused");
@@ -119,5 +136,8 @@ fn joints_that_run_straight_are_bounded_between_the_ends() {
     let parts = [Part::Moves(1), Part::Moves(1)];
     let outcome = converted((&before, None), (&after, machine(name)), &parts, &claim());
     let outcome = format!("{:?}", outcome.expect_err("23 mm beside the chord"));
-    assert!(outcome.contains("inside the block") || outcome.contains("from where it was"), "{outcome}");
+    assert!(
+        outcome.contains("inside the block") || outcome.contains("from where it was"),
+        "{outcome}"
+    );
 }

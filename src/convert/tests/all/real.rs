@@ -7,7 +7,9 @@ use trunnion_interp::Setup;
 use trunnion_machine::Machine;
 
 fn data(path: &str) -> Option<PathBuf> {
-    let found = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(path);
+    let found = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../../shared/data")
+        .join(path);
     if found.exists() {
         return Some(found);
     }
@@ -15,7 +17,13 @@ fn data(path: &str) -> Option<PathBuf> {
     None
 }
 
-fn run(text: &[u8], dialect: &str, from: Option<&Machine>, to: &str, on: Option<&Machine>) -> Result<Converted, Refused> {
+fn run(
+    text: &[u8],
+    dialect: &str,
+    from: Option<&Machine>,
+    to: &str,
+    on: Option<&Machine>,
+) -> Result<Converted, Refused> {
     let setup = Setup::default();
     let source = Source {
         text,
@@ -46,7 +54,10 @@ fn there_and_back(text: &[u8], dialect: &str, on: &Machine, to: &str) -> u64 {
     let again = run(back.text.as_bytes(), "apt", None, to, Some(on)).unwrap_or_else(|refused| panic!("{refused}"));
     let words = |text: &str| -> Vec<String> {
         let code = |line: &&str| line.contains(['X', 'Y', 'Z']) && !line.contains(['(', ';']);
-        text.lines().filter(code).map(|line| line.trim_start_matches(|c: char| c != ' ').to_owned()).collect()
+        text.lines()
+            .filter(code)
+            .map(|line| line.trim_start_matches(|c: char| c != ' ').to_owned())
+            .collect()
     };
     assert_eq!(words(&made.text), words(&again.text), "the second time nothing changes");
     made.proof.motions_before
@@ -54,7 +65,9 @@ fn there_and_back(text: &[u8], dialect: &str, on: &Machine, to: &str) -> u64 {
 
 #[test]
 fn creo_roughing_goes_to_three_axes_and_back() {
-    let Some(path) = data("apt/creo/schruppen_1.ncl.1") else { return };
+    let Some(path) = data("apt/creo/schruppen_1.ncl.1") else {
+        return;
+    };
     let text = std::fs::read(path).expect("readable");
     let mill = machine("mill-3axis").expect("built in");
     for dialect in ["fanuc-30i", "linuxcnc"] {
@@ -64,12 +77,16 @@ fn creo_roughing_goes_to_three_axes_and_back() {
 
 #[test]
 fn solidworks_parts_are_converted_or_refused_with_a_place() {
-    let Some(folder) = data("apt/solidworks-cam") else { return };
+    let Some(folder) = data("apt/solidworks-cam") else {
+        return;
+    };
     let mill = machine("mill-3axis").expect("built in");
     let mut converted = Vec::new();
     for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
-        let Ok(text) = std::fs::read(entry.path().join(format!("{name}.apt"))) else { continue };
+        let Ok(text) = std::fs::read(entry.path().join(format!("{name}.apt"))) else {
+            continue;
+        };
         match run(&text, "apt", None, "linuxcnc", Some(mill)) {
             Ok(_) => {
                 there_and_back(&text, "apt", mill, "haas-ngc");
@@ -88,7 +105,9 @@ fn solidworks_parts_are_converted_or_refused_with_a_place() {
 /// The part of the boss before its first cutter compensation: pockets with lines and arcs of six numbers.
 #[test]
 fn the_boss_is_converted_as_far_as_it_is_modelled() {
-    let Some(path) = data("apt/solidworks-cam/boss/boss.apt") else { return };
+    let Some(path) = data("apt/solidworks-cam/boss/boss.apt") else {
+        return;
+    };
     let text = std::fs::read_to_string(path).expect("readable");
     let head: Vec<&str> = text.lines().take_while(|line| !line.starts_with("CUTCOM")).collect();
     let text = head.join("\n") + "\nFINI\n";
@@ -120,10 +139,17 @@ fn one_part_of_two_controls_gives_the_same_cl_data() {
         records.map(str::to_owned).collect()
     };
     let one = run(&head(fanuc), "fanuc-30i", Some(&machine), "apt", None).unwrap_or_else(|refused| panic!("{refused}"));
-    let two = run(&head(siemens), "sinumerik-840d", Some(&machine), "apt", None).unwrap_or_else(|refused| panic!("{refused}"));
+    let two = run(&head(siemens), "sinumerik-840d", Some(&machine), "apt", None)
+        .unwrap_or_else(|refused| panic!("{refused}"));
     let (one, two) = (points(&one.text), points(&two.text));
-    let first = one.iter().position(|point| point.starts_with("GOTO/25.443,100.88")).expect("the first point");
-    let same = two.iter().position(|point| point.starts_with("GOTO/25.443,100.88")).expect("the first point");
+    let first = one
+        .iter()
+        .position(|point| point.starts_with("GOTO/25.443,100.88"))
+        .expect("the first point");
+    let same = two
+        .iter()
+        .position(|point| point.starts_with("GOTO/25.443,100.88"))
+        .expect("the first point");
     let count = (one.len() - first).min(two.len() - same);
     assert!(count > 2900, "{count}");
     assert_eq!(one[first..first + count], two[same..same + count]);
@@ -131,7 +157,9 @@ fn one_part_of_two_controls_gives_the_same_cl_data() {
 
 #[test]
 fn the_impeller_comes_back_from_cl_data() {
-    let Some(path) = data("linuxcnc-5axis/impeller-7bl-xyzac.ngc") else { return };
+    let Some(path) = data("linuxcnc-5axis/impeller-7bl-xyzac.ngc") else {
+        return;
+    };
     let text = std::fs::read(path).expect("readable");
     let mikron = trunnion_machine::builtin_source("mikron-ucp710").expect("built in");
     let wide = mikron.replace("limits = [-30, 120]", "limits = [-120, 120]");
@@ -148,13 +176,21 @@ fn pairs_of_programs_are_converted_or_refused_with_a_place() {
     let mut converted = 0;
     for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
         let path = entry.path();
-        let dialect = if path.extension().is_some_and(|kind| kind == "mpf") { "sinumerik-840d" } else { "fanuc-30i" };
+        let dialect = if path.extension().is_some_and(|kind| kind == "mpf") {
+            "sinumerik-840d"
+        } else {
+            "fanuc-30i"
+        };
         let text = std::fs::read(&path).expect("readable");
         match run(&text, dialect, Some(machine), "apt", None) {
             Ok(_) => converted += 1,
             Err(refused) => {
                 println!("{}: {refused}", path.display());
-                assert!(refused.place.is_some() || refused.message.contains("proved"), "{}: {refused}", path.display());
+                assert!(
+                    refused.place.is_some() || refused.message.contains("proved"),
+                    "{}: {refused}",
+                    path.display()
+                );
             }
         }
     }

@@ -15,10 +15,28 @@ fn programs_that_say_too_little_or_too_much() {
     let no = Options::default();
     for (tail, dialect, machine, line, why) in [
         ("GOTO/1,0,0,0,0,-1\n", "sinumerik-840d", five, 5, "outside the travel"),
-        ("GOTO/1,0,0,1,0,0\n", "fanuc-30i", "mill-3axis", 5, "cannot point the tool"),
-        ("GOTO/1,0,0,1,0,0\n", "linuxcnc", "maho-600e", 5, "the number of the tool"),
+        (
+            "GOTO/1,0,0,1,0,0\n",
+            "fanuc-30i",
+            "mill-3axis",
+            5,
+            "cannot point the tool",
+        ),
+        (
+            "GOTO/1,0,0,1,0,0\n",
+            "linuxcnc",
+            "maho-600e",
+            5,
+            "the number of the tool",
+        ),
         ("INSERT/G65 P9000\n", "sinumerik-840d", five, 5, "--insert-is-remark"),
-        ("CYCLE/DRILL,DEPTH,5\nGOTO/1,1,0\n", "sinumerik-840d", five, 5, "is not modelled"),
+        (
+            "CYCLE/DRILL,DEPTH,5\nGOTO/1,1,0\n",
+            "sinumerik-840d",
+            five,
+            5,
+            "is not modelled",
+        ),
         ("CUTCOM/LEFT\nGOTO/1,1,0\n", "sinumerik-840d", five, 5, "cutter radius"),
         ("FROBNI/1\nGOTO/1,1,0\n", "sinumerik-840d", five, 5, "unknown record"),
         ("DWELL/1\n", "sinumerik-840d", five, 5, "DELAY"),
@@ -63,20 +81,70 @@ fn what_a_control_lacks_is_said_before_anything_is_read() {
 fn g_code_needs_what_it_does_not_say() {
     let no = Options::default();
     for (text, dialect, machine, place, why) in [
-        ("G21 G90\nG0 X0 Y0 Z5\nG1 X1\nM30\n", "iso-6983", "", Some((3, 1)), "--feed"),
-        ("G0 X0 Y0 Z5\nG1 X1 A5 F100\nM30\n", "iso-6983", "", Some((2, 1)), "--machine"),
-        ("G0 X0 Y0 Z5\n/G1 X1 F100\nM30\n", "iso-6983", "", Some((2, 1)), "block delete"),
-        ("G0 X0 Y0 Z5\nM77\nM30\n", "sinumerik-840d", "", Some((2, 1)), "--drop M77"),
-        ("T=\"DRILL\" M6\nM30\n", "sinumerik-840d", "", Some((1, 1)), "without number"),
-        ("G0 X0. Y0. Z5.\nG28 G91 Z0.\nG90 G1 X5. F100.\nM30\n", "fanuc-30i", "", Some((2, 1)), ""),
-        ("G0 X0. Y0. Z5.\nG68.2 X0. Y0. Z0. I0. J30. K0.\nG1 X5. F100.\nM30\n", "fanuc-30i", "", Some((2, 1)), "not modelled"),
+        (
+            "G21 G90\nG0 X0 Y0 Z5\nG1 X1\nM30\n",
+            "iso-6983",
+            "",
+            Some((3, 1)),
+            "--feed",
+        ),
+        (
+            "G0 X0 Y0 Z5\nG1 X1 A5 F100\nM30\n",
+            "iso-6983",
+            "",
+            Some((2, 1)),
+            "--machine",
+        ),
+        (
+            "G0 X0 Y0 Z5\n/G1 X1 F100\nM30\n",
+            "iso-6983",
+            "",
+            Some((2, 1)),
+            "block delete",
+        ),
+        (
+            "G0 X0 Y0 Z5\nM77\nM30\n",
+            "sinumerik-840d",
+            "",
+            Some((2, 1)),
+            "--drop M77",
+        ),
+        (
+            "T=\"DRILL\" M6\nM30\n",
+            "sinumerik-840d",
+            "",
+            Some((1, 1)),
+            "without number",
+        ),
+        (
+            "G0 X0. Y0. Z5.\nG28 G91 Z0.\nG90 G1 X5. F100.\nM30\n",
+            "fanuc-30i",
+            "",
+            Some((2, 1)),
+            "",
+        ),
+        (
+            "G0 X0. Y0. Z5.\nG68.2 X0. Y0. Z0. I0. J30. K0.\nG1 X5. F100.\nM30\n",
+            "fanuc-30i",
+            "",
+            Some((2, 1)),
+            "not modelled",
+        ),
     ] {
         let (found, message) = refused((text, dialect, machine), "apt", "", &no);
         assert!(message.contains(why), "{text}: {message}");
         assert_eq!(found, place, "{text}: {message}");
     }
-    let (_, message) = refused(("o100 sub\no100 endsub\nG0 X0 Y0 Z#5061\nM2\n", "linuxcnc", ""), "apt", "", &no);
-    assert!(message.contains("no motion of this program ends at a known position"), "{message}");
+    let (_, message) = refused(
+        ("o100 sub\no100 endsub\nG0 X0 Y0 Z#5061\nM2\n", "linuxcnc", ""),
+        "apt",
+        "",
+        &no,
+    );
+    assert!(
+        message.contains("no motion of this program ends at a known position"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -124,7 +192,10 @@ fn a_forced_swap_is_refused_with_its_place_and_allowed_when_told() {
         machine: Some(&machine),
     };
     let refused = refusal(trunnion_convert::convert(&source, &target, &Options::default()));
-    assert!(refused.message.contains("--allow-swap") && refused.place.is_some_and(|(line, _)| line > 20), "{refused}");
+    assert!(
+        refused.message.contains("--allow-swap") && refused.place.is_some_and(|(line, _)| line > 20),
+        "{refused}"
+    );
     let allow = Options {
         allow_swap: true,
         ..Options::default()

@@ -35,7 +35,11 @@ fn points(machine: &Machine, start: [f64; 2], steps: &[(f64, f64, [f64; 3])]) ->
         all.push(ClPoint {
             tip,
             axis: tool_axis_at(machine, q),
-            feed: if index == 0 { ClFeed::Rapid } else { ClFeed::PerMinute(800.0) },
+            feed: if index == 0 {
+                ClFeed::Rapid
+            } else {
+                ClFeed::PerMinute(800.0)
+            },
         });
     }
     all
@@ -45,18 +49,26 @@ fn points(machine: &Machine, start: [f64; 2], steps: &[(f64, f64, [f64; 3])]) ->
 fn read(text: &str) -> Vec<(Vec3, Vec3)> {
     let joined = text.replace("$\n", "");
     let records = joined.lines().filter_map(|line| line.strip_prefix("GOTO/"));
-    let numbers = |record: &str| -> Vec<f64> { record.split(',').map(|n| n.trim().parse().expect("a number")).collect() };
+    let numbers =
+        |record: &str| -> Vec<f64> { record.split(',').map(|n| n.trim().parse().expect("a number")).collect() };
     records
         .map(numbers)
         .map(|n| {
-            let axis = if n.len() > 3 { Vec3::new(n[3], n[4], n[5]) } else { Vec3::z() };
+            let axis = if n.len() > 3 {
+                Vec3::new(n[3], n[4], n[5])
+            } else {
+                Vec3::z()
+            };
             (Vec3::new(n[0], n[1], n[2]), axis)
         })
         .collect()
 }
 
 fn cases() -> u32 {
-    std::env::var("TRUNNION_CONVERT_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(24)
+    std::env::var("TRUNNION_CONVERT_CASES")
+        .ok()
+        .and_then(|n| n.parse().ok())
+        .unwrap_or(24)
 }
 
 fn steps() -> impl Strategy<Value = Vec<(f64, f64, [f64; 3])>> {

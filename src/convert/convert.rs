@@ -359,11 +359,14 @@ fn prove(
 ) -> Result<(ConversionProof, Vec<usize>), Refused> {
     // vectors say by themselves where the tool points
     let machine = setting.mode.machine().or(setting.machine.filter(|_| setting.vectors));
+    let mut setup = source.setup.clone();
+    // codes of the builder of the machine that it is written for
+    setup.control.tcp_codes = setting.machine.and_then(|machine| machine.control.tcp_codes.clone());
     let after = read(&Run {
         text: text.as_bytes(),
         dialect: setting.dialect,
         machine,
-        setup: source.setup,
+        setup: &setup,
         assume: Assume::default(),
     });
     if let Some(error) = after.program.errors().first() {

@@ -91,7 +91,7 @@ impl Teller<'_> {
         let block = ran.block;
         self.counter_clockwise = said.counter_clockwise.unwrap_or(self.counter_clockwise);
         let heard = |events: &[Event]| events.iter().any(|event| !matches!(event, Event::Comment(_)));
-        if ran.compensation != 0 && (heard(&said.before) || heard(&said.after)) {
+        if ran.motions_wait && (heard(&said.before) || heard(&said.after)) {
             let message = "an M code inside a contour with cutter radius compensation: where on the offset path it belongs is not known";
             return Err(Refused::at(self.program, block, message));
         }

@@ -66,9 +66,9 @@ const TEMPLATES: &[(&str, &[&str])] = &[
     ("feed-inverse-time", &[]),
     ("feed-per-revolution", &[]),
     ("length-on", &["tool"]),
-    ("tcp-words-on", &["tool"]),
-    ("tcp-vectors-on", &["tool"]),
-    ("tcp-off", &[]),
+    ("tcp-words-on", &["tool", "tcp_on"]),
+    ("tcp-vectors-on", &["tool", "tcp_on"]),
+    ("tcp-off", &["tcp_off"]),
     ("vector", &["i", "j", "k"]),
     ("arc-radius", &["radius"]),
 ];
@@ -120,6 +120,8 @@ struct RawText {
     number_step: Option<u32>,
     upper_case: Option<bool>,
     arc: Option<ArcWords>,
+    tcp_on: Option<String>,
+    tcp_off: Option<String>,
 }
 
 #[derive(Default, Deserialize)]
@@ -156,6 +158,9 @@ pub struct Post {
     pub(crate) number_step: u32,
     pub(crate) upper_case: bool,
     pub(crate) arc: ArcWords,
+    /// Codes for tool centre point control where the machine declares none.
+    pub(crate) tcp_on: Option<String>,
+    pub(crate) tcp_off: Option<String>,
     templates: BTreeMap<String, String>,
 }
 
@@ -197,6 +202,8 @@ pub fn load_post(text: &str) -> Result<Post, PostError> {
     post.number_step = words.number_step.unwrap_or(post.number_step);
     post.upper_case = words.upper_case.unwrap_or(post.upper_case);
     post.arc = words.arc.unwrap_or(post.arc);
+    post.tcp_on = words.tcp_on.or(post.tcp_on);
+    post.tcp_off = words.tcp_off.or(post.tcp_off);
     for key in &raw.without.templates {
         if post.templates.remove(key.get_ref()).is_none() {
             let message = format!("there is no template {:?} to do without", key.get_ref());
@@ -256,6 +263,8 @@ fn base(raw: &RawPost) -> Result<Post, PostError> {
         number_step: 10,
         upper_case: false,
         arc: ArcWords::Centre,
+        tcp_on: None,
+        tcp_off: None,
         templates: BTreeMap::new(),
     })
 }

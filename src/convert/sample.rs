@@ -21,7 +21,7 @@ const SHARE: f64 = 0.8;
 
 /// All joints of a pose: rotary ones given, linear ones solved for the tip (programmed coordinates).
 pub(crate) fn joints(machine: &Machine, q: [f64; 2], tip: &Vec3, frame: &Frame) -> Option<Joints> {
-    let mut joints = [0.0; MAX_AXES];
+    let mut joints = held(machine);
     for (&joint, value) in machine.rotary.iter().zip(q) {
         joints[joint] = value;
     }
@@ -30,9 +30,18 @@ pub(crate) fn joints(machine: &Machine, q: [f64; 2], tip: &Vec3, frame: &Frame) 
     Some(joints)
 }
 
+/// All joints at zero, but for those that the machine file holds elsewhere.
+fn held(machine: &Machine) -> Joints {
+    let mut joints = [0.0; MAX_AXES];
+    for (joint, axis) in joints.iter_mut().zip(&machine.axes) {
+        *joint = axis.extra.hold.unwrap_or(0.0);
+    }
+    joints
+}
+
 /// X Y Z of joints, mm: without the zero point and without what the tool's length adds along its axis at home.
 pub(crate) fn words(machine: &Machine, joints: &Joints, frame: &Frame) -> Option<Vec3> {
-    let (mut with, mut without) = ([0.0; MAX_AXES], [0.0; MAX_AXES]);
+    let (mut with, mut without) = (held(machine), held(machine));
     inverse(machine, &mut with, &Vec3::zeros(), frame.length)?;
     inverse(machine, &mut without, &Vec3::zeros(), 0.0)?;
     let mut words = Vec3::zeros();

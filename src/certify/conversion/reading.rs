@@ -58,8 +58,8 @@ pub struct Ran {
     pub block: BlockId,
     /// How many motions there are after it.
     pub motions: usize,
-    /// Cutter radius compensation in force after it, which holds motions back: 0 off, 41, 42.
-    pub compensation: u8,
+    /// Motions are held back after it until a later one is known (cutter radius compensation, rounded corners).
+    pub motions_wait: bool,
     /// Spindle after it.
     pub spindle_on: Option<bool>,
     /// Its speed, 1/min.
@@ -198,7 +198,7 @@ impl Sink for Collector<'_> {
         self.blocks.push(Ran {
             block,
             motions: self.motions.len(),
-            compensation: state.compensation,
+            motions_wait: interpreter.motions_wait(),
             spindle_on: state.spindle_on,
             spindle_rpm: state.spindle_rpm,
             tool: state.tool,
@@ -255,6 +255,9 @@ fn reason(why: &NoStance) -> String {
             deg(*limit)
         ),
         NoStance::NotModelled => "the motion is not modelled".to_owned(),
+        NoStance::HeldElsewhere { axis, .. } => {
+            format!("the machine file holds axis {} elsewhere", char::from(*axis))
+        }
         NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
         NoStance::RotaryOffset(letter) => format!(
             "a work offset in {} under tool centre point control is not modelled",

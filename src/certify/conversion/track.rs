@@ -224,7 +224,7 @@ fn arc_bend(arc: &Arc) -> f64 {
 /// to the bound V of the speed; a rotary axis of speed w at a distance of at most d adds 2 w V + w^2 d to that of the bend, and
 /// w d to V (kinematics notes 3).
 pub fn joint_bend(machine: &Machine, ends: &[Joints; 2], tool_length: f64) -> f64 {
-    let mut points = [machine.gauge_point - machine.tool_axis * tool_length; 2];
+    let mut points = [machine.home.gauge_point - machine.home.tool_axis * tool_length; 2];
     let (mut speed, mut bend) = (0.0, 0.0);
     for (joint, axis) in machine.axes.iter().enumerate().rev() {
         let values = [ends[0][joint], ends[1][joint]];

@@ -87,6 +87,9 @@ proptest! {
         kind in 0..3u8,
     ) {
         let on = machine(name).expect("built in");
+        // a quill must be programmed, a held axis too, and diameters are no lengths of a mill
+        let plain = on.axes.len() == on.linear.len() + on.rotary.len() && on.linear.len() == 3;
+        prop_assume!(plain && !on.axes.iter().any(|axis| axis.extra.diameter));
         let points = points(on, start, &steps);
         let text = cl_text("RANDOM", &TOOL, &points);
         let options = Options {

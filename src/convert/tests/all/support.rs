@@ -24,7 +24,8 @@ pub(crate) fn assuming(
     target: &str,
     options: &Options,
 ) -> Result<Converted, Refused> {
-    let setup = Setup::default();
+    let mut setup = Setup::default();
+    setup.control.tcp_codes = machine(source).and_then(|machine| machine.control.tcp_codes.clone());
     let source = Source {
         text: text.as_bytes(),
         dialect: trunnion_dialect::builtin(dialect).expect("built in"),

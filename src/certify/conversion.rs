@@ -2,10 +2,12 @@
 //!
 //! Both texts are read from scratch by floors 0 to 3. Who converted them only says which motions belong together; a wrong
 //! hint can refuse a good conversion and never prove a bad one.
+mod claim;
 mod proof;
 mod reading;
 mod track;
 
-pub use proof::{ConversionClaim, ConversionProof, Part, converted};
+pub use claim::{ConversionClaim, ConversionProof, Part};
+pub use proof::converted;
 pub use reading::{Assume, Posed, Ran, Reading, Run, read};
 pub use track::{Track, carried, great_circle, joint_bend, rotary};

@@ -3,7 +3,7 @@ use crate::job::{Event, Job};
 use crate::posture::{Never, Wish, choose};
 use crate::sample::{Between, Frame, PartEnd, joints, words};
 use crate::{Options, Refused};
-use trunnion_certify::conversion::{Posed, Reading, Track, carried, rotary};
+use trunnion_certify::conversion::{Posed, Reading, Track, rotary};
 use trunnion_dialect::Dialect;
 use trunnion_geometry::{Vec3, arc::Arc, deg};
 use trunnion_interp::{Feed, MotionKind, Orientation, Setup};
@@ -103,7 +103,7 @@ impl Planner<'_> {
         Ok((outs, swaps))
     }
 
-    fn refuse(&self, posed: &Posed, message: String) -> Refused {
+    pub(crate) fn refuse(&self, posed: &Posed, message: String) -> Refused {
         Refused::at(&self.reading.program, posed.motion.block, message)
     }
 
@@ -309,28 +309,6 @@ impl Planner<'_> {
         }])
     }
 
-    /// The feed as it is programmed, where it means the same in the output.
-    fn plain_feed(&self, posed: &Posed) -> Result<Feed, Refused> {
-        match posed.motion.feed {
-            Feed::Unknown => {
-                let message = "no feed is known for this cut: program one, or give --feed for an excerpt";
-                Err(self.refuse(posed, message.to_owned()))
-            }
-            Feed::InverseTime(_) if !self.inverse_time => {
-                let message = "a time without a way, and the control has no feed by inverse time";
-                Err(self.refuse(posed, message.to_owned()))
-            }
-            Feed::PerRevolution(per_turn) if !self.per_revolution => match posed.motion.spindle_rpm {
-                Some(rpm) => Ok(Feed::PerMinute(per_turn * rpm)),
-                None => Err(self.refuse(
-                    posed,
-                    "a feed per turn of a spindle whose speed is not known".to_owned(),
-                )),
-            },
-            feed => Ok(feed),
-        }
-    }
-
     fn lines(
         &self,
         posed: &Posed,
@@ -363,83 +341,5 @@ impl Planner<'_> {
             });
         }
         Ok(moves)
-    }
-
-    /// The feed of one of `count` equal parts by the time that the motion takes: inverse time, or mm/min where the control has none.
-    fn timed(&self, posed: &Posed, way: f64, count: usize, end: &PartEnd) -> Result<Feed, Refused> {
-        let turned = || {
-            // a turn on the spot: F counts degrees (RS274/NGC)
-            let before = posed.start?.axis;
-            let angle = deg(trunnion_geometry::math::angle_between(&before, &end.axis));
-            match posed.motion.feed {
-                Feed::PerMinute(feed) if angle > 0.0 => Some(angle / feed * 60.0),
-                _ => None,
-            }
-        };
-        let seconds = posed.duration_s().or_else(turned).filter(|seconds| *seconds > 0.0);
-        let Some(seconds) = seconds else {
-            return Err(self.refuse(posed, "how long this cut takes is not known".to_owned()));
-        };
-        let part = seconds / count as f64;
-        let keeps_minutes = matches!(self.mode, Mode::Tip | Mode::TipRotary(_))
-            && !matches!(posed.motion.feed, Feed::InverseTime(_))
-            && way > 0.0;
-        if self.inverse_time && !keeps_minutes {
-            return Ok(Feed::InverseTime(60.0 / part));
-        }
-        if way > 0.0 && matches!(self.mode, Mode::Tip | Mode::TipRotary(_)) {
-            return Ok(Feed::PerMinute(way / part * 60.0));
-        }
-        let message = "the control has no feed by inverse time, which this cut needs";
-        Err(self.refuse(posed, message.to_owned()))
-    }
-
-    /// The motion as arcs of the output, where it is one there: about a principal axis, with equal radii, the tool axis still.
-    fn arcs(&self, track: &Track<'_>, q: ([f64; 2], [f64; 2]), frame: &Frame, posed: &Posed) -> Option<Vec<Move>> {
-        let arc = track.tip_arc().filter(|_| !self.options.lines_only)?;
-        let still = (track.at(0.0).axis - track.at(1.0).axis).norm() < 1e-9
-            && (0..=8).all(|i| (track.at(f64::from(i) / 8.0).axis - track.at(1.0).axis).norm() < 1e-9);
-        if !still || (self.mode.machine().is_some() && q.0 != q.1) {
-            return None;
-        }
-        let arc = match self.mode {
-            Mode::Joints(machine) => carried(&arc, |tip| words(machine, &joints(machine, q.1, tip, frame)?, frame))?,
-            Mode::Tip | Mode::TipRotary(_) => arc,
-        };
-        let flat = arc.height().abs() < 1e-6;
-        let principal = (0..3).any(|axis| arc.normal[axis].abs() > 1.0 - 1e-12);
-        let slope = (arc.radius_start - arc.radius_end).abs();
-        let limit = 0.5
-            * self
-                .dialect
-                .arc_limit_mm(arc.radius_start, self.options.units == crate::Units::Inch);
-        if slope > limit || if self.apt { !flat } else { !principal } {
-            return None;
-        }
-        let feed = self.plain_feed(posed).ok()?;
-        let count = (arc.sweep.abs() / core::f64::consts::TAU - 1e-9).ceil().max(1.0) as usize;
-        let feed = match feed {
-            Feed::InverseTime(per_minute) => Feed::InverseTime(per_minute * count as f64),
-            feed => feed,
-        };
-        let part = |index: usize| {
-            let share = |index: usize| index as f64 / count as f64;
-            let (start, end) = (arc.point_at(share(index)), arc.point_at(share(index + 1)));
-            let centre = arc.centre + arc.normal * arc.normal.dot(&(start - arc.centre));
-            Move {
-                shape: Shape::Arc(Arc {
-                    start,
-                    end,
-                    centre,
-                    sweep: arc.sweep / count as f64,
-                    ..arc
-                }),
-                xyz: end,
-                q: q.1,
-                axis: track.at(1.0).axis,
-                feed,
-            }
-        };
-        Some((0..count).map(part).collect())
     }
 }

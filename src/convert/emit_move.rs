@@ -1,0 +1,152 @@
+//! The words of one motion.
+use crate::OrientationWords;
+use crate::Refused;
+use crate::emit_code::{WORDS, Writer};
+use crate::number::{number, significant};
+use crate::plan::{Move, Shape};
+use crate::post::ArcWords;
+use crate::template::fill;
+use trunnion_geometry::{Vec3, arc::Arc, deg};
+use trunnion_interp::{AXIS_LETTERS, Feed};
+use trunnion_syntax::BlockId;
+
+/// Planes by their normal: code, letters of the centre, index of the two axes.
+const PLANES: [(&str, [char; 2], [usize; 2]); 3] = [
+    ("G19", ['J', 'K'], [1, 2]),
+    ("G18", ['I', 'K'], [0, 2]),
+    ("G17", ['I', 'J'], [0, 1]),
+];
+
+impl Writer<'_> {
+    fn length(&self, mm: f64) -> String {
+        let inch = self.options.units == crate::Units::Inch;
+        let decimals = self.post.length[usize::from(inch)];
+        number(mm / self.options.units.mm(), decimals, self.post.point)
+    }
+
+    pub(crate) fn one(&mut self, one: &Move, block: BlockId) -> Result<(), Refused> {
+        let mut words: Vec<String> = Vec::new();
+        self.feed_mode(one, &mut words, block)?;
+        let arc = match one.shape {
+            Shape::Arc(arc) => Some(arc),
+            Shape::Rapid | Shape::Line => None,
+        };
+        let axis = arc.map(|arc| (0..3).find(|axis| arc.normal[*axis].abs() > 0.5).unwrap_or(2));
+        if let Some(axis) = axis {
+            words.extend(self.modal.change("plane", PLANES[axis].0.to_owned()));
+        }
+        let code = match (one.shape, arc.zip(axis)) {
+            (Shape::Rapid, _) => "G0",
+            (_, Some((arc, axis))) if arc.sweep * arc.normal[axis] < 0.0 => "G2",
+            (_, Some(_)) => "G3",
+            _ => "G1",
+        };
+        words.extend(self.modal.change("motion", code.to_owned()));
+        let before = words.len();
+        self.coordinates(one, axis, &mut words);
+        if words.len() == before {
+            // nothing changes: a word makes it a motion
+            words.push(format!("X{}", self.length(one.xyz.x)));
+        }
+        if let Some((arc, axis)) = arc.zip(axis) {
+            self.arc_words(&arc, axis, &mut words);
+        }
+        self.feed(one, &mut words);
+        let line = words.join(" ");
+        self.line(&line);
+        self.moved.push(self.lines);
+        Ok(())
+    }
+
+    fn coordinates(&mut self, one: &Move, arc_axis: Option<usize>, words: &mut Vec<String>) {
+        for (axis, word) in WORDS.into_iter().enumerate().take(3) {
+            let text = format!("{word}{}", self.length(one.xyz[axis]));
+            if arc_axis.is_some_and(|normal| normal != axis) {
+                // the plane's coordinates are always there
+                self.modal.forget(word);
+            }
+            words.extend(self.modal.change(word, text));
+        }
+        if let Some(machine) = self.mode.machine() {
+            let slot = |joint: usize| {
+                AXIS_LETTERS
+                    .iter()
+                    .position(|known| *known == machine.axes[joint].letter)
+            };
+            let rotary = machine.rotary.iter().enumerate();
+            let mut rotary: Vec<_> = rotary
+                .filter_map(|(index, &joint)| Some((slot(joint)?, index)))
+                .collect();
+            rotary.sort_unstable();
+            for (slot, index) in rotary {
+                let value = deg(one.q[index]) - self.zero[slot];
+                let text = format!("{}{}", WORDS[slot], number(value, self.post.angle, self.post.point));
+                words.extend(self.modal.change(WORDS[slot], text));
+            }
+        } else if self.options.orientation == OrientationWords::Vectors {
+            let part = |value: f64| number(value, self.post.vector, self.post.point);
+            let template = self.post.template("vector").unwrap_or_default();
+            let text = fill(template, |name| match name {
+                "i" => Some(part(one.axis.x)),
+                "j" => Some(part(one.axis.y)),
+                "k" => Some(part(one.axis.z)),
+                _ => None,
+            });
+            // arcs keep the vector: their I J K are the centre
+            if arc_axis.is_none() {
+                words.extend(self.modal.change("vector", text.unwrap_or_default()));
+            }
+        }
+    }
+
+    fn arc_words(&self, arc: &Arc, axis: usize, words: &mut Vec<String>) {
+        let (_, letters, axes) = PLANES[axis];
+        let radius = arc.radius_start;
+        let minor = arc.sweep.abs() < 3.0;
+        if self.post.arc == ArcWords::Radius && minor {
+            let text = self.length(radius);
+            let template = self.post.template("arc-radius").unwrap_or("R{radius}");
+            words.extend(fill(template, |name| (name == "radius").then(|| text.clone())));
+            return;
+        }
+        let centre: Vec3 = arc.centre - arc.start;
+        for (letter, axis) in letters.iter().zip(axes) {
+            words.push(format!("{letter}{}", self.length(centre[axis])));
+        }
+    }
+
+    /// The code of another meaning of F, where it changes.
+    fn feed_mode(&mut self, one: &Move, words: &mut Vec<String>, block: BlockId) -> Result<(), Refused> {
+        let key = match one.feed {
+            Feed::PerMinute(_) => "feed-per-minute",
+            Feed::PerRevolution(_) => "feed-per-revolution",
+            Feed::InverseTime(_) => "feed-inverse-time",
+            Feed::Rapid | Feed::Unknown => return Ok(()),
+        };
+        let Some(code) = self.post.template(key) else {
+            return Err(self.refuse(
+                Some(block),
+                format!("the post for {} has no `{key}`", self.post.dialect),
+            ));
+        };
+        if let Some(code) = self.modal.change("mode", code.to_owned()) {
+            self.modal.forget("F");
+            words.push(code);
+        }
+        Ok(())
+    }
+
+    fn feed(&mut self, one: &Move, words: &mut Vec<String>) {
+        let (point, unit) = (self.post.point, self.options.units.mm());
+        let text = match one.feed {
+            Feed::PerMinute(feed) | Feed::PerRevolution(feed) => number(feed / unit, self.post.feed, point),
+            Feed::InverseTime(feed) => {
+                // each block needs its own
+                self.modal.forget("F");
+                significant(feed, self.post.inverse_time_digits, point)
+            }
+            Feed::Rapid | Feed::Unknown => return,
+        };
+        words.extend(self.modal.change("F", format!("F{text}")));
+    }
+}

@@ -5,7 +5,7 @@ use trunnion_dialect::Dialect;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{
     ChainId, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, Orientation, Refusal, Setup, Sink,
-    Tool,
+    Swivel, Tilt, Tool,
 };
 use trunnion_machine::{Follower, Leg, Machine, NoStance, Pose, forward};
 use trunnion_syntax::{BlockId, Format, Program, parse};
@@ -213,6 +213,9 @@ impl Collector<'_> {
     fn plain(&self, motion: &Motion) -> (Option<Pose>, Result<Pose, String>) {
         let rotary = motion.end.known & 0b11_1000 != 0;
         let axis = match motion.orientation {
+            _ if motion.tilt != Tilt::default() => {
+                Err("a tilted plane is turned to by a machine: add --machine".to_owned())
+            }
             Orientation::Vector(_, axis) => Ok(axis),
             Orientation::Words if self.is_apt => Err("the tool axis is not known: program i, j, k".to_owned()),
             Orientation::Words if rotary => {
@@ -258,6 +261,7 @@ fn reason(why: &NoStance) -> String {
         NoStance::HeldElsewhere { axis, .. } => {
             format!("the machine file holds axis {} elsewhere", char::from(*axis))
         }
+        NoStance::PlaneMisaligned(off) => format!("the tool stands {:.4} deg off the tilted plane's normal", deg(*off)),
         NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
         NoStance::RotaryOffset(letter) => format!(
             "a work offset in {} under tool centre point control is not modelled",
@@ -270,8 +274,10 @@ impl Posed {
     /// Whether X Y Z are the tip: under tool centre point control, with vectors, or where no machine is needed to read them.
     pub fn tip_words(&self) -> bool {
         let motion = &self.motion;
-        let words = motion.tcp || matches!(motion.orientation, Orientation::Vector(..));
-        self.leg.is_none() || words && !motion.machine_coordinates
+        let tilted = motion.tilt.normal.is_some();
+        let words = motion.tcp || matches!(motion.orientation, Orientation::Vector(..)) || tilted;
+        let stays = matches!(motion.tilt.swivel, Swivel::No | Swivel::TipStays);
+        self.leg.is_none() || words && !motion.machine_coordinates && stays
     }
 
     /// How long the motion takes at the programmed feed, without regard to what axes can do, s; `None`: not known, or a rapid. Feeds

@@ -123,13 +123,6 @@ fn g_code_needs_what_it_does_not_say() {
             Some((2, 1)),
             "",
         ),
-        (
-            "G0 X0. Y0. Z5.\nG68.2 X0. Y0. Z0. I0. J30. K0.\nG1 X5. F100.\nM30\n",
-            "fanuc-30i",
-            "",
-            Some((2, 1)),
-            "not modelled",
-        ),
     ] {
         let (found, message) = refused((text, dialect, machine), "apt", "", &no);
         assert!(message.contains(why), "{text}: {message}");

@@ -1,5 +1,7 @@
 //! The arguments, as the interface says.
-use super::{convert::Convert, diff::Diff, fmt::Fmt, stats::Stats};
+use super::{
+    convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface,
+};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trunnion_check::Severity;
@@ -130,6 +132,12 @@ pub(crate) enum Command {
     Rules(Rules),
     /// Print a machine in words and numbers, or self-test it.
     Machine(Machine),
+    /// Pictures of what the machine does, as SVG: joints, tool axis about the pole, deviation, path.
+    Plot(Plot),
+    /// How far the real path of the tool strays from a required surface.
+    Surface(Surface),
+    /// Test pieces with known answers, as cutter locations or programs, good or with a planted fault.
+    Sample(Box<Sample>),
     /// Tokens or tree of a program.
     Parse(Parse),
     /// The language server on standard input and output.

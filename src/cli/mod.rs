@@ -13,10 +13,13 @@ mod json;
 mod load;
 mod machine;
 mod parse;
+mod plot;
 mod render;
+mod sample;
 mod short;
 mod stats;
 mod stop;
+mod surface;
 mod trace;
 mod walk;
 
@@ -49,6 +52,9 @@ pub(crate) fn run() -> ExitCode {
         Command::Explain(command) => explain::explain(command),
         Command::Rules(command) => explain::rules_list(command),
         Command::Machine(command) => machine::run(global, command),
+        Command::Plot(command) => plot::run(global, command),
+        Command::Surface(command) => surface::run(global, command),
+        Command::Sample(command) => sample::run(global, command),
         Command::Parse(command) => parse::run(global, command),
         Command::Lsp(_) => return ExitCode::from(trunnion_lsp::serve() as u8),
     };

@@ -3,6 +3,7 @@
 //!
 //! It does not know rules or severities; its only words for people are the description of a machine and what is wrong with its file.
 mod aim;
+mod at;
 mod bends;
 mod bound;
 mod builtin;
@@ -64,6 +65,7 @@ mod oracle_tests;
 #[cfg(test)]
 mod spec_tests;
 
+pub use at::{Moment, Way};
 pub use builtin::{BUILTIN_MACHINES, builtin, builtin_source};
 pub use chain::{
     Axis, AxisExtra, AxisKind, Body, Control, FeedMeaning, Gantry, Home, Joints, Limits, MAX_AXES, Machine, PoleAction,

@@ -12,3 +12,4 @@ mod saddle;
 mod soundness;
 mod states;
 mod travel;
+mod within;

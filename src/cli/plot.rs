@@ -1,0 +1,173 @@
+//! `plot`: pictures of what the machine does, as SVG.
+mod gather;
+
+use super::{
+    Done,
+    args::Global,
+    failure::{Failure, remark},
+    load::{self, Loaded},
+};
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+use trunnion_machine::Machine;
+use trunnion_plot::{Along, Header, PlotError, Record, axis_plane, deviation, joints, path};
+
+pub(super) use gather::{gather, marks};
+
+/// `plot`
+#[derive(clap::Args)]
+pub(crate) struct Plot {
+    /// The program; `-` reads standard input.
+    file: PathBuf,
+    /// What to draw. The error surface is drawn by `trunnion surface --plot`.
+    #[arg(long, value_enum)]
+    kind: Kind,
+    /// The picture (SVG); default: standard output.
+    #[arg(short, long, value_name = "FILE.svg")]
+    output: Option<PathBuf>,
+    /// joints: along the way of the tip, or the time.
+    #[arg(long, value_enum, default_value = "way")]
+    along: Axis,
+    /// axis-plane: a second program, drawn over the first as "after".
+    #[arg(long, value_name = "FILE")]
+    after: Option<PathBuf>,
+    /// axis-plane: only what lies within so many degrees of the pole.
+    #[arg(long, value_name = "DEG")]
+    around_pole: Option<f64>,
+    /// Only the blocks of these lines, e.g. 100-250.
+    #[arg(long, value_name = "FROM-TO")]
+    lines: Option<String>,
+}
+
+/// Kinds of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Kind {
+    /// Each joint with its limits, and the blocks a check finds.
+    Joints,
+    /// The tool axis seen along the pole, over lines of equal rotary joints.
+    AxisPlane,
+    /// Deviation of the tip from the programmed segments.
+    Deviation,
+    /// The real path in space.
+    Path,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Axis {
+    Way,
+    Time,
+}
+
+/// Runs `plot`.
+pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
+    let lines = command.lines.as_deref().map(span).transpose()?;
+    if let Some(angle) = command.around_pole
+        && !(angle > 0.0 && angle <= 90.0)
+    {
+        return Err(Failure::new(format!("--around-pole {angle}: between 0 and 90 deg")));
+    }
+    let loaded = load::load(global, &command.file)?;
+    let machine = loaded.machine_or_fail("plot")?;
+    let record = gather(&loaded, machine, lines);
+    if record.unknown > 0 {
+        let count = record.unknown;
+        remark(
+            global.quiet,
+            &format!("{}: the path of {count} motions is not known and not drawn; see `trunnion check`", loaded.name),
+        );
+    }
+    let text = draw(global, command, &loaded, machine, &record, lines).map_err(|error| named(&command.file, error))?;
+    write(command.output.as_deref(), &text)
+}
+
+fn draw(
+    global: &Global,
+    command: &Plot,
+    loaded: &Loaded,
+    machine: &Machine,
+    record: &Record,
+    lines: Option<(u32, u32)>,
+) -> Result<String, Drawing> {
+    let tolerance = machine.tolerances.tip;
+    let head = |title: &str| header(title, loaded, machine);
+    Ok(match command.kind {
+        Kind::Joints => {
+            let along = if command.along == Axis::Time { Along::Time } else { Along::Way };
+            joints(&head("Joints of the machine"), machine, record, &marks(loaded, lines), along)?
+        }
+        Kind::AxisPlane => {
+            let after = match &command.after {
+                Some(file) => {
+                    let other = load::load(global, file)?;
+                    Some(gather(&other, machine, None))
+                }
+                None => None,
+            };
+            let title = "Tool axis seen along the pole";
+            let marks = marks(loaded, lines);
+            axis_plane(&head(title), machine, record, &marks, after.as_ref(), command.around_pole)?
+        }
+        Kind::Deviation => deviation(&head("Deviation of the tool tip"), record, tolerance)?,
+        Kind::Path => path(&head("Path of the tool tip"), record, tolerance)?,
+    })
+}
+
+/// Why a picture is not drawn.
+enum Drawing {
+    Failure(Failure),
+    Plot(PlotError),
+}
+
+impl From<Failure> for Drawing {
+    fn from(failure: Failure) -> Self {
+        Self::Failure(failure)
+    }
+}
+
+impl From<PlotError> for Drawing {
+    fn from(error: PlotError) -> Self {
+        Self::Plot(error)
+    }
+}
+
+fn named(file: &Path, error: Drawing) -> Failure {
+    match error {
+        Drawing::Failure(failure) => failure,
+        Drawing::Plot(error) => Failure::file(file, error),
+    }
+}
+
+/// The header of a picture of a program on a machine.
+pub(super) fn header(title: &str, loaded: &Loaded, machine: &Machine) -> Header {
+    let file = Path::new(&loaded.name);
+    let name = file.file_name().map_or(loaded.name.as_str().into(), |name| name.to_string_lossy());
+    Header {
+        title: format!("{title}: {name}"),
+        subtitle: format!("machine {} ({}), dialect {}", machine.name, machine.id, loaded.resolved.dialect.name),
+    }
+}
+
+/// `100-250`.
+fn span(text: &str) -> Result<(u32, u32), Failure> {
+    let parsed = text
+        .split_once('-')
+        .and_then(|(from, to)| Some((from.trim().parse::<u32>().ok()?, to.trim().parse::<u32>().ok()?)));
+    parsed
+        .filter(|(from, to)| *from >= 1 && from <= to)
+        .ok_or_else(|| Failure::new(format!("--lines {text}: two line numbers from 1, e.g. 100-250")))
+}
+
+/// Writes a picture to a file or to standard output.
+pub(super) fn write(output: Option<&Path>, text: &str) -> Result<Done, Failure> {
+    match output.filter(|file| !load::is_stdin(file)) {
+        Some(file) => std::fs::write(file, text).map_err(|error| Failure::io(file, "write the picture", &error))?,
+        None => {
+            let mut out = std::io::stdout().lock();
+            out.write_all(text.as_bytes())?;
+            out.flush()?;
+        }
+    }
+    Ok(Done::Clean)
+}

@@ -1,0 +1,256 @@
+//! `surface`: how far the real path of the tool strays from a required surface.
+use super::{
+    Done,
+    args::{Global, ListFormat},
+    failure::{Failure, remark},
+    json::write_json,
+    load::{self, Loaded},
+    plot,
+};
+use serde_json::{Value, json};
+use std::{
+    fmt::Write as _,
+    io::Write,
+    path::{Path, PathBuf},
+};
+use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
+use trunnion_machine::{Follower, Machine};
+use trunnion_plot::height_map;
+use trunnion_surface::{Errors, Found, Judge, Options, Required, required, required_stl};
+use trunnion_syntax::{BlockId, LineIndex};
+
+/// `surface`
+#[derive(clap::Args)]
+pub(crate) struct Surface {
+    /// The program; `-` reads standard input.
+    file: PathBuf,
+    /// The required surface: TOML or JSON with grids of points and Bezier patches, or an STL; mm, in programmed coordinates.
+    #[arg(long, value_name = "FILE.toml|.json|.stl")]
+    required: PathBuf,
+    /// The tip keeps this distance from the surface: a ball's centre or a flank, mm.
+    #[arg(long, value_name = "MM", default_value_t = 0.0)]
+    offset: f64,
+    /// Errors above this make the exit status 1, mm.
+    #[arg(long, value_name = "MM")]
+    tolerance: Option<f64>,
+    /// How near the proven bound comes to the largest error found, mm.
+    #[arg(long, value_name = "MM", default_value_t = 0.001)]
+    close: f64,
+    #[arg(long, value_enum, default_value = "text")]
+    format: ListFormat,
+    /// Also draw the error as a map, with the real path (SVG).
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
+}
+
+/// Samples of a block for a map.
+const SPOTS: usize = 24;
+
+/// Runs `surface`.
+pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
+    for (name, value, least) in [("offset", command.offset, 0.0), ("close", command.close, 1e-6)] {
+        if !(value >= least && value <= 1000.0) {
+            return Err(Failure::new(format!("--{name} {value}: between {least} and 1000 mm")));
+        }
+    }
+    let loaded = load::load(global, &command.file)?;
+    let machine = loaded.machine_or_fail("surface")?;
+    let surface = read(&command.required, command.close)?;
+    let errors = judge(command, &loaded, machine, &surface);
+    if errors.judged == 0 {
+        return Err(Failure::file(&command.file, "no feed motion's path is known, so nothing can be compared"));
+    }
+    let lines = LineIndex::new(loaded.program.source());
+    let report = Report {
+        command,
+        loaded: &loaded,
+        machine,
+        surface: &surface,
+        errors: &errors,
+        lines: &lines,
+    };
+    let mut out = std::io::stdout().lock();
+    match command.format {
+        ListFormat::Text => out.write_all(report.text().as_bytes())?,
+        ListFormat::Json => write_json(&mut out, &report.json())?,
+    }
+    out.flush()?;
+    if let Some(file) = &command.plot {
+        let header = plot::header("Error of the trajectory surface", &loaded, machine);
+        let text = height_map(&header, &errors, flattest(&surface)).map_err(|error| Failure::file(&command.file, error))?;
+        plot::write(Some(file), &text)?;
+    }
+    verdict(global, command, &errors)
+}
+
+/// With a tolerance: above it is found; between it and the bound, or with blocks that are not judged, it is not known.
+fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Result<Done, Failure> {
+    let (Some(tolerance), Some(found)) = (command.tolerance, &errors.from_surface) else {
+        return Ok(Done::Clean);
+    };
+    if found.sampled > tolerance {
+        return Ok(Done::Found);
+    }
+    if found.bound > tolerance || errors.not_judged > 0 {
+        remark(global.quiet, "unknown: the error is not proven to keep the tolerance (--close 0.0001 proves nearer)");
+        return Ok(if global.strict { Done::Found } else { Done::Clean });
+    }
+    Ok(Done::Clean)
+}
+
+fn read(path: &Path, close: f64) -> Result<Required, Failure> {
+    let bytes = load::read(path)?;
+    let kind = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    let read = if kind == "stl" {
+        required_stl(&bytes)
+    } else {
+        let text = String::from_utf8(bytes).map_err(|_| Failure::file(path, "is not UTF-8 text; an STL must end in .stl"))?;
+        required(&text, kind == "json", close)
+    };
+    read.map_err(|error| Failure::file(path, error))
+}
+
+/// The axis of the part along which the surface shows the most of itself.
+fn flattest(surface: &Required) -> usize {
+    let [low, high] = surface.extent();
+    let size = high - low;
+    // across the smallest extent; of equal ones along Z
+    (0..3).rev().min_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap_or(2)
+}
+
+fn judge(command: &Surface, loaded: &Loaded, machine: &Machine, surface: &Required) -> Errors {
+    let options = Options {
+        offset: command.offset,
+        close: command.close,
+        spots: if command.plot.is_some() { SPOTS } else { 0 },
+    };
+    let mut judging = Judging {
+        follower: Follower::new(machine),
+        judge: Judge::new(surface, machine, options),
+    };
+    trunnion_interp::run(&loaded.program, loaded.resolved.dialect, &loaded.resolved.setup, &mut judging);
+    judging.judge.finish()
+}
+
+struct Judging<'a> {
+    follower: Follower<'a>,
+    judge: Judge<'a>,
+}
+
+impl Sink for Judging<'_> {
+    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
+        let leg = self.follower.follow(motion);
+        self.judge.leg(&leg);
+    }
+    fn fault(&mut self, _fault: Fault) {}
+    fn block_done(&mut self, _block: BlockId, _interpreter: &Interpreter<'_>) {}
+}
+
+struct Report<'a> {
+    command: &'a Surface,
+    loaded: &'a Loaded,
+    machine: &'a Machine,
+    surface: &'a Required,
+    errors: &'a Errors,
+    lines: &'a LineIndex,
+}
+
+impl Report<'_> {
+    fn line(&self, block: BlockId) -> u32 {
+        let program = &self.loaded.program;
+        self.lines.line_column(program.source(), program.block(block).range().start).0
+    }
+
+    /// The three errors by name.
+    fn all(&self) -> [(&'static str, &'static str, Option<&Found>); 3] {
+        let errors = self.errors;
+        [
+            ("from_surface", "nearest point of the surface", errors.from_surface.as_ref()),
+            ("same_place", "point it should be at (same u, v)", errors.same_place.as_ref()),
+            ("from_segment", "programmed segment", errors.from_segment.as_ref()),
+        ]
+    }
+
+    fn kind(&self) -> &'static str {
+        if self.surface.sheets().is_empty() { "stl" } else { "sheets" }
+    }
+
+    fn text(&self) -> String {
+        let errors = self.errors;
+        let mut text = format!("{} on {}, against {}\n", self.loaded.name, self.machine.id, self.command.required.display());
+        let _ = writeln!(
+            text,
+            "  {} feed blocks judged, {} not known; surface of {} triangles, at most {:.6} mm off",
+            errors.judged,
+            errors.not_judged,
+            self.surface.triangles(),
+            self.surface.off
+        );
+        if let Some(block) = errors.first_not_judged {
+            let _ = writeln!(text, "  the path of line {} (and perhaps of others) is not known: see `trunnion check`", self.line(block));
+        }
+        text.push_str("  largest distance of the tip from the\n");
+        for (_, name, found) in self.all() {
+            let Some(found) = found else {
+                let _ = writeln!(text, "    {name:34} not known: the path does not lie on one sheet of the surface");
+                continue;
+            };
+            let side = match found.side {
+                1 => ", on the spindle's side (material left)",
+                -1 => ", beyond the surface (gouge)",
+                _ => "",
+            };
+            let _ = writeln!(
+                text,
+                "    {name:34} {:.4} mm (proven below {:.4}) at line {}, {:.1} % of the block, X {:.3} Y {:.3} Z {:.3}{side}",
+                found.sampled,
+                above(found.bound),
+                self.line(found.block),
+                100.0 * found.at,
+                found.point.x,
+                found.point.y,
+                found.point.z
+            );
+        }
+        if errors.placed < errors.judged && errors.placed > 0 {
+            let _ = writeln!(text, "  only {} of the blocks lie on the surface with both ends", errors.placed);
+        }
+        text
+    }
+
+    fn json(&self) -> Value {
+        let errors = self.errors;
+        let one = |found: Option<&Found>| {
+            found.map_or(Value::Null, |found| {
+                json!({
+                    "sampled_mm": found.sampled,
+                    "bound_mm": found.bound,
+                    "line": self.line(found.block),
+                    "share": found.at,
+                    "point_mm": [found.point.x, found.point.y, found.point.z],
+                    "side": match found.side { 1 => "material-left", -1 => "gouge", _ => "none" },
+                })
+            })
+        };
+        let all: serde_json::Map<String, Value> =
+            self.all().into_iter().map(|(key, _, found)| (key.to_owned(), one(found))).collect();
+        json!({
+            "schema": "trunnion-surface-error/1",
+            "version": env!("CARGO_PKG_VERSION"),
+            "path": self.loaded.name,
+            "machine": self.machine.id,
+            "required": { "path": self.command.required.display().to_string(), "kind": self.kind(),
+                          "triangles": self.surface.triangles(), "off_mm": self.surface.off },
+            "offset_mm": self.command.offset,
+            "judged": errors.judged,
+            "not_judged": errors.not_judged,
+            "on_surface": errors.placed,
+            "errors": all,
+        })
+    }
+}
+
+/// A bound is never shown below itself.
+fn above(bound: f64) -> f64 {
+    (bound * 1e4).ceil() / 1e4
+}

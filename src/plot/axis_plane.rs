@@ -1,0 +1,295 @@
+//! The tool axis seen along the pole: its curve over the lines on which a rotary axis keeps its value.
+//!
+//! Where the lines of equal turn crowd together, a small change of the tool axis turns that rotary axis far (paper on five-axis
+//! high-speed milling of hydraulic blades, 2006, figure 11).
+use crate::canvas::{Entry, GREY, Header, INK, PlotError, Swatch, VERMILION, sheet};
+use crate::canvas::{BLUE, GREEN, PALE};
+use crate::grid::{Frame, Panel, equal, range};
+use crate::joints::{entries, rules};
+use crate::record::{Mark, Record};
+use core::f64::consts::TAU;
+use plotters::prelude::RGBColor;
+use plotters::style::text_anchor::{HPos, VPos};
+use trunnion_geometry::{Vec3, deg, rad};
+use trunnion_machine::{Machine, Orientations, orientations, tool_axis_at};
+
+/// Colour of the lines of equal turn.
+const RAY: RGBColor = RGBColor(150, 185, 215);
+
+/// Draws it. `after`: a second run of the same machine, drawn over the first. `within`: only what lies within so many degrees of the pole.
+///
+/// # Errors
+/// The machine has not two rotary axes, or no tool axis is known.
+pub fn axis_plane(
+    header: &Header,
+    machine: &Machine,
+    record: &Record,
+    marks: &[Mark],
+    after: Option<&Record>,
+    within: Option<f64>,
+) -> Result<String, PlotError> {
+    let plane = Plane::new(machine)?;
+    if record.samples.is_empty() {
+        return Err(PlotError("no tool axis is known, so there is nothing to draw".into()));
+    }
+    let rules = rules(marks);
+    let letter = |slot: usize| char::from(machine.axes[machine.rotary[slot]].letter);
+    let mut legend: Vec<Entry> = vec![
+        (Swatch::Line(BLUE), if after.is_some() { "before" } else { "tool axis" }.to_owned()),
+        (Swatch::Line(RAY), format!("equal {}", letter(0))),
+        (Swatch::Dashed(GREY), format!("equal {}", letter(1))),
+        (Swatch::Filled(PALE), format!("pole cone {} deg", trim(plane.cone))),
+    ];
+    if after.is_some() {
+        legend.insert(1, (Swatch::Line(GREEN), "after".to_owned()));
+    }
+    legend.extend(entries(&rules));
+    sheet(header, &legend, |body| {
+        let records = core::iter::once(record).chain(after);
+        let seen: Vec<(f64, f64)> = records.flat_map(|r| r.samples.iter()).map(|s| plane.see(&s.axis)).collect();
+        let (x, y) = match within {
+            Some(angle) => {
+                let radius = trunnion_geometry::math::sin(rad(angle));
+                ([-radius, radius], [-radius, radius])
+            }
+            // the pole belongs to the picture
+            None => (
+                range(seen.iter().map(|p| p.0).chain([0.0]), 1e-4),
+                range(seen.iter().map(|p| p.1).chain([0.0]), 1e-4),
+            ),
+        };
+        let (x, y) = equal(x, y, body.dim_in_pixel(), 0.0);
+        let (across, upwards) = (
+            format!("{} of the tool axis (unit vector, no unit)", plane.names[0]),
+            format!("{} of the tool axis (no unit)", plane.names[1]),
+        );
+        let panel = Panel::new(
+            body,
+            &Frame {
+                x,
+                y,
+                x_name: Some(&across),
+                y_name: &upwards,
+                labels: [10, 8],
+                decades: false,
+                right: 0.0,
+            },
+        )?;
+        plane.draw_lines(&panel, x, y)?;
+        draw_curve(&panel, &plane, record, BLUE)?;
+        if let Some(after) = after {
+            draw_curve(&panel, &plane, after, GREEN)?;
+        }
+        draw_marks(&panel, &plane, record, marks, &rules)
+    })
+}
+
+fn draw_curve(panel: &Panel<'_>, plane: &Plane<'_>, record: &Record, colour: RGBColor) -> Result<(), PlotError> {
+    let mut points = Vec::new();
+    let mut ends = Vec::new();
+    for block in record.blocks.iter().filter(|block| !block.rapid) {
+        if !block.joined {
+            points.push((f64::NAN, f64::NAN));
+        }
+        points.extend(record.of(block).iter().map(|sample| plane.see(&sample.axis)));
+        ends.extend(record.of(block).last().map(|sample| plane.see(&sample.axis)));
+    }
+    panel.line(points.into_iter(), colour, 2.0)?;
+    if ends.len() <= 2000 {
+        panel.dots(ends.into_iter(), colour, 3.0)?;
+    }
+    Ok(())
+}
+
+fn draw_marks(
+    panel: &Panel<'_>,
+    plane: &Plane<'_>,
+    record: &Record,
+    marks: &[Mark],
+    rules: &[(String, RGBColor, usize)],
+) -> Result<(), PlotError> {
+    let mut written: Vec<u32> = Vec::new();
+    for (rule, colour, _) in rules.iter().rev() {
+        for mark in marks.iter().filter(|mark| mark.rule == *rule) {
+            for block in record.on_line(mark.line) {
+                let Some(end) = record.of(block).last() else { continue };
+                let (x, y) = plane.see(&end.axis);
+                panel.ring(x, y, *colour, if written.contains(&mark.line) { 10.0 } else { 7.0 })?;
+                if written.len() < 24 && !written.contains(&mark.line) {
+                    written.push(mark.line);
+                    let text = format!("   line {}", mark.line);
+                    panel.text((x, y), &text, INK, (HPos::Left, VPos::Bottom))?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The plane at right angles to the first rotary axis.
+struct Plane<'m> {
+    machine: &'m Machine,
+    across: Vec3,
+    upwards: Vec3,
+    names: [&'static str; 2],
+    /// Second rotary joint at the pole, rad.
+    at_pole: f64,
+    /// deg.
+    cone: f64,
+}
+
+impl<'m> Plane<'m> {
+    fn new(machine: &'m Machine) -> Result<Self, PlotError> {
+        if machine.constants.pair.is_none() {
+            return Err(PlotError(format!(
+                "the plane of the tool axis needs two rotary axes; {} has {}",
+                machine.id,
+                machine.rotary.len()
+            )));
+        }
+        let pole = machine.axes[machine.rotary[0]].direction;
+        let (across, names) = if pole.z.abs() > 0.9 {
+            (Vec3::x(), ["i", "j"])
+        } else if pole.x.abs() > 0.9 {
+            (Vec3::y(), ["j", "k"])
+        } else if pole.y.abs() > 0.9 {
+            (Vec3::z(), ["k", "i"])
+        } else {
+            (Vec3::x(), ["component across", "component upwards"])
+        };
+        let across = (across - pole * pole.dot(&across)).normalize();
+        let mut upwards = pole.cross(&across);
+        if pole.sum() < 0.0 {
+            // i and j (or k) both count upwards whichever way the axis points
+            upwards = -upwards;
+        }
+        let at_pole = match orientations(machine, &pole) {
+            Orientations::Pole(q) => q,
+            _ => 0.0,
+        };
+        Ok(Self {
+            machine,
+            across,
+            upwards,
+            names,
+            at_pole,
+            cone: deg(machine.tolerances.pole_cone),
+        })
+    }
+
+    fn see(&self, axis: &Vec3) -> (f64, f64) {
+        (self.across.dot(axis), self.upwards.dot(axis))
+    }
+
+    fn letter(&self, slot: usize) -> char {
+        char::from(self.machine.axes[self.machine.rotary[slot]].letter)
+    }
+
+    /// Where the tool axis is seen at rotary joints given in rad: turn, and tilt from the pole.
+    fn joints(&self, turn: f64, tilt: f64) -> (f64, f64) {
+        self.see(&tool_axis_at(self.machine, [turn, self.at_pole + tilt]))
+    }
+
+    /// The pole cone, circles of equal tilt, rays of equal turn, with their values.
+    fn draw_lines(&self, panel: &Panel<'_>, x: [f64; 2], y: [f64; 2]) -> Result<(), PlotError> {
+        let corners = [(x[0], y[0]), (x[0], y[1]), (x[1], y[0]), (x[1], y[1])];
+        let farthest = corners.iter().map(|(a, b)| (a * a + b * b).sqrt()).fold(0.0, f64::max);
+        let widest = trunnion_geometry::math::asin(farthest.min(1.0));
+        let near = x[0] < 0.0 && x[1] > 0.0 && y[0] < 0.0 && y[1] > 0.0;
+        if near {
+            panel.fill((0..=72).map(|i| self.joints(TAU * f64::from(i) / 72.0, rad(self.cone))), PALE, 0.8)?;
+        }
+        let step = nice(deg(widest) / 7.0);
+        let circles = (deg(widest) / step).floor().min(60.0) as u32;
+        for circle in 1..=circles {
+            let tilt = rad(step * f64::from(circle));
+            let round = (0..=180).map(|i| self.joints(TAU * f64::from(i) / 180.0, tilt));
+            panel.dashed(round, RGBColor(190, 190, 190), 1.0)?;
+        }
+        let turn_step = 15;
+        for ray in (0..360).step_by(turn_step) {
+            let turn = rad(f64::from(ray));
+            let points = (0..=24).map(|i| self.joints(turn, widest * f64::from(i) / 24.0));
+            panel.line(points, RAY, if ray % 45 == 0 { 1.4 } else { 0.8 })?;
+        }
+        self.label(panel, x, y, widest, step, circles)?;
+        if near {
+            panel.dots(core::iter::once((0.0, 0.0)), VERMILION, 3.5)?;
+            panel.text((0.0, 0.0), " pole", VERMILION, (HPos::Left, VPos::Top))?;
+        }
+        Ok(())
+    }
+
+    fn label(
+        &self,
+        panel: &Panel<'_>,
+        x: [f64; 2],
+        y: [f64; 2],
+        widest: f64,
+        step: f64,
+        circles: u32,
+    ) -> Result<(), PlotError> {
+        let (dx, dy) = (0.045 * (x[1] - x[0]), 0.035 * (y[1] - y[0]));
+        let inside = |p: (f64, f64)| p.0 > x[0] + dx && p.0 < x[1] - dx && p.1 > y[0] + dy && p.1 < y[1] - dy;
+        for ray in (0..360).step_by(15) {
+            let shown = if ray > 180 { ray - 360 } else { ray };
+            let place = (1..=200).map(|i| self.joints(rad(f64::from(ray)), widest * f64::from(i) / 200.0));
+            let Some(last) = place.filter(|p| inside(*p)).next_back() else { continue };
+            let text = format!("{}{shown}\u{b0}", self.letter(0)).replace('-', "\u{2212}");
+            panel.text(last, &text, RGBColor(50, 105, 155), (HPos::Center, VPos::Center))?;
+        }
+        // the values of the circles on the ray with the most room, off the rays' own labels
+        let room = |ray: i32| {
+            let tilts = (1..=circles).filter(|c| inside(self.joints(rad(f64::from(ray)), rad(step * f64::from(*c)))));
+            tilts.count()
+        };
+        let Some(best) = (0..24).map(|i| i * 15 + 7).max_by_key(|ray| room(*ray)) else {
+            return Ok(());
+        };
+        for circle in 1..=circles {
+            let tilt = step * f64::from(circle);
+            let place = self.joints(rad(f64::from(best)), rad(tilt));
+            if inside(place) {
+                let value = trim(deg(self.at_pole) + tilt);
+                panel.text(place, &format!("{}{value}\u{b0}", self.letter(1)), GREY, (HPos::Center, VPos::Center))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A round number near a value.
+fn nice(value: f64) -> f64 {
+    const NICE: [f64; 13] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0];
+    NICE.into_iter().find(|nice| *nice >= value).unwrap_or(30.0)
+}
+
+/// A number of degrees without needless zeros.
+fn trim(value: f64) -> String {
+    let text = format!("{value:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').replace('-', "\u{2212}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trunnion_machine::builtin;
+
+    #[test]
+    fn a_table_machine_is_seen_in_i_and_j() {
+        let machine = builtin("mikron-ucp710").expect("built in");
+        let plane = Plane::new(machine).expect("two rotary axes");
+        assert_eq!(plane.names, ["i", "j"]);
+        let (i, j) = plane.see(&Vec3::new(0.3, -0.4, 0.86));
+        assert!((i - 0.3).abs() < 1e-12 && (j + 0.4).abs() < 1e-12);
+        // u = (sin A sin C, -sin A cos C, cos A)
+        let (i, j) = plane.joints(rad(90.0), rad(30.0));
+        assert!((i - 0.5).abs() < 1e-12 && j.abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_mill_without_rotary_axes_is_refused() {
+        let machine = builtin("mill-3axis").expect("built in");
+        assert!(Plane::new(machine).err().expect("refused").0.contains("two rotary axes"));
+    }
+}

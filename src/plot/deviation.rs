@@ -1,0 +1,82 @@
+//! How far the tip strays from the programmed segments along the way, with the tolerance.
+use crate::canvas::{BLUE, Entry, Header, PlotError, SKY, Swatch, VERMILION, sheet};
+use crate::grid::{Frame, Panel, decade, range};
+use crate::record::{Block, Record};
+use plotters::style::text_anchor::{HPos, VPos};
+
+/// Draws it; `tolerance` in mm.
+///
+/// # Errors
+/// No deviation of any feed block is known.
+pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<String, PlotError> {
+    let known: Vec<(&Block, [f64; 2])> = record
+        .blocks
+        .iter()
+        .filter(|block| !block.rapid)
+        .filter_map(|block| Some((block, block.deviation?)))
+        .collect();
+    let Some((worst, [most, bound])) = known.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0])) else {
+        return Err(PlotError("the deviation of no feed block is known, so there is nothing to draw".into()));
+    };
+    let unjudged = record.blocks.iter().filter(|block| !block.rapid && block.deviation.is_none()).count();
+    // far above the tolerance a linear scale would hide it
+    let decades = *most > 20.0 * tolerance;
+    let floor = 1e-4_f64.min(tolerance / 10.0);
+    let value = |v: f64| if decades { decade(v.max(floor)) } else { v };
+    let way = |block: &Block| {
+        let samples = record.of(block);
+        (samples.first().map_or(0.0, |s| s.way), samples.last().map_or(0.0, |s| s.way))
+    };
+    let across = range(record.samples.iter().map(|sample| sample.way), 1e-3);
+    let across = [across[0].max(0.0), across[1]];
+    let upwards = if decades {
+        [decade(floor), decade(bound.max(tolerance)) + 0.3]
+    } else {
+        [0.0, 1.15 * bound.max(tolerance)]
+    };
+    let mut legend: Vec<Entry> = vec![
+        (Swatch::Line(BLUE), "largest in the block".into()),
+        (Swatch::Filled(SKY), "proven bound".into()),
+        (Swatch::Dashed(VERMILION), format!("tolerance {tolerance} mm")),
+    ];
+    if unjudged > 0 {
+        legend.push((Swatch::Dot(VERMILION), format!("not known in {unjudged} blocks")));
+    }
+    sheet(header, &legend, |body| {
+        let panel = Panel::new(
+            body,
+            &Frame {
+                x: across,
+                y: upwards,
+                x_name: Some("way of the tool tip / mm"),
+                y_name: if decades {
+                    "deviation of the tip from the programmed segment / mm (log)"
+                } else {
+                    "deviation of the tip from the programmed segment / mm"
+                },
+                labels: [10, if decades { (upwards[1] - upwards[0]).ceil() as usize + 1 } else { 8 }],
+                decades,
+                right: 0.0,
+            },
+        )?;
+        let stairs = |which: usize| {
+            known.iter().flat_map(move |(block, values)| {
+                let (from, to) = way(block);
+                [(from, value(values[which])), (to, value(values[which]))]
+            })
+        };
+        let start = stairs(1).next().map_or(0.0, |p| p.0);
+        let end = stairs(1).last().map_or(0.0, |p| p.0);
+        let outline = core::iter::once((start, upwards[0])).chain(stairs(1)).chain([(end, upwards[0])]);
+        panel.fill(outline, SKY, 0.45)?;
+        panel.line(stairs(0), BLUE, 1.8)?;
+        panel.dashed(across.map(|x| (x, value(tolerance))).into_iter(), VERMILION, 1.8)?;
+        let (from, to) = way(worst);
+        let place = (0.5 * (from + to), value(*most));
+        panel.ring(place.0, place.1, VERMILION, 6.0)?;
+        let left = place.0 > 0.5 * (across[0] + across[1]);
+        let text = format!("  line {}: {most:.4} mm (proven below {bound:.4})  ", worst.line);
+        let side = if left { HPos::Right } else { HPos::Left };
+        panel.text(place, &text, VERMILION, (side, VPos::Bottom))
+    })
+}

@@ -1,0 +1,378 @@
+//! One field of a picture: axes with ticks and units, and drawing in the units of the data.
+use crate::canvas::{Area, GREY, INK, PALE, PlotError, SCALE, anchored, dashes, font, px};
+use crate::thin::thin;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
+
+/// How a field is framed.
+pub(crate) struct Frame<'t> {
+    /// Lowest and highest value across.
+    pub(crate) x: [f64; 2],
+    /// Lowest and highest value upwards; powers of ten where `decades` is set.
+    pub(crate) y: [f64; 2],
+    /// Name and unit across; `None`: no labels below.
+    pub(crate) x_name: Option<&'t str>,
+    /// Name and unit upwards.
+    pub(crate) y_name: &'t str,
+    /// Number of labels across and upwards, about.
+    pub(crate) labels: [usize; 2],
+    /// The values upwards are exponents of ten.
+    pub(crate) decades: bool,
+    /// Room at the right, pixels.
+    pub(crate) right: f64,
+}
+
+/// A framed field.
+pub(crate) struct Panel<'a> {
+    area: Area<'a>,
+    x: [f64; 2],
+    y: [f64; 2],
+    width: f64,
+    height: f64,
+}
+
+/// Room for the labels at the left and below, pixels.
+const LEFT: f64 = 78.0;
+const BELOW: f64 = 50.0;
+
+/// A range that holds all values, a little wider; never empty.
+pub(crate) fn range(values: impl Iterator<Item = f64>, least: f64) -> [f64; 2] {
+    let (low, high) = values
+        .filter(|value| value.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    if low > high {
+        return [0.0, 1.0];
+    }
+    let more = (0.06 * (high - low)).max(0.5 * (least - (high - low)).max(0.0));
+    [low - more, high + more]
+}
+
+/// Ranges of equal scale about the given ones for the field of an area of this size (with labels at left and below).
+pub(crate) fn equal(x: [f64; 2], y: [f64; 2], size: (u32, u32), right: f64) -> ([f64; 2], [f64; 2]) {
+    let scale = f64::from(SCALE);
+    let (width, height) = (
+        f64::from(size.0) / scale - LEFT - 24.0 - right,
+        f64::from(size.1) / scale - BELOW - 24.0,
+    );
+    let per_px = ((x[1] - x[0]) / width).max((y[1] - y[0]) / height);
+    let about = |range: [f64; 2], pixels: f64| {
+        let (middle, half) = (0.5 * (range[0] + range[1]), 0.5 * per_px * pixels);
+        [middle - half, middle + half]
+    };
+    (about(x, width), about(y, height))
+}
+
+/// A number with as many decimals as its neighbours on the axis need.
+pub(crate) fn short(value: f64, span: f64) -> String {
+    let decimals = (1.2 - decade(span / 5.0)).ceil().clamp(0.0, 9.0) as usize;
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    };
+    if text == "-0" { "0".into() } else { text.replace('-', "\u{2212}") }
+}
+
+/// Decimal logarithm.
+pub(crate) fn decade(value: f64) -> f64 {
+    trunnion_geometry::math::ln(value) / core::f64::consts::LN_10
+}
+
+impl<'a> Panel<'a> {
+    /// Draws the frame on an area.
+    pub(crate) fn new(area: &Area<'a>, frame: &Frame<'_>) -> Result<Self, PlotError> {
+        let below = if frame.x_name.is_some() { BELOW } else { 6.0 };
+        let mut builder = ChartBuilder::on(area);
+        builder
+            .margin_top(px(8.0))
+            .margin_left(px(12.0))
+            .margin_bottom(px(4.0))
+            .margin_right(px(frame.right + 12.0))
+            .x_label_area_size(px(below))
+            .y_label_area_size(px(LEFT - 12.0));
+        let ([x0, x1], [y0, y1]) = (frame.x, frame.y);
+        let mut chart = builder.build_cartesian_2d(x0..x1, y0..y1)?;
+        let (across, upwards) = (x1 - x0, y1 - y0);
+        let name_x = |value: &f64| short(*value, across);
+        let name_y = |value: &f64| {
+            if !frame.decades {
+                short(*value, upwards)
+            } else if (value - value.round()).abs() < 1e-6 {
+                power(value.round() as i32)
+            } else {
+                String::new()
+            }
+        };
+        let mut mesh = chart.configure_mesh();
+        mesh.x_labels(frame.labels[0])
+            .y_labels(frame.labels[1])
+            .x_label_formatter(&name_x)
+            .y_label_formatter(&name_y)
+            .label_style(font(13.0))
+            .axis_desc_style(font(14.0))
+            .axis_style(GREY.stroke_width(px(1.0) as u32))
+            .bold_line_style(PALE.stroke_width(px(0.8) as u32))
+            .light_line_style(TRANSPARENT)
+            .set_all_tick_mark_size(px(4.0))
+            .y_desc(frame.y_name);
+        match frame.x_name {
+            Some(name) => mesh.x_desc(name),
+            None => mesh.x_label_formatter(&|_| String::new()),
+        };
+        mesh.draw()?;
+        let plotting = chart.plotting_area().strip_coord_spec();
+        let (width, height) = plotting.dim_in_pixel();
+        Ok(Self {
+            area: plotting,
+            x: frame.x,
+            y: frame.y,
+            width: f64::from(width),
+            height: f64::from(height),
+        })
+    }
+
+    /// A field without a frame and with equal scales, as large as the points need.
+    pub(crate) fn bare(area: &Area<'a>, points: impl Iterator<Item = (f64, f64)>) -> Self {
+        let empty = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        let [x, y] = points.fold(empty, |[x, y], p| [[x[0].min(p.0), x[1].max(p.0)], [y[0].min(p.1), y[1].max(p.1)]]);
+        let area = area.margin(px(16.0), px(48.0), px(48.0), px(48.0));
+        let (width, height) = area.dim_in_pixel();
+        let (width, height) = (f64::from(width), f64::from(height));
+        // labels need room around the points
+        let per = ((x[1] - x[0]) / (0.9 * width)).max((y[1] - y[0]) / (0.88 * height)).max(1e-9);
+        let about = |range: [f64; 2], pixels: f64| {
+            let (middle, half) = (0.5 * (range[0] + range[1]), 0.5 * per * pixels);
+            [middle - half, middle + half]
+        };
+        Self {
+            area,
+            x: about(x, width),
+            y: about(y, height),
+            width,
+            height,
+        }
+    }
+
+    /// Place of a value on the field.
+    pub(crate) fn at(&self, x: f64, y: f64) -> (f64, f64) {
+        (
+            (x - self.x[0]) / (self.x[1] - self.x[0]) * self.width,
+            (self.y[1] - y) / (self.y[1] - self.y[0]) * self.height,
+        )
+    }
+
+    fn whole(p: (f64, f64)) -> (i32, i32) {
+        (p.0.round() as i32, p.1.round() as i32)
+    }
+
+    fn holds(&self, p: (f64, f64)) -> bool {
+        p.0 >= -1.0 && p.0 <= self.width + 1.0 && p.1 >= -1.0 && p.1 <= self.height + 1.0
+    }
+
+    /// The parts of a polyline inside the field, thinned.
+    fn visible(&self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<(f64, f64)>> {
+        let mut runs: Vec<Vec<(f64, f64)>> = Vec::new();
+        let mut open: Vec<(f64, f64)> = Vec::new();
+        let mut before: Option<(f64, f64)> = None;
+        for (x, y) in points {
+            let p = self.at(x, y);
+            if !(p.0.is_finite() && p.1.is_finite()) {
+                before = None;
+                runs.push(std::mem::take(&mut open));
+                continue;
+            }
+            match before {
+                None => open.extend(self.holds(p).then_some(p)),
+                Some(from) => {
+                    if let Some((a, b)) = self.clip(from, p) {
+                        if open.last() != Some(&a) {
+                            runs.push(std::mem::take(&mut open));
+                            open.push(a);
+                        }
+                        open.push(b);
+                    }
+                }
+            }
+            before = Some(p);
+        }
+        runs.push(open);
+        runs.iter().filter(|run| run.len() > 1).map(|run| thin(run)).collect()
+    }
+
+    /// The part of a segment inside the field (Liang and Barsky, 1984).
+    fn clip(&self, a: (f64, f64), b: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
+        let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        for (p, q) in [(-dx, a.0), (dx, self.width - a.0), (-dy, a.1), (dy, self.height - a.1)] {
+            if p == 0.0 {
+                if q < 0.0 {
+                    return None;
+                }
+            } else if p < 0.0 {
+                from = from.max(q / p);
+            } else {
+                to = to.min(q / p);
+            }
+        }
+        let at = |t: f64| if t == 0.0 { a } else if t == 1.0 { b } else { (a.0 + dx * t, a.1 + dy * t) };
+        (from <= to).then(|| (at(from), at(to)))
+    }
+
+    /// A line.
+    pub(crate) fn line(
+        &self,
+        points: impl Iterator<Item = (f64, f64)>,
+        colour: RGBColor,
+        pixels: f64,
+    ) -> Result<(), PlotError> {
+        for run in self.visible(points) {
+            let run: Vec<(i32, i32)> = run.into_iter().map(Self::whole).collect();
+            self.area.draw(&PathElement::new(run, colour.stroke_width(px(pixels) as u32)))?;
+        }
+        Ok(())
+    }
+
+    /// A dashed line.
+    pub(crate) fn dashed(
+        &self,
+        points: impl Iterator<Item = (f64, f64)>,
+        colour: RGBColor,
+        pixels: f64,
+    ) -> Result<(), PlotError> {
+        for run in self.visible(points) {
+            for part in dashes(&run, 7.0, 5.0) {
+                self.area.draw(&PathElement::new(part, colour.stroke_width(px(pixels) as u32)))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Dots; those that would hide each other are drawn once.
+    pub(crate) fn dots(
+        &self,
+        points: impl Iterator<Item = (f64, f64)>,
+        colour: RGBColor,
+        pixels: f64,
+    ) -> Result<(), PlotError> {
+        let mut last = (f64::NAN, f64::NAN);
+        for (x, y) in points {
+            let p = self.at(x, y);
+            let near = (p.0 - last.0).abs() + (p.1 - last.1).abs() < 0.5 * f64::from(px(pixels));
+            if self.holds(p) && !near {
+                self.area.draw(&Circle::new(Self::whole(p), px(pixels), colour.filled()))?;
+                last = p;
+            }
+        }
+        Ok(())
+    }
+
+    /// A ring about a place.
+    pub(crate) fn ring(&self, x: f64, y: f64, colour: RGBColor, pixels: f64) -> Result<(), PlotError> {
+        let p = self.at(x, y);
+        if self.holds(p) {
+            self.area
+                .draw(&Circle::new(Self::whole(p), px(pixels), colour.stroke_width(px(2.0) as u32)))?;
+        }
+        Ok(())
+    }
+
+    /// A filled polygon, held to the field.
+    pub(crate) fn fill(
+        &self,
+        points: impl Iterator<Item = (f64, f64)>,
+        colour: RGBColor,
+        opacity: f64,
+    ) -> Result<(), PlotError> {
+        let points: Vec<(i32, i32)> = points
+            .map(|(x, y)| self.at(x, y))
+            .map(|(x, y)| Self::whole((x.clamp(0.0, self.width), y.clamp(0.0, self.height))))
+            .collect();
+        self.area.draw(&Polygon::new(points, colour.mix(opacity)))?;
+        Ok(())
+    }
+
+    /// Width and height of the field, tenths of a pixel.
+    pub(crate) fn size(&self) -> (f64, f64) {
+        (self.width, self.height)
+    }
+
+    /// A filled polygon that may lie beside the field.
+    pub(crate) fn fill_outside(&self, points: &[(f64, f64)], colour: RGBColor) -> Result<(), PlotError> {
+        let points: Vec<(i32, i32)> = points.iter().map(|p| Self::whole(self.at(p.0, p.1))).collect();
+        self.area.draw(&Polygon::new(points, colour.filled()))?;
+        Ok(())
+    }
+
+    /// A text that may lie beside the field.
+    pub(crate) fn write_outside(&self, (x, y): (f64, f64), text: &str, (h, v): (HPos, VPos)) -> Result<(), PlotError> {
+        let style = anchored(13.0, h, v).color(&INK);
+        self.area.draw(&Text::new(text.to_owned(), Self::whole(self.at(x, y)), style))?;
+        Ok(())
+    }
+
+    /// A text in a style of its own.
+    pub(crate) fn write(&self, (x, y): (f64, f64), text: &str, style: TextStyle<'static>) -> Result<(), PlotError> {
+        let p = self.at(x, y);
+        if self.holds(p) {
+            self.area.draw(&Text::new(text.to_owned(), Self::whole(p), style))?;
+        }
+        Ok(())
+    }
+
+    /// A text beside a place; nothing outside of the field.
+    pub(crate) fn text(
+        &self,
+        (x, y): (f64, f64),
+        text: &str,
+        colour: RGBColor,
+        (h, v): (HPos, VPos),
+    ) -> Result<(), PlotError> {
+        let p = self.at(x, y);
+        if self.holds(p) {
+            let style = anchored(13.0, h, v).color(&colour);
+            self.area.draw(&Text::new(text.to_owned(), Self::whole(p), style))?;
+        }
+        Ok(())
+    }
+
+    /// A text at a share of the field from the upper left corner, on white.
+    pub(crate) fn note(&self, (x, y): (f64, f64), text: &str, (h, v): (HPos, VPos)) -> Result<(), PlotError> {
+        let at = (x * self.width, y * self.height);
+        self.area.draw(&Text::new(text.to_owned(), Self::whole(at), anchored(13.0, h, v).color(&INK)))?;
+        Ok(())
+    }
+}
+
+/// A power of ten as people write it.
+fn power(exponent: i32) -> String {
+    if (-4..=4).contains(&exponent) {
+        let value = (0..exponent.abs()).fold(1.0, |value: f64, _| if exponent > 0 { value * 10.0 } else { value / 10.0 });
+        let decimals = (-exponent).max(0) as usize;
+        return format!("{value:.decimals$}");
+    }
+    format!("1e{exponent}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_on_an_axis_are_short() {
+        assert_eq!(short(-0.0, 1.0), "0");
+        assert_eq!(short(12.5, 40.0), "12.5");
+        assert_eq!(short(-1200.0, 4000.0), "\u{2212}1200");
+        assert_eq!(short(0.0123, 0.02), "0.0123");
+        assert_eq!((power(-3), power(2), power(-7)), ("0.001".into(), "100".into(), "1e-7".into()));
+    }
+
+    #[test]
+    fn ranges_are_never_empty() {
+        let [low, high] = range([5.0, 5.0].into_iter(), 0.1);
+        assert!(low < 5.0 && high > 5.0);
+        assert_eq!(range(core::iter::empty(), 1.0), [0.0, 1.0]);
+        let (x, y) = equal([0.0, 10.0], [0.0, 1.0], (12_000, 7_000), 0.0);
+        assert!(x[0] <= 0.0 && x[1] >= 10.0 && y[0] < 0.0 && y[1] > 1.0);
+    }
+}

@@ -1,0 +1,206 @@
+//! Joints of the machine against the way or the time, one field an axis, with limits and blocks to look at.
+use crate::canvas::{BLUE, Entry, GREEN, GREY, Header, ORANGE, PURPLE, PlotError, SKY, Swatch, VERMILION, sheet};
+use crate::grid::{Frame, Panel, range};
+use crate::record::{Mark, Record, Sample};
+use plotters::prelude::RGBColor;
+use plotters::style::text_anchor::{HPos, VPos};
+use trunnion_geometry::deg;
+use trunnion_machine::{Axis, AxisKind, Limits, Machine};
+
+/// What a picture runs along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Along {
+    /// Way of the tip, mm.
+    Way,
+    /// Time, s.
+    Time,
+}
+
+impl Along {
+    fn of(self, sample: &Sample) -> f64 {
+        match self {
+            Self::Way => sample.way,
+            Self::Time => sample.time,
+        }
+    }
+    fn name(self) -> &'static str {
+        match self {
+            Self::Way => "way of the tool tip / mm",
+            Self::Time => "time at programmed feed / s",
+        }
+    }
+}
+
+/// Rules in the order of their colours.
+const MARKED: [RGBColor; 5] = [VERMILION, PURPLE, ORANGE, GREEN, SKY];
+
+/// The rules of the marks, most frequent first, each with its colour and count. Only as many as there are colours.
+pub(crate) fn rules(marks: &[Mark]) -> Vec<(String, RGBColor, usize)> {
+    let mut counted: Vec<(String, usize)> = Vec::new();
+    for mark in marks {
+        match counted.iter_mut().find(|(rule, _)| *rule == mark.rule) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((mark.rule.clone(), 1)),
+        }
+    }
+    counted.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+    let coloured = counted.into_iter().zip(MARKED);
+    coloured.map(|((rule, count), colour)| (rule, colour, count)).collect()
+}
+
+/// Entries of the legend for marks.
+pub(crate) fn entries(rules: &[(String, RGBColor, usize)]) -> Vec<Entry> {
+    rules
+        .iter()
+        .map(|(rule, colour, count)| (Swatch::Dot(*colour), format!("{rule} ({count})")))
+        .collect()
+}
+
+/// Draws them.
+///
+/// # Errors
+/// Nothing is known of any motion.
+pub fn joints(
+    header: &Header,
+    machine: &Machine,
+    record: &Record,
+    marks: &[Mark],
+    along: Along,
+) -> Result<String, PlotError> {
+    if record.samples.is_empty() {
+        return Err(PlotError("no motion's joints are known, so there is nothing to draw".into()));
+    }
+    let across = range(record.samples.iter().map(|sample| along.of(sample)), 1e-3);
+    // no empty room before the start
+    let across = [across[0].max(0.0), across[1]];
+    if across[1] <= across[0] || record.samples.iter().all(|sample| !along.of(sample).is_finite()) {
+        return Err(PlotError("the time of no motion is known: draw along the way instead".into()));
+    }
+    let rules = rules(marks);
+    let mut legend: Vec<Entry> = vec![(Swatch::Line(BLUE), "feed".into()), (Swatch::Line(GREY), "rapid".into())];
+    if machine.axes.iter().any(|axis| matches!(axis.limits, Limits::Range(..))) {
+        legend.push((Swatch::Dashed(VERMILION), "limit".into()));
+    }
+    legend.extend(entries(&rules));
+    sheet(header, &legend, |body| {
+        let count = machine.axes.len();
+        let (width, height) = body.dim_in_pixel();
+        // the last field has the labels below it
+        let labels = 500;
+        let each = (height as i32 - labels) / count as i32;
+        for (joint, axis) in machine.axes.iter().enumerate() {
+            let last = joint + 1 == count;
+            let top = each * joint as i32;
+            let bottom = if last { height as i32 } else { top + each };
+            let field = body.clone().shrink((0, top), (width, (bottom - top) as u32));
+            let unit = if axis.kind == AxisKind::Rotary { "deg" } else { "mm" };
+            let name = format!("{} / {unit}", char::from(axis.letter));
+            let values = record.samples.iter().map(|sample| sample.joints[joint]);
+            let upwards = with_limits(range(values, 1e-3), axis);
+            let panel = Panel::new(
+                &field,
+                &Frame {
+                    x: across,
+                    y: upwards,
+                    x_name: last.then_some(along.name()),
+                    y_name: &name,
+                    labels: [10, (each / 350).clamp(2, 6) as usize],
+                    decades: false,
+                    right: 0.0,
+                },
+            )?;
+            draw_limits(&panel, axis, across, upwards)?;
+            draw_marks(&panel, record, marks, &rules, along, joint)?;
+            for rapid in [true, false] {
+                let points = curve(record, along, joint, rapid);
+                panel.line(points.into_iter(), if rapid { GREY } else { BLUE }, if rapid { 1.2 } else { 1.8 })?;
+            }
+        }
+        Ok(())
+    })
+}
+
+/// The samples of rapids (or feeds), parted where others lie between.
+fn curve(record: &Record, along: Along, joint: usize, rapid: bool) -> Vec<(f64, f64)> {
+    let mut points = Vec::new();
+    for block in &record.blocks {
+        if block.rapid == rapid {
+            if !block.joined {
+                points.push((f64::NAN, f64::NAN));
+            }
+            points.extend(record.of(block).iter().map(|sample| (along.of(sample), sample.joints[joint])));
+        } else {
+            points.push((f64::NAN, f64::NAN));
+        }
+    }
+    points
+}
+
+/// Travel of an axis, mm or deg.
+fn travel(axis: &Axis) -> Option<[f64; 2]> {
+    let Limits::Range(low, high) = axis.limits else {
+        return None;
+    };
+    Some(match axis.kind {
+        AxisKind::Rotary => [deg(low), deg(high)],
+        AxisKind::Linear => [low, high],
+    })
+}
+
+/// The range with those limits that lie near it.
+fn with_limits(range: [f64; 2], axis: &Axis) -> [f64; 2] {
+    let span = range[1] - range[0];
+    let near = |limit: f64| limit > range[0] - span && limit < range[1] + span;
+    travel(axis).into_iter().flatten().filter(|limit| near(*limit)).fold(range, |wide, limit| {
+        [wide[0].min(limit - 0.1 * span), wide[1].max(limit + 0.1 * span)]
+    })
+}
+
+fn draw_limits(panel: &Panel<'_>, axis: &Axis, across: [f64; 2], upwards: [f64; 2]) -> Result<(), PlotError> {
+    let note = match travel(axis) {
+        None => "no limits".to_owned(),
+        Some([low, high]) => format!("limits {low:.0} to {high:.0}").replace('-', "\u{2212}"),
+    };
+    for limit in travel(axis).into_iter().flatten() {
+        if limit > upwards[0] && limit < upwards[1] {
+            panel.dashed(across.map(|x| (x, limit)).into_iter(), VERMILION, 1.4)?;
+        }
+    }
+    panel.note((0.995, 0.06), &note, (HPos::Right, VPos::Top))
+}
+
+fn draw_marks(
+    panel: &Panel<'_>,
+    record: &Record,
+    marks: &[Mark],
+    rules: &[(String, RGBColor, usize)],
+    along: Along,
+    joint: usize,
+) -> Result<(), PlotError> {
+    for (rule, colour, _) in rules.iter().rev() {
+        let mut dots = Vec::new();
+        for mark in marks.iter().filter(|mark| mark.rule == *rule) {
+            for block in record.on_line(mark.line) {
+                if let Some(end) = record.of(block).last() {
+                    dots.push((along.of(end), end.joints[joint]));
+                }
+            }
+        }
+        panel.dots(dots.into_iter(), *colour, 4.5)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_most_frequent_rules_are_coloured() {
+        let mark = |line, rule: &str| Mark { line, rule: rule.into() };
+        let found = rules(&[mark(1, "b"), mark(2, "a"), mark(3, "b")]);
+        let names: Vec<(&str, usize)> = found.iter().map(|(rule, _, count)| (rule.as_str(), *count)).collect();
+        assert_eq!(names, [("b", 2), ("a", 1)]);
+        assert_eq!(entries(&found)[0].1, "b (2)");
+    }
+}

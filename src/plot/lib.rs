@@ -1,0 +1,20 @@
+//! Floor 6: pictures. What a machine does in a program, as SVG that a machinist can read: axes with units, limits, blocks to look at.
+//!
+//! It does not know files, rules or terminals: records of legs and marks come in, text goes out.
+mod axis_plane;
+mod canvas;
+mod deviation;
+mod grid;
+mod height_map;
+mod joints;
+mod path;
+mod record;
+mod thin;
+
+pub use axis_plane::axis_plane;
+pub use canvas::{Header, PlotError};
+pub use deviation::deviation;
+pub use height_map::height_map;
+pub use joints::{Along, joints};
+pub use path::path;
+pub use record::{Block, Mark, Record, Recorder, Sample};

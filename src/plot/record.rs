@@ -1,0 +1,151 @@
+//! What is kept of a run for pictures: samples along the real path, block by block.
+use core::ops::Range;
+use trunnion_geometry::{Vec3, deg};
+use trunnion_machine::{AxisKind, Joints, Leg, Machine, Way, block_duration_s, tip_deviation};
+
+/// The machine at one moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Way of the tip in the workpiece frame since the first known position, mm.
+    pub way: f64,
+    /// Time since then, s; not a number behind a block whose time is not known.
+    pub time: f64,
+    /// Joints in chain order, mm or deg.
+    pub joints: Joints,
+    /// Tip in programmed coordinates, mm.
+    pub tip: Vec3,
+    /// Unit tool axis in the workpiece frame.
+    pub axis: Vec3,
+}
+
+/// One block.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// Line in the file, from 1.
+    pub line: u32,
+    /// Rapid; else feed.
+    pub rapid: bool,
+    /// Its samples in the record, both ends included.
+    pub samples: Range<usize>,
+    /// It starts where the block before ended.
+    pub joined: bool,
+    /// Deviation of the tip from the programmed segment, mm: largest sample and proven bound.
+    pub deviation: Option<[f64; 2]>,
+    /// Least angle between tool axis and pole, deg.
+    pub pole_angle: f64,
+}
+
+/// A block to look at.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mark {
+    /// Line of the block, from 1.
+    pub line: u32,
+    /// Why: the name of a rule.
+    pub rule: String,
+}
+
+/// A run.
+#[derive(Clone, Debug, Default)]
+pub struct Record {
+    /// Samples in the order of the run.
+    pub samples: Vec<Sample>,
+    /// Blocks in the order of the run.
+    pub blocks: Vec<Block>,
+    /// Motions whose path is not known.
+    pub unknown: usize,
+}
+
+impl Record {
+    /// Samples of a block.
+    pub(crate) fn of(&self, block: &Block) -> &[Sample] {
+        &self.samples[block.samples.clone()]
+    }
+    /// Blocks of a line.
+    pub(crate) fn on_line(&self, line: u32) -> impl Iterator<Item = &Block> {
+        self.blocks.iter().filter(move |block| block.line == line)
+    }
+}
+
+/// Records legs.
+pub struct Recorder<'m> {
+    machine: &'m Machine,
+    record: Record,
+    way: f64,
+    time: f64,
+    broken: bool,
+}
+
+/// Most samples of a block.
+const MOST: f64 = 240.0;
+/// How far the tip may lie off the line between two samples, mm.
+const NEAR: f64 = 0.02;
+/// How far a rotary axis may turn between two samples, rad.
+const TURN: f64 = 0.05;
+
+impl<'m> Recorder<'m> {
+    /// Nothing recorded.
+    pub fn new(machine: &'m Machine) -> Self {
+        Self {
+            machine,
+            record: Record::default(),
+            way: 0.0,
+            time: 0.0,
+            broken: true,
+        }
+    }
+
+    /// Records a leg that ends at a line.
+    pub fn leg(&mut self, leg: &Leg, line: u32) {
+        if matches!(leg.motion.kind, trunnion_interp::MotionKind::Dwell(_)) {
+            self.time += block_duration_s(self.machine, leg).unwrap_or(f64::NAN);
+            return;
+        }
+        let Some(way) = Way::new(self.machine, leg) else {
+            // the first motion starts from nowhere: nothing is missing of it
+            self.record.unknown += usize::from(leg.start.is_some() || leg.end.is_err());
+            self.broken = true;
+            return;
+        };
+        let turn = leg.rotary_change[0].max(leg.rotary_change[1]);
+        let pieces = (way.tip_bend() / (8.0 * NEAR)).sqrt().max(turn / TURN).ceil().clamp(1.0, MOST) as usize;
+        let duration = block_duration_s(self.machine, leg).unwrap_or(f64::NAN);
+        let first = self.record.samples.len();
+        let mut before = None;
+        for i in 0..=pieces {
+            let t = i as f64 / pieces as f64;
+            let moment = way.at(t);
+            if let Some(before) = before {
+                self.way += (moment.tip - before as Vec3).norm();
+            }
+            before = Some(moment.tip);
+            let mut joints = moment.joints;
+            for (value, axis) in joints.iter_mut().zip(&self.machine.axes) {
+                if axis.kind == AxisKind::Rotary {
+                    *value = deg(*value);
+                }
+            }
+            self.record.samples.push(Sample {
+                way: self.way,
+                time: self.time + duration * t,
+                joints,
+                tip: moment.tip,
+                axis: moment.axis,
+            });
+        }
+        self.time += duration;
+        self.record.blocks.push(Block {
+            line,
+            rapid: !leg.motion.is_feed(),
+            samples: first..self.record.samples.len(),
+            joined: !self.broken,
+            deviation: tip_deviation(self.machine, leg, 1e-4).map(|found| [found.sampled_mm, found.bound_mm]),
+            pole_angle: deg(leg.pole_angle_min),
+        });
+        self.broken = false;
+    }
+
+    /// What was recorded.
+    pub fn finish(self) -> Record {
+        self.record
+    }
+}

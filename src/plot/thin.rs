@@ -1,0 +1,63 @@
+//! Fewer points for the same line: what no eye sees is left out, so that a picture of a million blocks stays small.
+
+/// How far a point that is left out may lie from the line, in tenths of a pixel.
+const UNSEEN: f64 = 2.5;
+
+/// The points of a polyline (in tenths of a pixel) that are needed to draw it (Douglas and Peucker, 1973). Ends stay; points that are not
+/// numbers are dropped.
+pub(crate) fn thin(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let points: Vec<(f64, f64)> = points
+        .iter()
+        .copied()
+        .filter(|(x, y)| x.is_finite() && y.is_finite())
+        .collect();
+    if points.len() < 3 {
+        return points;
+    }
+    let mut keep = vec![false; points.len()];
+    let last = points.len() - 1;
+    (keep[0], keep[last]) = (true, true);
+    let mut open = vec![(0, last)];
+    while let Some((from, to)) = open.pop() {
+        let (mut worst, mut at) = (UNSEEN, None);
+        for i in from + 1..to {
+            let off = distance(points[i], points[from], points[to]);
+            if off > worst {
+                (worst, at) = (off, Some(i));
+            }
+        }
+        if let Some(at) = at {
+            keep[at] = true;
+            open.extend([(from, at), (at, to)]);
+        }
+    }
+    points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| *point).collect()
+}
+
+/// Distance of a point from a segment.
+fn distance(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
+    let (way, off) = ((b.0 - a.0, b.1 - a.1), (p.0 - a.0, p.1 - a.1));
+    let length2 = way.0 * way.0 + way.1 * way.1;
+    let share = if length2 > 0.0 {
+        ((off.0 * way.0 + off.1 * way.1) / length2).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    let (x, y) = (off.0 - way.0 * share, off.1 - way.1 * share);
+    (x * x + y * y).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn straight_runs_vanish_and_spikes_stay() {
+        let mut points: Vec<(f64, f64)> = (0..1000).map(|i| (f64::from(i), 0.001 * f64::from(i))).collect();
+        assert_eq!(thin(&points).len(), 2);
+        points[500].1 = 300.0;
+        points[700].1 = f64::NAN;
+        let thinned = thin(&points);
+        assert!(thinned.contains(&(500.0, 300.0)) && thinned.len() < 8, "{thinned:?}");
+    }
+}

@@ -1,0 +1,274 @@
+//! The error of the trajectory surface: how far the real path strays from the required surface, in three senses.
+use crate::mesh::{Required, Uv};
+use crate::search::{Climb, Top, top};
+use crate::sheet::Sheet;
+use trunnion_geometry::Vec3;
+use trunnion_machine::{Leg, Machine, Way, tip_deviation};
+use trunnion_syntax::BlockId;
+
+/// How to compare.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// The tip should keep this distance from the surface, mm: the radius of a tool that cuts with its flank, or of a ball whose centre is
+    /// programmed. 0: it runs on the surface.
+    pub offset: f64,
+    /// How near sample and bound of the largest error are brought, mm.
+    pub close: f64,
+    /// Samples per block that are kept for a picture; 0: none.
+    pub spots: usize,
+}
+
+/// A largest error with its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    /// Largest error at a sample, mm.
+    pub sampled: f64,
+    /// Proven: no larger one, mm.
+    pub bound: f64,
+    /// Block.
+    pub block: BlockId,
+    /// Share of the block, 0..=1.
+    pub at: f64,
+    /// Tool tip there, mm.
+    pub point: Vec3,
+    /// +1: the tip is on the side of the surface that the spindle is on (material is left), -1: on the other (it gouges); 0: no side.
+    pub side: i8,
+}
+
+/// One sample for a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// Running number of the judged block.
+    pub leg: u32,
+    /// Where the error is told: the required point (same place) or the surface's nearest point, mm.
+    pub place: Vec3,
+    /// The tip, mm.
+    pub tip: Vec3,
+    /// Error, mm: from the same place where that is known, else from the surface.
+    pub error: f64,
+}
+
+/// Everything found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Errors {
+    /// Distance of the tip from the nearest point of the surface, less the offset.
+    pub from_surface: Option<Found>,
+    /// Distance of the tip from the point of the surface that belongs to the same share of the block: |S(u,v) - T(u,v)|. Only where both
+    /// ends of the block lie on one sheet and no offset is asked for.
+    pub same_place: Option<Found>,
+    /// Distance of the tip from the programmed segment (the deviation of `trace`).
+    pub from_segment: Option<Found>,
+    /// Feed blocks that were judged.
+    pub judged: u32,
+    /// Feed blocks whose path is not known.
+    pub not_judged: u32,
+    /// The first of them.
+    pub first_not_judged: Option<BlockId>,
+    /// Feed blocks with a same place.
+    pub placed: u32,
+    /// Samples for a picture.
+    pub spots: Vec<Spot>,
+}
+
+/// Judges legs one by one.
+pub struct Judge<'a> {
+    required: &'a Required,
+    machine: &'a Machine,
+    options: Options,
+    errors: Errors,
+}
+
+impl<'a> Judge<'a> {
+    /// Nothing judged yet.
+    pub fn new(required: &'a Required, machine: &'a Machine, options: Options) -> Self {
+        Self {
+            required,
+            machine,
+            options,
+            errors: Errors::default(),
+        }
+    }
+
+    /// Judges a leg; rapids and dwells cut nothing and are passed over.
+    pub fn leg(&mut self, leg: &Leg) {
+        if !leg.motion.is_feed() {
+            return;
+        }
+        let Some(way) = Way::new(self.machine, leg) else {
+            self.errors.not_judged += 1;
+            self.errors.first_not_judged.get_or_insert(leg.motion.block);
+            return;
+        };
+        let block = leg.motion.block;
+        let index = self.errors.judged;
+        self.errors.judged += 1;
+        let (required, options) = (self.required, self.options);
+        let near = FromSurface {
+            way: &way,
+            required,
+            offset: options.offset,
+        };
+        let reached = |known: &Option<Found>| known.as_ref().map_or(0.0, |found| found.sampled);
+        let pieces = first_pieces(&way);
+        let found = top(&near, pieces, reached(&self.errors.from_surface), options.close);
+        let found = Found {
+            bound: found.bound + required.off,
+            ..self.found(block, &way, found, true)
+        };
+        keep(&mut self.errors.from_surface, found);
+
+        let same = SamePlace::new(&way, required).filter(|_| options.offset == 0.0);
+        if let Some(same) = &same {
+            self.errors.placed += 1;
+            let found = top(same, pieces, reached(&self.errors.same_place), options.close);
+            let found = self.found(block, &way, found, false);
+            keep(&mut self.errors.same_place, found);
+        }
+        if let Some(deviation) = tip_deviation(self.machine, leg, 0.0) {
+            let found = Top {
+                sampled: deviation.sampled_mm,
+                at: deviation.at,
+                bound: deviation.bound_mm,
+            };
+            let found = self.found(block, &way, found, false);
+            keep(&mut self.errors.from_segment, found);
+        }
+        for i in 0..=options.spots {
+            if options.spots == 0 {
+                break;
+            }
+            let t = i as f64 / options.spots as f64;
+            let tip = way.at(t).tip;
+            let (place, error) = match &same {
+                Some(same) => {
+                    let place = same.place(t);
+                    (place, (tip - place).norm())
+                }
+                None => (required.nearest(&tip).point, near.sample(t).1),
+            };
+            self.errors.spots.push(Spot {
+                leg: index,
+                place,
+                tip,
+                error,
+            });
+        }
+    }
+
+    /// What was found.
+    pub fn finish(self) -> Errors {
+        self.errors
+    }
+
+    fn found(&self, block: BlockId, way: &Way<'_>, top: Top, sided: bool) -> Found {
+        let moment = way.at(top.at);
+        let side = if sided {
+            let off = moment.tip - self.required.nearest(&moment.tip).point;
+            let above = off.dot(&moment.axis);
+            if above > 1e-9 {
+                1
+            } else if above < -1e-9 {
+                -1
+            } else {
+                0
+            }
+        } else {
+            0
+        };
+        Found {
+            sampled: top.sampled,
+            bound: top.bound,
+            block,
+            at: top.at,
+            point: moment.tip,
+            side,
+        }
+    }
+}
+
+/// Keeps the largest sample with its place, and the largest bound of all.
+fn keep(known: &mut Option<Found>, found: Found) {
+    match known {
+        Some(known) if known.sampled >= found.sampled => known.bound = known.bound.max(found.bound),
+        Some(known) => {
+            let bound = known.bound.max(found.bound);
+            *known = Found { bound, ..found };
+        }
+        None => *known = Some(found),
+    }
+}
+
+/// As many pieces as keep the tip within a hundredth of a millimetre of the chords, at most 64.
+fn first_pieces(way: &Way<'_>) -> usize {
+    (way.tip_bend() / (8.0 * 0.01)).sqrt().ceil().clamp(1.0, 64.0) as usize
+}
+
+/// Distance from the nearest point of the surface, less the offset: it changes no faster than the tip moves, and between two moments the
+/// tip is within Q h2 / 8 of its chord (kinematics notes 3).
+struct FromSurface<'a> {
+    way: &'a Way<'a>,
+    required: &'a Required,
+    offset: f64,
+}
+
+impl Climb for FromSurface<'_> {
+    type Sample = Vec3;
+    fn sample(&self, t: f64) -> (Vec3, f64) {
+        let tip = self.way.at(t).tip;
+        (tip, (self.required.nearest(&tip).distance - self.offset).abs())
+    }
+    fn way(&self, from: &Vec3, to: &Vec3, h: f64) -> (f64, f64) {
+        ((to - from).norm(), self.way.tip_bend() * h * h * 0.125)
+    }
+}
+
+/// Distance from the point of the sheet whose parameters run evenly from the block's start to its end.
+struct SamePlace<'a> {
+    way: &'a Way<'a>,
+    sheet: &'a Sheet,
+    from: Uv,
+    to: Uv,
+    /// mm of sheet per block, at most.
+    slope: f64,
+}
+
+/// Ends this near count as on the surface, mm (beside the error of the triangles).
+const ON: f64 = 0.01;
+
+impl<'a> SamePlace<'a> {
+    fn new(way: &'a Way<'a>, required: &'a Required) -> Option<Self> {
+        let [start, end] = [0.0, 1.0].map(|t| required.nearest(&way.at(t).tip));
+        if start.distance.max(end.distance) > ON + required.off {
+            return None;
+        }
+        let (from, to) = (start.uv?, end.uv?);
+        if from.sheet != to.sheet {
+            return None;
+        }
+        let sheet = &required.sheets()[from.sheet];
+        let (by_u, by_v) = sheet.slopes();
+        Some(Self {
+            way,
+            sheet,
+            from,
+            to,
+            slope: by_u * (to.u - from.u).abs() + by_v * (to.v - from.v).abs(),
+        })
+    }
+
+    fn place(&self, t: f64) -> Vec3 {
+        let mix = |a: f64, b: f64| a + (b - a) * t;
+        self.sheet.point(mix(self.from.u, self.to.u), mix(self.from.v, self.to.v))
+    }
+}
+
+impl Climb for SamePlace<'_> {
+    type Sample = Vec3;
+    fn sample(&self, t: f64) -> (Vec3, f64) {
+        let tip = self.way.at(t).tip;
+        (tip, (tip - self.place(t)).norm())
+    }
+    fn way(&self, from: &Vec3, to: &Vec3, h: f64) -> (f64, f64) {
+        ((to - from).norm() + self.slope * h, self.way.tip_bend() * h * h * 0.125)
+    }
+}

@@ -1,0 +1,15 @@
+//! Floor 5: the surface that a part should have, and how far the path of the tool strays from it.
+//!
+//! A required surface is a grid of points, Bezier patches, or an STL. It is compared with the real path between the blocks (the surface
+//! that the trajectories span), not with the programmed points alone. It does not know rules, terminals or pictures.
+mod file;
+mod judge;
+mod mesh;
+mod patch;
+mod search;
+mod sheet;
+
+pub use file::{SurfaceError, required, required_stl};
+pub use judge::{Errors, Found, Judge, Options, Spot};
+pub use mesh::{Nearest, Required, Uv};
+pub use sheet::Sheet;

@@ -1,0 +1,164 @@
+//! A required surface, ready to be asked for its nearest point.
+use crate::sheet::Sheet;
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::PointQueryWithLocation;
+use parry3d_f64::shape::TriMesh;
+use trunnion_geometry::Vec3;
+
+/// The most triangles that sheets are cut into, all together.
+const MOST_TRIANGLES: usize = 1_500_000;
+
+/// A place on a sheet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uv {
+    /// Index of the sheet.
+    pub sheet: usize,
+    /// Parameters, 0..=1.
+    pub u: f64,
+    /// Parameters, 0..=1.
+    pub v: f64,
+}
+
+/// The nearest point of a required surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// mm; the truth lies within [`Required::off`] of it.
+    pub distance: f64,
+    /// Point, mm.
+    pub point: Vec3,
+    /// Where on which sheet (not for an STL).
+    pub uv: Option<Uv>,
+}
+
+/// A required surface.
+pub struct Required {
+    mesh: TriMesh,
+    sheets: Vec<Sheet>,
+    /// Sheet and parameters of each point of the mesh; empty for an STL.
+    places: Vec<(usize, [f64; 2])>,
+    /// How far the triangles may lie from the surface, mm: proven; 0 for an STL, which is its triangles.
+    pub off: f64,
+}
+
+impl Required {
+    /// Sheets, cut into triangles at most `tolerance` mm off.
+    ///
+    /// # Errors
+    /// A sentence where the sheets have no area.
+    pub fn from_sheets(sheets: Vec<Sheet>, tolerance: f64) -> Result<Self, String> {
+        let (mut points, mut triangles, mut places, mut off) = (Vec::new(), Vec::new(), Vec::new(), 0.0_f64);
+        let most = MOST_TRIANGLES / sheets.len().max(1);
+        for (index, sheet) in sheets.iter().enumerate() {
+            let cut = sheet.cut(tolerance, most.max(2));
+            let base = points.len() as u32;
+            points.extend(cut.points.iter().map(|(point, _)| to_parry(point)));
+            places.extend(cut.points.iter().map(|(_, uv)| (index, *uv)));
+            triangles.extend(cut.triangles.iter().map(|triangle| triangle.map(|i| i + base)));
+            off = off.max(cut.off);
+        }
+        Self::built(points, triangles, sheets, places, off)
+    }
+
+    /// Triangles as they are.
+    ///
+    /// # Errors
+    /// A sentence where there are none.
+    pub fn from_triangles(points: &[Vec3], triangles: Vec<[u32; 3]>) -> Result<Self, String> {
+        Self::built(points.iter().map(to_parry).collect(), triangles, Vec::new(), Vec::new(), 0.0)
+    }
+
+    fn built(
+        points: Vec<Vector>,
+        triangles: Vec<[u32; 3]>,
+        sheets: Vec<Sheet>,
+        places: Vec<(usize, [f64; 2])>,
+        off: f64,
+    ) -> Result<Self, String> {
+        let mesh = TriMesh::new(points, triangles).map_err(|error| format!("the surface has no triangles: {error}"))?;
+        Ok(Self {
+            mesh,
+            sheets,
+            places,
+            off,
+        })
+    }
+
+    /// Number of triangles.
+    pub fn triangles(&self) -> usize {
+        self.mesh.indices().len()
+    }
+
+    /// Its sheets; empty for an STL.
+    pub fn sheets(&self) -> &[Sheet] {
+        &self.sheets
+    }
+
+    /// Lowest and highest corner, mm.
+    pub fn extent(&self) -> [Vec3; 2] {
+        let (mut low, mut high) = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+        for point in self.mesh.vertices() {
+            let point = from_parry(point);
+            (low, high) = (low.inf(&point), high.sup(&point));
+        }
+        [low, high]
+    }
+
+    /// The nearest point.
+    pub fn nearest(&self, point: &Vec3) -> Nearest {
+        let (found, (triangle, location)) = self.mesh.project_local_point_and_get_location(to_parry(point), false);
+        let near = from_parry(&found.point);
+        let weights = location.barycentric_coordinates();
+        let uv = weights.filter(|_| !self.places.is_empty()).map(|weights| {
+            let corners = self.mesh.indices()[triangle as usize].map(|i| self.places[i as usize]);
+            let mix = |k: usize| corners.iter().zip(weights).map(|(corner, w)| corner.1[k] * w).sum();
+            Uv {
+                sheet: corners[0].0,
+                u: mix(0),
+                v: mix(1),
+            }
+        });
+        Nearest {
+            distance: (near - point).norm(),
+            point: near,
+            uv,
+        }
+    }
+}
+
+fn to_parry(v: &Vec3) -> Vector {
+    Vector::new(v.x, v.y, v.z)
+}
+
+fn from_parry(v: &Vector) -> Vec3 {
+    Vec3::new(v.x, v.y, v.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::patch::Patch;
+    use trunnion_pieces::{saddle_net, saddle_point};
+
+    #[test]
+    fn the_nearest_point_of_the_saddle_is_its_foot() {
+        let required = Required::from_sheets(vec![Sheet::Patch(Patch::new(saddle_net()))], 1e-3).expect("a surface");
+        assert!(required.off <= 1e-3 && required.triangles() > 1000);
+        for (u, v, height) in [(0.2, 0.6, 1.0), (0.5, 0.5, -0.5), (0.71, 0.33, 0.0)] {
+            let (foot, normal) = saddle_point(u, v);
+            let found = required.nearest(&(foot + normal * height));
+            assert!((found.distance - f64::abs(height)).abs() <= required.off + 1e-9, "{found:?}");
+            let uv = found.uv.expect("on a sheet");
+            assert!((uv.u - u).abs() < 1e-3 && (uv.v - v).abs() < 1e-3, "{uv:?}");
+        }
+    }
+
+    #[test]
+    fn triangles_are_taken_as_they_are() {
+        let points = [Vec3::zeros(), Vec3::x() * 10.0, Vec3::y() * 10.0];
+        let required = Required::from_triangles(&points, vec![[0, 1, 2]]).expect("a surface");
+        let found = required.nearest(&Vec3::new(2.0, 2.0, 3.0));
+        assert_eq!((found.distance, found.uv, required.off), (3.0, None, 0.0));
+        assert!(Required::from_triangles(&points, Vec::new()).is_err());
+        assert_eq!(required.extent(), [Vec3::zeros(), Vec3::new(10.0, 10.0, 0.0)]);
+    }
+}

@@ -150,7 +150,7 @@ pub(super) fn header(title: &str, loaded: &Loaded, machine: &Machine) -> Header 
 }
 
 /// `100-250`.
-fn span(text: &str) -> Result<(u32, u32), Failure> {
+pub(super) fn span(text: &str) -> Result<(u32, u32), Failure> {
     let parsed = text
         .split_once('-')
         .and_then(|(from, to)| Some((from.trim().parse::<u32>().ok()?, to.trim().parse::<u32>().ok()?)));

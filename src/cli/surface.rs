@@ -30,6 +30,12 @@ pub(crate) struct Surface {
     /// The tip keeps this distance from the surface: a ball's centre or a flank, mm.
     #[arg(long, value_name = "MM", default_value_t = 0.0)]
     offset: f64,
+    /// Feed blocks that start or end farther than this from the surface are taken as approach or retract, and counted, mm.
+    #[arg(long, value_name = "MM", default_value_t = 1.0)]
+    reach: f64,
+    /// Only the blocks of these lines, e.g. 100-250.
+    #[arg(long, value_name = "FROM-TO")]
+    lines: Option<String>,
     /// Errors above this make the exit status 1, mm.
     #[arg(long, value_name = "MM")]
     tolerance: Option<f64>,
@@ -48,7 +54,7 @@ const SPOTS: usize = 24;
 
 /// Runs `surface`.
 pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
-    for (name, value, least) in [("offset", command.offset, 0.0), ("close", command.close, 1e-6)] {
+    for (name, value, least) in [("offset", command.offset, 0.0), ("close", command.close, 1e-6), ("reach", command.reach, 0.0)] {
         if !(value >= least && value <= 1000.0) {
             return Err(Failure::new(format!("--{name} {value}: between {least} and 1000 mm")));
         }
@@ -56,11 +62,11 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
     let loaded = load::load(global, &command.file)?;
     let machine = loaded.machine_or_fail("surface")?;
     let surface = read(&command.required, command.close)?;
-    let errors = judge(command, &loaded, machine, &surface);
-    if errors.judged == 0 {
-        return Err(Failure::file(&command.file, "no feed motion's path is known, so nothing can be compared"));
-    }
     let lines = LineIndex::new(loaded.program.source());
+    let errors = judge(command, &loaded, machine, &surface, &lines)?;
+    if errors.judged == 0 {
+        return Err(Failure::file(&command.file, nothing(command, &errors)));
+    }
     let report = Report {
         command,
         loaded: &loaded,
@@ -83,6 +89,18 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
     verdict(global, command, &errors)
 }
 
+/// Why nothing was compared.
+fn nothing(command: &Surface, errors: &Errors) -> String {
+    if errors.apart > 0 {
+        return format!(
+            "all {} feed blocks start or end farther than {} mm from the surface (up to {:.3} mm): are both in the same frame? \
+             --reach MM takes a wider view, --offset MM a tool that does not run on the surface itself",
+            errors.apart, command.reach, errors.farthest_apart
+        );
+    }
+    "no feed motion's path is known, so nothing can be compared".to_owned()
+}
+
 /// With a tolerance: above it is found; between it and the bound, or with blocks that are not judged, it is not known.
 fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Result<Done, Failure> {
     let (Some(tolerance), Some(found)) = (command.tolerance, &errors.from_surface) else {
@@ -91,8 +109,15 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Result<Done, 
     if found.sampled > tolerance {
         return Ok(Done::Found);
     }
-    if found.bound > tolerance || errors.not_judged > 0 {
-        remark(global.quiet, "unknown: the error is not proven to keep the tolerance (--close 0.0001 proves nearer)");
+    if found.bound > tolerance || errors.not_judged > 0 || errors.apart > 0 {
+        let why = if errors.not_judged > 0 {
+            "the path of some feed blocks is not known".to_owned()
+        } else if errors.apart > 0 {
+            format!("{} feed blocks start or end off the surface; --lines FROM-TO leaves them out", errors.apart)
+        } else {
+            "the error is not proven to keep the tolerance; --close 0.0001 proves nearer".to_owned()
+        };
+        remark(global.quiet, &format!("unknown: {why}"));
         return Ok(if global.strict { Done::Found } else { Done::Clean });
     }
     Ok(Done::Clean)
@@ -118,29 +143,47 @@ fn flattest(surface: &Required) -> usize {
     (0..3).rev().min_by(|&a, &b| size[a].total_cmp(&size[b])).unwrap_or(2)
 }
 
-fn judge(command: &Surface, loaded: &Loaded, machine: &Machine, surface: &Required) -> Errors {
+fn judge(
+    command: &Surface,
+    loaded: &Loaded,
+    machine: &Machine,
+    surface: &Required,
+    index: &LineIndex,
+) -> Result<Errors, Failure> {
     let options = Options {
         offset: command.offset,
+        reach: command.reach,
         close: command.close,
         spots: if command.plot.is_some() { SPOTS } else { 0 },
     };
     let mut judging = Judging {
         follower: Follower::new(machine),
         judge: Judge::new(surface, machine, options),
+        loaded,
+        index,
+        lines: command.lines.as_deref().map(plot::span).transpose()?,
     };
     trunnion_interp::run(&loaded.program, loaded.resolved.dialect, &loaded.resolved.setup, &mut judging);
-    judging.judge.finish()
+    Ok(judging.judge.finish())
 }
 
 struct Judging<'a> {
     follower: Follower<'a>,
     judge: Judge<'a>,
+    loaded: &'a Loaded,
+    index: &'a LineIndex,
+    lines: Option<(u32, u32)>,
 }
 
 impl Sink for Judging<'_> {
     fn motion(&mut self, motion: &Motion, _state: &ModalState) {
         let leg = self.follower.follow(motion);
-        self.judge.leg(&leg);
+        let program = &self.loaded.program;
+        let start = program.block(motion.block).range().start;
+        let line = self.index.line_column(program.source(), start).0;
+        if self.lines.is_none_or(|(from, to)| (from..=to).contains(&line)) {
+            self.judge.leg(&leg);
+        }
     }
     fn fault(&mut self, _fault: Fault) {}
     fn block_done(&mut self, _block: BlockId, _interpreter: &Interpreter<'_>) {}
@@ -186,6 +229,15 @@ impl Report<'_> {
             self.surface.triangles(),
             self.surface.off
         );
+        if let Some(block) = errors.first_apart {
+            let _ = writeln!(
+                text,
+                "  {} feed blocks start or end up to {:.3} mm off the surface, the first at line {}: taken as approach or retract",
+                errors.apart,
+                errors.farthest_apart,
+                self.line(block)
+            );
+        }
         if let Some(block) = errors.first_not_judged {
             let _ = writeln!(text, "  the path of line {} (and perhaps of others) is not known: see `trunnion check`", self.line(block));
         }
@@ -244,6 +296,8 @@ impl Report<'_> {
             "offset_mm": self.command.offset,
             "judged": errors.judged,
             "not_judged": errors.not_judged,
+            "apart": errors.apart,
+            "farthest_apart_mm": errors.farthest_apart,
             "on_surface": errors.placed,
             "errors": all,
         })

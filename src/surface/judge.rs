@@ -12,6 +12,8 @@ pub struct Options {
     /// The tip should keep this distance from the surface, mm: the radius of a tool that cuts with its flank, or of a ball whose centre is
     /// programmed. 0: it runs on the surface.
     pub offset: f64,
+    /// A feed block that starts or ends farther than this from the surface (less the offset) is taken as approach or retract and counted, mm.
+    pub reach: f64,
     /// How near sample and bound of the largest error are brought, mm.
     pub close: f64,
     /// Samples per block that are kept for a picture; 0: none.
@@ -62,7 +64,13 @@ pub struct Errors {
     pub judged: u32,
     /// Feed blocks whose path is not known.
     pub not_judged: u32,
+    /// Feed blocks that start or end farther from the surface than [`Options::reach`].
+    pub apart: u32,
     /// The first of them.
+    pub first_apart: Option<BlockId>,
+    /// How far, at most, the end of one of them lies from the surface (less the offset), mm.
+    pub farthest_apart: f64,
+    /// The first that was not judged.
     pub first_not_judged: Option<BlockId>,
     /// Feed blocks with a same place.
     pub placed: u32,
@@ -100,14 +108,21 @@ impl<'a> Judge<'a> {
             return;
         };
         let block = leg.motion.block;
-        let index = self.errors.judged;
-        self.errors.judged += 1;
         let (required, options) = (self.required, self.options);
         let near = FromSurface {
             way: &way,
             required,
             offset: options.offset,
         };
+        let ends = near.sample(0.0).1.max(near.sample(1.0).1);
+        if ends > options.reach {
+            self.errors.apart += 1;
+            self.errors.first_apart.get_or_insert(block);
+            self.errors.farthest_apart = self.errors.farthest_apart.max(ends);
+            return;
+        }
+        let index = self.errors.judged;
+        self.errors.judged += 1;
         let reached = |known: &Option<Found>| known.as_ref().map_or(0.0, |found| found.sampled);
         let pieces = first_pieces(&way);
         let found = top(&near, pieces, reached(&self.errors.from_surface), options.close);
@@ -133,21 +148,26 @@ impl<'a> Judge<'a> {
             let found = self.found(block, &way, found, false);
             keep(&mut self.errors.from_segment, found);
         }
+        if options.spots > 0 {
+            self.spots(&way, &near, same.as_ref(), index);
+        }
+    }
+
+    /// Samples for a picture.
+    fn spots(&mut self, way: &Way<'_>, near: &FromSurface<'_>, same: Option<&SamePlace<'_>>, leg: u32) {
+        let options = self.options;
         for i in 0..=options.spots {
-            if options.spots == 0 {
-                break;
-            }
             let t = i as f64 / options.spots as f64;
             let tip = way.at(t).tip;
-            let (place, error) = match &same {
+            let (place, error) = match same {
                 Some(same) => {
                     let place = same.place(t);
                     (place, (tip - place).norm())
                 }
-                None => (required.nearest(&tip).point, near.sample(t).1),
+                None => (self.required.nearest(&tip).point, near.sample(t).1),
             };
             self.errors.spots.push(Spot {
-                leg: index,
+                leg,
                 place,
                 tip,
                 error,

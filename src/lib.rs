@@ -9,5 +9,8 @@ pub use trunnion_interp as interp;
 pub use trunnion_layout as layout;
 pub use trunnion_machine as machine;
 pub use trunnion_ngc as ngc;
+pub use trunnion_pieces as pieces;
+pub use trunnion_plot as plot;
 pub use trunnion_rewrite as rewrite;
+pub use trunnion_surface as surface;
 pub use trunnion_syntax as syntax;

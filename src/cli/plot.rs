@@ -90,7 +90,7 @@ fn draw(
     record: &Record,
     lines: Option<(u32, u32)>,
 ) -> Result<String, Drawing> {
-    let tolerance = machine.tolerances.tip;
+    let tolerance = machine.tolerances.tip_mm;
     let head = |title: &str| header(title, loaded, machine);
     Ok(match command.kind {
         Kind::Joints => {

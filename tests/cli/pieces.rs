@@ -5,6 +5,8 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use tempfile::TempDir;
+use trunnion::geometry::math::{atan2, sin_cos};
+use trunnion::geometry::rad;
 
 const MACHINE: &str = "mikron-ucp710";
 
@@ -83,16 +85,16 @@ fn the_cone_family_has_its_numbers_in_the_trace() {
             .filter(|row| row["limiting_axis"] == "C")
             .filter_map(|row| row["feed_limit_mm_min"].as_f64())
             .fold(f64::MAX, f64::min);
-        near(least, 60.0 * 120.0_f64.to_radians() * radius / fastest, &what);
+        near(least, 60.0 * rad(120.0) * radius / fastest, &what);
         near(answers["answers"]["turn_per_psi_max"].as_f64().expect("a number"), most, &what);
     }
 }
 
 /// Mean of |dC/dpsi| over a block of `step` rad beside the tilt's least value: the azimuth it sweeps by the closed form of the tool axis.
 fn block_mean(half: f64, tilt: f64, step: f64) -> f64 {
-    let ((sin_h, cos_h), (sin_t, cos_t)) = (half.to_radians().sin_cos(), tilt.to_radians().sin_cos());
-    let (across, along) = (sin_h * step.sin(), sin_t * cos_h - step.cos() * cos_t * sin_h);
-    across.atan2(along.abs()) / step
+    let ((sin_h, cos_h), (sin_t, cos_t)) = (sin_cos(rad(half)), sin_cos(rad(tilt)));
+    let (sin_s, cos_s) = sin_cos(step);
+    atan2(sin_h * sin_s, (sin_t * cos_h - cos_s * cos_t * sin_h).abs()) / step
 }
 
 #[test]

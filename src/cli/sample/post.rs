@@ -61,7 +61,7 @@ pub(super) fn program(piece: &Piece, machine: &Machine, places: &[Place], form: 
     for (step, place) in piece.moves.iter().zip(places) {
         let mut block = String::new();
         let code = code(step, before);
-        if code != modal || code.len() > 2 {
+        if code != modal {
             block.push_str(code);
         }
         modal = code;

@@ -59,7 +59,7 @@ pub(crate) struct Sample {
     #[arg(long, value_name = "MM/MIN")]
     feed: Option<f64>,
     /// Where the part's zero lies: added to every point, mm.
-    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', num_args = 3, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true)]
     origin: Option<Vec<f64>>,
     /// What the blocks say (only with --machine; without one the cutter locations are written in APT).
     #[arg(long, value_enum, default_value = "words")]

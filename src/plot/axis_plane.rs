@@ -109,15 +109,15 @@ fn draw_marks(
     rules: &[(String, RGBColor, usize)],
 ) -> Result<(), PlotError> {
     let mut written: Vec<u32> = Vec::new();
-    for (rule, colour, _) in rules.iter().rev() {
+    for (place, (rule, colour, _)) in rules.iter().enumerate() {
         for mark in marks.iter().filter(|mark| mark.rule == *rule) {
             for block in record.on_line(mark.line) {
                 let Some(end) = record.of(block).last() else { continue };
                 let (x, y) = plane.see(&end.axis);
-                panel.ring(x, y, *colour, if written.contains(&mark.line) { 10.0 } else { 7.0 })?;
+                panel.ring(x, y, *colour, 6.0 + 2.5 * place as f64)?;
                 if written.len() < 24 && !written.contains(&mark.line) {
                     written.push(mark.line);
-                    let text = format!("   line {}", mark.line);
+                    let text = format!("line {}", mark.line);
                     panel.text((x, y), &text, INK, (HPos::Left, VPos::Bottom))?;
                 }
             }
@@ -215,7 +215,7 @@ impl<'m> Plane<'m> {
         self.label(panel, x, y, widest, step, circles)?;
         if near {
             panel.dots(core::iter::once((0.0, 0.0)), VERMILION, 3.5)?;
-            panel.text((0.0, 0.0), " pole", VERMILION, (HPos::Left, VPos::Top))?;
+            panel.text((0.0, 0.0), "pole", VERMILION, (HPos::Right, VPos::Top))?;
         }
         Ok(())
     }
@@ -231,10 +231,17 @@ impl<'m> Plane<'m> {
     ) -> Result<(), PlotError> {
         let (dx, dy) = (0.045 * (x[1] - x[0]), 0.035 * (y[1] - y[0]));
         let inside = |p: (f64, f64)| p.0 > x[0] + dx && p.0 < x[1] - dx && p.1 > y[0] + dy && p.1 < y[1] - dy;
-        for ray in (0..360).step_by(15) {
+        let mut labelled: Vec<(f64, f64)> = Vec::new();
+        // the main directions first, so that they keep their labels where rays crowd
+        for ray in (0..360).step_by(90).chain((0..360).step_by(15).filter(|ray| ray % 90 != 0)) {
             let shown = if ray > 180 { ray - 360 } else { ray };
             let place = (1..=200).map(|i| self.joints(rad(f64::from(ray)), widest * f64::from(i) / 200.0));
             let Some(last) = place.filter(|p| inside(*p)).next_back() else { continue };
+            let crowded = |p: &(f64, f64)| (p.0 - last.0).abs() < 1.2 * dx && (p.1 - last.1).abs() < dy;
+            if labelled.iter().any(crowded) {
+                continue;
+            }
+            labelled.push(last);
             let text = format!("{}{shown}\u{b0}", self.letter(0)).replace('-', "\u{2212}");
             panel.text(last, &text, RGBColor(50, 105, 155), (HPos::Center, VPos::Center))?;
         }

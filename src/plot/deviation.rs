@@ -75,7 +75,7 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         let place = (0.5 * (from + to), value(*most));
         panel.ring(place.0, place.1, VERMILION, 6.0)?;
         let left = place.0 > 0.5 * (across[0] + across[1]);
-        let text = format!("  line {}: {most:.4} mm (proven below {bound:.4})  ", worst.line);
+        let text = format!("line {}: {most:.4} mm (proven below {bound:.4})", worst.line);
         let side = if left { HPos::Right } else { HPos::Left };
         panel.text(place, &text, VERMILION, (side, VPos::Bottom))
     })

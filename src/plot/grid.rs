@@ -25,6 +25,8 @@ pub(crate) struct Frame<'t> {
 /// A framed field.
 pub(crate) struct Panel<'a> {
     area: Area<'a>,
+    /// The area that the frame was drawn on: what lies beside the field is drawn there.
+    around: Area<'a>,
     x: [f64; 2],
     y: [f64; 2],
     width: f64,
@@ -125,6 +127,7 @@ impl<'a> Panel<'a> {
         let (width, height) = plotting.dim_in_pixel();
         Ok(Self {
             area: plotting,
+            around: area.clone(),
             x: frame.x,
             y: frame.y,
             width: f64::from(width),
@@ -146,6 +149,7 @@ impl<'a> Panel<'a> {
             [middle - half, middle + half]
         };
         Self {
+            around: area.clone(),
             area,
             x: about(x, width),
             y: about(y, height),
@@ -297,17 +301,24 @@ impl<'a> Panel<'a> {
         (self.width, self.height)
     }
 
+    /// Place on the area around the field.
+    fn beside(&self, (x, y): (f64, f64)) -> (i32, i32) {
+        let (own, around) = (self.area.get_base_pixel(), self.around.get_base_pixel());
+        let p = Self::whole(self.at(x, y));
+        (p.0 + own.0 - around.0, p.1 + own.1 - around.1)
+    }
+
     /// A filled polygon that may lie beside the field.
     pub(crate) fn fill_outside(&self, points: &[(f64, f64)], colour: RGBColor) -> Result<(), PlotError> {
-        let points: Vec<(i32, i32)> = points.iter().map(|p| Self::whole(self.at(p.0, p.1))).collect();
-        self.area.draw(&Polygon::new(points, colour.filled()))?;
+        let points: Vec<(i32, i32)> = points.iter().map(|p| self.beside(*p)).collect();
+        self.around.draw(&Polygon::new(points, colour.filled()))?;
         Ok(())
     }
 
     /// A text that may lie beside the field.
     pub(crate) fn write_outside(&self, (x, y): (f64, f64), text: &str, (h, v): (HPos, VPos)) -> Result<(), PlotError> {
         let style = anchored(13.0, h, v).color(&INK);
-        self.area.draw(&Text::new(text.to_owned(), Self::whole(self.at(x, y)), style))?;
+        self.around.draw(&Text::new(text.to_owned(), self.beside((x, y)), style))?;
         Ok(())
     }
 
@@ -331,15 +342,22 @@ impl<'a> Panel<'a> {
         let p = self.at(x, y);
         if self.holds(p) {
             let style = anchored(13.0, h, v).color(&colour);
-            self.area.draw(&Text::new(text.to_owned(), Self::whole(p), style))?;
+            // beside a sign, not on it
+            let off = px(12.0) * i32::from(h == HPos::Left) - px(12.0) * i32::from(h == HPos::Right);
+            let (x, y) = Self::whole(p);
+            self.area.draw(&Text::new(text.to_owned(), (x + off, y), style))?;
         }
         Ok(())
     }
 
-    /// A text at a share of the field from the upper left corner, on white.
-    pub(crate) fn note(&self, (x, y): (f64, f64), text: &str, (h, v): (HPos, VPos)) -> Result<(), PlotError> {
-        let at = (x * self.width, y * self.height);
-        self.area.draw(&Text::new(text.to_owned(), Self::whole(at), anchored(13.0, h, v).color(&INK)))?;
+    /// A text in the upper right corner, on white.
+    pub(crate) fn note(&self, text: &str) -> Result<(), PlotError> {
+        let at = Self::whole((self.width - f64::from(px(6.0)), f64::from(px(4.0))));
+        let wide = px(7.2 * text.chars().count() as f64 + 8.0);
+        let white = [(at.0 - wide, at.1), (at.0 + px(4.0), at.1 + px(18.0))];
+        self.area.draw(&Rectangle::new(white, WHITE.filled()))?;
+        let style = anchored(13.0, HPos::Right, VPos::Top).color(&INK);
+        self.area.draw(&Text::new(text.to_owned(), at, style))?;
         Ok(())
     }
 }

@@ -3,7 +3,6 @@ use crate::canvas::{BLUE, Entry, GREEN, GREY, Header, ORANGE, PURPLE, PlotError,
 use crate::grid::{Frame, Panel, range};
 use crate::record::{Mark, Record, Sample};
 use plotters::prelude::RGBColor;
-use plotters::style::text_anchor::{HPos, VPos};
 use trunnion_geometry::deg;
 use trunnion_machine::{Axis, AxisKind, Limits, Machine};
 
@@ -166,7 +165,7 @@ fn draw_limits(panel: &Panel<'_>, axis: &Axis, across: [f64; 2], upwards: [f64; 
             panel.dashed(across.map(|x| (x, limit)).into_iter(), VERMILION, 1.4)?;
         }
     }
-    panel.note((0.995, 0.06), &note, (HPos::Right, VPos::Top))
+    panel.note(&note)
 }
 
 fn draw_marks(
@@ -177,7 +176,8 @@ fn draw_marks(
     along: Along,
     joint: usize,
 ) -> Result<(), PlotError> {
-    for (rule, colour, _) in rules.iter().rev() {
+    // the rarest on top, each a little smaller
+    for (place, (rule, colour, _)) in rules.iter().enumerate() {
         let mut dots = Vec::new();
         for mark in marks.iter().filter(|mark| mark.rule == *rule) {
             for block in record.on_line(mark.line) {
@@ -186,7 +186,7 @@ fn draw_marks(
                 }
             }
         }
-        panel.dots(dots.into_iter(), *colour, 4.5)?;
+        panel.dots(dots.into_iter(), *colour, 6.0 - place as f64)?;
     }
     Ok(())
 }

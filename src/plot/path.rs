@@ -102,7 +102,7 @@ fn draw_box(flat: &Panel<'_>, low: &Vec3, high: &Vec3) -> Result<(), PlotError> 
     flat.line(floor.into_iter(), FLOOR, 1.0)?;
     flat.line([at(low.x, low.y, low.z), at(low.x, low.y, high.z)].into_iter(), FLOOR, 1.0)?;
     let size = (high - low).max().max(1e-3);
-    let step = step(size / 5.0);
+    let step = step(size / 6.0);
     for axis in 0..3 {
         let letter = ['X', 'Y', 'Z'][axis];
         let span = high[axis] - low[axis];
@@ -129,7 +129,7 @@ fn draw_box(flat: &Panel<'_>, low: &Vec3, high: &Vec3) -> Result<(), PlotError> 
             let text = short(value, size);
             flat.write(see(&(to + beside * 0.3)), &text, anchored(13.0, anchor.0, anchor.1).color(&INK))?;
         }
-        let middle = place(low[axis] + 0.5 * span) + beside * if axis == 2 { 6.5 } else { 4.5 };
+        let middle = place(low[axis] + 0.5 * span) + beside * if axis == 2 { 4.0 } else { 4.5 };
         flat.write(see(&middle), &format!("{letter} / mm"), anchored(15.0, anchor.0, anchor.1).color(&INK))?;
     }
     Ok(())

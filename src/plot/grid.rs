@@ -343,7 +343,11 @@ impl<'a> Panel<'a> {
         if self.holds(p) {
             let style = anchored(13.0, h, v).color(&colour);
             // beside a sign, not on it
-            let off = px(12.0) * i32::from(h == HPos::Left) - px(12.0) * i32::from(h == HPos::Right);
+            let off = match h {
+                HPos::Left => px(12.0),
+                HPos::Right => -px(12.0),
+                HPos::Center => 0,
+            };
             let (x, y) = Self::whole(p);
             self.area.draw(&Text::new(text.to_owned(), (x + off, y), style))?;
         }

@@ -9,7 +9,5 @@ mod fix;
 mod fmt;
 mod hostile;
 mod machines;
-mod pictures;
-mod pieces;
 mod stats;
 mod tools;

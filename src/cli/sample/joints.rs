@@ -59,6 +59,7 @@ fn as_the_control(piece: &Piece, machine: &Machine) -> Result<Vec<Place>, Failur
             tool_length_mm: TOOL_LENGTH,
             machine_coordinates: false,
             tool: None,
+            tilt: trunnion_interp::Tilt::default(),
         });
         start = end;
         let stance = leg.end.map_err(|why| refusal(index, step, &words(&why)))?;

@@ -48,6 +48,7 @@ fn legs(machine: &Machine, piece: &Piece, naive: bool) -> Vec<Leg> {
             tool_length_mm: 0.0,
             machine_coordinates: false,
             tool: None,
+            tilt: trunnion_interp::Tilt::default(),
         }));
         start = end;
     }
@@ -178,6 +179,7 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
                 tool_length_mm: 0.0,
                 machine_coordinates: false,
                 tool: None,
+                tilt: trunnion_interp::Tilt::default(),
             });
             start = end;
             judge.leg(&leg);

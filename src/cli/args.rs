@@ -1,7 +1,5 @@
 //! The arguments, as the interface says.
-use super::{
-    convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface,
-};
+use super::{convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trunnion_check::Severity;

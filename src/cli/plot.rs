@@ -75,7 +75,10 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         let count = record.unknown;
         remark(
             global.quiet,
-            &format!("{}: the path of {count} motions is not known and not drawn; see `trunnion check`", loaded.name),
+            &format!(
+                "{}: the path of {count} motions is not known and not drawn; see `trunnion check`",
+                loaded.name
+            ),
         );
     }
     let text = draw(global, command, &loaded, machine, &record, lines).map_err(|error| named(&command.file, error))?;
@@ -94,8 +97,18 @@ fn draw(
     let head = |title: &str| header(title, loaded, machine);
     Ok(match command.kind {
         Kind::Joints => {
-            let along = if command.along == Axis::Time { Along::Time } else { Along::Way };
-            joints(&head("Joints of the machine"), machine, record, &marks(loaded, lines), along)?
+            let along = if command.along == Axis::Time {
+                Along::Time
+            } else {
+                Along::Way
+            };
+            joints(
+                &head("Joints of the machine"),
+                machine,
+                record,
+                &marks(loaded, lines),
+                along,
+            )?
         }
         Kind::AxisPlane => {
             let after = match &command.after {
@@ -107,7 +120,14 @@ fn draw(
             };
             let title = "Tool axis seen along the pole";
             let marks = marks(loaded, lines);
-            axis_plane(&head(title), machine, record, &marks, after.as_ref(), command.around_pole)?
+            axis_plane(
+                &head(title),
+                machine,
+                record,
+                &marks,
+                after.as_ref(),
+                command.around_pole,
+            )?
         }
         Kind::Deviation => deviation(&head("Deviation of the tool tip"), record, tolerance)?,
         Kind::Path => path(&head("Path of the tool tip"), record, tolerance)?,
@@ -142,10 +162,15 @@ fn named(file: &Path, error: Drawing) -> Failure {
 /// The header of a picture of a program on a machine.
 pub(super) fn header(title: &str, loaded: &Loaded, machine: &Machine) -> Header {
     let file = Path::new(&loaded.name);
-    let name = file.file_name().map_or(loaded.name.as_str().into(), |name| name.to_string_lossy());
+    let name = file
+        .file_name()
+        .map_or(loaded.name.as_str().into(), |name| name.to_string_lossy());
     Header {
         title: format!("{title}: {name}"),
-        subtitle: format!("machine {} ({}), dialect {}", machine.name, machine.id, loaded.resolved.dialect.name),
+        subtitle: format!(
+            "machine {} ({}), dialect {}",
+            machine.name, machine.id, loaded.resolved.dialect.name
+        ),
     }
 }
 

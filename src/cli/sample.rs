@@ -209,7 +209,9 @@ fn origin(command: &Sample) -> Result<Vec3, Failure> {
     match command.origin.as_deref() {
         None => Ok(Vec3::zeros()),
         Some(&[x, y, z]) if x.is_finite() && y.is_finite() && z.is_finite() => Ok(Vec3::new(x, y, z)),
-        Some(_) => Err(Failure::new("--origin X,Y,Z takes three numbers in mm, e.g. --origin 0,0,50")),
+        Some(_) => Err(Failure::new(
+            "--origin X,Y,Z takes three numbers in mm, e.g. --origin 0,0,50",
+        )),
     }
 }
 

@@ -54,7 +54,11 @@ const SPOTS: usize = 24;
 
 /// Runs `surface`.
 pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
-    for (name, value, least) in [("offset", command.offset, 0.0), ("close", command.close, 1e-6), ("reach", command.reach, 0.0)] {
+    for (name, value, least) in [
+        ("offset", command.offset, 0.0),
+        ("close", command.close, 1e-6),
+        ("reach", command.reach, 0.0),
+    ] {
         if !(value >= least && value <= 1000.0) {
             return Err(Failure::new(format!("--{name} {value}: between {least} and 1000 mm")));
         }
@@ -83,7 +87,8 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
     out.flush()?;
     if let Some(file) = &command.plot {
         let header = plot::header("Error of the trajectory surface", &loaded, machine);
-        let text = height_map(&header, &errors, flattest(&surface)).map_err(|error| Failure::file(&command.file, error))?;
+        let text =
+            height_map(&header, &errors, flattest(&surface)).map_err(|error| Failure::file(&command.file, error))?;
         plot::write(Some(file), &text)?;
     }
     verdict(global, command, &errors)
@@ -113,7 +118,10 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Result<Done, 
         let why = if errors.not_judged > 0 {
             "the path of some feed blocks is not known".to_owned()
         } else if errors.apart > 0 {
-            format!("{} feed blocks start or end off the surface; --lines FROM-TO leaves them out", errors.apart)
+            format!(
+                "{} feed blocks start or end off the surface; --lines FROM-TO leaves them out",
+                errors.apart
+            )
         } else {
             "the error is not proven to keep the tolerance; --close 0.0001 proves nearer".to_owned()
         };
@@ -125,11 +133,15 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Result<Done, 
 
 fn read(path: &Path, close: f64) -> Result<Required, Failure> {
     let bytes = load::read(path)?;
-    let kind = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    let kind = path
+        .extension()
+        .map(|e| e.to_string_lossy().to_ascii_lowercase())
+        .unwrap_or_default();
     let read = if kind == "stl" {
         required_stl(&bytes)
     } else {
-        let text = String::from_utf8(bytes).map_err(|_| Failure::file(path, "is not UTF-8 text; an STL must end in .stl"))?;
+        let text =
+            String::from_utf8(bytes).map_err(|_| Failure::file(path, "is not UTF-8 text; an STL must end in .stl"))?;
         required(&text, kind == "json", close)
     };
     read.map_err(|error| Failure::file(path, error))
@@ -163,7 +175,12 @@ fn judge(
         index,
         lines: command.lines.as_deref().map(plot::span).transpose()?,
     };
-    trunnion_interp::run(&loaded.program, loaded.resolved.dialect, &loaded.resolved.setup, &mut judging);
+    trunnion_interp::run(
+        &loaded.program,
+        loaded.resolved.dialect,
+        &loaded.resolved.setup,
+        &mut judging,
+    );
     Ok(judging.judge.finish())
 }
 
@@ -201,26 +218,45 @@ struct Report<'a> {
 impl Report<'_> {
     fn line(&self, block: BlockId) -> u32 {
         let program = &self.loaded.program;
-        self.lines.line_column(program.source(), program.block(block).range().start).0
+        self.lines
+            .line_column(program.source(), program.block(block).range().start)
+            .0
     }
 
     /// The three errors by name.
     fn all(&self) -> [(&'static str, &'static str, Option<&Found>); 3] {
         let errors = self.errors;
         [
-            ("from_surface", "nearest point of the surface", errors.from_surface.as_ref()),
-            ("same_place", "point it should be at (same u, v)", errors.same_place.as_ref()),
+            (
+                "from_surface",
+                "nearest point of the surface",
+                errors.from_surface.as_ref(),
+            ),
+            (
+                "same_place",
+                "point it should be at (same u, v)",
+                errors.same_place.as_ref(),
+            ),
             ("from_segment", "programmed segment", errors.from_segment.as_ref()),
         ]
     }
 
     fn kind(&self) -> &'static str {
-        if self.surface.sheets().is_empty() { "stl" } else { "sheets" }
+        if self.surface.sheets().is_empty() {
+            "stl"
+        } else {
+            "sheets"
+        }
     }
 
     fn text(&self) -> String {
         let errors = self.errors;
-        let mut text = format!("{} on {}, against {}\n", self.loaded.name, self.machine.id, self.command.required.display());
+        let mut text = format!(
+            "{} on {}, against {}\n",
+            self.loaded.name,
+            self.machine.id,
+            self.command.required.display()
+        );
         let _ = writeln!(
             text,
             "  {} feed blocks judged, {} not known; surface of {} triangles, at most {:.6} mm off",
@@ -239,12 +275,19 @@ impl Report<'_> {
             );
         }
         if let Some(block) = errors.first_not_judged {
-            let _ = writeln!(text, "  the path of line {} (and perhaps of others) is not known: see `trunnion check`", self.line(block));
+            let _ = writeln!(
+                text,
+                "  the path of line {} (and perhaps of others) is not known: see `trunnion check`",
+                self.line(block)
+            );
         }
         text.push_str("  largest distance of the tip from the\n");
         for (_, name, found) in self.all() {
             let Some(found) = found else {
-                let _ = writeln!(text, "    {name:34} not known: the path does not lie on one sheet of the surface");
+                let _ = writeln!(
+                    text,
+                    "    {name:34} not known: the path does not lie on one sheet of the surface"
+                );
                 continue;
             };
             let side = match found.side {
@@ -265,7 +308,11 @@ impl Report<'_> {
             );
         }
         if errors.placed < errors.judged && errors.placed > 0 {
-            let _ = writeln!(text, "  only {} of the blocks lie on the surface with both ends", errors.placed);
+            let _ = writeln!(
+                text,
+                "  only {} of the blocks lie on the surface with both ends",
+                errors.placed
+            );
         }
         text
     }
@@ -284,8 +331,11 @@ impl Report<'_> {
                 })
             })
         };
-        let all: serde_json::Map<String, Value> =
-            self.all().into_iter().map(|(key, _, found)| (key.to_owned(), one(found))).collect();
+        let all: serde_json::Map<String, Value> = self
+            .all()
+            .into_iter()
+            .map(|(key, _, found)| (key.to_owned(), one(found)))
+            .collect();
         json!({
             "schema": "trunnion-surface-error/1",
             "version": env!("CARGO_PKG_VERSION"),

@@ -105,12 +105,24 @@ mod tests {
             feed_mm_min: 500.0,
         };
         let piece = circle_diamond_square(&sizes).expect("a piece");
-        let at = |z: f64| piece.moves.iter().filter(move |step| step.tip.z == z && step.kind == Kind::Line);
+        let at = |z: f64| {
+            piece
+                .moves
+                .iter()
+                .filter(move |step| step.tip.z == z && step.kind == Kind::Line)
+        };
         // side from side: 120 mm at the bottom, 100, 70.7 (diamond); tool radius 5
         let widest = |z: f64| at(z).map(|step| step.tip.y.abs()).fold(0.0, f64::max);
         assert!((widest(10.0) - 55.0).abs() < 1e-9);
         assert!((widest(20.0) - (25.0 * SQRT_2 + 5.0) * SQRT_2).abs() < 1e-9);
-        assert_eq!(piece.moves.iter().filter(|step| matches!(step.kind, Kind::Arc { .. })).count(), 2);
+        assert_eq!(
+            piece
+                .moves
+                .iter()
+                .filter(|step| matches!(step.kind, Kind::Arc { .. }))
+                .count(),
+            2
+        );
         assert!(piece.is_three_axis());
         assert!(circle_diamond_square(&CircleDiamondSquare { side: 1.0, ..sizes }).is_err());
     }

@@ -74,7 +74,10 @@ pub fn fixed_tip(radius: f64, tilt_deg: f64, segments: usize, feed: f64) -> Resu
             let axis = if i <= turning {
                 leaning(tilt, TAU * i as f64 / turning as f64)
             } else {
-                leaning(tilt * (1.0 - 0.5 * (i - turning) as f64 / (segments - turning) as f64), 0.0)
+                leaning(
+                    tilt * (1.0 - 0.5 * (i - turning) as f64 / (segments - turning) as f64),
+                    0.0,
+                )
             };
             (tip, axis)
         })
@@ -113,7 +116,11 @@ mod tests {
     #[test]
     fn a_fixed_tip_does_not_move() {
         let piece = fixed_tip(40.0, 20.0, 100, 500.0).expect("a piece");
-        assert!(piece.moves[1..102].iter().all(|step| step.tip == Vec3::new(40.0, 0.0, 0.0)));
+        assert!(
+            piece.moves[1..102]
+                .iter()
+                .all(|step| step.tip == Vec3::new(40.0, 0.0, 0.0))
+        );
         assert!((angle_between(&piece.moves[101].axis, &Vec3::z()) - rad(10.0)).abs() < 1e-12);
         assert!(fixed_tip(40.0, 0.0, 100, 500.0).is_err());
     }

@@ -66,7 +66,10 @@ impl Cone {
         let far = sin(th) / sin(th + ph);
         let (winds, through) = (th > ph, th == ph);
         ConeAnswers {
-            tilt_deg: [(self.half_angle_deg - self.tilt_deg).abs(), self.half_angle_deg + self.tilt_deg],
+            tilt_deg: [
+                (self.half_angle_deg - self.tilt_deg).abs(),
+                self.half_angle_deg + self.tilt_deg,
+            ],
             travel_deg: if winds {
                 360.0
             } else if through {
@@ -114,7 +117,10 @@ pub fn cone(sizes: &Cone) -> Result<Piece, PieceError> {
     let points: Vec<(Vec3, Vec3)> = (0..=segments)
         .map(|i| sizes.at(TAU * i as f64 / segments as f64))
         .collect();
-    let title = format!("cone {half} deg tilted {tilt} deg, wall radius {} mm, {segments} blocks", sizes.radius);
+    let title = format!(
+        "cone {half} deg tilted {tilt} deg, wall radius {} mm, {segments} blocks",
+        sizes.radius
+    );
     let tool = Tool {
         diameter: sizes.tool_diameter,
         ball: false,
@@ -176,7 +182,9 @@ mod tests {
             for i in 0..=steps {
                 let (tip, axis) = cone.at(TAU * f64::from(i) / f64::from(steps));
                 assert!((axis.norm() - 1.0).abs() < 1e-14);
-                assert!((tip.norm_squared() - cone.tip_radius().powi(2) - (10.0 * sin(rad(half))).powi(2)).abs() < 1e-9);
+                assert!(
+                    (tip.norm_squared() - cone.tip_radius().powi(2) - (10.0 * sin(rad(half))).powi(2)).abs() < 1e-9
+                );
                 let angle = angle_between(&axis, &Vec3::z());
                 tilts = [tilts[0].min(deg(angle)), tilts[1].max(deg(angle))];
                 let c = atan2(axis.x, -axis.y);
@@ -192,7 +200,10 @@ mod tests {
             }
             let answers = cone.answers();
             assert!((deg(high - low) - answers.travel_deg).abs() < 1e-3, "{half}/{tilt}");
-            assert!((fastest / answers.rate_max - 1.0).abs() < 1e-4, "{half}/{tilt}: {fastest}");
+            assert!(
+                (fastest / answers.rate_max - 1.0).abs() < 1e-4,
+                "{half}/{tilt}: {fastest}"
+            );
             assert!((slowest - answers.rate_min).abs() < 2e-3, "{half}/{tilt}: {slowest}");
             assert!((tilts[0] - answers.tilt_deg[0]).abs() < 1e-4 && (tilts[1] - answers.tilt_deg[1]).abs() < 1e-4);
             assert_eq!(answers.winds, (deg(turned).abs() - 360.0).abs() < 1e-6, "{half}/{tilt}");
@@ -205,10 +216,20 @@ mod tests {
         assert_eq!(piece.moves.len(), 3603);
         let (first, last) = (piece.moves[1], piece.moves[3601]);
         assert!((first.tip - last.tip).norm() < 1e-9 && (first.axis - last.axis).norm() < 1e-12);
-        for bad in [sizes(0.0, 10.0), sizes(15.0, 100.0), Cone { segments: 2, ..sizes(15.0, 10.0) }] {
+        for bad in [
+            sizes(0.0, 10.0),
+            sizes(15.0, 100.0),
+            Cone {
+                segments: 2,
+                ..sizes(15.0, 10.0)
+            },
+        ] {
             assert!(cone(&bad).is_err());
         }
         let limit = sizes(15.0, 10.0).answers().feed_limit_mm_min(PI);
-        assert!((limit - 60.0 * PI * (80.0 + 10.0 * 0.965_925_826) / 2.969_6).abs() < 0.2, "{limit}");
+        assert!(
+            (limit - 60.0 * PI * (80.0 + 10.0 * 0.965_925_826) / 2.969_6).abs() < 0.2,
+            "{limit}"
+        );
     }
 }

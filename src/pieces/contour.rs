@@ -23,7 +23,11 @@ pub fn corner_set(leg: f64, feed: f64) -> Result<Piece, PieceError> {
         point += Vec3::new(cos, sin, 0.0) * leg;
         points.push((point, Vec3::z()));
         // alternately left and right, so that the path does not run into itself
-        heading += if interior == 90.0 { interior - 180.0 } else { 180.0 - interior };
+        heading += if interior == 90.0 {
+            interior - 180.0
+        } else {
+            180.0 - interior
+        };
     }
     let title = format!("corners of 135, 90 and 45 deg, legs {leg} mm");
     Ok(Piece::along("corner-set", title, feed, FLAT, &points))
@@ -38,7 +42,12 @@ pub fn staircase(step: f64, segments: usize, feed: f64) -> Result<Piece, PieceEr
     within("feed", feed, 0.001, 1e6, "mm/min")?;
     let segments = count("segments", segments, 2, 5_000_000)?;
     let points: Vec<(Vec3, Vec3)> = (0..=segments)
-        .map(|i| (Vec3::new(i.div_ceil(2) as f64 * step, (i / 2) as f64 * step, 0.0), Vec3::z()))
+        .map(|i| {
+            (
+                Vec3::new(i.div_ceil(2) as f64 * step, (i / 2) as f64 * step, 0.0),
+                Vec3::z(),
+            )
+        })
         .collect();
     let title = format!("staircase of {segments} steps of {step} mm");
     Ok(Piece::along("staircase", title, feed, FLAT, &points))

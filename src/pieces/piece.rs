@@ -69,7 +69,13 @@ const CLEARANCE: f64 = 20.0;
 
 impl Piece {
     /// A piece that cuts along `points` (tip, unit axis): approach and retract along the tool axis.
-    pub(crate) fn along(name: &'static str, title: String, feed_mm_min: f64, tool: Tool, points: &[(Vec3, Vec3)]) -> Self {
+    pub(crate) fn along(
+        name: &'static str,
+        title: String,
+        feed_mm_min: f64,
+        tool: Tool,
+        points: &[(Vec3, Vec3)],
+    ) -> Self {
         let mut moves = Vec::with_capacity(points.len() + 2);
         let place = |kind, tip, axis| Move { kind, tip, axis };
         if let (Some(first), Some(last)) = (points.first(), points.last()) {
@@ -117,7 +123,9 @@ pub(crate) fn within(what: &str, value: f64, low: f64, high: f64, unit: &str) ->
     if (low..=high).contains(&value) {
         Ok(value)
     } else {
-        Err(PieceError(format!("{what} {value} {unit}: from {low} to {high} {unit} are possible")))
+        Err(PieceError(format!(
+            "{what} {value} {unit}: from {low} to {high} {unit} are possible"
+        )))
     }
 }
 
@@ -127,9 +135,18 @@ mod tests {
 
     #[test]
     fn a_path_is_entered_and_left_along_the_tool_axis() {
-        let tool = Tool { diameter: 10.0, ball: false };
+        let tool = Tool {
+            diameter: 10.0,
+            ball: false,
+        };
         let axis = Vec3::new(0.6, 0.0, 0.8);
-        let piece = Piece::along("p", String::new(), 1.0, tool, &[(Vec3::zeros(), axis), (Vec3::x(), Vec3::z())]);
+        let piece = Piece::along(
+            "p",
+            String::new(),
+            1.0,
+            tool,
+            &[(Vec3::zeros(), axis), (Vec3::x(), Vec3::z())],
+        );
         assert_eq!(piece.moves.len(), 4);
         assert_eq!(piece.moves[0].tip, axis * CLEARANCE);
         assert_eq!(piece.moves[3].tip, Vec3::x() + Vec3::z() * CLEARANCE);
@@ -140,7 +157,10 @@ mod tests {
 
     #[test]
     fn sizes_out_of_range_are_refused_with_the_range() {
-        assert_eq!(count("segments", 2, 3, 10).expect_err("refused").0, "segments 2: from 3 to 10 are possible");
+        assert_eq!(
+            count("segments", 2, 3, 10).expect_err("refused").0,
+            "segments 2: from 3 to 10 are possible"
+        );
         assert!(within("tilt", f64::NAN, 0.0, 90.0, "deg").is_err());
     }
 }

@@ -46,7 +46,11 @@ impl SWall {
         let (sin_h, cos_h) = sin_cos(heading);
         let left = Vec3::new(-sin_h, cos_h, 0.0);
         let (sin_b, cos_b) = sin_cos(lean);
-        (point, Vec3::z() * cos_b + left * sin_b, left * cos_b - Vec3::z() * sin_b)
+        (
+            point,
+            Vec3::z() * cos_b + left * sin_b,
+            left * cos_b - Vec3::z() * sin_b,
+        )
     }
 
     /// Point of the wall at arc length `s` and share `h` of the height (0: lower edge), mm.
@@ -194,7 +198,9 @@ fn divide(sizes: &SWall, edge: &Edge, from: f64, to: f64, points: &mut Vec<(Vec3
         let way = sizes.place(edge, s).0 - a;
         (way - chord * (way.dot(&chord) / chord.norm_squared())).norm()
     };
-    let worst = (1..8).map(|i| off(from + (to - from) * f64::from(i) / 8.0)).fold(0.0, f64::max);
+    let worst = (1..8)
+        .map(|i| off(from + (to - from) * f64::from(i) / 8.0))
+        .fold(0.0, f64::max);
     if worst > sizes.chord && to - from > 1e-6 {
         let middle = 0.5 * (from + to);
         divide(sizes, edge, from, middle, points);
@@ -271,7 +277,10 @@ mod tests {
         for chord in [0.5, 0.1, 0.01] {
             let wall = sizes(chord);
             let piece = s_wall(&wall).expect("a piece");
-            let tips: Vec<Vec3> = piece.moves[1..piece.moves.len() - 1].iter().map(|step| step.tip).collect();
+            let tips: Vec<Vec3> = piece.moves[1..piece.moves.len() - 1]
+                .iter()
+                .map(|step| step.tip)
+                .collect();
             let mut worst = 0.0_f64;
             for i in 0..=2_000 {
                 let tip = wall.at(LENGTH * f64::from(i) / 2_000.0).0;

@@ -22,7 +22,10 @@ pub fn saddle_point(u: f64, v: f64) -> (Vec3, Vec3) {
     let (z, by_u, by_v) = height(u, v);
     let normal = Vec3::new(-by_u / SADDLE_SIZE, -by_v / SADDLE_SIZE, 1.0);
     let half = 0.5 * SADDLE_SIZE;
-    (Vec3::new(SADDLE_SIZE * u - half, SADDLE_SIZE * v - half, z), normal.normalize())
+    (
+        Vec3::new(SADDLE_SIZE * u - half, SADDLE_SIZE * v - half, z),
+        normal.normalize(),
+    )
 }
 
 /// The saddle as a Bezier patch of degree 4 by 4: 5 x 5 control points, rows along v. Exact: the height is a polynomial.
@@ -59,7 +62,9 @@ pub fn saddle_net() -> Vec<Vec<Vec3>> {
         let at = |k: usize| SADDLE_SIZE * k as f64 / 4.0 - 0.5 * SADDLE_SIZE;
         Vec3::new(at(column), at(row), z)
     };
-    (0..5).map(|row| (0..5).map(|column| point(row, column)).collect()).collect()
+    (0..5)
+        .map(|row| (0..5).map(|column| point(row, column)).collect())
+        .collect()
 }
 
 /// The saddle in zigzag lines along x, `columns` points in each of `rows` lines; the tool axis is the surface's normal.

@@ -2,8 +2,8 @@
 //!
 //! Where the lines of equal turn crowd together, a small change of the tool axis turns that rotary axis far (paper on five-axis
 //! high-speed milling of hydraulic blades, 2006, figure 11).
-use crate::canvas::{Entry, GREY, Header, INK, PlotError, Swatch, VERMILION, sheet};
 use crate::canvas::{BLUE, GREEN, PALE};
+use crate::canvas::{Entry, GREY, Header, INK, PlotError, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel, equal, range};
 use crate::joints::{entries, rules};
 use crate::record::{Mark, Record};
@@ -35,7 +35,10 @@ pub fn axis_plane(
     let rules = rules(marks);
     let letter = |slot: usize| char::from(machine.axes[machine.rotary[slot]].letter);
     let mut legend: Vec<Entry> = vec![
-        (Swatch::Line(BLUE), if after.is_some() { "before" } else { "tool axis" }.to_owned()),
+        (
+            Swatch::Line(BLUE),
+            if after.is_some() { "before" } else { "tool axis" }.to_owned(),
+        ),
         (Swatch::Line(RAY), format!("equal {}", letter(0))),
         (Swatch::Dashed(GREY), format!("equal {}", letter(1))),
         (Swatch::Filled(PALE), format!("pole cone {} deg", trim(plane.cone))),
@@ -46,7 +49,10 @@ pub fn axis_plane(
     legend.extend(entries(&rules));
     sheet(header, &legend, |body| {
         let records = core::iter::once(record).chain(after);
-        let seen: Vec<(f64, f64)> = records.flat_map(|r| r.samples.iter()).map(|s| plane.see(&s.axis)).collect();
+        let seen: Vec<(f64, f64)> = records
+            .flat_map(|r| r.samples.iter())
+            .map(|s| plane.see(&s.axis))
+            .collect();
         let (x, y) = match within {
             Some(angle) => {
                 let radius = trunnion_geometry::math::sin(rad(angle));
@@ -197,7 +203,11 @@ impl<'m> Plane<'m> {
         let widest = trunnion_geometry::math::asin(farthest.min(1.0));
         let near = x[0] < 0.0 && x[1] > 0.0 && y[0] < 0.0 && y[1] > 0.0;
         if near {
-            panel.fill((0..=72).map(|i| self.joints(TAU * f64::from(i) / 72.0, rad(self.cone))), PALE, 0.8)?;
+            panel.fill(
+                (0..=72).map(|i| self.joints(TAU * f64::from(i) / 72.0, rad(self.cone))),
+                PALE,
+                0.8,
+            )?;
         }
         let step = nice(deg(widest) / 7.0);
         let circles = (deg(widest) / step).floor().min(60.0) as u32;
@@ -233,10 +243,15 @@ impl<'m> Plane<'m> {
         let inside = |p: (f64, f64)| p.0 > x[0] + dx && p.0 < x[1] - dx && p.1 > y[0] + dy && p.1 < y[1] - dy;
         let mut labelled: Vec<(f64, f64)> = Vec::new();
         // the main directions first, so that they keep their labels where rays crowd
-        for ray in (0..360).step_by(90).chain((0..360).step_by(15).filter(|ray| ray % 90 != 0)) {
+        for ray in (0..360)
+            .step_by(90)
+            .chain((0..360).step_by(15).filter(|ray| ray % 90 != 0))
+        {
             let shown = if ray > 180 { ray - 360 } else { ray };
             let place = (1..=200).map(|i| self.joints(rad(f64::from(ray)), widest * f64::from(i) / 200.0));
-            let Some(last) = place.filter(|p| inside(*p)).next_back() else { continue };
+            let Some(last) = place.filter(|p| inside(*p)).next_back() else {
+                continue;
+            };
             let crowded = |p: &(f64, f64)| (p.0 - last.0).abs() < 1.2 * dx && (p.1 - last.1).abs() < dy;
             if labelled.iter().any(crowded) {
                 continue;
@@ -258,7 +273,12 @@ impl<'m> Plane<'m> {
             let place = self.joints(rad(f64::from(best)), rad(tilt));
             if inside(place) {
                 let value = trim(deg(self.at_pole) + tilt);
-                panel.text(place, &format!("{}{value}\u{b0}", self.letter(1)), GREY, (HPos::Center, VPos::Center))?;
+                panel.text(
+                    place,
+                    &format!("{}{value}\u{b0}", self.letter(1)),
+                    GREY,
+                    (HPos::Center, VPos::Center),
+                )?;
             }
         }
         Ok(())
@@ -274,7 +294,9 @@ fn nice(value: f64) -> f64 {
 /// A number of degrees without needless zeros.
 fn trim(value: f64) -> String {
     let text = format!("{value:.2}");
-    text.trim_end_matches('0').trim_end_matches('.').replace('-', "\u{2212}")
+    text.trim_end_matches('0')
+        .trim_end_matches('.')
+        .replace('-', "\u{2212}")
 }
 
 #[cfg(test)]
@@ -297,6 +319,12 @@ mod tests {
     #[test]
     fn a_mill_without_rotary_axes_is_refused() {
         let machine = builtin("mill-3axis").expect("built in");
-        assert!(Plane::new(machine).err().expect("refused").0.contains("two rotary axes"));
+        assert!(
+            Plane::new(machine)
+                .err()
+                .expect("refused")
+                .0
+                .contains("two rotary axes")
+        );
     }
 }

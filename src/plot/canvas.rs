@@ -94,7 +94,11 @@ pub(crate) fn sheet(
         let (top, rest) = root.split_vertically(px(f64::from(HEADER)));
         let bold = font(20.0);
         top.draw(&Text::new(header.title.clone(), (px(24.0), px(12.0)), bold))?;
-        top.draw(&Text::new(header.subtitle.clone(), (px(24.0), px(40.0)), font(14.0).color(&GREY)))?;
+        top.draw(&Text::new(
+            header.subtitle.clone(),
+            (px(24.0), px(40.0)),
+            font(14.0).color(&GREY),
+        ))?;
         draw_legend(&top, legend)?;
         body(&rest)?;
         root.present()?;
@@ -112,12 +116,18 @@ fn draw_legend(top: &Area<'_>, legend: &[Entry]) -> Result<(), PlotError> {
         let to = x + px(26.0);
         match swatch {
             Swatch::Line(colour) => {
-                top.draw(&PathElement::new(vec![(x, y), (to, y)], colour.stroke_width(px(2.0) as u32)))?;
+                top.draw(&PathElement::new(
+                    vec![(x, y), (to, y)],
+                    colour.stroke_width(px(2.0) as u32),
+                ))?;
             }
             Swatch::Dashed(colour) => {
                 for part in 0..3 {
                     let from = x + px(9.0) * part;
-                    top.draw(&PathElement::new(vec![(from, y), (from + px(6.0), y)], colour.stroke_width(px(2.0) as u32)))?;
+                    top.draw(&PathElement::new(
+                        vec![(from, y), (from + px(6.0), y)],
+                        colour.stroke_width(px(2.0) as u32),
+                    ))?;
                 }
             }
             Swatch::Dot(colour) => top.draw(&Circle::new((x + px(13.0), y), px(5.0), colour.filled()))?,
@@ -125,7 +135,11 @@ fn draw_legend(top: &Area<'_>, legend: &[Entry]) -> Result<(), PlotError> {
                 top.draw(&Rectangle::new([(x, y - px(6.0)), (to, y + px(6.0))], colour.filled()))?;
             }
         }
-        top.draw(&Text::new(label.clone(), (to + px(6.0), y), anchored(14.0, HPos::Left, VPos::Center)))?;
+        top.draw(&Text::new(
+            label.clone(),
+            (to + px(6.0), y),
+            anchored(14.0, HPos::Left, VPos::Center),
+        ))?;
         x = to + px(6.0) + px(7.4 * label.chars().count() as f64 + 22.0);
     }
     Ok(())
@@ -179,7 +193,11 @@ mod tests {
             subtitle: "f&g".into(),
         };
         let text = sheet(&header, &[(Swatch::Line(BLUE), "one".into())], |_| Ok(())).expect("drawn");
-        assert!(text.starts_with("<svg width=\"1200\" height=\"800\""), "{}", &text[..80]);
+        assert!(
+            text.starts_with("<svg width=\"1200\" height=\"800\""),
+            "{}",
+            &text[..80]
+        );
         assert!(text.contains("viewBox=\"0 0 12000 8000\"") && text.contains("a &lt; b") && text.contains("f&amp;g"));
         assert!(text.trim_end().ends_with("</svg>"));
     }

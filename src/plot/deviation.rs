@@ -16,16 +16,25 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         .filter_map(|block| Some((block, block.deviation?)))
         .collect();
     let Some((worst, [most, bound])) = known.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0])) else {
-        return Err(PlotError("the deviation of no feed block is known, so there is nothing to draw".into()));
+        return Err(PlotError(
+            "the deviation of no feed block is known, so there is nothing to draw".into(),
+        ));
     };
-    let unjudged = record.blocks.iter().filter(|block| !block.rapid && block.deviation.is_none()).count();
+    let unjudged = record
+        .blocks
+        .iter()
+        .filter(|block| !block.rapid && block.deviation.is_none())
+        .count();
     // far above the tolerance a linear scale would hide it
     let decades = *most > 20.0 * tolerance;
     let floor = 1e-4_f64.min(tolerance / 10.0);
     let value = |v: f64| if decades { decade(v.max(floor)) } else { v };
     let way = |block: &Block| {
         let samples = record.of(block);
-        (samples.first().map_or(0.0, |s| s.way), samples.last().map_or(0.0, |s| s.way))
+        (
+            samples.first().map_or(0.0, |s| s.way),
+            samples.last().map_or(0.0, |s| s.way),
+        )
     };
     let across = range(record.samples.iter().map(|sample| sample.way), 1e-3);
     let across = [across[0].max(0.0), across[1]];
@@ -54,7 +63,14 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
                 } else {
                     "deviation of the tip from the programmed segment / mm"
                 },
-                labels: [10, if decades { (upwards[1] - upwards[0]).ceil() as usize + 1 } else { 8 }],
+                labels: [
+                    10,
+                    if decades {
+                        (upwards[1] - upwards[0]).ceil() as usize + 1
+                    } else {
+                        8
+                    },
+                ],
                 decades,
                 right: 0.0,
             },
@@ -67,7 +83,9 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         };
         let start = stairs(1).next().map_or(0.0, |p| p.0);
         let end = stairs(1).last().map_or(0.0, |p| p.0);
-        let outline = core::iter::once((start, upwards[0])).chain(stairs(1)).chain([(end, upwards[0])]);
+        let outline = core::iter::once((start, upwards[0]))
+            .chain(stairs(1))
+            .chain([(end, upwards[0])]);
         panel.fill(outline, SKY, 0.45)?;
         panel.line(stairs(0), BLUE, 1.8)?;
         panel.dashed(across.map(|x| (x, value(tolerance))).into_iter(), VERMILION, 1.8)?;

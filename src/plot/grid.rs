@@ -41,7 +41,9 @@ const BELOW: f64 = 50.0;
 pub(crate) fn range(values: impl Iterator<Item = f64>, least: f64) -> [f64; 2] {
     let (low, high) = values
         .filter(|value| value.is_finite())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
     if low > high {
         return [0.0, 1.0];
     }
@@ -73,7 +75,11 @@ pub(crate) fn short(value: f64, span: f64) -> String {
     } else {
         text
     };
-    if text == "-0" { "0".into() } else { text.replace('-', "\u{2212}") }
+    if text == "-0" {
+        "0".into()
+    } else {
+        text.replace('-', "\u{2212}")
+    }
 }
 
 /// Decimal logarithm.
@@ -138,12 +144,16 @@ impl<'a> Panel<'a> {
     /// A field without a frame and with equal scales, as large as the points need.
     pub(crate) fn bare(area: &Area<'a>, points: impl Iterator<Item = (f64, f64)>) -> Self {
         let empty = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-        let [x, y] = points.fold(empty, |[x, y], p| [[x[0].min(p.0), x[1].max(p.0)], [y[0].min(p.1), y[1].max(p.1)]]);
+        let [x, y] = points.fold(empty, |[x, y], p| {
+            [[x[0].min(p.0), x[1].max(p.0)], [y[0].min(p.1), y[1].max(p.1)]]
+        });
         let area = area.margin(px(16.0), px(48.0), px(48.0), px(48.0));
         let (width, height) = area.dim_in_pixel();
         let (width, height) = (f64::from(width), f64::from(height));
         // labels need room around the points
-        let per = ((x[1] - x[0]) / (0.9 * width)).max((y[1] - y[0]) / (0.88 * height)).max(1e-9);
+        let per = ((x[1] - x[0]) / (0.9 * width))
+            .max((y[1] - y[0]) / (0.88 * height))
+            .max(1e-9);
         let about = |range: [f64; 2], pixels: f64| {
             let (middle, half) = (0.5 * (range[0] + range[1]), 0.5 * per * pixels);
             [middle - half, middle + half]
@@ -219,7 +229,15 @@ impl<'a> Panel<'a> {
                 to = to.min(q / p);
             }
         }
-        let at = |t: f64| if t == 0.0 { a } else if t == 1.0 { b } else { (a.0 + dx * t, a.1 + dy * t) };
+        let at = |t: f64| {
+            if t == 0.0 {
+                a
+            } else if t == 1.0 {
+                b
+            } else {
+                (a.0 + dx * t, a.1 + dy * t)
+            }
+        };
         (from <= to).then(|| (at(from), at(to)))
     }
 
@@ -232,7 +250,8 @@ impl<'a> Panel<'a> {
     ) -> Result<(), PlotError> {
         for run in self.visible(points) {
             let run: Vec<(i32, i32)> = run.into_iter().map(Self::whole).collect();
-            self.area.draw(&PathElement::new(run, colour.stroke_width(px(pixels) as u32)))?;
+            self.area
+                .draw(&PathElement::new(run, colour.stroke_width(px(pixels) as u32)))?;
         }
         Ok(())
     }
@@ -246,7 +265,8 @@ impl<'a> Panel<'a> {
     ) -> Result<(), PlotError> {
         for run in self.visible(points) {
             for part in dashes(&run, 7.0, 5.0) {
-                self.area.draw(&PathElement::new(part, colour.stroke_width(px(pixels) as u32)))?;
+                self.area
+                    .draw(&PathElement::new(part, colour.stroke_width(px(pixels) as u32)))?;
             }
         }
         Ok(())
@@ -264,7 +284,8 @@ impl<'a> Panel<'a> {
             let p = self.at(x, y);
             let near = (p.0 - last.0).abs() + (p.1 - last.1).abs() < 0.5 * f64::from(px(pixels));
             if self.holds(p) && !near {
-                self.area.draw(&Circle::new(Self::whole(p), px(pixels), colour.filled()))?;
+                self.area
+                    .draw(&Circle::new(Self::whole(p), px(pixels), colour.filled()))?;
                 last = p;
             }
         }
@@ -275,8 +296,11 @@ impl<'a> Panel<'a> {
     pub(crate) fn ring(&self, x: f64, y: f64, colour: RGBColor, pixels: f64) -> Result<(), PlotError> {
         let p = self.at(x, y);
         if self.holds(p) {
-            self.area
-                .draw(&Circle::new(Self::whole(p), px(pixels), colour.stroke_width(px(2.0) as u32)))?;
+            self.area.draw(&Circle::new(
+                Self::whole(p),
+                px(pixels),
+                colour.stroke_width(px(2.0) as u32),
+            ))?;
         }
         Ok(())
     }
@@ -318,7 +342,8 @@ impl<'a> Panel<'a> {
     /// A text that may lie beside the field.
     pub(crate) fn write_outside(&self, (x, y): (f64, f64), text: &str, (h, v): (HPos, VPos)) -> Result<(), PlotError> {
         let style = anchored(13.0, h, v).color(&INK);
-        self.around.draw(&Text::new(text.to_owned(), self.beside((x, y)), style))?;
+        self.around
+            .draw(&Text::new(text.to_owned(), self.beside((x, y)), style))?;
         Ok(())
     }
 
@@ -369,7 +394,10 @@ impl<'a> Panel<'a> {
 /// A power of ten as people write it.
 fn power(exponent: i32) -> String {
     if (-4..=4).contains(&exponent) {
-        let value = (0..exponent.abs()).fold(1.0, |value: f64, _| if exponent > 0 { value * 10.0 } else { value / 10.0 });
+        let value = (0..exponent.abs()).fold(
+            1.0,
+            |value: f64, _| if exponent > 0 { value * 10.0 } else { value / 10.0 },
+        );
         let decimals = (-exponent).max(0) as usize;
         return format!("{value:.decimals$}");
     }
@@ -386,7 +414,10 @@ mod tests {
         assert_eq!(short(12.5, 40.0), "12.5");
         assert_eq!(short(-1200.0, 4000.0), "\u{2212}1200");
         assert_eq!(short(0.0123, 0.02), "0.0123");
-        assert_eq!((power(-3), power(2), power(-7)), ("0.001".into(), "100".into(), "1e-7".into()));
+        assert_eq!(
+            (power(-3), power(2), power(-7)),
+            ("0.001".into(), "100".into(), "1e-7".into())
+        );
     }
 
     #[test]

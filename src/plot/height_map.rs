@@ -29,12 +29,23 @@ const SCALE_STOPS: [(u8, u8, u8); 6] = [
 /// There are no spots.
 pub fn height_map(header: &Header, errors: &Errors, along: usize) -> Result<String, PlotError> {
     if errors.spots.is_empty() {
-        return Err(PlotError("no feed block could be compared with the surface, so there is nothing to draw".into()));
+        return Err(PlotError(
+            "no feed block could be compared with the surface, so there is nothing to draw".into(),
+        ));
     }
     let view = View::new(along);
-    let worst = errors.spots.iter().fold(errors.spots[0], |worst, spot| if spot.error > worst.error { *spot } else { worst });
-    let found: Option<&Found> = if errors.placed > 0 { errors.same_place.as_ref() } else { errors.from_surface.as_ref() };
-    let top = found.map_or(worst.error, |found| found.sampled.max(worst.error)).max(1e-9);
+    let worst = errors.spots.iter().fold(
+        errors.spots[0],
+        |worst, spot| if spot.error > worst.error { *spot } else { worst },
+    );
+    let found: Option<&Found> = if errors.placed > 0 {
+        errors.same_place.as_ref()
+    } else {
+        errors.from_surface.as_ref()
+    };
+    let top = found
+        .map_or(worst.error, |found| found.sampled.max(worst.error))
+        .max(1e-9);
     let sense = if errors.placed > 0 {
         "distance of the tip from the point it should be at"
     } else {
@@ -185,7 +196,9 @@ impl Map {
             for (dc, dr) in [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1)] {
                 let (c, r) = (c + dc, r + dr);
                 if (0..self.columns as i64).contains(&c) && (0..self.rows as i64).contains(&r) {
-                    self.claim(c as usize, r as usize, index, spots, places, reach, &mut owner, &mut open);
+                    self.claim(
+                        c as usize, r as usize, index, spots, places, reach, &mut owner, &mut open,
+                    );
                 }
             }
         }
@@ -195,7 +208,10 @@ impl Map {
     }
 
     /// Gives a cell to a spot that is nearer than the one that has it; of spots in the same place the larger error wins.
-    #[expect(clippy::too_many_arguments, reason = "the state of one search, used twice in one function")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "the state of one search, used twice in one function"
+    )]
     fn claim(
         &self,
         column: usize,
@@ -225,7 +241,10 @@ impl Map {
 
     /// Lower left corner of a cell.
     fn corner(&self, column: usize, row: usize) -> (f64, f64) {
-        (self.low.0 + column as f64 * self.cell, self.low.1 + row as f64 * self.cell)
+        (
+            self.low.0 + column as f64 * self.cell,
+            self.low.1 + row as f64 * self.cell,
+        )
     }
 
     /// Runs of cells of one level in a row: from, to, row, level.
@@ -275,7 +294,10 @@ mod tests {
             let (column, row) = ((x / map.cell) as usize, (y / map.cell) as usize);
             map.values[row * map.columns + column]
         };
-        assert_eq!((at(5.0, 3.0), at(95.0, 3.0), at(50.0, 45.0)), (Some(1.0), Some(3.0), Some(2.0)));
+        assert_eq!(
+            (at(5.0, 3.0), at(95.0, 3.0), at(50.0, 45.0)),
+            (Some(1.0), Some(3.0), Some(2.0))
+        );
         // nothing is known far from all spots
         assert_eq!(at(50.0, 5.0), None);
         let covered: usize = map.runs(3.0).iter().map(|(from, to, ..)| to - from).sum();

@@ -67,16 +67,23 @@ pub fn joints(
     along: Along,
 ) -> Result<String, PlotError> {
     if record.samples.is_empty() {
-        return Err(PlotError("no motion's joints are known, so there is nothing to draw".into()));
+        return Err(PlotError(
+            "no motion's joints are known, so there is nothing to draw".into(),
+        ));
     }
     let across = range(record.samples.iter().map(|sample| along.of(sample)), 1e-3);
     // no empty room before the start
     let across = [across[0].max(0.0), across[1]];
     if across[1] <= across[0] || record.samples.iter().all(|sample| !along.of(sample).is_finite()) {
-        return Err(PlotError("the time of no motion is known: draw along the way instead".into()));
+        return Err(PlotError(
+            "the time of no motion is known: draw along the way instead".into(),
+        ));
     }
     let rules = rules(marks);
-    let mut legend: Vec<Entry> = vec![(Swatch::Line(BLUE), "feed".into()), (Swatch::Line(GREY), "rapid".into())];
+    let mut legend: Vec<Entry> = vec![
+        (Swatch::Line(BLUE), "feed".into()),
+        (Swatch::Line(GREY), "rapid".into()),
+    ];
     if machine.axes.iter().any(|axis| matches!(axis.limits, Limits::Range(..))) {
         legend.push((Swatch::Dashed(VERMILION), "limit".into()));
     }
@@ -112,7 +119,11 @@ pub fn joints(
             draw_marks(&panel, record, marks, &rules, along, joint)?;
             for rapid in [true, false] {
                 let points = curve(record, along, joint, rapid);
-                panel.line(points.into_iter(), if rapid { GREY } else { BLUE }, if rapid { 1.2 } else { 1.8 })?;
+                panel.line(
+                    points.into_iter(),
+                    if rapid { GREY } else { BLUE },
+                    if rapid { 1.2 } else { 1.8 },
+                )?;
             }
         }
         Ok(())
@@ -127,7 +138,12 @@ fn curve(record: &Record, along: Along, joint: usize, rapid: bool) -> Vec<(f64, 
             if !block.joined {
                 points.push((f64::NAN, f64::NAN));
             }
-            points.extend(record.of(block).iter().map(|sample| (along.of(sample), sample.joints[joint])));
+            points.extend(
+                record
+                    .of(block)
+                    .iter()
+                    .map(|sample| (along.of(sample), sample.joints[joint])),
+            );
         } else {
             points.push((f64::NAN, f64::NAN));
         }
@@ -150,9 +166,13 @@ fn travel(axis: &Axis) -> Option<[f64; 2]> {
 fn with_limits(range: [f64; 2], axis: &Axis) -> [f64; 2] {
     let span = range[1] - range[0];
     let near = |limit: f64| limit > range[0] - span && limit < range[1] + span;
-    travel(axis).into_iter().flatten().filter(|limit| near(*limit)).fold(range, |wide, limit| {
-        [wide[0].min(limit - 0.1 * span), wide[1].max(limit + 0.1 * span)]
-    })
+    travel(axis)
+        .into_iter()
+        .flatten()
+        .filter(|limit| near(*limit))
+        .fold(range, |wide, limit| {
+            [wide[0].min(limit - 0.1 * span), wide[1].max(limit + 0.1 * span)]
+        })
 }
 
 fn draw_limits(panel: &Panel<'_>, axis: &Axis, across: [f64; 2], upwards: [f64; 2]) -> Result<(), PlotError> {
@@ -197,7 +217,10 @@ mod tests {
 
     #[test]
     fn the_most_frequent_rules_are_coloured() {
-        let mark = |line, rule: &str| Mark { line, rule: rule.into() };
+        let mark = |line, rule: &str| Mark {
+            line,
+            rule: rule.into(),
+        };
         let found = rules(&[mark(1, "b"), mark(2, "a"), mark(3, "b")]);
         let names: Vec<(&str, usize)> = found.iter().map(|(rule, _, count)| (rule.as_str(), *count)).collect();
         assert_eq!(names, [("b", 2), ("a", 1)]);

@@ -25,7 +25,10 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
         (Swatch::Line(ORANGE), "tool axis".into()),
     ];
     if straying > 0 {
-        legend.push((Swatch::Line(VERMILION), format!("strays more than {tolerance} mm ({straying} blocks)")));
+        legend.push((
+            Swatch::Line(VERMILION),
+            format!("strays more than {tolerance} mm ({straying} blocks)"),
+        ));
     }
     if record.unknown > 0 {
         legend.push((Swatch::Dot(GREY), format!("{} motions not known", record.unknown)));
@@ -40,7 +43,11 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
             let pick = |bit: usize, k: usize| if i & bit == 0 { low[k] } else { high[k] };
             see(&Vec3::new(pick(1, 0), pick(2, 1), pick(4, 2)))
         });
-        let rapids = record.blocks.iter().filter(|block| block.rapid).flat_map(|block| record.of(block));
+        let rapids = record
+            .blocks
+            .iter()
+            .filter(|block| block.rapid)
+            .flat_map(|block| record.of(block));
         // a rapid from far away must not make the part small: it is cut off at the edge
         let size = (high - low).norm().max(1e-3);
         let near = rapids.map(|sample| sample.tip).filter(|tip| {
@@ -100,7 +107,11 @@ fn draw_box(flat: &Panel<'_>, low: &Vec3, high: &Vec3) -> Result<(), PlotError> 
         at(low.x, low.y, low.z),
     ];
     flat.line(floor.into_iter(), FLOOR, 1.0)?;
-    flat.line([at(low.x, low.y, low.z), at(low.x, low.y, high.z)].into_iter(), FLOOR, 1.0)?;
+    flat.line(
+        [at(low.x, low.y, low.z), at(low.x, low.y, high.z)].into_iter(),
+        FLOOR,
+        1.0,
+    )?;
     let size = (high - low).max().max(1e-3);
     let step = step(size / 6.0);
     for axis in 0..3 {
@@ -127,10 +138,18 @@ fn draw_box(flat: &Panel<'_>, low: &Vec3, high: &Vec3) -> Result<(), PlotError> 
             let to = from + beside;
             flat.line([see(&from), see(&to)].into_iter(), FLOOR, 1.0)?;
             let text = short(value, size);
-            flat.write(see(&(to + beside * 0.3)), &text, anchored(13.0, anchor.0, anchor.1).color(&INK))?;
+            flat.write(
+                see(&(to + beside * 0.3)),
+                &text,
+                anchored(13.0, anchor.0, anchor.1).color(&INK),
+            )?;
         }
         let middle = place(low[axis] + 0.5 * span) + beside * if axis == 2 { 4.0 } else { 4.5 };
-        flat.write(see(&middle), &format!("{letter} / mm"), anchored(15.0, anchor.0, anchor.1).color(&INK))?;
+        flat.write(
+            see(&middle),
+            &format!("{letter} / mm"),
+            anchored(15.0, anchor.0, anchor.1).color(&INK),
+        )?;
     }
     Ok(())
 }
@@ -144,7 +163,13 @@ fn step(value: f64) -> f64 {
 
 /// The tool axis at some of the feed samples, evenly along the way.
 fn draw_axes(flat: &Panel<'_>, record: &Record, size: f64) -> Result<(), PlotError> {
-    let feeds = || record.blocks.iter().filter(|block| !block.rapid).flat_map(|block| record.of(block));
+    let feeds = || {
+        record
+            .blocks
+            .iter()
+            .filter(|block| !block.rapid)
+            .flat_map(|block| record.of(block))
+    };
     let total: f64 = record
         .blocks
         .iter()

@@ -107,7 +107,11 @@ impl<'m> Recorder<'m> {
             return;
         };
         let turn = leg.rotary_change[0].max(leg.rotary_change[1]);
-        let pieces = (way.tip_bend() / (8.0 * NEAR)).sqrt().max(turn / TURN).ceil().clamp(1.0, MOST) as usize;
+        let pieces = (way.tip_bend() / (8.0 * NEAR))
+            .sqrt()
+            .max(turn / TURN)
+            .ceil()
+            .clamp(1.0, MOST) as usize;
         let duration = block_duration_s(self.machine, leg).unwrap_or(f64::NAN);
         let first = self.record.samples.len();
         let mut before = None;

@@ -31,7 +31,12 @@ pub(crate) fn thin(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
             open.extend([(from, at), (at, to)]);
         }
     }
-    points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| *point).collect()
+    points
+        .iter()
+        .zip(keep)
+        .filter(|(_, keep)| *keep)
+        .map(|(point, _)| *point)
+        .collect()
 }
 
 /// Distance of a point from a segment.

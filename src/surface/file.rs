@@ -70,7 +70,10 @@ pub fn required(text: &str, is_json: bool, tolerance: f64) -> Result<Required, S
         })?
     };
     if file.schema != SCHEMA {
-        return Err(wrong(format!("schema = {:?}; `{SCHEMA}` is what this version reads", file.schema)));
+        return Err(wrong(format!(
+            "schema = {:?}; `{SCHEMA}` is what this version reads",
+            file.schema
+        )));
     }
     let mut sheets = Vec::new();
     for (index, grid) in file.grid.into_iter().enumerate() {
@@ -81,7 +84,9 @@ pub fn required(text: &str, is_json: bool, tolerance: f64) -> Result<Required, S
         sheets.push(Sheet::Patch(Patch::new(rows)));
     }
     if sheets.is_empty() {
-        return Err(wrong("no surface: give at least one [[grid]] or [[patch]] with rows of points"));
+        return Err(wrong(
+            "no surface: give at least one [[grid]] or [[patch]] with rows of points",
+        ));
     }
     Required::from_sheets(sheets, tolerance).map_err(wrong)
 }
@@ -96,11 +101,15 @@ fn line_column(text: &str, at: usize) -> (usize, usize) {
 fn points(rows: Rows, name: &str, most: usize) -> Result<Vec<Vec<Vec3>>, SurfaceError> {
     let (lines, columns) = (rows.rows.len(), rows.rows.first().map_or(0, Vec::len));
     if lines < 2 || columns < 2 {
-        return Err(wrong(format!("{name}: {lines} rows of {columns} points; at least 2 rows of 2 points are needed")));
+        return Err(wrong(format!(
+            "{name}: {lines} rows of {columns} points; at least 2 rows of 2 points are needed"
+        )));
     }
     if lines > most || columns > most {
         let degree = most - 1;
-        return Err(wrong(format!("{name}: {lines} rows of {columns} control points; the highest degree is {degree}")));
+        return Err(wrong(format!(
+            "{name}: {lines} rows of {columns} control points; the highest degree is {degree}"
+        )));
     }
     if lines.saturating_mul(columns) > 20_000_000 {
         return Err(wrong(format!("{name}: more than 20 million points")));
@@ -109,11 +118,19 @@ fn points(rows: Rows, name: &str, most: usize) -> Result<Vec<Vec<Vec3>>, Surface
     for (index, row) in rows.rows.into_iter().enumerate() {
         if row.len() != columns {
             let (row_number, count) = (index + 1, row.len());
-            return Err(wrong(format!("{name}: row {row_number} has {count} points, row 1 has {columns}")));
+            return Err(wrong(format!(
+                "{name}: row {row_number} has {count} points, row 1 has {columns}"
+            )));
         }
         let row: Vec<Vec3> = row.into_iter().map(|[x, y, z]| Vec3::new(x, y, z)).collect();
-        if row.iter().any(|point| !point.iter().all(|value| value.is_finite() && value.abs() < 1e9)) {
-            return Err(wrong(format!("{name}: row {} holds a number that is no length in mm", index + 1)));
+        if row
+            .iter()
+            .any(|point| !point.iter().all(|value| value.is_finite() && value.abs() < 1e9))
+        {
+            return Err(wrong(format!(
+                "{name}: row {} holds a number that is no length in mm",
+                index + 1
+            )));
         }
         all.push(row);
     }
@@ -143,7 +160,10 @@ pub fn required_stl(bytes: &[u8]) -> Result<Required, SurfaceError> {
         for vertex in triangle.vertices {
             let point = Vec3::new(f64::from(vertex[0]), f64::from(vertex[1]), f64::from(vertex[2]));
             if !point.iter().all(|value| value.is_finite()) {
-                return Err(broken(format!("triangle {} has a corner that is no number", triangles.len() + 1)));
+                return Err(broken(format!(
+                    "triangle {} has a corner that is no number",
+                    triangles.len() + 1
+                )));
             }
             points.push(point);
         }
@@ -157,12 +177,16 @@ mod tests {
     use super::*;
 
     fn refused(text: &str) -> String {
-        required(text, false, 1e-3).map(|_| ()).expect_err("refused").to_string()
+        required(text, false, 1e-3)
+            .map(|_| ())
+            .expect_err("refused")
+            .to_string()
     }
 
     #[test]
     fn grids_and_patches_are_read_from_toml_and_json() {
-        let toml = "schema = \"trunnion-surface/1\"\n[[grid]]\nrows = [[[0, 0, 0], [10, 0, 0]], [[0, 10, 0], [10, 10, 0]]]\n";
+        let toml =
+            "schema = \"trunnion-surface/1\"\n[[grid]]\nrows = [[[0, 0, 0], [10, 0, 0]], [[0, 10, 0], [10, 10, 0]]]\n";
         let found = required(toml, false, 1e-3).expect("a surface");
         assert_eq!((found.triangles(), found.sheets().len()), (2, 1));
         let json = r#"{"schema":"trunnion-surface/1","patch":[{"rows":[[[0,0,0],[5,0,2],[10,0,0]],[[0,9,0],[5,9,2],[10,9,0]]]}]}"#;
@@ -193,9 +217,21 @@ mod tests {
             binary.extend(value.to_le_bytes());
         }
         binary.extend([0, 0]);
-        assert_eq!(required_stl(&binary).expect("a surface").nearest(&Vec3::new(1.0, 1.0, 2.0)).distance, 2.0);
+        assert_eq!(
+            required_stl(&binary)
+                .expect("a surface")
+                .nearest(&Vec3::new(1.0, 1.0, 2.0))
+                .distance,
+            2.0
+        );
         binary[83] = 0x7f;
-        assert!(required_stl(&binary).map(|_| ()).expect_err("refused").message.contains("announces"));
+        assert!(
+            required_stl(&binary)
+                .map(|_| ())
+                .expect_err("refused")
+                .message
+                .contains("announces")
+        );
         for bytes in [&b""[..], b"solid", b"\xff\xfe", &[0; 84]] {
             assert!(required_stl(bytes).is_err(), "{bytes:?}");
         }

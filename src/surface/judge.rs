@@ -166,12 +166,7 @@ impl<'a> Judge<'a> {
                 }
                 None => (self.required.nearest(&tip).point, near.sample(t).1),
             };
-            self.errors.spots.push(Spot {
-                leg,
-                place,
-                tip,
-                error,
-            });
+            self.errors.spots.push(Spot { leg, place, tip, error });
         }
     }
 
@@ -278,7 +273,8 @@ impl<'a> SamePlace<'a> {
 
     fn place(&self, t: f64) -> Vec3 {
         let mix = |a: f64, b: f64| a + (b - a) * t;
-        self.sheet.point(mix(self.from.u, self.to.u), mix(self.from.v, self.to.v))
+        self.sheet
+            .point(mix(self.from.u, self.to.u), mix(self.from.v, self.to.v))
     }
 }
 

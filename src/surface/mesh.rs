@@ -64,7 +64,13 @@ impl Required {
     /// # Errors
     /// A sentence where there are none.
     pub fn from_triangles(points: &[Vec3], triangles: Vec<[u32; 3]>) -> Result<Self, String> {
-        Self::built(points.iter().map(to_parry).collect(), triangles, Vec::new(), Vec::new(), 0.0)
+        Self::built(
+            points.iter().map(to_parry).collect(),
+            triangles,
+            Vec::new(),
+            Vec::new(),
+            0.0,
+        )
     }
 
     fn built(
@@ -146,7 +152,10 @@ mod tests {
         for (u, v, height) in [(0.2, 0.6, 1.0), (0.5, 0.5, -0.5), (0.71, 0.33, 0.0)] {
             let (foot, normal) = saddle_point(u, v);
             let found = required.nearest(&(foot + normal * height));
-            assert!((found.distance - f64::abs(height)).abs() <= required.off + 1e-9, "{found:?}");
+            assert!(
+                (found.distance - f64::abs(height)).abs() <= required.off + 1e-9,
+                "{found:?}"
+            );
             let uv = found.uv.expect("on a sheet");
             assert!((uv.u - u).abs() < 1e-3 && (uv.v - v).abs() < 1e-3, "{uv:?}");
         }

@@ -55,11 +55,15 @@ fn casteljau(points: &[Vec3], t: f64) -> Vec3 {
 }
 
 fn along_u(rows: &[Vec<Vec3>]) -> Vec<Vec<Vec3>> {
-    rows.iter().map(|row| row.windows(2).map(|two| two[1] - two[0]).collect()).collect()
+    rows.iter()
+        .map(|row| row.windows(2).map(|two| two[1] - two[0]).collect())
+        .collect()
 }
 
 fn along_v(rows: &[Vec<Vec3>]) -> Vec<Vec<Vec3>> {
-    rows.windows(2).map(|two| two[1].iter().zip(&two[0]).map(|(b, a)| b - a).collect()).collect()
+    rows.windows(2)
+        .map(|two| two[1].iter().zip(&two[0]).map(|(b, a)| b - a).collect())
+        .collect()
 }
 
 fn largest(rows: &[Vec<Vec3>]) -> f64 {

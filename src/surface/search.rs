@@ -124,7 +124,10 @@ mod tests {
     #[test]
     fn the_top_lies_between_sample_and_bound() {
         let found = top(&Hill, 1, 0.0, 1e-6);
-        assert!(found.sampled <= 2.0 && found.bound >= 2.0 && found.bound - found.sampled < 2e-6, "{found:?}");
+        assert!(
+            found.sampled <= 2.0 && found.bound >= 2.0 && found.bound - found.sampled < 2e-6,
+            "{found:?}"
+        );
         assert!((found.at - 1.0 / 3.0).abs() < 1e-5);
         // what is reached elsewhere need not be looked for here
         let found = top(&Hill, 1, 5.0, 1e-6);

@@ -41,7 +41,10 @@ impl Sheet {
         match self {
             Self::Patch(patch) => patch.slopes(),
             Self::Grid(rows) => {
-                let along = rows.iter().flat_map(|row| row.windows(2)).map(|two| (two[1] - two[0]).norm());
+                let along = rows
+                    .iter()
+                    .flat_map(|row| row.windows(2))
+                    .map(|two| (two[1] - two[0]).norm());
                 let across = rows
                     .windows(2)
                     .flat_map(|two| two[1].iter().zip(&two[0]).map(|(b, a)| (b - a).norm()));
@@ -94,7 +97,9 @@ fn cut_grid(sheet: &Sheet, rows: &[Vec<Vec3>], tolerance: f64, most: usize) -> C
         .windows(2)
         .flat_map(|two| {
             let below = two[0].windows(2);
-            below.zip(two[1].windows(2)).map(|(a, b)| (a[0] - a[1] - b[0] + b[1]).norm())
+            below
+                .zip(two[1].windows(2))
+                .map(|(a, b)| (a[0] - a[1] - b[0] + b[1]).norm())
         })
         .fold(0.0, f64::max);
     let (columns, lines) = (rows[0].len() - 1, rows.len() - 1);
@@ -138,7 +143,11 @@ mod tests {
     fn grid() -> Sheet {
         Sheet::Grid(vec![
             vec![Vec3::zeros(), Vec3::new(10.0, 0.0, 0.0), Vec3::new(20.0, 0.0, 1.0)],
-            vec![Vec3::new(0.0, 5.0, 0.0), Vec3::new(10.0, 5.0, 3.0), Vec3::new(20.0, 5.0, 0.0)],
+            vec![
+                Vec3::new(0.0, 5.0, 0.0),
+                Vec3::new(10.0, 5.0, 3.0),
+                Vec3::new(20.0, 5.0, 0.0),
+            ],
         ])
     }
 
@@ -156,7 +165,11 @@ mod tests {
         for sheet in [grid(), Sheet::Patch(Patch::new(saddle_net()))] {
             for (tolerance, most) in [(0.01, 100_000), (0.01, 200)] {
                 let cut = sheet.cut(tolerance, most);
-                assert!(cut.triangles.len() <= most + most / 4, "{} triangles", cut.triangles.len());
+                assert!(
+                    cut.triangles.len() <= most + most / 4,
+                    "{} triangles",
+                    cut.triangles.len()
+                );
                 assert!(cut.off <= tolerance || most == 200, "{}", cut.off);
                 let mut worst = 0.0_f64;
                 for triangle in &cut.triangles {

@@ -16,7 +16,12 @@ pub(crate) fn gather(loaded: &Loaded, machine: &Machine, lines: Option<(u32, u32
         recorder: Recorder::new(machine),
         lines,
     };
-    trunnion_interp::run(&loaded.program, loaded.resolved.dialect, &loaded.resolved.setup, &mut gathering);
+    trunnion_interp::run(
+        &loaded.program,
+        loaded.resolved.dialect,
+        &loaded.resolved.setup,
+        &mut gathering,
+    );
     gathering.recorder.finish()
 }
 

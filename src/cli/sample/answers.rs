@@ -7,7 +7,13 @@ use std::io::Write;
 /// Prints them.
 pub(super) fn print(command: &Sample) -> Result<Done, Failure> {
     let piece = make::piece(command)?;
-    let finite = |value: f64| if value.is_finite() { json!(value) } else { json!("infinite") };
+    let finite = |value: f64| {
+        if value.is_finite() {
+            json!(value)
+        } else {
+            json!("infinite")
+        }
+    };
     let answers: Value = match command.piece {
         Kind::Cone => {
             let answers = make::cone_sizes(command).answers();
@@ -41,7 +47,8 @@ pub(super) fn print(command: &Sample) -> Result<Done, Failure> {
         }
     };
     let mut out = std::io::stdout().lock();
-    let document = json!({ "schema": "trunnion-answers/1", "piece": piece.name, "title": piece.title, "answers": answers });
+    let document =
+        json!({ "schema": "trunnion-answers/1", "piece": piece.name, "title": piece.title, "answers": answers });
     write_json(&mut out, &document)?;
     out.flush()?;
     Ok(Done::Clean)

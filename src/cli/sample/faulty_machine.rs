@@ -11,7 +11,9 @@ const OFF: f64 = 0.05;
 pub(super) fn pivot_off(name: &str) -> Result<String, Failure> {
     let text = match builtin_source(name) {
         Some(text) => text.to_owned(),
-        None => std::fs::read_to_string(name).map_err(|error| Failure::io(Path::new(name), "read the machine", &error))?,
+        None => {
+            std::fs::read_to_string(name).map_err(|error| Failure::io(Path::new(name), "read the machine", &error))?
+        }
     };
     let broken = |why: &str| Failure::new(format!("--plant pivot: machine {name}: {why}"));
     let mut table: Table = text.parse().map_err(|error: toml::de::Error| broken(error.message()))?;
@@ -27,13 +29,19 @@ pub(super) fn pivot_off(name: &str) -> Result<String, Failure> {
         let mut values = [0.0; 3];
         let list = axis.get(key).and_then(Value::as_array);
         for (slot, value) in values.iter_mut().zip(list.into_iter().flatten()) {
-            *slot = value.as_float().or_else(|| value.as_integer().map(|i| i as f64)).unwrap_or(0.0);
+            *slot = value
+                .as_float()
+                .or_else(|| value.as_integer().map(|i| i as f64))
+                .unwrap_or(0.0);
         }
         values
     };
     let (direction, mut point) = (triple(rotary, "dir"), triple(rotary, "point"));
     // of equal ones the last: across a tilting axis that is upwards
-    let across = (0..3).rev().min_by(|&a, &b| direction[a].abs().total_cmp(&direction[b].abs())).unwrap_or(2);
+    let across = (0..3)
+        .rev()
+        .min_by(|&a, &b| direction[a].abs().total_cmp(&direction[b].abs()))
+        .unwrap_or(2);
     point[across] += OFF;
     rotary.insert("point".into(), Value::Array(point.map(Value::Float).to_vec()));
     toml::to_string(&table).map_err(|error| broken(&error.to_string()))

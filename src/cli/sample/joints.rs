@@ -5,7 +5,9 @@ use crate::cli::failure::Failure;
 use core::f64::consts::TAU;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{ChainId, Feed, Motion, MotionKind, Orientation, Position};
-use trunnion_machine::{Follower, Joints, Limits, MAX_AXES, Machine, NoStance, Orientations, Solution, inverse, orientations};
+use trunnion_machine::{
+    Follower, Joints, Limits, MAX_AXES, Machine, NoStance, Orientations, Solution, inverse, orientations,
+};
 use trunnion_pieces::{Move, Piece};
 use trunnion_syntax::BlockId;
 
@@ -106,7 +108,8 @@ fn one_posture(
                 WindingChoice::Naive => value,
             };
         }
-        let joints = solve(machine, q, &step.tip).ok_or_else(|| refusal(index, step, "its linear axes cannot get there"))?;
+        let joints =
+            solve(machine, q, &step.tip).ok_or_else(|| refusal(index, step, "its linear axes cannot get there"))?;
         places.push(Place { joints });
     }
     Ok(places)
@@ -145,7 +148,11 @@ pub(super) fn swap_from_the_middle(piece: &Piece, machine: &Machine, places: &mu
             let off = s.q[1] - now[1];
             (off - TAU * (off / TAU).round()).abs()
         };
-        let Some(other) = postures.iter().max_by(|a, b| away(a).total_cmp(&away(b))).filter(|s| away(s) > 1e-6) else {
+        let Some(other) = postures
+            .iter()
+            .max_by(|a, b| away(a).total_cmp(&away(b)))
+            .filter(|s| away(s) > 1e-6)
+        else {
             continue;
         };
         for (slot, value) in q.iter_mut().zip(other.q) {
@@ -157,7 +164,9 @@ pub(super) fn swap_from_the_middle(piece: &Piece, machine: &Machine, places: &mu
         }
     }
     if swapped == 0 {
-        return Err(Failure::new("--plant swap: this machine has no second posture for these tool axes"));
+        return Err(Failure::new(
+            "--plant swap: this machine has no second posture for these tool axes",
+        ));
     }
     Ok(())
 }
@@ -169,7 +178,10 @@ pub(super) fn break_a_limit(machine: &Machine, places: &mut [Place]) -> Result<(
         for &joint in &machine.rotary {
             if let Limits::Range(low, high) = machine.axes[joint].limits {
                 let value = place.joints[joint];
-                for (room, beyond) in [(value - low, low - 0.1_f64.to_radians()), (high - value, high + 0.1_f64.to_radians())] {
+                for (room, beyond) in [
+                    (value - low, low - 0.1_f64.to_radians()),
+                    (high - value, high + 0.1_f64.to_radians()),
+                ] {
                     if nearest.is_none_or(|(least, ..)| room < least) {
                         nearest = Some((room, index, joint, beyond));
                     }

@@ -2,8 +2,8 @@
 use super::{Kind, Sample};
 use crate::cli::failure::Failure;
 use trunnion_pieces::{
-    CircleDiamondSquare, Cone, Piece, SWall, TurnedAxes, circle, circle_diamond_square, cone, corner_set, fixed_tip, s_wall,
-    saddle, staircase,
+    CircleDiamondSquare, Cone, Piece, SWall, TurnedAxes, circle, circle_diamond_square, cone, corner_set, fixed_tip,
+    s_wall, saddle, staircase,
 };
 
 /// The piece with its zero at the origin.
@@ -71,12 +71,24 @@ fn foreign_options(command: &Sample) -> Result<(), Failure> {
     let round = [Cone, CircleC, CircleA, CircleAc, FixedTip];
     let table: [(&str, bool, &[Kind]); 10] = [
         ("half-angle", command.half_angle.is_some(), &[Cone]),
-        ("tilt", command.tilt.is_some(), &[Cone, CircleC, CircleA, CircleAc, FixedTip, SWall]),
+        (
+            "tilt",
+            command.tilt.is_some(),
+            &[Cone, CircleC, CircleA, CircleAc, FixedTip, SWall],
+        ),
         ("radius", command.radius.is_some(), &round),
-        ("segments", command.segments.is_some(), &[Cone, CircleC, CircleA, CircleAc, FixedTip, Staircase]),
+        (
+            "segments",
+            command.segments.is_some(),
+            &[Cone, CircleC, CircleA, CircleAc, FixedTip, Staircase],
+        ),
         ("columns", command.columns.is_some(), &[Saddle]),
         ("rows", command.rows.is_some(), &[Saddle]),
-        ("size", command.size.is_some(), &[CornerSet, Staircase, CircleDiamondSquare]),
+        (
+            "size",
+            command.size.is_some(),
+            &[CornerSet, Staircase, CircleDiamondSquare],
+        ),
         ("lean", command.lean.is_some(), &[SWall]),
         ("waves", command.waves.is_some(), &[SWall]),
         ("chord", command.chord.is_some(), &[SWall]),

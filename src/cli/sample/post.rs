@@ -21,7 +21,11 @@ pub(super) struct Form<'a> {
 
 /// Cutter locations as an APT source: what every postprocessor reads.
 pub(super) fn apt(piece: &Piece) -> String {
-    let mut text = format!("PARTNO TRUNNION {}\n$$ {}\nUNITS/MM\n", piece.name.to_uppercase(), piece.title);
+    let mut text = format!(
+        "PARTNO TRUNNION {}\n$$ {}\nUNITS/MM\n",
+        piece.name.to_uppercase(),
+        piece.title
+    );
     let cutter = if piece.tool.ball {
         format!("{},{}", number(piece.tool.diameter), number(0.5 * piece.tool.diameter))
     } else {
@@ -95,7 +99,11 @@ pub(super) fn program(piece: &Piece, machine: &Machine, places: &[Place], form: 
 
 fn feed_scale(plant: Option<Plant>) -> f64 {
     // the number of an inch program in a metric one
-    if plant == Some(Plant::FeedUnit) { 1.0 / 25.4 } else { 1.0 }
+    if plant == Some(Plant::FeedUnit) {
+        1.0 / 25.4
+    } else {
+        1.0
+    }
 }
 
 /// G0, G1, G2, G3; arcs are programmed in the XY plane only, and only for pieces with a vertical tool.
@@ -181,11 +189,21 @@ impl Codes {
                     (true, Style::Vectors) => "G43.5",
                     (true, _) => "G43.4",
                 };
-                Ok(plain("%\nO0001 ", "G17 G21 G90 G94 G40", format!("{code} H{h}"), "G49\nM5\nM30\n%\n"))
+                Ok(plain(
+                    "%\nO0001 ",
+                    "G17 G21 G90 G94 G40",
+                    format!("{code} H{h}"),
+                    "G49\nM5\nM30\n%\n",
+                ))
             }
             "haas-ngc" if form.style != Style::Vectors => {
                 let code = if tcp { "G234" } else { "G43" };
-                Ok(plain("%\nO00001 ", "G17 G21 G90 G94 G40", format!("{code} H{h}"), "G49\nM5\nM30\n%\n"))
+                Ok(plain(
+                    "%\nO00001 ",
+                    "G17 G21 G90 G94 G40",
+                    format!("{code} H{h}"),
+                    "G49\nM5\nM30\n%\n",
+                ))
             }
             "sinumerik-840d" => Ok(Self {
                 comment: ("; ", ""),
@@ -196,11 +214,19 @@ impl Codes {
             }),
             "linuxcnc" if form.style != Style::Vectors => {
                 let (on, off) = if tcp { ("\nM428", "M429\n") } else { ("", "") };
-                Ok(plain("%\n", "G17 G21 G90 G94 G40 G64 P0.01", format!("G43 H{h}{on}"), &format!("{off}G49\nM5\nM2\n%\n")))
+                Ok(plain(
+                    "%\n",
+                    "G17 G21 G90 G94 G40 G64 P0.01",
+                    format!("G43 H{h}{on}"),
+                    &format!("{off}G49\nM5\nM2\n%\n"),
+                ))
             }
-            "iso-6983" if form.style == Style::Joints => {
-                Ok(plain("%\n", "G17 G21 G90 G94 G40", format!("G43 H{h}"), "G49\nM5\nM30\n%\n"))
-            }
+            "iso-6983" if form.style == Style::Joints => Ok(plain(
+                "%\n",
+                "G17 G21 G90 G94 G40",
+                format!("G43 H{h}"),
+                "G49\nM5\nM30\n%\n",
+            )),
             "grbl" if form.style == Style::Joints => {
                 let mut codes = plain("", "G17 G21 G90 G94", String::new(), "M5\nM2\n");
                 codes.compensates = false;
@@ -226,7 +252,11 @@ impl Codes {
             } else {
                 String::new()
             };
-            let _ = writeln!(text, "{open}trunnion: tool {number} {size}length {}{close}", self::number(length));
+            let _ = writeln!(
+                text,
+                "{open}trunnion: tool {number} {size}length {}{close}",
+                self::number(length)
+            );
         };
         if self.compensates {
             declare(1, TOOL_LENGTH);
@@ -234,7 +264,11 @@ impl Codes {
                 declare(2, WRONG_LENGTH);
             }
         }
-        let offset = if form.plant == Some(Plant::ShiftG54) { "G55" } else { "G54" };
+        let offset = if form.plant == Some(Plant::ShiftG54) {
+            "G55"
+        } else {
+            "G54"
+        };
         let _ = writeln!(text, "{} {offset}\nT1 M6\nS{SPINDLE} M3", self.modes);
         if !self.on.is_empty() {
             let _ = writeln!(text, "{}", self.on);
@@ -272,7 +306,10 @@ mod tests {
 
     #[test]
     fn numbers_are_short_and_keep_their_point() {
-        assert_eq!([10.0, -0.000_000_1, 1.25, -3.125_000_4].map(number), ["10.0", "0.0", "1.25", "-3.125"]);
+        assert_eq!(
+            [10.0, -0.000_000_1, 1.25, -3.125_000_4].map(number),
+            ["10.0", "0.0", "1.25", "-3.125"]
+        );
         assert_eq!(fixed(0.123_456_789, 9), "0.123456789");
     }
 }

@@ -12,8 +12,16 @@ const ALONG: usize = 3200;
 pub(super) fn surface(command: &Sample, origin: Vec3) -> Result<String, Failure> {
     let (kind, about, rows) = match command.piece {
         Kind::Saddle => ("patch", "degree 4 x 4, the exact saddle", saddle_net()),
-        Kind::SWall => ("grid", "the wall, lower edge first", make::wall_sizes(command).grid(ALONG)),
-        _ => return Err(Failure::new("--required: only the saddle and the s-wall have a surface to be compared with")),
+        Kind::SWall => (
+            "grid",
+            "the wall, lower edge first",
+            make::wall_sizes(command).grid(ALONG),
+        ),
+        _ => {
+            return Err(Failure::new(
+                "--required: only the saddle and the s-wall have a surface to be compared with",
+            ));
+        }
     };
     let mut text = format!("schema = \"trunnion-surface/1\"\n# {about}\n[[{kind}]]\nrows = [\n");
     for row in rows {

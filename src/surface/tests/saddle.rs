@@ -20,7 +20,11 @@ fn legs(machine: &Machine, piece: &Piece, naive: bool) -> Vec<Leg> {
             Orientations::Postures(all) => all.iter().find(|s| s.q[1] >= 0.0).expect("A >= 0").q,
             Orientations::Unreachable(_) => panic!("reachable"),
         };
-        c = if naive { solved[0] } else { solved[0] + TAU * ((c - solved[0]) / TAU).round() };
+        c = if naive {
+            solved[0]
+        } else {
+            solved[0] + TAU * ((c - solved[0]) / TAU).round()
+        };
         let mut joints = [0.0; MAX_AXES];
         for (&joint, value) in machine.rotary.iter().zip([c, solved[1]]) {
             joints[joint] = value;
@@ -35,7 +39,11 @@ fn legs(machine: &Machine, piece: &Piece, naive: bool) -> Vec<Leg> {
         legs.push(follower.follow(&Motion {
             block: BlockId(index as u32),
             chain: ChainId::MAIN,
-            kind: if index == 0 { MotionKind::Rapid } else { MotionKind::Linear },
+            kind: if index == 0 {
+                MotionKind::Rapid
+            } else {
+                MotionKind::Linear
+            },
             start,
             end,
             orientation: Orientation::Words,
@@ -77,7 +85,10 @@ fn moved_net() -> String {
         format!("[{}]", points.join(", "))
     };
     let rows: Vec<String> = saddle_net().iter().map(row).collect();
-    format!("schema = \"trunnion-surface/1\"\n[[patch]]\nrows = [{}]\n", rows.join(", "))
+    format!(
+        "schema = \"trunnion-surface/1\"\n[[patch]]\nrows = [{}]\n",
+        rows.join(", ")
+    )
 }
 
 /// The published maxima are those at the middle of a block; the largest of the whole block lies a little above them.
@@ -85,7 +96,12 @@ fn moved_net() -> String {
 fn the_saddle_strays_as_published() {
     let machine = builtin("mikron-ucp710").expect("built in");
     let surface = required(&moved_net(), false, 0.01).expect("a surface");
-    for (columns, naive, middle) in [(20, true, 104.155), (20, false, 12.937), (40, false, 5.666), (80, false, 1.763)] {
+    for (columns, naive, middle) in [
+        (20, true, 104.155),
+        (20, false, 12.937),
+        (40, false, 5.666),
+        (80, false, 1.763),
+    ] {
         let piece = saddle(columns, 20, 500.0).expect("a piece");
         let legs = legs(machine, &piece, naive);
         let errors = judge(machine, &surface, &legs, 0.01);
@@ -94,11 +110,17 @@ fn the_saddle_strays_as_published() {
         assert_eq!((errors.apart, errors.farthest_apart.round()), (2, 20.0));
         let at_half = legs[2..legs.len() - 1].iter().map(off_at_half).fold(0.0, f64::max);
         assert!((at_half - middle).abs() < 1e-3, "{columns}: {at_half}");
-        assert!(found.sampled >= at_half - 1e-9 && found.bound < middle * 1.003, "{columns}: {found:?}");
+        assert!(
+            found.sampled >= at_half - 1e-9 && found.bound < middle * 1.003,
+            "{columns}: {found:?}"
+        );
         assert_eq!((errors.not_judged, errors.placed), (0, errors.judged));
         // the same place is farther away than the nearest point of the segment, the nearest point of the surface is nearer
         let (same, surface) = (errors.same_place.expect("known"), errors.from_surface.expect("known"));
-        assert!(same.sampled > found.sampled && surface.sampled < same.sampled, "{errors:?}");
+        assert!(
+            same.sampled > found.sampled && surface.sampled < same.sampled,
+            "{errors:?}"
+        );
         for one in [same, surface] {
             assert!(one.bound >= one.sampled && one.bound <= one.sampled + 0.03, "{one:?}");
         }
@@ -166,7 +188,11 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
             let leg = follower.follow(&Motion {
                 block: BlockId(index as u32),
                 chain: ChainId::MAIN,
-                kind: if index == 0 || index + 1 == count { MotionKind::Rapid } else { MotionKind::Linear },
+                kind: if index == 0 || index + 1 == count {
+                    MotionKind::Rapid
+                } else {
+                    MotionKind::Linear
+                },
                 start,
                 end,
                 orientation: Orientation::Vector(None, step.axis),
@@ -186,7 +212,10 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
         }
         let found = judge.finish().from_surface.expect("known");
         // the tip runs on chords of the lower edge: beside the wall by at most their error, and by nearly that somewhere
-        assert!(found.sampled <= chord + 1e-3 && found.sampled > 0.2 * chord, "{chord}: {found:?}");
+        assert!(
+            found.sampled <= chord + 1e-3 && found.sampled > 0.2 * chord,
+            "{chord}: {found:?}"
+        );
         assert!(found.bound <= found.sampled + wall.off + 2e-4);
         // the exact distance at that place: the wall by its formula, searched in fine steps
         let exact = (0..=16_000)
@@ -196,7 +225,11 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
             .flat_map(|i| (0..=10).map(move |j| (f64::from(i), f64::from(j))))
             .map(|(i, j)| (found.point - sizes.wall(160.0 * i / 100.0, j / 10.0)).norm())
             .fold(f64::MAX, f64::min);
-        assert!((found.sampled - exact.min(inner)).abs() < 6e-3, "{chord}: {} and {exact}, {inner}", found.sampled);
+        assert!(
+            (found.sampled - exact.min(inner)).abs() < 6e-3,
+            "{chord}: {} and {exact}, {inner}",
+            found.sampled
+        );
         assert!(found.sampled < before);
         before = found.sampled;
     }

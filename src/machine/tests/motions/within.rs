@@ -75,7 +75,10 @@ fn with_tcp_the_tip_keeps_to_its_line_and_to_its_arc() {
     assert!((middle.tip - Vec3::new(0.0, 15.0, 6.5)).norm() < 1e-9);
     // joint-linear rotaries: the middle of C is the middle of its words
     let c = machine.joint(b'C').expect("C");
-    let (a, b) = (leg.start.expect("known").joints[c], leg.end.clone().expect("known").joints[c]);
+    let (a, b) = (
+        leg.start.expect("known").joints[c],
+        leg.end.clone().expect("known").joints[c],
+    );
     assert!((deg(middle.joints[c]) - deg(0.5 * (a + b))).abs() < 1e-9);
 
     let (start, end) = (Vec3::new(10.0, 0.0, 5.0), Vec3::new(-10.0, 0.0, 5.0));

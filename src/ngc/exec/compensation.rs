@@ -83,7 +83,8 @@ fn by_tool(engine: &mut Engine, block: &Block) -> Result<(f64, i32), Error> {
     let Some(tool) = engine.state.tools.get(row) else {
         return Ok((0.0, 0));
     };
-    if tool.orientation != 0 && engine.state.plane != Plane::Xz {
+    // 9 is the middle of the edge, as of a mill
+    if !matches!(tool.orientation, 0 | 9) && engine.state.plane != Plane::Xz {
         return Err(named(&LATHE_TOOL, block, block.g_range[7]));
     }
     let unit = access::unit_of(engine.setup.machine_units, engine.state.units);

@@ -9,5 +9,7 @@ mod fix;
 mod fmt;
 mod hostile;
 mod machines;
+mod pictures;
+mod pieces;
 mod stats;
 mod tools;

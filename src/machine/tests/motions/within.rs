@@ -42,7 +42,7 @@ fn without_tcp_the_way_strays_as_far_as_the_deviation_says() {
     let mut strayed = 0;
     for case in 0..60 {
         let machine = random_machine(&mut random, case % 2 == 0, "joint");
-        let mut spot = |random: &mut Random| {
+        let spot = |random: &mut Random| {
             let linear = |random: &mut Random| random.range(-200.0, 200.0);
             let words = [
                 (b'X', linear(random)),

@@ -35,13 +35,25 @@ fn the_saddle_in_numbers_and_as_a_map() {
     for (windings, middle) in [("naive", 104.155), ("nearest", 12.937)] {
         let (file, part) = saddle(&folder, "saddle.mpf", windings);
         let map = folder.path().join("map.svg");
-        let common = ["surface", str(&file), "--required", str(&part), "--machine", MACHINE, "--close", "0.01"];
+        let common = [
+            "surface",
+            str(&file),
+            "--required",
+            str(&part),
+            "--machine",
+            MACHINE,
+            "--close",
+            "0.01",
+        ];
         let output = trunnion(&[&common[..], &["--format", "json", "--plot", str(&map)]].concat());
         assert_eq!(status(&output), 0, "{}", text(&output.stderr));
         let errors = json(&output)["errors"].clone();
         let segment = errors["from_segment"]["sampled_mm"].as_f64().expect("a number");
         // the published value is that in the middle of the block
-        assert!(segment >= middle - 1e-3 && segment < middle * 1.001, "{windings}: {segment}");
+        assert!(
+            segment >= middle - 1e-3 && segment < middle * 1.001,
+            "{windings}: {segment}"
+        );
         let number = |sense: &str, key: &str| errors[sense][key].as_f64().expect("a number");
         assert!(number("same_place", "sampled_mm") > segment);
         assert!(number("from_surface", "sampled_mm") < segment);
@@ -60,7 +72,11 @@ fn surfaces_that_cannot_be_read_are_refused_with_their_place() {
     let folder = TempDir::new().expect("works");
     let (file, _) = saddle(&folder, "saddle.mpf", "nearest");
     for (name, content, word) in [
-        ("a.toml", "schema = \"trunnion-surface/1\"\n[[grid]]\nrow = 1\n", "a.toml: 3:1: unknown field"),
+        (
+            "a.toml",
+            "schema = \"trunnion-surface/1\"\n[[grid]]\nrow = 1\n",
+            "a.toml: 3:1: unknown field",
+        ),
         ("a.json", "{", "a.json: 1:1"),
         ("a.stl", "solid\nfacet", "STL"),
     ] {
@@ -76,9 +92,28 @@ fn an_stl_is_a_surface_too() {
     let folder = TempDir::new().expect("works");
     let stl = "solid plane\nfacet normal 0 0 1\nouter loop\nvertex -100 -100 -1\nvertex 300 -100 -1\nvertex -100 300 -1\nendloop\nendfacet\nendsolid plane\n";
     let part = write(&folder, "plane.stl", stl);
-    let file = write(&folder, "a.nc", "G21 G90 G17 G94\nS1 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX20 Z-1.25\nM30\n");
-    let refused = trunnion(&["surface", str(&file), "--required", str(&part), "--machine", "mill-3axis", "--dialect", "fanuc-30i", "--lines", "4-4"]);
-    assert!(text(&refused.stderr).contains("farther than 1 mm"), "{}", text(&refused.stderr));
+    let file = write(
+        &folder,
+        "a.nc",
+        "G21 G90 G17 G94\nS1 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX20 Z-1.25\nM30\n",
+    );
+    let refused = trunnion(&[
+        "surface",
+        str(&file),
+        "--required",
+        str(&part),
+        "--machine",
+        "mill-3axis",
+        "--dialect",
+        "fanuc-30i",
+        "--lines",
+        "4-4",
+    ]);
+    assert!(
+        text(&refused.stderr).contains("farther than 1 mm"),
+        "{}",
+        text(&refused.stderr)
+    );
     let output = trunnion(&[
         "surface",
         str(&file),
@@ -94,7 +129,10 @@ fn an_stl_is_a_surface_too() {
     let document = json(&output);
     let errors = document["errors"].clone();
     // the plunge starts 6 mm above and is no part of the surface
-    assert_eq!((document["apart"].as_u64(), document["farthest_apart_mm"].as_f64()), (Some(1), Some(6.0)));
+    assert_eq!(
+        (document["apart"].as_u64(), document["farthest_apart_mm"].as_f64()),
+        (Some(1), Some(6.0))
+    );
     assert_eq!(errors["from_surface"]["sampled_mm"], 0.25);
     assert_eq!(errors["from_surface"]["side"], "gouge");
     assert!(errors["same_place"].is_null());
@@ -105,12 +143,33 @@ fn pictures_are_whole_and_labelled() {
     let folder = TempDir::new().expect("works");
     let file = write(&folder, "flip.nc", FLIP);
     for (kind, words) in [
-        ("joints", &["C / deg", "X / mm", "way of the tool tip / mm", "pole-flip", "limits"][..]),
-        ("axis-plane", &["i of the tool axis", "line 10", "pole cone 2 deg", "equal C", "pole-flip"]),
+        (
+            "joints",
+            &["C / deg", "X / mm", "way of the tool tip / mm", "pole-flip", "limits"][..],
+        ),
+        (
+            "axis-plane",
+            &[
+                "i of the tool axis",
+                "line 10",
+                "pole cone 2 deg",
+                "equal C",
+                "pole-flip",
+            ],
+        ),
         ("deviation", &["way of the tool tip / mm", "tolerance 0.01 mm"]),
         ("path", &["Y / mm", "feed", "rapid"]),
     ] {
-        let output = trunnion(&["plot", str(&file), "--kind", kind, "--machine", MACHINE, "--dialect", "fanuc-30i"]);
+        let output = trunnion(&[
+            "plot",
+            str(&file),
+            "--kind",
+            kind,
+            "--machine",
+            MACHINE,
+            "--dialect",
+            "fanuc-30i",
+        ]);
         assert_eq!(status(&output), 0, "{kind}: {}", text(&output.stderr));
         let picture = text(&output.stdout);
         assert!(picture.starts_with("<svg width=\"1200\" height=\"800\"") && picture.trim_end().ends_with("</svg>"));
@@ -128,10 +187,28 @@ fn what_cannot_be_drawn_is_refused_with_a_reason() {
     let empty = write(&folder, "empty.nc", "G21\nM30\n");
     let common = ["--dialect", "fanuc-30i"];
     for (arguments, word) in [
-        (vec!["plot", str(&file), "--kind", "axis-plane", "--machine", "mill-3axis"], "two rotary axes"),
-        (vec!["plot", str(&empty), "--kind", "path", "--machine", MACHINE], "nothing to draw"),
+        (
+            vec!["plot", str(&file), "--kind", "axis-plane", "--machine", "mill-3axis"],
+            "two rotary axes",
+        ),
+        (
+            vec!["plot", str(&empty), "--kind", "path", "--machine", MACHINE],
+            "nothing to draw",
+        ),
         (vec!["plot", str(&file), "--kind", "path"], "needs a machine"),
-        (vec!["plot", str(&file), "--kind", "path", "--machine", MACHINE, "--lines", "9-3"], "--lines"),
+        (
+            vec![
+                "plot",
+                str(&file),
+                "--kind",
+                "path",
+                "--machine",
+                MACHINE,
+                "--lines",
+                "9-3",
+            ],
+            "--lines",
+        ),
     ] {
         let output = trunnion(&[&arguments[..], &common[..]].concat());
         assert_eq!(status(&output), 2, "{arguments:?}");

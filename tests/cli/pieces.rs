@@ -30,12 +30,26 @@ fn column(rows: &Value, name: &str) -> Vec<f64> {
 }
 
 fn trace(file: &PathBuf, machine: &str) -> Value {
-    json(&trunnion(&["trace", str(file), "--machine", machine, "--format", "json"]))
+    json(&trunnion(&[
+        "trace",
+        str(file),
+        "--machine",
+        machine,
+        "--format",
+        "json",
+    ]))
 }
 
 /// The rules that a check reports, infos about settings aside.
 fn findings(file: &PathBuf, machine: &str) -> BTreeSet<String> {
-    let report = json(&trunnion(&["check", str(file), "--machine", machine, "--format", "json"]));
+    let report = json(&trunnion(&[
+        "check",
+        str(file),
+        "--machine",
+        machine,
+        "--format",
+        "json",
+    ]));
     let all = report["files"][0]["diagnostics"].as_array().expect("a list").iter();
     all.map(|one| one["rule"].as_str().expect("a name").to_owned())
         .filter(|rule| !["work-offset-unset", "tool-length-unset"].contains(&rule.as_str()))
@@ -60,18 +74,33 @@ fn the_cone_family_has_its_numbers_in_the_trace() {
     let folder = TempDir::new().expect("works");
     for (half, tilt, range, travel, most) in FAMILY {
         let (half_text, tilt_text) = (half.to_string(), tilt.to_string());
-        let sizes = ["cone", "--half-angle", &half_text, "--tilt", &tilt_text, "--segments", "3600"];
+        let sizes = [
+            "cone",
+            "--half-angle",
+            &half_text,
+            "--tilt",
+            &tilt_text,
+            "--segments",
+            "3600",
+        ];
         let rows = trace(&sample(&folder, "cone.apt", &sizes), MACHINE);
         let what = format!("cone {half}/{tilt}");
         let (a, c) = (column(&rows, "joint_a"), column(&rows, "joint_c"));
         assert_eq!(a.len(), 3601, "{what}");
-        let ends = |values: &[f64]| values.iter().fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+        let ends = |values: &[f64]| {
+            values
+                .iter()
+                .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)))
+        };
         let ((low, high), (first, last)) = (ends(&a), ends(&c));
         near(low.abs().min(high.abs()), range[0], &what);
         near(low.abs().max(high.abs()), range[1], &what);
         near(last - first, travel, &what);
         let psi = 360.0 / 3600.0;
-        let fastest = c.windows(2).map(|two| (two[1] - two[0]).abs() / psi).fold(0.0, f64::max);
+        let fastest = c
+            .windows(2)
+            .map(|two| (two[1] - two[0]).abs() / psi)
+            .fold(0.0, f64::max);
         // what a block turns on average: beside the pole less than the moment nearest to it
         near(fastest, block_mean(half, tilt, TAU / 3600.0), &what);
         if most < 100.0 {
@@ -86,7 +115,11 @@ fn the_cone_family_has_its_numbers_in_the_trace() {
             .filter_map(|row| row["feed_limit_mm_min"].as_f64())
             .fold(f64::MAX, f64::min);
         near(least, 60.0 * rad(120.0) * radius / fastest, &what);
-        near(answers["answers"]["turn_per_psi_max"].as_f64().expect("a number"), most, &what);
+        near(
+            answers["answers"]["turn_per_psi_max"].as_f64().expect("a number"),
+            most,
+            &what,
+        );
     }
 }
 
@@ -103,7 +136,10 @@ fn finer_blocks_come_to_the_rate_at_the_pole() {
     let sizes = ["cone", "--tilt", "14.9", "--segments", "36000"];
     let rows = trace(&sample(&folder, "cone.apt", &sizes), MACHINE);
     let c = column(&rows, "joint_c");
-    let fastest = c.windows(2).map(|two| (two[1] - two[0]).abs() * 100.0).fold(0.0, f64::max);
+    let fastest = c
+        .windows(2)
+        .map(|two| (two[1] - two[0]).abs() * 100.0)
+        .fold(0.0, f64::max);
     near(fastest, 148.29, "36000 blocks");
 }
 
@@ -115,7 +151,11 @@ fn through_the_pole_the_turning_axis_keeps_its_side() {
     let c = column(&rows, "joint_c");
     let travel = c.iter().fold(f64::MIN, |h, v| h.max(*v)) - c.iter().fold(f64::MAX, |l, v| l.min(*v));
     near(travel, 180.0, "C");
-    assert!(findings(&file, MACHINE).contains("pole-crossing"), "{:?}", findings(&file, MACHINE));
+    assert!(
+        findings(&file, MACHINE).contains("pole-crossing"),
+        "{:?}",
+        findings(&file, MACHINE)
+    );
 }
 
 #[test]
@@ -125,7 +165,11 @@ fn circles_and_the_fixed_tip_have_no_deviation_under_tool_centre_point_control()
         for piece in ["circle-c", "circle-a", "circle-ac", "fixed-tip"] {
             for (dialect, style) in [("fanuc-30i", "words"), ("sinumerik-840d", "vectors")] {
                 let options = [piece, "--machine", machine, "--dialect", dialect, "--style", style];
-                let file = sample(&folder, &format!("{piece}.{}", if dialect == "fanuc-30i" { "nc" } else { "mpf" }), &options);
+                let file = sample(
+                    &folder,
+                    &format!("{piece}.{}", if dialect == "fanuc-30i" { "nc" } else { "mpf" }),
+                    &options,
+                );
                 let rows = json(&trunnion(&[
                     "trace",
                     str(&file),
@@ -137,7 +181,10 @@ fn circles_and_the_fixed_tip_have_no_deviation_under_tool_centre_point_control()
                     "json",
                 ]));
                 let deviation = column(&rows, "tip_deviation_mm");
-                assert!(deviation.len() > 300 && deviation.iter().all(|d| *d == 0.0), "{machine} {piece} {dialect}");
+                assert!(
+                    deviation.len() > 300 && deviation.iter().all(|d| *d == 0.0),
+                    "{machine} {piece} {dialect}"
+                );
                 if piece == "fixed-tip" {
                     let still = |name: &str, at: f64| column(&rows, name)[1..].iter().all(|v| (v - at).abs() < 1e-6);
                     assert!(still("x_mm", 40.0) && still("y_mm", 0.0), "{machine} {dialect}");
@@ -164,9 +211,30 @@ fn good_pieces_are_posted_for_machines_and_dialects() {
             ("sinumerik-840d", "vectors"),
         ] {
             let what = format!("{machine} {dialect} {style}");
-            let options = ["cone", "--tilt", "10", "--feed", "200", "--machine", machine, "--dialect", dialect, "--style", style];
+            let options = [
+                "cone",
+                "--tilt",
+                "10",
+                "--feed",
+                "200",
+                "--machine",
+                machine,
+                "--dialect",
+                dialect,
+                "--style",
+                style,
+            ];
             let file = sample(&folder, "cone.nc", &options);
-            let report = json(&trunnion(&["check", str(&file), "--machine", machine, "--dialect", dialect, "--format", "json"]));
+            let report = json(&trunnion(&[
+                "check",
+                str(&file),
+                "--machine",
+                machine,
+                "--dialect",
+                dialect,
+                "--format",
+                "json",
+            ]));
             let all = report["files"][0]["diagnostics"].as_array().expect("a list").iter();
             let worse: BTreeSet<String> = all
                 .filter(|one| one["severity"] != "info")
@@ -175,11 +243,35 @@ fn good_pieces_are_posted_for_machines_and_dialects() {
             allowed(&worse, &[], &what);
         }
     }
-    for dialect in ["fanuc-30i", "haas-ngc", "sinumerik-840d", "linuxcnc", "iso-6983", "grbl"] {
+    for dialect in [
+        "fanuc-30i",
+        "haas-ngc",
+        "sinumerik-840d",
+        "linuxcnc",
+        "iso-6983",
+        "grbl",
+    ] {
         for piece in ["circle-diamond-square", "corner-set", "staircase"] {
-            let options = [piece, "--machine", "mill-3axis", "--dialect", dialect, "--style", "joints"];
+            let options = [
+                piece,
+                "--machine",
+                "mill-3axis",
+                "--dialect",
+                dialect,
+                "--style",
+                "joints",
+            ];
             let file = sample(&folder, "flat.nc", &options);
-            let rows = json(&trunnion(&["trace", str(&file), "--machine", "mill-3axis", "--dialect", dialect, "--format", "json"]));
+            let rows = json(&trunnion(&[
+                "trace",
+                str(&file),
+                "--machine",
+                "mill-3axis",
+                "--dialect",
+                dialect,
+                "--format",
+                "json",
+            ]));
             let apt = sample(&folder, "flat.apt", &[piece]);
             let wanted = trace(&apt, "mill-3axis");
             let ends = |rows: &Value| -> Vec<[f64; 2]> {
@@ -191,7 +283,10 @@ fn good_pieces_are_posted_for_machines_and_dialects() {
             let (found, wanted) = (ends(&rows), ends(&wanted));
             assert_eq!(found.len(), wanted.len(), "{dialect} {piece}");
             let off = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
-            assert!(found.iter().zip(&wanted).map(off).all(|off| off < 1e-5), "{dialect} {piece}");
+            assert!(
+                found.iter().zip(&wanted).map(off).all(|off| off < 1e-5),
+                "{dialect} {piece}"
+            );
         }
     }
 }
@@ -199,11 +294,28 @@ fn good_pieces_are_posted_for_machines_and_dialects() {
 #[test]
 fn planted_faults_are_found() {
     let folder = TempDir::new().expect("works");
-    let cone = ["cone", "--segments", "360", "--feed", "100", "--machine", MACHINE, "--dialect", "fanuc-30i"];
+    let cone = [
+        "cone",
+        "--segments",
+        "360",
+        "--feed",
+        "100",
+        "--machine",
+        MACHINE,
+        "--dialect",
+        "fanuc-30i",
+    ];
     let good = sample(&folder, "good.nc", &cone);
-    let planted = |fault: &str| sample(&folder, &format!("{fault}.nc"), &[&cone[..], &["--plant", fault]].concat());
+    let planted = |fault: &str| {
+        sample(
+            &folder,
+            &format!("{fault}.nc"),
+            &[&cone[..], &["--plant", fault]].concat(),
+        )
+    };
     let clean = findings(&good, MACHINE);
-    let new = |fault: &str| -> BTreeSet<String> { findings(&planted(fault), MACHINE).difference(&clean).cloned().collect() };
+    let new =
+        |fault: &str| -> BTreeSet<String> { findings(&planted(fault), MACHINE).difference(&clean).cloned().collect() };
     assert!(new("swap").contains("branch-swap"), "{:?}", new("swap"));
     assert!(new("limit").contains("axis-limit"), "{:?}", new("limit"));
     assert!(new("no-tcp").contains("path-deviation"), "{:?}", new("no-tcp"));
@@ -222,8 +334,16 @@ fn planted_faults_are_found() {
 #[test]
 fn a_pivot_that_is_off_moves_the_fixed_tip() {
     let folder = TempDir::new().expect("works");
-    let faulty = sample(&folder, "off.toml", &["fixed-tip", "--machine", MACHINE, "--plant", "pivot"]);
-    let file = sample(&folder, "still.mpf", &["fixed-tip", "--tilt", "30", "--machine", MACHINE, "--style", "joints"]);
+    let faulty = sample(
+        &folder,
+        "off.toml",
+        &["fixed-tip", "--machine", MACHINE, "--plant", "pivot"],
+    );
+    let file = sample(
+        &folder,
+        "still.mpf",
+        &["fixed-tip", "--tilt", "30", "--machine", MACHINE, "--style", "joints"],
+    );
     let spread = |machine: &str| -> f64 {
         let rows = trace(&file, machine);
         let still = |name: &str| {
@@ -246,12 +366,40 @@ fn what_cannot_be_made_is_refused_with_a_reason() {
         (&["sample", "cone", "--machine", "mill-3axis"], "rotary axes"),
         (&["sample", "cone", "--plant", "swap"], "needs a machine"),
         (&["sample", "cone", "--machine", MACHINE, "--dialect", "grbl"], "grbl"),
-        (&["sample", "cone", "--machine", MACHINE, "--style", "vectors", "--plant", "swap"], "vectors"),
-        (&["sample", "cone", "--half-angle", "70", "--tilt", "60", "--machine", MACHINE], "half angle + tilt"),
+        (
+            &[
+                "sample",
+                "cone",
+                "--machine",
+                MACHINE,
+                "--style",
+                "vectors",
+                "--plant",
+                "swap",
+            ],
+            "vectors",
+        ),
+        (
+            &[
+                "sample",
+                "cone",
+                "--half-angle",
+                "70",
+                "--tilt",
+                "60",
+                "--machine",
+                MACHINE,
+            ],
+            "half angle + tilt",
+        ),
         (&["sample", "saddle", "--answers"], "closed-form"),
     ] {
         let output = trunnion(arguments);
         assert_eq!(status(&output), 2, "{arguments:?}");
-        assert!(text(&output.stderr).contains(word), "{arguments:?}: {}", text(&output.stderr));
+        assert!(
+            text(&output.stderr).contains(word),
+            "{arguments:?}: {}",
+            text(&output.stderr)
+        );
     }
 }

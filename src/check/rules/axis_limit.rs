@@ -128,7 +128,7 @@ mod tests {
     fn a_limit_broken_between_two_legal_ends_is_found() {
         assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",
-            "TRAORI\nG0 X0 Y0 Z410 A-25 C0\nG1 X200 A40 F500\n;^^^^^^^^^^^^^^^ axis-limit: Z reaches 410 mm inside the block, while both ends are legal, 10 mm beyond its limit of 400 mm\n;       ^^^ pole-crossing: \nM30\n",
+            "TRAORI\nG0 X0 Y0 Z410 A-25 C0\nG1 X200 A40 F500\n;^^^^^^^^^^^^^^^ axis-limit: Z reaches 410 mm inside the block, while both ends are legal, 10 mm beyond its limit of 400 mm\n;       ^^^ only-one-posture: \n;       ^^^ pole-crossing: \nM30\n",
         );
         assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",

@@ -124,7 +124,7 @@ mod tests {
     fn axes_that_run_beyond_their_ends_are_noted() {
         let report = assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",
-            "TRAORI\nG0 X0 Y0 Z100 A-25 C0\nG1 X1 A40 F50\n;^^^^^^^^^^^^ excess-linear-travel: \n;     ^^^ pole-crossing: \nM30\n",
+            "TRAORI\nG0 X0 Y0 Z100 A-25 C0\nG1 X1 A40 F50\n;^^^^^^^^^^^^ excess-linear-travel: \n;     ^^^ only-one-posture: \n;     ^^^ pole-crossing: \nM30\n",
         );
         let notes = &report.diagnostics[0].notes;
         // Z: 100 cos 25 deg = 90.6, 100, 76.6

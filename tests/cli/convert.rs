@@ -31,12 +31,6 @@ fn a_sample_for_every_control() {
             "%\nO1234 (SMALL PIECE)\n",
         ),
         (&piece, five, &["--to", "haas-ngc", "--units", "inch"], "G234 H1\n"),
-        (
-            &piece,
-            five,
-            &["--to", "linuxcnc"],
-            "G43 H1\nM428\nG0 X0 Y0 Z50 A0 C0\n",
-        ),
         (&plate, three, &["--to", "iso-6983"], "G3 X20 Y10 I-10 J0\n"),
         (&plate, three, &["--to", "grbl"], "T2\nM0\nS8000 M4\n"),
         (

@@ -17,7 +17,7 @@ fn options(tcp: bool) -> Options {
 #[test]
 fn every_control_has_its_words() {
     let mut all = String::new();
-    for dialect in ["sinumerik-840d", "fanuc-30i", "haas-ngc", "linuxcnc"] {
+    for dialect in ["sinumerik-840d", "fanuc-30i", "haas-ngc"] {
         let written = text(to((PIECE, "apt", ""), dialect, "mikron-ucp710", &options(true)));
         let _ = write!(all, "--- {dialect}\n{written}");
     }

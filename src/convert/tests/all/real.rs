@@ -126,7 +126,11 @@ fn one_part_of_two_controls_gives_the_same_cl_data() {
         return;
     };
     let mikron = trunnion_machine::builtin_source("mikron-ucp710").expect("built in");
-    let wide = mikron.replace("limits = [-30, 120]", "limits = [-120, 120]");
+    let wide = mikron
+        .split("[[check]]")
+        .next()
+        .expect("a machine")
+        .replace("limits = [-30, 120]", "limits = [-120, 120]");
     let machine = trunnion_machine::load("wide", &wide).expect("valid");
     let head = |path: PathBuf| {
         let text = std::fs::read(path).expect("readable");
@@ -162,7 +166,11 @@ fn the_impeller_comes_back_from_cl_data() {
     };
     let text = std::fs::read(path).expect("readable");
     let mikron = trunnion_machine::builtin_source("mikron-ucp710").expect("built in");
-    let wide = mikron.replace("limits = [-30, 120]", "limits = [-120, 120]");
+    let wide = mikron
+        .split("[[check]]")
+        .next()
+        .expect("a machine")
+        .replace("limits = [-30, 120]", "limits = [-120, 120]");
     let machine = trunnion_machine::load("wide", &wide).expect("valid");
     let made = run(&text, "linuxcnc", Some(&machine), "apt", None).unwrap_or_else(|refused| panic!("{refused}"));
     assert!(made.proof.motions_before > 4300, "{:?}", made.proof);

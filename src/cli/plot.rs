@@ -186,13 +186,12 @@ pub(super) fn span(text: &str) -> Result<(u32, u32), Failure> {
 
 /// Writes a picture to a file or to standard output.
 pub(super) fn write(output: Option<&Path>, text: &str) -> Result<Done, Failure> {
-    match output.filter(|file| !load::is_stdin(file)) {
-        Some(file) => std::fs::write(file, text).map_err(|error| Failure::io(file, "write the picture", &error))?,
-        None => {
-            let mut out = std::io::stdout().lock();
-            out.write_all(text.as_bytes())?;
-            out.flush()?;
-        }
+    if let Some(file) = output.filter(|file| !load::is_stdin(file)) {
+        std::fs::write(file, text).map_err(|error| Failure::io(file, "write the picture", &error))?;
+    } else {
+        let mut out = std::io::stdout().lock();
+        out.write_all(text.as_bytes())?;
+        out.flush()?;
     }
     Ok(Done::Clean)
 }

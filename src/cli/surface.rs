@@ -91,7 +91,7 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
             height_map(&header, &errors, flattest(&surface)).map_err(|error| Failure::file(&command.file, error))?;
         plot::write(Some(file), &text)?;
     }
-    verdict(global, command, &errors)
+    Ok(verdict(global, command, &errors))
 }
 
 /// Why nothing was compared.
@@ -107,12 +107,12 @@ fn nothing(command: &Surface, errors: &Errors) -> String {
 }
 
 /// With a tolerance: above it is found; between it and the bound, or with blocks that are not judged, it is not known.
-fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Result<Done, Failure> {
+fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
     let (Some(tolerance), Some(found)) = (command.tolerance, &errors.from_surface) else {
-        return Ok(Done::Clean);
+        return Done::Clean;
     };
     if found.sampled > tolerance {
-        return Ok(Done::Found);
+        return Done::Found;
     }
     if found.bound > tolerance || errors.not_judged > 0 || errors.apart > 0 {
         let why = if errors.not_judged > 0 {
@@ -126,9 +126,9 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Result<Done, 
             "the error is not proven to keep the tolerance; --close 0.0001 proves nearer".to_owned()
         };
         remark(global.quiet, &format!("unknown: {why}"));
-        return Ok(if global.strict { Done::Found } else { Done::Clean });
+        return if global.strict { Done::Found } else { Done::Clean };
     }
-    Ok(Done::Clean)
+    Done::Clean
 }
 
 fn read(path: &Path, close: f64) -> Result<Required, Failure> {

@@ -4,9 +4,10 @@
 //! high-speed milling of hydraulic blades, 2006, figure 11).
 use crate::canvas::{BLUE, GREEN, PALE};
 use crate::canvas::{Entry, GREY, Header, INK, PlotError, Swatch, VERMILION, sheet};
-use crate::grid::{Frame, Panel, equal, range};
+use crate::grid::{Frame, Panel, equal};
 use crate::joints::{entries, rules};
 use crate::record::{Mark, Record};
+use crate::scale::range;
 use core::f64::consts::TAU;
 use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -248,8 +249,8 @@ impl<'m> Plane<'m> {
             .chain((0..360).step_by(15).filter(|ray| ray % 90 != 0))
         {
             let shown = if ray > 180 { ray - 360 } else { ray };
-            let place = (1..=200).map(|i| self.joints(rad(f64::from(ray)), widest * f64::from(i) / 200.0));
-            let Some(last) = place.filter(|p| inside(*p)).next_back() else {
+            let mut place = (1..=200).map(|i| self.joints(rad(f64::from(ray)), widest * f64::from(i) / 200.0));
+            let Some(last) = place.rfind(|p| inside(*p)) else {
                 continue;
             };
             let crowded = |p: &(f64, f64)| (p.0 - last.0).abs() < 1.2 * dx && (p.1 - last.1).abs() < dy;

@@ -1,7 +1,8 @@
 //! How far the tip strays from the programmed segments along the way, with the tolerance.
 use crate::canvas::{BLUE, Entry, Header, PlotError, SKY, Swatch, VERMILION, sheet};
-use crate::grid::{Frame, Panel, decade, range};
+use crate::grid::{Frame, Panel};
 use crate::record::{Block, Record};
+use crate::scale::{decade, range};
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// Draws it; `tolerance` in mm.
@@ -43,14 +44,7 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
     } else {
         [0.0, 1.15 * bound.max(tolerance)]
     };
-    let mut legend: Vec<Entry> = vec![
-        (Swatch::Line(BLUE), "largest in the block".into()),
-        (Swatch::Filled(SKY), "proven bound".into()),
-        (Swatch::Dashed(VERMILION), format!("tolerance {tolerance} mm")),
-    ];
-    if unjudged > 0 {
-        legend.push((Swatch::Dot(VERMILION), format!("not known in {unjudged} blocks")));
-    }
+    let legend = legend(tolerance, unjudged);
     sheet(header, &legend, |body| {
         let panel = Panel::new(
             body,
@@ -97,4 +91,16 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         let side = if left { HPos::Right } else { HPos::Left };
         panel.text(place, &text, VERMILION, (side, VPos::Bottom))
     })
+}
+
+fn legend(tolerance: f64, unjudged: usize) -> Vec<Entry> {
+    let mut legend: Vec<Entry> = vec![
+        (Swatch::Line(BLUE), "largest in the block".into()),
+        (Swatch::Filled(SKY), "proven bound".into()),
+        (Swatch::Dashed(VERMILION), format!("tolerance {tolerance} mm")),
+    ];
+    if unjudged > 0 {
+        legend.push((Swatch::Dot(VERMILION), format!("not known in {unjudged} blocks")));
+    }
+    legend
 }

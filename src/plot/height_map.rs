@@ -1,6 +1,7 @@
 //! The error of a trajectory surface as a map: how far the tool strays over the required surface, with the real path on top.
 use crate::canvas::{Entry, Header, INK, PlotError, SCALE, Swatch, sheet};
-use crate::grid::{Frame, Panel, equal, range, short};
+use crate::grid::{Frame, Panel, equal};
+use crate::scale::{range, short};
 use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 use trunnion_geometry::Vec3;

@@ -1,7 +1,8 @@
 //! Joints of the machine against the way or the time, one field an axis, with limits and blocks to look at.
 use crate::canvas::{BLUE, Entry, GREEN, GREY, Header, ORANGE, PURPLE, PlotError, SKY, Swatch, VERMILION, sheet};
-use crate::grid::{Frame, Panel, range};
+use crate::grid::{Frame, Panel};
 use crate::record::{Mark, Record, Sample};
+use crate::scale::range;
 use plotters::prelude::RGBColor;
 use trunnion_geometry::deg;
 use trunnion_machine::{Axis, AxisKind, Limits, Machine};

@@ -9,6 +9,7 @@ mod height_map;
 mod joints;
 mod path;
 mod record;
+mod scale;
 mod thin;
 
 pub use axis_plane::axis_plane;

@@ -1,7 +1,8 @@
 //! The path of the tool tip in space, seen from the front, the right and above.
 use crate::canvas::{BLUE, Entry, GREY, Header, INK, ORANGE, PlotError, Swatch, VERMILION, anchored, sheet};
-use crate::grid::{Panel, short};
+use crate::grid::Panel;
 use crate::record::{Block, Record};
+use crate::scale::short;
 use plotters::prelude::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
 use trunnion_geometry::Vec3;

@@ -13,3 +13,4 @@ mod pictures;
 mod pieces;
 mod stats;
 mod tools;
+mod twins;

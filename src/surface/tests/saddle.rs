@@ -71,7 +71,9 @@ fn judge(machine: &Machine, required: &Required, legs: &[Leg], close: f64) -> Er
         spots: 0,
     };
     let mut judge = Judge::new(required, machine, options);
-    legs.iter().for_each(|leg| judge.leg(leg));
+    for leg in legs {
+        judge.leg(leg);
+    }
     judge.finish()
 }
 

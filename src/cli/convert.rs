@@ -8,7 +8,10 @@ use super::{
 };
 use clap::ValueEnum;
 use serde_json::json;
-use std::{io::Write, path::PathBuf};
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
 use trunnion_certify::conversion::Assume;
 use trunnion_convert::{
     BUILTIN_POSTS, Converted, Options, OrientationWords, Post, Source, Target, Units, builtin_post, convert, load_post,
@@ -100,7 +103,7 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
         Some(name) => Some(find_machine(name, None)?),
         None => source_machine.cloned(),
     };
-    let own = command.post.as_ref().map(own_post).transpose()?;
+    let own = command.post.as_ref().map(|path| own_post(path)).transpose()?;
     let post = target_post(command, &loaded, target_machine.as_ref(), own.as_ref())?;
     let target = match post {
         None => Target::Apt,
@@ -171,7 +174,7 @@ fn options(command: &Convert) -> Result<Options, Failure> {
 }
 
 /// A post of the user's own, with the place of a mistake in it.
-fn own_post(path: &PathBuf) -> Result<Post, Failure> {
+fn own_post(path: &Path) -> Result<Post, Failure> {
     let bytes = load::read(path)?;
     let text = String::from_utf8(bytes).map_err(|_| Failure::file(path, "is not UTF-8, which TOML must be"))?;
     load_post(&text).map_err(|error| LoadError::at(path, &text, error.span.as_ref(), &error.message).into())

@@ -194,9 +194,6 @@ pub(crate) struct Canon {
     /// Parameter file: read at the start, written back at the end.
     #[arg(long, value_name = "FILE")]
     pub(crate) parameters: Option<PathBuf>,
-    /// Lines that begin with `/` are skipped, as with the switch of the panel.
-    #[arg(short, long)]
-    pub(crate) block_delete: bool,
 }
 
 /// `fix`

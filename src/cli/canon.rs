@@ -1,7 +1,7 @@
 //! `canon`: the canonical calls of a LinuxCNC program, listed as `rs274 -g` lists them.
 use super::{
     Done,
-    args::Canon as Command,
+    args::{Canon as Command, Global, Switch},
     failure::{Failure, remark},
     load,
 };
@@ -23,11 +23,11 @@ const NO_NUMBER: &[u8] = b".....";
 const ENDINGS: [&str; 2] = ["ngc", "nc"];
 
 /// Runs `canon`. An error of the program makes the exit status 1.
-pub(super) fn run(command: &Command) -> Result<Done, Failure> {
+pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
     let bytes: Arc<[u8]> = load::read(&command.file)?.into();
     let main = Arc::new(Source::new(command.file.display().to_string(), bytes));
     let sources: Sources = Arc::new(Mutex::new(vec![Arc::clone(&main)]));
-    let setup = setup(command, &sources)?;
+    let setup = setup(command, global, &sources)?;
     remark(false, "executing");
     let mut engine = Engine::new(main, &setup);
     let mut out = Printer {
@@ -77,7 +77,7 @@ pub(super) fn run(command: &Command) -> Result<Done, Failure> {
 /// The programs of a run, the main one first, in the order in which they were loaded.
 type Sources = Arc<Mutex<Vec<Arc<Source>>>>;
 
-fn setup(command: &Command, sources: &Sources) -> Result<Setup, Failure> {
+fn setup(command: &Command, global: &Global, sources: &Sources) -> Result<Setup, Failure> {
     let ini = match &command.ini {
         Some(path) => Ini::parse(&load::read(path)?),
         None => Ini::default(),
@@ -106,7 +106,7 @@ fn setup(command: &Command, sources: &Sources) -> Result<Setup, Failure> {
         tools,
         parameters,
         files: Some(Arc::new(files)),
-        block_delete: command.block_delete,
+        block_delete: global.block_delete == Some(Switch::On),
         ..Setup::default()
     })
 }

@@ -40,7 +40,7 @@ pub(crate) struct Convert {
     #[arg(long)]
     no_tcp: bool,
     /// How far the tip may be from where it was inside a cut, mm. Default: the machine's tolerance.
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     tolerance_mm: Option<f64>,
     /// A cut may turn the table to the other posture or wind it back; each place is told.
     #[arg(long)]
@@ -61,7 +61,7 @@ pub(crate) struct Convert {
     #[arg(long)]
     assume_tcp: bool,
     /// An excerpt: the feed at its start, mm/min.
-    #[arg(long, value_name = "MM_MIN")]
+    #[arg(long, value_name = "MM_MIN", allow_negative_numbers = true)]
     feed: Option<f64>,
     /// Name of the program that is written. Default: its own.
     #[arg(long, value_name = "TEXT")]

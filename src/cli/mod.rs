@@ -42,7 +42,7 @@ pub(crate) fn run() -> ExitCode {
     let result = match &args.command {
         Command::Check(command) => check::run(global, command),
         Command::Trace(command) => trace::run(global, command),
-        Command::Canon(command) => canon::run(command),
+        Command::Canon(command) => canon::run(global, command),
         Command::Fix(command) => fix::run(global, command),
         Command::Certify(command) => certify::run(global, command),
         Command::Convert(command) => convert::run(global, command),

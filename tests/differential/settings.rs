@@ -34,7 +34,7 @@ impl Case {
             }
         }
         if self.block_delete {
-            arguments.push(if oracle { "-b" } else { "--block-delete" });
+            arguments.push(if oracle { "-b" } else { "--block-delete=on" });
         }
         arguments
     }

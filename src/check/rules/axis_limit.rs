@@ -132,7 +132,7 @@ mod tests {
         );
         assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",
-            "TRAORI\nG0 X0 Y0 Z399 A-25 C0\nG1 X200 A40 F500\n;       ^^^ pole-crossing: \nM30\n",
+            "TRAORI\nG0 X0 Y0 Z399 A-25 C0\nG1 X200 A40 F500\n;       ^^^ only-one-posture: \n;       ^^^ pole-crossing: \nM30\n",
         );
     }
 

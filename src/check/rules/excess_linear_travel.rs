@@ -8,7 +8,7 @@
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z200 A10 C0
-//! N30 G1 X5 A40 F50
+//! N30 G1 X5 A25 F50
 //! ;   ^^^^^^^^^^^^^ excess-linear-travel: the linear axes run
 //! N40 M30
 //! ```
@@ -17,7 +17,7 @@
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z200 A10 C0
-//! N30 G1 X50 A40 F50
+//! N30 G1 X50 A25 F50
 //! N40 M30
 //! ```
 //!

@@ -10,7 +10,7 @@
 //! ```gcode sinumerik-840d mikron-ucp710+A.cable
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z50 A20 C0
-//! N30 G1 X10 A100 F500
+//! N30 G1 X99 A100 F500
 //! ;          ^^^^ winding-limit: A is left 20 deg from its limit of 120 deg
 //! ;          ^^^^ only-one-posture: only one posture is left
 //! N40 M30

@@ -24,7 +24,8 @@ fn run(
     to: &str,
     on: Option<&Machine>,
 ) -> Result<Converted, Refused> {
-    let setup = Setup::default();
+    let mut setup = Setup::default();
+    setup.control.tcp_codes = from.and_then(|machine| machine.control.tcp_codes.clone());
     let source = Source {
         text,
         dialect: trunnion_dialect::builtin(dialect).expect("built in"),
@@ -165,14 +166,8 @@ fn the_impeller_comes_back_from_cl_data() {
         return;
     };
     let text = std::fs::read(path).expect("readable");
-    let mikron = trunnion_machine::builtin_source("mikron-ucp710").expect("built in");
-    let wide = mikron
-        .split("[[check]]")
-        .next()
-        .expect("a machine")
-        .replace("limits = [-30, 120]", "limits = [-120, 120]");
-    let machine = trunnion_machine::load("wide", &wide).expect("valid");
-    let made = run(&text, "linuxcnc", Some(&machine), "apt", None).unwrap_or_else(|refused| panic!("{refused}"));
+    let machine = trunnion_machine::builtin("linuxcnc-xyzac-trt").expect("built in");
+    let made = run(&text, "linuxcnc", Some(machine), "apt", None).unwrap_or_else(|refused| panic!("{refused}"));
     assert!(made.proof.motions_before > 4300, "{:?}", made.proof);
     assert!(made.text.contains("INVERS"));
 }

@@ -1,5 +1,6 @@
 //! Lines from patterns: `{..}` stands for a random value of a sort.
 use crate::generate::{Program, number};
+use std::fmt::Write;
 
 impl Program {
     /// Writes a line from a pattern.
@@ -80,7 +81,7 @@ impl Program {
         for letter in letters.chars() {
             if self.random.one_in(n) {
                 let value = self.random.between(-40.0, 40.0);
-                text.push_str(&format!("{letter}{} ", self.value(value)));
+                _ = write!(text, "{letter}{} ", self.value(value));
             }
         }
         if text.is_empty() {

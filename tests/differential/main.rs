@@ -21,6 +21,7 @@ mod turning;
 
 use settings::{Case, PARAMETERS};
 use std::collections::BTreeMap;
+use std::fmt::Write;
 use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::Mutex;
@@ -36,12 +37,12 @@ struct Answer {
     crashed: bool,
 }
 
-fn answer(output: &Output, parameters: Option<String>) -> Answer {
+fn answer(output: &Output, parameters: Option<&str>) -> Answer {
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     let mut errors = text(&output.stderr).lines().map(str::to_owned).collect::<Vec<_>>();
     errors.retain(|line| line != "executing");
     let mut calls: Vec<String> = text(&output.stdout).lines().map(str::to_owned).collect();
-    calls.extend(parameters.iter().flat_map(|text| text.lines()).map(str::to_owned));
+    calls.extend(parameters.into_iter().flat_map(str::lines).map(str::to_owned));
     Answer {
         calls,
         error: errors.join("\n"),
@@ -77,7 +78,7 @@ fn ask(folder: &Path, case: &Case, oracle: bool) -> Option<Answer> {
         .has(PARAMETERS)
         .then(|| std::fs::read_to_string(folder.join(PARAMETERS)));
     let parameters = parameters.and_then(Result::ok);
-    Some(answer(&output, parameters))
+    Some(answer(&output, parameters.as_deref()))
 }
 
 /// How two answers compare.
@@ -190,7 +191,7 @@ fn random_programs_do_what_linuxcnc_says() {
         println!("{count} programs: {why}");
     }
     let differences = differences.into_inner().expect("no thread has failed");
-    assert!(differences.is_empty(), "{} differences (told above)", differences.len(),);
+    assert!(differences.is_empty(), "{} differences (told above)", differences.len());
     println!("{count} programs agree with rs274");
 }
 
@@ -201,7 +202,7 @@ fn report(folder: &Path, seed: u64, case: &Case) -> String {
     let mut text = format!("seed {seed} {:?}:\n{}", short.arguments(true), short.text);
     for (name, content) in &short.files {
         let shown: Vec<&str> = content.lines().filter(|line| !line.ends_with("\t0.000000")).collect();
-        text.push_str(&format!("--- {name}\n{}\n", shown.join("\n")));
+        _ = write!(text, "--- {name}\n{}\n", shown.join("\n"));
     }
     let mut pairs = 0;
     let blank = String::new();
@@ -209,11 +210,11 @@ fn report(folder: &Path, seed: u64, case: &Case) -> String {
         let [a, b] = [&control.calls, &ours.calls].map(|calls| calls.get(place).unwrap_or(&blank));
         if a != b && pairs < 6 {
             pairs += 1;
-            text.push_str(&format!("rs274    {a}\ntrunnion {b}\n"));
+            _ = write!(text, "rs274    {a}\ntrunnion {b}\n");
         }
     }
     if control.error != ours.error {
-        text.push_str(&format!("rs274    {}\ntrunnion {}\n", control.error, ours.error));
+        _ = write!(text, "rs274    {}\ntrunnion {}\n", control.error, ours.error);
     }
     text
 }

@@ -62,7 +62,7 @@ impl Program {
     fn tool_table(&mut self) {
         let mut text = String::new();
         self.tools.clear();
-        for _ in 0..1 + self.random.below(5) {
+        for _ in 0..=self.random.below(5) {
             let tool = 1 + self.random.below(40) as u32;
             if self.tools.contains(&tool) {
                 continue;

@@ -36,6 +36,8 @@ problems! {
         "This is no mistake of the program. Check it on the control."
     FINISH_COMPENSATED NotModelled "G70 with cutter compensation: the way of the tool is not known"
         "This is no mistake of the program. Check it on the control."
+    POCKET_ARCS NotModelled "pockets of a turning contour with several arcs: where the control cuts them is not known"
+        "This is no mistake of the program. Check it on the control."
     ARC NotModelled "arc of a turning contour with its deepest point inside, or with unequal radii: how the control cuts there is not known"
         "This is no mistake of the program. Divide the arc at its deepest point, or check it on the control."
     ENDLESS CannedCycle "turning cycle that never ends: a cut would begin behind the contour"

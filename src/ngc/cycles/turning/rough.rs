@@ -111,6 +111,10 @@ pub(super) fn run(
     if contour.iter().any(Segment::is_unclear) {
         return Err((&problems::ARC).into());
     }
+    // with several arcs the control was seen to leave and enter pockets where this does not
+    if rough.pockets == Pockets::Only && contour.iter().filter(|piece| piece.is_arc()).count() > 1 {
+        return Err((&problems::POCKET_ARCS).into());
+    }
     let mut path = vec![Segment::line(start, first.from)];
     for piece in contour {
         piece.split(&mut path);

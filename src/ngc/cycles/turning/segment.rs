@@ -127,6 +127,10 @@ impl Segment {
             (Some(one), Some(two)) => circles(one.centre, self.radius(), two.centre, other.radius()),
         }
     }
+    /// Whether it is an arc.
+    pub(super) fn is_arc(&self) -> bool {
+        self.round.is_some()
+    }
     /// An arc whose radii differ, or that has its lowest point (second coordinate) inside.
     pub(super) fn is_unclear(&self) -> bool {
         let Some(round) = self.round else { return false };

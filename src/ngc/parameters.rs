@@ -87,15 +87,9 @@ impl Store {
     /// Whether nothing differs, bit for bit; what callers keep aside is not looked at.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let numbers = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
-        let names = |a: &BTreeMap<Box<str>, f64>, b: &BTreeMap<Box<str>, f64>| {
-            a.len() == b.len()
-                && a.iter()
-                    .zip(b)
-                    .all(|((a, x), (b, y))| a == b && x.to_bits() == y.to_bits())
-        };
         numbers(&self.numbers, &other.numbers)
-            && names(&self.locals, &other.locals)
-            && names(&self.globals, &other.globals)
+            && self.locals.is_same(&other.locals)
+            && self.globals.is_same(&other.globals)
             && self.value.to_bits() == other.value.to_bits()
             && self.returned == other.returned
             && self.aside.len() == other.aside.len()

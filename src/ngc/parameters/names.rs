@@ -32,6 +32,16 @@ impl Names {
             self.rest.insert(name.clone(), value);
         }
     }
+    /// Whether the same names, set in the same order, have the same values, bit for bit.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let same = |((a, x), (b, y)): ((&Name, &f64), (&Name, &f64))| a == b && x.to_bits() == y.to_bits();
+        let few = |names: &Self| names.few.len();
+        let listed = self.few.iter().map(|(name, value)| (name, value));
+        few(self) == few(other)
+            && self.rest.len() == other.rest.len()
+            && listed.zip(other.few.iter().map(|(name, value)| (name, value))).all(same)
+            && self.rest.iter().zip(&other.rest).all(same)
+    }
     /// Forgets all names.
     pub(super) fn clear(&mut self) {
         self.few.clear();

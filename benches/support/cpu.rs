@@ -13,7 +13,7 @@ fn seconds() -> f64 {
 }
 
 /// The least time of some runs.
-pub fn best<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
+pub(crate) fn best<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
     (0..runs)
         .map(|_| {
             let begun = seconds();
@@ -27,7 +27,7 @@ pub fn best<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
 
 /// Processor seconds of `rs274 -g` on a file, the least of some runs, each under a limit of 120 s; `None` where it is not installed or
 /// refuses the program.
-pub fn rs274(path: &Path, runs: usize) -> Option<f64> {
+pub(crate) fn rs274(path: &Path, runs: usize) -> Option<f64> {
     let home = std::env::temp_dir().join(format!("trunnion-rs274-{}", std::process::id()));
     fs::create_dir_all(&home).ok()?;
     let run = || {

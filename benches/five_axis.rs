@@ -1,10 +1,11 @@
-//! `cargo bench --bench five_axis`: parse and full check of one million five-axis blocks on one core, stage by stage,
-//! beside a plain newline count of the same file, with peak memory. Ratios are of this run; nothing is asserted.
+//! `cargo bench --bench five_axis`: parse and full check of one million five-axis blocks on one core, stage by stage, beside a plain
+//! newline count and LinuxCNC's `rs274 -g` (where it is installed) on the same file, with peak memory. Times are processor time, the
+//! least of some runs; ratios are of this run; nothing is asserted.
 //!
 //! The program is a serpentine over a bumpy surface with the tool axis on its normal, as rotary words A (tilt about X)
 //! and C (about Z): `G1 X Y Z A C` on each line, with a real singularity where the surface is level.
 #![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
-use std::{env, fmt::Write, fs, hint::black_box, process::Command, time::Instant};
+use std::{env, fmt::Write, fs, hint::black_box, process::Command};
 use trunnion::{
     check::{Settings, check},
     dialect::builtin,
@@ -12,6 +13,9 @@ use trunnion::{
     machine::{self, Follower, Machine},
     syntax::{Program, parse},
 };
+
+#[path = "support/cpu.rs"]
+mod cpu;
 
 const BLOCKS: usize = 1_000_000;
 const RUNS: usize = 5;
@@ -29,7 +33,12 @@ fn main() {
         "{:34} {:>9} {:>12} {:>9} {:>14}",
         "stage (each with those above)", "us/block", "blocks/s", "MB/s", "x newline count"
     );
-    let newline = time(|| memchr::memchr_iter(b'\n', &text).count());
+    // the clock of processor time ticks: one count alone is too short for it
+    let newline = time(|| {
+        (0..50)
+            .map(|_| memchr::memchr_iter(b'\n', black_box(&text)).count())
+            .sum::<usize>()
+    }) / 50.0;
     line("newline count (memchr)", newline, newline, megabytes);
     let dialect = builtin("linuxcnc").expect("built in");
     let machine = machine::builtin("mikron-ucp710").expect("built in");
@@ -56,6 +65,21 @@ fn main() {
     let full = time(|| check(&parse(text.clone(), dialect.lex), &settings));
     line("parse and full check", full, newline, megabytes);
     let report = check(&program, &settings);
+    stages(&[
+        ("parse", parsed),
+        ("fold", folded),
+        ("follow", followed - folded),
+        ("bounds and rules", full - parsed - followed),
+    ]);
+    match cpu::rs274(&path, 2) {
+        Some(oracle) => println!(
+            "\nrs274 -g, which folds and prints: {:.3} us/block; parse and fold take {:.3} of its time, the full check {:.3}",
+            oracle / BLOCKS as f64 * 1e6,
+            (parsed + folded) / oracle,
+            full / oracle
+        ),
+        None => println!("\nrs274 is not installed: no ratio to it"),
+    }
     println!(
         "\nfindings: {} in {} motions",
         report.diagnostics.len(),
@@ -102,14 +126,21 @@ fn memory_child(path: &std::ffi::OsStr) {
     }
 }
 
-fn time<T>(mut work: impl FnMut() -> T) -> f64 {
-    (0..RUNS)
-        .map(|_| {
-            let begun = Instant::now();
-            black_box(work());
-            begun.elapsed().as_secs_f64()
-        })
-        .fold(f64::INFINITY, f64::min)
+fn time<T>(work: impl FnMut() -> T) -> f64 {
+    cpu::best(RUNS, work)
+}
+
+/// Each stage alone, with its share of the full check.
+fn stages(stages: &[(&str, f64)]) {
+    let whole: f64 = stages.iter().map(|(_, seconds)| seconds).sum();
+    println!();
+    for (name, seconds) in stages {
+        println!(
+            "{name:34} {:>9.3} us/block alone {:>6.1} %",
+            seconds / BLOCKS as f64 * 1e6,
+            100.0 * seconds / whole
+        );
+    }
 }
 
 fn line(name: &str, seconds: f64, newline: f64, megabytes: f64) {

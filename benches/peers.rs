@@ -1,7 +1,8 @@
 //! `cargo bench --bench peers`: parsing beside the `gcode` crate, interpretation beside LinuxCNC's `rs274 -g` (where it is installed), on
 //! five-axis, high-speed-milling, macro and loop programs; memory per block. Ratios are of this run; nothing is asserted.
 //!
-//! The `gcode` crate's visitor stores nothing; ours stores the lossless table. `rs274` prints its calls (to /dev/null here).
+//! The `gcode` crate's visitor stores nothing; ours stores the lossless table. `rs274` prints its calls (to /dev/null here). Times are
+//! processor time, the least of some runs.
 #![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 #![expect(
     clippy::disallowed_methods,
@@ -12,12 +13,13 @@ use gcode::core::{
 };
 use std::fmt::Write;
 use std::hint::black_box;
-use std::process::{Command, Stdio};
 use std::sync::Arc;
-use std::time::Instant;
 use trunnion::dialect::builtin;
 use trunnion::ngc::{At, Canon, Engine, Error, Limits, Setup, Sink, Source, State};
 use trunnion::syntax::parse;
+
+#[path = "support/cpu.rs"]
+mod cpu;
 
 const RUNS: usize = 5;
 
@@ -44,18 +46,19 @@ fn main() {
 fn compare(name: &str, text: &str, executed: u64) {
     let lines = text.lines().count() as f64;
     let dialect = builtin("linuxcnc").expect("built in");
-    let peer = best(|| {
+    let peer = cpu::best(RUNS, || {
         let mut visitor = Counter::default();
         gcode::core::parse(black_box(text), &mut visitor);
         visitor.count
     });
     let bytes = text.as_bytes().to_vec();
-    let ours = best(|| parse(black_box(&bytes).clone(), dialect.lex));
+    let mut copies = vec![bytes.clone(); RUNS];
+    let ours = cpu::best(RUNS, || parse(black_box(copies.pop().unwrap_or_default()), dialect.lex));
     let program = parse(bytes.clone(), dialect.lex);
     let memory = program.tokens().len() * 5 + program.block_count() * 4;
     let source: Arc<[u8]> = bytes.into();
     let mut done = 0;
-    let run = best(|| {
+    let run = cpu::best(RUNS, || {
         let setup = Setup {
             limits: Limits {
                 blocks: u64::MAX,
@@ -90,30 +93,13 @@ fn compare(name: &str, text: &str, executed: u64) {
     println!(" {:>10.1}", memory as f64 / lines);
 }
 
-/// Seconds of `rs274 -g`, once, under a CPU limit; `None` where it is not installed or refuses the program.
+/// Processor seconds of `rs274 -g`; `None` where it is not installed or refuses the program.
 fn rs274(text: &str) -> Option<f64> {
     let path = std::env::temp_dir().join(format!("trunnion-peer-{}.ngc", std::process::id()));
     std::fs::write(&path, text).ok()?;
-    let begun = Instant::now();
-    let status = Command::new("timeout")
-        .args(["120", "rs274", "-g"])
-        .arg(&path)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .status();
-    let seconds = begun.elapsed().as_secs_f64();
+    let seconds = cpu::rs274(&path, 2);
     std::fs::remove_file(&path).ok();
-    status.ok()?.success().then_some(seconds)
-}
-
-fn best<T>(mut work: impl FnMut() -> T) -> f64 {
-    (0..RUNS)
-        .map(|_| {
-            let begun = Instant::now();
-            black_box(work());
-            begun.elapsed().as_secs_f64()
-        })
-        .fold(f64::INFINITY, f64::min)
+    seconds
 }
 
 /// Counts canonical calls.

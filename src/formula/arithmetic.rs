@@ -19,16 +19,19 @@ pub(crate) const fn vacant() -> f64 {
 }
 
 /// Whether `value` is `<vacant>`.
+#[inline]
 pub(crate) fn is_vacant(value: f64) -> bool {
     value.to_bits() == VACANT
 }
 
+#[inline]
 fn is_undefined(value: f64) -> bool {
     value.to_bits() == UNDEFINED
 }
 
 /// The end of a value: what is infinite or has no result is refused here, and not before (observed: `[10**400 EQ 1]` is 0,
 /// `[[10**400] EQ 1]` is an error).
+#[inline]
 pub(crate) fn checked(value: f64) -> Result<f64, Kind> {
     if value.is_infinite() {
         Err(Kind::Infinite)
@@ -51,6 +54,7 @@ fn without_number(a: f64, b: f64) -> f64 {
 }
 
 /// In arithmetic `<vacant>` is zero.
+#[inline]
 fn filled(value: f64) -> f64 {
     if is_vacant(value) { 0.0 } else { value }
 }
@@ -64,11 +68,13 @@ pub(crate) fn whole(value: f64) -> Option<i64> {
     ((fraction <= TOLERANCE || integer > below) && integer.abs() < 9e18).then_some(integer as i64)
 }
 
+#[inline]
 fn truth(holds: bool) -> f64 {
     if holds { 1.0 } else { 0.0 }
 }
 
 /// The result of a comparison; not known where an operand is not, false where one has no result (observed for all six).
+#[inline]
 fn compared(a: f64, b: f64, holds: bool) -> f64 {
     if a.is_nan() || b.is_nan() {
         return if without_number(a, b).to_bits() == UNDEFINED {
@@ -81,6 +87,7 @@ fn compared(a: f64, b: f64, holds: bool) -> f64 {
 }
 
 /// Whether `value` counts as true; `None` where it is not known. What has no result is not zero (observed).
+#[inline]
 fn holds(value: f64) -> Option<bool> {
     if value.is_nan() && !is_undefined(value) {
         None
@@ -101,6 +108,7 @@ fn logic(operation: Binary, a: f64, b: f64) -> f64 {
 }
 
 /// An operation on one value; `positive` asks for angles of 0 to 360 degrees.
+#[inline]
 pub(crate) fn unary(operation: Unary, value: f64, positive: impl FnOnce() -> bool) -> Result<f64, Kind> {
     let x = filled(value);
     let result = match operation {
@@ -199,6 +207,7 @@ fn truths(operation: Binary, left: f64, right: f64) -> Result<f64, Kind> {
 }
 
 /// The remainder, made positive by the size of the divisor (observed: `[5 MOD -3]` is 2, `[-5 MOD -3]` is 1).
+#[inline]
 fn modulo(a: f64, b: f64) -> f64 {
     let rest = a % b;
     if rest < 0.0 { rest + b.abs() } else { rest }

@@ -1,7 +1,8 @@
 //! What waits while an expression is read: open brackets, operators, signs.
 use crate::code::{Binary, Op, Step, Unary};
 use crate::words::{Operator, take_operator};
-use crate::{Cursor, FormulaError, FormulaErrorKind, Grammar};
+use crate::{Cursor, FormulaError, FormulaErrorKind, Grammar, Name};
+use smallvec::SmallVec;
 use trunnion_syntax::{Decimal, TextRange};
 
 /// Fanuc's macro B allows five levels of brackets, those of functions counted (operator's manual, chapter custom macro).
@@ -20,7 +21,7 @@ pub(crate) enum Bracket {
     /// The first argument of POW.
     PowBase,
     /// The index of a named variable (Macro B).
-    Index(Box<str>),
+    Index(Name),
     /// The named parameter EXISTS asks for: the answer is on the stack already.
     ExistsNamed,
     /// The number of the parameter EXISTS asks for.
@@ -53,10 +54,10 @@ pub(crate) struct Compiler<'c, 's> {
     pub(crate) cursor: &'c mut Cursor<'s>,
     pub(crate) grammar: Grammar,
     pub(crate) steps: Vec<Step>,
-    pub(crate) waiting: Vec<Waiting>,
-    pub(crate) open: Vec<Open>,
+    pub(crate) waiting: SmallVec<[Waiting; 12]>,
+    pub(crate) open: SmallVec<[Open; 6]>,
     /// Where each value that is on the stack at this point begins.
-    pub(crate) starts: Vec<u32>,
+    pub(crate) starts: SmallVec<[u32; 12]>,
     pub(crate) depth: usize,
     /// One past the last byte of the operand that was read last.
     pub(crate) end: u32,

@@ -1,5 +1,5 @@
 //! A compiled expression: postfix code, each step with its place in the file.
-use crate::{FormulaErrorKind, Variable};
+use crate::{FormulaErrorKind, Name, Variable};
 use trunnion_syntax::{Decimal, TextRange};
 
 /// An operation on one value.
@@ -86,10 +86,10 @@ pub(crate) enum Op {
     /// The same two where a variable may be `<vacant>` (Macro B).
     ReadNullable(i64),
     ReadNullableAt,
-    Named(Box<str>),
+    Named(Name),
     /// `#_NAME[index]`, the index on the stack.
-    NamedAt(Box<str>),
-    ExistsNamed(Box<str>),
+    NamedAt(Name),
+    ExistsNamed(Name),
     /// Whether there is a variable of the number on the stack.
     ExistsAt,
     Unary(Unary),
@@ -110,12 +110,12 @@ pub(crate) enum Code {
     /// A number, with its digits where they can be held exactly.
     Literal { value: f64, decimal: Option<Decimal> },
     /// Anything else, and how many values it keeps at most.
-    Steps { steps: Box<[Step]>, depth: usize },
+    Steps { steps: Vec<Step>, depth: usize },
 }
 
 /// An expression, compiled once to be evaluated many times.
 ///
-/// A plain number takes no memory of its own; anything else is one allocation.
+/// A plain number takes no memory of its own; anything else is one allocation, or comes from a [`crate::Pool`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
     pub(crate) range: TextRange,

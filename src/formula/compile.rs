@@ -3,7 +3,8 @@ use crate::brackets::{Bracket, Compiler, Waiting};
 use crate::code::{Code, Formula, Op, Step};
 use crate::cursor::is_blank;
 use crate::words::{Function, take_angled, take_function, take_name, take_numeral, text};
-use crate::{Cursor, FormulaError, FormulaErrorKind, Grammar, Target};
+use crate::{Cursor, FormulaError, FormulaErrorKind, Grammar, Name, Target};
+use smallvec::SmallVec;
 use trunnion_syntax::{Decimal, TextRange};
 
 /// Reads one value: a number, `#` parameter, `[expression]`, function, or any of them behind signs.
@@ -19,6 +20,15 @@ pub fn value(cursor: &mut Cursor<'_>, grammar: Grammar) -> Result<Formula, Formu
 /// Like [`value`], but the formula is there in any case: evaluated, it gives the first error a control meets that computes while it
 /// reads (LinuxCNC): `[1/0 + ]` is a division by zero before it is a missing value.
 pub fn value_or_error(cursor: &mut Cursor<'_>, grammar: Grammar) -> (Formula, Option<FormulaError>) {
+    value_with(cursor, grammar, &mut Vec::new())
+}
+
+/// [`value_or_error`] with storage from a pool.
+pub(crate) fn value_with(
+    cursor: &mut Cursor<'_>,
+    grammar: Grammar,
+    pool: &mut Vec<Vec<Step>>,
+) -> (Formula, Option<FormulaError>) {
     let start = cursor.at();
     if let Some(number) = plain_number(cursor) {
         return (number, None);
@@ -26,10 +36,10 @@ pub fn value_or_error(cursor: &mut Cursor<'_>, grammar: Grammar) -> (Formula, Op
     let mut compiler = Compiler {
         cursor,
         grammar,
-        steps: Vec::new(),
-        waiting: Vec::new(),
-        open: Vec::new(),
-        starts: Vec::new(),
+        steps: pool.pop().unwrap_or_default(),
+        waiting: SmallVec::new(),
+        open: SmallVec::new(),
+        starts: SmallVec::new(),
         depth: 0,
         end: start,
         plain: None,
@@ -41,7 +51,13 @@ pub fn value_or_error(cursor: &mut Cursor<'_>, grammar: Grammar) -> (Formula, Op
             range: error.range,
         });
     }
-    (compiler.finish(start), error)
+    let formula = compiler.finish(start);
+    if !compiler.steps.is_empty() {
+        // it was a number and nothing else
+        compiler.steps.clear();
+        pool.push(compiler.steps);
+    }
+    (formula, error)
 }
 
 /// Reads a condition or expression in brackets: `[#1 GT 2]`.
@@ -64,7 +80,7 @@ pub fn target(cursor: &mut Cursor<'_>, grammar: Grammar) -> Result<Target, Formu
 }
 
 /// The name of a variable at the cursor, if the grammar has named ones and one stands there.
-fn take_variable_name(cursor: &mut Cursor<'_>, grammar: Grammar, hash: u32) -> Result<Option<Box<str>>, FormulaError> {
+fn take_variable_name(cursor: &mut Cursor<'_>, grammar: Grammar, hash: u32) -> Result<Option<Name>, FormulaError> {
     match (grammar, cursor.peek()) {
         (Grammar::Rs274, Some(b'<')) => match take_angled(cursor) {
             Some(name) => Ok(Some(name)),
@@ -156,7 +172,7 @@ impl Compiler<'_, '_> {
         }
     }
 
-    fn finish(self, start: u32) -> Formula {
+    fn finish(&mut self, start: u32) -> Formula {
         let range = self.cursor.since(start);
         if let (1, Some((value, decimal))) = (self.steps.len(), self.plain) {
             return Formula {
@@ -167,7 +183,7 @@ impl Compiler<'_, '_> {
         Formula {
             range,
             code: Code::Steps {
-                steps: self.steps.into_boxed_slice(),
+                steps: core::mem::take(&mut self.steps),
                 depth: self.depth,
             },
         }
@@ -212,6 +228,15 @@ impl Compiler<'_, '_> {
 
     fn number(&mut self) -> Result<(), FormulaError> {
         let start = self.cursor.at();
+        if let Some(Formula {
+            range,
+            code: Code::Literal { value, decimal },
+        }) = plain_number(self.cursor)
+        {
+            self.plain = Some((value, decimal));
+            self.push(Op::Number(value), start, range);
+            return Ok(());
+        }
         let numeral = take_numeral(self.cursor);
         let digits = text(numeral);
         let range = self.cursor.since(start);

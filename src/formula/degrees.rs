@@ -1,6 +1,7 @@
 //! Angles in degrees, as finely as LinuxCNC takes them on a PC: an angle in rad has 64 bits, not 53.
 //!
 //! It decides signs (`[COS[90] LT 0]` is 1, observed), and that `FIX[TAN[45]]` is 1.
+use core::cell::Cell;
 use trunnion_geometry::math;
 
 /// Pi with 64 bits, times 2^62.
@@ -44,6 +45,14 @@ fn rounded(wide: u128, more: bool, exponent: i32) -> Extended {
     }
 }
 
+/// `bits * 2^64` by 180, and whether something is left: long division, since 2^64 is 180 times `WHOLE` and 16.
+fn by_180(bits: u64) -> (u128, bool) {
+    const WHOLE: u64 = u64::MAX / 180;
+    let (high, rest) = (bits / 180, bits % 180);
+    let (low, left) = (rest * WHOLE + rest * 16 / 180, rest * 16 % 180);
+    (u128::from(high) << 64 | u128::from(low), left != 0)
+}
+
 /// 2^exponent for exponents of normal doubles.
 fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent + 1023) as u64) << 52)
@@ -59,8 +68,8 @@ fn radians(degrees: f64) -> (f64, f64) {
     let mantissa = (bits & ((1 << 52) - 1)) | (1 << 52);
     let exponent = (bits >> 52) as i32 - 1075;
     let product = rounded(u128::from(mantissa) * u128::from(PI_BITS), false, exponent - 62);
-    let dividend = u128::from(product.bits) << 64;
-    let quotient = rounded(dividend / 180, dividend % 180 != 0, product.exponent - 64);
+    let (quotient, more) = by_180(product.bits);
+    let quotient = rounded(quotient, more, product.exponent - 64);
     let high_bits = quotient.bits & !0x7ff;
     let scale = power_of_two(quotient.exponent).copysign(degrees);
     let high = high_bits as f64 * scale;
@@ -74,14 +83,31 @@ fn sin_cos_sum((high, low): (f64, f64)) -> (f64, f64) {
     (sin + low * cos, cos - low * sin)
 }
 
+std::thread_local! {
+    /// The bits of the last angle, its sine and its cosine: `X[5*COS[#1]] Y[5*SIN[#1]]` asks for both of one angle.
+    static LAST: Cell<(u64, f64, f64)> = const { Cell::new((0, 0.0, 1.0)) };
+}
+
+/// Sine and cosine of an angle in degrees.
+fn sin_cos(degrees: f64) -> (f64, f64) {
+    let bits = degrees.to_bits();
+    let (last, sin, cos) = LAST.get();
+    if last == bits {
+        return (sin, cos);
+    }
+    let (sin, cos) = sin_cos_sum(radians(degrees));
+    LAST.set((bits, sin, cos));
+    (sin, cos)
+}
+
 /// Sine of an angle in degrees.
 pub(crate) fn sin(degrees: f64) -> f64 {
-    sin_cos_sum(radians(degrees)).0
+    sin_cos(degrees).0
 }
 
 /// Cosine of an angle in degrees.
 pub(crate) fn cos(degrees: f64) -> f64 {
-    sin_cos_sum(radians(degrees)).1
+    sin_cos(degrees).1
 }
 
 /// Tangent of an angle in degrees.
@@ -106,4 +132,18 @@ pub(crate) fn from_radians(angle: f64) -> f64 {
     }
     let rest = (-quotient).mul_add(PI_HIGH, high) + (low - quotient * PI_LOW);
     quotient + rest / PI_HIGH
+}
+
+#[cfg(test)]
+mod tests {
+    use super::by_180;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn long_division_is_division(bits in any::<u64>()) {
+            let dividend = u128::from(bits) << 64;
+            prop_assert_eq!(by_180(bits), (dividend / 180, dividend % 180 != 0));
+        }
+    }
 }

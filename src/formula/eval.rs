@@ -1,7 +1,7 @@
 //! Evaluation: one pass over the postfix code with a small stack of values.
 use crate::arithmetic::{binary, checked, is_vacant, unary, vacant, whole};
 use crate::code::{Code, Formula, Op, Step};
-use crate::{FormulaError, FormulaErrorKind, ValueError, Variables};
+use crate::{FormulaError, FormulaErrorKind, Name, ValueError, Variables};
 
 /// Formulas that keep at most this many values at once need no memory.
 const SHALLOW: usize = 8;
@@ -40,7 +40,7 @@ fn run(steps: &[Step], variables: &(impl Variables + ?Sized), stack: &mut [f64])
             Op::Number(value) => Ok(*value),
             Op::Read(index) => numbered(variables, *index),
             Op::ReadNullable(index) => nullable(variables, *index),
-            Op::Named(name) => named(variables, name),
+            Op::Named(name) => value_of(name, variables.named_as(name)),
             Op::ExistsNamed(name) => Ok(f64::from(u8::from(variables.exists(name)))),
             Op::Fail(kind) => Err((**kind).clone()),
             Op::Binary(operation) => {
@@ -80,10 +80,12 @@ fn run(steps: &[Step], variables: &(impl Variables + ?Sized), stack: &mut [f64])
 }
 
 /// A value of a variable; a NaN of any kind is "not known".
+#[inline]
 fn known(value: f64) -> f64 {
     if value.is_nan() { f64::NAN } else { value }
 }
 
+#[inline]
 fn numbered(variables: &(impl Variables + ?Sized), index: i64) -> Result<f64, FormulaErrorKind> {
     match variables.numbered(index) {
         Ok(value) => Ok(known(value)),
@@ -100,15 +102,12 @@ fn nullable(variables: &(impl Variables + ?Sized), index: i64) -> Result<f64, Fo
     }
 }
 
-fn named(variables: &(impl Variables + ?Sized), name: &str) -> Result<f64, FormulaErrorKind> {
-    value_of(name, variables.named(name))
-}
-
-fn value_of(name: &str, value: Result<f64, ValueError>) -> Result<f64, FormulaErrorKind> {
+#[inline]
+fn value_of(name: &Name, value: Result<f64, ValueError>) -> Result<f64, FormulaErrorKind> {
     match value {
         Ok(value) => Ok(known(value)),
         Err(ValueError::NotReadable(reason)) => Err(FormulaErrorKind::NotReadable(reason)),
-        Err(ValueError::OutOfRange | ValueError::NotDefined) => Err(FormulaErrorKind::NotDefined(name.into())),
+        Err(ValueError::OutOfRange | ValueError::NotDefined) => Err(FormulaErrorKind::NotDefined((&**name).into())),
     }
 }
 

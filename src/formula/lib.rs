@@ -11,12 +11,16 @@ mod cursor;
 mod degrees;
 mod error;
 mod eval;
+mod name;
+mod pool;
 mod words;
 
 pub use code::Formula;
 pub use compile::{bracketed, target, value, value_or_error};
 pub use cursor::{Bytes, Cursor};
 pub use error::{FormulaError, FormulaErrorKind};
+pub use name::Name;
+pub use pool::Pool;
 use trunnion_syntax::TextRange;
 
 /// Which language an expression is written in.
@@ -40,7 +44,7 @@ pub enum Target {
     /// `#5=`, `##2=`, `#[1+2]=`: the formula of the variable's number.
     Numbered(Formula),
     /// `#<name>=`, Macro B `#_NAME=`: the name without its signs, blanks removed, in lower case.
-    Named(Box<str>),
+    Named(Name),
 }
 
 /// A variable a formula reads.
@@ -72,6 +76,12 @@ pub trait Variables {
 
     /// The value of a named variable; NaN if it is not known. `name` is without `<>` or `#`, blanks removed, in lower case.
     fn named(&self, name: &str) -> Result<f64, ValueError>;
+
+    /// The same for a name as formulas hold it, which is compared faster than text.
+    #[inline]
+    fn named_as(&self, name: &Name) -> Result<f64, ValueError> {
+        self.named(name)
+    }
 
     /// The value of `#name[index]` (Macro B on Fanuc's 30i: `[#_ABSIO[1]]`); NaN if it is not known.
     fn named_at(&self, name: &str, index: i64) -> Result<f64, ValueError> {

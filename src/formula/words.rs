@@ -1,6 +1,6 @@
 //! The words of both grammars: operators, functions, names, numbers. Leaf parsers, read with nom from a cursor.
 use crate::code::{Binary, Unary};
-use crate::{Cursor, Grammar};
+use crate::{Cursor, Grammar, Name};
 use nom::branch::alt;
 use nom::bytes::complete::{tag, take_till, take_while};
 use nom::combinator::{opt, recognize, value, verify};
@@ -130,6 +130,60 @@ fn take<'s, T>(cursor: &mut Cursor<'s>, leaf: impl FnOnce(Cursor<'s>) -> Leaf<'s
     Some(found)
 }
 
+/// A word of RS274/NGC that stands at the cursor without blanks between its letters: no word begins with another, so that it is
+/// the one the leaf parsers find.
+#[inline]
+fn take_written<T>(cursor: &mut Cursor<'_>, grammar: Grammar, find: fn([u8; 4]) -> Option<(T, u32)>) -> Option<T> {
+    if grammar != Grammar::Rs274 {
+        return None;
+    }
+    let head = cursor.rest().first_chunk::<4>()?;
+    let (meaning, length) = find(head.map(|byte| byte.to_ascii_lowercase()))?;
+    cursor.skip_to(cursor.at() + length);
+    Some(meaning)
+}
+
+/// The operator that four letters begin with, and its length.
+#[inline]
+fn short_operator(head: [u8; 4]) -> Option<(Operator, u32)> {
+    let [a, b, c, _] = head;
+    Some(match [a, b] {
+        [b'*', b'*'] => (operator(Binary::Power, 6), 2),
+        [b'e', b'q'] => (operator(Binary::NearlyEqual, 3), 2),
+        [b'n', b'e'] => (operator(Binary::NotNearlyEqual, 3), 2),
+        [b'g', b't'] => (operator(Binary::Greater, 3), 2),
+        [b'g', b'e'] => (operator(Binary::GreaterOrEqual, 3), 2),
+        [b'l', b't'] => (operator(Binary::Less, 3), 2),
+        [b'l', b'e'] => (operator(Binary::LessOrEqual, 3), 2),
+        [b'o', b'r'] => (operator(Binary::LogicalOr, 2), 2),
+        [b'm', b'o'] if c == b'd' => (operator(Binary::Modulo, 5), 3),
+        [b'a', b'n'] if c == b'd' => (operator(Binary::LogicalAnd, 2), 3),
+        [b'x', b'o'] if c == b'r' => (operator(Binary::LogicalXor, 2), 3),
+        _ => return None,
+    })
+}
+
+/// The function that four letters are or begin with, and its length.
+#[inline]
+fn short_function(head: [u8; 4]) -> Option<(Function, u32)> {
+    let one = |unary, length| Some((Function::One(unary), length));
+    match &head {
+        b"acos" => one(Unary::Acos, 4),
+        b"asin" => one(Unary::Asin, 4),
+        b"atan" => Some((Function::Atan, 4)),
+        b"sqrt" => one(Unary::Sqrt, 4),
+        [b'a', b'b', b's', _] => one(Unary::Abs, 3),
+        [b'c', b'o', b's', _] => one(Unary::Cos, 3),
+        [b'e', b'x', b'p', _] => one(Unary::Exp, 3),
+        [b'f', b'i', b'x', _] => one(Unary::Floor, 3),
+        [b'f', b'u', b'p', _] => one(Unary::Ceiling, 3),
+        [b'l', b'n', ..] => one(Unary::Ln, 2),
+        [b's', b'i', b'n', _] => one(Unary::Sin, 3),
+        [b't', b'a', b'n', _] => one(Unary::Tan, 3),
+        _ => None,
+    }
+}
+
 /// The operator at the cursor.
 pub(crate) fn take_operator(cursor: &mut Cursor<'_>, grammar: Grammar) -> Option<Operator> {
     // the commonest are one sign and need no search
@@ -139,6 +193,9 @@ pub(crate) fn take_operator(cursor: &mut Cursor<'_>, grammar: Grammar) -> Option
         b'/' => operator(Binary::Divide, 5),
         b'*' if grammar == Grammar::MacroB || cursor.peek_second() != Some(b'*') => operator(Binary::Multiply, 5),
         _ => {
+            if let Some(operator) = take_written(cursor, grammar, short_operator) {
+                return Some(operator);
+            }
             return take(cursor, |input| match grammar {
                 Grammar::Rs274 => rs274_operator(input),
                 Grammar::MacroB => macro_operator(input),
@@ -151,6 +208,9 @@ pub(crate) fn take_operator(cursor: &mut Cursor<'_>, grammar: Grammar) -> Option
 
 /// The function at the cursor.
 pub(crate) fn take_function(cursor: &mut Cursor<'_>, grammar: Grammar) -> Option<Function> {
+    if let Some(function) = take_written(cursor, grammar, short_function) {
+        return Some(function);
+    }
     take(cursor, |input| match grammar {
         Grammar::Rs274 => rs274_function(input),
         Grammar::MacroB => macro_function(input),
@@ -158,17 +218,31 @@ pub(crate) fn take_function(cursor: &mut Cursor<'_>, grammar: Grammar) -> Option
 }
 
 /// The text behind `<` up to `>`, blanks removed, in lower case; `None` if there is no `>` on the line.
-pub(crate) fn take_angled(cursor: &mut Cursor<'_>) -> Option<Box<str>> {
+pub(crate) fn take_angled(cursor: &mut Cursor<'_>) -> Option<Name> {
+    if let Some(name) = take_short_angled(cursor) {
+        return Some(name);
+    }
     let name = take(cursor, |input| {
         (tag("<"), take_till(|byte| byte == b'>'), tag(">"))
             .map(|(_, name, _): (Cursor<'_>, Cursor<'_>, Cursor<'_>)| name)
             .parse(input)
     })?;
-    Some(text(name))
+    Some(Name::new(&text(name)))
+}
+
+/// The same for a short name of letters, digits and `_`.
+#[inline]
+fn take_short_angled(cursor: &mut Cursor<'_>) -> Option<Name> {
+    let (&b'<', rest) = cursor.rest().split_first()? else {
+        return None;
+    };
+    let (name, length) = Name::before(rest, b'>')?;
+    cursor.skip_to(cursor.at() + length as u32 + 2);
+    Some(name)
 }
 
 /// A name of letters, digits and `_` that begins with a letter or `_` (Macro B), in lower case.
-pub(crate) fn take_name(cursor: &mut Cursor<'_>) -> Option<Box<str>> {
+pub(crate) fn take_name(cursor: &mut Cursor<'_>) -> Option<Name> {
     let name = take(cursor, |input| {
         verify(
             take_while(|byte: u8| byte.is_ascii_alphanumeric() || byte == b'_'),
@@ -176,7 +250,7 @@ pub(crate) fn take_name(cursor: &mut Cursor<'_>) -> Option<Box<str>> {
         )
         .parse(input)
     })?;
-    Some(text(name))
+    Some(Name::new(&text(name)))
 }
 
 /// `[+-]` and then digits and points, as many as stand there; whether it is a number is for the caller to say.

@@ -1,9 +1,10 @@
 //! Parameters: numbered ones, 1-5601, and named ones, with what a call of a subprogram keeps for itself.
+mod names;
 mod system;
 
 use crate::{Engine, Ini, Setup, Start, State};
-use std::collections::BTreeMap;
-use trunnion_formula::{ValueError, Variables};
+use names::Names;
+use trunnion_formula::{Name, ValueError, Variables};
 
 /// Highest number that exists (observed: `#5601` is zero, `#5602` is refused).
 const LAST: usize = 5601;
@@ -31,7 +32,7 @@ impl Slot {
 struct Aside {
     /// `None`: the call shares them (M98).
     numbers: Option<[f64; LOCAL]>,
-    names: BTreeMap<Box<str>, f64>,
+    names: Names,
 }
 
 /// All parameters a program can read and set.
@@ -40,11 +41,13 @@ pub(crate) struct Store {
     /// Index = number; 0 is not used.
     numbers: Vec<f64>,
     /// Names that begin with `_`: of all programs.
-    globals: BTreeMap<Box<str>, f64>,
+    globals: Names,
     /// Other names: of the call in progress.
-    locals: BTreeMap<Box<str>, f64>,
+    locals: Names,
     /// Callers, outermost first.
     aside: Vec<Aside>,
+    /// Names of calls that ended, kept for their storage.
+    spare: Vec<Names>,
     /// `#<_value>`: what the last subprogram returned.
     value: f64,
     /// `#<_value_returned>`.
@@ -72,9 +75,10 @@ impl Store {
         }
         Self {
             numbers,
-            globals: BTreeMap::new(),
-            locals: BTreeMap::new(),
+            globals: Names::default(),
+            locals: Names::default(),
             aside: Vec::new(),
+            spare: Vec::new(),
             value: 0.0,
             returned: false,
             missing_axes: missing_axes(setup),
@@ -83,15 +87,9 @@ impl Store {
     /// Whether nothing differs, bit for bit; what callers keep aside is not looked at.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let numbers = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
-        let names = |a: &BTreeMap<Box<str>, f64>, b: &BTreeMap<Box<str>, f64>| {
-            a.len() == b.len()
-                && a.iter()
-                    .zip(b)
-                    .all(|((a, x), (b, y))| a == b && x.to_bits() == y.to_bits())
-        };
         numbers(&self.numbers, &other.numbers)
-            && names(&self.locals, &other.locals)
-            && names(&self.globals, &other.globals)
+            && self.locals.is_same(&other.locals)
+            && self.globals.is_same(&other.globals)
             && self.value.to_bits() == other.value.to_bits()
             && self.returned == other.returned
             && self.aside.len() == other.aside.len()
@@ -119,18 +117,13 @@ impl Store {
         }
     }
     /// Sets a named parameter: of all programs where it begins with `_`, else of the call in progress.
-    pub(crate) fn set_named(&mut self, name: &str, value: f64) {
-        let names = if name.starts_with('_') {
+    pub(crate) fn set_named(&mut self, name: &Name, value: f64) {
+        let names = if is_global(name) {
             &mut self.globals
         } else {
             &mut self.locals
         };
-        match names.get_mut(name) {
-            Some(place) => *place = value,
-            None => {
-                names.insert(name.into(), value);
-            }
-        }
+        names.set(name, value);
     }
     /// A subprogram is called: `#1` to `#30` become its arguments and zeros, its names are its own.
     pub(crate) fn enter(&mut self, arguments: &[f64]) {
@@ -141,17 +134,21 @@ impl Store {
         for (place, argument) in own.iter_mut().zip(arguments) {
             *place = *argument;
         }
+        let names = self.fresh_names();
         self.aside.push(Aside {
             numbers: Some(numbers),
-            names: core::mem::take(&mut self.locals),
+            names,
         });
     }
     /// A Fanuc-style subprogram is called: its names are its own, `#1` to `#30` are the caller's.
     pub(crate) fn enter_sharing(&mut self) {
-        self.aside.push(Aside {
-            numbers: None,
-            names: core::mem::take(&mut self.locals),
-        });
+        let names = self.fresh_names();
+        self.aside.push(Aside { numbers: None, names });
+    }
+    /// Begins with no names; the ones there were.
+    fn fresh_names(&mut self) -> Names {
+        let fresh = self.spare.pop().unwrap_or_default();
+        core::mem::replace(&mut self.locals, fresh)
     }
     /// A subprogram is left: `#1` to `#30` and the names of the caller come back.
     pub(crate) fn leave(&mut self) {
@@ -159,7 +156,9 @@ impl Store {
             if let Some(numbers) = aside.numbers {
                 self.numbers[1..=LOCAL].copy_from_slice(&numbers);
             }
-            self.locals = aside.names;
+            let mut left = core::mem::replace(&mut self.locals, aside.names);
+            left.clear();
+            self.spare.push(left);
         }
     }
     /// Which axis letters are no words: those of the machine, without `extra`.
@@ -222,8 +221,8 @@ impl<'a> Values<'a> {
         self.store.missing_axes
     }
     /// Whether a name is one of the control's own, which programs only read.
-    pub(crate) fn is_system(name: &str) -> bool {
-        name.starts_with('_') && system::NAMES.binary_search_by(|(own, _)| (*own).cmp(name)).is_ok()
+    pub(crate) fn is_system(name: &Name) -> bool {
+        is_global(name) && system::NAMES.binary_search_by(|(own, _)| (**own).cmp(&**name)).is_ok()
     }
     /// Values that only the machine knows are not known in a check.
     fn is_check(&self) -> bool {
@@ -255,14 +254,35 @@ impl Variables for Values<'_> {
         }
     }
     fn named(&self, name: &str) -> Result<f64, ValueError> {
-        let names = if name.starts_with('_') {
+        self.named_as(&Name::new(name))
+    }
+    #[inline]
+    fn named_as(&self, name: &Name) -> Result<f64, ValueError> {
+        let names = if is_global(name) {
             &self.store.globals
         } else {
             &self.store.locals
         };
-        if let Some(value) = names.get(name) {
-            return Ok(*value);
+        match names.get(name) {
+            Some(value) => Ok(value),
+            None => self.own(name),
         }
+    }
+    fn exists(&self, name: &str) -> bool {
+        self.named(name).is_ok()
+    }
+}
+
+/// Whether a name is of all programs.
+#[inline]
+fn is_global(name: &Name) -> bool {
+    name.as_bytes().first() == Some(&b'_')
+}
+
+impl Values<'_> {
+    /// What the control itself knows by a name.
+    #[cold]
+    fn own(&self, name: &str) -> Result<f64, ValueError> {
         if let Some(inside) = name.strip_prefix("_ini[") {
             return self.ini(inside);
         }
@@ -273,8 +293,5 @@ impl Variables for Values<'_> {
             Ok(place) => Ok((system::NAMES[place].1)(self)),
             Err(_) => Err(ValueError::NotDefined),
         }
-    }
-    fn exists(&self, name: &str) -> bool {
-        self.named(name).is_ok()
     }
 }

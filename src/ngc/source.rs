@@ -13,7 +13,7 @@ impl FileId {
 }
 
 /// So many lines share one entry of the index: a file of nothing but line ends must not cost four times its size in memory.
-const STRIDE: u32 = 64;
+pub(crate) const STRIDE: u32 = 64;
 
 /// A program's bytes and where its lines begin.
 #[derive(Debug)]

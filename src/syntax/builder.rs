@@ -1,6 +1,6 @@
 //! What a lexer writes into: tokens, block starts and problems.
 use crate::scan::Scan;
-use crate::{Format, LexOptions, SyntaxError, TokenKind, TokenTable, items, record};
+use crate::{Format, LexOptions, SyntaxError, TokenKind, TokenTable, items, record, straight};
 
 /// Tokens and blocks as they grow. A block is checked as soon as it is complete.
 #[derive(Default)]
@@ -11,17 +11,19 @@ pub(crate) struct Builder {
     pub(crate) errors: Vec<SyntaxError>,
     /// First token of the block at work.
     pub(crate) first: u32,
-    /// Whether the block at work holds more than words and blanks, and must be read once for problems.
+    /// Whether the block at work must be read once by the grammar, for problems.
     pub(crate) odd: bool,
+    /// Whether it holds more than words, comments and blanks, all of it cut the fast way.
+    pub(crate) formula: bool,
 }
 
 impl Builder {
-    /// Room for the tokens of `length` bytes: a word with its blank is hardly ever shorter than eight bytes.
-    pub(crate) fn with_room(length: usize) -> Self {
+    /// Room for so many tokens and blocks.
+    pub(crate) fn with_room(tokens: usize, blocks: usize) -> Self {
         let mut out = Self::default();
-        out.table.kinds.reserve(length / 4 + 16);
-        out.table.starts.reserve(length / 4 + 16);
-        out.blocks.reserve(length / 32 + 16);
+        out.table.kinds.reserve(tokens);
+        out.table.starts.reserve(tokens);
+        out.blocks.reserve(blocks);
         out
     }
 
@@ -43,7 +45,7 @@ impl Builder {
     #[inline]
     pub(crate) fn end_block(&mut self, source: &[u8], options: LexOptions, end: u32) {
         self.blocks.push(self.first);
-        if self.odd {
+        if self.odd || self.formula {
             self.check(source, options, end);
         }
         self.first = self.table.kinds.len() as u32;
@@ -58,10 +60,10 @@ impl Builder {
         self.errors.sort_by_key(|error| (error.range.start, error.range.end));
     }
 
-    /// Reads the block once with the grammar, for its problems.
-    #[cold]
+    /// Reads the block once with the grammar, for its problems, unless a look at its kinds of tokens shows that it has none.
     fn check(&mut self, source: &[u8], options: LexOptions, end: u32) {
-        self.odd = false;
+        self.formula = false;
+        let odd = core::mem::take(&mut self.odd);
         self.table.end = end;
         let scan = Scan {
             source,
@@ -69,6 +71,9 @@ impl Builder {
             options,
             end: self.table.kinds.len() as u32,
         };
+        if !odd && straight::is_sound(scan, self.first) {
+            return;
+        }
         match options.format {
             Format::Iso => items::check(scan, self.first, &mut self.errors),
             Format::Apt => record::check(scan, self.first, &mut self.errors),

@@ -20,6 +20,7 @@ mod record;
 mod relex;
 mod scan;
 mod sink;
+mod straight;
 mod stray;
 mod table;
 mod token;

@@ -8,10 +8,10 @@ use crate::{Address, Call, Item, TextRange, TokenId, TokenKind, Value, Word};
 const JUMPS: [&str; 4] = ["GOTO", "GOTOF", "GOTOB", "GOTOC"];
 
 /// Names that own a number, even one that is glued on: `DO1`.
-const NUMBERED: [&str; 3] = ["DO", "END", "LBL"];
+pub(crate) const NUMBERED: [&str; 3] = ["DO", "END", "LBL"];
 
 /// Names that own one expression: `IF R1>5`, `WHILE [#1 LT 2]`.
-const CONDITIONS: [&str; 7] = ["IF", "ELSEIF", "WHILE", "UNTIL", "EVERY", "WHEN", "WHENEVER"];
+pub(crate) const CONDITIONS: [&str; 7] = ["IF", "ELSEIF", "WHILE", "UNTIL", "EVERY", "WHEN", "WHENEVER"];
 
 /// Names that own the rest of the block: declarations, and loops with a syntax of their own.
 const DECLARATIONS: [&str; 7] = ["DEF", "PROC", "EXTERN", "CASE", "FOR", "DEFINE", "REDEF"];

@@ -28,7 +28,7 @@ pub fn parse(source: Vec<u8>, options: LexOptions) -> Program {
 /// Parses the first `limit` bytes: offsets must fit their type.
 fn parse_up_to(source: Vec<u8>, options: LexOptions, limit: u32) -> Program {
     let length = source.len().min(limit as usize);
-    let mut out = Builder::with_room(length);
+    let mut out = room(&source[..length], options);
     lex(&source[..length], options, true, &mut out);
     if length < source.len() {
         let range = TextRange::new(limit.saturating_sub(1), limit);
@@ -44,6 +44,24 @@ fn parse_up_to(source: Vec<u8>, options: LexOptions, limit: u32) -> Program {
         blocks: out.blocks,
         errors: out.errors,
     }
+}
+
+/// So many bytes of a longer file say how much room its tokens need.
+const SAMPLE: usize = 1 << 14;
+
+/// Tables with room for the tokens of `source`, as many per byte as in a piece from its middle: growing them would copy them, and
+/// fresh memory costs more than lexing.
+fn room(source: &[u8], options: LexOptions) -> Builder {
+    if source.len() < 4 * SAMPLE {
+        return Builder::with_room(source.len() / 4 + 16, source.len() / 32 + 16);
+    }
+    let middle = source.len() / 2;
+    let start = memchr::memchr(b'\n', &source[middle..middle + SAMPLE]).map_or(middle, |at| middle + at + 1);
+    let mut sample = Builder::with_room(SAMPLE, SAMPLE / 8);
+    lex(&source[start..start + SAMPLE], options, false, &mut sample);
+    // an eighth more, so that a little denser parts fit, too
+    let scaled = |count: usize| (count + 1) * (source.len() / SAMPLE + 1) / 8 * 9;
+    Builder::with_room(scaled(sample.table.kinds.len()), scaled(sample.blocks.len()))
 }
 
 /// Lexes `source` with the lexer of its format.

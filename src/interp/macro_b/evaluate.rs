@@ -180,7 +180,7 @@ pub(crate) fn assigned(
     cursor.bump();
     let wrong = |error: &FormulaError| trouble(dialect, program, range, error);
     match trunnion_formula::target(&mut cursor, Grammar::MacroB).map_err(|error| wrong(&error))? {
-        Target::Named(name) => Ok(Assigned::Name(name)),
+        Target::Named(name) => Ok(Assigned::Name((&*name).into())),
         Target::Numbered(formula) => {
             let held = formula.eval_nullable(view).map_err(|error| wrong(&error))?;
             let number = held.unwrap_or(0.0);

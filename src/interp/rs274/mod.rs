@@ -28,8 +28,8 @@ pub(crate) struct Rs274 {
 /// The block in which each line (from 0) has its first word; `None` where blocks are lines. A lone CR ends blocks and no lines.
 fn blocks_of_lines(program: &Program) -> Option<std::sync::Arc<[u32]>> {
     let source = program.source();
-    let lone = |at: usize| source[at] == b'\r' && source.get(at + 1) != Some(&b'\n');
-    if !(0..source.len()).any(lone) {
+    let lone = |at: usize| source.get(at + 1) != Some(&b'\n');
+    if !memchr::memchr_iter(b'\r', source).any(lone) {
         return None;
     }
     let mut start = 0;

@@ -321,6 +321,7 @@ impl Engine {
         self.flow.chain = call.chain;
         self.flow.style = call.style;
         self.flow.seeking = None;
+        self.flow.looping = false;
     }
 }
 

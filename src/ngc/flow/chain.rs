@@ -1,6 +1,6 @@
 //! Chains of calls: how a line came to run.
 use crate::{ChainId, FileId, Frame};
-use std::collections::HashMap;
+use foldhash::HashMap;
 use std::sync::Arc;
 
 #[derive(Clone, Debug)]

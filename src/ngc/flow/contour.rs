@@ -6,6 +6,7 @@ use super::{Compiled, Halt};
 use crate::cycles::Turning;
 use crate::exec::After;
 use crate::{Block, Engine, Sink};
+use trunnion_formula::Name;
 
 impl Engine {
     /// Calls the subprogram of the turning cycle that the line in hand has begun.
@@ -15,7 +16,7 @@ impl Engine {
             return Ok(());
         };
         turning.enter(depth);
-        let label: Box<str> = turning.subprogram().to_string().into();
+        let label = Name::new(&turning.subprogram().to_string());
         let name = self.flow.labels.name(&label);
         let range = block.range_of(b'Q');
         let line = OLine {

@@ -93,15 +93,20 @@ impl Engine {
             if let Some(kept) = lines.take(place.line) {
                 return (kept, true);
             }
-            if lines.make_room() {
-                let mut compiled = Box::new(Compiled::default());
-                self.compile(place, &mut compiled);
-                return (compiled, true);
-            }
+            return (self.compile_to_keep(place), true);
+        }
+        if self.flow.looping {
+            return (self.compile_to_keep(place), true);
         }
         let mut compiled = self.flow.spare.take().unwrap_or_default();
         self.compile(place, &mut compiled);
         (compiled, false)
+    }
+    /// Reads a line that will run again.
+    fn compile_to_keep(&mut self, place: Place) -> Box<Compiled> {
+        let mut compiled = self.flow.lines(place.file).room();
+        self.compile(place, &mut compiled);
+        compiled
     }
     /// Reads the line at a place. What is wrong with it is in what was read.
     pub(super) fn compile(&self, place: Place, into: &mut Compiled) {
@@ -110,7 +115,11 @@ impl Engine {
         into.place = place;
         into.next = Self::behind(place, range);
         into.memo = super::Memo::default();
-        into.o = None;
+        if let Some(line) = into.o.take() {
+            line.values
+                .into_iter()
+                .for_each(|value| into.line.pool.take_back(value));
+        }
         into.kind = Kind::Blank;
         into.flaw = too_long(range);
         let nul = memchr::memchr(0, &source[range.start as usize..range.end as usize]);
@@ -126,7 +135,7 @@ impl Engine {
             Some(b'o') => {
                 let mut cursor = head.cursor;
                 into.flaw = text_flaw(source, text);
-                into.o = Some(oline::read(&mut cursor));
+                into.o = Some(Box::new(oline::read(&mut cursor, &mut into.line.pool)));
                 into.kind = Kind::Label;
             }
             Some(b'm') => compile_m(source, &head, text, into),
@@ -151,7 +160,7 @@ impl Engine {
 /// A line that begins with M: `M98` and `M99` are calls and returns.
 fn compile_m(source: &[u8], head: &Head<'_>, text: TextRange, into: &mut Compiled) {
     let mut cursor = head.cursor;
-    into.o = oline::numbered(&mut cursor);
+    into.o = oline::numbered(&mut cursor, &mut into.line.pool).map(Box::new);
     let (kind, words) = match &into.o {
         Some(line) if line.keyword == Keyword::CallNumbered => (Kind::CallNumbered, line.rest),
         Some(_) => (Kind::ReturnNumbered, text),

@@ -3,7 +3,7 @@
 //! As on the control, a label is known from the moment its opening line runs, for the rest of the program. Labels of structures
 //! belong to the subprogram that runs (`o1 if` in two subprograms are two labels); names of subprograms belong to the whole run.
 use crate::FileId;
-use std::collections::HashMap;
+use foldhash::HashMap;
 use std::sync::Arc;
 
 /// A name in the table, `NameId::MAIN` for "no subprogram".

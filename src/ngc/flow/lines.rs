@@ -1,10 +1,13 @@
 //! Lines that ran: which ones, and the read form of those that ran more than once.
 use super::Compiled;
+use std::collections::VecDeque;
 
 /// Lines of one page.
 const PAGE: u32 = 256;
-/// So many read lines are kept per run; a loop longer than that is read again each time.
-const KEPT: u32 = 1 << 16;
+/// So many pages of read lines are kept per file, those that began last. A loop longer than that is read again each time.
+const KEPT: usize = 32;
+/// So many lines that are forgotten are held for their storage.
+const SPARE: usize = PAGE as usize;
 
 type Page = [Option<Box<Compiled>>; PAGE as usize];
 
@@ -18,7 +21,11 @@ pub(crate) struct Lines {
     /// Lines from here on were never skipped.
     glanced: u32,
     pages: Vec<Option<Box<Page>>>,
-    kept: u32,
+    /// Pages that are there, in the order in which they began.
+    order: VecDeque<u32>,
+    /// Forgotten lines, for their storage.
+    #[expect(clippy::vec_box, reason = "boxes move between here and the pages")]
+    spare: Vec<Box<Compiled>>,
 }
 
 /// A copy reads its lines again: check-points must not copy what can be had anew.
@@ -29,7 +36,8 @@ impl Clone for Lines {
             frontier: self.frontier,
             glanced: self.glanced,
             pages: Vec::new(),
-            kept: 0,
+            order: VecDeque::new(),
+            spare: Vec::new(),
         }
     }
 }
@@ -62,6 +70,10 @@ impl Lines {
             .get((line / 64) as usize)
             .is_some_and(|word| word & (1 << (line % 64)) != 0)
     }
+    /// Whether the 64 lines from one on, whose number 64 divides, all ran.
+    pub(crate) fn all_ran(&self, line: u32) -> bool {
+        self.ran.get((line / 64) as usize) == Some(&u64::MAX)
+    }
     /// Whether a line that is skipped was skipped or run before; it is noted that it was looked at.
     pub(crate) fn glance(&mut self, line: u32) -> bool {
         let before = line < self.glanced;
@@ -79,11 +91,9 @@ impl Lines {
         let page = self.pages.get_mut((line / PAGE) as usize)?.as_mut()?;
         page[(line % PAGE) as usize].as_deref_mut()
     }
-    /// Asks for room for one more line to keep.
-    pub(crate) fn make_room(&mut self) -> bool {
-        let room = self.kept < KEPT;
-        self.kept += u32::from(room);
-        room
+    /// Room for one more line to keep.
+    pub(crate) fn room(&mut self) -> Box<Compiled> {
+        self.spare.pop().unwrap_or_default()
     }
     /// Brings a line back.
     #[inline]
@@ -92,7 +102,29 @@ impl Lines {
         if page >= self.pages.len() {
             self.pages.resize_with(page + 1, || None);
         }
-        let page = self.pages[page].get_or_insert_with(|| Box::new([const { None }; PAGE as usize]));
-        page[(line % PAGE) as usize] = Some(compiled);
+        if self.pages[page].is_none() {
+            self.pages[page] = Some(self.begin_page(page as u32));
+        }
+        if let Some(page) = &mut self.pages[page] {
+            page[(line % PAGE) as usize] = Some(compiled);
+        }
+    }
+    /// An empty page: where there are enough the oldest one is forgotten.
+    fn begin_page(&mut self, page: u32) -> Box<Page> {
+        self.order.push_back(page);
+        let oldest = if self.order.len() > KEPT {
+            self.order.pop_front()
+        } else {
+            None
+        };
+        let Some(mut old) = oldest.and_then(|oldest| self.pages[oldest as usize].take()) else {
+            return Box::new([const { None }; PAGE as usize]);
+        };
+        for line in old.iter_mut().filter_map(Option::take) {
+            if self.spare.len() < SPARE {
+                self.spare.push(line);
+            }
+        }
+        old
     }
 }

@@ -10,6 +10,7 @@ mod contour;
 mod endless;
 mod ends;
 mod fetch;
+mod glance;
 mod labels;
 mod lines;
 mod numbered;
@@ -87,7 +88,7 @@ pub(crate) struct Compiled {
     place: Place,
     next: Place,
     kind: Kind,
-    o: Option<OLine>,
+o: Option<Box<OLine>>,
     /// What a NUL cuts off, until it was told.
     cut: Option<TextRange>,
     /// What is wrong with its text as a whole; it is not read further then.
@@ -172,6 +173,8 @@ pub(crate) struct Flow {
     broken: bool,
     labels: Labels,
     chains: Chains,
+    /// The innermost loop is gone into, as far as its lines tell: what runs now will run again and is worth keeping.
+    looping: bool,
     lines: Vec<Lines>,
     /// Lines that may still run again.
     fuel: u64,
@@ -204,6 +207,7 @@ impl Clone for Flow {
             did: self.did,
             first_sub: self.first_sub,
             broken: self.broken,
+            looping: self.looping,
             labels: self.labels.clone(),
             chains: self.chains.clone(),
             lines: self.lines.clone(),
@@ -236,6 +240,7 @@ impl Flow {
             did: false,
             first_sub: None,
             broken: false,
+            looping: false,
             labels: Labels::new(),
             chains: Chains::default(),
             lines: vec![Lines::default()],

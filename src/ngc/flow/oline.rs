@@ -1,7 +1,7 @@
 //! O lines as text: label, keyword, condition or arguments; and the `M98` / `M99` that a line may begin with.
 use super::problems;
 use crate::Problem;
-use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, ValueError, Variables, value_or_error};
+use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Name, Pool, Target, ValueError, Variables, target};
 use trunnion_syntax::TextRange;
 
 /// What an O line says.
@@ -53,7 +53,7 @@ const KEYWORDS: [(&str, Keyword); 15] = [
 #[derive(Clone, Debug)]
 pub(crate) enum Label {
     /// `<name>` without blanks and in lower case, or a number as the control writes it.
-    Text(Box<str>),
+    Text(Name),
     /// `#1`, `[2*#3]`: known when the line runs.
     Computed(Formula),
 }
@@ -89,11 +89,11 @@ pub(crate) struct OLine {
 const ARGUMENTS: usize = 30;
 
 /// Reads an O line; the cursor stands before the O.
-pub(crate) fn read(cursor: &mut Cursor<'_>) -> OLine {
+pub(crate) fn read(cursor: &mut Cursor<'_>, pool: &mut Pool) -> OLine {
     let start = cursor.at();
     cursor.bump();
     let mut errors = Vec::new();
-    let label = label(cursor, &mut errors);
+    let label = label(cursor, &mut errors, pool);
     let label_range = cursor.since(start);
     let mut line = OLine {
         keyword: Keyword::Bare,
@@ -118,12 +118,12 @@ pub(crate) fn read(cursor: &mut Cursor<'_>) -> OLine {
         return line;
     };
     (line.keyword, line.keyword_range) = (keyword, range);
-    values(cursor, &mut line);
+    values(cursor, &mut line, pool);
     line
 }
 
 /// Reads the `M98` or `M99` a line begins with, if it does; the cursor stands before the M.
-pub(crate) fn numbered(cursor: &mut Cursor<'_>) -> Option<OLine> {
+pub(crate) fn numbered(cursor: &mut Cursor<'_>, pool: &mut Pool) -> Option<OLine> {
     let start = cursor.at();
     let mut number = *cursor;
     number.bump();
@@ -131,7 +131,7 @@ pub(crate) fn numbered(cursor: &mut Cursor<'_>) -> Option<OLine> {
     if !matches!(number.peek(), Some(b'9' | b'0' | b'[' | b'+')) {
         return None;
     }
-    let formula = value_or_error(&mut number, Grammar::Rs274).0;
+    let formula = pool.value_or_error(&mut number, Grammar::Rs274).0;
     let code = formula.number().or_else(|| formula.eval(&NoVariables).ok())?;
     let keyword = match code {
         98.0 => Keyword::CallNumbered,
@@ -145,7 +145,7 @@ pub(crate) fn numbered(cursor: &mut Cursor<'_>) -> Option<OLine> {
     let range = cursor.since(start);
     let mut line = OLine {
         keyword,
-        label: Label::Text(Box::default()),
+        label: Label::Text(Name::new("")),
         label_range: range,
         keyword_range: range,
         values: Vec::new(),
@@ -179,7 +179,10 @@ impl Variables for NoVariables {
     }
 }
 
-fn label(cursor: &mut Cursor<'_>, errors: &mut Vec<FormulaError>) -> Label {
+fn label(cursor: &mut Cursor<'_>, errors: &mut Vec<FormulaError>, pool: &mut Pool) -> Label {
+    if let Some(name) = plain_name(cursor) {
+        return Label::Text(name);
+    }
     if cursor.eat(b'<') {
         // a name that is not closed takes the rest of the line
         let mut name = String::new();
@@ -189,14 +192,49 @@ fn label(cursor: &mut Cursor<'_>, errors: &mut Vec<FormulaError>) -> Label {
             }
             name.push(char::from(byte));
         }
-        return Label::Text(name.trim_end_matches(['\r', '\n']).into());
+        return Label::Text(Name::new(name.trim_end_matches(['\r', '\n'])));
     }
-    let (formula, error) = value_or_error(cursor, Grammar::Rs274);
+    if let Some(digits) = plain_label(cursor) {
+        return Label::Text(digits);
+    }
+    let (formula, error) = pool.value_or_error(cursor, Grammar::Rs274);
     errors.extend(error);
     match formula.number().and_then(whole) {
-        Some(number) => Label::Text(number.to_string().into()),
+        Some(number) => Label::Text(Name::new(&number.to_string())),
         None => Label::Computed(formula),
     }
+}
+
+/// `<name>` at the cursor, where the name is closed and made of letters, digits and `_`.
+fn plain_name(cursor: &mut Cursor<'_>) -> Option<Name> {
+    let (&b'<', _) = cursor.rest().split_first()? else {
+        return None;
+    };
+    let mut ahead = *cursor;
+    match target(&mut ahead, Grammar::Rs274) {
+        Ok(Target::Named(name)) if name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') => {
+            *cursor = ahead;
+            Some(name)
+        }
+        _ => None,
+    }
+}
+
+/// The digits at the cursor, where they are a number as the control writes it and a keyword or nothing follows.
+fn plain_label(cursor: &mut Cursor<'_>) -> Option<Name> {
+    let rest = cursor.rest();
+    let length = rest
+        .iter()
+        .position(|byte| !byte.is_ascii_digit())
+        .unwrap_or(rest.len());
+    let behind = rest[length..].iter().find(|byte| !matches!(byte, b' ' | b'\t' | b'\r'));
+    let ends = behind.is_none_or(u8::is_ascii_alphabetic);
+    if !(1..=9).contains(&length) || (rest[0] == b'0' && length > 1) || !ends {
+        return None;
+    }
+    let digits = core::str::from_utf8(&rest[..length]).ok()?;
+    cursor.skip_to(cursor.at() + length as u32);
+    Some(Name::new(digits))
 }
 
 /// A whole number, where it is one within the tolerance that the control grants.
@@ -207,6 +245,10 @@ pub(crate) fn whole(value: f64) -> Option<i64> {
 
 fn keyword(cursor: &mut Cursor<'_>) -> Option<(Keyword, TextRange)> {
     let start = cursor.at();
+    if let Some((keyword, length)) = written(cursor.rest()) {
+        cursor.skip_to(start + length as u32);
+        return Some((keyword, cursor.since(start)));
+    }
     KEYWORDS.iter().find_map(|(word, keyword)| {
         let mut ahead = *cursor;
         if !word.bytes().all(|byte| ahead.eat(byte)) {
@@ -215,6 +257,38 @@ fn keyword(cursor: &mut Cursor<'_>) -> Option<(Keyword, TextRange)> {
         *cursor = ahead;
         Some((*keyword, cursor.since(start)))
     })
+}
+
+/// The keyword that a word without blanks is, behind which no letter can follow that would make it longer, and its length.
+fn written(rest: &[u8]) -> Option<(Keyword, usize)> {
+    let length = rest
+        .iter()
+        .position(|byte| !byte.is_ascii_alphabetic())
+        .unwrap_or(rest.len());
+    let mut lower = [0u8; 9];
+    let word = lower.get_mut(..length)?;
+    word.copy_from_slice(&rest[..length]);
+    word.make_ascii_lowercase();
+    let keyword = match &*word {
+        b"sub" => Keyword::Sub,
+        b"endsub" => Keyword::EndSub,
+        b"call" => Keyword::Call,
+        b"return" => Keyword::Return,
+        b"if" => Keyword::If,
+        b"elseif" => Keyword::ElseIf,
+        // `else if` is `elseif`
+        b"else" if !matches!(rest.get(length), Some(b' ' | b'\t' | b'\r')) => Keyword::Else,
+        b"endif" => Keyword::EndIf,
+        b"while" => Keyword::While,
+        b"endwhile" => Keyword::EndWhile,
+        b"do" => Keyword::Do,
+        b"repeat" => Keyword::Repeat,
+        b"endrepeat" => Keyword::EndRepeat,
+        b"break" => Keyword::Break,
+        b"continue" => Keyword::Continue,
+        _ => return None,
+    };
+    Some((keyword, length))
 }
 
 /// Letters that should have been a keyword.
@@ -230,7 +304,7 @@ fn unknown(cursor: &Cursor<'_>) -> TextRange {
     ahead.since(start)
 }
 
-fn values(cursor: &mut Cursor<'_>, line: &mut OLine) {
+fn values(cursor: &mut Cursor<'_>, line: &mut OLine, pool: &mut Pool) {
     let needed = match line.keyword {
         Keyword::If => Some(&problems::NO_CONDITION_IF),
         Keyword::ElseIf => Some(&problems::NO_CONDITION_ELSEIF),
@@ -240,7 +314,7 @@ fn values(cursor: &mut Cursor<'_>, line: &mut OLine) {
     };
     if let Some(problem) = needed {
         if cursor.peek() == Some(b'[') {
-            push(cursor, line);
+            push(cursor, line, pool);
         } else {
             line.flaw = Some(Flaw {
                 problem,
@@ -251,15 +325,15 @@ fn values(cursor: &mut Cursor<'_>, line: &mut OLine) {
     }
     match line.keyword {
         Keyword::EndSub | Keyword::Return if cursor.peek() == Some(b'[') => {
-            push(cursor, line);
+            push(cursor, line, pool);
         }
-        Keyword::Call => arguments(cursor, line),
+        Keyword::Call => arguments(cursor, line, pool),
         _ => {}
     }
     line.tail = line.tail.or_else(|| tail(cursor));
 }
 
-fn arguments(cursor: &mut Cursor<'_>, line: &mut OLine) {
+fn arguments(cursor: &mut Cursor<'_>, line: &mut OLine, pool: &mut Pool) {
     loop {
         skip_comments(cursor);
         if cursor.peek() != Some(b'[') {
@@ -274,12 +348,12 @@ fn arguments(cursor: &mut Cursor<'_>, line: &mut OLine) {
             });
             return;
         }
-        push(cursor, line);
+        push(cursor, line, pool);
     }
 }
 
-fn push(cursor: &mut Cursor<'_>, line: &mut OLine) {
-    let (value, error) = value_or_error(cursor, Grammar::Rs274);
+fn push(cursor: &mut Cursor<'_>, line: &mut OLine, pool: &mut Pool) {
+    let (value, error) = pool.value_or_error(cursor, Grammar::Rs274);
     line.values.push(value);
     line.errors.extend(error);
 }

@@ -24,6 +24,10 @@ impl Engine {
         };
         let mut inside = true;
         while (place.offset as usize) < length {
+            if let Some(next) = self.behind_what_ran(place) {
+                place = next;
+                continue;
+            }
             self.compile(place, &mut compiled);
             let next = compiled.next;
             if compiled.kind == Kind::Percent && place.line > 0 && self.flow.percent {
@@ -44,6 +48,34 @@ impl Engine {
             }
             place = next;
         }
+    }
+}
+
+impl Engine {
+    /// Behind lines that all ran, where the line at `place` begins a stretch of them before the end of the program: there is nothing to
+    /// tell of them.
+    fn behind_what_ran(&self, place: Place) -> Option<Place> {
+        let stretch = crate::source::STRIDE;
+        let next = place.line + stretch;
+        let source = &self.files[place.file.0 as usize];
+        let before_end = self
+            .flow
+            .end
+            .is_none_or(|end| end.file != place.file || end.line >= next);
+        let ran = place.line.is_multiple_of(stretch)
+            && before_end
+            && self.flow.lines.get(place.file.0 as usize)?.all_ran(place.line);
+        if !ran {
+            return None;
+        }
+        let offset = source.line(next)?.start;
+        // a second `%` is the end
+        let text = &source.bytes()[place.offset as usize..offset as usize];
+        (!self.flow.percent || memchr::memchr(b'%', text).is_none()).then_some(Place {
+            file: place.file,
+            line: next,
+            offset,
+        })
     }
 }
 

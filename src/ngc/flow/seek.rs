@@ -3,10 +3,12 @@
 //! The control looks at every line it skips: comments must be closed, N must be a number, O lines must have a known keyword. Only O
 //! lines with the label that is looked for count. Where a skip ended is kept with the line that began it, until a new label is known.
 use super::fetch::{self, Head};
+use super::glance::{self, Look};
 use super::labels::Place;
 use super::oline::{self, Keyword, OLine};
 use super::{Compiled, Goal, Kind, Seeking, problems};
 use crate::{Class, Engine, Error};
+use trunnion_formula::Pool;
 use trunnion_syntax::TextRange;
 
 /// How a skip went.
@@ -72,6 +74,10 @@ impl Engine {
             }
             let range = self.range_at(place);
             let next = Self::behind(place, range);
+            if self.surely_nothing(place, range, &seeking) {
+                self.flow.here = next;
+                continue;
+            }
             match self.glance(place, range, &mut seeking) {
                 Glance::Counts(line) => return self.land(place, next, *line, seeking),
                 Glance::Percent if self.flow.percent => return Sought::Percent,
@@ -102,8 +108,27 @@ impl Engine {
         compiled.kind = Kind::Label;
         compiled.flaw = None;
         compiled.memo = super::Memo::default();
-        compiled.o = Some(line);
+        compiled.o = Some(Box::new(line));
         Sought::Landed(compiled, seeking, false)
+    }
+    /// Whether a skipped line surely counts for nothing, by its first signs.
+    #[inline]
+    fn surely_nothing(&self, place: Place, range: TextRange, seeking: &Seeking) -> bool {
+        let line = &self.files[place.file.0 as usize].bytes()[range.as_usize()];
+        if line.len() > glance::LONGEST {
+            return false;
+        }
+        match glance::look(line) {
+            Look::Nothing => true,
+            Look::Label(name, is_global) => {
+                let (wanted, global) = match seeking.goal {
+                    Goal::Label(_, wanted) => (wanted, false),
+                    Goal::Definition(wanted) | Goal::Subprogram(wanted, _) => (wanted, true),
+                };
+                is_global != global || !self.flow.labels.text(wanted).as_bytes().eq_ignore_ascii_case(name)
+            }
+            Look::Unclear => false,
+        }
     }
     fn note(&mut self, place: Place) {
         self.flow.at = crate::At {
@@ -137,7 +162,7 @@ impl Engine {
     /// Looks at a skipped O line: whether it counts.
     fn glance_label(&mut self, head: &Head<'_>, seeking: &mut Seeking) -> Glance {
         let mut cursor = head.cursor;
-        let line = oline::read(&mut cursor);
+        let line = oline::read(&mut cursor, &mut Pool::default());
         if matches!(line.label, oline::Label::Computed(_)) {
             seeking.fixed = false;
         }

@@ -134,6 +134,7 @@ impl Engine {
                 let known = self.flow.labels.structure(label);
                 if known.is_none_or(|known| known.place == compiled.place) {
                     self.open(compiled, line, label, Opener::Do)?;
+                    self.flow.looping = true;
                 }
             }
             Keyword::Repeat => self.repeat(compiled, line, (label, goal), value)?,
@@ -178,6 +179,7 @@ impl Engine {
     }
     /// A loop is at its end: when it is met again, it begins anew.
     fn left(&mut self, label: LabelId) {
+        self.flow.looping = false;
         if let Some(structure) = self.flow.labels.structure_mut(label) {
             structure.fuel = 0;
         }
@@ -230,6 +232,7 @@ impl Engine {
             return Ok(());
         }
         self.open(compiled, line, label, Opener::While)?;
+        self.flow.looping = true;
         if value == 0.0 {
             self.left(label);
             self.begin_seeking(compiled, goal);
@@ -256,6 +259,7 @@ impl Engine {
             structure.rounds = value.round_ties_even() as i64;
             structure.fuel = fuel;
         }
+        self.flow.looping = structure.rounds > 0;
         if structure.rounds <= 0 {
             structure.rounds = 0;
             structure.fuel = 0;

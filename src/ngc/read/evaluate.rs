@@ -4,7 +4,7 @@ use super::line::{Assignment, Item, Line, WordText};
 use super::problems;
 use crate::parameters::{Slot, Values};
 use crate::{Block, Engine, Error, Problem};
-use trunnion_formula::{Formula, FormulaError, FormulaErrorKind, Target, ValueError, Variables};
+use trunnion_formula::{Formula, FormulaError, FormulaErrorKind, Name, Target, ValueError, Variables};
 use trunnion_syntax::TextRange;
 
 /// Evaluates the line's words into `block`; assignments are evaluated for their errors and take effect with [`apply`].
@@ -126,6 +126,13 @@ impl Variables for Created<'_> {
     }
     fn named(&self, name: &str) -> Result<f64, ValueError> {
         match self.values.named(name) {
+            Err(ValueError::NotDefined) if self.makes(name) => Ok(0.0),
+            other => other,
+        }
+    }
+    #[inline]
+    fn named_as(&self, name: &Name) -> Result<f64, ValueError> {
+        match self.values.named_as(name) {
             Err(ValueError::NotDefined) if self.makes(name) => Ok(0.0),
             other => other,
         }

@@ -1,7 +1,7 @@
 //! The line reader: bytes of one line to words, assignments and comments, with all that is wrong about the text.
 use super::{comments, problems};
 use crate::Error;
-use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Target, target, value_or_error};
+use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Pool, Target, target};
 use trunnion_syntax::TextRange;
 
 /// One word: a letter (or `@`, `^`, `$`) and its value.
@@ -52,6 +52,8 @@ pub(crate) struct Line {
     pub(crate) remark: Option<TextRange>,
     /// All that is wrong with the text. The first one the control reports, unless a value before it has none.
     pub(crate) errors: Vec<Error>,
+    /// Storage for formulas.
+    pub(crate) pool: Pool,
     /// The words there are, to find those that are there twice: bit per letter, then `$`.
     seen: u32,
 }
@@ -82,8 +84,12 @@ impl Line {
         self.number = None;
         self.delete = false;
         self.items.clear();
-        self.words.clear();
-        self.assignments.clear();
+        for word in self.words.drain(..) {
+            self.pool.take_back(word.value);
+        }
+        for assignment in self.assignments.drain(..) {
+            self.pool.take_back(assignment.value);
+        }
         self.comment = None;
         self.remark = None;
         self.errors.clear();
@@ -181,7 +187,7 @@ impl Line {
     fn word(&mut self, byte: u8, source: &[u8], cursor: &mut Cursor<'_>) {
         let start = cursor.at();
         cursor.bump();
-        let (value, error) = value_or_error(cursor, Grammar::Rs274);
+        let (value, error) = self.pool.value_or_error(cursor, Grammar::Rs274);
         let letter = byte.to_ascii_uppercase();
         let range = cursor.since(start);
         if let Some(error) = self.repeated(letter, range) {
@@ -234,7 +240,7 @@ impl Line {
             self.fail(Error::new(&problems::EQUAL_SIGN, target_range));
             return self.skip(start, source, cursor);
         }
-        let (value, error) = value_or_error(cursor, Grammar::Rs274);
+        let (value, error) = self.pool.value_or_error(cursor, Grammar::Rs274);
         self.push_assignment(left, target_range, value);
         self.recover(error, start, source, cursor);
     }

@@ -1,0 +1,60 @@
+//! Processor time: on a machine that does other work beside, it is what a program took and not what it waited.
+use std::{fs, hint::black_box, path::Path, process::Command, sync::OnceLock, time::Instant};
+
+/// Processor seconds that this thread has used; where the system does not tell (other than Linux), seconds that have passed.
+fn seconds() -> f64 {
+    static BEGUN: OnceLock<Instant> = OnceLock::new();
+    let told = fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = told.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
+    nanoseconds.map_or_else(
+        || BEGUN.get_or_init(Instant::now).elapsed().as_secs_f64(),
+        |nanoseconds| nanoseconds / 1e9,
+    )
+}
+
+/// The least time of some runs.
+pub(crate) fn best<T>(runs: usize, mut work: impl FnMut() -> T) -> f64 {
+    (0..runs)
+        .map(|_| {
+            let begun = seconds();
+            let made = black_box(work());
+            let took = seconds() - begun;
+            drop(made);
+            took
+        })
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Processor seconds of `rs274 -g` on a file, the least of some runs, each under a limit of 120 s; `None` where it is not installed or
+/// refuses the program.
+pub(crate) fn rs274(path: &Path, runs: usize) -> Option<f64> {
+    let home = std::env::temp_dir().join(format!("trunnion-rs274-{}", std::process::id()));
+    fs::create_dir_all(&home).ok()?;
+    let run = || {
+        let out = Command::new("sh")
+            .args([
+                "-c",
+                "timeout 120 rs274 -g \"$0\" >/dev/null 2>&1 </dev/null || exit 1; times",
+            ])
+            .arg(path)
+            .env("HOME", &home)
+            .current_dir(&home)
+            .output()
+            .ok()
+            .filter(|out| out.status.success())?;
+        // the second line tells of the children: user and system, `0m4.21s 0m0.10s`
+        let text = String::from_utf8(out.stdout).ok()?;
+        text.lines().nth(1)?.split_whitespace().map(clock).sum::<Option<f64>>()
+    };
+    let least = (0..runs)
+        .map(|_| run())
+        .try_fold(f64::INFINITY, |least, took| Some(least.min(took?)));
+    fs::remove_dir_all(&home).ok();
+    least
+}
+
+/// `1m4.21s` in seconds.
+fn clock(text: &str) -> Option<f64> {
+    let (minutes, seconds) = text.strip_suffix('s')?.split_once('m')?;
+    Some(60.0 * minutes.parse::<f64>().ok()? + seconds.parse::<f64>().ok()?)
+}

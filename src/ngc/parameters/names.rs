@@ -1,0 +1,50 @@
+//! Named parameters and their values: a few stand in a list that is searched from the front, the rest in order.
+use std::collections::BTreeMap;
+use trunnion_formula::Name;
+
+/// So many stand in the list: more are found faster in order.
+const FEW: usize = 12;
+
+/// Values by name.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Names {
+    few: Vec<(Name, f64)>,
+    rest: BTreeMap<Name, f64>,
+}
+
+impl Names {
+    /// The value of a name.
+    #[inline]
+    pub(super) fn get(&self, name: &Name) -> Option<f64> {
+        match self.few.iter().find(|(known, _)| known == name) {
+            Some((_, value)) => Some(*value),
+            None if self.rest.is_empty() => None,
+            None => self.rest.get(name).copied(),
+        }
+    }
+    /// Gives a name a value.
+    pub(super) fn set(&mut self, name: &Name, value: f64) {
+        if let Some((_, place)) = self.few.iter_mut().find(|(known, _)| known == name) {
+            *place = value;
+        } else if self.few.len() < FEW {
+            self.few.push((name.clone(), value));
+        } else {
+            self.rest.insert(name.clone(), value);
+        }
+    }
+    /// Whether the same names, set in the same order, have the same values, bit for bit.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let same = |((a, x), (b, y)): ((&Name, &f64), (&Name, &f64))| a == b && x.to_bits() == y.to_bits();
+        let few = |names: &Self| names.few.len();
+        let listed = self.few.iter().map(|(name, value)| (name, value));
+        few(self) == few(other)
+            && self.rest.len() == other.rest.len()
+            && listed.zip(other.few.iter().map(|(name, value)| (name, value))).all(same)
+            && self.rest.iter().zip(&other.rest).all(same)
+    }
+    /// Forgets all names.
+    pub(super) fn clear(&mut self) {
+        self.few.clear();
+        self.rest.clear();
+    }
+}

@@ -68,7 +68,8 @@ pub(crate) const EXPLAINED: &[Explanation] = &[
 ];
 
 /// Messages of what this interpreter does not model.
-const REFUSED: [&str; 9] = [
+const REFUSED: [&str; 10] = [
+    "pockets of a turning contour with several arcs: where the control cuts them is not known",
     "M61 or G10 L0 with cutter radius compensation on: where the control goes on from is not known",
     "a spline (G5, G5.1) before the end of another one (G5.2): the control mixes their control points",
     "corner of a turning contour with nothing before it: the control crashes",

@@ -88,7 +88,7 @@ pub(crate) struct Compiled {
     place: Place,
     next: Place,
     kind: Kind,
-o: Option<Box<OLine>>,
+    o: Option<Box<OLine>>,
     /// What a NUL cuts off, until it was told.
     cut: Option<TextRange>,
     /// What is wrong with its text as a whole; it is not read further then.

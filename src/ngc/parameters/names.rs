@@ -39,7 +39,9 @@ impl Names {
         let listed = self.few.iter().map(|(name, value)| (name, value));
         few(self) == few(other)
             && self.rest.len() == other.rest.len()
-            && listed.zip(other.few.iter().map(|(name, value)| (name, value))).all(same)
+            && listed
+                .zip(other.few.iter().map(|(name, value)| (name, value)))
+                .all(same)
             && self.rest.iter().zip(&other.rest).all(same)
     }
     /// Forgets all names.

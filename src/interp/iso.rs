@@ -29,10 +29,10 @@ impl<'d> Interpreter<'d> {
             };
             let mut words = Words::default();
             self.read(block, &mut codes, &mut words, &mut report);
+            self.percent(&words);
             if words.has_content {
                 self.memory.last_content = Some(block.id());
             }
-            self.percent(&words);
             if words.has_content && !self.state.ended {
                 if self.dialect.quirks.diameter || self.setup.control.implicit_decimals.is_some() {
                     self.adjust(&codes, &mut words);

@@ -95,6 +95,7 @@ impl<'a> Run<'a> {
                 ordinals: ordinals.collect(),
                 queue: VecDeque::new(),
                 refused: None,
+                first_alone: !dialect.quirks.rs274,
             },
         }
     }
@@ -117,6 +118,8 @@ struct Events {
     queue: VecDeque<Event>,
     /// The block whose first mistake was told last.
     refused: Option<u32>,
+    /// Of a line only the first mistake counts, see [`Events::fault`]. LinuxCNC's reader goes on without a look at blanks.
+    first_alone: bool,
 }
 
 enum Event {
@@ -152,7 +155,7 @@ impl Sink for Events {
     }
     fn fault(&mut self, fault: Fault) {
         let ordinal = self.ordinal(fault.block);
-        if is_refusal(&fault.kind) {
+        if self.first_alone && is_refusal(&fault.kind) {
             // behind the first mistake of a line, what else is found depends on its blanks: there reading goes on at what looks like
             // a word. The control stops at the first.
             let told = self

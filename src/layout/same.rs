@@ -1,7 +1,7 @@
 //! Whether two texts say the same words: token by token, with nothing ignored but what a layout may change. That is blanks between
 //! tokens and inside words, empty lines, the kind of line end, case where it has no meaning, and zeros in front of a code's number.
 use crate::blanks::is_plain_blank;
-use trunnion_syntax::{Item, Program, TextRange, TokenId, TokenKind, Value};
+use trunnion_syntax::{Address, Item, Program, TextRange, TokenId, TokenKind, Value};
 
 /// Whether two parsed blocks are the same words in the same order, read as the same items.
 pub(crate) fn same_block(a: &Program, b: &Program) -> bool {
@@ -139,6 +139,8 @@ struct Shape {
     sort: std::mem::Discriminant<Item>,
     value: Option<std::mem::Discriminant<Value>>,
     visible: usize,
+    /// How many bytes of it are its name, where it has one: digits behind a name may belong to it.
+    name: usize,
 }
 
 impl Iterator for Items<'_> {
@@ -176,5 +178,13 @@ fn shape(program: &Program, item: &Item) -> Shape {
         sort: std::mem::discriminant(item),
         value,
         visible: whole,
+        name: match item {
+            Item::Call(call) => visible(call.name),
+            Item::Word(word) => match word.address {
+                Address::Named(name) => visible(name),
+                _ => 0,
+            },
+            _ => 0,
+        },
     }
 }

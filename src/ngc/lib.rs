@@ -22,6 +22,7 @@ pub use block::{Block, G_GROUPS, M_GROUPS, OwnCode};
 pub use canon::{Canon, Coolant, MotionMode, Pose, Side, SpindleTurn, Stop, Switch, SyncedFeed};
 pub use engine::{At, ChainId, Engine, Frame, Sink, Step};
 pub use error::{Class, Error, Missing, Problem};
+pub use flow::Refused;
 pub use print::Listing;
 pub use setup::{BadLine, Files, Ini, Limits, Loaded, Parameters, Setup, Start, ToolEntry, ToolTable};
 pub use source::{FileId, Source};

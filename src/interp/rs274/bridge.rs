@@ -8,7 +8,7 @@ use crate::{Fault, FaultKind, Feed, Interpreter, Motion, MotionKind, Orientation
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::{Arc, Turning};
 use trunnion_ngc::{At, Canon, Error, FileId, OwnCode, Pose, State};
-use trunnion_syntax::{Address, BlockId, Program, TextRange, Value, Word};
+use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// What calls have told that a motion needs and [`State`] does not tell in step with them: compensation of the cutter radius holds
 /// calls back while the state runs ahead.
@@ -96,17 +96,6 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     pub(super) fn not_modelled(&mut self, at: At, codes: core::ops::RangeInclusive<i64>, what: String) {
         let range = self.code_range(at, b'G', |code| codes.contains(&code));
         self.fault(at, range, FaultKind::NotModelled { what });
-    }
-
-    /// A refused block switched the spindle: whether it turns behind it is not known.
-    pub(super) fn refused_spindle(&mut self, block: BlockId) {
-        let switches = |word: Word| match (word.address, word.value) {
-            (Address::Letter(b'M'), Value::Number(number)) => (3.0..=5.0).contains(&number.to_f64()),
-            _ => false,
-        };
-        if self.program.block(block).words().any(switches) {
-            self.interpreter.state.spindle_on = None;
-        }
     }
 
     /// Says so where compensation begins with a radius of zero, because nothing is declared of the tool.

@@ -22,7 +22,6 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.fault(at, own.range, FaultKind::UnknownCode { machine_builder: true });
             return;
         };
-        let block = self.block(at);
         let known = matches!(
             code.action,
             Action::TcpOn
@@ -42,7 +41,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.interpreter.state.frame_unknown = true;
             return;
         }
-        if known && !super::named_axes(self.program, block).is_empty() {
+        if known && state.named_axes != 0 {
             // the words are arguments of the remap, or a motion beside it: the interpreter does not run them
             let what = format!("{} with axis words in its block", code.id);
             self.fault(at, own.range, FaultKind::NotModelled { what });

@@ -9,12 +9,12 @@ mod modal;
 mod places;
 mod setup;
 
-use crate::{AXIS_LETTERS, FaultKind, Frame, Interpreter, Sink};
+use crate::{FaultKind, Frame, Interpreter, Sink};
 use bridge::{Bridge, LINEAR_AXES, Told};
 use frames::Shift;
 use std::sync::Arc;
 use trunnion_ngc::{Engine, FileId, Source, Step};
-use trunnion_syntax::{Address, BlockId, Program, TextRange};
+use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// A run between two lines.
 #[derive(Clone)]
@@ -118,19 +118,22 @@ impl Interpreter<'_> {
             program,
             sink,
         };
-        let before = engine.at();
         let step = engine.step(&mut bridge);
         let at = engine.at();
-        // behind the last line nothing runs
-        let end_of_file = step == Step::Ended && before == at && bridge.interpreter.memory.last_content.is_some();
+        // behind the last line nothing runs, and nothing in a program without anything in it
+        let nothing_ran = step == Step::Ended;
         let block = bridge.block(at);
         let in_main = (at.file == FileId::MAIN).then_some(block);
         bridge.told.places.ran(at.chain, in_main);
         match step {
             Step::Line => {}
             Step::Refused => {
-                forget(engine, bridge.told, &named_axes(program, block));
-                bridge.refused_spindle(block);
+                let refused = engine.refused();
+                let named: Vec<usize> = (0..9).filter(|axis| refused.axes & (1 << axis) != 0).collect();
+                forget(engine, bridge.told, &named);
+                if refused.spindle {
+                    bridge.interpreter.state.spindle_on = None;
+                }
             }
             Step::Ended => *done = true,
             Step::Undecided(what) => {
@@ -159,7 +162,7 @@ impl Interpreter<'_> {
         let shift = Shift::of(&engine.state, &told.g92);
         modal::refresh(&mut self.state, &engine.state, &shift);
         self.state.position = shift.coordinates(&engine.state.current);
-        (!end_of_file).then_some(block)
+        (!nothing_ran).then_some(block)
     }
 }
 
@@ -170,13 +173,4 @@ fn forget(engine: &mut Engine, told: &mut Told, axes: &[usize]) {
         engine.state.compensated[axis] = f64::NAN;
         told.machine.forget(axis);
     }
-}
-
-/// Axes that a refused block names: the control would have stopped, so that nobody knows where they would be.
-fn named_axes(program: &Program, block: BlockId) -> Vec<usize> {
-    let letters = program.block(block).words().filter_map(|word| match word.address {
-        Address::Letter(letter) => AXIS_LETTERS.iter().position(|axis| *axis == letter),
-        _ => None,
-    });
-    letters.collect()
 }

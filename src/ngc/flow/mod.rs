@@ -17,11 +17,14 @@ mod numbered;
 mod oline;
 mod plain;
 mod problems;
+mod refused;
 mod rest;
 mod seek;
 mod step;
 mod structure;
 mod undecided;
+
+pub use refused::Refused;
 
 use crate::read::Line;
 use crate::{At, ChainId, Error, FileId, Setup};
@@ -184,6 +187,8 @@ pub(crate) struct Flow {
     watch: endless::Watch,
     /// Where the last subprogram was looked for in vain.
     searched: Vec<String>,
+    /// What the last refused line named.
+    refused: Refused,
     /// Kept for its storage.
     spare: Option<Box<Compiled>>,
 }
@@ -215,6 +220,7 @@ impl Clone for Flow {
             context: self.context.clone(),
             watch: self.watch.clone(),
             searched: self.searched.clone(),
+            refused: self.refused,
             spare: None,
         }
     }
@@ -248,6 +254,7 @@ impl Flow {
             context: None,
             watch: endless::Watch::default(),
             searched: Vec::new(),
+            refused: Refused::default(),
             spare: None,
         }
     }

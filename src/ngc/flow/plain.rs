@@ -1,4 +1,5 @@
 //! Lines of words with plain numbers that run for the first time: most of every program.
+use super::Refused;
 use super::labels::Place;
 use crate::exec::{self, After};
 use crate::{At, Block, Engine, Error, Sink, Step, read};
@@ -37,6 +38,7 @@ impl Engine {
         if let Err(error) = &result {
             let not_modelled = error.problem.class == crate::Class::NotModelled;
             self.after_refusal(block.g[1], not_modelled, block.has(b'F'));
+            self.flow.refused = Refused::of_block(&block);
         }
         self.block = Some(block);
         Some(match result {

@@ -2,7 +2,7 @@
 use super::labels::Place;
 use super::oline::OLine;
 use super::seek::Sought;
-use super::{Compiled, Halt, Kind, Seeking, problems};
+use super::{Compiled, Halt, Kind, Refused, Seeking, problems};
 use crate::exec::{self, After};
 use crate::parameters::Values;
 use crate::read;
@@ -16,6 +16,7 @@ impl Engine {
         if self.flow.ended {
             return Step::Ended;
         }
+        self.flow.refused = Refused::default();
         if !self.flow.started {
             self.flow.started = true;
             if let Some(step) = self.begin(sink) {
@@ -90,6 +91,11 @@ impl Engine {
             None => self.run_line(&mut compiled, sink),
             Some(seeking) => self.run_label(&mut compiled, Some(seeking), sink),
         };
+        if matches!(result, Err(Halt::Refused(_) | Halt::Told)) {
+            let source = self.files[place.file.0 as usize].bytes();
+            let text = super::fetch::trimmed(source, self.range_at(place));
+            self.flow.refused = Refused::of_line(&compiled, &source[text.as_usize()]);
+        }
         self.put_back(compiled, keep);
         match result {
             Ok(After::Go) => Step::Line,
@@ -253,6 +259,10 @@ impl Engine {
             ..error.clone()
         };
         sink.error(&error, at);
+    }
+    /// What the line named that the last step refused.
+    pub fn refused(&self) -> Refused {
+        self.flow.refused
     }
     pub(super) fn refuse(&mut self, error: &Error, sink: &mut dyn Sink) -> Step {
         self.tell(error, sink);

@@ -1,5 +1,5 @@
 //! The line reader: bytes of one line to words, assignments and comments, with all that is wrong about the text.
-use super::{comments, problems};
+use super::{comments, problems, recovery};
 use crate::Error;
 use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Pool, Target, target};
 use trunnion_syntax::TextRange;
@@ -264,48 +264,10 @@ impl Line {
         }
     }
 
-    /// Goes on where the next word may begin: behind the brackets that hold the place and are closed; else at the next letter or `#`
-    /// behind a blank that looks like a word, or at the next comment. `start` is where the value begins that is wrong.
+    /// Goes on where the next word may begin. `start` is where the value begins that is wrong. Blanks have no say in it.
     fn skip(&mut self, start: u32, source: &[u8], cursor: &mut Cursor<'_>) {
-        let from = cursor.at();
-        if let Some(behind) = behind_brackets(source, start, from, self.range.end) {
-            return cursor.skip_to(behind);
-        }
-        for at in from..self.range.end {
-            let rest = &source[at as usize..self.range.end as usize];
-            let blank = at > self.range.start && source[at as usize - 1].is_ascii_whitespace();
-            let begins = match rest[0] {
-                b';' | b'(' => true,
-                b'#' => blank,
-                letter => blank && letter.is_ascii_alphabetic() && !rest.get(1).is_some_and(u8::is_ascii_alphabetic),
-            };
-            if begins && at > start {
-                return cursor.skip_to(at);
-            }
-        }
-        cursor.skip_to(self.range.end);
+        cursor.skip_to(recovery::next_item(source, start, cursor.at(), self.range.end));
     }
-}
-
-/// One past the `]` that closes the outermost bracket opened between `start` and `at`; `None` if none is open there, or it is not
-/// closed before `end`.
-fn behind_brackets(source: &[u8], start: u32, at: u32, end: u32) -> Option<u32> {
-    let mut depth = 0i32;
-    for (place, byte) in source[start as usize..end as usize].iter().enumerate() {
-        let place = start + place as u32;
-        if place == at && depth <= 0 {
-            return None;
-        }
-        match byte {
-            b'[' => depth += 1,
-            b']' if depth > 0 => depth -= 1,
-            _ => {}
-        }
-        if place >= at && depth == 0 {
-            return Some(place + 1);
-        }
-    }
-    None
 }
 
 /// A word that may be there once is there a second time.

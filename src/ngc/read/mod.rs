@@ -5,6 +5,7 @@ mod evaluate;
 mod line;
 mod plain;
 mod problems;
+mod recovery;
 
 pub(crate) use comments::flaw as comment_flaw;
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Lines against the control: every line of `tests/lines.tsv` was given to `rs274` (2.9.0~pre1), most with ` ^` behind it, which no line
 //! survives; beside it stands the message.
-use super::{Line, apply, evaluate, problems};
+use super::{Line, apply, errors, evaluate, problems};
 use crate::parameters::Values;
 use crate::{Block, Engine, Error, Setup, Source, Start};
+use proptest::prelude::*;
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
@@ -37,6 +38,11 @@ fn first_error(text: &str, engine: &Engine) -> Option<Error> {
         );
     }
     evaluated
+}
+
+/// All that is wrong with the line.
+fn all_errors(text: &str, engine: &Engine) -> Vec<Error> {
+    errors(&read(text), &Values::new(engine), &mut Block::new())
 }
 
 /// Runs lines one after the other, without effect but on parameters.
@@ -160,6 +166,22 @@ fn all_errors_of_a_line_with_their_places() {
             ],
         ),
         (
+            "ANDX1.5G1G1",
+            &[
+                ("Unknown word where unary operation could be", "N"),
+                ("Two g codes used from same modal group", "G1"),
+            ],
+        ),
+        (
+            // a name that nobody knows is no row of words
+            "X Y1.2.3 CYCLE800 S-1",
+            &[
+                ("Unknown word where unary operation could be", "Y"),
+                ("bad number format (trailing characters) parsing '1.2.3'", "1.2.3"),
+                ("Negative spindle speed used", "S-1"),
+            ],
+        ),
+        (
             "X[1 FOO 2 BAR [3]] Y[1 Z2",
             &[("Unknown operation", "F"), ("Unknown operation", "Z")],
         ),
@@ -184,9 +206,8 @@ fn all_errors_of_a_line_with_their_places() {
         ("N-5 X1", &[("Bad format unsigned integer", "N")]),
     ];
     for (text, expected) in table {
-        let line = read(text);
-        let told: Vec<_> = line
-            .errors
+        let all = all_errors(text, &engine(Start::Zero));
+        let told: Vec<_> = all
             .iter()
             .map(|error| (error.message(), &text[error.range.as_usize()]))
             .collect();
@@ -204,4 +225,35 @@ fn unknown_values_are_no_errors() {
     run(&["#1=5 #[#2]=1"], &mut engine);
     assert!(engine.store.number(1).is_nan(), "any number may have been set");
     assert_eq!(run(&["X#<_task>"], &mut engine).word(b'X'), Some(1.0));
+}
+
+/// Pieces of lines, right and wrong.
+fn pieces() -> impl Strategy<Value = Vec<String>> {
+    let piece = proptest::sample::select(vec![
+        "G1", "G2", "X", "Y1.5", "Z-", "M3", "M", "N", "O", "AND", "MOD", "SIN", "FIX[", "[", "]", "#", "#1", "#<a",
+        ">", "=", "+", "-", "*", "**", "/", "1", ".", "2.5", "!", "@", "^3", "$", "P-1", "Q5", "CYCLE", "\u{e9}",
+        "EXISTS[#", "ATAN[1]", "LE", "F0",
+    ]);
+    proptest::collection::vec(piece.prop_map(str::to_owned), 0..14)
+}
+
+proptest! {
+    #[test]
+    fn blanks_have_no_say(pieces in pieces(), blanks in proptest::collection::vec("[ \t]{0,2}", 40)) {
+        let engine = engine(Start::Zero);
+        let close = pieces.concat();
+        let mut blanks = blanks.iter().cycle();
+        let wide: String = close.chars().flat_map(|sign| [sign.to_string(), blanks.next().cloned().unwrap_or_default()]).collect();
+        let told = |text: &str| {
+            let text = text.trim_end();
+            let line = read(text);
+            let mut block = Block::new();
+            let all = errors(&line, &Values::new(&engine), &mut block);
+            let messages: Vec<String> = all.iter().map(|error| error.message().to_owned()).collect();
+            let values: Vec<_> = (b'A'..=b'Z').map(|letter| block.word(letter).map(f64::to_bits)).collect();
+            let first = evaluate(&line, &Values::new(&engine), &mut Block::new()).err().map(|error| error.message().to_owned());
+            (messages, values, block.g, block.m, first)
+        };
+        prop_assert_eq!(told(&close), told(&wide), "{:?} and {:?}", close, wide);
+    }
 }

@@ -12,16 +12,6 @@ pub(crate) fn program(text: &[u8], dialect: &Dialect) -> Program {
     parse(text.to_vec(), dialect.lex)
 }
 
-/// The text laid out, as it is where there is nothing to do; `None` where no proof was found.
-pub(crate) fn laid_or_refused(text: &[u8], name: &str, style: &Style) -> Option<Vec<u8>> {
-    let dialect = dialect(name);
-    match layout(&program(text, dialect), dialect, &Setup::default(), style) {
-        Layout::Unchanged => Some(text.to_vec()),
-        Layout::Changed(text) => Some(text),
-        Layout::Refused(_) => None,
-    }
-}
-
 /// The text laid out; as it is where there is nothing to do.
 pub(crate) fn laid_with(text: &[u8], name: &str, style: &Style) -> Vec<u8> {
     let dialect = dialect(name);

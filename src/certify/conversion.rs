@@ -7,7 +7,8 @@ mod proof;
 mod reading;
 mod track;
 
+pub use crate::curve::{great_circle, joint_bend};
 pub use claim::{ConversionClaim, ConversionProof, Part};
 pub use proof::converted;
 pub use reading::{Assume, Posed, Ran, Reading, Run, read};
-pub use track::{Track, carried, great_circle, joint_bend, rotary};
+pub use track::{Track, carried, rotary};

@@ -6,6 +6,7 @@ mod certificate;
 mod claim;
 mod compare;
 pub mod conversion;
+mod curve;
 mod difference;
 mod digest;
 mod library;

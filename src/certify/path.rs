@@ -2,8 +2,9 @@
 //!
 //! For a point that moves on W(t), 0 <= t <= 1, with |W''| <= Q, the distance of W from any chord between two moments h apart
 //! is at most Q h^2 / 8 (kinematics notes 3). The same holds for the difference of two such points.
+use crate::curve::{great_circle, joint_bend};
 use trunnion_geometry::Vec3;
-use trunnion_geometry::math::{angle_between, asin, rotate, sin_cos};
+use trunnion_geometry::math::{angle_between, asin};
 use trunnion_interp::MotionKind;
 use trunnion_machine::{AxisKind, Joints, Leg, MAX_AXES, Machine, Stance, forward};
 
@@ -88,7 +89,10 @@ impl<'m> Path<'m> {
         };
         let axis = axis * axis;
         match self.interpolation {
-            Interpolation::Joints => (self.joint_bend(), axis),
+            Interpolation::Joints => (
+                joint_bend(self.machine, &self.joints, self.tool_length - self.height),
+                axis,
+            ),
             Interpolation::TipStraight | Interpolation::GreatCircle => (self.height.abs() * axis, axis),
         }
     }
@@ -99,51 +103,6 @@ impl<'m> Path<'m> {
         let change = |joint: usize| (joint, (self.joints[1][joint] - self.joints[0][joint]).abs());
         (0..self.machine.axes.len()).filter(rotary).map(change).collect()
     }
-
-    /// |W''| of the point while all joints run linear: the chain is walked from the tool to the workpiece, keeping bounds on the
-    /// speed V and the bend A of the point as each axis carries it. A linear axis of speed v adds v to V; a rotary axis of speed w
-    /// at a distance of at most d adds w d to V and 2 w V + w^2 d to A. With two rotary axes this is Q of kinematics notes 3.
-    fn joint_bend(&self) -> f64 {
-        let machine = self.machine;
-        let length = self.tool_length - self.height;
-        let mut ends = [machine.home.gauge_point - machine.home.tool_axis * length; 2];
-        let (mut speed, mut bend) = (0.0, 0.0);
-        for (joint, axis) in machine.axes.iter().enumerate().rev() {
-            let values = [self.joints[0][joint], self.joints[1][joint]];
-            let change = (values[1] - values[0]).abs();
-            match axis.kind {
-                AxisKind::Linear => {
-                    for (point, value) in ends.iter_mut().zip(values) {
-                        *point += axis.direction * (axis.sign * value);
-                    }
-                    speed += change;
-                }
-                AxisKind::Rotary => {
-                    let distance = |point: &Vec3| axis.direction.cross(&(point - axis.point)).norm();
-                    // between the ends the point is at most half its way farther out than their mean
-                    let reach = 0.5 * (distance(&ends[0]) + distance(&ends[1]) + speed);
-                    for (point, value) in ends.iter_mut().zip(values) {
-                        *point = rotate(&axis.direction, axis.sign * value, &(*point - axis.point)) + axis.point;
-                    }
-                    bend += 2.0 * change * speed + change * change * reach;
-                    speed += change * reach;
-                }
-            }
-        }
-        bend
-    }
-}
-
-/// The unit vector at the share `t` of the shorter great circle from `a` to `b` (unit vectors, not opposite).
-fn great_circle(a: &Vec3, b: &Vec3, t: f64) -> Vec3 {
-    let angle = angle_between(a, b);
-    let across = b - a * a.dot(b);
-    let length = across.norm();
-    if length <= 0.0 {
-        return *a;
-    }
-    let (sin, cos) = sin_cos(angle * t);
-    a * cos + across * (sin / length)
 }
 
 /// How far two paths lie apart at the same share of the motion.

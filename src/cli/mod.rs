@@ -10,6 +10,7 @@ mod failure;
 mod fix;
 mod fmt;
 mod json;
+mod legs;
 mod load;
 mod machine;
 mod parse;

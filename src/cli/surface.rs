@@ -4,6 +4,7 @@ use super::{
     args::{Global, ListFormat},
     failure::{Failure, remark},
     json::write_json,
+    legs::each_leg,
     load::{self, Loaded},
     plot,
 };
@@ -13,8 +14,7 @@ use std::{
     io::Write,
     path::{Path, PathBuf},
 };
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
-use trunnion_machine::{Follower, Machine};
+use trunnion_machine::Machine;
 use trunnion_plot::height_map;
 use trunnion_surface::{Errors, Found, Judge, Options, Required, required, required_stl};
 use trunnion_syntax::{BlockId, LineIndex};
@@ -168,42 +168,10 @@ fn judge(
         close: command.close,
         spots: if command.plot.is_some() { SPOTS } else { 0 },
     };
-    let mut judging = Judging {
-        follower: Follower::new(machine),
-        judge: Judge::new(surface, machine, options),
-        loaded,
-        index,
-        lines: command.lines.as_deref().map(plot::span).transpose()?,
-    };
-    trunnion_interp::run(
-        &loaded.program,
-        loaded.resolved.dialect,
-        &loaded.resolved.setup,
-        &mut judging,
-    );
-    Ok(judging.judge.finish())
-}
-
-struct Judging<'a> {
-    follower: Follower<'a>,
-    judge: Judge<'a>,
-    loaded: &'a Loaded,
-    index: &'a LineIndex,
-    lines: Option<(u32, u32)>,
-}
-
-impl Sink for Judging<'_> {
-    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
-        let leg = self.follower.follow(motion);
-        let program = &self.loaded.program;
-        let start = program.block(motion.block).range().start;
-        let line = self.index.line_column(program.source(), start).0;
-        if self.lines.is_none_or(|(from, to)| (from..=to).contains(&line)) {
-            self.judge.leg(&leg);
-        }
-    }
-    fn fault(&mut self, _fault: Fault) {}
-    fn block_done(&mut self, _block: BlockId, _interpreter: &Interpreter<'_>) {}
+    let lines = command.lines.as_deref().map(plot::span).transpose()?;
+    let mut judge = Judge::new(surface, machine, options);
+    each_leg(loaded, machine, index, lines, |leg, _| judge.leg(leg));
+    Ok(judge.finish())
 }
 
 struct Report<'a> {

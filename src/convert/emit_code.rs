@@ -290,7 +290,7 @@ impl<'a> Writer<'a> {
         let tool = self.tool.map(|tool| tool.to_string());
         // a length is compensated where there is a tool; without one the words are those of the spindle's nose
         if key != "length-on" || tool.is_some() && self.post.template(key).is_some() {
-            let code = self.tcp_code(true);
+            let code = self.post.tcp_code(self.mode.machine(), true);
             self.template(key, Some(block), |name| match name {
                 "tool" => tool.clone(),
                 "tcp_on" => code.clone(),
@@ -309,21 +309,10 @@ impl<'a> Writer<'a> {
             Mode::Joints(_) => false,
         };
         if std::mem::take(&mut self.ready) && tcp {
-            let code = self.tcp_code(false);
+            let code = self.post.tcp_code(self.mode.machine(), false);
             self.template("tcp-off", None, |name| code.clone().filter(|_| name == "tcp_off"))?;
         }
         Ok(())
-    }
-
-    /// The code for tool centre point control that the machine declares, or the post.
-    fn tcp_code(&self, on: bool) -> Option<String> {
-        let declared = self
-            .mode
-            .machine()
-            .and_then(|machine| machine.control.tcp_codes.as_ref());
-        let code = declared.and_then(|codes| if on { &codes.on } else { &codes.off }.first().cloned());
-        let post = if on { &self.post.tcp_on } else { &self.post.tcp_off };
-        code.or_else(|| post.clone())
     }
 
     fn motion(&mut self, out: &Out, block: BlockId) -> Result<(), Refused> {

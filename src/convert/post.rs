@@ -1,10 +1,11 @@
 //! How a control is written for: number formats and templates, as a TOML table in `grammar/posts` or a file of one's own.
-use crate::template::names;
+use crate::template::{fill, names};
 use core::ops::Range;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 use toml::Spanned;
+use trunnion_machine::Machine;
 
 /// Names of the posts that are built in: those of their dialects.
 pub const BUILTIN_POSTS: &[&str] = &[
@@ -322,6 +323,27 @@ impl Post {
         digits(raw.length_inch.as_ref(), &mut self.length[1], 0..=9)?;
         self.point = raw.point.unwrap_or(self.point);
         Ok(())
+    }
+
+    /// A template with its names filled in, for those who write programs that nobody proves (test pieces, faults on purpose); `None`:
+    /// the control has no such code.
+    ///
+    /// # Errors
+    /// The first name in it that `value` does not know.
+    pub fn fill(&self, key: &str, value: impl Fn(&str) -> Option<String>) -> Option<Result<String, &str>> {
+        Some(fill(self.template(key)?, value))
+    }
+
+    /// Whether a length is called by a number that a program could get wrong (G43 H2).
+    pub fn numbers_its_lengths(&self) -> bool {
+        self.template("length-on").is_some_and(|text| text.contains("{tool}"))
+    }
+
+    /// The code that switches tool centre point control on or off: the one that the machine declares, else the post's.
+    pub fn tcp_code(&self, machine: Option<&Machine>, on: bool) -> Option<String> {
+        let declared = machine.and_then(|machine| machine.control.tcp_codes.as_ref());
+        let code = declared.and_then(|codes| if on { &codes.on } else { &codes.off }.first().cloned());
+        code.or_else(|| if on { &self.tcp_on } else { &self.tcp_off }.clone())
     }
 
     /// A template; `None`: the control has no such code.

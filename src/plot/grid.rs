@@ -214,12 +214,12 @@ impl<'a> Panel<'a> {
         colour: RGBColor,
         pixels: f64,
     ) -> Result<(), PlotError> {
-        for run in self.visible(points) {
-            let run: Vec<(i32, i32)> = run.into_iter().map(Self::whole).collect();
-            self.area
-                .draw(&PathElement::new(run, colour.stroke_width(px(pixels) as u32)))?;
-        }
-        Ok(())
+        let runs = self.visible(points).into_iter();
+        self.strokes(
+            runs.map(|run| run.into_iter().map(Self::whole).collect()),
+            colour,
+            pixels,
+        )
     }
 
     /// A dashed line.
@@ -229,11 +229,19 @@ impl<'a> Panel<'a> {
         colour: RGBColor,
         pixels: f64,
     ) -> Result<(), PlotError> {
-        for run in self.visible(points) {
-            for part in dashes(&run, 7.0, 5.0) {
-                self.area
-                    .draw(&PathElement::new(part, colour.stroke_width(px(pixels) as u32)))?;
-            }
+        let runs = self.visible(points).into_iter();
+        self.strokes(runs.flat_map(|run| dashes(&run, 7.0, 5.0)), colour, pixels)
+    }
+
+    fn strokes(
+        &self,
+        runs: impl Iterator<Item = Vec<(i32, i32)>>,
+        colour: RGBColor,
+        pixels: f64,
+    ) -> Result<(), PlotError> {
+        let style = colour.stroke_width(px(pixels) as u32);
+        for run in runs {
+            self.area.draw(&PathElement::new(run, style))?;
         }
         Ok(())
     }

@@ -1,9 +1,10 @@
 //! The way of the tool between the ends of one motion, on any machine or none, and how much it can bend.
 use super::Posed;
-use trunnion_geometry::math::{angle_between, rotate, sin_cos};
+use crate::curve::{great_circle, joint_bend};
+use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, arc::Arc};
 use trunnion_interp::MotionKind;
-use trunnion_machine::{AxisKind, Joints, Machine, Pose, forward, tool_axis_at};
+use trunnion_machine::{Joints, Machine, Pose, forward, tool_axis_at};
 
 /// What runs between the ends.
 #[derive(Clone, Debug)]
@@ -218,47 +219,4 @@ pub fn rotary(machine: &Machine, joints: &Joints) -> [f64; 2] {
 fn arc_bend(arc: &Arc) -> f64 {
     let radius = arc.radius_start.max(arc.radius_end);
     radius * arc.sweep * arc.sweep + 2.0 * ((arc.radius_end - arc.radius_start) * arc.sweep).abs()
-}
-
-/// |W''| of the tip while all joints run linearly. The chain is walked from the tool to the workpiece: a linear axis of speed v adds v
-/// to the bound V of the speed; a rotary axis of speed w at a distance of at most d adds 2 w V + w^2 d to that of the bend, and
-/// w d to V (kinematics notes 3).
-pub fn joint_bend(machine: &Machine, ends: &[Joints; 2], tool_length: f64) -> f64 {
-    let mut points = [machine.home.gauge_point - machine.home.tool_axis * tool_length; 2];
-    let (mut speed, mut bend) = (0.0, 0.0);
-    for (joint, axis) in machine.axes.iter().enumerate().rev() {
-        let values = [ends[0][joint], ends[1][joint]];
-        let change = (values[1] - values[0]).abs();
-        match axis.kind {
-            AxisKind::Linear => {
-                for (point, value) in points.iter_mut().zip(values) {
-                    *point += axis.direction * (axis.sign * value);
-                }
-                speed += change;
-            }
-            AxisKind::Rotary => {
-                let distance = |point: &Vec3| axis.direction.cross(&(point - axis.point)).norm();
-                // between the ends the point is at most half its way farther out than their mean
-                let reach = 0.5 * (distance(&points[0]) + distance(&points[1]) + speed);
-                for (point, value) in points.iter_mut().zip(values) {
-                    *point = rotate(&axis.direction, axis.sign * value, &(*point - axis.point)) + axis.point;
-                }
-                bend += 2.0 * change * speed + change * change * reach;
-                speed += change * reach;
-            }
-        }
-    }
-    bend
-}
-
-/// The unit vector at the share `t` of the shorter great circle from `a` to `b` (unit vectors, not opposite).
-pub fn great_circle(a: &Vec3, b: &Vec3, t: f64) -> Vec3 {
-    let angle = angle_between(a, b);
-    let across = b - a * a.dot(b);
-    let length = across.norm();
-    if length <= 0.0 {
-        return *a;
-    }
-    let (sin, cos) = sin_cos(angle * t);
-    a * cos + across * (sin / length)
 }

@@ -9,7 +9,7 @@
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z200 A10 C0
 //! N30 G1 X5 A25 F50
-//! ;   ^^^^^^^^^^^^^ excess-linear-travel: the linear axes run
+//! ;      ^^^ excess-linear-travel: the linear axes run
 //! N40 M30
 //! ```
 //!
@@ -36,6 +36,7 @@
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 use trunnion_machine::{excursions, linear_travel};
+use trunnion_syntax::Program;
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
@@ -71,7 +72,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if out.repeats(view, 0, times) {
         return;
     }
-    let range = code_range(out.program(), view.motion().block);
+    let range = turning_word(view, out.program());
     let draft = out.report(
         range,
         format!(
@@ -104,6 +105,17 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     }
 }
 
+/// The word of the rotary axis that turns most: it is what makes the linear axes run.
+fn turning_word(view: &LegView<'_>, program: &Program) -> TextRange {
+    let block = view.motion().block;
+    let turns = view.machine.rotary.iter().zip(view.leg.rotary_change);
+    let most = turns.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()));
+    most.map_or_else(
+        || code_range(program, block),
+        |(axis, _)| axis_word(program, block, view.machine.axes[*axis].letter),
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use crate::fixture::{Fixture, assert_drawn};
@@ -124,7 +136,7 @@ mod tests {
     fn axes_that_run_beyond_their_ends_are_noted() {
         let report = assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",
-            "TRAORI\nG0 X0 Y0 Z100 A-25 C0\nG1 X1 A40 F50\n;^^^^^^^^^^^^ excess-linear-travel: \n;     ^^^ only-one-posture: \n;     ^^^ pole-crossing: \nM30\n",
+            "TRAORI\nG0 X0 Y0 Z100 A-25 C0\nG1 X1 A40 F50\n;     ^^^ excess-linear-travel: \n;     ^^^ only-one-posture: \n;     ^^^ pole-crossing: \nM30\n",
         );
         let notes = &report.diagnostics[0].notes;
         // Z: 100 cos 25 deg = 90.6, 100, 76.6

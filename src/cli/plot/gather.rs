@@ -1,50 +1,17 @@
 //! Runs a program for a picture: its record, and the blocks that a check finds.
+use crate::cli::legs::each_leg;
 use crate::cli::load::Loaded;
 use trunnion_check::Status;
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
-use trunnion_machine::{Follower, Machine};
+use trunnion_machine::Machine;
 use trunnion_plot::{Mark, Record, Recorder};
-use trunnion_syntax::{BlockId, LineIndex};
+use trunnion_syntax::LineIndex;
 
 /// The record of the program, or of the blocks between two lines.
 pub(crate) fn gather(loaded: &Loaded, machine: &Machine, lines: Option<(u32, u32)>) -> Record {
     let index = LineIndex::new(loaded.program.source());
-    let mut gathering = Gathering {
-        loaded,
-        index: &index,
-        follower: Follower::new(machine),
-        recorder: Recorder::new(machine),
-        lines,
-    };
-    trunnion_interp::run(
-        &loaded.program,
-        loaded.resolved.dialect,
-        &loaded.resolved.setup,
-        &mut gathering,
-    );
-    gathering.recorder.finish()
-}
-
-struct Gathering<'a> {
-    loaded: &'a Loaded,
-    index: &'a LineIndex,
-    follower: Follower<'a>,
-    recorder: Recorder<'a>,
-    lines: Option<(u32, u32)>,
-}
-
-impl Sink for Gathering<'_> {
-    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
-        let leg = self.follower.follow(motion);
-        let program = &self.loaded.program;
-        let start = program.block(motion.block).range().start;
-        let line = self.index.line_column(program.source(), start).0;
-        if self.lines.is_none_or(|(from, to)| (from..=to).contains(&line)) {
-            self.recorder.leg(&leg, line);
-        }
-    }
-    fn fault(&mut self, _fault: Fault) {}
-    fn block_done(&mut self, _block: BlockId, _interpreter: &Interpreter<'_>) {}
+    let mut recorder = Recorder::new(machine);
+    each_leg(loaded, machine, &index, lines, |leg, line| recorder.leg(leg, line));
+    recorder.finish()
 }
 
 /// Rules about the machine's motion: those that a picture of joints or of the tool axis can show.

@@ -3,6 +3,7 @@ use super::joints::Place;
 use super::{Plant, Style};
 use crate::cli::failure::Failure;
 use std::fmt::Write;
+use trunnion_convert::{Post, builtin_post};
 use trunnion_geometry::{Vec3, deg};
 use trunnion_machine::{AxisKind, Machine, inverse};
 use trunnion_pieces::{Kind, Move, Piece};
@@ -55,9 +56,9 @@ pub(super) fn apt(piece: &Piece) -> String {
 
 /// Blocks for a machine: `places` are its joints at the end of each move.
 pub(super) fn program(piece: &Piece, machine: &Machine, places: &[Place], form: &Form<'_>) -> Result<String, Failure> {
-    let codes = Codes::of(form)?;
+    let codes = Codes::of(form, machine)?;
     let mut text = String::new();
-    codes.head(piece, form, &mut text);
+    codes.head(piece, &mut text)?;
     let shift = per_length(machine);
     let mut feed = Some(number(piece.feed_mm_min * feed_scale(form.plant)));
     let mut before: Option<&Move> = None;
@@ -93,7 +94,7 @@ pub(super) fn program(piece: &Piece, machine: &Machine, places: &[Place], form: 
         text.push('\n');
         before = Some(step);
     }
-    text.push_str(&codes.tail);
+    codes.tail(&mut text)?;
     Ok(text)
 }
 
@@ -156,129 +157,144 @@ fn joint_words(machine: &Machine, place: &Place, shift: &[f64], compensates: boo
     }
 }
 
-/// The words of one dialect.
-struct Codes {
-    comment: (&'static str, &'static str),
-    /// Before the first motion, behind the tool change.
-    on: String,
-    tail: String,
+/// The words of one dialect: those of its post, which `convert` writes with too.
+struct Codes<'a> {
+    post: &'static Post,
+    machine: &'a Machine,
+    form: &'a Form<'a>,
     /// The control adds the tool's length to machine words.
     compensates: bool,
-    vectors: [&'static str; 3],
-    first: &'static str,
-    modes: &'static str,
 }
 
-impl Codes {
-    fn of(form: &Form<'_>) -> Result<Self, Failure> {
-        let tcp = form.style != Style::Joints && form.plant != Some(Plant::NoTcp);
-        let h = if form.plant == Some(Plant::WrongH) { 2 } else { 1 };
-        let plain = |first, modes, on: String, tail: &str| Self {
-            comment: ("(", ")"),
-            on,
-            tail: tail.to_owned(),
-            compensates: true,
-            vectors: ["I", "J", "K"],
-            first,
-            modes,
-        };
-        match form.dialect {
-            "fanuc-30i" => {
-                let code = match (tcp, form.style) {
-                    (false, _) => "G43",
-                    (true, Style::Vectors) => "G43.5",
-                    (true, _) => "G43.4",
-                };
-                Ok(plain(
-                    "%\nO0001 ",
-                    "G17 G21 G90 G94 G40",
-                    format!("{code} H{h}"),
-                    "G49\nM5\nM30\n%\n",
-                ))
-            }
-            "haas-ngc" if form.style != Style::Vectors => {
-                let code = if tcp { "G234" } else { "G43" };
-                Ok(plain(
-                    "%\nO00001 ",
-                    "G17 G21 G90 G94 G40",
-                    format!("{code} H{h}"),
-                    "G49\nM5\nM30\n%\n",
-                ))
-            }
-            "sinumerik-840d" => Ok(Self {
-                comment: ("; ", ""),
-                on: format!("D1{}", if tcp { "\nTRAORI" } else { "" }),
-                tail: format!("{}M5\nM30\n", if tcp { "TRAFOOF\n" } else { "" }),
-                vectors: ["A3=", "B3=", "C3="],
-                ..plain("", "G17 G71 G90 G94 G40", String::new(), "")
-            }),
-            "linuxcnc" if form.style != Style::Vectors => {
-                let (on, off) = if tcp { ("\nM428", "M429\n") } else { ("", "") };
-                Ok(plain(
-                    "%\n",
-                    "G17 G21 G90 G94 G40 G64 P0.01",
-                    format!("G43 H{h}{on}"),
-                    &format!("{off}G49\nM5\nM2\n%\n"),
-                ))
-            }
-            "iso-6983" if form.style == Style::Joints => Ok(plain(
-                "%\n",
-                "G17 G21 G90 G94 G40",
-                format!("G43 H{h}"),
-                "G49\nM5\nM30\n%\n",
-            )),
-            "grbl" if form.style == Style::Joints => {
-                let mut codes = plain("", "G17 G21 G90 G94", String::new(), "M5\nM2\n");
-                codes.compensates = false;
-                Ok(codes)
-            }
-            other => Err(Failure::new(format!(
-                "a test piece for `{other}` in the style `{}` cannot be written: words, vectors and joints exist for fanuc-30i \
+impl<'a> Codes<'a> {
+    fn of(form: &'a Form<'_>, machine: &'a Machine) -> Result<Self, Failure> {
+        let post = builtin_post(form.dialect);
+        let post = post.filter(|post| match form.style {
+            Style::Joints => true,
+            Style::Words => post.fill("tcp-words-on", |_| Some(String::new())).is_some(),
+            Style::Vectors => post.fill("vector", |_| Some(String::new())).is_some(),
+        });
+        let Some(post) = post else {
+            return Err(Failure::new(format!(
+                "a test piece for `{}` cannot be written in the style `{}`: words, vectors and joints exist for fanuc-30i \
                  and sinumerik-840d, words and joints for haas-ngc and linuxcnc, joints for iso-6983 and grbl",
+                form.dialect,
                 form.style.name()
-            ))),
+            )));
+        };
+        if form.plant == Some(Plant::WrongH) && !post.numbers_its_lengths() {
+            return Err(Failure::new(format!(
+                "--plant wrong-h: a program for `{}` calls no length by a number of its own",
+                form.dialect
+            )));
         }
+        Ok(Self {
+            post,
+            machine,
+            form,
+            compensates: form.dialect != "grbl",
+        })
     }
 
-    fn head(&self, piece: &Piece, form: &Form<'_>, text: &mut String) {
-        let (open, close) = self.comment;
+    /// Whether the blocks are written for tool centre point control.
+    fn leads_tip(&self) -> bool {
+        self.form.style != Style::Joints
+    }
+
+    /// Appends what the post's template says.
+    fn say(&self, key: &str, text: &mut String, value: impl Fn(&str) -> Option<String>) -> Result<(), Failure> {
+        let filled = self.post.fill(key, value).unwrap_or_else(|| Ok(String::new()));
+        let filled = filled.map_err(|name| {
+            Failure::new(format!(
+                "the post for {} needs {{{name}}} for `{key}`",
+                self.form.dialect
+            ))
+        })?;
+        for line in filled.lines().map(str::trim).filter(|line| !line.is_empty()) {
+            text.push_str(line);
+            text.push('\n');
+        }
+        Ok(())
+    }
+
+    fn comment(&self, words: &str) -> String {
         // round brackets and semicolons would end the comment
-        let title: String = piece.title.chars().filter(|c| !"();".contains(*c)).collect();
-        let _ = writeln!(text, "{}{open}{title}{close}", self.first);
-        let shape = if piece.tool.ball { "ball" } else { "flat" };
-        let mut declare = |number: u32, length: f64| {
-            let size = if piece.tool.diameter > 0.0 {
-                format!("{shape} diameter {} ", self::number(piece.tool.diameter))
-            } else {
-                String::new()
-            };
-            let _ = writeln!(
-                text,
-                "{open}trunnion: tool {number} {size}length {}{close}",
-                self::number(length)
-            );
-        };
+        let words: String = words.chars().filter(|c| !"();".contains(*c)).collect();
+        let filled = self
+            .post
+            .fill("comment", |name| (name == "text").then(|| words.clone()));
+        filled.and_then(Result::ok).unwrap_or_default()
+    }
+
+    fn head(&self, piece: &Piece, text: &mut String) -> Result<(), Failure> {
+        let code = |key: &str| self.post.fill(key, |_| None).and_then(Result::ok);
+        let mut tools = Vec::new();
         if self.compensates {
-            declare(1, TOOL_LENGTH);
-            if form.plant == Some(Plant::WrongH) {
-                declare(2, WRONG_LENGTH);
+            tools.push(self.declaration(piece, 1, TOOL_LENGTH));
+            if self.form.plant == Some(Plant::WrongH) {
+                tools.push(self.declaration(piece, 2, WRONG_LENGTH));
             }
         }
-        let offset = if form.plant == Some(Plant::ShiftG54) {
-            "G55"
-        } else {
-            "G54"
+        self.say("header", text, |name| match name {
+            "title" => Some(self.comment(&piece.title)),
+            "tools" => Some(tools.join("\n")),
+            "units" => code("units-mm"),
+            "feed_mode" => code("feed-per-minute"),
+            "number" => Some("0001".to_owned()),
+            "program" => Some(piece.name.to_owned()),
+            "machine" => Some(self.machine.name.clone()),
+            _ => None,
+        })?;
+        let shifted = self.form.plant == Some(Plant::ShiftG54);
+        self.say("work-offset", text, |_| {
+            Some(if shifted { "G55" } else { "G54" }.to_owned())
+        })?;
+        self.say("tool-change", text, |_| Some("1".to_owned()))?;
+        self.say("spindle-clockwise", text, |_| Some(SPINDLE.to_string()))?;
+        let on = match (self.leads_tip(), self.form.style) {
+            _ if self.form.plant == Some(Plant::NoTcp) => "length-on",
+            (false, _) => "length-on",
+            (true, Style::Vectors) => "tcp-vectors-on",
+            (true, _) => "tcp-words-on",
         };
-        let _ = writeln!(text, "{} {offset}\nT1 M6\nS{SPINDLE} M3", self.modes);
-        if !self.on.is_empty() {
-            let _ = writeln!(text, "{}", self.on);
+        let tool = if self.form.plant == Some(Plant::WrongH) {
+            "2"
+        } else {
+            "1"
+        };
+        self.say(on, text, |name| match name {
+            "tool" => Some(tool.to_owned()),
+            "tcp_on" => self.post.tcp_code(Some(self.machine), true),
+            _ => None,
+        })
+    }
+
+    fn tail(&self, text: &mut String) -> Result<(), Failure> {
+        if self.leads_tip() && self.form.plant != Some(Plant::NoTcp) {
+            self.say("tcp-off", text, |_| self.post.tcp_code(Some(self.machine), false))?;
         }
+        self.say("spindle-stop", text, |_| None)?;
+        self.say("footer", text, |_| Some(String::new()))
+    }
+
+    fn declaration(&self, piece: &Piece, tool: u32, length: f64) -> String {
+        let shape = if piece.tool.ball { "ball" } else { "flat" };
+        let size = if piece.tool.diameter > 0.0 {
+            format!("{shape} diameter {} ", number(piece.tool.diameter))
+        } else {
+            String::new()
+        };
+        self.comment(&format!("trunnion: tool {tool} {size}length {}", number(length)))
     }
 
     fn vector(&self, axis: &Vec3, block: &mut String) {
-        for (word, value) in self.vectors.iter().zip(axis.iter()) {
-            let _ = write!(block, " {word}{}", fixed(*value, 9));
-        }
+        let words = self.post.fill("vector", |name| match name {
+            "i" => Some(fixed(axis.x, 9)),
+            "j" => Some(fixed(axis.y, 9)),
+            "k" => Some(fixed(axis.z, 9)),
+            _ => None,
+        });
+        let _ = write!(block, " {}", words.and_then(Result::ok).unwrap_or_default());
     }
 }
 

@@ -1,0 +1,46 @@
+//! Runs a program on its machine and hands on each motion with its joints and its line.
+use super::load::Loaded;
+use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
+use trunnion_machine::{Follower, Leg, Machine};
+use trunnion_syntax::{BlockId, LineIndex};
+
+/// Calls `take` for each motion of the blocks between two lines (from 1, both included; `None`: of all), in the order of execution.
+pub(super) fn each_leg(
+    loaded: &Loaded,
+    machine: &Machine,
+    index: &LineIndex,
+    lines: Option<(u32, u32)>,
+    take: impl FnMut(&Leg, u32),
+) {
+    let mut legs = Legs {
+        loaded,
+        index,
+        follower: Follower::new(machine),
+        lines,
+        take,
+    };
+    let resolved = &loaded.resolved;
+    trunnion_interp::run(&loaded.program, resolved.dialect, &resolved.setup, &mut legs);
+}
+
+struct Legs<'a, F> {
+    loaded: &'a Loaded,
+    index: &'a LineIndex,
+    follower: Follower<'a>,
+    lines: Option<(u32, u32)>,
+    take: F,
+}
+
+impl<F: FnMut(&Leg, u32)> Sink for Legs<'_, F> {
+    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
+        let leg = self.follower.follow(motion);
+        let program = &self.loaded.program;
+        let start = program.block(motion.block).range().start;
+        let line = self.index.line_column(program.source(), start).0;
+        if self.lines.is_none_or(|(from, to)| (from..=to).contains(&line)) {
+            (self.take)(&leg, line);
+        }
+    }
+    fn fault(&mut self, _fault: Fault) {}
+    fn block_done(&mut self, _block: BlockId, _interpreter: &Interpreter<'_>) {}
+}

@@ -2,7 +2,7 @@
 #![no_main]
 use libfuzzer_sys::fuzz_target;
 use std::sync::Arc;
-use trunnion::ngc::{At, Canon, Engine, Error, FileId, Limits, Setup, Sink, Source, Start, State};
+use trunnion_ngc::{At, Canon, Engine, Error, FileId, Limits, Setup, Sink, Source, Start, State};
 
 struct Inside(usize);
 

@@ -1,14 +1,12 @@
 //! Any bytes, any options: the tokens concatenate to the file, items and records lie inside their block.
 #![no_main]
 use libfuzzer_sys::fuzz_target;
-use trunnion::dialect::builtin;
-use trunnion::syntax::{BlockId, parse};
-
-const DIALECTS: [&str; 5] = ["iso-6983", "linuxcnc", "fanuc-30i", "sinumerik-840d", "apt"];
+use trunnion_dialect::{BUILTIN_NAMES, builtin};
+use trunnion_syntax::{BlockId, parse};
 
 fuzz_target!(|data: &[u8]| {
     let Some((&first, text)) = data.split_first() else { return };
-    let dialect = builtin(DIALECTS[usize::from(first) % DIALECTS.len()]).expect("built in");
+    let dialect = builtin(BUILTIN_NAMES[usize::from(first) % BUILTIN_NAMES.len()]).expect("built in");
     let program = parse(text.to_vec(), dialect.lex);
     let tokens = program.tokens();
     let mut at = 0;

@@ -1,19 +1,9 @@
 //! Any program in any dialect runs to its end within its bounds, without a panic, and every fact lies inside the file.
 #![no_main]
 use libfuzzer_sys::fuzz_target;
-use trunnion::dialect::builtin;
-use trunnion::interp::{Fault, Limits, ModalState, Motion, Setup, Sink, run};
-use trunnion::syntax::parse;
-
-const DIALECTS: [&str; 7] = [
-    "iso-6983",
-    "linuxcnc",
-    "fanuc-30i",
-    "haas-ngc",
-    "grbl",
-    "sinumerik-840d",
-    "apt",
-];
+use trunnion_dialect::{BUILTIN_NAMES, builtin};
+use trunnion_interp::{Fault, Limits, ModalState, Motion, Setup, Sink, run};
+use trunnion_syntax::parse;
 
 struct Inside(usize);
 
@@ -32,7 +22,7 @@ impl Sink for Inside {
 
 fuzz_target!(|data: &[u8]| {
     let Some((&first, text)) = data.split_first() else { return };
-    let Some(dialect) = builtin(DIALECTS[usize::from(first) % DIALECTS.len()]) else { return };
+    let Some(dialect) = builtin(BUILTIN_NAMES[usize::from(first) % BUILTIN_NAMES.len()]) else { return };
     let setup = Setup {
         limits: Limits { blocks: 2_000, depth: 20 },
         ..Setup::default()

@@ -43,7 +43,10 @@ pub(crate) fn of_fault(kind: &FaultKind) -> Told {
         | FaultKind::MissingProgramEnd => Told::Nothing,
         FaultKind::WorkOffsetUnset { name } => Told::Unset(name.clone()),
         FaultKind::ToolLengthUnset { tool } => Told::Unset(tool.clone()),
-        FaultKind::EndlessLoop { blocks } => Told::End(format!("it does not end within {blocks} executed blocks")),
+        FaultKind::EndlessLoop { proved: true, .. } => {
+            Told::End("it never ends: a loop comes back to the same values".to_owned())
+        }
+        FaultKind::EndlessLoop { blocks, .. } => Told::End(format!("it does not end within {blocks} executed blocks")),
         FaultKind::NotDecided { what } => Told::End(format!("where it goes on depends on {what}")),
         FaultKind::Rejected { message, .. } => Told::End(format!("the control refuses it: {message}")),
         _ => Told::Block,

@@ -2,23 +2,37 @@
 use crate::report::Summary;
 use crate::{Diagnostic, Report, Settings};
 use std::collections::HashSet;
-use trunnion_syntax::{Item, Program, TextRange};
+use trunnion_dialect::Dialect;
+use trunnion_syntax::{Block, Item, Program, TextRange};
 
 /// Rules that find something missing: what the other state has is not missing.
 const ABSENCES: [&str; 2] = ["machine-not-used", "unused-suppression"];
 
-/// The levels of the blocks that begin with `/` and hold anything else, ascending, each once, and how many blocks they are.
-pub(crate) fn levels(program: &Program) -> (Vec<u8>, usize) {
+/// The `/` of a block with its level, where it deletes anything: it begins the block, or stands inside it in dialects that know that.
+pub(crate) fn slash(block: &Block<'_>, dialect: &Dialect) -> Option<(u8, TextRange)> {
+    let mut items = block.items();
+    let first = items.next()?;
+    let found = if let Item::Skip(level, range) = first {
+        (level, range)
+    } else if dialect.quirks.delete_rest {
+        let range = items.find_map(|item| match item {
+            Item::Other(range) if block.program().bytes(range).starts_with(b"/") => Some(range),
+            _ => None,
+        })?;
+        let digits = block.program().text(TextRange::new(range.start + 1, range.end));
+        (digits.parse().unwrap_or(1), range)
+    } else {
+        return None;
+    };
+    items.any(|item| !matches!(item, Item::Comment(_))).then_some(found)
+}
+
+/// The levels of the blocks that have a `/` which deletes anything, ascending, each once, and how many blocks they are.
+pub(crate) fn levels(program: &Program, dialect: &Dialect) -> (Vec<u8>, usize) {
     let (mut levels, mut count) = (Vec::new(), 0);
-    for block in program.blocks() {
-        let mut items = block.items();
-        let Some(Item::Skip(level, _)) = items.next() else {
-            continue;
-        };
-        if items.any(|item| !matches!(item, Item::Comment(_))) {
-            count += 1;
-            levels.push(level);
-        }
+    for (level, _) in program.blocks().filter_map(|block| slash(&block, dialect)) {
+        count += 1;
+        levels.push(level);
     }
     levels.sort_unstable();
     levels.dedup();
@@ -27,7 +41,9 @@ pub(crate) fn levels(program: &Program) -> (Vec<u8>, usize) {
 
 /// Whether the state of the switch matters and is not declared.
 pub(crate) fn is_open(program: &Program, settings: &Settings<'_>) -> bool {
-    settings.setup.control.block_delete.is_none() && program.source().contains(&b'/') && levels(program).1 > 0
+    settings.setup.control.block_delete.is_none()
+        && program.source().contains(&b'/')
+        && levels(program, settings.dialect).1 > 0
 }
 
 /// What makes two findings the same.

@@ -240,10 +240,19 @@ mod tests {
             FaultKind::TcpState(TcpMistake::NoLength),
             FaultKind::TcpState(TcpMistake::ToolChange),
             FaultKind::TcpState(TcpMistake::MachineCoordinates),
-            FaultKind::EndlessLoop { blocks: 3 },
+            FaultKind::EndlessLoop {
+                blocks: 3,
+                proved: false,
+            },
+            FaultKind::EndlessLoop {
+                blocks: 3,
+                proved: true,
+            },
             FaultKind::MissingSubprogram {
                 name: text(),
                 searched: vec![text()],
+                alarm: Some(text()),
+                caller: Some(text()),
             },
             FaultKind::NotDecided { what: text() },
             FaultKind::ProgramAlarm { message: text() },

@@ -194,6 +194,9 @@ pub(crate) struct Canon {
     /// Parameter file: read at the start, written back at the end.
     #[arg(long, value_name = "FILE")]
     pub(crate) parameters: Option<PathBuf>,
+    /// Decimals of each number behind those that rs274 lists.
+    #[arg(long, value_name = "N", default_value_t = 0, hide = true)]
+    pub(crate) more_decimals: u8,
 }
 
 /// `fix`

@@ -32,7 +32,10 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
     let mut engine = Engine::new(main, &setup);
     let mut out = Printer {
         out: BufWriter::new(std::io::stdout().lock()),
-        listing: Listing::default(),
+        listing: Listing {
+            more: usize::from(command.more_decimals),
+            ..Listing::default()
+        },
         sources,
         number: Vec::new(),
         place: None,
@@ -51,7 +54,7 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
         );
         return Err(Failure::file(&command.file, text));
     }
-    if let Step::Endless(at) = last {
+    if let Step::Endless(at, _) = last {
         let text = format!(
             "does not end: the loop at line {} says nothing to the machine and comes back to the same values",
             at.line + 1
@@ -69,7 +72,10 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
     }
     out.out.flush()?;
     if let Some(path) = &command.parameters {
-        save(path, &engine.kept_parameters())?;
+        save(
+            path,
+            &engine.kept_parameters().text_with(usize::from(command.more_decimals)),
+        )?;
     }
     Ok(if out.refused { Done::Found } else { Done::Clean })
 }
@@ -107,6 +113,7 @@ fn setup(command: &Command, global: &Global, sources: &Sources) -> Result<Setup,
         parameters,
         files: Some(Arc::new(files)),
         block_delete: global.block_delete == Some(Switch::On),
+        more_decimals: usize::from(command.more_decimals),
         ..Setup::default()
     })
 }
@@ -240,11 +247,11 @@ impl<W: Write> Sink for Printer<W> {
 }
 
 /// Writes the parameter file back, as the control does at the end; the old one stays beside it as `.bak`.
-fn save(path: &Path, parameters: &Parameters) -> Result<(), Failure> {
+fn save(path: &Path, text: &str) -> Result<(), Failure> {
     if path.exists() {
         let mut backup = path.as_os_str().to_owned();
         backup.push(".bak");
         fs::copy(path, &backup).map_err(|error| Failure::io(path, "copy the file to .bak", &error))?;
     }
-    fs::write(path, parameters.text()).map_err(|error| Failure::io(path, "write the file", &error))
+    fs::write(path, text).map_err(|error| Failure::io(path, "write the file", &error))
 }

@@ -26,7 +26,10 @@ impl Stops {
         // LinuxCNC's interpreter goes on behind a refused block, and reads what lies behind the end
         let may_stop = !dialect.quirks.rs274;
         let (why, sure) = match &fault.kind {
-            FaultKind::EndlessLoop { blocks } => (format!("no end within {blocks} executed blocks"), true),
+            FaultKind::EndlessLoop { proved: true, .. } => {
+                ("it never ends: a loop comes back to the same values".to_owned(), true)
+            }
+            FaultKind::EndlessLoop { blocks, .. } => (format!("no end within {blocks} executed blocks"), true),
             FaultKind::NotDecided { what } => (format!("not decided: {what}"), true),
             FaultKind::Rejected { message, .. } if may_stop => (format!("the control refuses it: {message}"), false),
             FaultKind::MissingSubprogram { name, .. } if may_stop => (format!("there is no program {name}"), false),

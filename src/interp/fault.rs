@@ -30,10 +30,12 @@ pub enum FaultKind {
         /// The control's own alarm number or message, where known.
         alarm: Option<String>,
     },
-    /// A loop or chain of calls did not end within the bounds of the run. Range: the line that opens the loop.
+    /// A loop or chain of calls did not end within the bounds of the run, or never will. Range: the line that opens the loop.
     EndlessLoop {
-        /// Executed blocks when it was given up.
+        /// Executed blocks when it was given up: more than the bound where nothing is proved.
         blocks: u64,
+        /// It is proved to be endless: a pass changed nothing on which the next one depends.
+        proved: bool,
     },
     /// A called program was not found.
     MissingSubprogram {
@@ -41,6 +43,10 @@ pub enum FaultKind {
         name: String,
         /// Folders that were searched.
         searched: Vec<String>,
+        /// The control's own sentence, where it has one.
+        alarm: Option<String>,
+        /// File and line of the call, where that is not the main program.
+        caller: Option<String>,
     },
     /// A condition, jump or call whose outcome depends on something unknown: what runs after it is not followed.
     NotDecided {

@@ -55,6 +55,8 @@ pub(crate) struct Reader<'a, 'd, F: FnMut(TextRange, FaultKind)> {
     pub(crate) block: BlockId,
     pub(crate) words: &'a mut Words,
     pub(crate) codes: &'a mut Vec<Found<'d>>,
+    /// The switch for block delete, where its state is known.
+    pub(crate) delete: Option<bool>,
     /// Variables and flow, in dialects that have macros.
     pub(crate) macros: Option<Macros<'a>>,
     /// Variables of a Sinumerik program.
@@ -66,6 +68,9 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
     /// Takes one item of the block.
     #[inline]
     pub(crate) fn take(&mut self, item: Item) {
+        if self.words.rest_deleted.is_some() {
+            return;
+        }
         if let Item::Word(word) = &item
             && let (Address::Letter(letter), Value::Number(decimal)) = (word.address, word.value)
             && self.plain_axis(letter, decimal, word)
@@ -370,9 +375,14 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         if errors[from..].iter().take(4).any(overlaps) {
             return;
         }
+        let source = self.program.source().get(range.as_usize()).unwrap_or_default();
+        if source.first() == Some(&b'/') && self.dialect.quirks.delete_rest {
+            let on = self.delete == Some(true);
+            self.words.rest_deleted = on.then_some(range);
+            return;
+        }
         self.words.has_content = true;
         self.words.has_values = true;
-        let source = self.program.source().get(range.as_usize()).unwrap_or_default();
         if source.first() == Some(&b'<') {
             return self.program_name(range);
         }

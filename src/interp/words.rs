@@ -176,6 +176,8 @@ pub(crate) struct Words {
     pub(crate) unknown_code: bool,
     /// `%` without a name.
     pub(crate) percent: Option<TextRange>,
+    /// The `/` inside the block behind which the rest of it is deleted.
+    pub(crate) rest_deleted: Option<TextRange>,
     /// Any word, name or code at all.
     pub(crate) has_content: bool,
     /// Letters seen (A is bit 0).

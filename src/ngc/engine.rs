@@ -54,8 +54,9 @@ pub enum Step {
     Undecided(String),
     /// The bounds are used up; line that opens the innermost loop or call.
     OutOfFuel(At),
-    /// The loop that this line opens never ends: it tells nothing to the machine, and all values are as they were before.
-    Endless(At),
+    /// The loop that this line opens never ends: it tells nothing to the machine, and all values are as they were before. Beside
+    /// it how many lines ran a second time or more often until then.
+    Endless(At, u64),
 }
 
 /// The interpreter between two lines. Cloning it makes a check-point.
@@ -93,6 +94,10 @@ impl Engine {
             spline: crate::cycles::Spline::default(),
             turning: None,
         }
+    }
+    /// How many files the run has opened, the main program among them.
+    pub fn file_count(&self) -> usize {
+        self.files.len()
     }
     /// A file as people are shown it; empty for the main program.
     pub fn path(&self, file: FileId) -> &str {

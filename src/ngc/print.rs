@@ -10,6 +10,8 @@ const COLUMN: usize = 6;
 pub struct Listing {
     /// Lines written so far.
     pub count: u64,
+    /// Decimals of each number behind those that `rs274` lists: 0 but for who looks closer.
+    pub more: usize,
 }
 
 impl Listing {
@@ -33,11 +35,11 @@ impl Listing {
             }
             Canon::Probe(_, pose) => {
                 self.line("TURN_PROBE_ON()", number, out)?;
-                self.line(&format!("STRAIGHT_PROBE({})", six(pose)), number, out)?;
+                self.line(&format!("STRAIGHT_PROBE({})", six(self.more, pose)), number, out)?;
                 self.line("TURN_PROBE_OFF()", number, out)
             }
             Canon::ProbeResult | Canon::WaitInput { .. } => Ok(()),
-            _ => self.line(&text(call), number, out),
+            _ => self.line(&text(call, self.more), number, out),
         }
     }
     fn number(&mut self, number: &[u8], out: &mut impl Write) -> Result<()> {
@@ -59,41 +61,41 @@ impl Listing {
 }
 
 /// X Y Z A B C with four decimals.
-fn six(pose: &Pose) -> String {
-    join(&pose[..6], ", ")
+fn six(more: usize, pose: &Pose) -> String {
+    join(more, &pose[..6], ", ")
 }
 
-fn join(values: &[f64], between: &str) -> String {
-    let texts: Vec<String> = values.iter().map(|&value| four(value)).collect();
+fn join(more: usize, values: &[f64], between: &str) -> String {
+    let texts: Vec<String> = values.iter().map(|&value| four(more, value)).collect();
     texts.join(between)
 }
 
 /// Four decimals; what is unknown is `nan`, as C prints it.
-fn four(value: f64) -> String {
+fn four(more: usize, value: f64) -> String {
     if value.is_nan() {
         "nan".to_owned()
     } else {
-        format!("{value:.4}")
+        format!("{value:.*}", 4 + more)
     }
 }
 
 /// The text of a call that is one line.
-fn text(call: &Canon) -> String {
+fn text(call: &Canon, more: usize) -> String {
     match call {
         Canon::Units(Units::Inch) => "USE_LENGTH_UNITS(CANON_UNITS_INCHES)".to_owned(),
         Canon::Units(Units::Millimetre) => "USE_LENGTH_UNITS(CANON_UNITS_MM)".to_owned(),
-        Canon::G5xOffset(index, pose) => format!("SET_G5X_OFFSET({index}, {})", six(pose)),
-        Canon::G92Offset(pose) => format!("SET_G92_OFFSET({})", six(pose)),
-        Canon::XyRotation(angle) => format!("SET_XY_ROTATION({})", four(*angle)),
+        Canon::G5xOffset(index, pose) => format!("SET_G5X_OFFSET({index}, {})", six(more, pose)),
+        Canon::G92Offset(pose) => format!("SET_G92_OFFSET({})", six(more, pose)),
+        Canon::XyRotation(angle) => format!("SET_XY_ROTATION({})", four(more, *angle)),
         Canon::FeedReference => "SET_FEED_REFERENCE(CANON_XYZ)".to_owned(),
         Canon::Reset => "ON_RESET()".to_owned(),
         Canon::Plane(plane) => format!("SELECT_PLANE(CANON_PLANE_{})", plane_name(*plane)),
-        Canon::FeedRate(rate) => format!("SET_FEED_RATE({})", four(*rate)),
+        Canon::FeedRate(rate) => format!("SET_FEED_RATE({})", four(more, *rate)),
         Canon::FeedMode(spindle, mode) => format!("SET_FEED_MODE({spindle}, {mode})"),
-        Canon::MotionMode(mode) => motion_mode(*mode),
-        Canon::NaiveCamTolerance(tolerance) => format!("SET_NAIVECAM_TOLERANCE({})", four(*tolerance)),
-        Canon::Traverse(pose) => format!("STRAIGHT_TRAVERSE({})", six(pose)),
-        Canon::Feed(pose) => format!("STRAIGHT_FEED({})", six(pose)),
+        Canon::MotionMode(mode) => motion_mode(*mode, more),
+        Canon::NaiveCamTolerance(tolerance) => format!("SET_NAIVECAM_TOLERANCE({})", four(more, *tolerance)),
+        Canon::Traverse(pose) => format!("STRAIGHT_TRAVERSE({})", six(more, pose)),
+        Canon::Feed(pose) => format!("STRAIGHT_FEED({})", six(more, pose)),
         Canon::Arc {
             end,
             centre,
@@ -102,48 +104,53 @@ fn text(call: &Canon) -> String {
             others,
         } => format!(
             "ARC_FEED({}, {}, {turns}, {}, {})",
-            join(end, ", "),
-            join(centre, ", "),
-            four(*axis_end),
-            join(&others[..3], ", ")
+            join(more, end, ", "),
+            join(more, centre, ", "),
+            four(more, *axis_end),
+            join(more, &others[..3], ", ")
         ),
         Canon::Nurbs { points, .. } => format!("NURBS_FEED({}, ...)", points.len()),
-        Canon::RigidTap(end, _) => format!("RIGID_TAP({})", join(end, ", ")),
+        Canon::RigidTap(end, _) => format!("RIGID_TAP({})", join(more, end, ", ")),
         Canon::StartSync(feed) => format!(
-            "START_SPEED_FEED_SYNC({:.6},{})",
+            "START_SPEED_FEED_SYNC({:.*},{})",
+            6 + more,
             feed.per_revolution,
             u8::from(feed.velocity)
         ),
         Canon::StopSync => "STOP_SPEED_FEED_SYNCH()".to_owned(),
-        Canon::Dwell(seconds) => format!("DWELL({})", four(*seconds)),
+        Canon::Dwell(seconds) => format!("DWELL({})", four(more, *seconds)),
         Canon::ToolOffset(pose) => format!(
             "USE_TOOL_LENGTH_OFFSET({}, {}, {})",
-            join(&pose[..3], " "),
-            join(&pose[3..6], " "),
-            join(&pose[6..], " ")
+            join(more, &pose[..3], " "),
+            join(more, &pose[3..6], " "),
+            join(more, &pose[6..], " ")
         ),
         Canon::SetToolEntry(row, entry) => format!(
             "SET_TOOL_TABLE_ENTRY({row}, {}, {}, {}, {}, {})",
             entry.number,
-            join(&entry.offset, " "),
-            four(entry.front_angle),
-            four(entry.back_angle),
+            join(more, &entry.offset, " "),
+            four(more, entry.front_angle),
+            four(more, entry.back_angle),
             entry.orientation
         ),
-        other => machine_text(other),
+        other => machine_text(other, more),
     }
 }
 
 /// Calls that switch something or stop.
-fn machine_text(call: &Canon) -> String {
+fn machine_text(call: &Canon, more: usize) -> String {
     match call {
-        Canon::SpindleSpeed(spindle, speed) => format!("SET_SPINDLE_SPEED({spindle}, {})", four(*speed)),
-        Canon::SpindleMode(spindle, ceiling) => format!("SET_SPINDLE_MODE({spindle} {})", four(*ceiling)),
+        Canon::SpindleSpeed(spindle, speed) => format!("SET_SPINDLE_SPEED({spindle}, {})", four(more, *speed)),
+        Canon::SpindleMode(spindle, ceiling) => format!("SET_SPINDLE_MODE({spindle} {})", four(more, *ceiling)),
         Canon::Spindle(spindle, SpindleTurn::Clockwise) => format!("START_SPINDLE_CLOCKWISE({spindle})"),
         Canon::Spindle(spindle, SpindleTurn::CounterClockwise) => format!("START_SPINDLE_COUNTERCLOCKWISE({spindle})"),
         Canon::Spindle(spindle, SpindleTurn::Stop) => format!("STOP_SPINDLE_TURNING({spindle})"),
-        Canon::OrientSpindle(spindle, angle, mode) => format!("ORIENT_SPINDLE({spindle}, {}, {mode})", four(*angle)),
-        Canon::WaitOrient(spindle, timeout) => format!("SPINDLE.{spindle}.WAIT_ORIENT_COMPLETE({})", four(*timeout)),
+        Canon::OrientSpindle(spindle, angle, mode) => {
+            format!("ORIENT_SPINDLE({spindle}, {}, {mode})", four(more, *angle))
+        }
+        Canon::WaitOrient(spindle, timeout) => {
+            format!("SPINDLE.{spindle}.WAIT_ORIENT_COMPLETE({})", four(more, *timeout))
+        }
         Canon::Coolant(Coolant::MistOn) => "MIST_ON()".to_owned(),
         Canon::Coolant(Coolant::MistOff) => "MIST_OFF()".to_owned(),
         Canon::Coolant(Coolant::FloodOn) => "FLOOD_ON()".to_owned(),
@@ -169,8 +176,12 @@ fn machine_text(call: &Canon) -> String {
             index,
             value,
             with_motion,
-        } => format!("SET_{}_OUTPUT_VALUE({index},{value:.6})", output(*with_motion)),
-        Canon::UserCode(code, p, q) => format!("USER_DEFINED_FUNCTION({code}, {}, {})", four(*p), four(*q)),
+        } => format!(
+            "SET_{}_OUTPUT_VALUE({index},{value:.*})",
+            output(*with_motion),
+            6 + more
+        ),
+        Canon::UserCode(code, p, q) => format!("USER_DEFINED_FUNCTION({code}, {}, {})", four(more, *p), four(more, *q)),
         Canon::Stop(Stop::Program) => "PROGRAM_STOP()".to_owned(),
         Canon::Stop(Stop::Optional) => "OPTIONAL_PROGRAM_STOP()".to_owned(),
         Canon::Stop(Stop::End) => "PROGRAM_END()".to_owned(),
@@ -195,12 +206,12 @@ fn plane_name(plane: Plane) -> &'static str {
     }
 }
 
-fn motion_mode(mode: MotionMode) -> String {
+fn motion_mode(mode: MotionMode, more: usize) -> String {
     match mode {
         MotionMode::ExactPath => "SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)".to_owned(),
         MotionMode::ExactStop => "SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)".to_owned(),
         MotionMode::Continuous(tolerance) => {
-            format!("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {tolerance:.6})")
+            format!("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {tolerance:.*})", 6 + more)
         }
     }
 }

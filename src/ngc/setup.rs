@@ -124,6 +124,8 @@ pub struct Setup {
     pub any_tool: bool,
     /// Lines that begin with `/` are skipped (the switch of the panel).
     pub block_delete: bool,
+    /// Decimals of numbers in messages behind those that the control writes: 0 but for who looks closer.
+    pub more_decimals: usize,
 }
 
 impl Default for Setup {
@@ -141,6 +143,7 @@ impl Default for Setup {
             own_motions: Arc::from([]),
             any_tool: false,
             block_delete: false,
+            more_decimals: 0,
         }
     }
 }

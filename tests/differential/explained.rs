@@ -6,26 +6,40 @@ pub(crate) struct Explanation {
     /// The reason, in words.
     pub(crate) why: &'static str,
     /// Whether it explains how the control's answer and ours differ.
-    pub(crate) holds: fn(control: &Answer, ours: &Answer) -> bool,
+    pub(crate) holds: fn(control: &Answer, ours: &Ours) -> bool,
+}
+
+/// Our answer, and the same with more decimals.
+pub(crate) struct Ours {
+    pub(crate) answer: Answer,
+    pub(crate) exact: Answer,
+}
+
+impl core::ops::Deref for Ours {
+    type Target = Answer;
+    fn deref(&self) -> &Answer {
+        &self.answer
+    }
 }
 
 /// All of them.
 pub(crate) const EXPLAINED: &[Explanation] = &[
     Explanation {
         why: "the sign of a zero: it depends on the order of sums and says nothing about where the tool goes",
+        holds: |control, ours| same_but(control, ours, |a, b, _| is_zero(a) && is_zero(b)),
+    },
+    Explanation {
+        why: "a value that lies between two decimals within 1e-9: the last bit of a sum, which depends on the order of additions, decides \
+              to which of both it is rounded",
         holds: |control, ours| {
-            same_but(control, ours, |a, b| {
-                a.replace("-0.0000", "0.0000") == b.replace("-0.0000", "0.0000")
+            same_but(control, ours, |a, b, exact| {
+                is_zero(a) && is_zero(b) || is_tie(a, b, exact)
             })
         },
     },
     Explanation {
-        why: "the last decimal off by one: between two decimals the last bit of a sum decides, which depends on the order of additions",
-        holds: |control, ours| same_but(control, ours, last_decimal),
-    },
-    Explanation {
         why: "refused by name, since it is not proved that our answer would be the control's",
-        holds: |control, ours| !ours.good && is_refused(&ours.error) && is_head(&ours.calls, &control.calls),
+        holds: |control, ours| !ours.good && is_refused(&ours.error) && is_head(ours, control),
     },
     Explanation {
         why: "the control never ends, we say so",
@@ -38,7 +52,7 @@ pub(crate) const EXPLAINED: &[Explanation] = &[
               its subprogram by one)",
         holds: |control, ours| {
             let [(a, quoted), (b, _)] =
-                [control, ours].map(|answer| answer.error.split_once('\n').unwrap_or((&answer.error, "")));
+                [control, &ours.answer].map(|answer| answer.error.split_once('\n').unwrap_or((&answer.error, "")));
             let made = quoted.starts_with(" G")
                 || quoted.starts_with(" F")
                 || quoted.starts_with(" S")
@@ -51,14 +65,15 @@ pub(crate) const EXPLAINED: &[Explanation] = &[
         why: "a program without anything in it: the control does not begin to run it, so it does not reset the machine either",
         holds: |control, ours| {
             let first = |answer: &Answer| answer.error.lines().next().map(str::to_owned);
-            first(control) == first(ours) && first(control).as_deref() == Some("File ended with no percent sign")
+            first(control) == first(&ours.answer)
+                && first(control).as_deref() == Some("File ended with no percent sign")
         },
     },
     Explanation {
         why: "the control never ends behind the last arc of a turning cycle, by its rounding; all that it told until then is ours",
         holds: |control, ours| {
             let last = control.calls.last().is_some_and(|line| line.contains("ARC_FEED"));
-            control.hangs && last && control.calls.iter().zip(&ours.calls).all(|(a, b)| alike(a, b))
+            control.hangs && last && alike_lines(control, ours, control.calls.len())
         },
     },
     Explanation {
@@ -86,43 +101,73 @@ fn is_refused(error: &str) -> bool {
 }
 
 /// The calls before the refusal are the control's; two calls behind it reset the machine.
-fn is_head(ours: &[String], control: &[String]) -> bool {
-    let head = ours
+fn is_head(ours: &Ours, control: &Answer) -> bool {
+    let resets = |line: &&String| line.ends_with("ON_RESET()") && !line.starts_with("    6 ");
+    let length = ours
+        .calls
         .iter()
-        .take_while(|line| !line.ends_with("ON_RESET()") || line.starts_with("    6 "));
-    head.zip(control).all(|(a, b)| alike(a, b))
+        .position(|line| resets(&line))
+        .unwrap_or(ours.calls.len());
+    alike_lines(control, ours, length)
 }
 
-fn alike(a: &str, b: &str) -> bool {
-    a == b || a.replace("-0.0000", "0.0000") == b.replace("-0.0000", "0.0000") || last_decimal(a, b)
-}
-
-/// Equal but for lines for which `same` holds.
-fn same_but(control: &Answer, ours: &Answer, same: fn(&str, &str) -> bool) -> bool {
+/// Equal but for numbers for which `same` holds.
+fn same_but(control: &Answer, ours: &Ours, same: fn(&str, &str, &str) -> bool) -> bool {
     control.good == ours.good
         && control.error == ours.error
         && control.calls.len() == ours.calls.len()
-        && control.calls.iter().zip(&ours.calls).all(|(a, b)| a == b || same(a, b))
+        && lines(control, ours).all(|[a, b, exact]| same_line(a, b, exact, same))
 }
 
-fn same_calls(control: &Answer, ours: &Answer) -> bool {
-    control.calls.len() == ours.calls.len() && control.calls.iter().zip(&ours.calls).all(|(a, b)| alike(a, b))
+fn same_calls(control: &Answer, ours: &Ours) -> bool {
+    control.calls.len() == ours.calls.len() && alike_lines(control, ours, control.calls.len())
 }
 
-/// Two lines differ in the last decimal of numbers alone.
-fn last_decimal(a: &str, b: &str) -> bool {
-    let split =
-        |text: &str| -> Vec<String> { text.split([' ', ',', '(', ')', '"', '\t']).map(str::to_owned).collect() };
-    let (a, b) = (split(a), split(b));
-    let whole = |text: &str| -> Option<i128> {
-        let (_, decimals) = text.split_once('.')?;
-        if !matches!(decimals.len(), 4 | 6) {
-            return None;
-        }
-        text.replacen('.', "", 1).parse().ok()
+/// Both have so many lines, and they are alike up to there.
+fn alike_lines(control: &Answer, ours: &Ours, length: usize) -> bool {
+    let number = |a: &str, b: &str, exact: &str| is_zero(a) && is_zero(b) || is_tie(a, b, exact);
+    control.calls.len() >= length
+        && ours.calls.len() >= length
+        && lines(control, ours)
+            .take(length)
+            .all(|[a, b, exact]| same_line(a, b, exact, number))
+}
+
+/// Lines side by side: the control's, ours, and ours with more decimals.
+fn lines<'a>(control: &'a Answer, ours: &'a Ours) -> impl Iterator<Item = [&'a str; 3]> {
+    let exact = ours.exact.calls.iter().map(String::as_str).chain(std::iter::repeat(""));
+    let both = control.calls.iter().zip(&ours.calls).zip(exact);
+    both.map(|((a, b), exact)| [a.as_str(), b.as_str(), exact])
+}
+
+fn same_line(a: &str, b: &str, exact: &str, same: impl Fn(&str, &str, &str) -> bool) -> bool {
+    let split = |text| -> Vec<&str> { str::split(text, [' ', ',', '(', ')', '"', '\t']).collect() };
+    let [x, y, z] = [a, b, exact].map(split);
+    a == b
+        || x.len() == y.len()
+            && y.len() == z.len()
+            && x.iter()
+                .zip(&y)
+                .zip(&z)
+                .all(|((a, b), exact)| a == b || same(a, b, exact))
+}
+
+/// A zero with decimals, whatever its sign.
+fn is_zero(text: &str) -> bool {
+    let digits = text.strip_prefix('-').unwrap_or(text);
+    digits.starts_with("0.0") && digits.bytes().all(|byte| matches!(byte, b'0' | b'.'))
+}
+
+/// Two neighbours in the last decimal, and the value lies in the middle between them, as far as sums of doubles can tell.
+fn is_tie(a: &str, b: &str, exact: &str) -> bool {
+    let decimals = |text: &str| Some(text.split_once('.')?.1.len());
+    let [Some(count), Some(other)] = [a, b].map(decimals) else {
+        return false;
     };
-    a.len() == b.len()
-        && a.iter()
-            .zip(&b)
-            .all(|(a, b)| a == b || matches!((whole(a), whole(b)), (Some(a), Some(b)) if a.abs_diff(b) <= 1))
+    let [Ok(a), Ok(b), Ok(exact)] = [a, b, exact].map(str::parse::<f64>) else {
+        return false;
+    };
+    let unit = 0.1_f64.powi(count as i32);
+    let slack = 1e-9 + exact.abs() * 1e-13;
+    count == other && ((a - b).abs() - unit).abs() < unit * 0.01 && (exact - f64::midpoint(a, b)).abs() <= slack
 }

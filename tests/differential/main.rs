@@ -28,7 +28,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What an interpreter says: the calls and the parameter file, the error if there is one, whether it ended well, or not at all.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 struct Answer {
     calls: Vec<String>,
     error: String,
@@ -52,7 +52,17 @@ fn answer(output: &Output, parameters: Option<&str>) -> Answer {
     }
 }
 
-fn ask(folder: &Path, case: &Case, oracle: bool) -> Option<Answer> {
+/// Who answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Asked {
+    Control,
+    Ours,
+    /// With eight decimals more.
+    OursExactly,
+}
+
+fn ask(folder: &Path, case: &Case, who: Asked) -> Option<Answer> {
+    let oracle = who == Asked::Control;
     // rs274 keeps parameters in the folder that it runs in
     for entry in std::fs::read_dir(folder).ok()?.flatten() {
         std::fs::remove_file(entry.path()).ok();
@@ -66,6 +76,9 @@ fn ask(folder: &Path, case: &Case, oracle: bool) -> Option<Answer> {
         command.args(["10", "rs274", "-g"]);
     } else {
         command.args(["60", env!("CARGO_BIN_EXE_trunnion"), "canon"]);
+        if who == Asked::OursExactly {
+            command.arg("--more-decimals=8");
+        }
     }
     // rs274 shares its tool table between all runs of a user
     command
@@ -89,25 +102,29 @@ enum Verdict {
     Different,
 }
 
-fn verdict(control: &Answer, ours: &Answer) -> Verdict {
+fn verdict(folder: &Path, case: &Case, [control, ours]: [Answer; 2]) -> Verdict {
     if control == ours {
         return Verdict::Same;
     }
+    let exact = ask(folder, case, Asked::OursExactly).expect("it ran before");
+    let ours = explained::Ours { answer: ours, exact };
     explained::EXPLAINED
         .iter()
-        .find(|explanation| (explanation.holds)(control, ours))
+        .find(|explanation| (explanation.holds)(&control, &ours))
         .map_or(Verdict::Different, |explanation| Verdict::Explained(explanation.why))
 }
 
 /// The answers of `rs274` and of `trunnion canon`.
 fn both(folder: &Path, case: &Case) -> [Answer; 2] {
-    [true, false].map(|oracle| ask(folder, case, oracle).expect("both interpreters run"))
+    [Asked::Control, Asked::Ours].map(|who| ask(folder, case, who).expect("both interpreters run"))
 }
 
 /// What sort of difference it is: the errors without their numbers.
-fn sort(folder: &Path, case: &Case) -> Option<[String; 2]> {
+fn sort(folder: &Path, case: &Case, left: &mut u32) -> Option<[String; 2]> {
     let [control, ours] = both(folder, case);
-    if verdict(&control, &ours) != Verdict::Different {
+    let hangs = control.hangs || ours.hangs;
+    *left = left.saturating_sub(if hangs { HANGS_COST } else { 1 });
+    if verdict(folder, case, [control.clone(), ours.clone()]) != Verdict::Different {
         return None;
     }
     let first = |answer: &Answer| -> String {
@@ -117,19 +134,24 @@ fn sort(folder: &Path, case: &Case) -> Option<[String; 2]> {
     Some([first(&control), first(&ours)])
 }
 
-/// The program without every line that plays no part in the difference.
+/// Programs that are run to make one shorter; one in which an interpreter hangs until it is stopped counts as many.
+const ATTEMPTS: u32 = 400;
+const HANGS_COST: u32 = 100;
+
+/// The program without every line that plays no part in the difference, as far as so many attempts lead.
 fn shrink(folder: &Path, case: &Case) -> Case {
-    let wanted = sort(folder, case);
+    let mut left = ATTEMPTS;
+    let wanted = sort(folder, case, &mut left);
     let mut case = case.clone();
     let mut lines: Vec<String> = case.text.lines().map(str::to_owned).collect();
     let mut step = lines.len() / 2;
     while step > 0 {
         let mut at = 0;
-        while at < lines.len() {
+        while at < lines.len() && left > 0 {
             let mut fewer = lines.clone();
             fewer.drain(at..(at + step).min(lines.len()));
             case.text = fewer.join("\n") + "\n";
-            if sort(folder, &case) == wanted {
+            if sort(folder, &case, &mut left) == wanted {
                 lines = fewer;
             } else {
                 at += step;
@@ -171,8 +193,7 @@ fn random_programs_do_what_linuxcnc_says() {
                         return;
                     }
                     let case = generate::program(seed);
-                    let [control, ours] = both(folder, &case);
-                    match verdict(&control, &ours) {
+                    match verdict(folder, &case, both(folder, &case)) {
                         Verdict::Same => {}
                         Verdict::Explained(why) => {
                             *explained.lock().expect("no thread has failed").entry(why).or_default() += 1;

@@ -20,9 +20,9 @@
 //!
 //! # Sources
 //! ISO 6983-1: block delete. Fanuc Series 30i operator's manual: optional block skip with levels 1 to 9.
-use crate::both::levels;
+use crate::both::{levels, slash};
 use crate::prelude::*;
-use trunnion_syntax::Item;
+use trunnion_syntax::{Block, Item};
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Info,
@@ -35,25 +35,24 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     if declared || !overview.program.source().contains(&b'/') {
         return;
     }
-    let (levels, count) = levels(overview.program);
-    let mut skips = overview
-        .program
-        .blocks()
-        .filter_map(|block| match block.items().next() {
-            Some(Item::Skip(_, range)) => Some(range),
-            _ => None,
-        });
-    let Some(first) = skips.next().filter(|_| count > 0) else {
+    let dialect = overview.settings.dialect;
+    let (levels, count) = levels(overview.program, dialect);
+    let slashes = || {
+        let blocks = overview.program.blocks();
+        blocks.filter_map(|block| Some((slash(&block, dialect)?.1, is_first(&block))))
+    };
+    let Some((first, _)) = slashes().next() else {
         return;
     };
-    let (begin, them) = if count == 1 {
-        ("block begins", "the block")
-    } else {
-        ("blocks begin", "them")
+    let all_begin = slashes().all(|(_, first)| first);
+    let (begin, them) = match (count, all_begin) {
+        (1, true) => ("block begins with /", "the block"),
+        (_, true) => ("blocks begin with /", "them"),
+        (1, false) => ("block has a /", "what stands behind it"),
+        (_, false) => ("blocks begin with / or have one inside", "what stands behind it"),
     };
-    let text = format!(
-        "{count} {begin} with / and the state of the switch is not declared: judged with {them} run and skipped"
-    );
+    let text =
+        format!("{count} {begin} and the state of the switch is not declared: judged with {them} run and skipped");
     let draft = out.report(first, text);
     draft.help("declare it: [control] block_delete = true or false in trunnion.toml, or --block-delete on or off");
     if levels.len() > 1 {
@@ -64,6 +63,11 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         ));
         draft.unknown();
     }
+}
+
+/// Whether the block begins with its `/`.
+fn is_first(block: &Block<'_>) -> bool {
+    matches!(block.items().next(), Some(Item::Skip(..)))
 }
 
 #[cfg(test)]
@@ -91,6 +95,36 @@ mod tests {
             own.map(|d| (d.severity, d.status)),
             Some((Severity::Info, crate::Status::Fail))
         );
+    }
+
+    #[test]
+    fn a_slash_inside_a_block_deletes_its_rest_where_the_control_knows_that() {
+        let text = "N10 G0 X0. Y0. Z0.\nN20 G1 X7. /2 F100.\nN30 /G2 X5.\nM30\n";
+        let found = Fixture::parse("gcode fanuc-30i", text).check().unwrap();
+        let one = |rule: &str| found.diagnostics.iter().find(|d| d.rule == rule).unwrap();
+        assert!(
+            one("missing-feed")
+                .notes
+                .iter()
+                .any(|note| note.contains("are skipped"))
+        );
+        assert!(
+            one("arc-centre-missing")
+                .notes
+                .iter()
+                .any(|note| note.contains("are run"))
+        );
+        let own = one("block-delete-unset");
+        assert!(
+            own.message.starts_with("2 blocks begin with / or have one inside"),
+            "{}",
+            own.message
+        );
+        assert_eq!(own.status, crate::Status::Unknown, "two switches");
+        assert!(found.diagnostics.iter().all(|d| d.rule != "not-modelled"));
+        // where nobody says that the control knows it, nothing is guessed
+        let found = report(text);
+        assert_eq!(found.diagnostics.iter().filter(|d| d.rule == "not-modelled").count(), 2);
     }
 
     #[test]

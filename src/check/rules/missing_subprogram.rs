@@ -27,13 +27,26 @@ pub(super) const RULE: Body = Body {
 };
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    if let FaultKind::MissingSubprogram { name, searched } = &fault.kind {
-        let draft = out.report(fault.range, format!("there is no program `{name}`"));
+    if let FaultKind::MissingSubprogram {
+        name,
+        searched,
+        alarm,
+        caller,
+    } = &fault.kind
+    {
+        let caller = caller
+            .as_ref()
+            .map_or_else(String::new, |place| format!(", called in {place}"));
+        let draft = out.report(fault.range, format!("there is no program `{name}`{caller}"));
         draft.note(if searched.is_empty() {
             "only the text of the program itself was searched".to_owned()
         } else {
             format!("searched: the program itself, {}", searched.join(", "))
         });
+        if let Some(alarm) = alarm {
+            draft.note(format!("the control says: {alarm}"));
+            draft.value_text("alarm", alarm.clone());
+        }
         draft
             .help("put it beside the program, or name its folder in trunnion.toml: subprogram_path = [\"subs\"]")
             .merge_everywhere(hash(name));

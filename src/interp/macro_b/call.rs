@@ -35,7 +35,12 @@ impl Interpreter<'_> {
             Ok(place) => place,
             Err(searched) => {
                 let name = calling.program.to_string();
-                let kind = FaultKind::MissingSubprogram { name, searched };
+                let kind = FaultKind::MissingSubprogram {
+                    name,
+                    searched,
+                    alarm: None,
+                    caller: None,
+                };
                 self.tell_of_flow(running, from, (calling.range, kind), sink);
                 return self.call_is_not_followed();
             }

@@ -70,6 +70,7 @@ impl Interpreter<'_> {
                 block,
                 words: &mut words,
                 codes: &mut codes,
+                delete: None,
                 macros: Some(Macros {
                     mode: Mode::Text,
                     deep: &mut deep,

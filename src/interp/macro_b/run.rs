@@ -164,7 +164,10 @@ impl Interpreter<'_> {
             sink.fault(Fault {
                 block,
                 range: main.block(block).range(),
-                kind: FaultKind::EndlessLoop { blocks },
+                kind: FaultKind::EndlessLoop {
+                    blocks,
+                    proved: deep.endless.is_some(),
+                },
             });
         }
         self.end(main, sink);

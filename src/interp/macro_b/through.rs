@@ -63,6 +63,14 @@ fn carried(called: &Called, fault: &Fault) -> FaultKind {
             message: format!("{place}: {message}"),
             alarm: alarm.clone(),
         },
+        FaultKind::MissingSubprogram {
+            name, searched, alarm, ..
+        } => FaultKind::MissingSubprogram {
+            name: name.clone(),
+            searched: searched.clone(),
+            alarm: alarm.clone(),
+            caller: Some(place),
+        },
         other => other.clone(),
     }
 }

@@ -35,6 +35,7 @@ impl<'d> Interpreter<'d> {
             block: block.id(),
             words,
             codes,
+            delete: self.setup.control.block_delete,
             macros: self.dialect.quirks.macro_b.then_some(macros),
             own: self.dialect.quirks.user_names.then_some(&mut self.memory.own),
             report: |range: TextRange, kind| report.fault(range, kind),
@@ -48,6 +49,12 @@ impl<'d> Interpreter<'d> {
                 own.lose();
             }
             reader.take(item);
+        }
+        if let Some(range) = words.rest_deleted.filter(|_| words.flow) {
+            // statements are read as a whole
+            let what = "`/` behind a statement of a macro".to_owned();
+            report.fault(range, FaultKind::NotModelled { what });
+            words.forgets_all = true;
         }
         let calls = |found: &Found<'_>| found.code.action == Action::SubprogramCall;
         if words.forgets_all || self.dialect.quirks.user_names && codes.iter().any(calls) {

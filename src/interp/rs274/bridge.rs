@@ -1,6 +1,6 @@
 //! Canonical calls of LinuxCNC's interpreter become motions and modal state.
 use super::chords::chords;
-use super::faults::fault_of;
+use super::faults::{fault_of, placed};
 use super::feed::Rate;
 use super::frames::Shift;
 use super::places::Places;
@@ -30,6 +30,8 @@ pub(super) struct Told {
     pub(super) blocks: Option<std::sync::Arc<[u32]>>,
     /// Where lines stand and from where the main program called them.
     pub(super) places: Places,
+    /// The files of the run as people are shown them; the main program first.
+    pub(super) paths: Vec<std::sync::Arc<str>>,
     /// Compensation of the cutter radius was on behind the last line.
     pub(super) compensated: bool,
     /// Something has happened after which X Y Z U V W are not known.
@@ -88,6 +90,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             range
         } else {
             self.program.block(block).range()
+        };
+        let kind = match self.told.paths.get(at.file.0 as usize) {
+            Some(path) if at.file != FileId::MAIN => placed(kind, format!("{path}, line {}", at.line + 1)),
+            _ => kind,
         };
         self.sink.fault(Fault { block, range, kind });
     }
@@ -269,24 +275,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
             self.missing_end();
             return;
         }
-        if at.file == FileId::MAIN {
-            self.fault(at, error.range, kind);
-            return;
-        }
-        let frames = format!("in {}, line {}: ", error.path, at.line + 1);
-        let kind = match kind {
-            FaultKind::Rejected {
-                refusal,
-                message,
-                alarm,
-            } => FaultKind::Rejected {
-                refusal,
-                message: frames + &message,
-                alarm,
-            },
-            other => other,
-        };
-        self.fault(at, TextRange::default(), kind);
+        self.fault(at, error.range, kind);
     }
 }
 

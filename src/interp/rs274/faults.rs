@@ -2,12 +2,44 @@
 use crate::FaultKind;
 use trunnion_ngc::{Class, Error};
 
+/// A fact about a line of a called file, told at the call.
+pub(super) fn placed(kind: FaultKind, place: String) -> FaultKind {
+    match kind {
+        FaultKind::Rejected {
+            refusal,
+            message,
+            alarm,
+        } => FaultKind::Rejected {
+            refusal,
+            message: format!("in {place}: {message}"),
+            alarm,
+        },
+        FaultKind::NotModelled { what } => FaultKind::NotModelled {
+            what: format!("in {place}: {what}"),
+        },
+        FaultKind::NotDecided { what } => FaultKind::NotDecided {
+            what: format!("{what} in {place}"),
+        },
+        FaultKind::MissingSubprogram {
+            name, searched, alarm, ..
+        } => FaultKind::MissingSubprogram {
+            name,
+            searched,
+            alarm,
+            caller: Some(place),
+        },
+        other => other,
+    }
+}
+
 /// The fact that tells an error.
 pub(super) fn fault_of(error: &Error) -> FaultKind {
     if let Some(missing) = &error.missing {
         return FaultKind::MissingSubprogram {
             name: missing.name.clone(),
             searched: missing.searched.clone(),
+            alarm: Some(format!("LinuxCNC: {}", error.message())),
+            caller: None,
         };
     }
     let refusal = match error.problem.class {

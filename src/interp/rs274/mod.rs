@@ -112,6 +112,12 @@ impl Interpreter<'_> {
 
     fn step_rs274(&mut self, run: &mut Rs274, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         let Rs274 { engine, told, done } = run;
+        // a line of a file runs in a step behind the one that opened it
+        if told.paths.len() != engine.file_count() {
+            told.paths = (0..engine.file_count() as u32)
+                .map(|file| engine.path(FileId(file)).into())
+                .collect();
+        }
         let mut bridge = Bridge {
             interpreter: self,
             told,
@@ -140,10 +146,15 @@ impl Interpreter<'_> {
                 bridge.fault(at, TextRange::default(), FaultKind::NotDecided { what });
                 *done = true;
             }
-            Step::OutOfFuel(opens) | Step::Endless(opens) => {
-                // one that comes back to the same values ends within no bound
+            Step::OutOfFuel(opens) => {
                 let blocks = bridge.interpreter.setup.limits.blocks;
-                bridge.fault(opens, TextRange::default(), FaultKind::EndlessLoop { blocks });
+                let kind = FaultKind::EndlessLoop { blocks, proved: false };
+                bridge.fault(opens, TextRange::default(), kind);
+                *done = true;
+            }
+            Step::Endless(opens, blocks) => {
+                let kind = FaultKind::EndlessLoop { blocks, proved: true };
+                bridge.fault(opens, TextRange::default(), kind);
                 *done = true;
             }
         }

@@ -26,7 +26,7 @@ pub(super) fn fill(text: &[u8], engine: &Engine) -> Vec<u8> {
                         Name::Number(index) => index.and_then(|index| values.numbered(index).ok()),
                     };
                     at += length;
-                    put(value, decimals, &mut out);
+                    put(value, decimals + engine.setup.more_decimals, &mut out);
                 }
                 // nothing, or a name without an end: the text ends here
                 None if rest.is_empty() || rest[0] == b'<' => return out,

@@ -69,7 +69,7 @@ problems! {
     SPINDLE_RANGE_M4 Number "Spindle ($) number out of range in M4 Command" "This machine has fewer spindles."
     SPINDLE_RANGE_M5 Number "Spindle ($) number out of range in M5 Command" "This machine has fewer spindles."
     SPINDLE_RANGE_M51 Number "Invalid spindle ($) number in M51 command" "This machine has fewer spindles."
-    SPINDLE_RANGE_M19 Number "Invalid spindle ($) number in M19 command" "This machine has fewer spindles."
+    SPINDLE_RANGE_M19 Number "Spindle ($) number out of range in M19 Command" "M19 turns one spindle of those that this machine has."
     M19_R Number "R value must be within 0..360 with M19" "Write the angle as 0 to 360 degrees."
     M19_P Number "P value must be 0,1,or 2 with M19" "0: the shorter way, 1: clockwise, 2: counter-clockwise."
     M19_Q Number "Q word with M19 requires a value > 0" "Q is the longest wait in seconds."

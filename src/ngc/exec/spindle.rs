@@ -78,7 +78,6 @@ fn turn_to(
 }
 
 fn orient(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
-    let spindles = chosen(engine, block, &problems::SPINDLE_RANGE_M19)?;
     let angle = block.word(b'R').unwrap_or(0.0);
     if !(0.0..=360.0).contains(&angle) && !angle.is_nan() {
         return Err(Error::new(&problems::M19_R, block.range_of(b'R')));
@@ -87,17 +86,23 @@ fn orient(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Re
     if !(0.0..=2.0).contains(&mode) && !mode.is_nan() {
         return Err(Error::new(&problems::M19_P, block.range_of(b'P')));
     }
-    for spindle in spindles {
-        engine.state.turning[spindle] = 0;
-        if block.has(b'R') || block.has(b'P') {
-            engine.emit(Canon::OrientSpindle(spindle as i32, angle, mode as i32), at, sink);
+    // all of them at once (-1) it does not turn
+    let number = block.spindle.unwrap_or(0);
+    let spindle = usize::try_from(number)
+        .ok()
+        .filter(|spindle| *spindle < engine.setup.spindles());
+    let Some(spindle) = spindle else {
+        return Err(Error::new(&problems::SPINDLE_RANGE_M19, block.range));
+    };
+    engine.state.turning[spindle] = 0;
+    if block.has(b'R') || block.has(b'P') {
+        engine.emit(Canon::OrientSpindle(number, angle, mode as i32), at, sink);
+    }
+    if let Some(timeout) = block.word(b'Q') {
+        if timeout <= 0.0 {
+            return Err(Error::new(&problems::M19_Q, block.range_of(b'Q')));
         }
-        if let Some(timeout) = block.word(b'Q') {
-            if timeout <= 0.0 {
-                return Err(Error::new(&problems::M19_Q, block.range_of(b'Q')));
-            }
-            engine.emit(Canon::WaitOrient(spindle as i32, timeout), at, sink);
-        }
+        engine.emit(Canon::WaitOrient(number, timeout), at, sink);
     }
     Ok(())
 }

@@ -105,11 +105,12 @@ impl Engine {
             Err(Halt::Undecided(why)) => self.give_up(why),
             Err(Halt::Endless(place)) => {
                 self.flow.ended = true;
-                Step::Endless(At {
+                let opens = At {
                     file: place.file,
                     line: place.line,
                     chain: self.flow.chain,
-                })
+                };
+                Step::Endless(opens, self.setup.limits.blocks - self.flow.fuel)
             }
         }
     }

@@ -146,9 +146,13 @@ impl Parameters {
     }
     /// The text of a parameter file.
     pub fn text(&self) -> String {
+        self.text_with(0)
+    }
+    /// The same with more decimals than the six that the control writes.
+    pub fn text_with(&self, more: usize) -> String {
         self.values.iter().fold(String::new(), |mut text, (index, value)| {
             // writing to a string does not fail
-            let _ = writeln!(text, "{index}\t{value:.6}");
+            let _ = writeln!(text, "{index}\t{value:.*}", 6 + more);
             text
         })
     }

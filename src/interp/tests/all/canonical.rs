@@ -1,7 +1,7 @@
 //! LinuxCNC's canonical calls as motions: what compensation of the cutter radius holds back keeps what was in force with it.
 use crate::support::{faults, line, lines, run_bytes};
 use std::sync::Arc;
-use trunnion_interp::{Feed, Files, Library, Loaded, MotionKind, Setup};
+use trunnion_interp::{FaultKind, Feed, Files, Library, Loaded, ModalState, MotionKind, Setup};
 
 /// One file under any name.
 struct OneFile(&'static str);
@@ -242,4 +242,99 @@ fn a_spline_is_run_as_chords_and_said_to_be_unknown() {
     let got = lines("linuxcnc", source);
     assert!(got.len() > 5, "{got:?}");
     assert_eq!(got.last().map(String::as_str), Some("L X10 Y10 Z0 F100"));
+}
+
+/// A file of its own for each name.
+struct Several(&'static [(&'static str, &'static str)]);
+
+impl Files for Several {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+        let found = self.0.iter().find(|(own, _)| *own == name);
+        let (_, text) = found.ok_or_else(|| vec!["subs".to_owned()])?;
+        Ok(Loaded {
+            path: format!("subs/{name}.ngc"),
+            bytes: text.as_bytes().into(),
+        })
+    }
+}
+
+fn kinds(source: &str, files: &'static [(&'static str, &'static str)]) -> (Vec<FaultKind>, Option<ModalState>) {
+    let setup = Setup {
+        library: Library(Some(Arc::new(Several(files)))),
+        ..Setup::default()
+    };
+    let log = run_bytes("linuxcnc", source.as_bytes(), &setup).1;
+    (log.faults.into_iter().map(|fault| fault.kind).collect(), log.state)
+}
+
+#[test]
+fn what_is_not_modelled_in_a_called_file_names_the_file_and_line() {
+    let (kinds, _) = kinds(
+        "G21 G0 X0 Y0 Z0\no<probe> call\nM2\n",
+        &[("probe", "o<probe> sub\nG38.2 Z-5 F10\no<probe> endsub\n")],
+    );
+    let FaultKind::NotModelled { what } = &kinds[0] else {
+        panic!("{kinds:?}");
+    };
+    assert_eq!(what, "in subs/probe.ngc, line 2: G38.2: where the probe touches");
+    assert_eq!(kinds.len(), 1, "{kinds:?}");
+}
+
+#[test]
+fn axes_of_a_refused_line_of_a_called_file_are_not_known() {
+    let (kinds, state) = kinds(
+        "G21 G0 X0 Y0 Z0 A0\no<bad> call\nG4 P1\nM2\n",
+        &[("bad", "o<bad> sub\nG1 X5 Y[1 F100\nG4 P1\no<bad> endsub\n")],
+    );
+    assert!(
+        matches!(&kinds[0], FaultKind::Rejected { message, .. } if message.starts_with("in subs/bad.ngc, line 2: ")),
+        "{kinds:?}"
+    );
+    let position = state.expect("blocks ran").position;
+    assert_eq!(
+        [0, 1, 2, 3].map(|axis| position.get(axis)),
+        [None, None, Some(0.0), Some(0.0)]
+    );
+}
+
+#[test]
+fn a_subprogram_that_is_not_there_keeps_the_controls_sentence_and_its_caller() {
+    let missing = |source: &str, files| -> (Option<String>, Option<String>) {
+        let (kinds, _) = kinds(source, files);
+        match kinds
+            .into_iter()
+            .find(|kind| matches!(kind, FaultKind::MissingSubprogram { .. }))
+        {
+            Some(FaultKind::MissingSubprogram { alarm, caller, .. }) => (alarm, caller),
+            other => panic!("{other:?}"),
+        }
+    };
+    let (alarm, caller) = missing("o<none> call\nM2\n", &[]);
+    assert!(alarm.is_some_and(|alarm| alarm.starts_with("LinuxCNC: ") && alarm.contains("none")));
+    assert_eq!(caller, None);
+    let (_, caller) = missing(
+        "o<outer> call\nM2\n",
+        &[("outer", "o<outer> sub\no<none> call\no<outer> endsub\n")],
+    );
+    assert_eq!(caller.as_deref(), Some("subs/outer.ngc, line 2"));
+}
+
+#[test]
+fn a_loop_that_comes_back_to_the_same_values_is_proved_to_be_endless() {
+    let endless = |source: &str| {
+        kinds(source, &[])
+            .0
+            .into_iter()
+            .find(|kind| matches!(kind, FaultKind::EndlessLoop { .. }))
+    };
+    let proved = endless("o1 while [1]\no1 endwhile\nM2\n");
+    assert!(
+        matches!(proved, Some(FaultKind::EndlessLoop { blocks, proved: true }) if blocks < 100_000),
+        "{proved:?}"
+    );
+    let moves = endless("G21 G0 X0\no1 while [1]\nG0 X1\no1 endwhile\nM2\n");
+    assert!(
+        matches!(moves, Some(FaultKind::EndlessLoop { proved: false, .. })),
+        "{moves:?}"
+    );
 }

@@ -79,7 +79,7 @@ fn programs_are_called_by_name() {
     assert_eq!(chains, [[":1:M98<CUT>", "at subs/CUT.NC:3:G0X7."]]);
     assert_eq!(
         faults,
-        ["2: M98: MissingSubprogram { name: \"<NONE>\", searched: [\"subs\"] }"]
+        ["2: M98: MissingSubprogram { name: \"<NONE>\", searched: [\"subs\"], alarm: None, caller: None }"]
     );
     // no call, no meaning
     let (_, faults) = run("G0X1.<CUT>\nM30\n");
@@ -92,7 +92,7 @@ fn missing_programs_without_a_library() {
     let faults: Vec<_> = log.faults.iter().map(|fault| fault_line(&program, fault)).collect();
     assert_eq!(
         faults,
-        ["2: M98P9: MissingSubprogram { name: \"O0009\", searched: [] }"]
+        ["2: M98P9: MissingSubprogram { name: \"O0009\", searched: [], alarm: None, caller: None }"]
     );
 }
 

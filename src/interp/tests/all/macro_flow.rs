@@ -199,7 +199,8 @@ fn endless_loops_are_told_at_the_line_that_opens_them() {
     let endless = |source: &str| -> Vec<_> {
         let (program, log) = run_bytes(FANUC, source.as_bytes(), &setup);
         let found = log.faults.iter().filter_map(|fault| match fault.kind {
-            FaultKind::EndlessLoop { blocks } => {
+            FaultKind::EndlessLoop { blocks, proved } => {
+                assert_eq!(proved, blocks < 1000);
                 Some((fault.block.0 + 1, program.text(fault.range).into_owned(), blocks))
             }
             _ => None,

@@ -171,6 +171,8 @@ fn a_program_that_is_nowhere_names_the_folders() {
         FaultKind::MissingSubprogram {
             name: "O0077".to_owned(),
             searched: vec!["lib".to_owned()],
+            alarm: None,
+            caller: None,
         }
     );
     let got: Vec<_> = log.motions.iter().map(line).collect();

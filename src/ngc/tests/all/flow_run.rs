@@ -116,7 +116,7 @@ fn a_loop_that_comes_back_to_the_same_values_never_ends() {
     for program in endless {
         let opener = program.lines().position(|line| line.starts_with("o1 "));
         let (_, _, step) = run(program.as_bytes(), &bounded(1_000_000), false);
-        let Step::Endless(at) = step else {
+        let Step::Endless(at, _) = step else {
             panic!("{program}{step:?}")
         };
         assert_eq!(Some(at.line as usize), opener, "{program}");

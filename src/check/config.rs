@@ -90,6 +90,10 @@ pub const TOLERANCES: &[(&str, &str)] = &[
         "rapid_ratio",
         "excess-rapid-travel: way of the rapid motions over the direct way",
     ),
+    (
+        "pivot",
+        "pivot-uncertainty: how far the uncertainty of the rotary axes may move the tip, mm",
+    ),
     ("pole_cone", "pole-flip: cone about the pole, deg"),
     ("pole_angle", "pole-flip: change of the rotary axis, deg"),
     (
@@ -147,6 +151,7 @@ fn apply(tolerances: &mut Tolerances, name: &str, value: f64) -> bool {
         "rotary_ratio" => tolerances.rotary_ratio = value,
         "linear_ratio" => tolerances.linear_ratio = value,
         "rapid_ratio" => tolerances.rapid_ratio = value,
+        "pivot" => tolerances.pivot_mm = value,
         "pole_cone" => tolerances.pole_cone = rad(value),
         "pole_angle" => tolerances.pole_angle = rad(value),
         "swap_excess" => tolerances.swap_excess = rad(value),

@@ -41,6 +41,7 @@ mod not_modelled;
 mod only_one_posture;
 mod orientation_deviation;
 mod path_deviation;
+mod pivot_uncertainty;
 mod pole_crossing;
 mod pole_flip;
 mod porting;
@@ -134,6 +135,7 @@ static RULES: &[&Rule] = table![
     only_one_posture,
     orientation_deviation,
     path_deviation,
+    pivot_uncertainty,
     pole_crossing,
     pole_flip,
     porting,

@@ -1,7 +1,6 @@
 //! Where the joints and the tool are inside a block: the real path between two blocks, for pictures and for surfaces.
 use crate::course::{Course, Track};
 use crate::forward::Turn;
-use crate::spin::Spin;
 use crate::{Joints, Leg, Machine, Pose, forward};
 use trunnion_geometry::Vec3;
 
@@ -42,23 +41,7 @@ impl<'a> Way<'a> {
     pub fn at(&self, t: f64) -> Moment {
         let course = &self.course;
         let t = t.clamp(0.0, 1.0);
-        let (start, end) = (course.start, course.end);
-        let mut joints: Joints = start.joints;
-        for (value, (from, to)) in joints.iter_mut().zip(start.joints.iter().zip(&end.joints)) {
-            *value = from + (to - from) * t;
-        }
-        if t > 0.0 && t < 1.0 {
-            if let Spin::GreatCircle(circle) = &course.spin {
-                let turned = circle.joints(t, start.rotary(course.machine)).unwrap_or([f64::NAN; 2]);
-                for (rotary, value) in course.constants().rotary().iter().zip(turned) {
-                    joints[rotary.joint] = value;
-                }
-            }
-            let solved = course.moment(t).solved;
-            for (&index, value) in course.constants().solved.iter().zip(solved.iter()) {
-                joints[course.constants().linear[index].joint] = *value;
-            }
-        }
+        let joints = course.joints(t);
         let Pose { tip, axis } = forward(course.machine, &joints, course.tool_length);
         Moment {
             joints,

@@ -214,6 +214,8 @@ pub struct Tolerances {
     pub linear_ratio: f64,
     /// excess-rapid-travel: way of the rapid motions over the direct way.
     pub rapid_ratio: f64,
+    /// pivot-uncertainty, mm.
+    pub pivot_mm: f64,
     /// near-miss: clearance below which a warning is given, mm.
     pub near_mm: f64,
 }
@@ -234,6 +236,7 @@ impl Default for Tolerances {
             rotary_ratio: 20.0,
             linear_ratio: 5.0,
             rapid_ratio: 2.0,
+            pivot_mm: crate::PIVOT_SENSITIVITY,
             near_mm: 2.0,
         }
     }

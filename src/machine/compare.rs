@@ -10,6 +10,10 @@ use core::f64::consts::PI;
 use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, deg};
 
+mod proof;
+
+pub use proof::AlongBlock;
+
 /// What the second machine does with joints that are right for the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TipDifference {
@@ -59,10 +63,7 @@ impl<'m> Comparison<'m> {
 
     /// At joints of the believed machine. `tool_length` in mm.
     pub fn at(&self, joints: &Joints, tool_length: f64) -> TipDifference {
-        let mut other: Joints = [0.0; MAX_AXES];
-        for (slot, from) in other.iter_mut().zip(&self.order) {
-            *slot = joints[*from];
-        }
+        let other = self.ordered(joints);
         let first = forward(self.believed, joints, tool_length);
         let second = forward(self.truth, &other, tool_length);
         TipDifference {
@@ -73,19 +74,10 @@ impl<'m> Comparison<'m> {
         }
     }
 
-    /// The worst at `samples` + 1 places of a block, its joints taken to run straight: samples, no bound. `None` where the end is unknown.
-    pub fn on(&self, leg: &Leg, samples: usize) -> Option<TipDifference> {
+    /// At the end of a block. `None` where it is unknown.
+    pub fn at_end(&self, leg: &Leg) -> Option<TipDifference> {
         let end = leg.end.as_ref().ok()?;
-        let start = leg.start.as_ref().unwrap_or(end);
-        let place = |step: usize| {
-            let share = step as f64 / samples.max(1) as f64;
-            let mut joints = end.joints;
-            for (slot, from) in joints.iter_mut().zip(&start.joints) {
-                *slot = from + (*slot - from) * share;
-            }
-            self.at(&joints, end.tool_length)
-        };
-        (0..=samples).map(place).reduce(worse)
+        Some(self.at(&end.joints, end.tool_length))
     }
 
     /// The tip stands still at `tip` (part frame, mm) while each rotary axis runs through its travel (an endless one: a turn), alone and

@@ -82,6 +82,125 @@ fn the_error_is_twice_the_sine_of_half_the_angle() {
     }
 }
 
+/// A0 to A90 with the pivot of A 0.05 mm off: 2 sin(45 deg) 0.05 = 0.0707107 mm, proven from both sides; without motion of A nothing.
+#[test]
+fn along_a_block_the_bound_closes_on_the_truth() {
+    let believed = builtin("mikron-ucp710").expect("shipped");
+    let truth = planted("mikron-ucp710", 'A', "point = [0, 0, 0]", "point = [0, 0.05, 0]");
+    let comparison = Comparison::new(believed, &truth).expect("the same axes");
+    let wanted = 0.1 * sin(rad(45.0));
+    for tcp in [false, true] {
+        let leg = turn_of_a(believed, tcp, 0.0, 90.0);
+        let found = comparison.along(&leg, 0.01).expect("known");
+        assert!((found.worst.tip_mm - wanted).abs() < 1e-9, "{found:?}");
+        assert!(found.bound_mm >= wanted && found.bound_mm <= 1.2 * wanted, "{found:?}");
+        // a tolerance above the truth is proven to be kept
+        let kept = comparison.along(&leg, wanted * 1.01).expect("known");
+        assert!(kept.bound_mm <= wanted * 1.01 && kept.bound_mm >= wanted, "{kept:?}");
+        // the worst is inside the block: A -80 to 80 passes through zero, its ends are the worst; 60 to 300 has it at 180
+        let across = turn_of_a(believed, tcp, -60.0, 60.0);
+        let found = comparison.along(&across, 1e-3).expect("known");
+        assert!((found.worst.tip_mm - 0.05).abs() < 1e-9, "{found:?}");
+    }
+    assert_eq!(
+        comparison
+            .along(&turn_of_a(believed, true, 90.0, 90.0), 1e-3)
+            .map(|f| f.worst.tip_mm > 0.07),
+        Some(true)
+    );
+}
+
+fn turn_of_a(machine: &Machine, tcp: bool, from: f64, to: f64) -> crate::Leg {
+    let mut follower = crate::Follower::new(machine);
+    let at = |a: f64| {
+        let mut position = trunnion_interp::Position::default();
+        for (axis, value) in [(0, 10.0), (1, 5.0), (2, 30.0), (3, a), (5, 40.0)] {
+            position.set(axis, value);
+        }
+        position
+    };
+    let go = |start, end| trunnion_interp::Motion {
+        block: trunnion_syntax::BlockId(0),
+        chain: trunnion_interp::ChainId::MAIN,
+        kind: trunnion_interp::MotionKind::Linear,
+        start,
+        end,
+        orientation: trunnion_interp::Orientation::Words,
+        tcp,
+        great_circle: None,
+        feed: trunnion_interp::Feed::Unknown,
+        spindle_on: None,
+        spindle_rpm: None,
+        zero: [0.0; 9],
+        tool_length_mm: 60.0,
+        machine_coordinates: false,
+        tool: None,
+        tilt: trunnion_interp::Tilt::default(),
+    };
+    follower.follow(&go(trunnion_interp::Position::default(), at(from)));
+    follower.follow(&go(at(from), at(to)))
+}
+
+/// Random pairs of a machine and itself with one place, direction or gauge point off: no pose is farther off than what is proven
+/// everywhere, no moment of a block farther than what is proven along it, and a place alone is proven tightly.
+#[test]
+fn bounds_of_planted_errors_are_never_below_random_poses() {
+    let mut random = crate::selftest::SplitMix(17);
+    let mut judged = 0;
+    for name in crate::BUILTIN_MACHINES {
+        let believed = builtin(name).expect("shipped");
+        let source = builtin_source(name)
+            .expect("shipped")
+            .split("[[check]]")
+            .next()
+            .expect("a part");
+        for _ in 0..4 {
+            let Some(truth) = spoiled(name, source, &mut random) else {
+                continue;
+            };
+            let comparison = Comparison::new(believed, &truth).expect("the same axes");
+            let everywhere = comparison.everywhere(200.0);
+            let worst = comparison.random_poses(400, random.0).expect("poses").tip_mm;
+            assert!(
+                worst <= everywhere * (1.0 + 1e-9) + 1e-12,
+                "{name}: {worst} {everywhere}"
+            );
+            judged += usize::from(everywhere.is_finite() && worst > 1e-6);
+        }
+    }
+    assert!(judged > 20, "{judged}");
+}
+
+/// The machine with one of its `point = [x, y, z]` moved by up to 0.1 mm.
+fn spoiled(name: &str, source: &str, random: &mut crate::selftest::SplitMix) -> Option<Machine> {
+    let places: Vec<usize> = source.match_indices("point = [").map(|(at, _)| at).collect();
+    let at = *places.get((random.between(0.0, places.len() as f64) as usize).min(places.len().checked_sub(1)?))?;
+    let end = at + source[at..].find(']')? + 1;
+    let values: Vec<f64> = source[at + 9..end - 1]
+        .split(',')
+        .filter_map(|text| text.trim().parse().ok())
+        .collect();
+    let [x, y, z] = values[..] else { return None };
+    let mut off = || random.between(-0.1, 0.1);
+    let moved = format!("point = [{}, {}, {}]", x + off(), y + off(), z + off());
+    load(name, &format!("{}{moved}{}", &source[..at], &source[end..])).ok()
+}
+
+/// Only C's place is off by 0.05 mm across it: 0.1 mm at the most, wherever the linear axes are.
+#[test]
+fn everywhere_a_moved_pivot_costs_at_most_twice_its_error() {
+    let believed = builtin("mikron-ucp710").expect("shipped");
+    let truth = planted("mikron-ucp710", 'C', "point = [0, 0, 0]", "point = [0.03, 0.04, 7]");
+    let comparison = Comparison::new(believed, &truth).expect("the same axes");
+    assert!((comparison.everywhere(200.0) - 0.1).abs() < 1e-9);
+    // A runs from -30 to 120 deg: 2 sin(60 deg) 0.05
+    let truth = planted("mikron-ucp710", 'A', "point = [0, 0, 0]", "point = [0, 0.05, 0]");
+    let comparison = Comparison::new(believed, &truth).expect("the same axes");
+    assert!((comparison.everywhere(200.0) - 0.1 * sin(rad(60.0))).abs() < 1e-9);
+    let same = Comparison::new(believed, believed).expect("the same axes");
+    assert_eq!(same.everywhere(200.0), 0.0);
+}
+
 #[test]
 fn machines_with_other_axes_are_not_compared() {
     let (a, b) = (

@@ -178,6 +178,28 @@ impl<'a> Course<'a> {
         (start, end)
     }
 
+    /// All joints after the share `t` of the block, 0..=1; not numbers where a great circle leaves the reach.
+    pub(crate) fn joints(&self, t: f64) -> Joints {
+        let (start, end) = (self.start, self.end);
+        let mut joints: Joints = start.joints;
+        for (value, (from, to)) in joints.iter_mut().zip(start.joints.iter().zip(&end.joints)) {
+            *value = if t >= 1.0 { *to } else { from + (to - from) * t };
+        }
+        if t > 0.0 && t < 1.0 {
+            if let Spin::GreatCircle(circle) = &self.spin {
+                let turned = circle.joints(t, start.rotary(self.machine)).unwrap_or([f64::NAN; 2]);
+                for (rotary, value) in self.constants().rotary().iter().zip(turned) {
+                    joints[rotary.joint] = value;
+                }
+            }
+            let solved = self.moment(t).solved;
+            for (&index, value) in self.constants().solved.iter().zip(solved.iter()) {
+                joints[self.constants().linear[index].joint] = *value;
+            }
+        }
+        joints
+    }
+
     /// The three solved joints of a stance.
     pub(crate) fn solved(&self, joints: &Joints) -> Vec3 {
         let [a, b, c] = self

@@ -97,6 +97,7 @@ pub fn describe(machine: &Machine) -> Description {
             ("rapid_ratio", tolerances.rapid_ratio, "mm/mm"),
             ("feed_drop", tolerances.feed_drop_warning, "of the programmed feed"),
             ("feed_drop_error", tolerances.feed_drop_error, "of the programmed feed"),
+            ("pivot", tolerances.pivot_mm, "mm"),
             ("collision_near", tolerances.near_mm, "mm"),
         ],
         sources: machine.sources.clone(),

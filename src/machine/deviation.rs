@@ -17,6 +17,12 @@ pub struct Deviation {
     pub at: f64,
 }
 
+/// A rapid whose axes run each at its own speed: where anything is between the ends is not known, nor is it programmed.
+#[inline]
+pub(crate) fn runs_dogleg(machine: &Machine, leg: &Leg) -> bool {
+    leg.motion.kind == MotionKind::Rapid && machine.control.rapid == RapidPath::Dogleg
+}
+
 /// Where sample and bound are this near, mm, more samples say nothing more.
 const CLOSE_MM: f64 = 2e-5;
 
@@ -27,23 +33,22 @@ const CLOSE_SAMPLES: u32 = 256;
 pub(crate) const RATIO: f64 = 1.19;
 
 /// Set distance of the tip path to the programmed segment. `tolerance_mm`: the bound may be loose where it already proves
-/// this; above it, it is at most 1.2 times the truth. `None`: not modelled, or an unknown stance.
+/// this; above it, it is at most 1.2 times the truth. `None`: not modelled, an unknown stance, or a rapid whose axes run each for itself.
 ///
 /// The segment of a line joins the tips at both ends in the workpiece frame; that of an arc is the arc as it lies in the workpiece at the
 /// start of the block, its end carried evenly to where the tip ends. With TCP or vectors the control keeps the tip on the programmed
 /// path, so the deviation is zero by construction, and so it is where no rotary axis moves. Without TCP the joints run linearly (X Y Z
 /// along the arc) and the tip on W(t); bound: largest sample + Q h^2 / 8 per piece of length h, Q >= |W''|. Source: kinematics notes 3.
 pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<Deviation> {
+    if runs_dogleg(machine, leg) {
+        return None;
+    }
     let none = Deviation {
         sampled_mm: 0.0,
         bound_mm: 0.0,
         at: 0.0,
     };
     let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
-    if leg.motion.kind == MotionKind::Rapid && machine.control.rapid == RapidPath::Dogleg {
-        // where the tip runs between the ends is not known, nor is it programmed
-        return None;
-    }
     let arc = match &leg.motion.kind {
         MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => return None,
         MotionKind::Arc(Some(arc)) => Some(arc),

@@ -71,7 +71,7 @@ pub use chain::{
     Axis, AxisExtra, AxisKind, Body, Control, FeedMeaning, Gantry, Home, Joints, Limits, MAX_AXES, Machine, PoleAction,
     RapidPath, Side, Tolerances, Wrap,
 };
-pub use compare::{Comparison, TipDifference};
+pub use compare::{AlongBlock, Comparison, TipDifference};
 pub use constants::{Constants, LinearAxis, PairConstants, RotaryAxis};
 pub use describe::{AxisDescription, Description, describe};
 pub use deviation::{Deviation, tip_deviation};
@@ -90,5 +90,7 @@ pub use speed::{FeedLimit, block_duration_s, feed_limit, feed_limit_tight};
 pub use stance::{Leg, NoStance, Open, OpenCause, Stance};
 pub use swept::swept_deviation;
 pub use travel::{Excursion, LinearTravel, excursions, linear_travel};
-pub use uncertainty::{AxisUncertainty, PIVOT_SENSITIVITY, pivot_sensitivity, worst_pivot_error};
+pub use uncertainty::{
+    AxisUncertainty, PIVOT_SENSITIVITY, pivot_sensitivity, pivot_sensitivity_between, worst_pivot_error,
+};
 pub use windings::{Windings, pole_angle, rotary_jacobian, solution_s, windings};

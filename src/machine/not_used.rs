@@ -45,7 +45,7 @@ fn of_axis(axis: &RawAxis, out: &mut Vec<String>) {
     say(
         uncertainty.point.is_some() || uncertainty.dir_arcsec.is_some(),
         format!(
-            "uncertainty on {letter}: `machine show` says what it does to the tip; bounds are for the axis as it is declared"
+            "uncertainty on {letter}: `machine show` and pivot-uncertainty say what it does to the tip; bounds are for the axis as it is declared"
         ),
     );
     let dynamics = &axis.dynamics;

@@ -42,12 +42,16 @@ pub(crate) fn strays(machine: &Machine, leg: &Leg) -> bool {
 }
 
 /// Set distance of the tool axis to the great-circle arc between its directions at both ends. `tolerance`, rad: the bound may be loose
-/// where it already proves this; above it, it is at most 1.2 times the truth. `None`: no path, an unknown stance, or opposite ends.
+/// where it already proves this; above it, it is at most 1.2 times the truth. `None`: no path, an unknown stance, opposite ends, or a
+/// rapid whose axes run each for itself.
 ///
 /// Zero by construction where no vectors are programmed, where the control runs them on the great circle, and where no rotary axis moves.
 /// With |u''| <= Q (at most (D1 + D2)^2) the axis keeps within asin(Q / 8) of the arc; on a piece of length h the sine of the distance, which
 /// is the distance of u from the convex cone over the arc, is at most its largest end + Q h^2 / 8. Source: kinematics notes 3.
 pub fn orientation_deviation(machine: &Machine, leg: &Leg, tolerance: f64) -> Option<OrientationDeviation> {
+    if crate::deviation::runs_dogleg(machine, leg) {
+        return None;
+    }
     let none = OrientationDeviation {
         sampled: 0.0,
         bound: 0.0,

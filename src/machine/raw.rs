@@ -241,6 +241,7 @@ pub(crate) struct RawTolerances {
     pub(crate) rotary_ratio: Option<Number>,
     pub(crate) linear_ratio: Option<Number>,
     pub(crate) rapid_ratio: Option<Number>,
+    pub(crate) pivot: Option<Number>,
     pub(crate) collision_near: Option<Number>,
     pub(crate) pole_cone: Option<Number>,
     pub(crate) pole_angle: Option<Number>,

@@ -310,6 +310,7 @@ fn tolerances(raw: &RawTolerances) -> Result<Tolerances, Fault> {
         rotary_ratio: ratio("rotary_ratio", raw.rotary_ratio.as_ref(), default.rotary_ratio)?,
         linear_ratio: ratio("linear_ratio", raw.linear_ratio.as_ref(), default.linear_ratio)?,
         rapid_ratio: ratio("rapid_ratio", raw.rapid_ratio.as_ref(), default.rapid_ratio)?,
+        pivot_mm: positive("pivot", raw.pivot.as_ref())?.unwrap_or(default.pivot_mm),
         near_mm: positive("collision_near", raw.collision_near.as_ref())?.unwrap_or(default.near_mm),
         pole_cone: angle("pole_cone", raw.pole_cone.as_ref(), default.pole_cone)?,
         pole_angle: angle("pole_angle", raw.pole_angle.as_ref(), default.pole_angle)?,

@@ -1,6 +1,6 @@
 //! How far the body of the tool strays inside a block while its tip is led: the point at a distance above the tip.
 use crate::course::Track;
-use crate::deviation::RATIO;
+use crate::deviation::{RATIO, runs_dogleg};
 use crate::orientation::{Circle, axis_bend, strays};
 use crate::stray::Stray;
 use crate::{Deviation, Leg, Machine, tool_axis_at};
@@ -18,11 +18,14 @@ const ROUNDING: f64 = 1e-13;
 /// Set distance of the point at `above_tip` mm above the tip, on the tool axis, to the path it should run on: the tip along its segment and
 /// the tool axis evenly on the great circle. `tolerance_mm`: the bound may be loose where it already proves this; above it, it is at most
 /// 1.2 times the truth. `None`: no path, an unknown stance, opposite tool axes at the ends, or a motion without tip coordinates, whose tip
-/// itself strays and the whole tool with it ([`crate::tip_deviation`]).
+/// itself strays and the whole tool with it ([`crate::tip_deviation`]), or a rapid whose axes run each for itself.
 ///
 /// Zero where the axis does not stray ([`crate::orientation_deviation`]). At the same moment both points differ by at most
 /// L (Q + angle^2) / 8 with |u''| <= Q, L the distance above the tip; closer bounds by bisection. Source: kinematics notes 3 (KIN-SWEEP).
 pub fn swept_deviation(machine: &Machine, leg: &Leg, above_tip: f64, tolerance_mm: f64) -> Option<Deviation> {
+    if runs_dogleg(machine, leg) {
+        return None;
+    }
     let none = Deviation {
         sampled_mm: 0.0,
         bound_mm: 0.0,

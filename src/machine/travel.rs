@@ -30,19 +30,26 @@ pub struct Excursion {
 /// Relative width to which the length is closed in.
 const TIGHT: f64 = 1e-3;
 
-/// Most pieces a block is cut into.
-const PIECES: u32 = 1024;
+/// So many pieces are enough where the length is known to be more than asked for, or has no bound.
+const COARSE: u32 = 1024;
+
+/// Most pieces a block is cut into, to tell on which side of a threshold its length lies.
+const PIECES: u32 = 16_384;
 
 /// How near an excursion is brought to the truth, mm.
 const CLOSE_MM: f64 = 1e-3;
 
-/// Length of the path of the linear joints. Bounds may be coarse where they prove that it is at most `enough_mm`. `None`: an unknown stance
-/// or path.
+/// Length of the path of the linear joints. Bounds may be coarse where they prove that it is at most `enough_mm`; else they are closed in
+/// until they prove that it is more, or until the block would be cut into more than 16 384 pieces: then `enough_mm` lies between them.
+/// `None`: an unknown stance or path, or a rapid whose axes run each for itself.
 ///
 /// Without TCP along a line the joints run straight. Else, on a piece of length h with |q''| <= Q the path is at least its chord and at most
 /// root(chord^2 + Q^2 h^4 / 12): by Cauchy and Schwarz length^2 <= h int |q'|^2 = chord^2 + h int |q' - mean|^2, and q' strays from its mean
 /// by less than a straight line of slope Q would.
 pub fn linear_travel(machine: &Machine, leg: &Leg, enough_mm: f64) -> Option<LinearTravel> {
+    if crate::deviation::runs_dogleg(machine, leg) {
+        return None;
+    }
     let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
     let line = match leg.motion.kind {
         MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => return None,
@@ -76,7 +83,10 @@ pub fn linear_travel(machine: &Machine, leg: &Leg, enough_mm: f64) -> Option<Lin
     let mut pieces = 4;
     loop {
         let found = lengths(&course, pieces, whole);
-        if found.most_mm <= enough_mm || found.most_mm <= found.least_mm * (1.0 + TIGHT) || pieces >= PIECES {
+        let tight = found.most_mm <= found.least_mm * (1.0 + TIGHT) || pieces >= COARSE;
+        let settled = found.most_mm <= enough_mm || (tight && found.least_mm > enough_mm);
+        // where nothing bounds the length, more pieces do not either
+        if settled || pieces >= PIECES || (pieces >= COARSE && found.most_mm.is_infinite()) {
             return Some(found);
         }
         pieces *= 4;

@@ -26,29 +26,57 @@ pub struct AxisUncertainty {
 /// How far the tip may be off at given joints, for each rotary axis with a declared uncertainty; the errors add up at worst. Empty where
 /// none is declared. mm and rad; `tool_length` in mm.
 pub fn pivot_sensitivity(machine: &Machine, joints: &Joints, tool_length: f64) -> Vec<AxisUncertainty> {
-    let mut point = machine.home.gauge_point - machine.home.tool_axis * tool_length;
+    pivot_sensitivity_between(machine, joints, joints, tool_length)
+}
+
+/// [`pivot_sensitivity`] of a block that runs from `start` to `end`: of each axis the turn between the two that moves the tip most, and the
+/// larger of its distances from the tip at both ends.
+pub fn pivot_sensitivity_between(
+    machine: &Machine,
+    start: &Joints,
+    end: &Joints,
+    tool_length: f64,
+) -> Vec<AxisUncertainty> {
+    let tool = machine.home.gauge_point - machine.home.tool_axis * tool_length;
+    let mut points = [tool; 2];
     let mut found = Vec::new();
-    for (axis, value) in machine.axes.iter().zip(joints).rev() {
-        match axis.kind {
-            AxisKind::Linear => point += axis.direction * (axis.sign * value),
-            AxisKind::Rotary => {
-                let arm: Vec3 = point - axis.point;
-                let turn = 2.0 * sin(value * 0.5).abs();
-                let of_point_mm = turn * axis.extra.point_uncertainty.unwrap_or(0.0);
-                let of_direction = turn * axis.extra.direction_uncertainty.unwrap_or(0.0) * arm.norm();
-                if axis.extra.point_uncertainty.is_some() || axis.extra.direction_uncertainty.is_some() {
-                    found.push(AxisUncertainty {
-                        letter: axis.letter,
-                        tip_mm: of_point_mm + of_direction,
-                        of_point_mm,
-                    });
-                }
-                point = rotate(&axis.direction, axis.sign * value, &arm) + axis.point;
+    for (joint, axis) in machine.axes.iter().enumerate().rev() {
+        let values = [start[joint], end[joint]];
+        if axis.kind == AxisKind::Linear {
+            for (point, value) in points.iter_mut().zip(values) {
+                *point += axis.direction * (axis.sign * value);
             }
+            continue;
+        }
+        let arms = points.map(|point| Vec3::from(point - axis.point));
+        if axis.extra.point_uncertainty.is_some() || axis.extra.direction_uncertainty.is_some() {
+            let turn = 2.0 * largest_half_sine(values);
+            let of_point_mm = turn * axis.extra.point_uncertainty.unwrap_or(0.0);
+            let arm = arms[0].norm().max(arms[1].norm());
+            found.push(AxisUncertainty {
+                letter: axis.letter,
+                tip_mm: of_point_mm + turn * axis.extra.direction_uncertainty.unwrap_or(0.0) * arm,
+                of_point_mm,
+            });
+        }
+        for ((point, value), arm) in points.iter_mut().zip(values).zip(&arms) {
+            *point = rotate(&axis.direction, axis.sign * value, arm) + axis.point;
         }
     }
     found.reverse();
     found
+}
+
+/// Largest |sin(q / 2)| for q between two angles: 1 where half a turn (and any whole turns) lies between them.
+fn largest_half_sine([a, b]: [f64; 2]) -> f64 {
+    let (low, high) = (a.min(b), a.max(b));
+    // the first odd multiple of pi that is not below `low`
+    let crest = PI * (2.0 * ((low / PI - 1.0) * 0.5).ceil() + 1.0);
+    if crest <= high {
+        1.0
+    } else {
+        sin(low * 0.5).abs().max(sin(high * 0.5).abs())
+    }
 }
 
 /// The worst of one rotary axis inside its travel, for a tip at the distance `arm` from the axis' point, mm; `None` where no uncertainty

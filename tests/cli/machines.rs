@@ -42,11 +42,68 @@ fn a_planted_pivot_error_is_found_with_its_block() {
     );
     let same = trunnion(&["machine", "compare", "mikron-ucp710", "mikron-ucp710", str(&program)]);
     assert_eq!(status(&same), 0, "{}", text(&same.stdout));
+    assert!(
+        text(&same.stdout).contains("PASS: the tip is off by at most 0 mm, 0.02 mm are allowed (proven)"),
+        "{}",
+        text(&same.stdout)
+    );
     let other = trunnion(&["machine", "compare", "mikron-ucp710", "ferrari-bc"]);
     assert!(
         status(&other) == 2 && text(&other.stderr).contains("different axes"),
         "{}",
         text(&other.stderr)
+    );
+}
+
+/// The pivot of A 0.05 mm off costs up to 2 sin(60 deg) 0.05 = 0.0866 mm inside the travel: below that only a path that is known can pass.
+#[test]
+fn a_comparison_passes_only_where_it_is_proven() {
+    let folder = TempDir::new().expect("works");
+    let truth = planted(&folder);
+    let compare = |tolerance: &str, program: Option<&str>| {
+        let mut arguments = vec![
+            "machine",
+            "compare",
+            "mikron-ucp710",
+            str(&truth),
+            "--tolerance-mm",
+            tolerance,
+        ];
+        arguments.extend(program);
+        let output = trunnion(&arguments);
+        (
+            status(&output),
+            text(&output.stdout).lines().last().unwrap_or_default().to_owned(),
+        )
+    };
+    let poses = compare("0.0867", None);
+    assert_eq!(
+        poses,
+        (
+            0,
+            "PASS: the tip is off by at most 0.086603 mm, 0.0867 mm are allowed (proven)".to_owned()
+        )
+    );
+    // A turns by 30 deg: 2 sin(15 deg) 0.05 = 0.025882 mm, but nobody knows where the first motion comes from
+    let text = "TRAORI\nG0 X0 Y0 Z50 A0 C0\nG1 X10 A30 F500\nG1 X0 A0\nM30\n";
+    let program = write(&folder, "short.mpf", text);
+    let (code, said) = compare("0.03", Some(str(&program)));
+    assert!(
+        code == 1
+            && said.starts_with("UNKNOWN")
+            && said.contains("1 motion compared at the end only: the start is not known"),
+        "{said}"
+    );
+    // what is not modelled is counted
+    let lost = write(
+        &folder,
+        "lost.mpf",
+        &text.replace("G1 X0 A0", "G1 X0 A=R5\nG1 X5 A0\nA10"),
+    );
+    let (code, said) = compare("0.03", Some(str(&lost)));
+    assert!(
+        code == 1 && said.contains("could not be compared: the end or the path is not known"),
+        "{said}"
     );
 }
 

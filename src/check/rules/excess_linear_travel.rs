@@ -22,7 +22,8 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound where the path of the axes is known: the length is bounded from both sides. Over the pole on a great circle it is not
+//! Sound where the path of the axes is known: the length is bounded from both sides until it is on one side of what is allowed;
+//! where that does not come about the rule says unknown, with both bounds. Over the pole on a great circle it is not
 //! known, and `axis-limit` says so. Blocks without rotary motion are not judged: there the axes run as far as the tip. A tip
 //! path below 0.1 mm counts as 0.1 mm; without tool centre point control it counts from tip to tip in the workpiece.
 //!
@@ -35,8 +36,7 @@
 //! machines with two rotary axes.
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
-use trunnion_machine::{excursions, linear_travel};
-use trunnion_syntax::Program;
+use trunnion_machine::{LinearTravel, excursions, linear_travel};
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
@@ -46,6 +46,9 @@ pub(super) const RULE: Body = Body {
 
 /// A shorter tip path counts as this, mm.
 const LEAST_MM: f64 = 0.1;
+
+/// Key for merging what is not proven.
+const BETWEEN: u64 = 1;
 
 /// Axes that run farther than this beyond both ends are noted, mm.
 const BEYOND_MM: f64 = 1.0;
@@ -65,8 +68,11 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let Some(travel) = linear_travel(view.machine, view.leg, allowed) else {
         return;
     };
-    if travel.least_mm <= allowed {
+    if travel.most_mm <= allowed {
         return;
+    }
+    if travel.least_mm <= allowed {
+        return between(view, out, &travel, tip, allowed);
     }
     let times = travel.least_mm / tip.max(LEAST_MM);
     if out.repeats(view, 0, times) {
@@ -116,6 +122,38 @@ fn turning_word(view: &LegView<'_>, program: &Program) -> TextRange {
     )
 }
 
+/// The threshold lies between the bounds.
+fn between(view: &LegView<'_>, out: &mut Reporter<'_>, travel: &LinearTravel, tip: f64, allowed: f64) {
+    if out.repeats_unknown(view, BETWEEN, travel.most_mm) {
+        return;
+    }
+    let range = turning_word(view, out.program());
+    let most = if travel.most_mm.is_finite() {
+        format!("{} at most", bound_mm(travel.most_mm))
+    } else {
+        "an upper bound is not known".to_owned()
+    };
+    let draft = out.report(
+        range,
+        format!(
+            "whether the linear axes run more than {} while the tip runs {} is not proven: {} at least, {most}",
+            mm(allowed),
+            mm(tip),
+            mm(travel.least_mm)
+        ),
+    );
+    draft
+        .help("program the block in smaller steps")
+        .value("least_mm", travel.least_mm)
+        .value("tip_mm", tip)
+        .value("limit_mm", allowed)
+        .unknown()
+        .merge_runs_over(SHORT_RUN, BETWEEN, travel.most_mm);
+    if travel.most_mm.is_finite() {
+        draft.value("bound_mm", travel.most_mm);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use crate::fixture::{Fixture, assert_drawn};
@@ -130,6 +168,58 @@ mod tests {
             let own = report.diagnostics.iter().filter(|d| d.rule == "excess-linear-travel");
             assert_eq!(own.count(), count, "X{x}: {:?}", report.diagnostics);
         }
+    }
+
+    /// What a ratio that is allowed makes of a block.
+    fn status(ratio: f64) -> Option<(crate::Status, Vec<(&'static str, crate::ValueKey)>)> {
+        let text = "TRAORI\nG0 X0 Y20 Z100 A10 C0\nG1 X3 A70 C50 F50\nM30\n";
+        let dialect = trunnion_dialect::builtin("sinumerik-840d").expect("embedded");
+        let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
+        let mut machine = trunnion_machine::builtin("mikron-ucp710").expect("embedded").clone();
+        machine.tolerances.linear_ratio = ratio;
+        let settings = crate::Settings {
+            dialect,
+            machine: Some(&machine),
+            setup: trunnion_interp::Setup::default(),
+            rules: Vec::new(),
+            port_to: Vec::new(),
+        };
+        let report = crate::check(&program, &settings);
+        let found = report
+            .diagnostics
+            .into_iter()
+            .find(|d| d.rule == "excess-linear-travel");
+        found.map(|found| (found.status, found.values))
+    }
+
+    /// Between ratios that fail and ratios that hold lies one that is not proven: it is not silent, and names both bounds.
+    #[test]
+    fn a_length_at_the_threshold_is_not_proven() {
+        let (mut low, mut high) = (5.0, 200.0);
+        let values = loop {
+            let middle = 0.5 * (low + high);
+            match status(middle) {
+                None => high = middle,
+                Some((crate::Status::Fail, _)) => low = middle,
+                Some((crate::Status::Unknown, values)) => break values,
+            }
+            assert!(
+                high - low > 1e-12,
+                "silent on one side, failed on the other: {low} {high}"
+            );
+        };
+        let value = |key: &str| {
+            values
+                .iter()
+                .find(|(name, _)| *name == key)
+                .map(|(_, value)| value.clone())
+        };
+        let (Some(crate::ValueKey::Number(least)), Some(crate::ValueKey::Number(most))) =
+            (value("least_mm"), value("bound_mm"))
+        else {
+            panic!("no bounds: {values:?}")
+        };
+        assert!(least < most && most - least < 1e-5, "{values:?}");
     }
 
     #[test]

@@ -29,9 +29,9 @@
 //! # Guarantee
 //! Sound: silence rests on a proven bound, not on samples. Judged is the point on the tool axis at the tool's length above the
 //! tip, against the path it has when the tip runs along its segment and the tool axis evenly on the great circle. Without tool
-//! centre point control the tip itself strays and `path-deviation` judges it. Where the length of the tool is not known, a tool
-//! of 1 m is judged, and where that would leave the tolerance the rule says unknown, once; so it does where it is not known
-//! how the control turns the axes between vectors.
+//! centre point control the tip itself strays and `path-deviation` judges it. Where the length of the tool is not known, silence
+//! holds for tools of up to 1 m, and where one of 1 m would leave the tolerance the rule says unknown (tool length not known),
+//! once, with how far it would; so it does where it is not known how the control turns the axes between vectors.
 //!
 //! # Thresholds
 //! `swept`: 0.05 mm.
@@ -75,7 +75,9 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return not_known(
             view,
             out,
-            "the length of the tool is not declared",
+            &deviation,
+            length,
+            "tool length not known; a tool of 1 m would leave it",
             "declare the tool's length in trunnion.toml: [[tool]] number = ..., length = ...",
         );
     }
@@ -83,6 +85,8 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return not_known(
             view,
             out,
+            &deviation,
+            length,
             "the machine file does not say how the control turns the axes between vectors",
             "declare it in the machine file: [control] tcp = { orientation = \"joint\" } or \"great-circle\"",
         );
@@ -142,7 +146,7 @@ fn found(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &Deviation, leng
         .value("farthest_at_percent", deviation.at * 100.0);
 }
 
-fn not_known(view: &LegView<'_>, out: &mut Reporter<'_>, why: &str, help: &str) {
+fn not_known(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &Deviation, length: f64, why: &str, help: &str) {
     if out.repeats_unknown(view, NOT_KNOWN, 0.0) {
         return;
     }
@@ -151,8 +155,16 @@ fn not_known(view: &LegView<'_>, out: &mut Reporter<'_>, why: &str, help: &str) 
         range,
         format!("whether the body of the tool keeps its path is not known: {why}"),
     )
-    .note("between these tool vectors the rotary axes, turning evenly, leave the great circle")
+    .note(format!(
+        "between these tool vectors the rotary axes, turning evenly, leave the great circle: {} above the tip by at most {}, allowed are {}",
+        mm(length),
+        bound_mm(deviation.bound_mm),
+        mm(view.machine.tolerances.swept_mm)
+    ))
     .help(help)
+    .value("deviation_bound_mm", deviation.bound_mm)
+    .value("limit_mm", view.machine.tolerances.swept_mm)
+    .value("above_tip_mm", length)
     .unknown()
     .merge_everywhere(NOT_KNOWN);
 }
@@ -186,6 +198,9 @@ mod tests {
         let twice = program("").replace("FINI", "GOTO/0,0,50,0,-0.5,0.866\nFINI");
         let all = found(&twice);
         assert_eq!((all.len(), all[0].status, all[0].count), (1, Status::Unknown, 2));
+        assert!(all[0].message.contains("tool length not known"), "{}", all[0].message);
+        let bound = all[0].values.iter().find(|(key, _)| *key == "above_tip_mm");
+        assert_eq!(bound, Some(&("above_tip_mm", crate::ValueKey::Number(1000.0))));
     }
 
     /// A turn so small that even a tool of a metre keeps its path.

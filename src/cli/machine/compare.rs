@@ -8,13 +8,11 @@ use crate::cli::{
 use std::io::Write;
 use std::path::Path;
 use trunnion_geometry::{Vec3, deg};
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
+use trunnion_interp::{Fault, Interpreter, ModalState, Motion, MotionKind, Sink};
 use trunnion_machine::{AxisKind, Comparison, Follower, Machine, TipDifference};
 use trunnion_syntax::{BlockId, LineIndex};
 use trunnion_workspace::find_machine;
 
-/// Places per block at which a program is compared.
-const SAMPLES: usize = 16;
 /// Steps of a sweep.
 const STEPS: usize = 720;
 /// Random poses.
@@ -51,26 +49,75 @@ pub(super) fn run(global: &Global, options: &Options<'_>) -> Result<Done, Failur
     for entry in &entries {
         writeln!(out, "  {entry}")?;
     }
+    let longest = options.tool_length.max(RANDOM_TOOLS_MM);
+    let everywhere = comparison.everywhere(longest);
+    if everywhere.is_finite() {
+        writeln!(
+            out,
+            "at every pose inside the travel, with tools of up to {longest} mm: tip off by at most {:.6} mm (proven)",
+            round_up(everywhere)
+        )?;
+    }
     let found = if let Some(path) = options.program {
-        program(global, path, &comparison, &believed, &mut out)?
+        program(global, path, &comparison, &believed, options.tolerance_mm, &mut out)?
     } else {
         sweep(&comparison, &believed, options, &mut out)?
     };
-    let far = found.is_some_and(|found| found.tip_mm.is_nan() || found.tip_mm > options.tolerance_mm);
-    let verdict = match found {
-        None => "UNKNOWN: no pose could be compared".to_owned(),
-        Some(_) if far => format!("FAIL: the tip is off by more than {} mm", options.tolerance_mm),
-        Some(_) => format!(
-            "PASS: the tip is off by at most {} mm where it was compared",
-            options.tolerance_mm
-        ),
-    };
+    let verdict = found.verdict(options.tolerance_mm, everywhere);
     writeln!(out, "{verdict}")?;
-    Ok(if far || found.is_none() {
-        Done::Found
-    } else {
+    Ok(if verdict.starts_with("PASS") {
         Done::Clean
+    } else {
+        Done::Found
     })
+}
+
+/// Random poses have tools of up to this length, mm.
+const RANDOM_TOOLS_MM: f64 = 200.0;
+
+/// Digits that are told of a bound.
+fn round_up(bound: f64) -> f64 {
+    (bound * 1e6 * (1.0 - 1e-12)).ceil() / 1e6
+}
+
+/// What was found, and what it proves.
+struct Found {
+    worst_mm: Option<f64>,
+    /// Proven for all that was compared.
+    bound_mm: f64,
+    /// What is not covered by the bound, in words.
+    open: Vec<String>,
+}
+
+impl Found {
+    /// One sentence that begins with PASS, FAIL or UNKNOWN. PASS only where all is proven.
+    fn verdict(&self, tolerance: f64, everywhere: f64) -> String {
+        if self.worst_mm.is_some_and(|worst| worst > tolerance || worst.is_nan()) {
+            return format!("FAIL: the tip is off by more than {tolerance} mm");
+        }
+        let inside = everywhere <= tolerance && self.worst_mm.is_some();
+        if inside || (self.open.is_empty() && self.bound_mm <= tolerance && self.worst_mm.is_some()) {
+            let bound = if self.open.is_empty() {
+                self.bound_mm.min(everywhere)
+            } else {
+                everywhere
+            };
+            let bound = round_up(bound);
+            return format!("PASS: the tip is off by at most {bound} mm, {tolerance} mm are allowed (proven)");
+        }
+        let mut why = self.open.clone();
+        if self.worst_mm.is_none() {
+            why.push("no pose could be compared".to_owned());
+        } else if self.bound_mm > tolerance && self.bound_mm.is_finite() && self.open.is_empty() {
+            why.push(format!("proven is only {} mm", round_up(self.bound_mm)));
+        } else if self.bound_mm.is_infinite() && self.open.is_empty() {
+            why.push("no bound is known".to_owned());
+        }
+        format!(
+            "UNKNOWN: the tip is not proven to be off by {tolerance} mm at most: {}",
+            why.join("; ")
+        )
+    }
 }
 
 /// The tip held still, and random poses.
@@ -79,7 +126,7 @@ fn sweep(
     machine: &Machine,
     options: &Options<'_>,
     out: &mut impl Write,
-) -> Result<Option<TipDifference>, Failure> {
+) -> Result<Found, Failure> {
     let numbers: Vec<f64> = options
         .tip
         .split(',')
@@ -99,10 +146,14 @@ fn sweep(
     if let Some(found) = &random {
         tell(out, &format!("{POSES} random poses inside the travels"), machine, found)?;
     }
-    Ok([swept, random]
-        .into_iter()
-        .flatten()
-        .reduce(|a, b| if b.tip_mm > a.tip_mm { b } else { a }))
+    let worst = [swept, random].into_iter().flatten().map(|found| found.tip_mm);
+    Ok(Found {
+        worst_mm: worst.reduce(f64::max),
+        bound_mm: f64::INFINITY,
+        open: vec![format!(
+            "{STEPS} steps of each sweep and {POSES} poses keep it, poses between them were not compared; a program is judged along its whole path"
+        )],
+    })
 }
 
 /// The worst, and the joints where it is.
@@ -136,14 +187,18 @@ fn program(
     path: &Path,
     comparison: &Comparison<'_>,
     machine: &Machine,
+    tolerance_mm: f64,
     out: &mut impl Write,
-) -> Result<Option<TipDifference>, Failure> {
+) -> Result<Found, Failure> {
     let loaded = load::load(global, path)?;
     let mut both = Both {
         comparison,
         follower: Follower::new(machine),
+        tolerance_mm,
         worst: None,
+        bound_mm: 0.0,
         unknown: 0,
+        at_end: 0,
         compared: 0,
     };
     trunnion_interp::run(
@@ -152,15 +207,24 @@ fn program(
         &loaded.resolved.setup,
         &mut both,
     );
-    if both.unknown > 0 {
-        let text = format!(
-            "{}: {} motions could not be compared: the position is not known there",
-            loaded.name, both.unknown
-        );
-        remark(global.quiet, &text);
+    let mut open = Vec::new();
+    let mut count = |many: usize, why: &str| {
+        if many > 0 {
+            open.push(format!("{many} motion{} {why}", if many == 1 { "" } else { "s" }));
+        }
+    };
+    count(both.unknown, "could not be compared: the end or the path is not known");
+    count(both.at_end, "compared at the end only: the start is not known");
+    for text in &open {
+        remark(global.quiet, &format!("{}: {text}", loaded.name));
     }
-    let Some((block, found)) = both.worst else {
-        return Ok(None);
+    let found = Found {
+        worst_mm: both.worst.map(|(_, found)| found.tip_mm),
+        bound_mm: both.bound_mm,
+        open,
+    };
+    let Some((block, worst)) = both.worst else {
+        return Ok(found);
     };
     let lines = LineIndex::new(loaded.program.source());
     let start = loaded.program.block(block).range().start;
@@ -169,27 +233,39 @@ fn program(
         out,
         &format!("{}:{line}, the worst of {} motions", loaded.name, both.compared),
         machine,
-        &found,
+        &worst,
     )?;
-    Ok(Some(found))
+    Ok(found)
 }
 
 struct Both<'a> {
     comparison: &'a Comparison<'a>,
     follower: Follower<'a>,
+    tolerance_mm: f64,
     worst: Option<(BlockId, TipDifference)>,
+    bound_mm: f64,
     unknown: usize,
+    at_end: usize,
     compared: usize,
 }
 
 impl Sink for Both<'_> {
     fn motion(&mut self, motion: &Motion, _state: &ModalState) {
+        if matches!(motion.kind, MotionKind::Dwell(_)) {
+            return;
+        }
         let leg = self.follower.follow(motion);
-        let Some(found) = self.comparison.on(&leg, SAMPLES) else {
+        let along = self.comparison.along(&leg, self.tolerance_mm);
+        let Some(found) = along.map(|along| along.worst).or_else(|| self.comparison.at_end(&leg)) else {
             self.unknown += 1;
             return;
         };
         self.compared += 1;
+        match along {
+            Some(along) => self.bound_mm = self.bound_mm.max(along.bound_mm),
+            None if leg.start.is_none() => self.at_end += 1,
+            None => self.unknown += 1,
+        }
         // the first of equal ones, rounding aside
         if self.worst.is_none_or(|(_, known)| found.tip_mm > known.tip_mm + 1e-9) {
             self.worst = Some((motion.block, found));

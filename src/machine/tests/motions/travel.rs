@@ -41,6 +41,66 @@ fn a_standing_tip_asks_for_an_arc_of_the_axes() {
     assert_eq!(excursions(machine, &leg, 14.0), []);
 }
 
+/// Halving finds the threshold that is not decided; on either side of it every other is, down to a hundred millionth of the length.
+#[test]
+fn a_threshold_is_decided_or_lies_between_the_bounds() {
+    let at = |x: f64, a: f64, c: f64| [(b'X', x), (b'Y', 20.0), (b'Z', 100.0), (b'A', a), (b'C', c)];
+    let (machine, leg) = leg(true, &at(0.0, 10.0, 0.0), &at(3.0, 70.0, 50.0));
+    let asked = |enough: f64| linear_travel(machine, &leg, enough).expect("known");
+    let coarse = asked(0.0);
+    let (mut low, mut high) = (coarse.least_mm, coarse.most_mm);
+    let open = loop {
+        let middle = 0.5 * (low + high);
+        let found = asked(middle);
+        if found.most_mm <= middle {
+            high = middle;
+        } else if found.least_mm > middle {
+            low = middle;
+        } else {
+            break middle;
+        }
+        assert!(high - low > 1e-12, "nothing is left open: {low} {high}");
+    };
+    let found = asked(open);
+    assert!(found.most_mm - found.least_mm < 1e-5, "{found:?}");
+    let (less, more) = (open * (1.0 - 2e-7), open * (1.0 + 2e-7));
+    assert!(asked(less).least_mm > less && asked(more).most_mm <= more, "{found:?}");
+    // an arc of 100 mm * 120 deg = 209.4395 mm about A, known at once
+    let at = |a: f64| [(b'X', 0.0), (b'Y', 0.0), (b'Z', 100.0), (b'A', a), (b'C', 0.0)];
+    let (machine, arc) = self::leg(true, &at(-30.0), &at(90.0));
+    let truth = 100.0 * rad(120.0);
+    assert!(
+        linear_travel(machine, &arc, truth * (1.0 + 1e-12))
+            .expect("known")
+            .most_mm
+            <= truth * (1.0 + 1e-12)
+    );
+}
+
+/// A rapid whose axes run each for itself has no path between its ends.
+#[test]
+fn a_dogleg_has_no_length_and_no_deviation() {
+    let mut machine = builtin("mikron-ucp710").expect("built in").clone();
+    machine.control.rapid = trunnion_machine::RapidPath::Dogleg;
+    let mut follower = Follower::new(&machine);
+    let from = position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', 100.0), (b'A', 0.0), (b'C', 0.0)]);
+    let to = position(&[(b'X', 30.0), (b'Y', 0.0), (b'Z', 100.0), (b'A', 20.0), (b'C', 30.0)]);
+    let rapid = |start: Position, end: Position| Motion {
+        kind: trunnion_interp::MotionKind::Rapid,
+        tcp: true,
+        start,
+        end,
+        ..motion()
+    };
+    follower.follow(&rapid(Position::default(), from));
+    let leg = follower.follow(&rapid(from, to));
+    assert!(leg.end.is_ok());
+    assert_eq!(linear_travel(&machine, &leg, 1.0), None);
+    assert_eq!(trunnion_machine::tip_deviation(&machine, &leg, 1.0), None);
+    assert_eq!(trunnion_machine::swept_deviation(&machine, &leg, 50.0, 1.0), None);
+    assert_eq!(trunnion_machine::orientation_deviation(&machine, &leg, 1.0), None);
+}
+
 #[test]
 fn enough_settles_it_early_and_without_tcp_the_way_is_straight() {
     let from = [(b'X', 0.0), (b'Y', 0.0), (b'Z', 100.0), (b'A', 20.0), (b'C', 0.0)];

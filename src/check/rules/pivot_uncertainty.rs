@@ -1,0 +1,136 @@
+//! How well the rotary axes are known moves the tip by more than the tolerance.
+//!
+//! # Why
+//! A control that leads the tip believes the rotary axes to pass through the places of its machine data. Where these are known to 0.01 mm
+//! only, the tip is off by up to twice that after half a turn, and by more where the direction of an axis is not known either and the tip
+//! stands far from it. No program can be better than that: measure the axes again, or cut nearer to the posture in which the zero was set.
+//!
+//! # Example
+//! The machine file says that the place of C is known to 0.02 mm.
+//!
+//! ```gcode sinumerik-840d mikron-ucp710+C.uncertainty={point=0.02}
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A40 C130
+//! N30 G1 X100 C180 F1000
+//! ;   ^^^^^^^^^^^^^^^^^^ pivot-uncertainty: the tip may be off by 0.04 mm: the rotary axes are not known better
+//! N40 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode sinumerik-840d mikron-ucp710+C.uncertainty={point=0.02}
+//! N10 TRAORI
+//! N20 G0 X0 Y0 Z50 A40 C0
+//! N30 G1 X100 C50 F1000
+//! N40 M30
+//! ```
+//!
+//! # Guarantee
+//! First order, worst direction, the errors of all axes added up; the zero point was set with the axes at zero. Judged are both ends of
+//! feed motions, and between them the turn that moves the tip most; silence where the machine file declares no uncertainty proves
+//! nothing.
+//!
+//! # Thresholds
+//! `pivot`: 0.02 mm.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, section 5 (PIVOT-SENS): (I - R) dc, whose length is at most 2 |sin(q/2)| |dc|.
+use crate::prelude::*;
+use trunnion_machine::{AxisUncertainty, Stance, pivot_sensitivity_between};
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Info,
+    guarantee: Guarantee::Heuristic,
+    level: Level::Leg(check),
+};
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let axes = &view.machine.axes;
+    let declared = |axis: &trunnion_machine::Axis| {
+        axis.extra.point_uncertainty.is_some() || axis.extra.direction_uncertainty.is_some()
+    };
+    if !view.motion().is_feed() || !axes.iter().any(declared) {
+        return;
+    }
+    let Some((start, end)) = view.stances() else { return };
+    let found = worst(view, start, end);
+    let sum: f64 = found.iter().map(|axis| axis.tip_mm).sum();
+    let allowed = view.machine.tolerances.pivot_mm;
+    // what rounding adds is no news
+    if sum <= allowed * (1.0 + 1e-9) || out.repeats(view, 0, sum) {
+        return;
+    }
+    let range = code_range(out.program(), view.motion().block);
+    let each: Vec<String> = found
+        .iter()
+        .filter(|axis| axis.tip_mm > 0.0)
+        .map(|axis| {
+            format!(
+                "{} {}, of it {} by its place",
+                letter(axis.letter),
+                mm(axis.tip_mm),
+                mm(axis.of_point_mm)
+            )
+        })
+        .collect();
+    out.report(
+        range,
+        format!(
+            "the tip may be off by {}: the rotary axes are not known better",
+            mm(sum)
+        ),
+    )
+    .note(format!("by axis: {}; allowed are {}", each.join("; "), mm(allowed)))
+    .help("measure the rotary axes again, or allow more: [tolerances] pivot")
+    .value("value_mm", sum)
+    .value("limit_mm", allowed)
+    .merge(0, sum);
+}
+
+fn worst(view: &LegView<'_>, start: &Stance, end: &Stance) -> Vec<AxisUncertainty> {
+    pivot_sensitivity_between(view.machine, &start.joints, &end.joints, end.tool_length)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::{Fixture, assert_drawn};
+
+    fn found(text: &str) -> Vec<crate::Diagnostic> {
+        let report = Fixture::parse("gcode sinumerik-840d mikron-ucp710+C.uncertainty={point=0.02}", text)
+            .check()
+            .unwrap();
+        let own = |d: &crate::Diagnostic| d.rule == "pivot-uncertainty";
+        report.diagnostics.into_iter().filter(own).collect()
+    }
+
+    /// 2 sin(C/2) 0.02 mm is 0.02 mm at 60 deg.
+    #[test]
+    fn sixty_degrees_are_the_threshold() {
+        let text = |c: f64| format!("TRAORI\nG0 X0 Y0 Z50 A40 C0\nG1 X100 C{c} F1000\nM30\n");
+        assert_eq!(found(&text(59.9)), []);
+        let all = found(&text(60.1));
+        assert_eq!(all.len(), 1, "{all:?}");
+        let value = all[0].values.iter().find(|(key, _)| *key == "value_mm");
+        let Some((_, crate::ValueKey::Number(value))) = value else {
+            panic!("no value: {all:?}")
+        };
+        let wanted = 0.04 * trunnion_geometry::math::sin(trunnion_geometry::rad(30.05));
+        assert!((value - wanted).abs() < 1e-12, "{value}");
+        assert_eq!(all[0].severity, crate::Severity::Info);
+    }
+
+    /// From 30 to 330 deg the worst is at 180 deg, between the ends.
+    #[test]
+    fn the_worst_turn_may_lie_inside_the_block() {
+        let all = found("TRAORI\nG0 X0 Y0 Z50 A0 C30\nG1 X10 C330 F1000\nM30\n");
+        assert!(all[0].message.contains("off by 0.04 mm"), "{all:?}");
+        assert_eq!(found("TRAORI\nG0 X0 Y0 Z50 A0 C330\nG1 X10 C390 F1000\nM30\n"), []);
+    }
+
+    #[test]
+    fn without_a_declared_uncertainty_nothing_is_said() {
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "TRAORI\nG0 X0 Y0 Z50 A40 C0\nG1 X100 C30 F100\nX0 C60\nX100 C90\nM30\n",
+        );
+    }
+}

@@ -99,7 +99,9 @@ impl Pair<'_> {
     fn no_pose(&self, which: &str, why: &NoStance) -> Outcome {
         let why = match why {
             NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown: program it before"),
-            NoStance::Unreachable(_) | NoStance::OutsideLimits { .. } => "the machine cannot reach the pose".into(),
+            NoStance::Unreachable(_) | NoStance::OutsideLimits { .. } | NoStance::PostureRefused { .. } => {
+                "the machine cannot reach the pose".into()
+            }
             NoStance::NotModelled => "the motion is not modelled".into(),
             NoStance::HeldElsewhere { axis, .. } => {
                 format!("axis {} is held elsewhere by the machine file", char::from(*axis))

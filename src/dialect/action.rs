@@ -217,6 +217,12 @@ pub enum Action {
     OrientationAxes,
     /// Orientation interpolated on the great circle.
     OrientationVector,
+    /// PTP: under a transformation the axes run straight to the programmed position.
+    PointToPoint,
+    /// PTPG0: the same in rapid motions only.
+    PointToPointRapid,
+    /// CP: ends both.
+    ContinuousPath,
 }
 
 impl Action {
@@ -265,6 +271,10 @@ pub enum Role {
     ArcTurns,
     /// Component of the tool vector A3= B3= C3=.
     ToolVector,
+    /// STAT=: bits that choose the posture of a point-to-point motion.
+    PostureStatus,
+    /// TU=: bits that choose the turn of each rotary axis in a point-to-point motion.
+    PostureTurn,
     /// Feed F.
     Feed,
     /// Spindle speed S.

@@ -4,6 +4,7 @@ use crate::frames::Return;
 use crate::offsets::ROTARY;
 use crate::run::{Interpreter, Report};
 use crate::tcp::tcp_variant;
+use crate::travel::Travel;
 use crate::words::{Said, Words};
 use crate::{FaultKind, FeedMode};
 use trunnion_dialect::{Action, Code, CodeKind, Plane};
@@ -201,6 +202,9 @@ impl<'d> Interpreter<'d> {
                 }
             }
             Action::CycleOff => self.cycle_off(found.code),
+            Action::PointToPoint | Action::PointToPointRapid | Action::ContinuousPath => {
+                self.memory.travel = Travel::of(found.code.action).unwrap_or_default();
+            }
             Action::HoleCall => {}
             Action::NotFollowed => {
                 block.takes_coordinates |= found.code.kind == CodeKind::G;

@@ -3,6 +3,7 @@ use crate::arc::{ArcSetting, arc};
 use crate::codes::BlockCodes;
 use crate::offsets::{LINEAR, ROTARY};
 use crate::run::{Interpreter, Report};
+use crate::travel::Travel;
 use crate::words::{Places, Said, Words};
 use crate::{FaultKind, Feed, FeedMode, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
@@ -65,6 +66,9 @@ impl Interpreter<'_> {
         }
         if self.memory.tcp_used {
             self.tcp_mistakes(&motion, words, report);
+        }
+        if self.memory.travel != Travel::Continuous || words.posture.any() {
+            self.travel(&mut motion, words, report);
         }
         if frame_hides {
             self.hide(&mut motion);

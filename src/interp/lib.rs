@@ -31,6 +31,7 @@ mod setup;
 mod system;
 mod tcp;
 mod tools;
+mod travel;
 mod values;
 mod words;
 
@@ -42,6 +43,6 @@ pub use motion::{
 };
 pub use run::{Interpreter, Sink, run};
 pub use setup::{
-    ControlData, Files, ImplicitDecimals, Library, Limits, Loaded, OuterCorner, Setup, TcpCodes, Tool, ToolShape,
-    WorkOffset,
+    ControlData, Files, ImplicitDecimals, Library, Limits, Loaded, OuterCorner, RollPitchYaw, Setup, TcpCodes, Tool,
+    ToolShape, WorkOffset,
 };

@@ -40,6 +40,10 @@ pub(crate) struct Memory<'d> {
     pub(crate) tcp_length_said: Option<u32>,
     /// The group of the code that switched tool centre point control on.
     pub(crate) tcp_group: Option<&'d str>,
+    /// How the axes run between positions under a transformation.
+    pub(crate) travel: crate::travel::Travel,
+    /// STAT in force.
+    pub(crate) status: Option<u16>,
     /// F has a value that is not evaluated.
     pub(crate) feed_unread: bool,
     /// S is a cutting speed (G96).

@@ -84,6 +84,15 @@ pub enum Posture {
     Lower,
     /// The higher value of it (CYCLE800 with direction 1).
     Higher,
+    /// The solution with this number (G53.1 P1).
+    Numbered(u8),
+    /// STAT and TU of a Sinumerik, bit by bit, as far as they are programmed.
+    Bits {
+        /// STAT.
+        status: Option<u16>,
+        /// TU.
+        turn: Option<u16>,
+    },
 }
 
 /// Whether a motion only turns the rotary axes, so that the tool stands along its vector, and what the linear axes do.
@@ -98,6 +107,8 @@ pub enum Swivel {
     TipStays,
     /// The linear axes go where the program does not say (CYCLE800 with a retract).
     AxesLost,
+    /// No turn: the motion ends where the tip is led, and until then all axes run straight, as if nothing led it (Sinumerik PTP).
+    PointToPoint,
 }
 
 /// What a tilted working plane makes of a motion.

@@ -262,6 +262,8 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 self.first(word);
                 self.words.radius = self.kept(letter, word);
             }
+            Role::PostureStatus => self.words.posture.status = Some((self.bits(word), word.range)),
+            Role::PostureTurn => self.words.posture.turn = Some((self.bits(word), word.range)),
             Role::ArcTurns => self.words.turns = self.kept(letter, word),
             Role::Feed => self.words.feed = self.kept(letter, word),
             Role::Speed => self.words.speed = self.kept(letter, word),

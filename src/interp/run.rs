@@ -89,6 +89,9 @@ impl<'d> Interpreter<'d> {
                 interpreter.set_zero(Some("G54".into()), offset.values);
             }
         }
+        if setup.control.tcp_codes.as_ref().is_some_and(|codes| codes.at_start) {
+            (interpreter.state.tcp, interpreter.memory.tcp_used) = (true, true);
+        }
         interpreter.merge_tool();
         interpreter
     }

@@ -85,6 +85,8 @@ pub struct TcpCodes {
     pub on: Vec<String>,
     /// Off: X Y Z are the joints.
     pub off: Vec<String>,
+    /// It is on when a program begins.
+    pub at_start: bool,
 }
 
 impl TcpCodes {
@@ -97,6 +99,15 @@ impl TcpCodes {
             has(&self.off).then_some(false)
         }
     }
+}
+
+/// What the angles of a tilted plane told by roll, pitch and yaw turn about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RollPitchYaw {
+    /// The axes of the workpiece, which stay (as PLANE SPATIAL of a Heidenhain: A, then B, then C about fixed axes).
+    Fixed,
+    /// The axes as they come out of the turns before.
+    Turned,
 }
 
 /// Parameters of the control that programs depend on; what is not declared is unknown.
@@ -112,6 +123,8 @@ pub struct ControlData {
     pub outer_corner: OuterCorner,
     /// Whether the switch for block delete (`/`) is on, so that such blocks are skipped; `None`: not known, they are run.
     pub block_delete: Option<bool>,
+    /// What the angles of G68.2 P1 turn about; `None`: not declared, planes with two or three of them are not known.
+    pub roll_pitch_yaw: Option<RollPitchYaw>,
     /// Codes that switch the kinematics between tool centre point control and joints (`M428`); `None`: the machine does not say.
     pub tcp_codes: Option<TcpCodes>,
     /// Reference points in machine coordinates, mm and degrees: G28 goes to the first, G30 P2 to the second.

@@ -147,6 +147,8 @@ pub(crate) struct Words {
     pub(crate) vector: Places<3>,
     pub(crate) radius: Said,
     pub(crate) turns: Said,
+    /// STAT and TU.
+    pub(crate) posture: crate::travel::PostureWords,
     pub(crate) feed: Said,
     pub(crate) speed: Said,
     pub(crate) tool: Said,

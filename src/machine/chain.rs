@@ -185,6 +185,8 @@ pub struct Control {
     pub block_time: Option<f64>,
     /// Codes of the builder that switch tool centre point control (LinuxCNC's M428 ...); `None`: not declared.
     pub tcp_codes: Option<trunnion_interp::TcpCodes>,
+    /// What words mean that ask for a posture: STAT, TU, G53.1 P.
+    pub posture_words: crate::PostureWords,
 }
 
 /// Thresholds of the rules.

@@ -3,6 +3,8 @@
 //!
 //! At the pole the first rotary axis stays where it is. Windings are chosen inside the limits (and the ranges that the control is given);
 //! an endless axis takes the winding nearest the previous value. Without a previous posture the rotary axes are taken to stand at zero.
+use crate::asked::Asked;
+use crate::legal::{Outside, excess, legal, no_winding, searched};
 use crate::posture_rule::{Branch, Candidate, Criterion, PostureRule, TIE, comparisons, precedence};
 use crate::windings::windings_in;
 use crate::{Limits, Machine, NoStance, Open, OpenCause, Orientations, Side, Solution, orientations};
@@ -13,13 +15,6 @@ use trunnion_interp::Posture;
 
 /// Postures that differ by less than this in every rotary axis are not told as a choice, rad: 5 deg (kinematics notes 5, CTRL-AMBIG).
 const DIFFERENT: f64 = 5.0 * PI / 180.0;
-
-/// Why an angle has no winding inside the limits: the winding nearest to legal and the limit it breaks, rad.
-#[derive(Clone, Copy, Debug)]
-struct Outside {
-    value: f64,
-    limit: f64,
-}
 
 /// What a choice starts from.
 #[derive(Clone, Copy, Debug)]
@@ -45,52 +40,6 @@ pub(crate) struct Chosen {
     pub(crate) open: Option<Open>,
 }
 
-/// The winding of `q` inside limits that is nearest to `near`, rad; of two equally near the one nearer zero, of two equally near zero
-/// the positive one. Also whether both ways of half a turn are legal.
-fn legal_winding(limits: Limits, q: f64, near: f64) -> Result<(f64, bool), Outside> {
-    match *windings_in(limits, q, near) {
-        [] => Err(least_bad(limits, q)),
-        [first, second, ..] => {
-            let tie = (second - near).abs() < (first - near).abs() + TIE;
-            let nearer_zero = first.abs() - second.abs();
-            let takes_second = nearer_zero > TIE || (nearer_zero > -TIE && second > first);
-            Ok((if tie && takes_second { second } else { first }, tie))
-        }
-        [first] => Ok((first, false)),
-    }
-}
-
-/// The travel of a rotary axis, and where the control is given a range for it what both have in common.
-fn searched(machine: &Machine, joint: usize) -> Limits {
-    let axis = &machine.axes[joint];
-    let range = machine.control.branch.range.iter().find(|range| range.0 == axis.letter);
-    match (range, axis.limits) {
-        (None, limits) => limits,
-        (Some(&(_, low, high)), Limits::Unbounded) => Limits::Range(low, high),
-        (Some(&(_, low, high)), Limits::Range(least, most)) => Limits::Range(low.max(least), high.min(most)),
-    }
-}
-
-/// The winding of `q` nearest to the limits, none of which is inside them.
-fn least_bad(limits: Limits, q: f64) -> Outside {
-    let Limits::Range(low, high) = limits else {
-        return Outside { value: q, limit: q };
-    };
-    let below = q + TAU * ((high - q) / TAU).floor();
-    let above = below + TAU;
-    if low - below <= above - high {
-        Outside {
-            value: below,
-            limit: low,
-        }
-    } else {
-        Outside {
-            value: above,
-            limit: high,
-        }
-    }
-}
-
 /// Rotary joints (rad, workpiece side first) for the unit tool axis `axis` in the workpiece frame, coming from the previous ones.
 ///
 /// # Errors
@@ -99,7 +48,8 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
     let postures = match orientations(machine, axis) {
         Orientations::Unreachable(off) => return Err(NoStance::Unreachable(off)),
         Orientations::Pole(q2) => {
-            let found = legal(machine, [before.q[0], q2], before.q).map_err(no_winding)?;
+            let asked = Asked::of(machine, before.wish);
+            let found = legal(machine, [before.q[0], q2], before.q, &asked).map_err(no_winding)?;
             return Ok(Chosen {
                 q: found.0.q,
                 open: None,
@@ -109,15 +59,26 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
     };
     let mut found = Found::default();
     let mut worst: Option<(u8, Outside)> = None;
+    let asked = Asked::of(machine, before.wish);
+    let mut refused = None;
     for solution in &postures {
-        match legal(machine, solution.q, before.q) {
+        match legal(machine, solution.q, before.q, &asked) {
+            Ok((candidate, _)) if !asked.fits(&candidate.q) => refused = Some(candidate.q),
             Ok((candidate, half_turn)) => found.add(candidate, solution.branch, half_turn),
             Err(failed) => {
+                if let (true, Ok((candidate, _))) =
+                    (asked.narrows(), legal(machine, solution.q, before.q, &Asked::default()))
+                {
+                    refused = Some(candidate.q);
+                }
                 if worst.as_ref().is_none_or(|w| excess(&failed.1) < excess(&w.1)) {
                     worst = Some(failed);
                 }
             }
         }
+    }
+    if let (0, Some(q)) = (found.count, refused) {
+        return Err(refusal(machine, &q));
     }
     if found.count == 0 {
         return Err(worst.map_or(NoStance::NotModelled, no_winding));
@@ -133,6 +94,9 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
         })
     });
     let chosen = &found.items[taken];
+    if open.is_none() && asked.unsaid {
+        open = chosen.other_winding(machine, before);
+    }
     let rule = machine.control.branch.rule;
     if open.is_none() && rule != Some(PostureRule::Generic) {
         open = chosen
@@ -149,7 +113,7 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
 /// the axes' travel would be another, it is open which one is taken.
 fn unfiltered(machine: &Machine, postures: &[Solution], before: &Before, chosen: &Item) -> Option<Open> {
     let branch = &machine.control.branch;
-    if branch.rule != Some(PostureRule::Fanuc) || !branch.range.is_empty() {
+    if branch.rule != Some(PostureRule::Fanuc) || !branch.range.is_empty() || before.wish != Posture::ByRule {
         return None;
     }
     let mut free = Found::default();
@@ -178,7 +142,37 @@ struct Item {
     half_turn: Option<usize>,
 }
 
+/// No posture is as the program asks for it: the axis nearest the tool is named.
+fn refusal(machine: &Machine, q: &[f64; 2]) -> NoStance {
+    let rotary = machine.constants.rotary();
+    let axis = rotary.last().map_or(b'?', |rotary| machine.axes[rotary.joint].letter);
+    let value = q[rotary.len().saturating_sub(1).min(1)];
+    NoStance::PostureRefused { axis, value }
+}
+
 impl Item {
+    /// The same posture on another turn of an axis.
+    fn other_winding(&self, machine: &Machine, before: &Before) -> Option<Open> {
+        let taken = self.candidate.q;
+        machine
+            .constants
+            .rotary()
+            .iter()
+            .enumerate()
+            .take(2)
+            .find_map(|(index, rotary)| {
+                let all = windings_in(searched(machine, rotary.joint), taken[index], before.q[index]);
+                let value = *all.iter().find(|value| (*value - taken[index]).abs() > DIFFERENT)?;
+                let mut other = taken;
+                other[index] = value;
+                Some(Open {
+                    cause: OpenCause::WordsNotDeclared,
+                    taken,
+                    other,
+                })
+            })
+    }
+
     fn open_turn(&self, before: &Before) -> Option<Open> {
         let axis = self.half_turn.filter(|_| before.known)?;
         let mut other = self.candidate.q;
@@ -227,8 +221,11 @@ impl Found {
         }
         let branch = &machine.control.branch;
         let generic = || self.compare(machine, PostureRule::Generic, &[]).1;
-        if before.wish != Posture::ByRule {
+        if matches!(before.wish, Posture::Lower | Posture::Higher) {
             return self.by_direction(machine, before.wish);
+        }
+        if Asked::of(machine, before.wish).unsaid {
+            return (generic(), Some(OpenCause::WordsNotDeclared));
         }
         let Some(rule) = branch.rule else {
             let same = self.items.iter().position(|item| item.branch == before.sign);
@@ -251,6 +248,11 @@ impl Found {
                 (index, (order == Ordering::Equal).then_some(OpenCause::Tie))
             }
             PostureRule::Shortest => self.shortest(generic()),
+            PostureRule::Heidenhain => {
+                // of equal ways the manual's example has the axis nearest the tool above zero
+                let [first, second] = self.items.map(|item| item.candidate.q[1]);
+                self.shortest(usize::from(second > first))
+            }
             PostureRule::Mitsubishi => self.passing(machine, branch, before),
         }
     }
@@ -332,30 +334,6 @@ fn direction_axis(machine: &Machine) -> usize {
         rotary.map(|rotary| machine.axes[rotary.joint].side)
     };
     usize::from(!(side(0) == Some(Side::Head) && side(1) == Some(Side::Head)))
-}
-
-fn excess(outside: &Outside) -> f64 {
-    (outside.value - outside.limit).abs()
-}
-
-fn no_winding((axis, Outside { value, limit }): (u8, Outside)) -> NoStance {
-    NoStance::OutsideLimits { axis, value, limit }
-}
-
-/// The posture `q` with its best legal windings, and the axis that can turn to it by half a turn either way; or the letter of the axis
-/// that has no legal winding.
-fn legal(machine: &Machine, mut q: [f64; 2], from: [f64; 2]) -> Result<(Candidate, Option<usize>), (u8, Outside)> {
-    let mut half_turn = None;
-    for (index, rotary) in machine.constants.rotary().iter().enumerate().take(2) {
-        let letter = machine.axes[rotary.joint].letter;
-        let (value, either) = legal_winding(searched(machine, rotary.joint), q[index], from[index])
-            .map_err(|outside| (letter, outside))?;
-        q[index] = value;
-        if either {
-            half_turn = Some(index);
-        }
-    }
-    Ok((Candidate::new(machine, q, from), half_turn))
 }
 
 /// Sum of the rotary moves, rad, of the cheapest way from `from` to the tool axis `axis` in the posture with the sign `branch`, limits

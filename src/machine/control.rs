@@ -1,4 +1,5 @@
 //! The `[control]` part of a machine file: how the numerical control interpolates, picks postures and plans.
+use crate::asked::posture_words;
 use crate::raw::{Number, RawBranch, RawControl, RawOrientation, RawRapid, RawTcpCodes, Word};
 use crate::text::number;
 use crate::validate::{Fault, non_negative, positive};
@@ -54,6 +55,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         corner_model: None,
         block_time: None,
         tcp_codes: raw.tcp_codes.as_ref().map(tcp_codes).transpose()?,
+        posture_words: posture_words(&raw.posture_words, axes)?,
     };
     if let Some(pole) = &raw.pole {
         let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;
@@ -126,6 +128,7 @@ fn tcp_codes(raw: &RawTcpCodes) -> Result<TcpCodes, Fault> {
     Ok(TcpCodes {
         on: names(&raw.on),
         off: names(&raw.off),
+        at_start: raw.at_start,
     })
 }
 
@@ -163,6 +166,13 @@ fn branch(raw: Option<&RawBranch>, family: &str, axes: &[Axis]) -> Result<Branch
     if let Some(name) = one_of("rule", raw.rule.as_ref(), &names)? {
         branch.rule = PostureRule::named(&name);
         branch.declared = true;
+    }
+    branch.solution_negative = one_of("seq", raw.seq.as_ref(), &["+", "-"])?.map(|sign| sign == "-");
+    if let (Some(word), true) = (&raw.seq, branch.rule != Some(PostureRule::Heidenhain)) {
+        return Err(Fault {
+            message: "seq is the tilting solution of a Heidenhain: name the rule \"heidenhain\"".to_owned(),
+            span: word.span(),
+        });
     }
     let criteria = [
         ("time", Criterion::Time),
@@ -234,6 +244,14 @@ pub(crate) fn in_words(control: &Control) -> Vec<String> {
                 .to_owned(),
         ),
     }
+    if let Some(negative) = branch.solution_negative {
+        let sign = if negative { "below" } else { "above" };
+        lines.push(format!(
+            "SEQ{}: of two postures the one with the rotary axis nearest the tool (on a table the last from the workpiece) {sign} zero",
+            if negative { '-' } else { '+' }
+        ));
+    }
+    posture_words_in_words(control, &mut lines);
     for &(letter, low, high) in &branch.range {
         lines.push(format!(
             "looks for values of {} between {} and {} deg",
@@ -261,7 +279,35 @@ pub(crate) fn in_words(control: &Control) -> Vec<String> {
         Some(FeedMeaning::Combined) => {
             lines.push("without tool centre point control F counts along the root of mm2 + deg2".to_owned());
         }
-        None => {}
+        // RS274/NGC says it, Sinumerik counts along the geometry axes
+        None if matches!(control.family.as_str(), "linuxcnc" | "grbl" | "sinumerik-840d" | "generic" | "apt") => {}
+        None => lines.push(
+            "what F counts along where rotary and linear axes move together without tool centre point control is not declared: reported as unknown where it matters"
+                .to_owned(),
+        ),
     }
     lines
+}
+
+/// What STAT, TU and G53.1 P mean.
+fn posture_words_in_words(control: &Control, lines: &mut Vec<String>) {
+    let words = &control.posture_words;
+    let sign = |negative: bool| if negative { '-' } else { '+' };
+    for (letter, bit) in &words.turn {
+        lines.push(format!("bit {bit} of TU: {} below zero", char::from(*letter)));
+    }
+    if let Some((bit, said)) = &words.status {
+        lines.push(format!(
+            "bit {bit} of STAT: the posture with {}{}",
+            char::from(said.letter),
+            sign(said.negative)
+        ));
+    }
+    for (number, said) in &words.solutions {
+        lines.push(format!(
+            "solution {number} (G53.1 P{number}): the posture with {}{}",
+            char::from(said.letter),
+            sign(said.negative)
+        ));
+    }
 }

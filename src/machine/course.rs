@@ -1,7 +1,7 @@
 //! The joints inside a block: where they are at any share t of it, how fast they go, and how much they can bend.
 //!
 //! t runs from 0 to 1 with the tip path (TCP) or with the joints (no TCP). Rates are per block (d/dt), mm or rad.
-use crate::follow::has_tip_words;
+use crate::follow::leads_path;
 use crate::forward::Turn;
 use crate::spin::{Spin, SpinBounds};
 use crate::{Constants, Joints, Leg, Machine, Stance};
@@ -13,7 +13,7 @@ use trunnion_interp::{Motion, MotionKind};
 /// Whether the tool axis runs on a great circle in this motion (else the rotary joints run linearly).
 #[inline]
 pub(crate) fn on_great_circle(machine: &Machine, motion: &Motion) -> bool {
-    has_tip_words(motion)
+    leads_path(motion)
         && machine.constants.pair.is_some()
         && motion.great_circle.unwrap_or(machine.control.tcp_great_circle)
 }
@@ -86,7 +86,7 @@ impl<'a> Course<'a> {
     /// `None` where a stance or the path between them is not known or not modelled.
     pub(crate) fn new(machine: &'a Machine, leg: &'a Leg) -> Option<Self> {
         let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
-        let tip = has_tip_words(&leg.motion);
+        let tip = leads_path(&leg.motion);
         let tool_length = end.tool_length;
         let track = match &leg.motion.kind {
             MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => return None,

@@ -325,9 +325,22 @@ fn control(machine: &Machine) -> Vec<String> {
         format!("with tool centre point control the tip runs straight and the orientation {orientation}{said}"),
     ];
     if let Some(codes) = &control.tcp_codes {
-        let (on, off) = (codes.on.join(", "), codes.off.join(", "));
+        let list = |codes: &[String]| {
+            if codes.is_empty() {
+                "no code".to_owned()
+            } else {
+                codes.join(", ")
+            }
+        };
+        let start = if codes.at_start {
+            "; it is on when a program begins"
+        } else {
+            ""
+        };
         lines.push(format!(
-            "tool centre point control is switched on by {on}, off by {off}"
+            "tool centre point control is switched on by {}, off by {}{start}",
+            list(&codes.on),
+            list(&codes.off)
         ));
     }
     match control.rapid {

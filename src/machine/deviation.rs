@@ -1,6 +1,6 @@
 //! How far the tip strays from the programmed segment inside a block: sampled value and proven bound.
 use crate::bound::{Piece, peak};
-use crate::follow::has_tip_words;
+use crate::follow::leads_path;
 use crate::stray::Stray;
 use crate::tip_path::TipPath;
 use crate::{Leg, Machine, RapidPath};
@@ -54,7 +54,7 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
         MotionKind::Arc(Some(arc)) => Some(arc),
         MotionKind::Rapid | MotionKind::Linear => None,
     };
-    if leg.rotary_change == [0.0; 2] || has_tip_words(&leg.motion) {
+    if leg.rotary_change == [0.0; 2] || leads_path(&leg.motion) {
         return Some(none);
     }
     let path = TipPath::new(machine, start, end, arc);

@@ -132,7 +132,7 @@ impl<'m> Follower<'m> {
         let state = &mut self.state;
         state.stance = leg.end.as_ref().ok().copied();
         state.known_joints = leg.known_joints;
-        if leg.motion.tilt.swivel != Swivel::No {
+        if !matches!(leg.motion.tilt.swivel, Swivel::No | Swivel::PointToPoint) {
             let rotary = self.machine.constants.rotary().iter();
             state.aimed = rotary.fold(0, |mask, rotary| mask | 1 << rotary.joint);
         }
@@ -176,6 +176,7 @@ impl<'m> Follower<'m> {
         if let (true, Some(start)) = (self.words.wraps, start) {
             *open = self.words.wrap(self.machine, motion, &start.joints, &mut into.0);
         }
+        self.asked_turns(motion, into, open);
         if let Some(letter) = self.words.foreign(motion) {
             return Err(NoStance::NoSuchAxis(letter));
         }
@@ -384,5 +385,12 @@ impl<'m> Follower<'m> {
 #[inline]
 pub(crate) fn has_tip_words(motion: &Motion) -> bool {
     let led = motion.tcp || matches!(motion.orientation, Orientation::Vector(..)) || motion.tilt.normal.is_some();
-    led && !motion.machine_coordinates && matches!(motion.tilt.swivel, Swivel::No | Swivel::TipStays)
+    led && !motion.machine_coordinates
+        && matches!(motion.tilt.swivel, Swivel::No | Swivel::TipStays | Swivel::PointToPoint)
+}
+
+/// Whether the tip is led between the ends too: not in point-to-point motions, whose axes run straight.
+#[inline]
+pub(crate) fn leads_path(motion: &Motion) -> bool {
+    has_tip_words(motion) && motion.tilt.swivel != Swivel::PointToPoint
 }

@@ -3,6 +3,7 @@
 //!
 //! It does not know rules or severities; its only words for people are the description of a machine and what is wrong with its file.
 mod aim;
+mod asked;
 mod at;
 mod bends;
 mod bound;
@@ -22,6 +23,7 @@ mod gantry;
 mod held;
 mod import;
 mod inverse;
+mod legal;
 mod length;
 mod limits;
 mod memory;
@@ -65,6 +67,7 @@ mod oracle_tests;
 #[cfg(test)]
 mod spec_tests;
 
+pub use asked::{AxisSign, PostureWords};
 pub use at::{Moment, Way};
 pub use builtin::{BUILTIN_MACHINES, builtin, builtin_source};
 pub use chain::{

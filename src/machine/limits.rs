@@ -2,7 +2,7 @@
 use crate::bends::rough_bends;
 use crate::bound::{Piece, peak};
 use crate::course::Course;
-use crate::follow::has_tip_words;
+use crate::follow::leads_path;
 use crate::spin::Spin;
 use crate::{Joints, Leg, Limits, Machine, RapidPath};
 use trunnion_interp::MotionKind;
@@ -101,7 +101,7 @@ fn may_bend(machine: &Machine, leg: &Leg) -> bool {
     if matches!(leg.motion.kind, MotionKind::Arc(_)) {
         return true;
     }
-    if leg.rotary_change == [0.0; 2] || !has_tip_words(&leg.motion) {
+    if leg.rotary_change == [0.0; 2] || !leads_path(&leg.motion) {
         return false;
     }
     let Some((_, bend)) = rough_bends(machine, leg) else {

@@ -2,7 +2,7 @@
 use crate::bound::{Piece, peak};
 use crate::course::on_great_circle;
 use crate::deviation::RATIO;
-use crate::follow::has_tip_words;
+use crate::follow::leads_path;
 use crate::{Leg, Machine, Stance, tool_axis_at};
 use core::f64::consts::{FRAC_PI_2, PI};
 use trunnion_geometry::Vec3;
@@ -37,7 +37,7 @@ const ROUNDING: f64 = 1e-13;
 pub(crate) fn strays(machine: &Machine, leg: &Leg) -> bool {
     leg.rotary_change != [0.0; 2]
         && matches!(leg.motion.orientation, Orientation::Vector(..))
-        && has_tip_words(&leg.motion)
+        && leads_path(&leg.motion)
         && !on_great_circle(machine, &leg.motion)
 }
 

@@ -7,6 +7,9 @@
 //!   centre point control type 2, and the same order for G53.1).
 //! * mitsubishi: passing type 1 keeps the sign of the tilting axis (from the pole: the wider stroke, then minus), passing type 2 takes the
 //!   smaller move of the other axis (M700V programming manual, G43.4/G43.5, movement near the singular point).
+//! * heidenhain: of the postures inside the travel the one with the shortest way from the present position (TNC7 user's manual, tilting
+//!   solution without SYM or SEQ); taken as the one whose moves are both no larger, since the manual does not say how ways of two axes
+//!   are weighed. SEQ+ and SEQ- are in [`crate::asked`].
 //! * shortest: the posture whose moves are both the smaller ones; where neither is, the rule says nothing.
 use crate::{Machine, Side};
 use core::cmp::Ordering;
@@ -25,6 +28,8 @@ pub enum PostureRule {
     Fanuc,
     /// Mitsubishi's two ways of passing the pole.
     Mitsubishi,
+    /// Heidenhain's tilting solution.
+    Heidenhain,
 }
 
 impl PostureRule {
@@ -36,11 +41,12 @@ impl PostureRule {
             .map(|(_, rule)| *rule)
     }
     /// The names in machine files.
-    pub(crate) const NAMES: [(&'static str, Self); 4] = [
+    pub(crate) const NAMES: [(&'static str, Self); 5] = [
         ("generic", Self::Generic),
         ("shortest", Self::Shortest),
         ("fanuc", Self::Fanuc),
         ("mitsubishi", Self::Mitsubishi),
+        ("heidenhain", Self::Heidenhain),
     ];
     /// The name.
     pub fn name(self) -> &'static str {
@@ -56,6 +62,7 @@ impl PostureRule {
             "generic" | "iso-6983" | "apt" => Some(Self::Generic),
             "fanuc-30i" => Some(Self::Fanuc),
             "mitsubishi-m700" => Some(Self::Mitsubishi),
+            "heidenhain-klartext" => Some(Self::Heidenhain),
             _ => None,
         }
     }
@@ -85,6 +92,8 @@ pub struct Branch {
     pub range: Vec<(u8, f64, f64)>,
     /// Mitsubishi: type of passing the pole, 1 or 2; `None`: not declared.
     pub passing_type: Option<u8>,
+    /// Heidenhain: SEQ- (`true`) or SEQ+; `None`: not set, the shortest way.
+    pub solution_negative: Option<bool>,
 }
 
 impl Default for Branch {
@@ -95,6 +104,7 @@ impl Default for Branch {
             order: Vec::new(),
             range: Vec::new(),
             passing_type: None,
+            solution_negative: None,
         }
     }
 }
@@ -188,6 +198,6 @@ pub(crate) fn comparisons(rule: PostureRule) -> (&'static [Criterion], bool) {
     match rule {
         PostureRule::Generic => (&[Time, Move(0), Move(1), Value(0), Value(1)], false),
         PostureRule::Fanuc => (&[Move(0), Move(1), Value(0), Value(1)], true),
-        PostureRule::Shortest | PostureRule::Mitsubishi => (&[], false),
+        PostureRule::Shortest | PostureRule::Mitsubishi | PostureRule::Heidenhain => (&[], false),
     }
 }

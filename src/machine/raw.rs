@@ -166,14 +166,37 @@ pub(crate) struct RawControl {
     pub(crate) corner: Option<RawCorner>,
     pub(crate) planner: Option<RawPlanner>,
     pub(crate) tcp_codes: Option<RawTcpCodes>,
+    #[serde(default)]
+    pub(crate) posture_words: RawPostureWords,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RawPostureWords {
+    #[serde(default)]
+    pub(crate) turn: BTreeMap<Word, Number>,
+    pub(crate) status: Option<RawStatusBit>,
+    #[serde(default)]
+    pub(crate) solutions: BTreeMap<Word, Word>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RawStatusBit {
+    pub(crate) bit: Number,
+    pub(crate) axis: Word,
+    pub(crate) set: Word,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RawTcpCodes {
+    #[serde(default)]
     pub(crate) on: Vec<Word>,
     #[serde(default)]
     pub(crate) off: Vec<Word>,
+    #[serde(default)]
+    pub(crate) at_start: bool,
 }
 
 #[derive(Deserialize)]
@@ -199,6 +222,7 @@ pub(crate) struct RawBranch {
     pub(crate) order: Vec<Word>,
     #[serde(default)]
     pub(crate) range: BTreeMap<Word, Spanned<[f64; 2]>>,
+    pub(crate) seq: Option<Word>,
 }
 
 #[derive(Deserialize)]

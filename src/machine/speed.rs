@@ -2,7 +2,7 @@
 use crate::bends::rough_bends;
 use crate::bound::{Piece, peak};
 use crate::course::{Course, on_great_circle};
-use crate::follow::has_tip_words;
+use crate::follow::leads_path;
 use crate::spin::Spin;
 use crate::{AxisKind, Leg, Machine, Stance};
 use trunnion_geometry::{Vec3, deg};
@@ -132,7 +132,7 @@ impl Changes {
         match leg.motion.kind {
             MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => return None,
             // along a line with standing rotary axes the linear joints run straight as well, also under TCP
-            MotionKind::Rapid | MotionKind::Linear if !has_tip_words(&leg.motion) || leg.rotary_change == [0.0; 2] => {
+            MotionKind::Rapid | MotionKind::Linear if !leads_path(&leg.motion) || leg.rotary_change == [0.0; 2] => {
                 return Some(Self::Nothing);
             }
             MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(Some(_)) => {}

@@ -81,6 +81,8 @@ pub enum OpenCause {
     StartUnknown,
     /// The preferred direction that the program tells fits both postures.
     Direction,
+    /// The program asks for a posture by words (STAT, TU, G53.1 P) whose meaning the machine file does not say.
+    WordsNotDeclared,
     /// Inside the cone about the pole the control holds the first rotary axis.
     PoleHeld,
     /// Inside the cone about the pole the control stops with an alarm.
@@ -113,6 +115,14 @@ pub enum NoStance {
         value: f64,
         /// rad.
         limit: f64,
+    },
+    /// Postures exist inside the limits, but none as the program asks for it (SEQ, STAT, TU, G53.1 P): the axis and the value it would
+    /// have, rad.
+    PostureRefused {
+        /// Letter.
+        axis: u8,
+        /// rad.
+        value: f64,
     },
     /// A motion that is not modelled.
     NotModelled,

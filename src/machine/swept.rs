@@ -37,7 +37,7 @@ pub fn swept_deviation(machine: &Machine, leg: &Leg, above_tip: f64, tolerance_m
         MotionKind::Arc(Some(arc)) => Track::Arc(*arc),
         MotionKind::Rapid | MotionKind::Linear => Track::Line(end.point - start.point_with(end.tool_length)),
     };
-    if !crate::follow::has_tip_words(&leg.motion) && leg.rotary_change != [0.0; 2] {
+    if !crate::follow::leads_path(&leg.motion) && leg.rotary_change != [0.0; 2] {
         return None;
     }
     if !strays(machine, leg) || above_tip <= 0.0 {

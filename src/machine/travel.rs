@@ -2,7 +2,7 @@
 use crate::bends::rough_bends;
 use crate::bound::{Piece, peak};
 use crate::course::Course;
-use crate::follow::has_tip_words;
+use crate::follow::leads_path;
 use crate::{Leg, Machine};
 use trunnion_geometry::Vec3;
 use trunnion_interp::MotionKind;
@@ -62,7 +62,7 @@ pub fn linear_travel(machine: &Machine, leg: &Leg, enough_mm: f64) -> Option<Lin
         .map(|&joint| (end.joints[joint] - start.joints[joint]).powi(2))
         .sum();
     let chord = chord2.sqrt();
-    if line && (leg.rotary_change == [0.0; 2] || !has_tip_words(&leg.motion)) {
+    if line && (leg.rotary_change == [0.0; 2] || !leads_path(&leg.motion)) {
         return Some(LinearTravel {
             least_mm: chord,
             most_mm: chord,

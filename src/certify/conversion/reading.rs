@@ -257,6 +257,11 @@ fn reason(why: &NoStance) -> String {
             deg(*value),
             deg(*limit)
         ),
+        NoStance::PostureRefused { axis, value } => format!(
+            "no posture is as the program asks for it: {} would be {:.4} deg",
+            char::from(*axis),
+            deg(*value)
+        ),
         NoStance::NotModelled => "the motion is not modelled".to_owned(),
         NoStance::HeldElsewhere { axis, .. } => {
             format!("the machine file holds axis {} elsewhere", char::from(*axis))

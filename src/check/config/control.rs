@@ -3,7 +3,7 @@ use super::ConfigError;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
-use trunnion_interp::{AxisLetter, ControlData, ImplicitDecimals, OuterCorner, Position, TcpCodes};
+use trunnion_interp::{AxisLetter, ControlData, ImplicitDecimals, OuterCorner, Position, RollPitchYaw, TcpCodes};
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -19,13 +19,23 @@ enum Corner {
     Arc,
 }
 
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Angles {
+    Fixed,
+    Turned,
+}
+
 /// `tcp_codes = { on = ["M428"], off = ["M429"] }`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Codes {
+    #[serde(default)]
     on: Vec<String>,
     #[serde(default)]
     off: Vec<String>,
+    #[serde(default)]
+    at_start: bool,
 }
 
 /// The section as written.
@@ -37,6 +47,7 @@ pub(super) struct FileControl {
     peck_clearance: Option<Spanned<f64>>,
     outer_corner: Option<Corner>,
     block_delete: Option<bool>,
+    roll_pitch_yaw: Option<Angles>,
     tcp_codes: Option<Codes>,
     #[serde(default)]
     reference_points: Vec<BTreeMap<Spanned<String>, Spanned<f64>>>,
@@ -61,9 +72,14 @@ impl FileControl {
                 Some(Corner::Lines) | None => OuterCorner::Lines,
             },
             block_delete: self.block_delete,
+            roll_pitch_yaw: self.roll_pitch_yaw.map(|angles| match angles {
+                Angles::Fixed => RollPitchYaw::Fixed,
+                Angles::Turned => RollPitchYaw::Turned,
+            }),
             tcp_codes: self.tcp_codes.as_ref().map(|codes| TcpCodes {
                 on: codes.on.clone(),
                 off: codes.off.clone(),
+                at_start: codes.at_start,
             }),
             reference_points,
         })
@@ -116,13 +132,14 @@ mod tests {
     #[test]
     fn a_whole_section_is_read() {
         let text = "[control]\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\n\
-                    outer_corner = \"arc\"\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
+                    outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.implicit_decimals, Some(ImplicitDecimals::LeastIncrement));
         assert_eq!(control.chip_break_retract_mm, Some(0.5));
         assert_eq!(control.peck_clearance_mm, Some(1.0));
         assert_eq!(control.outer_corner, OuterCorner::Arc);
         assert_eq!(control.block_delete, Some(true));
+        assert_eq!(control.roll_pitch_yaw, Some(trunnion_interp::RollPitchYaw::Fixed));
         let codes = control.tcp_codes.expect("declared");
         assert_eq!((codes.meaning("M429"), codes.meaning("M428")), (Some(true), None));
         let points: Vec<_> = control

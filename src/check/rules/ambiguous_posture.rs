@@ -113,6 +113,10 @@ fn cause(open: &Open, family: &str) -> (String, &'static str) {
             text("the preferred direction that is programmed fits both"),
             "position the rotary axes before",
         ),
+        OpenCause::WordsNotDeclared => (
+            text("the program asks for a posture by words (STAT, TU, P) whose meaning the machine file does not say"),
+            "declare it in the machine file: [control] posture_words = { turn = { A = 3, C = 4 }, solutions = { 1 = \"A+\" } }",
+        ),
         OpenCause::PoleHeld => (
             text(
                 "inside its cone about the pole the control holds the first rotary axis: how it leaves the cone is not modelled",

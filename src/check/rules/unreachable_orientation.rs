@@ -78,6 +78,22 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             .value("excess_deg", deg(beyond))
             .merge(u64::from(*axis), beyond);
         }
+        Err(NoStance::PostureRefused { axis, value }) => {
+            let range = orientation_range(out.program(), view.motion().block);
+            let name = letter(*axis);
+            out.report(
+                range,
+                format!(
+                    "no posture inside the limits is as the program asks for it: {name} would be {}",
+                    degrees(*value)
+                ),
+            )
+            .note("SEQ, STAT, TU or the solution's number ask for another sign of a rotary axis than the travel leaves")
+            .help("leave the choice to the control, or ask for the other posture")
+            .value_text("axis", name)
+            .value("value_deg", deg(*value))
+            .merge(256 + u64::from(*axis), value.abs());
+        }
         _ => {}
     }
 }

@@ -4,7 +4,7 @@ use crate::codes::{BlockCodes, Found};
 use crate::offsets::{LINEAR, ROTARY};
 use crate::run::{Interpreter, Report};
 use crate::words::{Said, Words};
-use crate::{FaultKind, Feed, ImplicitDecimals, Motion, MotionKind, Orientation, Posture, Swivel};
+use crate::{FaultKind, Feed, ImplicitDecimals, Motion, MotionKind, Orientation, Posture, RollPitchYaw, Swivel};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 
@@ -47,8 +47,8 @@ impl<'d> Interpreter<'d> {
     }
 
     /// G68.2 X Y Z I J K: zero of the plane, and Euler angles about Z, the turned X, the turned Z (Series 30i operator's manual, tilted
-    /// working plane). P1 tells turns about X, Y, Z with their order in Q: whether about fixed or turned axes makes no difference where
-    /// at most one is not zero; the other ways of P are not modelled. G68.4 is told in the plane in force.
+    /// working plane). P1 tells turns about X, Y, Z with their order in Q; whether about fixed or turned axes is a parameter of the run
+    /// and makes no difference where at most one is not zero. The other ways of P are not modelled. G68.4 is told in the plane in force.
     pub(crate) fn tilted_plane(
         &mut self,
         found: &Found<'d>,
@@ -95,14 +95,30 @@ impl<'d> Interpreter<'d> {
             Said::Nothing => {}
             said => match said.index()? {
                 0 => {}
-                1 => {
-                    let turning = [i, j, k].iter().filter(|angle| **angle != 0.0).count();
-                    return (turning <= 1).then_some([(0, i), (1, j), (2, k)]);
-                }
+                1 => return self.roll_pitch_yaw([i, j, k], words.letter(b'Q')),
                 _ => return None,
             },
         }
         (!words.letter(b'Q').is_said()).then_some([(2, i), (0, j), (2, k)])
+    }
+
+    /// G68.2 P1: turns about X, Y, Z by I, J, K in the order that Q tells (Q123: first X).
+    fn roll_pitch_yaw(&self, angles: [f64; 3], order: Said) -> Option<[(usize, f64); 3]> {
+        let turn = |axis: usize| (axis, angles[axis]);
+        if angles.iter().filter(|angle| **angle != 0.0).count() <= 1 {
+            return Some([turn(0), turn(1), turn(2)]);
+        }
+        let order = order.index()?;
+        let digit = |place: u32| usize::try_from(order / 10u32.pow(place) % 10).ok()?.checked_sub(1);
+        let axes = [digit(2)?, digit(1)?, digit(0)?];
+        if order > 333 || axes.iter().fold(0, |mask, axis| mask | 1 << axis) != 0b111 {
+            return None;
+        }
+        match self.setup.control.roll_pitch_yaw? {
+            RollPitchYaw::Turned => Some(axes.map(turn)),
+            // the last turn about a fixed axis is the outermost
+            RollPitchYaw::Fixed => Some([turn(axes[2]), turn(axes[1]), turn(axes[0])]),
+        }
     }
 
     /// G53.1: the rotary axes turn so that the tool stands on the plane; the linear axes stay. G53.6: the tip stays.
@@ -113,8 +129,20 @@ impl<'d> Interpreter<'d> {
         block: &mut BlockCodes,
         report: &mut Report<'_>,
     ) {
-        let plain = !words.axes.any() && matches!(words.letter(b'P'), Said::Nothing);
-        if self.memory.frames.tilt.is_none() || !plain || self.state.tcp {
+        let posture = match words.letter(b'P') {
+            Said::Nothing => Some(Posture::ByRule),
+            // which of the solutions a number means is said by the machine
+            said => said
+                .index()
+                .and_then(|number| u8::try_from(number).ok())
+                .map(Posture::Numbered),
+        };
+        let plain = !words.axes.any();
+        let Some(posture) = posture.filter(|_| plain) else {
+            self.unmodelled_code(found, words, block, report);
+            return;
+        };
+        if self.memory.frames.tilt.is_none() || self.state.tcp {
             self.unmodelled_code(found, words, block, report);
             return;
         }
@@ -124,7 +152,7 @@ impl<'d> Interpreter<'d> {
         } else {
             Swivel::AxesStay
         };
-        self.swivel(swivel, Posture::ByRule, report);
+        self.swivel(swivel, posture, report);
     }
 
     /// Turns the rotary axes onto the plane's normal.

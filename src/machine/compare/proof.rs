@@ -80,7 +80,7 @@ impl Comparison<'_> {
     pub fn everywhere(&self, longest_mm: f64) -> f64 {
         let (believed, truth) = (self.believed, self.truth);
         let (a, b) = (&believed.home, &truth.home);
-        if self.order.iter().enumerate().any(|(joint, from)| joint != *from) || !(longest_mm >= 0.0) {
+        if self.order.iter().enumerate().any(|(joint, from)| joint != *from) || longest_mm.is_nan() {
             return f64::INFINITY;
         }
         let mut ball = Ball {

@@ -187,6 +187,7 @@ fn trt() -> Setup {
     setup.control.tcp_codes = Some(trunnion_interp::TcpCodes {
         on: vec!["M428".to_owned()],
         off: vec!["M429".to_owned()],
+        ..Default::default()
     });
     setup
 }
@@ -203,6 +204,7 @@ fn what_m428_means_is_said_by_the_machine() {
     nutating.control.tcp_codes = Some(trunnion_interp::TcpCodes {
         on: vec!["M429".to_owned()],
         off: vec!["M428".to_owned()],
+        ..Default::default()
     });
     assert_eq!(lines(&nutating), ["R X1 Y2 Z3 A4", "R X1 A4 tcp"]);
     // not declared: what coordinates mean is not known until the end

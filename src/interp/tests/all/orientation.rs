@@ -80,6 +80,7 @@ fn g49_ends_the_tcp_of_its_group_only() {
     setup.control.tcp_codes = Some(trunnion_interp::TcpCodes {
         on: vec!["M428".to_owned()],
         off: vec!["M429".to_owned()],
+        ..Default::default()
     });
     let log = run_bytes("linuxcnc", b"M428\nG0 X1 A1\nG49\nG0 X2\nM429\nX3\n", &setup).1;
     let got: Vec<_> = log.motions.iter().map(line).collect();

@@ -91,6 +91,8 @@ fn a_swivel_cycle_shifts_turns_and_shifts_again() {
 fn what_is_not_modelled_says_so_and_hides_the_position() {
     for (dialect, text) in [
         ("fanuc-30i", "G68.2 P1 Q123 X0. Y0. Z0. I10. J20. K0.\n"),
+        ("fanuc-30i", "G68.2 P3 Q1 X0. Y0. Z0. I1. J0. K0.\n"),
+        ("fanuc-30i", "G68.2 P4 X0. Y0. Z0. I10. J20. K0.\n"),
         ("fanuc-30i", "G68.2 P2 Q0 X0. Y0. Z0.\n"),
         ("fanuc-30i", "G68.3 X0. Y0. Z0.\n"),
         ("fanuc-30i", "G68.4 X0. Y0. Z0. I0. J10. K0.\n"),
@@ -111,6 +113,82 @@ fn what_is_not_modelled_says_so_and_hides_the_position() {
     // one angle alone is the same whatever the order
     let one = motions("fanuc-30i", "G68.2 P1 Q321 X0. Y0. Z0. I90. J0. K0.\nG0 X1. Y2. Z3.\n");
     near(one[0].end.xyz(), [1.0, -3.0, 2.0]);
+}
+
+/// Roll 30 about X, then pitch 20 about Y (Q123). About fixed axes the normal is Ry Rx z, about turned axes Rx Ry z; Q213 swaps the two.
+#[test]
+fn roll_pitch_and_yaw_are_known_where_the_control_says_what_they_turn_about() {
+    use trunnion_interp::RollPitchYaw::{Fixed, Turned};
+    let (sin_roll, cos_roll) = trunnion_geometry::math::sin_cos(30f64.to_radians());
+    let (sin_pitch, cos_pitch) = trunnion_geometry::math::sin_cos(20f64.to_radians());
+    let pitch_outside = [cos_roll * sin_pitch, -sin_roll, cos_roll * cos_pitch];
+    let roll_outside = [sin_pitch, -sin_roll * cos_pitch, cos_roll * cos_pitch];
+    for (order, about, wanted) in [
+        (123, Some(Fixed), Some(pitch_outside)),
+        (123, Some(Turned), Some(roll_outside)),
+        (213, Some(Fixed), Some(roll_outside)),
+        (213, Some(Turned), Some(pitch_outside)),
+        (123, None, None),
+        (122, Some(Fixed), None),
+        (1123, Some(Fixed), None),
+    ] {
+        let mut setup = Setup::default();
+        setup.control.roll_pitch_yaw = about;
+        let text = format!("G68.2 P1 Q{order} X0. Y0. Z0. I30. J20. K0.\nG0 X1. Y2. Z3.\n");
+        let (_, log) = run_bytes("fanuc-30i", text.as_bytes(), &setup);
+        match wanted {
+            Some(wanted) => near(log.motions[0].tilt.normal, wanted),
+            None => assert_eq!(log.motions[0].end.xyz(), None, "Q{order}"),
+        }
+    }
+}
+
+/// Which of two solutions P means is for the machine to say; the program goes on.
+#[test]
+fn a_numbered_solution_is_passed_on() {
+    let found = motions(
+        "fanuc-30i",
+        "G68.2 X0. Y0. Z0. I0. J30. K0.\nG53.1 P2\nG0 X1. Y2. Z3.\n",
+    );
+    assert_eq!(found[0].tilt.posture, Posture::Numbered(2));
+    assert_eq!(found[1].tilt.posture, Posture::ByRule);
+    assert!(found[1].end.xyz().is_some());
+}
+
+/// STAT is modal, TU holds for its block, and both only point to point.
+#[test]
+fn point_to_point_travel_carries_its_words() {
+    let text = "TRAORI\nG0 X0 Y0 Z0 A0 C0\nPTP\nG1 X1 A10 C20 F500 STAT='B10' TU='H18'\nX2 C30\nG2 X4 I1 TU=8\nCP\nG1 X5\nPTPG0\nG0 X6 TU=8\nG1 X7\nTRAFOOF\nG0 X8\n";
+    let found = motions("sinumerik-840d", text);
+    let travel: Vec<_> = found
+        .iter()
+        .map(|motion| (motion.tilt.swivel, motion.tilt.posture))
+        .collect();
+    let bits = |status, turn| Posture::Bits { status, turn };
+    let led = (Swivel::No, Posture::ByRule);
+    assert_eq!(
+        travel,
+        [
+            led,
+            (Swivel::PointToPoint, bits(Some(2), Some(24))),
+            (Swivel::PointToPoint, bits(Some(2), None)),
+            led,
+            led,
+            (Swivel::PointToPoint, bits(Some(2), Some(8))),
+            led,
+            led
+        ]
+    );
+    let said = faults("sinumerik-840d", text);
+    assert!(
+        said.len() == 2
+            && said.iter().any(|fault| fault.contains("TU"))
+            && said.iter().any(|fault| fault.contains("arc")),
+        "{said:?}"
+    );
+    // continuous: neither is followed
+    let said = faults("sinumerik-840d", "TRAORI\nG0 X0 Y0 Z0 A0 C0 STAT=1 TU=2\n");
+    assert_eq!(said.len(), 2, "{said:?}");
 }
 
 #[test]

@@ -357,3 +357,124 @@ fn the_impeller_has_its_numbers() {
     assert!(close(range(1), (-74.49, 0.0)), "{:?}", range(1));
     assert!(close(range(0), (-399.805, 0.0)), "{:?}", range(0));
 }
+
+/// A stands at -30 deg and goes to 30 deg while the tip is to end where it began, 100 mm above the axes. Led, it never leaves the point;
+/// point to point the axes run straight, and half way, with A at zero, the tip is at 100 cos 30 deg = 86.60 mm: 13.40 mm off.
+#[test]
+fn point_to_point_the_axes_run_straight_to_where_the_tip_ends() {
+    let machine = plain("", "family = \"sinumerik-840d\"");
+    let at = |a: f64| position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', 100.0), (b'A', a), (b'C', 0.0)]);
+    let go = |start, end, swivel| Motion {
+        tcp: true,
+        tilt: Tilt {
+            swivel,
+            ..Tilt::default()
+        },
+        ..words(start, end)
+    };
+    let mut ends = Vec::new();
+    for (swivel, off) in [
+        (Swivel::No, 0.0),
+        (Swivel::PointToPoint, 100.0 * (1.0 - 0.75_f64.sqrt())),
+    ] {
+        let mut follower = Follower::new(&machine);
+        follower.follow(&go(position(&[]), at(-30.0), Swivel::No));
+        let leg = follower.follow(&go(at(-30.0), at(30.0), swivel));
+        let found = tip_deviation(&machine, &leg, 1e-3).expect("known");
+        assert!(
+            (found.sampled_mm - off).abs() < 1e-4 && found.bound_mm >= off,
+            "{found:?}"
+        );
+        assert!(found.bound_mm <= off * 1.2 + 1e-3, "{found:?}");
+        ends.push(leg.end.as_ref().expect("known").joints);
+        let travel = trunnion_machine::linear_travel(&machine, &leg, 0.0).expect("known");
+        // an arc of 60 deg, or its chord
+        let way = if swivel == Swivel::No { 100.0 * rad(60.0) } else { 100.0 };
+        assert!((travel.least_mm - way).abs() < 0.1, "{travel:?}");
+    }
+    assert_eq!(ends[0], ends[1]);
+}
+
+/// 840D Job Planning, section 6.9: from C 0, C=270 goes to 270 deg with TU's bit 0 and to -90 deg with 1.
+#[test]
+fn turn_bits_turn_rotary_words() {
+    let c = "limits = [-360, 360]";
+    for (bits, turn, wanted, cause) in [
+        ("posture_words = { turn = { A = 3, C = 4 } }", 0, 270.0, None),
+        ("posture_words = { turn = { A = 3, C = 4 } }", 16, -90.0, None),
+        ("", 16, 270.0, Some(OpenCause::WordsNotDeclared)),
+    ] {
+        let text = format!(
+            "schema = \"ncmachine/1\"\n[[axis]]\nletter = \"C\"\nkind = \"rotary\"\nside = \"table\"\nsign = 1\n{c}\n[[axis]]\nletter = \"A\"\nkind = \"rotary\"\nside = \"table\"\nsign = 1\nlimits = [-120, 120]\n[[axis]]\nletter = \"X\"\nsign = 1\nlimits = [-400, 400]\n[[axis]]\nletter = \"Y\"\nside = \"head\"\nsign = 1\nlimits = [-400, 400]\n[[axis]]\nletter = \"Z\"\nside = \"head\"\nsign = 1\nlimits = [-400, 400]\n[control]\n{bits}\n"
+        );
+        let machine = load("test", &text).expect("valid");
+        let at = |c: f64| position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', 50.0), (b'A', 20.0), (b'C', c)]);
+        let go = |start, end, posture| Motion {
+            tcp: true,
+            tilt: Tilt {
+                swivel: Swivel::PointToPoint,
+                posture,
+                ..Tilt::default()
+            },
+            ..words(start, end)
+        };
+        let mut follower = Follower::new(&machine);
+        follower.follow(&go(position(&[]), at(0.0), Posture::ByRule));
+        let posture = Posture::Bits {
+            status: None,
+            turn: Some(turn),
+        };
+        let leg = follower.follow(&go(at(0.0), at(270.0), posture));
+        assert_eq!(leg.open.map(|open| open.cause), cause);
+        assert!(
+            (deg(leg.end.expect("known").joints[0]) - wanted).abs() < 1e-9,
+            "{bits} {turn}"
+        );
+    }
+}
+
+/// Kinematics notes 10: 1 735 feed moves along lines; at the programmed times Y is over its 20 mm/s in 5 blocks, Z in 13, A over its 30 deg/s in 11;
+/// the worst is 1.559 times as fast, at line 1397.
+#[test]
+fn the_boat_has_its_numbers() {
+    let machine = trunnion_machine::builtin("linuxcnc-xyzac-trt").expect("built in");
+    let Some(run) = followed(machine, "linuxcnc", "linuxcnc-5axis/boat-xyzac.ngc") else {
+        return;
+    };
+    let feeds: Vec<_> = run.legs.iter().filter(|(_, leg)| leg.motion.is_feed()).collect();
+    let lines = feeds
+        .iter()
+        .filter(|(_, leg)| leg.motion.kind == MotionKind::Linear)
+        .count();
+    // the notes count lines; there are four arcs beside them
+    assert_eq!((lines, feeds.len()), (1735, 1739));
+    let letters = [b'X', b'Y', b'Z', b'A', b'C'];
+    let mut over = [0; 5];
+    let mut worst = (0.0, 0);
+    for (line, leg) in &feeds {
+        let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
+            panic!("not followed: line {line}")
+        };
+        let seconds = match leg.motion.feed {
+            Feed::InverseTime(per_minute) => 60.0 / per_minute,
+            Feed::PerMinute(feed) => 60.0 * leg.length / feed,
+            _ => panic!("no feed: line {line}"),
+        };
+        for (slot, letter) in over.iter_mut().zip(letters) {
+            let joint = machine.joint(letter).expect("an axis");
+            let (limit, change) = (
+                machine.axes[joint].max_speed.expect("declared"),
+                end.joints[joint] - start.joints[joint],
+            );
+            let times = change.abs() / (seconds * limit);
+            if times > 1.0 + 1e-9 {
+                *slot += 1;
+            }
+            if times.is_finite() && times > worst.0 + 1e-9 {
+                worst = (times, *line);
+            }
+        }
+    }
+    assert_eq!((over, worst.1), ([0, 5, 13, 11, 0], 1397), "{worst:?}");
+    assert!((worst.0 - 1.559).abs() < 0.001, "{worst:?}");
+}

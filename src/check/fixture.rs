@@ -190,7 +190,7 @@ fn setup() -> Setup {
 }
 
 /// A built-in machine; `NAME+KEY` has `KEY = true` added to its first rotary axis, `NAME+A.KEY` to axis A, `NAME+A.KEY=5` with
-/// that value; `NAME+undeclared` names no rule for postures.
+/// that value, `NAME+control.KEY=5` to the control; `NAME+undeclared` names no rule for postures.
 fn machine(name: &str) -> Result<Machine, String> {
     let none = || format!("no machine {name}");
     let Some((builtin, key)) = name.split_once('+') else {
@@ -199,6 +199,7 @@ fn machine(name: &str) -> Result<Machine, String> {
     let source = trunnion_machine::builtin_source(builtin).ok_or_else(none)?;
     let more = match key.split_once('.') {
         _ if key == "undeclared" => source.replace("branch = { rule = \"generic\" }", "#"),
+        Some(("control", key)) => source.replacen("[control]\n", &format!("[control]\n{key}\n"), 1),
         Some((letter, key)) => {
             let axis = format!("letter = \"{letter}\"\n");
             let entry = if key.contains('=') {

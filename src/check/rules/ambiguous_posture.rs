@@ -151,6 +151,23 @@ mod tests {
         assert_eq!(found[0].values.len(), 4);
     }
 
+    /// PTP with TU, whose bits nobody declared; with the bits of the axes declared the program says what it means.
+    #[test]
+    fn words_for_postures_need_their_meaning() {
+        let text = "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 PTP\nN40 G0 X10 A3=0.1 B3=-0.3 C3=0.95 TU=16\n";
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710+undeclared",
+            &format!(
+                "{text};          ^^^^^^^^^^^^^^^^^^^^^^ ambiguous-posture: for this tool vector the control may take\nN50 M30\n"
+            ),
+        );
+        // C turns without end: its bit says nothing, A's bit is not set
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710+control.posture_words={turn={A=3,C=4}}",
+            &format!("{text}N50 M30\n"),
+        );
+    }
+
     #[test]
     fn a_declared_rule_settles_it() {
         assert_drawn(

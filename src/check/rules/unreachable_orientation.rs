@@ -97,3 +97,29 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         _ => {}
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    /// TU wants A below zero: A -18.4 deg is inside the travel from -30 deg, A -40 deg is not.
+    #[test]
+    fn a_posture_that_the_program_asks_for_may_not_exist() {
+        let machine = "gcode sinumerik-840d mikron-ucp710+control.posture_words={turn={A=3,C=4}}";
+        let text = |vector: &str| format!("N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 PTP\nN40 G0 X10 {vector} TU=8\n");
+        assert_drawn(
+            machine,
+            &format!(
+                "{};          ^^^^^^^^^^^^^^^^^^^^^^ branch-swap: the posture changes\nN50 M30\n",
+                text("A3=0.1 B3=-0.3 C3=0.95")
+            ),
+        );
+        assert_drawn(
+            machine,
+            &format!(
+                "{};          ^^^^^^^^^^^^^^^^^^^^^^^^^^^ unreachable-orientation: no posture inside the limits is as the program asks for it: A would be 40\nN50 M30\n",
+                text("A3=0 B3=-0.6427876 C3=0.7660444")
+            ),
+        );
+    }
+}

@@ -111,8 +111,15 @@ fn place(loaded: &Loaded, lines: &LineIndex, id: BlockId) -> (u32, String) {
 
 /// Where rows go.
 enum Rows<W: Write> {
-    Csv(Box<csv::Writer<W>>),
-    Json { out: W, names: Vec<String>, first: bool },
+    Csv {
+        writer: Box<csv::Writer<W>>,
+        columns: usize,
+    },
+    Json {
+        out: W,
+        names: Vec<String>,
+        first: bool,
+    },
 }
 
 impl<W: Write> Rows<W> {
@@ -121,12 +128,22 @@ impl<W: Write> Rows<W> {
             .axes
             .iter()
             .map(|axis| format!("joint_{}", char::from(axis.letter.to_ascii_lowercase())));
-        let names: Vec<String> = COLUMNS.iter().map(|&name| name.to_owned()).chain(joints).collect();
+        // a posture that is open: why, and the other one that the control may take
+        let others = machine
+            .rotary
+            .iter()
+            .map(|&axis| format!("other_{}", char::from(machine.axes[axis].letter.to_ascii_lowercase())));
+        let open = core::iter::once("open_posture".to_owned()).chain(others);
+        let columns = COLUMNS.iter().map(|&name| name.to_owned());
+        let names: Vec<String> = columns.chain(joints).chain(open).collect();
         match format {
             TraceFormat::Csv => {
                 let mut writer = csv::Writer::from_writer(out);
                 writer.write_record(&names).map_err(csv_failure)?;
-                Ok(Self::Csv(Box::new(writer)))
+                Ok(Self::Csv {
+                    writer: Box::new(writer),
+                    columns: names.len(),
+                })
             }
             TraceFormat::Json => {
                 let id = serde_json::to_string(&machine.id).unwrap_or_default();
@@ -141,9 +158,15 @@ impl<W: Write> Rows<W> {
     }
 
     fn write(&mut self, line: u32, block: &str, row: &Row) -> Result<(), Failure> {
-        let cells = cells(line, block, row);
+        let mut cells = cells(line, block, row);
+        let others = self.names().saturating_sub(cells.len() + 1);
+        cells.push(row.open.map_or(Value::Null, |(why, _)| json!(why)));
+        cells.extend((0..others).map(|index| {
+            let other = row.open.and_then(|(_, q)| q.get(index).copied());
+            other.map_or(Value::Null, |value| json!(tidy(value)))
+        }));
         match self {
-            Self::Csv(writer) => writer.write_record(cells.iter().map(text)).map_err(csv_failure),
+            Self::Csv { writer, .. } => writer.write_record(cells.iter().map(text)).map_err(csv_failure),
             Self::Json { out, names, first } => {
                 let object: Map<String, Value> = names.iter().cloned().zip(cells).collect();
                 out.write_all(if *first { b"\n" } else { b",\n" })?;
@@ -154,9 +177,17 @@ impl<W: Write> Rows<W> {
         }
     }
 
+    /// How many columns there are.
+    fn names(&self) -> usize {
+        match self {
+            Self::Csv { columns, .. } => *columns,
+            Self::Json { names, .. } => names.len(),
+        }
+    }
+
     fn finish(self) -> Result<(), Failure> {
         match self {
-            Self::Csv(mut writer) => writer.flush()?,
+            Self::Csv { mut writer, .. } => writer.flush()?,
             Self::Json { mut out, .. } => {
                 out.write_all(b"\n]}\n")?;
                 out.flush()?;

@@ -36,6 +36,9 @@ pub struct Row {
     pub limiting_axis: Option<char>,
     /// Joint values in chain order, mm or deg; `None` where unknown.
     pub joints: Vec<Option<f64>>,
+    /// The other posture that the control may take at the end of the block, in one word why, and its rotary values, workpiece side first,
+    /// deg; `None` where nothing is open.
+    pub open: Option<(&'static str, [f64; 2])>,
 }
 
 /// Deviations up to this need no tighter bound in a trace, mm.
@@ -83,5 +86,6 @@ pub fn row(machine: &Machine, leg: &Leg) -> Row {
         feed_limit_mm_min: limit.map(|limit| limit.feed_mm_min),
         limiting_axis: limit.map(|limit| char::from(machine.axes[limit.axis].letter)),
         joints: axes.map(joint).collect(),
+        open: leg.open.map(|open| (open.cause.name(), open.other.map(deg))),
     }
 }

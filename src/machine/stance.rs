@@ -89,6 +89,24 @@ pub enum OpenCause {
     PoleAlarm,
 }
 
+impl OpenCause {
+    /// One word for tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::RuleNotDeclared => "rule-not-declared",
+            Self::Tie => "tie",
+            Self::HalfTurn => "half-turn",
+            Self::PassingTypeNotDeclared => "passing-type-not-declared",
+            Self::RangeNotDeclared => "range-not-declared",
+            Self::StartUnknown => "start-unknown",
+            Self::Direction => "direction",
+            Self::WordsNotDeclared => "words-not-declared",
+            Self::PoleHeld => "pole-held",
+            Self::PoleAlarm => "pole-alarm",
+        }
+    }
+}
+
 /// A posture that is followed although another may be taken. Rotary joints, workpiece side first, rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Open {

@@ -37,6 +37,7 @@
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 use trunnion_machine::{LinearTravel, excursions, linear_travel};
+use trunnion_syntax::Program;
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,

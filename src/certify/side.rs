@@ -39,6 +39,7 @@ pub(crate) fn of_fault(kind: &FaultKind) -> Told {
         | FaultKind::ArcRadiusTooSmall { .. }
         | FaultKind::VectorNotUnit { .. }
         | FaultKind::AmbiguousDecimal
+        | FaultKind::UnusedWord
         | FaultKind::TcpState(_)
         | FaultKind::MissingProgramEnd => Told::Nothing,
         FaultKind::WorkOffsetUnset { name } => Told::Unset(name.clone()),

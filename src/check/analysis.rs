@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn settings_change_levels_and_the_last_wins() {
-        let text = "G0 X0 X1\nM30\n";
+        let text = "G21 G0 X0 X1\nM30\n";
         assert_eq!(report(text, &[]).summary.errors, 1);
         assert_eq!(report(text, &[("repeated-word", RuleLevel::Allow)]).diagnostics, []);
         let levels = [

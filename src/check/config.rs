@@ -3,6 +3,7 @@ mod control;
 mod file;
 mod format;
 mod tool;
+mod variables;
 
 pub use format::{FormatCase, FormatSettings, FormatSpacing, FormatZeros};
 pub use tool::parse_tool_flag;

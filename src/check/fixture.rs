@@ -15,7 +15,7 @@ use trunnion_machine::Machine;
 use trunnion_syntax::LineIndex;
 
 /// Rules that say what a fragment lacks; they are silent in fixtures that do not draw them.
-pub const QUIET: &[&str] = &["machine-unset", "missing-program-end"];
+pub const QUIET: &[&str] = &["machine-unset", "missing-program-end", "units-unset"];
 
 /// One finding as drawn.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

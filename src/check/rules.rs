@@ -58,8 +58,10 @@ mod tool_length_unset;
 mod tool_vector_not_unit;
 mod unclosed_comment;
 mod undefined_variable;
+mod units_unset;
 mod unknown_code;
 mod unknown_word;
+mod unlimited_spindle;
 mod unreachable_orientation;
 mod unused_suppression;
 mod unused_word;
@@ -152,8 +154,10 @@ static RULES: &[&Rule] = table![
     tool_vector_not_unit,
     unclosed_comment,
     undefined_variable,
+    units_unset,
     unknown_code,
     unknown_word,
+    unlimited_spindle,
     unreachable_orientation,
     unused_suppression,
     unused_word,
@@ -216,6 +220,7 @@ mod tests {
                 first_range: TextRange::new(0, 1),
             },
             FaultKind::RepeatedWord,
+            FaultKind::UnusedWord,
             FaultKind::MissingFeed {
                 inverse_time: false,
                 zero: false,

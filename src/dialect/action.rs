@@ -103,6 +103,11 @@ pub enum Action {
     /// positions are unknown from here on, until a [`Action::FrameReset`] of the same group. A name without arguments and
     /// without words in its block (`TRANS`, `CYCLE800()`) resets.
     FrameChange,
+    /// Coordinates, rotary ones too, mean something else in a way that is not modelled (polar and cylindrical interpolation, mirror image of a
+    /// double turret): until a [`Action::FrameReset`] of the same group, or the code itself with a rotary coordinate of zero.
+    FrameLost,
+    /// G10.9 of a lathe: X1 means that X is a diameter from here on, X0 a radius.
+    DiameterSwitch,
     /// TRANS, ATRANS of a Sinumerik: shifts the zero point, instead of earlier programmable frames or beside them. TRANS alone ends them.
     ProgrammableShift,
     /// Ends every [`Action::FrameChange`] of the same group (G69).
@@ -175,12 +180,20 @@ pub enum Action {
     ReferenceCheck,
     /// G28: rapid to the first reference point by way of the programmed point.
     ReferenceReturn,
+    /// G28.1 of grbl: the present point becomes the one to which G28 goes.
+    ReferenceStore,
+    /// G30.1 of grbl: the same for G30.
+    ReferenceStoreOther,
     /// G30: rapid to another reference point (P).
     ReferenceReturnOther,
     /// G29: rapid back from the reference point by way of the last intermediate point.
     ReferenceFrom,
     /// G33, G32: line coupled to the spindle, F is the lead.
     Thread,
+    /// G34: as `Thread`, with a lead that changes along the way.
+    VariableThread,
+    /// G31: line that ends where a signal comes.
+    Skip,
     /// G12 of a Haas: circular pocket, clockwise; G13.
     CirclePocket,
     /// G70 of a Haas: cycle at holes on a circle.
@@ -197,6 +210,14 @@ pub enum Action {
     ThreadingCycle,
     /// Lathe: finishing along the contour of the blocks P to Q (G70).
     FinishCycle,
+    /// Lathe: roughing along Z down to the contour of the blocks P to Q (G71).
+    RoughTurnCycle,
+    /// Lathe: roughing along X (G72).
+    RoughFaceCycle,
+    /// Lathe: the contour of the blocks P to Q again and again, ever nearer (G73).
+    PatternRepeatCycle,
+    /// Lathe: many passes of a thread (G76).
+    ThreadRepeatCycle,
     /// Lathe: pecking along Z (G74).
     FacePeckCycle,
     /// Lathe: pecking along X (G75).

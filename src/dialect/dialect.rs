@@ -59,6 +59,8 @@ pub struct Quirks {
     pub whole_feed_ambiguous: bool,
     /// A `/` inside a block deletes what stands behind it, where the switch for block delete is on (Fanuc); else only one at the start counts.
     pub delete_rest: bool,
+    /// Axes in the block of a dwell move behind it.
+    pub dwell_then_moves: bool,
     /// Custom macro B is part of the language: variables, IF, GOTO, WHILE, M98, G65.
     pub macro_b: bool,
     /// Machine data decide whether a block in machine coordinates is without the tool's length (Sinumerik 10760 MN_G53_TOOLCORR);

@@ -30,6 +30,7 @@ pub(crate) struct QuirksRow {
     offset_compensation: Option<bool>,
     cutter_offset_ambiguous: Option<bool>,
     whole_feed_ambiguous: Option<bool>,
+    dwell_then_moves: Option<bool>,
 }
 
 impl QuirksRow {
@@ -58,6 +59,7 @@ impl QuirksRow {
             offset_compensation: self.offset_compensation.unwrap_or(base.offset_compensation),
             cutter_offset_ambiguous: self.cutter_offset_ambiguous.unwrap_or(base.cutter_offset_ambiguous),
             whole_feed_ambiguous: self.whole_feed_ambiguous.unwrap_or(base.whole_feed_ambiguous),
+            dwell_then_moves: self.dwell_then_moves.unwrap_or(base.dwell_then_moves),
             rs274: self.rs274.unwrap_or(base.rs274),
             machine_data_suppress_length: self
                 .machine_data_suppress_length

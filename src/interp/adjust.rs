@@ -1,5 +1,5 @@
 //! What a control reads into words before it acts on them: increments and diameters of a lathe, and numbers without a decimal point.
-use crate::codes::{Found, dwell_reads};
+use crate::codes::{BlockCodes, Found, dwell_reads, not_modelled};
 use crate::offsets::LINEAR;
 use crate::run::{Interpreter, Report};
 use crate::words::{Said, Words};
@@ -10,6 +10,28 @@ use trunnion_dialect::{Action, Role};
 const INCREMENTS: [(u8, usize); 4] = [(b'U', 0), (b'V', 1), (b'W', 2), (b'H', 5)];
 
 impl Interpreter<'_> {
+    /// G10.9: X1 makes X a diameter, X0 a radius (Fanuc Series 30i operator's manual, switching of diameter and radius programming).
+    pub(crate) fn diameter_switch(
+        &mut self,
+        found: &Found<'_>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        block.takes_coordinates = true;
+        let x = words.axes.get(0);
+        match x {
+            Some(value) if self.dialect.quirks.diameter && (value == 0.0 || value == 1.0) && words.axes.given == 1 => {
+                self.memory.diameter = Some(value == 1.0);
+            }
+            _ => {
+                not_modelled(found, report);
+                self.memory.hide_for_good();
+                self.forget_position();
+            }
+        }
+    }
+
     /// Puts the words of the block as they are meant.
     #[cold]
     pub(crate) fn adjust(&self, codes: &[Found<'_>], words: &mut Words) {
@@ -29,7 +51,8 @@ impl Interpreter<'_> {
             Some(ImplicitDecimals::Calculator) => words.axes.point |= words.axes.given,
             None => {}
         }
-        if self.dialect.quirks.diameter && !has(Action::Dwell) {
+        let diameter = self.memory.diameter.unwrap_or(self.dialect.quirks.diameter);
+        if diameter && !has(Action::Dwell) && !has(Action::DiameterSwitch) {
             words.axes.values[0] *= 0.5;
         }
     }

@@ -263,8 +263,7 @@ impl Interpreter<'_> {
                 return;
             }
         };
-        self.state.length_unit_mm = unit;
-        self.state.feed_unit_mm = unit;
+        self.state.units(unit, unit);
     }
 
     /// FEDRAT/v, FEDRAT/v,MMPM, FEDRAT/MMPM,v; without a unit length units per minute.

@@ -1,7 +1,6 @@
 //! What the codes of a block change, in the order in which a control acts on them.
-use crate::cycles::Pattern;
+use crate::cycles::{Pattern, Repeated};
 use crate::frames::Return;
-use crate::offsets::ROTARY;
 use crate::run::{Interpreter, Report};
 use crate::tcp::tcp_variant;
 use crate::travel::Travel;
@@ -37,6 +36,8 @@ pub(crate) struct BlockCodes {
     pub(crate) returns: Option<(Return, TextRange)>,
     /// A pattern of holes.
     pub(crate) pattern: Option<Pattern>,
+    /// A turning cycle of many cuts.
+    pub(crate) repeated: Option<Repeated>,
     /// A circular pocket.
     pub(crate) pocket: bool,
     /// Which code of the block is a drilling cycle with its numbers.
@@ -102,6 +103,12 @@ impl<'d> Interpreter<'d> {
         if words.edge.is_said() {
             self.edge_word(words.edge, report);
         }
+        if words.length_offset.is_said() {
+            self.length_word_alone(codes, words, report);
+        }
+        if self.dialect.quirks.offset_compensation && self.state.compensation == 0 {
+            self.cutter_number_ahead(words);
+        }
         self.state.frame_unknown = self.memory.frame_unknown();
         block
     }
@@ -114,9 +121,13 @@ impl<'d> Interpreter<'d> {
             | Action::Linear
             | Action::ArcClockwise
             | Action::ArcCounterClockwise
-            | Action::Thread) => {
+            | Action::Thread
+            | Action::VariableThread) => {
                 state.motion = Some(motion);
                 block.motion = Some(motion);
+                if matches!(motion, Action::Thread | Action::VariableThread) {
+                    self.memory.cycle.letters = crate::unused::letters(found.code);
+                }
             }
             Action::Dwell => block.dwell = true,
             Action::PlaneXy => state.plane = Plane::Xy,
@@ -126,17 +137,19 @@ impl<'d> Interpreter<'d> {
             Action::Incremental => state.incremental = true,
             Action::ArcCentreAbsolute => state.arc_centre_absolute = true,
             Action::ArcCentreIncremental => state.arc_centre_absolute = false,
-            Action::Inch => (state.length_unit_mm, state.feed_unit_mm) = (25.4, 25.4),
-            Action::InchLengthsOnly => (state.length_unit_mm, state.feed_unit_mm) = (25.4, 1.0),
-            Action::Metric => (state.length_unit_mm, state.feed_unit_mm) = (1.0, 1.0),
+            Action::Inch => state.units(25.4, 25.4),
+            Action::InchLengthsOnly => state.units(25.4, 1.0),
+            Action::Metric => state.units(1.0, 1.0),
             Action::FeedInverseTime => self.feed_mode(FeedMode::InverseTime),
             Action::FeedPerMinute => self.feed_mode(FeedMode::PerMinute),
             Action::FeedPerRevolution => self.feed_mode(FeedMode::PerRevolution),
             Action::ConstantSurfaceSpeed => {
                 self.memory.surface_speed = true;
+                state.surface_speed = true;
                 state.spindle_rpm = None;
             }
             Action::ConstantSpindleSpeed => {
+                state.surface_speed = false;
                 if std::mem::replace(&mut self.memory.surface_speed, false) {
                     state.spindle_rpm = None;
                 }
@@ -189,6 +202,7 @@ impl<'d> Interpreter<'d> {
                 self.forget_if(ended);
             }
             Action::FrameChange => self.frame_change(found, words, block, report),
+            Action::FrameLost => self.frame_lost(found, words, block, report),
             Action::CannedCycle => {
                 // MCALL with a cycle behind it begins, MCALL alone ends
                 let alone = block.count == 1 && !words.forgets_all;
@@ -205,6 +219,14 @@ impl<'d> Interpreter<'d> {
             Action::PointToPoint | Action::PointToPointRapid | Action::ContinuousPath => {
                 self.memory.travel = Travel::of(found.code.action).unwrap_or_default();
             }
+            Action::Skip => {
+                let what = format!("{}: where the skip signal ends it", found.code.id);
+                report.fault(found.range, FaultKind::NotModelled { what });
+                block.not_modelled = true;
+                if words.axes.any() {
+                    self.feed_of(crate::MotionKind::Linear, words, report);
+                }
+            }
             Action::HoleCall => {}
             Action::NotFollowed => {
                 block.takes_coordinates |= found.code.kind == CodeKind::G;
@@ -217,6 +239,11 @@ impl<'d> Interpreter<'d> {
                 block.not_modelled = true;
                 not_modelled(found, report);
                 self.forget_everything();
+                if found.code.group.as_deref() == Some("macro-call") {
+                    // a macro runs behind each motion, or instead of each block, until G67
+                    self.memory.begin_frame(found.code, false);
+                    self.memory.frame_turns_axes(found.code);
+                }
             }
             _ => self.apply_frame(found, words, block, report),
         }
@@ -262,91 +289,6 @@ impl<'d> Interpreter<'d> {
                 .map(|number| number.value)
                 .filter(|_| !self.memory.surface_speed);
         }
-    }
-
-    /// A code whose effect is not modelled. In the motion group it is modal; in a group whose other codes give the coordinates
-    /// their meaning, positions are unknown until one of those comes; else everything is forgotten.
-    pub(crate) fn unmodelled_code(
-        &mut self,
-        found: &Found<'d>,
-        words: &Words,
-        block: &mut BlockCodes,
-        report: &mut Report<'_>,
-    ) {
-        not_modelled(found, report);
-        block.not_modelled = true;
-        let group = found.code.group.as_deref();
-        if group.is_some() && group == self.motion_group() {
-            self.state.motion = Some(Action::NotModelled);
-        } else if group.is_some() && self.gives_meaning(group) {
-            self.memory.begin_frame(found.code, true);
-            self.forget_position();
-        } else if !words.axes.any() {
-            self.forget_position();
-        }
-    }
-
-    /// Whether codes of the group decide where a coordinate lies.
-    fn gives_meaning(&self, group: Option<&str>) -> bool {
-        let meaning = |action| {
-            matches!(
-                action,
-                Action::ToolLengthOn
-                    | Action::ToolLengthOff
-                    | Action::TcpOn
-                    | Action::TcpOff
-                    | Action::WorkOffset
-                    | Action::FrameReset
-                    | Action::Metric
-                    | Action::Absolute
-            )
-        };
-        self.dialect
-            .codes()
-            .iter()
-            .any(|code| code.group.as_deref() == group && meaning(code.action))
-    }
-
-    pub(crate) fn motion_group(&self) -> Option<&'d str> {
-        self.dialect.g(0)?.group.as_deref()
-    }
-
-    pub(crate) fn frame_change(
-        &mut self,
-        found: &Found<'d>,
-        words: &Words,
-        block: &mut BlockCodes,
-        report: &mut Report<'_>,
-    ) {
-        let with_values = found.with_arguments || words.has_values;
-        if found.code.kind == CodeKind::Name && !with_values {
-            let ended = self.memory.end_frame(found.code);
-            self.forget_if(ended);
-            return;
-        }
-        if !words.axes.any() && words.speed.is_said() && found.code.words.iter().any(|word| word == "S") {
-            return;
-        }
-        not_modelled(found, report);
-        self.frame_begins(found, words, block);
-    }
-
-    /// From here on positions are unknown.
-    pub(crate) fn frame_begins(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes) {
-        block.takes_coordinates = true;
-        self.memory.begin_frame(found.code, false);
-        // a shift by TRANS may end with it, or lie inside it
-        let shift = self
-            .dialect
-            .name("TRANS")
-            .filter(|_| self.memory.frames.local != [0.0; 9]);
-        if let Some(shift) = shift {
-            self.memory.begin_frame(shift, false);
-        }
-        if (words.axes.given | words.axes.unread) & ROTARY != 0 {
-            self.memory.frame_turns_axes(found.code);
-        }
-        self.forget_position();
     }
 }
 

@@ -4,8 +4,9 @@ use crate::compensation::Told;
 use crate::reader::Reader;
 use crate::run::{Interpreter, Report};
 use crate::values::number;
-use crate::words::Said;
+use crate::words::{Number, Said, Words};
 use crate::{FaultKind, Motion, MotionKind, Refusal};
+use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
 use trunnion_geometry::math::{atan2, tan};
@@ -71,6 +72,27 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 }
 
 impl Interpreter<'_> {
+    /// R, I or K beside a straight cut of a lathe along one axis: a rounded or chamfered corner (Fanuc Series 30i operator's manual, lathe
+    /// system, chamfering and corner R; with parameter 3405.4 CCR, C instead of I and K). The sign tells the way of the next block, which
+    /// is known from that block.
+    pub(crate) fn turned_corner(&self, words: &Words) -> Option<(u8, Number)> {
+        let quirks = &self.dialect.quirks;
+        if !(quirks.diameter && quirks.corner_words) || self.state.motion != Some(Action::Linear) {
+            return None;
+        }
+        let sized = |kind: u8, value: f64| {
+            let number = Number {
+                value: value.abs(),
+                has_point: true,
+                range: TextRange::default(),
+            };
+            (kind, number)
+        };
+        let round = words.radius.number().map(|number| sized(b'R', number.value));
+        let cut = || words.centre.get(0).or(words.centre.get(2));
+        round.or_else(|| cut().map(|value| sized(b'C', value)))
+    }
+
     /// Takes a motion of the block; what can go on is pushed to `on`.
     pub(crate) fn round_corner(&mut self, motion: &Motion, on: &mut Vec<Told>, report: &mut Report<'_>) {
         let mut told = (*motion, self.state.clone());

@@ -1,15 +1,19 @@
 //! Canned cycles, expanded into the motions that a control makes of them.
 mod called;
+mod contour;
 mod data;
+mod groove;
 mod hole;
 mod pass;
 mod pattern;
 mod pocket;
+mod repeat;
 mod steps;
 
 pub(crate) use called::HoleCall;
 pub(crate) use data::{Hole, Stored};
 pub(crate) use pattern::Pattern;
+pub(crate) use repeat::{Kept, Repeated};
 
 use crate::codes::{BlockCodes, Found, not_modelled};
 use crate::run::{Interpreter, Report};
@@ -20,6 +24,8 @@ use trunnion_dialect::{Action, Code};
 pub(crate) struct Cycle {
     /// The code as it is written, for messages.
     pub(crate) id: String,
+    /// Letters that the code reads (A is bit 0).
+    pub(crate) letters: u32,
     /// Whether K or L counts the repeats.
     pub(crate) repeats: u8,
     /// Whether the code reads I, J, K as shifts or depths.
@@ -32,6 +38,8 @@ pub(crate) struct Cycle {
     pub(crate) hole: Hole,
     /// The cycle that runs behind every motion (MCALL).
     pub(crate) call: Option<std::sync::Arc<HoleCall>>,
+    /// Data of turning cycles of many cuts.
+    pub(crate) kept: Kept,
     /// Data of turning cycles: end of the cut in X and Z, taper.
     pub(crate) pass: [Stored; 3],
 }
@@ -56,6 +64,7 @@ impl<'d> Interpreter<'d> {
         let reads = |word: &str| found.code.words.iter().any(|known| known == word);
         let cycle = &mut self.memory.cycle;
         cycle.id.clone_from(&found.code.id);
+        cycle.letters = crate::unused::letters(found.code);
         cycle.repeats = if reads("L") { b'L' } else { b'K' };
         cycle.reads = [reads("I"), reads("J") && reads("I"), reads("K") && reads("L")];
         self.state.motion = Some(action);

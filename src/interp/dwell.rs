@@ -2,7 +2,7 @@
 use crate::codes::Found;
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
-use crate::{Feed, Motion, MotionKind};
+use crate::{FaultKind, Feed, Motion, MotionKind};
 use trunnion_dialect::Action;
 
 impl Interpreter<'_> {
@@ -16,6 +16,39 @@ impl Interpreter<'_> {
             self.hide(&mut motion);
         }
         motion
+    }
+
+    /// Axes that are named in a dwell's block and are not its time.
+    pub(crate) fn axes_beside_dwell(codes: &[Found<'_>], words: &Words) -> u16 {
+        let named = words.axes.given | words.axes.unread;
+        if named == 0 {
+            return 0;
+        }
+        let code = codes.iter().find(|found| found.code.action == Action::Dwell);
+        let reads = |word: &str| code.is_some_and(|found| found.code.words.iter().any(|known| known == word));
+        let mut time = 0;
+        if !words.p.is_said() || !reads("P") {
+            time |= u16::from(reads("X"));
+            time |= u16::from(reads("U")) << 6;
+        }
+        named & !time
+    }
+
+    /// Whether axes move in the block of a dwell is told by no manual here: they are not known after it.
+    pub(crate) fn moved_with_dwell(&mut self, axes: u16, words: &Words, report: &mut Report<'_>) -> Motion {
+        let what = "axes in the block of a dwell".to_owned();
+        report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+        let start = self.state.position;
+        self.state.position.known &= !axes;
+        let end = self.state.position;
+        self.new_motion(
+            MotionKind::Unknown,
+            start,
+            end,
+            self.held_orientation(),
+            Feed::Unknown,
+            report,
+        )
     }
 
     /// Seconds of a dwell: from P, X, U or F as the code reads them, or from S turns of the spindle.

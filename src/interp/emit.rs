@@ -55,6 +55,10 @@ impl Interpreter<'_> {
         }
         let feed = if self.state.motion == Some(Action::Thread) {
             self.lead(words, report)
+        } else if self.state.motion == Some(Action::VariableThread) {
+            // the lead changes along the way
+            self.feed_of(kind, words, report);
+            Feed::Unknown
         } else {
             let feed = self.feed_of(kind, words, report);
             self.turning_feed(feed, words)
@@ -155,6 +159,11 @@ impl Interpreter<'_> {
             end,
             turns: self.turns(words),
         };
+        if self.is_spiral(words) {
+            let what = "a spiral or cone: Q or L beside an arc".to_owned();
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+            return MotionKind::Arc(None);
+        }
         let (arc, fault) = arc(&setting, words);
         if let Some(kind) = fault {
             report.fault(words.first.unwrap_or_default(), kind);

@@ -79,6 +79,8 @@ pub enum FaultKind {
     },
     /// A word is given twice.
     RepeatedWord,
+    /// No code of the block and none in force reads the word at the range; the control skips it.
+    UnusedWord,
     /// A feed motion while no feed is known (or F0; or G93 without F in the block).
     MissingFeed {
         /// True under G93, where each block needs its own F.

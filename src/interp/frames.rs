@@ -58,6 +58,8 @@ pub(crate) struct Frames {
     pub(crate) entering_data: bool,
     /// The intermediate point of the last return to a reference point, work coordinates.
     pub(crate) intermediate: Option<Position>,
+    /// Reference points that the program has stored, machine coordinates.
+    pub(crate) stored_reference: [Option<Position>; 2],
     /// The missing reference points were told.
     pub(crate) reference_said: bool,
 }
@@ -140,9 +142,22 @@ impl<'d> Interpreter<'d> {
             Action::ReferenceCheck | Action::ReferenceReturn | Action::ReferenceReturnOther | Action::ReferenceFrom => {
                 block.returns = Some((Return::of(found, words), found.range));
             }
+            Action::ReferenceStore => self.store_reference(0),
+            Action::ReferenceStoreOther => self.store_reference(1),
+            Action::DiameterSwitch => self.diameter_switch(found, words, block, report),
             Action::ReturnInitial => self.memory.cycle.to_r = false,
             Action::ReturnToR => self.memory.cycle.to_r = true,
             Action::BoltCircle | Action::BoltArc | Action::BoltLine => block.pattern = Pattern::of(found),
+            Action::FinishCycle
+            | Action::RoughTurnCycle
+            | Action::RoughFaceCycle
+            | Action::PatternRepeatCycle
+            | Action::ThreadRepeatCycle
+            | Action::FacePeckCycle
+            | Action::GroovePeckCycle => {
+                block.takes_coordinates = true;
+                block.repeated = Some(self.take_repeated(found));
+            }
             Action::CirclePocket => {
                 block.pocket = true;
                 let what = format!("{}: the path inside the pocket", found.code.id);

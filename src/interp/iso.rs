@@ -5,7 +5,7 @@ use crate::run::{Interpreter, Report, Sink};
 use crate::words::Words;
 use crate::{FaultKind, Motion};
 use trunnion_dialect::{Action, Role};
-use trunnion_syntax::{Address, Block, Item, Value};
+use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 
 /// Whether a block begins with `/`.
 fn is_deleted(block: &Block<'_>) -> bool {
@@ -16,6 +16,9 @@ impl<'d> Interpreter<'d> {
     /// Runs one ISO block. Blocks that begin with `/` are skipped where the switch for that is known to be on.
     pub(crate) fn step_iso(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
         if self.setup.control.block_delete == Some(true) && is_deleted(block) {
+            return;
+        }
+        if self.memory.passed_over.is_some() && self.is_passed_over(block.id()) {
             return;
         }
         let mut codes = std::mem::take(&mut self.codes);
@@ -44,6 +47,19 @@ impl<'d> Interpreter<'d> {
         };
         self.put_out(motion.as_ref(), block, sink);
         self.codes = codes;
+    }
+
+    /// Whether a block belongs to the contour of the turning cycle before it, which has run it.
+    #[cold]
+    fn is_passed_over(&mut self, block: BlockId) -> bool {
+        let over = self
+            .memory
+            .passed_over
+            .is_some_and(|(from, to)| from < block.0 && block.0 <= to);
+        if !over {
+            self.memory.passed_over = None;
+        }
+        over
     }
 
     /// Hands the motions of a block on.
@@ -141,8 +157,12 @@ impl<'d> Interpreter<'d> {
             return None;
         }
         let block = self.apply(codes, words, report);
+        if words.letters & crate::unused::PARAMETERS != 0 && !self.dialect.quirks.user_names {
+            self.unused_words(codes, words, &block, report);
+        }
         self.memory.corners.word = words
             .corner
+            .or_else(|| self.turned_corner(words).filter(|_| words.axes.any()))
             .filter(|_| !block.takes_coordinates)
             .map(|(letter, number)| (letter, number.value * self.state.length_unit_mm));
         if self.state.compensation != 0 && self.dialect.quirks.offset_compensation {
@@ -175,11 +195,26 @@ impl<'d> Interpreter<'d> {
         report: &mut Report<'_>,
     ) -> Option<Motion> {
         if block.dwell {
-            return Some(self.dwell(codes, words, report));
+            let dwell = self.dwell(codes, words, report);
+            let beside = Self::axes_beside_dwell(codes, words);
+            if beside == 0 {
+                return Some(dwell);
+            }
+            self.memory.out.push(dwell);
+            if !self.dialect.quirks.dwell_then_moves {
+                return Some(self.moved_with_dwell(beside, words, report));
+            }
         }
         let modal = self.state.motion;
         let is_arc = matches!(modal, Some(Action::ArcClockwise | Action::ArcCounterClockwise));
         let circle = is_arc && (words.centre.any() || words.radius.is_said()) && block.motion.is_some();
+        if let Some(repeated) = block.repeated {
+            if self.dialect.quirks.whole_numbers_ambiguous && repeated.has_coordinates() {
+                self.whole_numbers(words, report);
+            }
+            self.repeated_cycle(repeated, words, report);
+            return None;
+        }
         if block.returns.is_some() || block.pattern.is_some() || block.pocket {
             return self.special_motion(words, block, report);
         }
@@ -197,7 +232,12 @@ impl<'d> Interpreter<'d> {
         let unmodelled = block.not_modelled || words.unknown_code || words.forgets_all;
         match modal {
             Some(
-                Action::Rapid | Action::Linear | Action::ArcClockwise | Action::ArcCounterClockwise | Action::Thread,
+                Action::Rapid
+                | Action::Linear
+                | Action::ArcClockwise
+                | Action::ArcCounterClockwise
+                | Action::Thread
+                | Action::VariableThread,
             ) if !unmodelled => {
                 if self.dialect.quirks.whole_numbers_ambiguous {
                     self.whole_numbers(words, report);

@@ -32,6 +32,8 @@ mod system;
 mod tcp;
 mod tools;
 mod travel;
+mod unmodelled;
+mod unused;
 mod values;
 mod words;
 
@@ -43,6 +45,7 @@ pub use motion::{
 };
 pub use run::{Interpreter, Sink, run};
 pub use setup::{
-    ControlData, Files, ImplicitDecimals, Library, Limits, Loaded, OuterCorner, RollPitchYaw, Setup, TcpCodes, Tool,
+    ControlData, Files, ImplicitDecimals, LengthUnit, Library, Limits, Loaded, OuterCorner, RollPitchYaw, Setup, TcpCodes,
+    Tool,
     ToolShape, WorkOffset,
 };

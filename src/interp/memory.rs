@@ -46,6 +46,14 @@ pub(crate) struct Memory<'d> {
     pub(crate) status: Option<u16>,
     /// F has a value that is not evaluated.
     pub(crate) feed_unread: bool,
+    /// A turning cycle's block and the last of its contour, which the cycle has run.
+    pub(crate) passed_over: Option<(u32, u32)>,
+    /// The contour of a turning cycle is read.
+    pub(crate) in_contour: bool,
+    /// First blocks of contours whose faults were told.
+    pub(crate) contours_told: Vec<u32>,
+    /// What G10.9 says of X: a diameter, or a radius.
+    pub(crate) diameter: Option<bool>,
     /// S is a cutting speed (G96).
     pub(crate) surface_speed: bool,
     pub(crate) compensation_said: bool,

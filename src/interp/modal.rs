@@ -26,6 +26,8 @@ pub struct ModalState {
     pub incremental: bool,
     /// Arc centres absolute.
     pub arc_centre_absolute: bool,
+    /// The program or the setup has said whether lengths are mm or inch.
+    pub units_said: bool,
     /// mm per programmed length unit: 1 or 25.4.
     pub length_unit_mm: f64,
     /// mm per length unit of F.
@@ -38,6 +40,10 @@ pub struct ModalState {
     pub spindle_on: Option<bool>,
     /// 1/min; `None` before the first S, and under constant cutting speed.
     pub spindle_rpm: Option<f64>,
+    /// G96: S is a cutting speed.
+    pub surface_speed: bool,
+    /// Highest spindle speed that the program allows (G50 S, G92 S), 1/min; NaN where its value could not be read.
+    pub spindle_limit_rpm: Option<f64>,
     /// Active work offset's name.
     pub work_offset: Option<Arc<str>>,
     /// Its values, mm and degrees.
@@ -75,9 +81,11 @@ impl ModalState {
     pub(crate) fn at_start(dialect: &Dialect) -> Self {
         Self {
             motion: dialect.quirks.motion_at_start,
-            plane: Plane::Xy,
+            // a lathe's plane at power-on is G18 (Fanuc Series 30i operator's manual, lathe system, G code list)
+            plane: if dialect.quirks.diameter { Plane::Zx } else { Plane::Xy },
             incremental: false,
             arc_centre_absolute: false,
+            units_said: false,
             length_unit_mm: 1.0,
             feed_unit_mm: 1.0,
             // of a lathe, parameter 3402.4 (FPM) as delivered: per turn
@@ -89,6 +97,8 @@ impl ModalState {
             feed: None,
             spindle_on: None,
             spindle_rpm: None,
+            surface_speed: false,
+            spindle_limit_rpm: None,
             work_offset: None,
             zero: [0.0; 9],
             tool: None,
@@ -106,6 +116,11 @@ impl ModalState {
             orientation: Orientation::Words,
             ended: false,
         }
+    }
+    /// What a length and a length of F count, mm.
+    pub(crate) fn units(&mut self, length_mm: f64, feed_mm: f64) {
+        (self.length_unit_mm, self.feed_unit_mm) = (length_mm, feed_mm);
+        self.units_said = true;
     }
     /// Declared shape of the tool in use, with its diameter in mm; `None` where either is not declared.
     pub fn tool_shape(&self) -> Option<(ToolShape, f64)> {

@@ -93,6 +93,24 @@ impl Interpreter<'_> {
         self.take_length(tool, &key, range, report);
     }
 
+    /// H without a code that reads it: the number changes while the compensation is on, and else waits for it (Fanuc Series 30i
+    /// operator's manual, tool length offset: H is modal).
+    pub(crate) fn length_word_alone(&mut self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
+        let reads = |found: &Found<'_>| found.code.words.iter().any(|word| word == "H");
+        if codes.iter().any(reads) || words.flow {
+            return;
+        }
+        let range = words
+            .length_offset
+            .number()
+            .map_or(TextRange::default(), |number| number.range);
+        if self.state.tool_length_mm.is_some() {
+            self.length_on(words.length_offset, range, report);
+        } else if let Some(number) = words.length_offset.index() {
+            self.memory.length_offset = Some(number);
+        }
+    }
+
     /// The length of an offset number where the program has written any part of it.
     fn written_length(&self, number: u32) -> Option<f64> {
         let offset = self.tool_offset(number)?;

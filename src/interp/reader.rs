@@ -325,6 +325,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         }
         let machine_builder = tenths.is_some_and(|tenths| self.dialect.builder_may_own(kind, tenths));
         self.words.unknown_code |= kind == CodeKind::G;
+        self.words.builder_code |= machine_builder;
         (self.report)(word.range, FaultKind::UnknownCode { machine_builder });
     }
 

@@ -80,6 +80,10 @@ impl<'d> Interpreter<'d> {
             rs274: None,
             chain: ChainId::MAIN,
         };
+        if let Some(unit) = setup.control.units {
+            let mm = unit.mm();
+            interpreter.state.units(mm, mm);
+        }
         if dialect.quirks.first_offset_at_start {
             let first = setup
                 .work_offsets

@@ -68,6 +68,25 @@ pub enum ImplicitDecimals {
     Calculator,
 }
 
+/// The unit of lengths at the start of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LengthUnit {
+    /// mm, mm/min.
+    Millimetre,
+    /// inch, inch/min.
+    Inch,
+}
+
+impl LengthUnit {
+    /// mm per unit.
+    pub fn mm(self) -> f64 {
+        match self {
+            Self::Millimetre => 1.0,
+            Self::Inch => 25.4,
+        }
+    }
+}
+
 /// How cutter compensation goes around an outer corner (Fanuc parameter 19607.2).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OuterCorner {
@@ -113,6 +132,8 @@ pub enum RollPitchYaw {
 /// Parameters of the control that programs depend on; what is not declared is unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ControlData {
+    /// Unit in force before the program says one (G20, G21); `None`: not known, mm is taken.
+    pub units: Option<LengthUnit>,
     /// What X10 means; `None`: it is read as 10 mm and each such word is reported.
     pub implicit_decimals: Option<ImplicitDecimals>,
     /// G73: how far the tool goes back after each step, mm (Fanuc parameter 5114, Haas setting 22).
@@ -144,4 +165,6 @@ pub struct Setup {
     pub library: Library,
     /// Parameters of the control.
     pub control: ControlData,
+    /// Numbered variables that have a value before the program runs, sorted by number, each once; `None` is vacant. In program units.
+    pub variables: Vec<(u32, Option<f64>)>,
 }

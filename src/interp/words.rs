@@ -174,6 +174,8 @@ pub(crate) struct Words {
     pub(crate) writes_system: bool,
     /// `,R` or `,C` with its value as written: the corner between this motion and the next is rounded or cut off.
     pub(crate) corner: Option<(u8, Number)>,
+    /// An M code that the builder may have given a meaning stands in the block.
+    pub(crate) builder_code: bool,
     /// A G code without meaning stands in the block.
     pub(crate) unknown_code: bool,
     /// `%` without a name.

@@ -1,5 +1,6 @@
 //! Where a program speaks of its own block numbers: jumps, returns, local subprograms, contours of turning cycles. What cannot be
 //! read as a number is said, never guessed.
+use trunnion_dialect::{Action, Dialect};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, TokenKind, Value};
 
 /// A block number that is named somewhere else than at its block.
@@ -34,9 +35,10 @@ pub(crate) struct Found {
 }
 
 /// Reads one block.
-pub(crate) fn read(block: &Block<'_>, found: &mut Found) {
+pub(crate) fn read(block: &Block<'_>, dialect: &Dialect, found: &mut Found) {
     let mut reader = Reader {
         program: block.program(),
+        dialect,
         block,
         found,
     };
@@ -47,6 +49,7 @@ pub(crate) fn read(block: &Block<'_>, found: &mut Found) {
 
 struct Reader<'r, 'p> {
     program: &'p Program,
+    dialect: &'r Dialect,
     block: &'r Block<'p>,
     found: &'r mut Found,
 }
@@ -89,13 +92,13 @@ impl Reader<'_, '_> {
             }
         }
         let has = |code| codes.contains(&code);
-        let turning = [70, 71, 72, 73].iter().any(|&code| has((b'G', code)));
+        let turning = codes.iter().any(|&code| self.names_contour(code));
         let word = |letter: u8| words.iter().find(|(own, _)| *own == letter).map(|(_, word)| *word);
         if has((b'M', 99)) || has((b'M', 97)) {
             if let Some(p) = word(b'P') {
                 self.target(p, has((b'M', 99)));
             }
-        } else if turning && word(b'Z').is_none() && word(b'R').is_none() {
+        } else if turning && (self.dialect.quirks.diameter || word(b'Z').is_none() && word(b'R').is_none()) {
             // with Z or R it is a drilling cycle (G73), whose P and Q are a dwell and a depth
             if let (Some(p), Some(q)) = (word(b'P'), word(b'Q')) {
                 self.target(p, false);
@@ -103,7 +106,8 @@ impl Reader<'_, '_> {
             }
         } else if has((b'M', 98)) || has((b'M', 198)) || has((b'G', 65)) || has((b'G', 66)) {
             self.call(word(b'P'));
-            if let (Some(h), true) = (word(b'H'), has((b'M', 98))) {
+            let names = word(b'H').or_else(|| word(b'Q').filter(|_| self.dialect.quirks.macro_b));
+            if let (Some(h), true) = (names, has((b'M', 98))) {
                 let why = format!(
                     "`{}` beside M98 may name a block of the program that is called",
                     self.text(h.range)
@@ -111,6 +115,26 @@ impl Reader<'_, '_> {
                 self.obstacle(h.range, why);
             }
         }
+    }
+
+    /// Whether P and Q beside the code are blocks of a contour. On a Fanuc lathe the table says it: in system C G72 to G75 are what G70 to G73
+    /// are in systems A and B.
+    fn names_contour(&self, (letter, number): (u8, i64)) -> bool {
+        if letter != b'G' {
+            return false;
+        }
+        if !self.dialect.quirks.diameter {
+            return (70..=73).contains(&number);
+        }
+        let code = u32::try_from(number)
+            .ok()
+            .and_then(|number| self.dialect.g(number.checked_mul(10)?));
+        code.is_some_and(|code| {
+            matches!(
+                code.action,
+                Action::FinishCycle | Action::RoughTurnCycle | Action::RoughFaceCycle | Action::PatternRepeatCycle
+            )
+        })
     }
 
     fn call(&mut self, p: Option<trunnion_syntax::Word>) {

@@ -63,7 +63,7 @@ struct Survey {
 
 /// Gives a program new block numbers.
 pub fn renumber(program: &Program, dialect: &Dialect, setup: &Setup, numbers: Numbers) -> Renumbered {
-    let survey = Survey::new(program);
+    let survey = Survey::new(program, dialect);
     let (new, blocks) = match new_numbers(program, dialect, numbers, &survey) {
         Ok(new) => new,
         Err(obstacle) => return Renumbered::Refused(obstacle),
@@ -91,7 +91,7 @@ pub fn renumber(program: &Program, dialect: &Dialect, setup: &Setup, numbers: Nu
         return refused(range, "the same number is read in two ways".to_owned());
     };
     let after = parse(text, program.options());
-    let again = Survey::new(&after);
+    let again = Survey::new(&after, dialect);
     if again.resolve(&after).ok().as_ref() != Some(&targets) {
         return refused(
             TextRange::default(),
@@ -154,7 +154,7 @@ fn new_numbers(
 }
 
 impl Survey {
-    fn new(program: &Program) -> Self {
+    fn new(program: &Program, dialect: &Dialect) -> Self {
         let mut survey = Self {
             parts: vec![Part {
                 name: -1,
@@ -174,7 +174,7 @@ impl Survey {
             let at = survey.parts.len() - 1;
             survey.part_of.push(at as u32);
             let calls = survey.found.calls.len();
-            read(&block, &mut survey.found);
+            read(&block, dialect, &mut survey.found);
             let part = &mut survey.parts[at];
             part.calls
                 .extend(survey.found.calls[calls..].iter().map(|(_, number, _)| *number));

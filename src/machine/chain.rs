@@ -187,6 +187,8 @@ pub struct Control {
     pub tcp_codes: Option<trunnion_interp::TcpCodes>,
     /// What words mean that ask for a posture: STAT, TU, G53.1 P.
     pub posture_words: crate::PostureWords,
+    /// Unit of lengths before a program says one; `None`: not declared.
+    pub units: Option<trunnion_interp::LengthUnit>,
 }
 
 /// Thresholds of the rules.

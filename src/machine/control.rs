@@ -5,7 +5,7 @@ use crate::text::number;
 use crate::validate::{Fault, non_negative, positive};
 use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction, PostureRule, RapidPath};
 use trunnion_geometry::{deg, rad};
-use trunnion_interp::TcpCodes;
+use trunnion_interp::{LengthUnit, TcpCodes};
 
 /// Names that `family` may have (interface, section 7).
 const FAMILIES: &[&str] = &[
@@ -56,6 +56,11 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         block_time: None,
         tcp_codes: raw.tcp_codes.as_ref().map(tcp_codes).transpose()?,
         posture_words: posture_words(&raw.posture_words, axes)?,
+        units: match one_of("units", raw.units.as_ref(), &["mm", "inch"])?.as_deref() {
+            Some("inch") => Some(LengthUnit::Inch),
+            Some(_) => Some(LengthUnit::Millimetre),
+            None => None,
+        },
     };
     if let Some(pole) = &raw.pole {
         let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;

@@ -5,6 +5,7 @@ use crate::text::{direction, number, triple};
 use crate::uncertainty::{PIVOT_SENSITIVITY, worst_pivot_error};
 use crate::{Axis, AxisKind, Limits, Machine, RapidPath, Side};
 use trunnion_geometry::{Vec3, deg};
+use trunnion_interp::LengthUnit;
 
 /// One axis in words and numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -324,6 +325,13 @@ fn control(machine: &Machine) -> Vec<String> {
         format!("family {}", control.family),
         format!("with tool centre point control the tip runs straight and the orientation {orientation}{said}"),
     ];
+    if let Some(unit) = control.units {
+        let name = match unit {
+            LengthUnit::Millimetre => "mm",
+            LengthUnit::Inch => "inch",
+        };
+        lines.push(format!("lengths are in {name} until a program says otherwise"));
+    }
     if let Some(codes) = &control.tcp_codes {
         let list = |codes: &[String]| {
             if codes.is_empty() {

@@ -75,6 +75,7 @@ tail | [control];;branch = { range = { A = [1, 1] } } | [1, 1] | below the upper
 tail | [control];;pole = { passing_type = 3 } | 3 | 1 and 2
 tail | [control];;pole = { action = "jump" } | "jump" | known: through
 tail | [control];;corner = { model = "round" } | "round" | known: axis-jump
+tail | [control];;units = "cm" | "cm" | units
 tail | [control];;tcp_codes = { on = ["428"] } | "428" | no code
 tail | [control];;tcp_codes = { on = ["M428"], off = ["M428"] } | "M428" | both on and off
 tail | [control];;planner = { block_time = -1 } | -1 | negative

@@ -168,6 +168,7 @@ pub(crate) struct RawControl {
     pub(crate) tcp_codes: Option<RawTcpCodes>,
     #[serde(default)]
     pub(crate) posture_words: RawPostureWords,
+    pub(crate) units: Option<Word>,
 }
 
 #[derive(Deserialize, Default)]

@@ -65,6 +65,7 @@ pole = { cone = 2.0, action = "through", passing_type = 1 }
 rapid = "dogleg"
 corner = { model = "axis-jump", dv = { X = 5, C = 1 } }
 planner = { lookahead = 150, block_time = 0.002, filter_time = 0.004 }
+units = "inch"
 tcp_codes = { on = ["M428"], off = ["M429"] }
 [tolerances]
 tip = 0.02
@@ -147,6 +148,7 @@ fn every_key_is_read() {
     assert_eq!(machine.control.rapid, RapidPath::Dogleg);
     assert!(machine.control.tcp_great_circle && machine.control.tcp_declared);
     assert_eq!(machine.control.corner_model.as_deref(), Some("axis-jump"));
+    assert_eq!(machine.control.units, Some(trunnion_interp::LengthUnit::Inch));
     let codes = machine.control.tcp_codes.as_ref().expect("declared");
     assert_eq!(
         (codes.meaning("M428"), codes.meaning("m429")),

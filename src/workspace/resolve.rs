@@ -104,6 +104,9 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     if let (None, Some(machine)) = (&setup.control.tcp_codes, &machine) {
         setup.control.tcp_codes.clone_from(&machine.control.tcp_codes);
     }
+    if let (None, Some(machine)) = (setup.control.units, &machine) {
+        setup.control.units = machine.control.units;
+    }
     setup.library = library(path, &config, config_file.as_ref())?;
     let mut port_to = config.port_to.clone();
     for name in &overrides.port_to {

@@ -318,6 +318,7 @@ pub(super) fn is_grave(kind: &FaultKind) -> bool {
         | FaultKind::ToolLengthUnset { .. }
         | FaultKind::MissingProgramEnd
         | FaultKind::AptVectorMissing
+        | FaultKind::UnusedWord
         | FaultKind::UnknownCode { machine_builder: true } => false,
         FaultKind::VectorNotUnit { norm } => (norm - 1.0).abs() > 1e-2,
         FaultKind::Rejected { refusal, .. } => *refusal != Refusal::ProgramEnd,

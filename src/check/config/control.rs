@@ -3,13 +3,22 @@ use super::ConfigError;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
-use trunnion_interp::{AxisLetter, ControlData, ImplicitDecimals, OuterCorner, Position, RollPitchYaw, TcpCodes};
+use trunnion_interp::{
+    AxisLetter, ControlData, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, TcpCodes,
+};
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Decimals {
     LeastIncrement,
     Calculator,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Unit {
+    Mm,
+    Inch,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -42,6 +51,7 @@ struct Codes {
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FileControl {
+    units: Option<Unit>,
     implicit_decimals: Option<Decimals>,
     chip_break_retract: Option<Spanned<f64>>,
     peck_clearance: Option<Spanned<f64>>,
@@ -61,6 +71,10 @@ impl FileControl {
             reference_points.push(position(point)?);
         }
         Ok(ControlData {
+            units: self.units.map(|unit| match unit {
+                Unit::Mm => LengthUnit::Millimetre,
+                Unit::Inch => LengthUnit::Inch,
+            }),
             implicit_decimals: self.implicit_decimals.map(|decimals| match decimals {
                 Decimals::LeastIncrement => ImplicitDecimals::LeastIncrement,
                 Decimals::Calculator => ImplicitDecimals::Calculator,
@@ -127,13 +141,14 @@ fn position(point: &BTreeMap<Spanned<String>, Spanned<f64>>) -> Result<Position,
 #[cfg(test)]
 mod tests {
     use crate::Config;
-    use trunnion_interp::{ImplicitDecimals, OuterCorner};
+    use trunnion_interp::{ImplicitDecimals, LengthUnit, OuterCorner};
 
     #[test]
     fn a_whole_section_is_read() {
-        let text = "[control]\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\n\
+        let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\n\
                     outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
+        assert_eq!(control.units, Some(LengthUnit::Inch));
         assert_eq!(control.implicit_decimals, Some(ImplicitDecimals::LeastIncrement));
         assert_eq!(control.chip_break_retract_mm, Some(0.5));
         assert_eq!(control.peck_clearance_mm, Some(1.0));
@@ -154,6 +169,7 @@ mod tests {
     fn errors_point_at_their_place() {
         for (text, wrong) in [
             ("[control]\nimplicit_decimals = \"maybe\"", "\"maybe\""),
+            ("[control]\nunits = \"cm\"", "\"cm\""),
             ("[control]\npeck_clearance = -1", "-1"),
             ("[control]\nreference_points = [{ Q = 1 }]", "Q"),
             ("[control]\nreference_points = [{ X = inf }]", "inf"),

@@ -26,6 +26,8 @@ struct File {
     #[serde(default)]
     control: super::control::FileControl,
     #[serde(default)]
+    variables: super::variables::FileVariables,
+    #[serde(default)]
     rules: BTreeMap<Spanned<String>, Spanned<String>>,
     #[serde(default)]
     tolerances: BTreeMap<Spanned<String>, Spanned<f64>>,
@@ -91,6 +93,7 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
         config.subprogram_path.push((folder.into_inner(), span));
     }
     config.setup.control = file.control.data()?;
+    config.setup.variables = super::variables::variables(&file.variables)?;
     if let Some(blocks) = &file.limits.blocks {
         config.setup.limits.blocks = limit("blocks", blocks, MOST_BLOCKS)?;
     }

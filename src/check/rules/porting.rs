@@ -103,4 +103,46 @@ mod tests {
             assert_eq!(ported("gcode linuxcnc port=fanuc-30i", text), expected, "{text}");
         }
     }
+
+    /// Each lint with a wrong and a right line, in both directions where both controls take the line: what differs for the one who comes from
+    /// Fanuc differs for the one who comes from LinuxCNC.
+    #[test]
+    fn wrong_and_right_in_both_directions() {
+        const THERE: &str = "gcode fanuc-30i port=linuxcnc";
+        const BACK: &str = "gcode linuxcnc port=fanuc-30i";
+        for (wrong, what, right) in [
+            ("#1=FIX[#2]\n", "FIX", "#1=ROUND[#2]\n"),
+            ("#1=FUP[#2]\n", "FUP", "#1=ABS[#2]\n"),
+            ("#1=[#2 MOD 3]\n", "MOD", "#1=[#2 / 3]\n"),
+            ("#1=[#2 OR #3 AND #4]\n", "OR", "#1=[#2 OR [#3 AND #4]]\n"),
+            ("#1=[#2 GT 1 AND #3]\n", "AND", "#1=[[#2 GT 1] AND #3]\n"),
+        ] {
+            for info in [THERE, BACK] {
+                assert_eq!(ported(info, wrong), [what], "{info}: {wrong}");
+                assert_eq!(ported(info, right), [""; 0], "{info}: {right}");
+            }
+        }
+        // only one of the two controls lets these pass; the other one's own rules tell of them
+        for (wrong, what, right) in [
+            ("G0 G1 X1. F100.\n", "G1", "G1 X1. F100.\n"),
+            ("M3 M4 S100\n", "M4", "M4 S100\n"),
+            ("G0 X1. Y1. X2.\n", "X2.", "G0 X2. Y1.\n"),
+            ("G0 X1. /Y2.\n", "/", "/G0 X1. Y2.\n"),
+            ("G4 P500\n", "P500", "G4 X0.5\n"),
+        ] {
+            assert_eq!(ported(THERE, wrong), [what], "{wrong}");
+            let right = ported(THERE, right);
+            assert!(right.is_empty(), "{right:?}");
+        }
+        for (wrong, what, right) in [
+            ("G4 P0.5\n", "P0.5", "G1 X1. F1.\n"),
+            ("G0 X10\n", "X10", "G0 X10.\n"),
+            ("#1=[2**3]\n", "**", "#1=[2*2*2]\n"),
+            ("G0 X1. ; there\n", "; there", "G0 X1. (there)\n"),
+            ("#<a>=1\n", "#<a>", "#1=1\n"),
+        ] {
+            assert_eq!(ported(BACK, wrong), [what], "{wrong}");
+            assert_eq!(ported(BACK, right), [""; 0], "{right}");
+        }
+    }
 }

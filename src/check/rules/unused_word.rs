@@ -19,11 +19,14 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for controls that refuse such a block. An error there; where the control skips the word, a warning.
+//! Sound for LinuxCNC and grbl, which refuse such a block: an error there. Elsewhere the control skips the word: a warning where neither a
+//! code of the block nor one in force has the address. Words beside codes of the machine's builder, and beside codes that are not
+//! modelled, are not judged; on a Sinumerik, where single letters are the program's own, nothing is.
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9.
+//! Answers of the interpreter of LinuxCNC 2.9; grbl 1.1, error 36; the addresses of each code in the Fanuc and Haas manuals.
 use crate::prelude::*;
+use crate::runs::SHORT_RUN;
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
@@ -34,5 +37,70 @@ pub(super) const RULE: Body = Body {
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let Some(draft) = refused(fault, out, &[Refusal::UnusedWord]) {
         draft.help("remove the word, or write the code that it belongs to");
+    }
+    if fault.kind == FaultKind::UnusedWord {
+        let text = out.text(fault.range);
+        let text = text.trim();
+        out.report(
+            fault.range,
+            format!("`{text}`: no code of the block, and none in force, reads it"),
+        )
+        .severity(Severity::Warning)
+        .note("the control skips it, or reads it in a way that is not known here")
+        .help("remove the word, or write the code that it belongs to")
+        .merge_runs_over(SHORT_RUN, hash(text), 0.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn where_the_control_skips_it_it_is_a_warning() {
+        let report = assert_drawn(
+            "gcode fanuc-30i",
+            "G1 X1. F100. R5.\n;            ^^^ unused-word: `R5.`: no code of the block, and none in force, reads it\nG4 P100 Q1\n;       ^^ unused-word: \n",
+        );
+        assert!(
+            report
+                .diagnostics
+                .iter()
+                .all(|found| found.severity == Severity::Warning)
+        );
+    }
+
+    #[test]
+    fn what_the_control_refuses_is_an_error() {
+        let report = assert_drawn("gcode grbl", "G1 X1 F100 P5\n;          ^^ unused-word: \n");
+        assert_eq!(report.diagnostics[0].severity, Severity::Error);
+    }
+
+    #[test]
+    fn what_codes_read_is_no_finding() {
+        for program in [
+            "G43 H1 Z5.\nG41 D2 X1. F100.\nG1 X5.\nG40 X0.\n",
+            "G17 G2 X10. Y0. I5. J0. F100.\nG18 G3 X0. Z0. R5.\n",
+            "G0 Z9.\nG98 G83 X1. Y2. Z-5. R1. Q1. F100. K2\nX5.\nR2. Q0.5\nX7.\nG80\n",
+            "G68 X0. Y0. R45.\nG69\nG10 L2 P1 X0.\nM19 R90.\nG4 X1.5\n",
+        ] {
+            let fixture = crate::fixture::Fixture::parse("gcode fanuc-30i", program);
+            let report = fixture.check().unwrap();
+            let found: Vec<_> = report
+                .diagnostics
+                .iter()
+                .filter(|found| found.rule == "unused-word")
+                .collect();
+            assert!(found.is_empty(), "{program}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn the_centre_out_of_the_plane_and_words_in_calls() {
+        assert_drawn(
+            "gcode haas-ngc",
+            "G17 G2 X0. Y0. I5. K1. F100.\n;                  ^^^ unused-word: \n",
+        );
     }
 }

@@ -167,6 +167,7 @@ pub(super) fn says_more(kind: &FaultKind) -> bool {
             | FaultKind::ToolLengthUnset { .. }
             | FaultKind::UnknownWord
             | FaultKind::RepeatedWord
+            | FaultKind::UnusedWord
     )
 }
 

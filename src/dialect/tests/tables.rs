@@ -86,7 +86,12 @@ fn a_frame_that_is_reset_is_in_the_group_of_its_reset() {
         let codes = dialect(name).codes();
         for reset in codes.iter().filter(|code| code.action == Action::FrameReset) {
             // a change by a name that has no arguments (DIAMON) is `not-modelled`: a `frame-change` without arguments ends
-            let changes = |code: &&Code| matches!(code.action, Action::FrameChange | Action::NotModelled);
+            let changes = |code: &&Code| {
+                matches!(
+                    code.action,
+                    Action::FrameChange | Action::FrameLost | Action::NotModelled | Action::SubprogramCall
+                )
+            };
             let ended = codes.iter().filter(changes).any(|code| code.group == reset.group);
             assert!(reset.group.is_some() && ended, "{name} {}", reset.id);
         }

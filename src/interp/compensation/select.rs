@@ -54,6 +54,13 @@ impl<'d> Interpreter<'d> {
         }
     }
 
+    /// D while compensation is off: it waits for G41 or G42 (Fanuc Series 30i operator's manual, cutter compensation: D is modal).
+    pub(crate) fn cutter_number_ahead(&mut self, words: &Words) {
+        if let Some(number) = words.letter(b'D').index() {
+            self.memory.compensation.d = Some(number);
+        }
+    }
+
     /// D in a block of its own, while compensation is on.
     pub(crate) fn cutter_number(&mut self, words: &Words, report: &mut Report<'_>) {
         let d = words.letter(b'D');

@@ -52,6 +52,13 @@ impl Interpreter<'_> {
         }
     }
 
+    /// The present point becomes a reference point; what is not known of it stays unknown.
+    pub(crate) fn store_reference(&mut self, place: usize) {
+        let mut position = self.state.position;
+        self.to_machine(&mut position, 1.0);
+        self.memory.frames.stored_reference[place] = Some(position);
+    }
+
     fn rapid_to(&mut self, point: Position, report: &Report<'_>) {
         let position = self.state.position;
         if self.memory.frames.programmed(&position) != point {
@@ -75,12 +82,9 @@ impl Interpreter<'_> {
 
     /// Rapid of the named axes to a reference point: in machine coordinates where it is declared, else to nobody knows where.
     fn reach_reference(&mut self, named: u16, number: u32, range: TextRange, report: &mut Report<'_>) {
-        let declared = self
-            .setup
-            .control
-            .reference_points
-            .get((number.max(1) - 1) as usize)
-            .copied();
+        let place = (number.max(1) - 1) as usize;
+        let stored = self.memory.frames.stored_reference.get(place).copied().flatten();
+        let declared = stored.or_else(|| self.setup.control.reference_points.get(place).copied());
         let mut start = self.state.position;
         self.to_machine(&mut start, 1.0);
         let mut end = start;

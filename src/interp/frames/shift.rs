@@ -93,8 +93,12 @@ impl<'d> Interpreter<'d> {
         block: &mut BlockCodes,
         report: &mut Report<'_>,
     ) {
-        if !words.axes.any() && words.speed.is_said() {
-            return;
+        if words.speed.is_said() {
+            let limit = words.speed.number().map_or(f64::NAN, |number| number.value);
+            self.state.spindle_limit_rpm = Some(limit);
+            if !words.axes.any() {
+                return;
+            }
         }
         block.takes_coordinates = true;
         let known = words.axes.given & !self.state.position.known == 0;

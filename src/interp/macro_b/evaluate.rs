@@ -54,7 +54,12 @@ impl trunnion_formula::Variables for View<'_> {
             (Some(held), _) => held.unwrap_or(0.0),
             (None, Class::System(number)) => {
                 self.asked_control.set(true);
-                self.known.read(number)
+                let known = self.known.read(number);
+                if known.is_nan() {
+                    self.variables.of_control(number).unwrap_or(0.0)
+                } else {
+                    known
+                }
             }
             _ => return Err(ValueError::OutOfRange),
         };
@@ -76,7 +81,10 @@ impl trunnion_formula::Variables for View<'_> {
         self.variables.named(name).is_some()
     }
     fn null(&self, index: i64) -> bool {
-        matches!(self.variables.get(index), Some(None))
+        match class(index) {
+            Class::System(number) => self.variables.of_control(number).is_none(),
+            _ => matches!(self.variables.get(index), Some(None)),
+        }
     }
 }
 

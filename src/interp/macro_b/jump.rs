@@ -21,6 +21,14 @@ impl Deep {
 }
 
 impl Interpreter<'_> {
+    /// Sequence numbers of the file that runs.
+    pub(crate) fn sequence_numbers(&mut self, program: &Program) -> Arc<Index> {
+        match &mut self.flow.deep {
+            Some(deep) => deep.index(deep.place.file, program),
+            None => Arc::new(Index::of(program)),
+        }
+    }
+
     /// Does what the block `from` of the program that runs asks for.
     pub(crate) fn transfer(&mut self, pending: Pending, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
         match pending {

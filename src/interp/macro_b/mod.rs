@@ -24,7 +24,7 @@ mod words;
 use crate::ChainId;
 use chains::Chains;
 use evaluate::Compiled;
-use index::Index;
+pub(crate) use index::Index;
 pub(crate) use name::ProgramName;
 use ran::{Ran, Told};
 pub(crate) use read::Macros;

@@ -2,7 +2,7 @@
 use super::alarms::{Mistake, is_fanuc, rejected};
 use super::evaluate::{Assigned, Compiled, Form, Trouble, View, assigned, evaluate, only_read};
 use super::system::{Known, is_followed};
-use super::variables::{Class, Held, class};
+use super::variables::{Class, Held, Variables, class};
 use super::{Deep, FlowCode, Pending};
 use crate::frames::Frames;
 use crate::reader::{LARGEST, Reader};
@@ -76,7 +76,13 @@ fn flow_code(dialect: &Dialect, kind: CodeKind, tenths: u32) -> Option<FlowCode>
 
 impl Macros<'_> {
     fn deep(&mut self) -> &mut Deep {
-        self.deep.get_or_insert_with(Box::default)
+        let setup = self.setup;
+        self.deep.get_or_insert_with(|| {
+            Box::new(Deep {
+                variables: Variables::with(&setup.variables),
+                ..Deep::default()
+            })
+        })
     }
 
     /// What formulas read from.
@@ -356,7 +362,10 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 macros.deep().writes.push((number, held.unwrap_or(0.0)));
                 return;
             }
-            Class::System(number) => return self.system_word(format!("#{number}").as_bytes(), range),
+            Class::System(number) => {
+                macros.deep().variables.control_written(number);
+                return self.system_word(format!("#{number}").as_bytes(), range);
+            }
             Class::Vacant => (
                 Mistake::ProtectedVariable,
                 "#0 is always vacant and cannot be assigned".to_owned(),

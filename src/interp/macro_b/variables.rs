@@ -17,6 +17,8 @@ pub(crate) struct Variables {
     pub(crate) locals: Locals,
     common: BTreeMap<u32, Held>,
     named: BTreeMap<Box<str>, f64>,
+    /// Variables of the control that the setup declares and the program has not written.
+    declared: BTreeMap<u32, Held>,
     /// Why a variable that was assigned is not known.
     reasons: BTreeMap<i64, Box<str>>,
     /// Blocks ran, or did not run, that nobody followed: nothing is known any more.
@@ -31,6 +33,7 @@ impl Default for Variables {
             locals: [None; LOCALS],
             common: BTreeMap::new(),
             named: BTreeMap::new(),
+            declared: BTreeMap::new(),
             reasons: BTreeMap::new(),
             lost: false,
             changes: 0,
@@ -66,6 +69,29 @@ pub(crate) fn class(index: i64) -> Class {
 }
 
 impl Variables {
+    /// With what a setup declares, by number.
+    pub(crate) fn with(declared: &[(u32, Held)]) -> Self {
+        let mut variables = Self::default();
+        for (number, held) in declared {
+            match class(i64::from(*number)) {
+                Class::Common(common) => variables.common.insert(common, *held),
+                Class::System(system) => variables.declared.insert(system, *held),
+                _ => None,
+            };
+        }
+        variables
+    }
+    /// A variable of the control as the setup declares it; NaN where it is not declared, or may have changed.
+    pub(crate) fn of_control(&self, number: u32) -> Held {
+        match self.declared.get(&number) {
+            Some(held) if !self.lost => *held,
+            _ => Some(f64::NAN),
+        }
+    }
+    /// The program writes a variable of the control.
+    pub(crate) fn control_written(&mut self, number: u32) {
+        self.declared.remove(&number);
+    }
     /// A local or common variable; `None` where the number is neither.
     pub(crate) fn get(&self, index: i64) -> Option<Held> {
         let held = match class(index) {

@@ -111,6 +111,14 @@ impl<'d> Interpreter<'d> {
         !inside && self.memory.last_content.is_some()
     }
 
+    /// G67: G66.1 has hidden the positions.
+    fn macro_per_block_ends(&mut self) {
+        if let Some(code) = self.dialect.g(670) {
+            let ended = self.memory.end_frame(code);
+            self.forget_if(ended);
+        }
+    }
+
     fn flow_code(
         &mut self,
         deep: &mut Box<Deep>,
@@ -123,6 +131,7 @@ impl<'d> Interpreter<'d> {
             FlowCode::ModalOff => {
                 deep.modal.pop();
                 deep.modal_active = deep.modal_active.min(deep.modal.len());
+                self.macro_per_block_ends();
                 return;
             }
             FlowCode::Return => {

@@ -14,6 +14,8 @@ use trunnion_syntax::{BlockId, Program, TextRange};
 /// calls back while the state runs ahead.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Told {
+    /// The control has told its own unit of lengths.
+    pub(super) own_units: bool,
     /// Where the machine is, mm and deg, as far as it is known.
     pub(super) machine: Position,
     /// F.

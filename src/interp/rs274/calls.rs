@@ -161,9 +161,13 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Canon::ToolOffset(ref offset) => self.tool_offset(offset, at, state),
             Canon::G5xOffset(index, ref offset) => self.work_offset(index, offset, at),
             Canon::Units(units) => {
+                // the first one is the control's own, before the program
+                let own = !std::mem::replace(&mut self.told.own_units, true);
                 let modal = &mut self.interpreter.state;
-                modal.length_unit_mm = if units == Units::Inch { 25.4 } else { 1.0 };
-                modal.feed_unit_mm = modal.length_unit_mm;
+                let said = modal.units_said || !own;
+                let unit = if units == Units::Inch { 25.4 } else { 1.0 };
+                modal.units(unit, unit);
+                modal.units_said = said;
             }
             Canon::Plane(plane) => {
                 self.interpreter.state.plane = match plane {

@@ -1,5 +1,5 @@
 //! What LinuxCNC's interpreter is told of a run's setup.
-use crate::{Setup, Tool};
+use crate::{LengthUnit, Setup, Tool};
 use trunnion_dialect::{Code, CodeKind, Dialect};
 use trunnion_ngc::{Parameters, Setup as Told, Start, ToolEntry, ToolTable, Units};
 
@@ -49,6 +49,14 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
     }
     // G92 is off
     values.extend((5210..=5219).map(|number| (number, 0.0)));
+    // what the settings say of a variable comes before what is made of offsets
+    values.retain(|(number, _)| setup.variables.iter().all(|(known, _)| known != number));
+    values.extend(
+        setup
+            .variables
+            .iter()
+            .filter_map(|(number, value)| Some((*number, (*value)?))),
+    );
     values.sort_unstable_by_key(|(number, _)| *number);
     let mut own: Vec<(u8, u32)> = dialect.codes().iter().filter_map(numbered).collect();
     own.sort_unstable();
@@ -59,7 +67,10 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
     let tools = setup.tools.iter().chain(declared).filter(|tool| tool.number != 0);
     Told {
         start: Start::Unknown,
-        machine_units: Units::Millimetre,
+        machine_units: match setup.control.units {
+            Some(LengthUnit::Inch) => Units::Inch,
+            Some(LengthUnit::Millimetre) | None => Units::Millimetre,
+        },
         own_codes: own.into(),
         own_motions: motions.into(),
         any_tool: true,

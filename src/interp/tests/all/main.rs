@@ -23,6 +23,8 @@ mod macro_values;
 mod motions;
 mod orientation;
 mod properties;
+mod repeated;
+mod silent;
 mod support;
 mod tilted;
 mod tools;

@@ -122,3 +122,24 @@ fn programs_that_are_called_elsewhere_are_named() {
     };
     assert_eq!((called_outside, blocks, references), (vec![2000], 2, 1));
 }
+
+#[test]
+fn contours_of_every_lathe_system_follow() {
+    let a = "N1 G71 U2. R1.\nN2 G71 P3 Q4 U.4 W.1 F.2\nN3 G0 X20.\nN4 G1 Z-5.\nN5 G70 P3 Q4\nN6 G75 X10. P3 Q4 F.1\nN7 M30\n";
+    assert_eq!(
+        changed(a, "fanuc-30i-lathe-a"),
+        "N100 G71 U2. R1.\nN110 G71 P120 Q130 U.4 W.1 F.2\nN120 G0 X20.\nN130 G1 Z-5.\nN140 G70 P120 Q130\nN150 G75 X10. P3 Q4 F.1\nN160 M30\n"
+    );
+    // in system C they are G73 and G72, and G75 is what G73 is in A
+    let c = "N1 G73 P3 Q4 U.4 W.1 D2. F.2\nN3 G0 X20.\nN4 G1 Z-5.\nN5 G72 P3 Q4\nN6 G75 P3 Q4 R3\nN7 M30\n";
+    assert_eq!(
+        changed(c, "fanuc-30i-lathe-c"),
+        "N100 G73 P110 Q120 U.4 W.1 D2. F.2\nN110 G0 X20.\nN120 G1 Z-5.\nN130 G72 P110 Q120\nN140 G75 P110 Q120 R3\nN150 M30\n"
+    );
+}
+
+#[test]
+fn calls_that_name_a_block_of_another_program_stand_in_the_way() {
+    let why = refused("O1\nN1 M98 P1000 Q5\nN2 M30\nO1000\nN5 X1.\nN6 M99\n", "fanuc-30i");
+    assert!(why.contains("Q5") && why.contains("M98"), "{why}");
+}

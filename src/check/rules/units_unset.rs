@@ -1,0 +1,95 @@
+//! Nothing says whether lengths are inch or mm: they are taken as mm.
+//!
+//! # Why
+//! Without G20 or G21 the unit is whatever the control has been left in, or what a parameter says: a program for the other unit is cut
+//! 25.4 times too large or too small.
+//!
+//! # Example
+//! ```gcode
+//! N10 G0 X10 Y20
+//! ;   ^^^^^^^^^^ units-unset: nothing says whether lengths are inch or mm
+//! N20 X30
+//! ```
+//!
+//! # Use instead
+//! ```gcode
+//! N5 G21
+//! N10 G0 X10 Y20
+//! N20 X30
+//! ```
+//! Or declare what the control begins with, in `trunnion.toml` or in the machine's file: `[control] units = "mm"`. APT programs say
+//! UNITS/MM.
+//!
+//! # Guarantee
+//! Sound: told once per program, at the first motion whose length depends on it.
+//!
+//! # Sources
+//! RS274/NGC Interpreter, version 3 (NIST), section 3.5.7; the Fanuc manuals on G20 and G21, which keep the unit of before power-off.
+use crate::prelude::*;
+use trunnion_interp::{ModalState, Motion};
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Info,
+    guarantee: Guarantee::Sound,
+    level: Level::Motion(check),
+};
+
+/// X, Y, Z, U, V, W in the order of a position.
+const LINEAR: [usize; 6] = [0, 1, 2, 6, 7, 8];
+
+fn check(motion: &Motion, state: &ModalState, out: &mut Reporter<'_>) {
+    if state.units_said {
+        return;
+    }
+    // zero is zero in any unit
+    let counts = |&axis: &usize| {
+        motion
+            .end
+            .get(axis)
+            .is_some_and(|end| end != 0.0 && motion.start.get(axis) != Some(end))
+    };
+    if !LINEAR.iter().any(counts) || !out.once(0) {
+        return;
+    }
+    let range = code_range(out.program(), motion.block);
+    out.report(range, "nothing says whether lengths are inch or mm: they are taken as mm")
+        .note("the unit is what the control was left in, or what its parameters say")
+        .help("write G21 or G20 (G71 or G70, UNITS/MM), or declare `[control] units = \"mm\"` in trunnion.toml or in the machine's file");
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::{Fixture, assert_drawn};
+
+    #[test]
+    fn only_lengths_count() {
+        // zero and angles are the same in any unit; the first length is told, once
+        assert_drawn(
+            "gcode",
+            "G0 X0 Y0\nB45\nX5\n;^ units-unset: nothing says whether lengths are inch or mm\nY7\n",
+        );
+    }
+
+    #[test]
+    fn any_unit_will_do() {
+        for (dialect, program) in [
+            ("fanuc-30i", "G20 G0 X1.\n"),
+            ("sinumerik-840d", "G710\nG0 X1\n"),
+            ("linuxcnc", "G21\nG0 X1\nM2\n"),
+            ("apt", "UNITS/MM\nGOTO/1,2,3\n"),
+        ] {
+            let found = |program: &str| {
+                let fixture = Fixture::parse(&format!("gcode {dialect}"), &format!("{program}; ^^ units-unset: \n"));
+                let report = fixture.check().unwrap();
+                report
+                    .diagnostics
+                    .iter()
+                    .filter(|found| found.rule == "units-unset")
+                    .count()
+            };
+            assert_eq!(found(program), 0, "{dialect}");
+            let without = program.split_once(['\n', ' ']).unwrap().1;
+            assert_eq!(found(without), 1, "{dialect}");
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! A cut with constant surface speed while no limit of the spindle's speed is programmed.
+//!
+//! # Why
+//! Under G96 the spindle turns the faster the nearer the tool comes to the axis: without a limit it runs up to what the machine can give,
+//! whatever the chuck and the part can bear.
+//!
+//! # Example
+//! ```gcode fanuc-30i-lathe-a
+//! N10 G96 S200 M3
+//! N20 G0 X50. Z0.
+//! N30 G1 X0. F0.1
+//! ;   ^^^^^^^^^^^ unlimited-spindle: constant surface speed without a limit of the spindle's speed
+//! ```
+//!
+//! # Use instead
+//! ```gcode fanuc-30i-lathe-a
+//! N5 G50 S2000
+//! N10 G96 S200 M3
+//! N20 G0 X50. Z0.
+//! N30 G1 X0. F0.1
+//! ```
+//! In G code systems B and C the limit is G92 S2000.
+//!
+//! # Guarantee
+//! Sound for the Fanuc dialects: told once per program, at the first feed motion under G96 before any limit. A limit that a subprogram of
+//! the builder or a parameter sets is not known.
+//!
+//! # Sources
+//! The Fanuc Series 30i operator's manual, lathe system, on constant surface speed control and maximum spindle speed clamp.
+use crate::prelude::*;
+use trunnion_interp::{ModalState, Motion};
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Warning,
+    guarantee: Guarantee::Sound,
+    level: Level::Motion(check),
+};
+
+fn check(motion: &Motion, state: &ModalState, out: &mut Reporter<'_>) {
+    if !state.surface_speed
+        || state.spindle_limit_rpm.is_some()
+        || !motion.is_feed()
+        || motion.spindle_on == Some(false)
+    {
+        return;
+    }
+    if !out.dialect().starts_with("fanuc") || !out.once(0) {
+        return;
+    }
+    let range = code_range(out.program(), motion.block);
+    out.report(range, "constant surface speed without a limit of the spindle's speed")
+        .note("the spindle runs up to the machine's highest speed as the tool comes near the axis")
+        .help("write the limit before: G50 S2000 (G92 S2000 in G code systems B and C and on mills)");
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    #[test]
+    fn a_limit_or_turns_per_minute_will_do() {
+        assert_drawn(
+            "gcode fanuc-30i-lathe-b",
+            "G92 S2000\nG96 S200 M3\nG0 X50. Z0.\nG1 X0. F0.1\n",
+        );
+        assert_drawn(
+            "gcode fanuc-30i-lathe-a",
+            "G96 S200 M3\nG0 X50. Z0.\nG97 S500\nG1 X0. F0.1\n",
+        );
+    }
+
+    #[test]
+    fn it_is_told_once() {
+        assert_drawn(
+            "gcode fanuc-30i-lathe-a",
+            "G96 S200 M3\nG0 X50. Z0.\nG1 X40. F0.1\n;^^^^^^^^^^^ unlimited-spindle: \nX30.\nX20.\n",
+        );
+    }
+}

@@ -1,0 +1,154 @@
+//! The contour of a turning cycle: the blocks between two sequence numbers, run on a copy of the interpreter.
+use crate::run::{Interpreter, Report, Sink};
+use crate::words::{Said, Words};
+use crate::{Fault, FaultKind, ModalState, Motion, MotionKind, Refusal};
+use trunnion_syntax::{BlockId, Item, Program};
+
+/// Motions of a contour, or of a cut along it.
+const MOST_MOTIONS: usize = 100_000;
+
+/// A contour as its blocks tell it, from where the cycle begins.
+pub(super) struct Contour {
+    pub(super) motions: Vec<Motion>,
+    /// Its last block, and whether it begins right behind the cycle's own block.
+    pub(super) last: u32,
+    pub(super) follows: bool,
+    /// F in force behind it.
+    pub(super) feed: Option<f64>,
+}
+
+#[derive(Default)]
+struct Collected {
+    motions: Vec<Motion>,
+    faults: Vec<Fault>,
+}
+
+impl Sink for Collected {
+    fn motion(&mut self, motion: &Motion, _: &ModalState) {
+        if self.motions.len() <= MOST_MOTIONS {
+            self.motions.push(*motion);
+        }
+    }
+    fn fault(&mut self, fault: Fault) {
+        self.faults.push(fault);
+    }
+}
+
+impl Interpreter<'_> {
+    /// Reads the contour that P and Q of the cycle name. Faults of its blocks are told once. `None`: it cannot be known, which is told.
+    pub(super) fn contour(&mut self, words: &Words, report: &mut Report<'_>) -> Option<Contour> {
+        let program = report.program;
+        let (first, last) = self.contour_blocks(program, words, report)?;
+        let here = report.block.0;
+        let follows = is_next(program, here, first);
+        let mut ghost = self.clone();
+        ghost.flow.follows = false;
+        ghost.memory.passed_over = None;
+        ghost.memory.in_contour = true;
+        ghost.memory.out.clear();
+        ghost.memory.corners = crate::corner::Corners::default();
+        let mut found = Collected::default();
+        for block in first..=last {
+            ghost.step_iso(&program.block(BlockId(block)), &mut found);
+            if ghost.state.ended {
+                break;
+            }
+        }
+        let ended = ghost.state.ended;
+        ghost.put_out_rest(&program.block(BlockId(last)), &mut found);
+        if !self.memory.contours_told.contains(&first) {
+            self.memory.contours_told.push(first);
+            for fault in found.faults {
+                (report.faults)(fault);
+            }
+        }
+        let ends = self.memory.frames.active || self.memory.frames.tilt.is_some() || self.state.frame_unknown;
+        let known = |motion: &Motion| {
+            let path = matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(_));
+            let place = |axis| motion.start.get(axis).is_some() && motion.end.get(axis).is_some();
+            path && place(0) && place(2) && !motion.machine_coordinates
+        };
+        // dwells stay
+        found
+            .motions
+            .retain(|motion| !matches!(motion.kind, MotionKind::Dwell(_)));
+        let why = if ended {
+            "the program ends inside it"
+        } else if found.motions.is_empty() || found.motions.len() > MOST_MOTIONS {
+            "it has no motions, or more than 100000"
+        } else if ends {
+            "coordinates are turned, scaled or unknown"
+        } else if !found.motions.iter().all(known) {
+            "not every point of it is known"
+        } else {
+            return Some(Contour {
+                motions: found.motions,
+                last,
+                follows,
+                feed: ghost.state.feed,
+            });
+        };
+        if follows {
+            self.memory.passed_over = Some((here, last));
+        }
+        let what = format!("{}: its contour: {why}", self.memory.cycle.id);
+        report.fault(report.whole(), FaultKind::NotModelled { what });
+        None
+    }
+
+    /// First and last block of the contour.
+    fn contour_blocks(&mut self, program: &Program, words: &Words, report: &mut Report<'_>) -> Option<(u32, u32)> {
+        let number = |said: Said| said.index();
+        let numbers = (number(words.p), number(words.letter(b'Q')));
+        let (Some(first), Some(last)) = numbers else {
+            let message = format!(
+                "{} without P and Q, the first and last block of its contour",
+                self.memory.cycle.id
+            );
+            self.refuse(words, Refusal::CannedCycle, message, None, report);
+            return None;
+        };
+        let here = report.block.0;
+        let index = self.sequence_numbers(program);
+        let section = index.section(here);
+        let from = index.label(first, here, section);
+        let to = from.and_then(|from| index.label(last, from, section));
+        let missing = match (from, to) {
+            (Some(from), Some(to)) if to > from => return Some((from, to)),
+            (Some(from), _) if first == last => return Some((from, from)),
+            (None, _) => first,
+            _ => last,
+        };
+        let message = format!(
+            "there is no block N{missing} for the contour of {}",
+            self.memory.cycle.id
+        );
+        self.refuse(words, Refusal::Label, message, Some("contour-missing"), report);
+        None
+    }
+}
+
+/// Whether nothing but comments stands between two blocks.
+fn is_next(program: &Program, from: u32, to: u32) -> bool {
+    let says = |block: u32| {
+        let block = program.block(BlockId(block));
+        block.items().any(|item| !matches!(item, Item::Comment(_)))
+    };
+    from < to && !(from + 1..to).any(says)
+}
+
+/// A motion moved by a shift of X and Z, mm.
+pub(super) fn shifted(motion: &Motion, x: f64, z: f64) -> Motion {
+    let mut motion = *motion;
+    for place in [&mut motion.start, &mut motion.end] {
+        place.values[0] += x;
+        place.values[2] += z;
+    }
+    if let MotionKind::Arc(Some(arc)) = &mut motion.kind {
+        for point in [&mut arc.start, &mut arc.end, &mut arc.centre] {
+            point.x += x;
+            point.z += z;
+        }
+    }
+    motion
+}

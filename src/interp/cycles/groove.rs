@@ -1,0 +1,159 @@
+//! Pecking on a lathe: G74 along Z and G75 along X (G76 and G77 of system C).
+//!
+//! Steps of Q (Z) or P (X) with a lift after each, back in rapid to where the cut began, aside by P or Q, again until the end is
+//! reached; the end is back at the start. P and Q are radii in least increments, without sign. Sources: Fanuc Series 30i operator's manual,
+//! lathe system; Adtech CNC4620 programming manual, sections 3.6.5 and 3.6.6. Whether the first cut is relieved at its bottom (R of the second block) is
+//! told differently, so that is unknown.
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
+use trunnion_dialect::Action;
+
+const X: usize = 0;
+const Z: usize = 2;
+/// Steps and cuts of one cycle.
+const MOST: f64 = 10_000.0;
+
+/// Where a cycle pecks to and how far it goes aside.
+struct Grooves {
+    start: Position,
+    /// The axis of the cut, and the one aside.
+    axes: [usize; 2],
+    /// Ends of both, mm.
+    ends: [f64; 2],
+    /// Steps of both; the axis aside may have none.
+    steps: [f64; 2],
+    lift: Option<f64>,
+    feed: Feed,
+}
+
+impl Interpreter<'_> {
+    /// G74 and G75: the first of two blocks says the lift, the second the rest.
+    pub(super) fn peck_groove(&mut self, action: Action, words: &Words, report: &mut Report<'_>) {
+        if !words.axes.any() {
+            if let Some(number) = words.radius.number() {
+                self.memory.cycle.kept.lift = Some((number.value * self.state.length_unit_mm).abs());
+            }
+            return;
+        }
+        let start = self.state.position;
+        let mut end = start;
+        self.targets(&words.axes, false, &mut end);
+        let axes = if action == Action::FacePeckCycle {
+            [Z, X]
+        } else {
+            [X, Z]
+        };
+        let named = |axis: usize| (words.axes.given | words.axes.unread) & (1 << axis) != 0;
+        let letters = if action == Action::FacePeckCycle {
+            [b'Q', b'P']
+        } else {
+            [b'P', b'Q']
+        };
+        let steps = letters.map(|letter| self.increment_word(words, letter));
+        if !named(axes[0]) || steps[0].is_none_or(|step| step == 0.0) && words.letter(letters[0]).is_said() {
+            let message = format!(
+                "{} without the end of its cut, or with a step of 0",
+                self.memory.cycle.id
+            );
+            self.refuse(words, Refusal::CannedCycle, message, None, report);
+        }
+        let feed = self.feed_of(MotionKind::Linear, words, report);
+        let known = axes
+            .iter()
+            .all(|&axis| start.get(axis).is_some() && end.get(axis).is_some());
+        let relieved = words.radius.is_said() && words.radius.number().is_none_or(|number| number.value != 0.0);
+        let way = |place: usize| (end.values[axes[place]] - start.values[axes[place]]).abs();
+        let count = |place: usize| way(place) / steps[place].filter(|step| *step > 0.0).unwrap_or(f64::MAX);
+        let why = if self.memory.frames.active || self.state.frame_unknown || !known {
+            Some("from or to a place that is not known")
+        } else if relieved {
+            Some("with a relief at the bottom (R)")
+        } else if way(1) > 0.0 && steps[1].is_none_or(|step| step == 0.0) {
+            Some("with a way aside and no step for it")
+        } else if count(0) * (count(1) + 1.0) > MOST {
+            Some("with more than 10000 steps")
+        } else {
+            None
+        };
+        if let Some(why) = why {
+            let what = format!("{} {why}", self.memory.cycle.id);
+            if known {
+                return self.somehow_back(&what, start, report);
+            }
+            report.fault(report.whole(), FaultKind::NotModelled { what });
+            return self.nowhere(start, report);
+        }
+        let grooves = Grooves {
+            start,
+            axes,
+            ends: axes.map(|axis| end.values[axis]),
+            steps: [steps[0].unwrap_or(f64::MAX), steps[1].unwrap_or(0.0)],
+            lift: self.memory.cycle.kept.lift,
+            feed,
+        };
+        self.grooves(&grooves, report);
+    }
+
+    fn grooves(&mut self, grooves: &Grooves, report: &Report<'_>) {
+        let [cut, aside] = grooves.axes;
+        let mut place = grooves.start;
+        loop {
+            self.pecks(grooves, report);
+            place.set(cut, grooves.start.values[cut]);
+            self.rapid_straight(place, report);
+            let left = grooves.ends[1] - place.values[aside];
+            if left.abs() <= 1e-9 {
+                break;
+            }
+            let next = if left.abs() <= grooves.steps[1] + 1e-9 {
+                grooves.ends[1]
+            } else {
+                place.values[aside] + left.signum() * grooves.steps[1]
+            };
+            place.set(aside, next);
+            self.rapid_straight(place, report);
+        }
+        self.rapid_straight(grooves.start, report);
+    }
+
+    /// From where the tool stands down to the end, in steps.
+    fn pecks(&mut self, grooves: &Grooves, report: &Report<'_>) {
+        let axis = grooves.axes[0];
+        let from = self.state.position.values[axis];
+        let way = grooves.ends[0] - from;
+        let mut done = 0.0;
+        let to = |interpreter: &mut Self, kind, value: Option<f64>| {
+            let mut place = interpreter.state.position;
+            match value {
+                Some(value) => place.set(axis, value),
+                None => place.forget(axis),
+            }
+            let feed = if kind == MotionKind::Rapid {
+                Feed::Rapid
+            } else {
+                grooves.feed
+            };
+            interpreter.goes(kind, place, feed, report);
+        };
+        loop {
+            done += grooves.steps[0];
+            if done >= way.abs() - 1e-9 {
+                to(self, MotionKind::Linear, Some(grooves.ends[0]));
+                return;
+            }
+            let depth = from + way.signum() * done;
+            to(self, MotionKind::Linear, Some(depth));
+            let lifted = grooves.lift.map(|lift| depth - way.signum() * lift);
+            to(self, MotionKind::Rapid, lifted);
+        }
+    }
+
+    /// P or Q of these cycles, mm: least increments (0.001 mm, 0.0001 inch) where it has no decimal point.
+    fn increment_word(&self, words: &Words, letter: u8) -> Option<f64> {
+        let number = words.letter(letter).number()?;
+        let unit = self.state.length_unit_mm;
+        let least = if unit == 1.0 { 0.001 } else { 0.0001 };
+        Some((number.value * if number.has_point { unit } else { least * unit }).abs())
+    }
+}

@@ -1,0 +1,115 @@
+//! Codes that are not modelled: what they make unknown, and until when.
+use crate::codes::{BlockCodes, Found, not_modelled};
+use crate::offsets::ROTARY;
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+use trunnion_dialect::{Action, CodeKind};
+
+impl<'d> Interpreter<'d> {
+    /// A code whose effect is not modelled. In the motion group it is modal; in a group whose other codes give the coordinates
+    /// their meaning, positions are unknown until one of those comes; else everything is forgotten.
+    pub(crate) fn unmodelled_code(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        not_modelled(found, report);
+        block.not_modelled = true;
+        let group = found.code.group.as_deref();
+        if group.is_some() && group == self.motion_group() {
+            self.state.motion = Some(Action::NotModelled);
+        } else if group.is_some() && self.gives_meaning(group) {
+            self.memory.begin_frame(found.code, true);
+            self.forget_position();
+        } else if !words.axes.any() {
+            self.forget_position();
+        }
+    }
+
+    /// Whether codes of the group decide where a coordinate lies.
+    fn gives_meaning(&self, group: Option<&str>) -> bool {
+        let meaning = |action| {
+            matches!(
+                action,
+                Action::ToolLengthOn
+                    | Action::ToolLengthOff
+                    | Action::TcpOn
+                    | Action::TcpOff
+                    | Action::WorkOffset
+                    | Action::FrameReset
+                    | Action::Metric
+                    | Action::Absolute
+            )
+        };
+        self.dialect
+            .codes()
+            .iter()
+            .any(|code| code.group.as_deref() == group && meaning(code.action))
+    }
+
+    pub(crate) fn motion_group(&self) -> Option<&'d str> {
+        self.dialect.g(0)?.group.as_deref()
+    }
+
+    pub(crate) fn frame_change(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        let with_values = found.with_arguments || words.has_values;
+        if found.code.kind == CodeKind::Name && !with_values {
+            let ended = self.memory.end_frame(found.code);
+            self.forget_if(ended);
+            return;
+        }
+        if !words.axes.any() && words.speed.is_said() && found.code.words.iter().any(|word| word == "S") {
+            return;
+        }
+        not_modelled(found, report);
+        self.frame_begins(found, words, block);
+    }
+
+    /// Coordinates, rotary ones too, mean something else from here on: until a reset of the group, or the code itself with a rotary
+    /// coordinate of zero (G7.1 C0).
+    pub(crate) fn frame_lost(
+        &mut self,
+        found: &Found<'d>,
+        words: &Words,
+        block: &mut BlockCodes,
+        report: &mut Report<'_>,
+    ) {
+        block.takes_coordinates = true;
+        let zero = (3..6).any(|axis| words.axes.get(axis) == Some(0.0));
+        if zero {
+            let ended = self.memory.end_frame(found.code);
+            self.forget_if(ended);
+            return;
+        }
+        not_modelled(found, report);
+        self.memory.begin_frame(found.code, false);
+        self.memory.frame_turns_axes(found.code);
+        self.forget_position();
+    }
+
+    /// From here on positions are unknown.
+    pub(crate) fn frame_begins(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes) {
+        block.takes_coordinates = true;
+        self.memory.begin_frame(found.code, false);
+        // a shift by TRANS may end with it, or lie inside it
+        let shift = self
+            .dialect
+            .name("TRANS")
+            .filter(|_| self.memory.frames.local != [0.0; 9]);
+        if let Some(shift) = shift {
+            self.memory.begin_frame(shift, false);
+        }
+        if (words.axes.given | words.axes.unread) & ROTARY != 0 {
+            self.memory.frame_turns_axes(found.code);
+        }
+        self.forget_position();
+    }
+}

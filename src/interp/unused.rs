@@ -1,0 +1,158 @@
+//! Words that no code of their block, and no code in force, reads: they were meant for something, and do nothing.
+//!
+//! Sources: grbl 1.1 documentation, error 36 (unused value words); Fanuc Series 30i operator's manual, G code list (which addresses each
+//! code has); RS274/NGC Interpreter, version 3 (NIST), section 3.5.
+use crate::arc::plane_axes;
+use crate::codes::{BlockCodes, Found};
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+use crate::{FaultKind, Refusal};
+use trunnion_dialect::{Action, Code, CodeKind, Owner, Role};
+use trunnion_syntax::Address;
+
+const fn bit(letter: u8) -> u32 {
+    1 << (letter - b'A')
+}
+
+/// Letters that mean something only where a code reads them.
+pub(crate) const PARAMETERS: u32 = bit(b'D')
+    | bit(b'E')
+    | bit(b'H')
+    | bit(b'I')
+    | bit(b'J')
+    | bit(b'K')
+    | bit(b'L')
+    | bit(b'P')
+    | bit(b'Q')
+    | bit(b'R');
+/// I, J, K.
+const CENTRE: u32 = bit(b'I') | bit(b'J') | bit(b'K');
+const ALL: u32 = u32::MAX;
+
+/// The letters that a code reads beside the axes.
+pub(crate) fn letters(code: &Code) -> u32 {
+    let letter = |word: &String| match word.as_bytes() {
+        [letter @ b'A'..=b'Z'] => bit(*letter),
+        _ => 0,
+    };
+    code.words.iter().map(letter).fold(0, |all, one| all | one)
+}
+
+impl Interpreter<'_> {
+    /// Tells the words of the block that nothing reads.
+    pub(crate) fn unused_words(&self, codes: &[Found<'_>], words: &Words, block: &BlockCodes, report: &mut Report<'_>) {
+        let mut left = words.letters & PARAMETERS & !self.read_in_force(words, block);
+        for found in codes {
+            if left == 0 {
+                return;
+            }
+            left &= !self.read_by(found.code);
+        }
+        if left == 0 || words.unknown_code || words.builder_code || words.forgets_all {
+            return;
+        }
+        for word in report.program.block(report.block).words() {
+            let Address::Letter(letter @ b'A'..=b'Z') = word.address else {
+                continue;
+            };
+            // a vacant variable: the word counts as not written
+            if left & bit(letter) == 0 || !words.letter(letter).is_said() {
+                continue;
+            }
+            let kind = match self.dialect.alarm("unused-word") {
+                Some(alarm) => FaultKind::Rejected {
+                    refusal: Refusal::UnusedWord,
+                    message: format!(
+                        "`{}`: no code of the block reads it",
+                        report.program.text(word.range).trim()
+                    ),
+                    alarm: Some(alarm.number.clone()),
+                },
+                None => FaultKind::UnusedWord,
+            };
+            report.fault(word.range, kind);
+        }
+    }
+
+    /// Letters that a code of the block reads. What is not modelled, and what a builder may have given a meaning, may read any.
+    fn read_by(&self, code: &Code) -> u32 {
+        let opaque = matches!(
+            code.action,
+            Action::NotModelled
+                | Action::NotFollowed
+                | Action::Skip
+                | Action::SubprogramCall
+                | Action::FrameChange
+                | Action::FrameLost
+                | Action::CannedCycle
+                | Action::Declaration
+                | Action::Kinematics
+                | Action::HoleCall
+                | Action::SwivelCycle
+        );
+        let of_builder = || {
+            let number: Option<f64> = code.id.get(1..).and_then(|number| number.parse().ok());
+            code.kind == CodeKind::M
+                && number.is_some_and(|number| {
+                    self.dialect
+                        .builder_may_own(CodeKind::M, (number * 10.0).round() as u32)
+                })
+        };
+        if opaque || code.owner == Owner::MachineBuilder || of_builder() {
+            return ALL;
+        }
+        // which letters an arc reads hangs on its plane
+        if matches!(code.action, Action::ArcClockwise | Action::ArcCounterClockwise) {
+            return 0;
+        }
+        letters(code)
+    }
+
+    /// Letters that what is in force reads: arcs, cycles, tool vectors, offsets that are modal.
+    fn read_in_force(&self, words: &Words, block: &BlockCodes) -> u32 {
+        let mut read = 0;
+        let role = |letter| self.dialect.role(letter);
+        if self.dialect.quirks.offset_compensation || self.state.compensation != 0 {
+            read |= bit(b'D');
+        }
+        if role(b'D') == Some(Role::EdgeOffset) {
+            read |= bit(b'D');
+        }
+        if matches!(role(b'H'), Some(Role::LengthOffset | Role::Increment)) {
+            read |= bit(b'H');
+        }
+        if words.flow {
+            read |= bit(b'P') | bit(b'L');
+        }
+        if self.state.vector_mode {
+            read |= CENTRE;
+        }
+        let moves = !block.takes_coordinates && !block.dwell && (words.axes.any() || block.motion.is_some());
+        read | match self.state.motion {
+            Some(Action::ArcClockwise | Action::ArcCounterClockwise) if moves => self.read_by_arc(words),
+            Some(Action::CannedCycle | Action::NotModelled) => ALL,
+            // data of a cycle may stand alone
+            Some(motion) if motion.is_hole_cycle() || motion.is_pass_cycle() => self.memory.cycle.letters,
+            Some(Action::Thread | Action::VariableThread) if moves => self.memory.cycle.letters,
+            Some(Action::Linear) if moves && self.turned_corner(words).is_some() => bit(b'R') | bit(b'I') | bit(b'K'),
+            _ => 0,
+        }
+    }
+
+    /// An arc reads the centre's two letters of its plane, or R; a spiral all three.
+    fn read_by_arc(&self, words: &Words) -> u32 {
+        let code = self.dialect.g(20).map_or(0, letters);
+        if self.is_spiral(words) {
+            return code;
+        }
+        let [first, second, _] = plane_axes(self.state.plane);
+        let centre = bit(b'I' + first as u8) | bit(b'I' + second as u8);
+        (code & !CENTRE) | centre
+    }
+
+    /// Q or L beside an arc, where the arc codes read them: a spiral or cone.
+    pub(crate) fn is_spiral(&self, words: &Words) -> bool {
+        let code = || self.dialect.g(20).map_or(0, letters);
+        words.letters & code() & (bit(b'Q') | bit(b'L')) != 0
+    }
+}

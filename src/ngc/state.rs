@@ -173,6 +173,8 @@ pub struct State {
     pub feed_hold: bool,
     /// Axes with words in the block in hand: bit i is axis i of a [`Pose`].
     pub named_axes: u16,
+    /// The spindle's row of the tool table before the last change.
+    pub(crate) spindle_row_before: Option<crate::ToolEntry>,
     /// The motions of the block in hand lead to points that are told in the machine's own frame (G53, G28, G30).
     pub machine_frame: bool,
     /// The last probing has touched.
@@ -325,6 +327,7 @@ impl State {
             adaptive_feed: false,
             feed_hold: true,
             named_axes: 0,
+            spindle_row_before: None,
             machine_frame: false,
             probed: false,
             ended: false,

@@ -77,6 +77,14 @@ pub(crate) const EXPLAINED: &[Explanation] = &[
         },
     },
     Explanation {
+        why: "the control was stopped while it told one call after the other, more than 100 000: all that it told is ours",
+        holds: |control, ours| {
+            // the last line may be cut off
+            let whole = control.calls.len().saturating_sub(1);
+            control.hangs && whole > 100_000 && alike_lines(control, ours, whole)
+        },
+    },
+    Explanation {
         why: "the control crashes (a corner in a turning contour with nothing before it), we refuse",
         holds: |control, ours| control.crashed && !ours.good && is_refused(&ours.error),
     },

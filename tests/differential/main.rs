@@ -37,6 +37,9 @@ struct Answer {
     crashed: bool,
 }
 
+/// What `timeout` exits with.
+const STOPPED: i32 = 124;
+
 fn answer(output: &Output, parameters: Option<&str>) -> Answer {
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     let mut errors = text(&output.stderr).lines().map(str::to_owned).collect::<Vec<_>>();
@@ -47,8 +50,8 @@ fn answer(output: &Output, parameters: Option<&str>) -> Answer {
         calls,
         error: errors.join("\n"),
         good: output.status.success(),
-        hangs: output.status.code() == Some(124),
-        crashed: !matches!(output.status.code(), Some(0 | 1 | 124)),
+        hangs: output.status.code() == Some(STOPPED),
+        crashed: !matches!(output.status.code(), Some(0 | 1 | STOPPED)),
     }
 }
 
@@ -87,9 +90,9 @@ fn ask(folder: &Path, case: &Case, who: Asked) -> Option<Answer> {
         .current_dir(folder)
         .env("HOME", folder);
     let output = command.output().ok()?;
-    let parameters = case
-        .has(PARAMETERS)
-        .then(|| std::fs::read_to_string(folder.join(PARAMETERS)));
+    // who is stopped has not written its parameters
+    let ended = output.status.code() != Some(STOPPED);
+    let parameters = (ended && case.has(PARAMETERS)).then(|| std::fs::read_to_string(folder.join(PARAMETERS)));
     let parameters = parameters.and_then(Result::ok);
     Some(answer(&output, parameters.as_deref()))
 }

@@ -43,9 +43,12 @@ impl Engine {
     }
     /// A row's offset in program units.
     fn tool_row_offset(&self, row: usize) -> Pose {
+        let entry = self.state.tools.get(row).copied().unwrap_or_default();
+        self.entry_offset(&entry)
+    }
+    fn entry_offset(&self, entry: &ToolEntry) -> Pose {
         let unit = self.stored_unit();
-        let offset = self.state.tools.get(row).map_or([0.0; 9], |entry| entry.offset);
-        std::array::from_fn(|axis| offset[axis] * access::scale(axis, unit))
+        std::array::from_fn(|axis| entry.offset[axis] * access::scale(axis, unit))
     }
     fn write_tool_row(&mut self, row: usize, entry: ToolEntry) {
         if let Some(place) = Arc::make_mut(&mut self.state.tools).get_mut(row) {
@@ -106,6 +109,7 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
                 engine.state.turning[spindle] = 0;
                 engine.emit(Canon::Spindle(spindle as i32, SpindleTurn::Stop), at, sink);
             }
+            engine.state.spindle_row_before = engine.state.tools.first().copied();
             put_in_spindle(engine, engine.state.selected_row);
             let tool = engine.state.selected_tool.max(0);
             let row = engine.state.selected_row;
@@ -183,6 +187,7 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
     }
     let h = block.word(b'H').map(|h| h.round() as i32);
     let given = block.given & crate::block::AXES != 0;
+    let changes = matches!(block.m[6], 6 | 61);
     let offset = match code {
         490 => [0.0; 9],
         430 => {
@@ -191,7 +196,12 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
                 Some(0) if engine.setup.random_tool_changer() && engine.setup.start == Start::Zero => {
                     usize::try_from(engine.state.current_row).unwrap_or(0)
                 }
-                None | Some(0) => 0,
+                // the tool that this block puts into the spindle
+                None if changes && engine.setup.start == Start::Zero => {
+                    usize::try_from(engine.state.current_row).unwrap_or(0)
+                }
+                None => 0,
+                Some(0) => return spindle_row_offset(engine, block, at, sink),
                 Some(number) => engine.tool_row(number, block.range_of(b'H'))?,
             };
             engine.tool_row_offset(row)
@@ -204,10 +214,32 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
             if h.is_some() && given {
                 return Err(Error::new(&problems::H_AND_AXES, range));
             }
+            if h == Some(0) {
+                return spindle_row_offset(engine, block, at, sink);
+            }
             // with axis words the control looks for a tool of its own number for "no H", and never finds it
             let row = engine.tool_row(h.unwrap_or(-1), if h.is_some() { block.range_of(b'H') } else { range })?;
             frame::sum(&engine.state.tool_offset, &engine.tool_row_offset(row))
         }
+    };
+    frame::change_tool_offset(&mut engine.state, offset);
+    engine.emit(Canon::ToolOffset(offset), at, sink);
+    Ok(())
+}
+
+/// H0 of G43 and G43.2: the row of the spindle as it was before a change in the same block, which the control takes over behind the
+/// block. In a check that row is not relied upon.
+fn spindle_row_offset(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let before = engine.state.spindle_row_before.filter(|_| block.m[6] == 6);
+    let row = match before {
+        Some(_) if engine.setup.start == Start::Unknown => [f64::NAN; 9],
+        Some(entry) => engine.entry_offset(&entry),
+        None => engine.tool_row_offset(0),
+    };
+    let offset = if block.g_code(8) == Some(432) {
+        frame::sum(&engine.state.tool_offset, &row)
+    } else {
+        row
     };
     frame::change_tool_offset(&mut engine.state, offset);
     engine.emit(Canon::ToolOffset(offset), at, sink);

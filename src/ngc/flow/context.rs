@@ -87,6 +87,10 @@ fn to(engine: &mut Engine, context: &Context, range: TextRange, at: At, sink: &m
         block.m[group] = code;
         block.m_range[group] = range;
         block.m_count = 1;
+        if block.g[13] == path_code(MotionMode::Continuous(0.0)) && !block.has(b'P') {
+            // P of G64 is P of the M code, too: M50 to M53 switch off
+            put(block, b'P', 0.0, range);
+        }
     }
     run(engine, block)?;
     for (group, code) in changed {

@@ -12,6 +12,11 @@ impl Engine {
         let mut place = Place::default();
         let source = Arc::clone(&self.files[0]);
         loop {
+            // empty lines at once, since a file may be nothing else
+            let rest = &source.bytes()[place.offset as usize..];
+            let empty = rest.iter().take_while(|byte| **byte == b'\n').count() as u32;
+            place.offset += empty;
+            place.line += empty;
             if place.offset as usize >= source.bytes().len() {
                 let end = source.bytes().len() as u32;
                 return Some(self.stop(&problems::NO_END_PERCENT, TextRange::new(end, end), sink));

@@ -110,16 +110,9 @@ fn along_a_block_the_bound_closes_on_the_truth() {
     );
 }
 
-fn turn_of_a(machine: &Machine, tcp: bool, from: f64, to: f64) -> crate::Leg {
-    let mut follower = crate::Follower::new(machine);
-    let at = |a: f64| {
-        let mut position = trunnion_interp::Position::default();
-        for (axis, value) in [(0, 10.0), (1, 5.0), (2, 30.0), (3, a), (5, 40.0)] {
-            position.set(axis, value);
-        }
-        position
-    };
-    let go = |start, end| trunnion_interp::Motion {
+/// A feed motion along a line.
+fn line(tcp: bool, start: trunnion_interp::Position, end: trunnion_interp::Position) -> trunnion_interp::Motion {
+    trunnion_interp::Motion {
         block: trunnion_syntax::BlockId(0),
         chain: trunnion_interp::ChainId::MAIN,
         kind: trunnion_interp::MotionKind::Linear,
@@ -136,7 +129,19 @@ fn turn_of_a(machine: &Machine, tcp: bool, from: f64, to: f64) -> crate::Leg {
         machine_coordinates: false,
         tool: None,
         tilt: trunnion_interp::Tilt::default(),
+    }
+}
+
+fn turn_of_a(machine: &Machine, tcp: bool, from: f64, to: f64) -> crate::Leg {
+    let mut follower = crate::Follower::new(machine);
+    let at = |a: f64| {
+        let mut position = trunnion_interp::Position::default();
+        for (axis, value) in [(0, 10.0), (1, 5.0), (2, 30.0), (3, a), (5, 40.0)] {
+            position.set(axis, value);
+        }
+        position
     };
+    let go = |start, end| line(tcp, start, end);
     follower.follow(&go(trunnion_interp::Position::default(), at(from)));
     follower.follow(&go(at(from), at(to)))
 }
@@ -154,36 +159,98 @@ fn bounds_of_planted_errors_are_never_below_random_poses() {
             .split("[[check]]")
             .next()
             .expect("a part");
-        for _ in 0..4 {
+        for _ in 0..12 {
             let Some(truth) = spoiled(name, source, &mut random) else {
                 continue;
             };
             let comparison = Comparison::new(believed, &truth).expect("the same axes");
             let everywhere = comparison.everywhere(200.0);
-            let worst = comparison.random_poses(400, random.0).expect("poses").tip_mm;
+            let worst = comparison.random_poses(300, random.0).expect("poses").tip_mm;
             assert!(
                 worst <= everywhere * (1.0 + 1e-9) + 1e-12,
                 "{name}: {worst} {everywhere}"
             );
             judged += usize::from(everywhere.is_finite() && worst > 1e-6);
+            // along a block between two poses the bound holds at every moment, also between the ends
+            let (along, truth) = along_and_sampled(&comparison, believed, &mut random);
+            assert!(
+                along.bound_mm >= truth * (1.0 - 1e-9) - 1e-12,
+                "{name}: {along:?} {truth}"
+            );
+            assert!(along.worst.tip_mm <= truth * 1.001 + 1e-9, "{name}: {along:?} {truth}");
         }
     }
-    assert!(judged > 20, "{judged}");
+    assert!(judged > 100, "{judged}");
 }
 
-/// The machine with one of its `point = [x, y, z]` moved by up to 0.1 mm.
+/// A block between two random poses, joints straight: what is said along it, and the worst of many samples.
+fn along_and_sampled(
+    comparison: &Comparison<'_>,
+    machine: &Machine,
+    random: &mut crate::selftest::SplitMix,
+) -> (crate::AlongBlock, f64) {
+    let mut pose = || {
+        let mut position = trunnion_interp::Position::default();
+        for axis in &machine.axes {
+            let Some(letter) = trunnion_interp::AxisLetter::new(axis.letter) else {
+                continue;
+            };
+            let value = match axis.extra.hold {
+                Some(hold) => trunnion_geometry::deg(hold),
+                None => random.between(-150.0, 150.0),
+            };
+            position.set(usize::from(letter.0), value);
+        }
+        position
+    };
+    let (from, to) = (pose(), pose());
+    let mut follower = crate::Follower::new(machine);
+    follower.follow(&line(false, trunnion_interp::Position::default(), from));
+    let leg = follower.follow(&line(false, from, to));
+    let along = comparison.along(&leg, 1e-3).expect("known");
+    let (start, end) = (leg.start.as_ref().expect("known"), leg.end.as_ref().expect("known"));
+    let sampled = (0..=400).map(|step| {
+        let mut joints = start.joints;
+        for (value, to) in joints.iter_mut().zip(end.joints) {
+            *value += (to - *value) * f64::from(step) / 400.0;
+        }
+        comparison.at(&joints, end.tool_length).tip_mm
+    });
+    (along, sampled.fold(along.worst.tip_mm, f64::max))
+}
+
+/// The machine with one of its places moved by up to 0.1 mm, or one of its directions tilted by up to 0.001 in each component.
 fn spoiled(name: &str, source: &str, random: &mut crate::selftest::SplitMix) -> Option<Machine> {
-    let places: Vec<usize> = source.match_indices("point = [").map(|(at, _)| at).collect();
-    let at = *places.get((random.between(0.0, places.len() as f64) as usize).min(places.len().checked_sub(1)?))?;
-    let end = at + source[at..].find(']')? + 1;
-    let values: Vec<f64> = source[at + 9..end - 1]
+    let words: Vec<(usize, usize)> = ["point = [", "dir = [", "tool_axis = ["]
+        .iter()
+        .flat_map(|word| source.match_indices(word).map(|(at, _)| (at, word.len())))
+        .collect();
+    let which = (random.between(0.0, words.len() as f64) as usize).min(words.len().checked_sub(1)?);
+    let (at, length) = words[which];
+    let is_direction = !source[at..].starts_with("point");
+    let end = at + source[at..].find(']')?;
+    let values: Vec<f64> = source[at + length..end]
         .split(',')
         .filter_map(|text| text.trim().parse().ok())
         .collect();
     let [x, y, z] = values[..] else { return None };
-    let mut off = || random.between(-0.1, 0.1);
-    let moved = format!("point = [{}, {}, {}]", x + off(), y + off(), z + off());
-    load(name, &format!("{}{moved}{}", &source[..at], &source[end..])).ok()
+    let mut moved = Vec3::new(x, y, z);
+    let size = if is_direction { 0.001 } else { 0.1 };
+    for value in moved.iter_mut() {
+        *value += random.between(-size, size);
+    }
+    if is_direction {
+        moved = moved.normalize();
+    }
+    let text = format!(
+        "{}{}, {}, {}{}",
+        &source[..at + length],
+        moved.x,
+        moved.y,
+        moved.z,
+        &source[end..]
+    );
+    load(name, &text).ok()
 }
 
 /// Only C's place is off by 0.05 mm across it: 0.1 mm at the most, wherever the linear axes are.

@@ -1,6 +1,8 @@
 //! The shipped machines against the formulas that LinuxCNC publishes for its five-axis modules, on 10 000 random poses each and in both
-//! sign conventions. The formulas are written here in their scalar form, not as a product of axes. LinuxCNC's position is the tip
-//! plus the tool length along Z. Inverse kinematics of xyzbc-trt with the factor `con` in its offset terms (kinematics notes 8).
+//! sign conventions (LinuxCNC documentation, "5-axis kinematics" and the notes of the switchable kinematics). They are derived here, not
+//! taken over: the point on the workpiece is carried through the turns of the tables one plane at a time ([`turned_plane`]), and a
+//! nutating head turns what lies across its axis. LinuxCNC's position is the tip plus the tool length along Z. Inverse kinematics of
+//! xyzbc-trt with the factor `con` in its offset terms (kinematics notes 8).
 use crate::selftest::SplitMix;
 use crate::{Joints, MAX_AXES, Machine, builtin, builtin_source, forward, inverse, load};
 use core::f64::consts::PI;
@@ -75,16 +77,20 @@ fn agree(machine: &Machine, formula: impl Fn(&Given) -> [f64; 3]) {
     assert!(worst < SAME, "{}: {worst:e} mm", machine.id);
 }
 
-/// xyzac-trt: `con` +1 conventional, -1 the default; offsets y, z of A against C; rotation point.
+/// A table turns by an angle: where the coordinates (a, b) of a point on it go, seen from the machine, in the plane of the turn with a
+/// turning towards b. The table turns the other way round than the tool would.
+fn turned_plane(angle: f64, (a, b): (f64, f64)) -> (f64, f64) {
+    (a * cos(angle) + b * sin(angle), b * cos(angle) - a * sin(angle))
+}
+
+/// xyzac-trt: `con` +1 conventional, -1 the default; offsets y, z of A against C; rotation point. C lies on A: first the point goes round
+/// C, then round A, whose axis passes by the offsets; the position is measured from the spindle's nose, so the tool's length lies
+/// between it and the axis.
 fn xyzac(g: &Given, con: f64, [dy, dz]: [f64; 2], r: [f64; 3]) -> [f64; 3] {
-    let (sa, ca, sc, cc) = (con * sin(g.a), cos(g.a), con * sin(g.c), cos(g.c));
-    let (x, y, z) = (g.p.x - r[0], g.p.y - r[1], g.p.z - r[2]);
-    let dz = dz + g.length;
-    [
-        cc * x + sc * y + r[0],
-        -sc * ca * x + cc * ca * y + sa * z - ca * dy - sa * dz + dy + r[1],
-        sc * sa * x - cc * sa * y + ca * z + sa * dy - ca * dz + dz + r[2],
-    ]
+    let (x, y) = turned_plane(con * g.c, (g.p.x - r[0], g.p.y - r[1]));
+    let from_axis = dz + g.length;
+    let (y, z) = turned_plane(con * g.a, (y - dy, g.p.z - r[2] - from_axis));
+    [x + r[0], y + dy + r[1], z + from_axis + r[2]]
 }
 
 #[test]
@@ -108,18 +114,12 @@ fn xyzac_trt_in_both_conventions() {
     agree(&moved, |g| xyzac(g, -1.0, offsets, [7.0, -8.0, 9.0]));
 }
 
-/// xyzbc-trt: as above with B and offsets x, z.
+/// xyzbc-trt: as above with B and offsets x, z; B turns Z towards X.
 fn xyzbc(g: &Given, con: f64, [dx, dz]: [f64; 2]) -> [f64; 3] {
-    let (sb, cb, sc, cc) = (con * sin(g.b), cos(g.b), con * sin(g.c), cos(g.c));
-    let (x, y, z) = (g.p.x, g.p.y, g.p.z);
-    let dz = dz + g.length;
-    let dpx = -cb * dx + sb * dz + dx;
-    let dpz = -sb * dx - cb * dz + dz;
-    [
-        cc * cb * x + sc * cb * y - sb * z + dpx,
-        -sc * x + cc * y,
-        cc * sb * x + sc * sb * y + cb * z + dpz,
-    ]
+    let (x, y) = turned_plane(con * g.c, (g.p.x, g.p.y));
+    let from_axis = dz + g.length;
+    let (z, x) = turned_plane(con * g.b, (g.p.z - from_axis, x - dx));
+    [x + dx, y, z + from_axis]
 }
 
 #[test]
@@ -150,15 +150,11 @@ fn xyzbc_trt_in_both_conventions() {
     }
 }
 
-/// xyzab-tdr: rotation point and z-offset; `s` turns both axes round.
+/// xyzab-tdr: the part turns with A, which lies on B and is dz above its point; the x offset of the module cancels out.
 fn xyzab_tdr(g: &Given, s: f64, r: [f64; 3], dz: f64) -> [f64; 3] {
-    let (sa, ca, sb, cb) = (s * sin(g.a), cos(g.a), s * sin(g.b), cos(g.b));
-    let (x, y, z) = (g.p.x - r[0], g.p.y - r[1], g.p.z - r[2] - dz - g.length);
-    [
-        cb * x + sa * sb * y - ca * sb * z - sb * dz + r[0],
-        ca * y + sa * z + r[1],
-        sb * x - sa * cb * y + ca * cb * z + cb * dz + r[2] + g.length,
-    ]
+    let (y, z) = turned_plane(s * g.a, (g.p.y - r[1], g.p.z - r[2] - dz - g.length));
+    let (z, x) = turned_plane(s * g.b, (z + dz, g.p.x - r[0]));
+    [x + r[0], y + r[1], z + r[2] + g.length]
 }
 
 #[test]
@@ -225,14 +221,11 @@ fn max5_in_both_conventions() {
 /// lever across that plane, in it, and along Z, for a secondary angle whose sense is `s`.
 fn nutating(angle: f64, s: f64, along: f64, up: f64) -> [f64; 3] {
     let nu = 55_f64.to_radians();
-    let (sv, cv, ss, cs) = (sin(nu), cos(nu), s * sin(angle), cos(angle));
-    let (r, t) = (cs + sv * sv * (1.0 - cs), sv * cv * (1.0 - cs));
-    let up_up = cs + cv * cv * (1.0 - cs);
-    [
-        sv * ss * up - cv * ss * along,
-        t * up + r * along,
-        up_up * up + t * along,
-    ]
+    let (sv, cv) = (sin(nu), cos(nu));
+    // what lies along the nutating axis stays, what lies across it goes round
+    let (stays, goes) = (sv * along + cv * up, cv * along - sv * up);
+    let (level, across) = (goes * cos(angle), -goes * s * sin(angle));
+    [across, stays * sv + level * cv, stays * cv - level * sv]
 }
 
 /// Table A about (y -1000, z -2000), head C and B, pivots y 50 and z 120.

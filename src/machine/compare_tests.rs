@@ -110,6 +110,32 @@ fn along_a_block_the_bound_closes_on_the_truth() {
     );
 }
 
+/// C turns the other way round: from 0 to 180 deg both machines end at one place, and half way the tips are on opposite sides of the axis,
+/// two radii apart. Both bends are needed for the first bound, 2 pi^2 r / 8 = 2.467 r: half of it would pass for less than 1.5 r.
+#[test]
+fn both_paths_bend() {
+    let believed = builtin("mikron-ucp710").expect("shipped");
+    let truth = planted("mikron-ucp710", 'C', "sign = 1", "sign = -1");
+    let comparison = Comparison::new(believed, &truth).expect("the same axes");
+    let at = |c: f64| {
+        let mut position = trunnion_interp::Position::default();
+        for (axis, value) in [(0, 10.0), (1, 5.0), (2, 0.0), (3, 0.0), (5, c)] {
+            position.set(axis, value);
+        }
+        position
+    };
+    let mut follower = crate::Follower::new(believed);
+    follower.follow(&line(false, trunnion_interp::Position::default(), at(0.0)));
+    let leg = follower.follow(&line(false, at(0.0), at(180.0)));
+    let radius = 125_f64.sqrt();
+    let found = comparison.along(&leg, 1.5 * radius).expect("known");
+    assert!((found.worst.tip_mm - 2.0 * radius).abs() < 1e-9, "{found:?}");
+    assert!(
+        found.bound_mm >= 2.0 * radius * (1.0 - 1e-12) && found.bound_mm <= 2.4 * radius,
+        "{found:?}"
+    );
+}
+
 /// A feed motion along a line.
 fn line(tcp: bool, start: trunnion_interp::Position, end: trunnion_interp::Position) -> trunnion_interp::Motion {
     trunnion_interp::Motion {

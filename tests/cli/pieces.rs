@@ -178,6 +178,34 @@ fn through_the_pole_the_turning_axis_keeps_its_side() {
     );
 }
 
+/// The rules that each cone calls, no more and no less. A runs from -30 deg, so a tilt of more than 30 deg leaves one posture; through
+/// the pole itself C goes on evenly, 0.1 deg beside it the table turns by 145 times the path's angle.
+#[test]
+fn each_cone_calls_exactly_its_rules() {
+    let folder = TempDir::new().expect("works");
+    let beside_the_pole = [
+        "axis-overspeed",
+        "excess-linear-travel",
+        "excess-rotary-travel",
+        "fast-pole",
+        "feed-drop",
+        "pole-flip",
+    ];
+    let rows: [(&str, &str, &[&str]); 5] = [
+        ("15", "10", &[]),
+        ("15", "30", &["only-one-posture"]),
+        ("45", "30", &["only-one-posture"]),
+        ("15", "15", &["pole-crossing"]),
+        ("15", "14.9", &beside_the_pole),
+    ];
+    for (half, tilt, wanted) in rows {
+        let sizes = ["cone", "--half-angle", half, "--tilt", tilt, "--segments", "3600"];
+        let found = findings(&sample(&folder, "cone.apt", &sizes), MACHINE);
+        let wanted: BTreeSet<String> = wanted.iter().map(|rule| (*rule).to_owned()).collect();
+        assert_eq!(found, wanted, "{half}/{tilt}");
+    }
+}
+
 #[test]
 fn circles_and_the_fixed_tip_have_no_deviation_under_tool_centre_point_control() {
     let folder = TempDir::new().expect("works");

@@ -6,7 +6,7 @@ use core::ops::Deref;
 const SHORT: usize = 23;
 
 /// The name of a variable as formulas ask for it: without its signs, blanks removed, in lower case.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Name {
     short: [u8; SHORT + 1],
     /// A name that is longer, or has letters beyond ASCII.
@@ -31,7 +31,7 @@ impl Name {
 
     /// The first bytes of `text` up to `end` as a name in lower case, where they are letters, digits and `_`, and not many; how many they are.
     #[inline]
-    pub(crate) fn before(text: &[u8], end: u8) -> Option<(Self, usize)> {
+    pub fn before(text: &[u8], end: u8) -> Option<(Self, usize)> {
         let mut short = [0; SHORT + 1];
         for (length, &byte) in text.iter().enumerate() {
             if byte == end {

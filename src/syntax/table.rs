@@ -26,6 +26,15 @@ impl TextRange {
             end: self.end.max(other.end),
         }
     }
+    /// The range so many bytes further on; wrapping, so that 2^32 less leads back.
+    #[inline]
+    #[must_use]
+    pub fn shifted(self, by: u32) -> Self {
+        Self {
+            start: self.start.wrapping_add(by),
+            end: self.end.wrapping_add(by),
+        }
+    }
     /// Whether `offset` lies inside, the end included.
     pub fn touches(self, offset: u32) -> bool {
         self.start <= offset && offset <= self.end

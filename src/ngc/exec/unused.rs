@@ -75,7 +75,28 @@ impl Codes<'_> {
 }
 
 /// The first word that nothing in the block uses, in the order in which the control looks.
+#[inline]
 pub(crate) fn check(block: &Block) -> Result<(), Error> {
+    let rotary = block.given & 0b111 != 0 && Codes(block).cycle();
+    if block.given & ASKED == 0 && !rotary && block.spindle.is_none() {
+        return Ok(());
+    }
+    check_each(block)
+}
+
+/// Letters that may have nothing to use them.
+const ASKED: u32 = {
+    let mut bits = 0;
+    let letters = b"DEHIJKLPQR";
+    let mut at = 0;
+    while at < letters.len() {
+        bits |= 1 << (letters[at] - b'A');
+        at += 1;
+    }
+    bits
+};
+
+fn check_each(block: &Block) -> Result<(), Error> {
     let codes = Codes(block);
     let used = |letter: u8| match letter {
         b'D' => codes.g(7, &[410, 411, 420, 421]) || codes.g(14, &[960]) || codes.turning(),

@@ -109,16 +109,8 @@ impl Engine {
         {
             return chain;
         }
-        let text = self.flow.labels.text(name);
-        let what = || match style {
-            Style::Sub if text.parse::<i64>().is_ok() => format!("o{text} call"),
-            Style::Sub => format!("o<{text}> call"),
-            Style::Fanuc => format!("M98 P{text}"),
-        };
-        let chain = self
-            .flow
-            .chains
-            .call(parent, compiled.place.file, compiled.place.line, what);
+        let site = (compiled.place.file, compiled.place.line);
+        let chain = self.flow.chains.call(parent, site, name, style);
         compiled.memo.chain = Some((parent, chain));
         chain
     }

@@ -1,6 +1,8 @@
 //! From the bytes of a line to its read form, and the way lines are kept.
 use super::labels::Place;
+use super::lines::Kept;
 use super::oline::{self, Keyword};
+use super::texts::Key;
 use super::{Compiled, Kind, problems};
 use crate::read::{self, Line};
 use crate::{Engine, Error};
@@ -8,7 +10,7 @@ use trunnion_formula::Cursor;
 use trunnion_syntax::TextRange;
 
 /// Longest line, its line end counted.
-const LONGEST: u32 = 253;
+pub(super) const LONGEST: u32 = 253;
 
 /// How a line begins.
 pub(super) struct Head<'s> {
@@ -83,29 +85,46 @@ impl Engine {
             offset: range.end,
         }
     }
-    /// The line at `here` in its read form: the kept one where it ran before, and then `true`: it goes back there.
+    /// The line at `here` in its read form, and whether it will run again: then what is found out about it is kept.
+    #[inline]
     pub(super) fn fetch(&mut self) -> (Box<Compiled>, bool) {
         let place = self.flow.here;
         let lines = self.flow.lines(place.file);
-        if lines.run(place.line) {
-            self.flow.fuel = self.flow.fuel.saturating_sub(1);
-            let lines = self.flow.lines(place.file);
-            if let Some(kept) = lines.take(place.line) {
-                return (kept, true);
-            }
-            return (self.compile_to_keep(place), true);
+        if !lines.run(place.line) {
+            let keep = self.flow.looping;
+            return (self.read(place, keep), keep);
         }
-        if self.flow.looping {
-            return (self.compile_to_keep(place), true);
-        }
-        let mut compiled = self.flow.spare.take().unwrap_or_default();
-        self.compile(place, &mut compiled);
-        (compiled, false)
+        let kept = lines.kept(place.line).map(|kept| *kept);
+        self.flow.fuel = self.flow.fuel.saturating_sub(1);
+        let Some(Kept { slot, memo }) = kept else {
+            return (self.read(place, true), true);
+        };
+        let mut compiled = match self.flow.texts.again(slot, place) {
+            Some(compiled) => compiled,
+            None => self.read(place, true),
+        };
+        compiled.memo = memo;
+        (compiled, true)
     }
-    /// Reads a line that will run again.
-    fn compile_to_keep(&mut self, place: Place) -> Box<Compiled> {
-        let mut compiled = self.flow.lines(place.file).room();
-        self.compile(place, &mut compiled);
+    /// The line at a place in its read form. `keep`: it will run again.
+    pub(super) fn read(&mut self, place: Place, keep: bool) -> Box<Compiled> {
+        let range = self.range_at(place);
+        let source = self.files[place.file.0 as usize].bytes();
+        let Some(key) = Key::of(source, range) else {
+            let mut compiled = self.flow.texts.nowhere();
+            self.compile(place, &mut compiled);
+            return compiled;
+        };
+        let (mut compiled, known) = self.flow.texts.find(&key, source, &self.files, keep);
+        if known {
+            compiled.place = place;
+            compiled.next = Self::behind(place, range);
+            compiled.memo = super::Memo::default();
+            compiled.move_to(key, place.file);
+        } else {
+            self.compile(place, &mut compiled);
+            compiled.comes_from(&key, place.file);
+        }
         compiled
     }
     /// Reads the line at a place. What is wrong with it is in what was read.
@@ -148,12 +167,15 @@ impl Engine {
     /// Puts a line back where it came from.
     #[inline]
     pub(super) fn put_back(&mut self, compiled: Box<Compiled>, keep: bool) {
-        if !keep {
-            self.flow.spare = Some(compiled);
-            return;
+        if keep {
+            let place = compiled.place;
+            let kept = Kept {
+                slot: compiled.slot(),
+                memo: compiled.memo,
+            };
+            self.flow.lines(place.file).keep(place.line, kept);
         }
-        let place = compiled.place;
-        self.flow.lines(place.file).keep(place.line, compiled);
+        self.flow.texts.put_back(compiled);
     }
 }
 

@@ -2,6 +2,8 @@
 //!
 //! It settles only what the full look at a skipped line would settle in the same way (a test compares both).
 
+use super::oline::{self, Keyword};
+
 /// Lines up to this length, their line end counted, are looked at here.
 pub(super) const LONGEST: usize = 253;
 
@@ -25,9 +27,9 @@ pub(super) fn look(line: &[u8]) -> Look<'_> {
     let rest = &line[start..];
     match rest[0] {
         b'\n' | b';' => Look::Nothing,
-        b'o' | b'O' if !rest.contains(&b'(') => label(&rest[1..]).unwrap_or(Look::Unclear),
+        b'o' | b'O' if memchr::memchr(b'(', rest).is_none() => label(&rest[1..]).unwrap_or(Look::Unclear),
         b'n' | b'N' | b'o' | b'O' => Look::Unclear,
-        b'#' | b'a'..=b'z' | b'A'..=b'Z' if !rest.contains(&b'(') => Look::Nothing,
+        b'#' | b'a'..=b'z' | b'A'..=b'Z' if memchr::memchr(b'(', rest).is_none() => Look::Nothing,
         _ => Look::Unclear,
     }
 }
@@ -48,24 +50,11 @@ fn label(rest: &[u8]) -> Option<Look<'_>> {
     let blanks = behind.iter().position(|byte| !matches!(byte, b' ' | b'\t'))?;
     let word = &behind[blanks..];
     let end = word.iter().position(|byte| !byte.is_ascii_alphabetic())?;
-    let is = |words: &[&str]| words.iter().any(|one| word[..end].eq_ignore_ascii_case(one.as_bytes()));
-    if is(&["endsub", "call", "return"]) {
-        return Some(Look::Label(name, true));
-    }
-    is(&[
-        "if",
-        "elseif",
-        "else",
-        "endif",
-        "while",
-        "endwhile",
-        "do",
-        "repeat",
-        "endrepeat",
-        "break",
-        "continue",
-    ])
-    .then_some(Look::Label(name, false))
+    let global = match oline::keyword_of(&word[..end])? {
+        Keyword::Sub => return None,
+        keyword => matches!(keyword, Keyword::EndSub | Keyword::Call | Keyword::Return),
+    };
+    Some(Look::Label(name, global))
 }
 
 #[cfg(test)]

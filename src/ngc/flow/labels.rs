@@ -5,6 +5,7 @@
 use crate::FileId;
 use foldhash::HashMap;
 use std::sync::Arc;
+use trunnion_formula::Name;
 
 /// A name in the table, `NameId::MAIN` for "no subprogram".
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -82,8 +83,10 @@ pub(crate) struct Subprogram {
 
 #[derive(Clone, Debug, Default)]
 struct Names {
-    ids: HashMap<Box<str>, u32>,
-    texts: Vec<Box<str>>,
+    /// Names that are whole numbers, as the control writes them: most of all labels.
+    numbers: HashMap<u32, u32>,
+    ids: HashMap<Name, u32>,
+    texts: Vec<Name>,
     scoped: HashMap<(u32, u32), u32>,
 }
 
@@ -105,24 +108,37 @@ impl Labels {
             structures: Vec::new(),
             generation: 0,
         };
-        labels.name("");
+        labels.name(&Name::new(""));
         labels
     }
     /// The number of a name.
-    pub(crate) fn name(&mut self, text: &str) -> NameId {
-        if let Some(&id) = self.names.ids.get(text) {
+    pub(crate) fn name(&mut self, text: &Name) -> NameId {
+        let number = number(text.as_bytes());
+        let known = match number {
+            Some(number) => self.names.numbers.get(&number),
+            None => self.names.ids.get(text),
+        };
+        if let Some(&id) = known {
             return NameId(id);
         }
         let names = Arc::make_mut(&mut self.names);
         let id = names.texts.len() as u32;
-        names.texts.push(text.into());
-        names.ids.insert(text.into(), id);
+        names.texts.push(text.clone());
+        match number {
+            Some(number) => names.numbers.insert(number, id),
+            None => names.ids.insert(text.clone(), id),
+        };
         self.subprograms.push(None);
         NameId(id)
     }
     /// A name as written, blanks removed, lower case.
     pub(crate) fn text(&self, name: NameId) -> &str {
         &self.names.texts[name.0 as usize]
+    }
+    /// Its bytes.
+    #[inline]
+    pub(crate) fn name_bytes(&self, name: NameId) -> &[u8] {
+        self.names.texts[name.0 as usize].as_bytes()
     }
     /// The label of a structure inside a subprogram.
     pub(crate) fn label(&mut self, sub: NameId, name: NameId) -> LabelId {
@@ -156,4 +172,16 @@ impl Labels {
     pub(crate) fn structures(&self) -> impl Iterator<Item = &Structure> {
         self.structures.iter().flatten()
     }
+}
+
+/// A whole number of up to nine digits that is written in one way only: without zeros in front.
+#[inline]
+fn number(text: &[u8]) -> Option<u32> {
+    if text.is_empty() || text.len() > 9 || (text[0] == b'0' && text.len() > 1) {
+        return None;
+    }
+    text.iter().try_fold(0, |number, byte| {
+        let digit = byte.wrapping_sub(b'0');
+        (digit < 10).then(|| number * 10 + u32::from(digit))
+    })
 }

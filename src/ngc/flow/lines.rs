@@ -1,15 +1,21 @@
-//! Lines that ran: which ones, and the read form of those that ran more than once.
-use super::Compiled;
+//! Lines that ran: which ones, and what was found out about those that ran more than once.
+use super::Memo;
 use std::collections::VecDeque;
 
 /// Lines of one page.
 const PAGE: u32 = 256;
-/// So many pages of read lines are kept per file, those that began last. A loop longer than that is read again each time.
+/// So many pages are kept per file, those that began last.
 const KEPT: usize = 32;
-/// So many lines that are forgotten are held for their storage.
-const SPARE: usize = PAGE as usize;
 
-type Page = [Option<Box<Compiled>>; PAGE as usize];
+type Page = [Option<Kept>; PAGE as usize];
+
+/// What is kept of a line.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Kept {
+    /// Where its read form is, if it is not gone.
+    pub(super) slot: u32,
+    pub(super) memo: Memo,
+}
 
 /// What is remembered of one file's lines.
 #[derive(Debug, Default)]
@@ -23,12 +29,9 @@ pub(crate) struct Lines {
     pages: Vec<Option<Box<Page>>>,
     /// Pages that are there, in the order in which they began.
     order: VecDeque<u32>,
-    /// Forgotten lines, for their storage.
-    #[expect(clippy::vec_box, reason = "boxes move between here and the pages")]
-    spare: Vec<Box<Compiled>>,
 }
 
-/// A copy reads its lines again: check-points must not copy what can be had anew.
+/// A copy finds out again: check-points must not copy what can be had anew.
 impl Clone for Lines {
     fn clone(&self) -> Self {
         Self {
@@ -37,7 +40,6 @@ impl Clone for Lines {
             glanced: self.glanced,
             pages: Vec::new(),
             order: VecDeque::new(),
-            spare: Vec::new(),
         }
     }
 }
@@ -80,24 +82,15 @@ impl Lines {
         self.glanced = self.glanced.max(line + 1);
         before
     }
-    /// Takes a kept line out; [`Self::keep`] brings it back.
+    /// What is kept of a line.
     #[inline]
-    pub(crate) fn take(&mut self, line: u32) -> Option<Box<Compiled>> {
+    pub(crate) fn kept(&mut self, line: u32) -> Option<&mut Kept> {
         let page = self.pages.get_mut((line / PAGE) as usize)?.as_mut()?;
-        page[(line % PAGE) as usize].take()
+        page[(line % PAGE) as usize].as_mut()
     }
-    /// A kept line, to change what was found out about it.
-    pub(crate) fn kept(&mut self, line: u32) -> Option<&mut Compiled> {
-        let page = self.pages.get_mut((line / PAGE) as usize)?.as_mut()?;
-        page[(line % PAGE) as usize].as_deref_mut()
-    }
-    /// Room for one more line to keep.
-    pub(crate) fn room(&mut self) -> Box<Compiled> {
-        self.spare.pop().unwrap_or_default()
-    }
-    /// Brings a line back.
+    /// Keeps what was found out about a line.
     #[inline]
-    pub(crate) fn keep(&mut self, line: u32, compiled: Box<Compiled>) {
+    pub(crate) fn keep(&mut self, line: u32, kept: Kept) {
         let page = (line / PAGE) as usize;
         if page >= self.pages.len() {
             self.pages.resize_with(page + 1, || None);
@@ -106,7 +99,7 @@ impl Lines {
             self.pages[page] = Some(self.begin_page(page as u32));
         }
         if let Some(page) = &mut self.pages[page] {
-            page[(line % PAGE) as usize] = Some(compiled);
+            page[(line % PAGE) as usize] = Some(kept);
         }
     }
     /// An empty page: where there are enough the oldest one is forgotten.
@@ -120,11 +113,7 @@ impl Lines {
         let Some(mut old) = oldest.and_then(|oldest| self.pages[oldest as usize].take()) else {
             return Box::new([const { None }; PAGE as usize]);
         };
-        for line in old.iter_mut().filter_map(Option::take) {
-            if self.spare.len() < SPARE {
-                self.spare.push(line);
-            }
-        }
+        old.fill(None);
         old
     }
 }

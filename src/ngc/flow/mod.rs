@@ -22,6 +22,7 @@ mod rest;
 mod seek;
 mod step;
 mod structure;
+mod texts;
 mod undecided;
 
 pub use refused::Refused;
@@ -98,6 +99,8 @@ pub(crate) struct Compiled {
     flaw: Option<Error>,
     line: Line,
     memo: Memo,
+    /// Which text it is the read form of.
+    origin: texts::Origin,
 }
 
 /// What lines are skipped for.
@@ -189,8 +192,8 @@ pub(crate) struct Flow {
     searched: Vec<String>,
     /// What the last refused line named.
     refused: Refused,
-    /// Kept for its storage.
-    spare: Option<Box<Compiled>>,
+    /// Lines in their read form.
+    texts: texts::Texts,
 }
 
 impl Clone for Flow {
@@ -221,7 +224,7 @@ impl Clone for Flow {
             watch: self.watch.clone(),
             searched: self.searched.clone(),
             refused: self.refused,
-            spare: None,
+            texts: self.texts.clone(),
         }
     }
 }
@@ -255,7 +258,7 @@ impl Flow {
             watch: endless::Watch::default(),
             searched: Vec::new(),
             refused: Refused::default(),
-            spare: None,
+            texts: texts::Texts::default(),
         }
     }
     /// The line that ran last.
@@ -264,7 +267,7 @@ impl Flow {
     }
     /// The calls of a chain, outermost first.
     pub(crate) fn frames(&self, id: ChainId) -> Vec<crate::Frame> {
-        self.chains.frames(id)
+        self.chains.frames(id, &self.labels)
     }
     /// The context saved at this level of calls.
     fn saved(&mut self) -> &mut Option<Box<Context>> {

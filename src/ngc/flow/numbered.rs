@@ -5,6 +5,7 @@ use super::{Compiled, Halt, context, problems};
 use crate::exec::{self, After};
 use crate::read;
 use crate::{Block, Engine, Error, Sink};
+use trunnion_formula::Name;
 
 /// Bits of P and L.
 const P_AND_L: u32 = 1 << (b'P' - b'A') | 1 << (b'L' - b'A');
@@ -20,7 +21,7 @@ impl Engine {
         self.block = Some(block);
         let result = match result {
             Ok((number, rounds)) => {
-                let name = self.flow.labels.name(&number.to_string());
+                let name = self.flow.labels.name(&Name::new(&number.to_string()));
                 self.store.set_returned(None);
                 self.enter(compiled, &line, name, Style::Fanuc, rounds, None)
             }

@@ -85,6 +85,27 @@ pub(crate) struct OLine {
     pub(crate) errors: Vec<FormulaError>,
 }
 
+impl OLine {
+    /// Moves its ranges by so many bytes (wrapping).
+    pub(super) fn shift(&mut self, by: u32) {
+        for range in [&mut self.label_range, &mut self.keyword_range, &mut self.rest] {
+            *range = range.shifted(by);
+        }
+        if let Label::Computed(formula) = &mut self.label {
+            formula.shift(by);
+        }
+        for formula in &mut self.values {
+            formula.shift(by);
+        }
+        for flaw in self.flaw.iter_mut().chain(&mut self.tail) {
+            flaw.range = flaw.range.shifted(by);
+        }
+        for error in &mut self.errors {
+            error.range = error.range.shifted(by);
+        }
+    }
+}
+
 /// Most arguments of a call: they become #1 to #30.
 const ARGUMENTS: usize = 30;
 
@@ -259,25 +280,21 @@ fn keyword(cursor: &mut Cursor<'_>) -> Option<(Keyword, TextRange)> {
     })
 }
 
-/// The keyword that a word without blanks is, behind which no letter can follow that would make it longer, and its length.
-fn written(rest: &[u8]) -> Option<(Keyword, usize)> {
-    let length = rest
-        .iter()
-        .position(|byte| !byte.is_ascii_alphabetic())
-        .unwrap_or(rest.len());
+/// The keyword that a word without blanks is, in whatever case.
+#[inline]
+pub(super) fn keyword_of(word: &[u8]) -> Option<Keyword> {
     let mut lower = [0u8; 9];
-    let word = lower.get_mut(..length)?;
-    word.copy_from_slice(&rest[..length]);
-    word.make_ascii_lowercase();
-    let keyword = match &*word {
+    let letters = lower.get_mut(..word.len())?;
+    letters.copy_from_slice(word);
+    letters.make_ascii_lowercase();
+    Some(match &*letters {
         b"sub" => Keyword::Sub,
         b"endsub" => Keyword::EndSub,
         b"call" => Keyword::Call,
         b"return" => Keyword::Return,
         b"if" => Keyword::If,
         b"elseif" => Keyword::ElseIf,
-        // `else if` is `elseif`
-        b"else" if !matches!(rest.get(length), Some(b' ' | b'\t' | b'\r')) => Keyword::Else,
+        b"else" => Keyword::Else,
         b"endif" => Keyword::EndIf,
         b"while" => Keyword::While,
         b"endwhile" => Keyword::EndWhile,
@@ -287,7 +304,20 @@ fn written(rest: &[u8]) -> Option<(Keyword, usize)> {
         b"break" => Keyword::Break,
         b"continue" => Keyword::Continue,
         _ => return None,
-    };
+    })
+}
+
+/// The keyword that a word without blanks is, behind which no letter can follow that would make it longer, and its length.
+fn written(rest: &[u8]) -> Option<(Keyword, usize)> {
+    let length = rest
+        .iter()
+        .position(|byte| !byte.is_ascii_alphabetic())
+        .unwrap_or(rest.len());
+    let keyword = keyword_of(&rest[..length])?;
+    // `else if` is `elseif`
+    if keyword == Keyword::Else && matches!(rest.get(length), Some(b' ' | b'\t' | b'\r')) {
+        return None;
+    }
     Some((keyword, length))
 }
 

@@ -74,9 +74,17 @@ impl Engine {
             }
             let range = self.range_at(place);
             let next = Self::behind(place, range);
-            if self.surely_nothing(place, range, &seeking) {
-                self.flow.here = next;
-                continue;
+            match self.first_look(place, range, &seeking) {
+                Some(false) => {
+                    self.flow.here = next;
+                    continue;
+                }
+                Some(true) => {
+                    let compiled = self.read(place, false);
+                    self.landed(place, &seeking);
+                    return Sought::Landed(compiled, seeking, false);
+                }
+                None => {}
             }
             match self.glance(place, range, &mut seeking) {
                 Glance::Counts(line) => return self.land(place, next, *line, seeking),
@@ -93,6 +101,18 @@ impl Engine {
     }
     /// The line that counts is made ready to run.
     fn land(&mut self, place: Place, next: Place, line: OLine, seeking: Seeking) -> Sought {
+        self.landed(place, &seeking);
+        let mut compiled = self.flow.texts.nowhere();
+        compiled.place = place;
+        compiled.next = next;
+        compiled.kind = Kind::Label;
+        compiled.flaw = None;
+        compiled.memo = super::Memo::default();
+        compiled.o = Some(Box::new(line));
+        Sought::Landed(compiled, seeking, false)
+    }
+    /// A skip ends at this line, which runs now.
+    fn landed(&mut self, place: Place, seeking: &Seeking) {
         let generation = self.flow.labels.generation;
         if seeking.fixed {
             let opener = seeking.opener;
@@ -102,32 +122,24 @@ impl Engine {
         }
         self.flow.seeking = None;
         self.flow.lines(place.file).run(place.line);
-        let mut compiled = self.flow.spare.take().unwrap_or_default();
-        compiled.place = place;
-        compiled.next = next;
-        compiled.kind = Kind::Label;
-        compiled.flaw = None;
-        compiled.memo = super::Memo::default();
-        compiled.o = Some(Box::new(line));
-        Sought::Landed(compiled, seeking, false)
     }
-    /// Whether a skipped line surely counts for nothing, by its first signs.
+    /// Whether a skipped line counts, where its first signs say it.
     #[inline]
-    fn surely_nothing(&self, place: Place, range: TextRange, seeking: &Seeking) -> bool {
+    fn first_look(&self, place: Place, range: TextRange, seeking: &Seeking) -> Option<bool> {
         let line = &self.files[place.file.0 as usize].bytes()[range.as_usize()];
         if line.len() > glance::LONGEST {
-            return false;
+            return None;
         }
         match glance::look(line) {
-            Look::Nothing => true,
+            Look::Nothing => Some(false),
             Look::Label(name, is_global) => {
                 let (wanted, global) = match seeking.goal {
                     Goal::Label(_, wanted) => (wanted, false),
                     Goal::Definition(wanted) | Goal::Subprogram(wanted, _) => (wanted, true),
                 };
-                is_global != global || !self.flow.labels.text(wanted).as_bytes().eq_ignore_ascii_case(name)
+                Some(is_global == global && self.flow.labels.name_bytes(wanted).eq_ignore_ascii_case(name))
             }
-            Look::Unclear => false,
+            Look::Unclear => None,
         }
     }
     fn note(&mut self, place: Place) {

@@ -7,6 +7,7 @@ use super::oline::{self, Keyword, Label, OLine};
 use super::{Compiled, Goal, Halt, Seeking, problems};
 use crate::exec::After;
 use crate::{Engine, Error, Problem, Sink};
+use trunnion_formula::Name;
 
 impl Engine {
     /// Runs an O line; `sought`: it is where a skip ended.
@@ -63,7 +64,7 @@ impl Engine {
                 let Some(number) = oline::whole(value) else {
                     return Err(Error::new(&problems::LABEL, line.label_range).into());
                 };
-                Ok(self.flow.labels.name(&number.to_string()))
+                Ok(self.flow.labels.name(&Name::new(&number.to_string())))
             }
         }
     }

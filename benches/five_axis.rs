@@ -1,13 +1,14 @@
 //! `cargo bench --bench five_axis`: parse and full check of one million five-axis blocks on one core, stage by stage, beside a plain
-//! newline count and LinuxCNC's `rs274 -g` (where it is installed) on the same file, with peak memory. Times are processor time, the
-//! least of some runs; ratios are of this run; nothing is asserted.
+//! newline count and LinuxCNC's `rs274 -g` (where it is installed) on the same file, then on two threads, with peak memory. Times are
+//! processor time, the least of some runs, but those of one and two threads, which are compared by the time that passes; ratios are of
+//! this run; nothing is asserted.
 //!
 //! The program is a serpentine over a bumpy surface with the tool axis on its normal, as rotary words A (tilt about X)
 //! and C (about Z): `G1 X Y Z A C` on each line, with a real singularity where the surface is level.
 #![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 use std::{env, fmt::Write, fs, hint::black_box, process::Command};
 use trunnion::{
-    check::{Settings, check},
+    check::{Settings, check_on},
     dialect::builtin,
     interp::{Fault, ModalState, Motion, Setup, Sink, run},
     machine::{self, Follower, Machine},
@@ -62,9 +63,9 @@ fn main() {
         rules: Vec::new(),
         port_to: Vec::new(),
     };
-    let full = time(|| check(&parse(text.clone(), dialect.lex), &settings));
+    let full = time(|| check_on(&parse(text.clone(), dialect.lex), &settings, 1));
     line("parse and full check", full, newline, megabytes);
-    let report = check(&program, &settings);
+    let report = check_on(&program, &settings, 1);
     stages(&[
         ("parse", parsed),
         ("fold", folded),
@@ -80,6 +81,17 @@ fn main() {
         ),
         None => println!("\nrs274 is not installed: no ratio to it"),
     }
+    let [one, two] =
+        [1, 2].map(|threads| cpu::passed(RUNS, || check_on(&parse(text.clone(), dialect.lex), &settings, threads)));
+    let same = format!("{report:?}") == format!("{:?}", check_on(&program, &settings, 2));
+    println!(
+        "\ntime that passes: one thread {:.3} us/block, two threads {:.3} ({:.0} blocks/s, {:.2} x); the reports are {}",
+        one / BLOCKS as f64 * 1e6,
+        two / BLOCKS as f64 * 1e6,
+        BLOCKS as f64 / two,
+        one / two,
+        if same { "the same" } else { "DIFFERENT" }
+    );
     println!(
         "\nfindings: {} in {} motions",
         report.diagnostics.len(),
@@ -107,7 +119,7 @@ fn memory_child(path: &std::ffi::OsStr) {
         rules: Vec::new(),
         port_to: Vec::new(),
     };
-    black_box(check(&parse(text, dialect.lex), &settings));
+    black_box(check_on(&parse(text, dialect.lex), &settings, 2));
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = status
         .lines()

@@ -1,5 +1,6 @@
 //! One check of one program: run in the order in which the control runs it, follow, judge. Streams: what is kept beside the
 //! program is findings and one modal state.
+use crate::apart;
 use crate::both;
 use crate::pass::Pass;
 use crate::suppress::{Suppressions, has_code};
@@ -36,25 +37,83 @@ impl Watch for Nobody {
     fn ran(&mut self, _: u64, _: BlockId, _: bool) {}
 }
 
-/// Checks a parsed program.
+/// Checks a parsed program; a long one on two threads, where there are two.
 pub fn check(program: &Program, settings: &Settings<'_>) -> Report {
-    judge(program, settings, &mut Nobody).unwrap_or_default()
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    check_on(program, settings, threads)
+}
+
+/// Checks a parsed program on at most so many threads (no more than two are used). The report does not depend on how many.
+pub fn check_on(program: &Program, settings: &Settings<'_>, threads: usize) -> Report {
+    if threads > 1 && program.block_count() >= apart::WORTH {
+        check_apart(program, settings)
+    } else {
+        judge(program, settings, &mut Nobody).unwrap_or_default()
+    }
+}
+
+/// The program runs on a thread of its own.
+fn check_apart(program: &Program, settings: &Settings<'_>) -> Report {
+    let whole = with_both(program, settings, |settings| {
+        analyse(program, settings, |interpreter, pass| {
+            Some(apart::run(program, interpreter, pass))
+        })
+    });
+    whole.unwrap_or_default()
 }
 
 /// Checks with every state of the switch for block delete that is possible; `watch` looks on at the run that runs every block. `None`
 /// when it broke off.
 pub(crate) fn judge(program: &Program, settings: &Settings<'_>, watch: &mut impl Watch) -> Option<Report> {
-    let mut report = analyse(program, settings, watch)?;
+    let mut first = Some(watch);
+    with_both(program, settings, |settings| {
+        analyse(program, settings, |interpreter, pass| match first.take() {
+            Some(watch) => run(program, interpreter, pass, watch),
+            None => run(program, interpreter, pass, &mut Nobody),
+        })
+    })
+}
+
+/// Checks as declared, and with the switch for block delete on where nobody says how it stands.
+fn with_both(
+    program: &Program,
+    settings: &Settings<'_>,
+    mut check: impl FnMut(&Settings<'_>) -> Option<Report>,
+) -> Option<Report> {
+    let mut report = check(settings)?;
     if both::is_open(program, settings) {
         let mut on = settings.clone();
         on.setup.control.block_delete = Some(true);
-        both::join(&mut report, &analyse(program, &on, &mut Nobody)?);
+        both::join(&mut report, &check(&on)?);
     }
     Some(report)
 }
 
-/// Checks a parsed program; `None` when `watch` broke off.
-fn analyse(program: &Program, settings: &Settings<'_>, watch: &mut impl Watch) -> Option<Report> {
+/// Runs a program to its end; `None` when `watch` broke off.
+fn run(
+    program: &Program,
+    mut interpreter: Interpreter<'static>,
+    pass: &mut Pass<'_>,
+    watch: &mut impl Watch,
+) -> Option<Interpreter<'static>> {
+    for executed in 0.. {
+        if executed % CHECK_POINT_BLOCKS == 0 && watch.pause(executed, &interpreter, pass.follower()).is_break() {
+            return None;
+        }
+        let Some(block) = interpreter.advance(program, pass) else {
+            break;
+        };
+        watch.ran(executed, block, pass.ran(block));
+    }
+    Some(interpreter)
+}
+
+/// Checks a parsed program; `run` shows the pass a run of it, or breaks off.
+fn analyse(
+    program: &Program,
+    settings: &Settings<'_>,
+    run: impl FnOnce(Interpreter<'static>, &mut Pass<'_>) -> Option<Interpreter<'static>>,
+) -> Option<Report> {
     let directives = directives(program);
     let suppressions = Suppressions::new(program, &directives);
     let mut pass = Pass::new(program, settings, &suppressions);
@@ -70,21 +129,13 @@ fn analyse(program: &Program, settings: &Settings<'_>, watch: &mut impl Watch) -
             directives: &directives,
         });
     }
-    let mut interpreter = Interpreter::new(settings.dialect, &settings.setup);
+    let interpreter = Interpreter::new(settings.dialect, &settings.setup);
     if unreadable {
         return Some(pass.finish(&interpreter));
     }
     let blocks = (0..program.block_count() as u32).map(BlockId);
     pass.count_blocks(blocks.filter(|&id| has_code(program, id)).count() as u64);
-    for executed in 0.. {
-        if executed % CHECK_POINT_BLOCKS == 0 && watch.pause(executed, &interpreter, pass.follower()).is_break() {
-            return None;
-        }
-        let Some(block) = interpreter.advance(program, &mut pass) else {
-            break;
-        };
-        watch.ran(executed, block, pass.ran(block));
-    }
+    let interpreter = run(interpreter, &mut pass)?;
     Some(pass.finish(&interpreter))
 }
 
@@ -171,6 +222,49 @@ mod tests {
         assert!((low - 10.0).abs() < 1e-9, "{low}");
         // 10 mm/s in 10 ms, twice, half of it lost
         assert!((high - 10.01).abs() < 1e-9, "{high}");
+    }
+
+    #[test]
+    fn two_threads_find_what_one_finds() {
+        use core::fmt::Write;
+        let machine = trunnion_machine::builtin("mikron-ucp710");
+        let mut long = String::from("G21 G90 G17\nT1 M6\nG0 X0 Y0 Z50 A0 C0\nG1 Z10 F2000\n");
+        for i in 0..3000 {
+            let _ = writeln!(
+                long,
+                "G1 X{} Y{} A{}.{} C{}{}",
+                i % 900,
+                i % 7,
+                i % 40,
+                i % 9,
+                (i * 37) % 720,
+                if i % 311 == 0 { " G77.7" } else { "" }
+            );
+        }
+        let looped = "#<i> = 0\no1 while [#<i> LT 900]\nG1 X[#<i> * 2] A[#<i>] F100\nS-1\n#<i> = [#<i> + 1]\no1 endwhile\nX#<none>\n";
+        let skipped = "G0 X0 Y0 Z0\n/G1 X9999 F100\nG1 X0 Y1 F100\n/T2 M6\nX5\nM2\n";
+        for (dialect, text) in [
+            ("linuxcnc", long.as_str()),
+            ("linuxcnc", looped),
+            ("linuxcnc", skipped),
+            ("linuxcnc", ""),
+            ("fanuc-30i", long.as_str()),
+            (
+                "fanuc-30i",
+                "#1=0\nWHILE[#1LT700]DO1\nG1X[#1*3]A#1F100\n#1=#1+1\nEND1\nM98P7\nM30\n",
+            ),
+        ] {
+            let settings = Settings {
+                dialect: trunnion_dialect::builtin(dialect).expect("built in"),
+                machine,
+                ..settings(&[])
+            };
+            let program = parse(text.as_bytes().to_vec(), settings.dialect.lex);
+            let one = check_on(&program, &settings, 1);
+            let two = check_apart(&program, &settings);
+            assert!(text.is_empty() || !one.diagnostics.is_empty(), "{dialect}: {text:.80}");
+            assert_eq!(format!("{one:?}"), format!("{two:?}"), "{dialect}: {text:.80}");
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! It does no I/O: texts come in, plain data goes out. It does not know terminals, JSON or LSP.
 mod again;
 mod analysis;
+mod apart;
 mod both;
 pub mod config;
 mod diagnostic;
@@ -26,11 +27,13 @@ mod view;
 mod visited;
 mod words;
 
-pub use analysis::check;
+pub use analysis::{check, check_on};
 pub use config::{Config, ConfigError, RuleLevel, Settings};
 pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
 pub use report::{Report, Summary, Verdict};
-pub use rule::{EndRule, Ending, FaultRule, Guarantee, LegRule, Level, MotionRule, ProgramRule, Rule, TextRule};
+pub use rule::{
+    EndRule, Ending, FaultRule, Guarantee, InForce, LegRule, Level, MotionRule, ProgramRule, Rule, TextRule,
+};
 pub use rules::{rule, rules};
 pub use session::{BlockInfo, Session, Variables};
 pub use sink::{Draft, Reporter};

@@ -1,6 +1,6 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
 use crate::report::Summary;
-use crate::rule::{EndRule, Ending, FaultRule, LegRule, MotionRule, ProgramRule, TextRule};
+use crate::rule::{EndRule, Ending, FaultRule, InForce, LegRule, MotionRule, ProgramRule, TextRule};
 use crate::sink::{Active, Reporter, active};
 use crate::suppress::Suppressions;
 use crate::time::CycleTime;
@@ -211,20 +211,7 @@ impl<'a> Pass<'a> {
 
 impl Sink for Pass<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
-        self.summary.motions += 1;
-        // cutter compensation tells a motion when the next block is known: that is no further pass of its block
-        let late = motion.chain == ChainId::MAIN && self.last_ran == Some(motion.block);
-        self.reporter
-            .origin(self.visited.has(motion.block) && !late, motion.chain);
-        for rule in &self.motions {
-            self.reporter.enter(rule, Some(motion.block), self.summary.motions);
-            (rule.run)(motion, state, &mut self.reporter);
-            self.reporter.leave();
-        }
-        if let Some(follower) = &mut self.follower {
-            let leg = follower.follow(motion);
-            self.read_leg(&leg);
-        }
+        self.take_motion(motion, InForce::of(state));
     }
 
     fn fault(&mut self, fault: Fault) {
@@ -236,6 +223,26 @@ impl Sink for Pass<'_> {
             self.reporter.enter(rule, Some(fault.block), self.executed);
             (rule.run)(&fault, &mut self.reporter);
             self.reporter.leave();
+        }
+    }
+}
+
+impl Pass<'_> {
+    /// Judges a motion.
+    pub(crate) fn take_motion(&mut self, motion: &Motion, in_force: InForce) {
+        self.summary.motions += 1;
+        // cutter compensation tells a motion when the next block is known: that is no further pass of its block
+        let late = motion.chain == ChainId::MAIN && self.last_ran == Some(motion.block);
+        self.reporter
+            .origin(self.visited.has(motion.block) && !late, motion.chain);
+        for rule in &self.motions {
+            self.reporter.enter(rule, Some(motion.block), self.summary.motions);
+            (rule.run)(motion, in_force, &mut self.reporter);
+            self.reporter.leave();
+        }
+        if let Some(follower) = &mut self.follower {
+            let leg = follower.follow(motion);
+            self.read_leg(&leg);
         }
     }
 }

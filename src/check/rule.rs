@@ -7,10 +7,30 @@ use trunnion_syntax::{SyntaxError, TextRange};
 pub type TextRule = fn(&SyntaxError, &mut Reporter<'_>);
 /// Reads the program as a whole.
 pub type ProgramRule = fn(&Overview<'_>, &mut Reporter<'_>);
+/// What is in force with a motion and does not stand in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InForce {
+    /// Compensated tool length, mm; `None`: off.
+    pub tool_length_mm: Option<f64>,
+    /// Coordinates are in a frame that is not modelled.
+    pub frame_unknown: bool,
+}
+
+impl InForce {
+    /// Of the modal state.
+    #[inline]
+    pub(crate) fn of(state: &ModalState) -> Self {
+        Self {
+            tool_length_mm: state.tool_length_mm,
+            frame_unknown: state.frame_unknown,
+        }
+    }
+}
+
 /// Reads a fault of the run.
 pub type FaultRule = fn(&Fault, &mut Reporter<'_>);
-/// Reads a motion as programmed, without a machine, and what is in force after its block.
-pub type MotionRule = fn(&Motion, &ModalState, &mut Reporter<'_>);
+/// Reads a motion as programmed, without a machine, and what is in force with it.
+pub type MotionRule = fn(&Motion, InForce, &mut Reporter<'_>);
 /// Reads what is known when the run has come to its end.
 pub type EndRule = fn(&Ending<'_>, &mut Reporter<'_>);
 /// Reads a leg of the machine.

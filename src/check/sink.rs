@@ -184,6 +184,7 @@ impl<'a> Reporter<'a> {
     }
 
     /// Names the rule that runs next and the block it looks at. `sequence` counts blocks for merging.
+    #[inline]
     pub(crate) fn enter<F>(&mut self, rule: &Active<F>, block: Option<BlockId>, sequence: u64) {
         self.name = rule.name;
         self.severity = rule.severity;
@@ -199,10 +200,14 @@ impl<'a> Reporter<'a> {
     }
 
     /// Takes what the rule reported.
+    #[inline]
     pub(crate) fn leave(&mut self) {
-        if self.pending.is_empty() {
-            return;
+        if !self.pending.is_empty() {
+            self.take_pending();
         }
+    }
+
+    fn take_pending(&mut self) {
         let program = self.program;
         for Draft { mut diagnostic, merge } in self.pending.drain(..) {
             let block = self

@@ -33,6 +33,16 @@ pub(crate) fn value_with(
     if let Some(number) = plain_number(cursor) {
         return (number, None);
     }
+    if let Some((value, range)) = bracketed_number(cursor) {
+        let mut steps = pool.pop().unwrap_or_default();
+        let op = Op::Number(value);
+        steps.push(Step { op, range });
+        let formula = Formula {
+            range: cursor.since(start),
+            code: Code::Steps { steps, depth: 1 },
+        };
+        return (formula, None);
+    }
     let mut compiler = Compiler {
         cursor,
         grammar,
@@ -103,6 +113,9 @@ fn plain_number(cursor: &mut Cursor<'_>) -> Option<Formula> {
         .iter()
         .position(|byte| !byte.is_ascii_digit() && *byte != b'.')
         .unwrap_or(rest.len() - sign);
+    if digits == 0 {
+        return None;
+    }
     let length = sign + digits;
     if rest.get(length).copied().is_some_and(is_blank) && continues(&rest[length..]) {
         return None;
@@ -118,6 +131,25 @@ fn plain_number(cursor: &mut Cursor<'_>) -> Option<Formula> {
             decimal: Some(decimal),
         },
     })
+}
+
+/// `[1.5]` without blanks: a number in brackets, and where the number stands.
+#[inline]
+fn bracketed_number(cursor: &mut Cursor<'_>) -> Option<(f64, TextRange)> {
+    let (&b'[', rest) = cursor.rest().split_first()? else {
+        return None;
+    };
+    let sign = usize::from(matches!(rest.first(), Some(b'-' | b'+')));
+    let other = |byte: &u8| !byte.is_ascii_digit() && *byte != b'.';
+    let length = sign + rest.get(sign..)?.iter().position(other)?;
+    if length == sign || rest[length] != b']' {
+        return None;
+    }
+    let decimal = Decimal::parse(&rest[..length])?;
+    let start = cursor.at() + 1;
+    let end = start + length as u32;
+    cursor.skip_to(end + 1);
+    Some((signed(decimal, rest[0] == b'-'), TextRange::new(start, end)))
 }
 
 /// The value with its sign, which a decimal does not keep of `-0`.

@@ -1,6 +1,6 @@
 //! Evaluation: one pass over the postfix code with a small stack of values.
 use crate::arithmetic::{binary, checked, is_vacant, unary, vacant, whole};
-use crate::code::{Code, Formula, Op, Step};
+use crate::code::{Binary, Code, Formula, Op, Step};
 use crate::{FormulaError, FormulaErrorKind, Name, ValueError, Variables};
 
 /// Formulas that keep at most this many values at once need no memory.
@@ -37,18 +37,34 @@ fn run(steps: &[Step], variables: &(impl Variables + ?Sized), stack: &mut [f64])
     let mut height = 0;
     for step in steps {
         let result = match &step.op {
-            Op::Number(value) => Ok(*value),
+            Op::Number(value) => {
+                stack[height] = *value;
+                height += 1;
+                continue;
+            }
             Op::Read(index) => numbered(variables, *index),
             Op::ReadNullable(index) => nullable(variables, *index),
-            Op::Named(name) => value_of(name, variables.named_as(name)),
+            Op::Named(name) => match variables.named_as(name) {
+                Ok(value) => {
+                    stack[height] = known(value);
+                    height += 1;
+                    continue;
+                }
+                error => value_of(name, error),
+            },
             Op::ExistsNamed(name) => Ok(f64::from(u8::from(variables.exists(name)))),
             Op::Fail(kind) => Err((**kind).clone()),
             Op::Binary(operation) => {
                 height -= 2;
+                let (a, b) = (stack[height], stack[height + 1]);
+                let quick = of_numbers(*operation, a, b);
+                if !quick.is_nan() {
+                    stack[height] = quick;
+                    height += 1;
+                    continue;
+                }
                 // only Macro B's angles ask the control
-                binary(*operation, stack[height], stack[height + 1], || {
-                    variables.positive_angles()
-                })
+                binary(*operation, a, b, || variables.positive_angles())
             }
             Op::Unary(operation) => {
                 height -= 1;
@@ -77,6 +93,20 @@ fn run(steps: &[Step], variables: &(impl Variables + ?Sized), stack: &mut [f64])
         range: last.range,
         kind,
     })
+}
+
+/// The commonest operations where both values are numbers and the result is one; NaN elsewhere: a number comes out of numbers alone.
+#[inline]
+fn of_numbers(operation: Binary, a: f64, b: f64) -> f64 {
+    match operation {
+        Binary::Add => a + b,
+        Binary::Subtract => a - b,
+        Binary::Multiply => a * b,
+        Binary::Divide if b != 0.0 => a / b,
+        Binary::Greater | Binary::Less if a < b => f64::from(u8::from(operation == Binary::Less)),
+        Binary::Greater | Binary::Less if a > b => f64::from(u8::from(operation == Binary::Greater)),
+        _ => f64::NAN,
+    }
 }
 
 /// A value of a variable; a NaN of any kind is "not known".

@@ -72,9 +72,7 @@ impl<'m> Follower<'m> {
     /// Moves the machine. What cannot be followed leaves it at an unknown position until the program gives one again.
     pub fn follow(&mut self, motion: &Motion) -> Leg {
         let given = self.state.stance.is_none() && self.begin(motion);
-        let mut leg = self.step(motion);
-        leg.start_given = given;
-        leg
+        self.step(motion, given)
     }
 
     /// Takes the stance that the program tells without a motion (APT FROM): tip and tool vector where the motion starts. The posture
@@ -87,13 +85,14 @@ impl<'m> Follower<'m> {
             return false;
         }
         let before = self.state;
-        let known = self.step(&Motion {
+        let way = Motion {
             kind: MotionKind::Rapid,
             start: Position::default(),
             end: motion.start,
             orientation: Orientation::Vector(None, axis),
             ..*motion
-        });
+        };
+        let known = self.step(&way, false);
         if known.end.is_err() {
             self.state = before;
         }
@@ -101,11 +100,11 @@ impl<'m> Follower<'m> {
     }
 
     #[inline]
-    fn step(&mut self, motion: &Motion) -> Leg {
+    fn step(&mut self, motion: &Motion, start_given: bool) -> Leg {
         let mut leg = Leg {
             motion: *motion,
             start: self.state.stance,
-            start_given: false,
+            start_given,
             end: Err(NoStance::NotModelled),
             open: None,
             known_joints: self.state.known_joints,

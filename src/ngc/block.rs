@@ -29,12 +29,12 @@ pub struct Block {
     /// 7: cutter compensation, 8: tool length, 10: retract, 12: coordinate system, 13: path control, 14: spindle mode, 15: lathe
     /// diameter mode, 16: G92.x); -1 where there is none.
     pub g: [i16; G_GROUPS],
-    /// Range of the code of each group; of the line where there is none.
-    pub g_range: [TextRange; G_GROUPS],
+    /// Range of the code of each group; valid where there is one.
+    g_ranges: [TextRange; G_GROUPS],
     /// M codes by group (4: stopping, 5: digital I/O, 6: tool change, 7: spindle, 8: coolant, 9: overrides, 10: user-defined).
     pub m: [i16; M_GROUPS],
-    /// Range of the code of each group; of the line where there is none.
-    pub m_range: [TextRange; M_GROUPS],
+    /// Range of the code of each group; valid where there is one.
+    m_ranges: [TextRange; M_GROUPS],
     /// How many M codes.
     pub m_count: u8,
     /// The motion code that applies to the block: the one given, or the modal one where axis words ask for it; -1 for none.
@@ -63,9 +63,9 @@ impl Block {
         Self {
             range: TextRange::default(),
             g: [NONE; G_GROUPS],
-            g_range: [TextRange::default(); G_GROUPS],
+            g_ranges: [TextRange::default(); G_GROUPS],
             m: [NONE; M_GROUPS],
-            m_range: [TextRange::default(); M_GROUPS],
+            m_ranges: [TextRange::default(); M_GROUPS],
             m_count: 0,
             motion: NONE,
             words: [0.0; 26],
@@ -82,9 +82,7 @@ impl Block {
     pub fn clear(&mut self, range: TextRange) {
         self.range = range;
         self.g = [NONE; G_GROUPS];
-        self.g_range = [range; G_GROUPS];
         self.m = [NONE; M_GROUPS];
-        self.m_range = [range; M_GROUPS];
         self.m_count = 0;
         self.motion = NONE;
         self.given = 0;
@@ -126,10 +124,52 @@ impl Block {
     pub fn g_code(&self, group: usize) -> Option<i16> {
         (self.g[group] != NONE).then(|| self.g[group])
     }
+    /// Bytes of the code of a G group, or of the whole line where there is none.
+    #[inline]
+    pub fn g_range(&self, group: usize) -> TextRange {
+        if self.g[group] == NONE {
+            self.range
+        } else {
+            self.g_ranges[group]
+        }
+    }
+    /// Bytes of the code of an M group, or of the whole line where there is none.
+    #[inline]
+    pub fn m_range(&self, group: usize) -> TextRange {
+        if self.m[group] == NONE {
+            self.range
+        } else {
+            self.m_ranges[group]
+        }
+    }
+    /// Puts a G code in its group.
+    #[inline]
+    pub(crate) fn put_g(&mut self, group: usize, code: i16, range: TextRange) {
+        self.g[group] = code;
+        self.g_ranges[group] = range;
+    }
+    /// Puts an M code in its group; it is not counted.
+    #[inline]
+    pub(crate) fn put_m(&mut self, group: usize, code: i16, range: TextRange) {
+        self.m[group] = code;
+        self.m_ranges[group] = range;
+    }
+    /// Whether nothing but a motion code, axis words and words that belong to it are there: no other code, no S, no T.
+    #[inline]
+    pub(crate) fn is_motion_only(&self) -> bool {
+        let codes = self.g[0] == NONE && self.g[2..].iter().all(|code| *code == NONE) && self.m_count == 0;
+        let words = 1 << (b'S' - b'A') | 1 << (b'T' - b'A');
+        codes && self.given & words == 0 && self.spindle.is_none() && self.own.is_none()
+    }
     /// The code of an M group, if there is one.
     #[inline]
     pub fn m_code(&self, group: usize) -> Option<i16> {
         (self.m[group] != NONE).then(|| self.m[group])
+    }
+    /// Whether a polar word is there.
+    #[inline]
+    pub(crate) fn is_polar(&self) -> bool {
+        self.radius.is_some() || self.angle.is_some()
     }
     /// Whether any axis word X Y Z A B C U V W (or a polar word) is there.
     #[inline]

@@ -104,6 +104,13 @@ impl Store {
             *place = value;
         }
     }
+    /// Writes parameters side by side for the interpreter itself.
+    #[inline]
+    pub(crate) fn set_numbers(&mut self, first: usize, values: &[f64]) {
+        if let Some(places) = self.numbers.get_mut(first..first + values.len()) {
+            places.copy_from_slice(values);
+        }
+    }
     /// Writes a parameter for the program.
     pub(crate) fn set(&mut self, slot: Slot, value: f64) {
         self.numbers[slot.0] = value;

@@ -15,12 +15,29 @@ impl FileId {
 /// So many lines share one entry of the index: a file of nothing but line ends must not cost four times its size in memory.
 pub(crate) const STRIDE: u32 = 64;
 
+/// Bytes that others may hold, too.
+#[derive(Debug)]
+enum Bytes {
+    Slice(Arc<[u8]>),
+    Vector(Arc<Vec<u8>>),
+}
+
+impl Bytes {
+    #[inline]
+    fn get(&self) -> &[u8] {
+        match self {
+            Self::Slice(bytes) => bytes,
+            Self::Vector(bytes) => bytes,
+        }
+    }
+}
+
 /// A program's bytes and where its lines begin.
 #[derive(Debug)]
 pub struct Source {
     /// As people are shown it; empty for the main program.
     pub path: String,
-    bytes: Arc<[u8]>,
+    bytes: Bytes,
     /// Offset of every 64th line.
     starts: Vec<u32>,
     lines: u32,
@@ -29,10 +46,18 @@ pub struct Source {
 impl Source {
     /// Finds the lines. A file is at most 4 GiB long; what lies behind is cut off by the callers, who refuse such files.
     pub fn new(path: String, bytes: Arc<[u8]>) -> Self {
+        Self::of(path, Bytes::Slice(bytes))
+    }
+    /// The same of bytes that are held as a vector: they are not copied.
+    pub fn shared(path: String, bytes: Arc<Vec<u8>>) -> Self {
+        Self::of(path, Bytes::Vector(bytes))
+    }
+    fn of(path: String, held: Bytes) -> Self {
+        let bytes = held.get();
         let mut starts = vec![0];
         let mut lines = 0;
         let mut end = 0;
-        for at in memchr_iter(b'\n', &bytes) {
+        for at in memchr_iter(b'\n', bytes) {
             end = at as u32 + 1;
             lines += 1;
             if lines % STRIDE == 0 {
@@ -43,14 +68,15 @@ impl Source {
         lines += u32::from(end < bytes.len() as u32);
         Self {
             path,
-            bytes,
+            bytes: held,
             starts,
             lines,
         }
     }
     /// All bytes.
+    #[inline]
     pub fn bytes(&self) -> &[u8] {
-        &self.bytes
+        self.bytes.get()
     }
     /// How many lines.
     pub fn line_count(&self) -> u32 {
@@ -70,16 +96,26 @@ impl Source {
     /// Bytes of the line that begins at an offset, with its line end; empty at the end of the file.
     #[inline]
     pub fn line_at(&self, start: u32) -> TextRange {
-        let rest = &self.bytes[start as usize..];
+        let rest = &self.bytes()[start as usize..];
         let length = memchr(b'\n', rest).map_or(rest.len(), |at| at + 1);
         TextRange::new(start, start + length as u32)
+    }
+    /// The same, and whether there is a `(` in it.
+    #[inline]
+    pub(crate) fn line_and_bracket(&self, start: u32) -> (TextRange, bool) {
+        let rest = &self.bytes()[start as usize..];
+        match memchr::memchr2(b'\n', b'(', rest) {
+            Some(at) if rest[at] == b'\n' => (TextRange::new(start, start + at as u32 + 1), false),
+            Some(_) => (self.line_at(start), true),
+            None => (TextRange::new(start, self.bytes().len() as u32), false),
+        }
     }
     /// The line (from 0) in which a byte lies.
     pub fn line_of(&self, offset: u32) -> u32 {
         let block = self.starts.partition_point(|&start| start <= offset).saturating_sub(1);
         let from = self.starts[block] as usize;
-        let to = (offset as usize).min(self.bytes.len());
-        let line = block as u32 * STRIDE + memchr_iter(b'\n', &self.bytes[from..to.max(from)]).count() as u32;
+        let to = (offset as usize).min(self.bytes().len());
+        let line = block as u32 * STRIDE + memchr_iter(b'\n', &self.bytes()[from..to.max(from)]).count() as u32;
         line.min(self.lines.saturating_sub(1))
     }
 }

@@ -177,6 +177,8 @@ pub struct State {
     pub(crate) spindle_row_before: Option<crate::ToolEntry>,
     /// The motions of the block in hand lead to points that are told in the machine's own frame (G53, G28, G30).
     pub machine_frame: bool,
+    /// The block in hand is one straight motion and nothing else, compensation is off: nothing changes behind its motion's call.
+    pub motion_only: bool,
     /// The last probing has touched.
     pub probed: bool,
     /// Length of a line for G93, program end etc. was reached.
@@ -329,6 +331,7 @@ impl State {
             named_axes: 0,
             spindle_row_before: None,
             machine_frame: false,
+            motion_only: false,
             probed: false,
             ended: false,
         }

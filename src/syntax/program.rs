@@ -4,6 +4,7 @@ use crate::scan::Scan;
 use crate::{Block, Format, LexOptions, SyntaxError, SyntaxErrorKind, TextRange, TokenId, TokenTable, apt, iso};
 use core::ops::Range;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// Index of a block; one block per line (APT: per statement, which may span lines by `$`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
@@ -12,7 +13,7 @@ pub struct BlockId(pub u32);
 /// A parsed program. Owns its source; blocks and words are views into it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
-    pub(crate) source: Vec<u8>,
+    pub(crate) source: Arc<Vec<u8>>,
     pub(crate) options: LexOptions,
     pub(crate) tokens: TokenTable,
     /// First token of each block.
@@ -38,7 +39,7 @@ fn parse_up_to(source: Vec<u8>, options: LexOptions, limit: u32) -> Program {
         });
     }
     Program {
-        source,
+        source: Arc::new(source),
         options,
         tokens: out.table,
         blocks: out.blocks,
@@ -76,6 +77,10 @@ impl Program {
     /// The bytes as they lie on disk.
     pub fn source(&self) -> &[u8] {
         &self.source
+    }
+    /// The same, to be kept without a copy.
+    pub fn shared_source(&self) -> Arc<Vec<u8>> {
+        Arc::clone(&self.source)
     }
     /// How it was lexed.
     pub fn options(&self) -> LexOptions {

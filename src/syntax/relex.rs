@@ -103,7 +103,7 @@ impl Program {
             .chain(after.map(|error| shifted(error, &moved)))
             .collect();
         Self {
-            source,
+            source: std::sync::Arc::new(source),
             options: self.options,
             tokens,
             blocks,

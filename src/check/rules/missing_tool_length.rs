@@ -30,8 +30,9 @@
 //!
 //! # Sources
 //! Trunnion's interface, section 7.
+use crate::InForce;
 use crate::prelude::*;
-use trunnion_interp::{ModalState, Motion};
+use trunnion_interp::Motion;
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
@@ -39,7 +40,7 @@ pub(super) const RULE: Body = Body {
     level: Level::Motion(check),
 };
 
-fn check(motion: &Motion, state: &ModalState, out: &mut Reporter<'_>) {
+fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
     let Some(tool @ 1..) = motion.tool else { return };
     if !motion.is_feed() || !by_code(out.dialect()) || !out.once(u64::from(tool)) {
         return;

@@ -25,8 +25,9 @@
 //!
 //! # Sources
 //! Trunnion's interface, section 7: until stock is known, a feed motion is a cut.
+use crate::InForce;
 use crate::prelude::*;
-use trunnion_interp::{ModalState, Motion};
+use trunnion_interp::Motion;
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
@@ -34,7 +35,7 @@ pub(super) const RULE: Body = Body {
     level: Level::Motion(check),
 };
 
-fn check(motion: &Motion, _: &ModalState, out: &mut Reporter<'_>) {
+fn check(motion: &Motion, _: InForce, out: &mut Reporter<'_>) {
     if !motion.is_feed() || motion.spindle_on != Some(false) || motion.machine_coordinates {
         return;
     }

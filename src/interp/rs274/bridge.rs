@@ -42,6 +42,8 @@ pub(super) struct Told {
     pub(super) lost_rotary: bool,
     /// A tilted plane that is not modelled is in force: X Y Z say nothing about the machine.
     pub(super) hidden: bool,
+    /// The line in hand was one motion and nothing else: what is in force behind it was taken over with the motion.
+    pub(super) settled: bool,
     /// The kinematics were switched, nobody knows to which: X Y Z say nothing about the machine.
     pub(super) kinematics_unknown: bool,
 }
@@ -212,6 +214,8 @@ struct ArcCall {
 
 impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
     fn call(&mut self, call: &Canon, at: At, state: &State) {
+        let straight = matches!(call, Canon::Traverse(_) | Canon::Feed(_));
+        self.told.settled = straight && state.motion_only && !self.told.is_hidden();
         match call {
             Canon::Traverse(pose) => {
                 let shift = self.shift(state);

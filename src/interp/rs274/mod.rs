@@ -45,7 +45,7 @@ fn blocks_of_lines(program: &Program) -> Option<std::sync::Arc<[u32]>> {
 impl Rs274 {
     fn begin(program: &Program, interpreter: &Interpreter<'_>) -> Self {
         let told = setup::told(&interpreter.setup, &interpreter.memory.declared, interpreter.dialect);
-        let source = Source::new(String::new(), program.source().into());
+        let source = Source::shared(String::new(), program.shared_source());
         Self {
             engine: Engine::new(Arc::new(source), &told),
             told: Told {
@@ -124,11 +124,13 @@ impl Interpreter<'_> {
             program,
             sink,
         };
+        bridge.told.settled = false;
         let step = engine.step(&mut bridge);
         let at = engine.at();
         // behind the last line nothing runs, and nothing in a program without anything in it
         let nothing_ran = step == Step::Ended;
         let block = bridge.block(at);
+        let ran = step == Step::Line;
         let in_main = (at.file == FileId::MAIN).then_some(block);
         bridge.told.places.ran(at.chain, in_main);
         match step {
@@ -164,10 +166,14 @@ impl Interpreter<'_> {
             self.state.ended = true;
         }
         self.memory.last_content = Some(block);
-        if std::mem::take(&mut told.lost) {
+        let lost = [std::mem::take(&mut told.lost), std::mem::take(&mut told.lost_rotary)];
+        if ran && told.settled && lost == [false; 2] {
+            return Some(block);
+        }
+        if lost[0] {
             forget(engine, told, &LINEAR_AXES);
         }
-        if std::mem::take(&mut told.lost_rotary) {
+        if lost[1] {
             forget(engine, told, &[3, 4, 5]);
         }
         let shift = Shift::of(&engine.state, &told.g92);

@@ -29,7 +29,7 @@ impl Work<'_> {
     /// Bytes of the motion code, or of the line where the code is modal.
     fn code_range(&self) -> trunnion_syntax::TextRange {
         if self.block.g[1] >= 0 {
-            self.block.g_range[1]
+            self.block.g_range(1)
         } else {
             self.block.range
         }

@@ -1,5 +1,6 @@
 //! What must fit together in a block before anything of it is done.
 use super::{motion, problems, unused};
+use crate::block::M_GROUPS;
 use crate::{Block, DistanceMode, Engine, Error, Plane, State};
 
 /// A line holds at most so many M codes.
@@ -8,19 +9,16 @@ const M_CODES: u8 = 4;
 /// How many M codes there are, and whether the machine has the user's ones.
 pub(crate) fn codes(engine: &Engine, block: &Block) -> Result<(), Error> {
     if block.m_count > M_CODES {
-        let last = block
-            .m
-            .iter()
-            .zip(block.m_range)
-            .filter(|(code, _)| **code >= 0)
-            .map(|(_, range)| range);
+        let last = (0..M_GROUPS)
+            .filter(|&group| block.m[group] >= 0)
+            .map(|group| block.m_range(group));
         let range = last.max_by_key(|range| range.start).unwrap_or(block.range);
         return Err(Error::new(&problems::TOO_MANY_M, range));
     }
     match block.m_code(10) {
         Some(code) if !engine.setup.user_codes => {
             let text = problems::UNKNOWN_M.message.replace("{}", &code.to_string());
-            Err(Error::with(&problems::UNKNOWN_M, block.m_range[10], text))
+            Err(Error::with(&problems::UNKNOWN_M, block.m_range(10), text))
         }
         _ => Ok(()),
     }
@@ -45,16 +43,16 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
         return Err(Error::new(&problems::POLAR_NO_MOTION, block.range));
     }
     if matches!(block.g[0], 520 | 920) && block.given & crate::block::AXES == 0 {
-        return Err(Error::new(&problems::AXES_MISSING_G92, block.g_range[0]));
+        return Err(Error::new(&problems::AXES_MISSING_G92, block.g_range(0)));
     }
     block.motion = block.g[1];
     let given = block.g[1] >= 0;
     if given && block.g[1] != 800 {
         if setting {
-            return Err(Error::new(&problems::TWO_AXIS_CODES, block.g_range[1]));
+            return Err(Error::new(&problems::TWO_AXIS_CODES, block.g_range(1)));
         }
         if !axes && matches!(block.g[1], 50 | 51 | 330 | 331 | 382..=385 | 730..=790 | 810..=890) {
-            return Err(Error::new(&problems::ALL_AXES_MISSING, block.g_range[1]));
+            return Err(Error::new(&problems::ALL_AXES_MISSING, block.g_range(1)));
         }
     } else if given {
         if axes && !setting {
@@ -103,12 +101,12 @@ fn first_axis(block: &Block) -> trunnion_syntax::TextRange {
 pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
     match block.g[0] {
         40 if !block.word(b'P').is_some_and(|p| p >= 0.0 || p.is_nan()) => {
-            return Err(Error::new(&problems::G4_NO_P, block.g_range[0]));
+            return Err(Error::new(&problems::G4_NO_P, block.g_range(0)));
         }
         100 => check_g10(block)?,
         530 => {
             if !matches!(block.motion, 0 | 10) {
-                return Err(Error::new(&problems::G53_MOTION, block.g_range[0]));
+                return Err(Error::new(&problems::G53_MOTION, block.g_range(0)));
             }
             let incremental = match block.g[3] {
                 900 => false,
@@ -116,7 +114,7 @@ pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
                 _ => state.distance == DistanceMode::Incremental,
             };
             if incremental {
-                return Err(Error::new(&problems::G53_INCREMENTAL, block.g_range[0]));
+                return Err(Error::new(&problems::G53_INCREMENTAL, block.g_range(0)));
             }
         }
         _ => {}
@@ -131,7 +129,7 @@ pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
         }
     }
     if block.g[14] == 960 && !block.has(b'S') {
-        return Err(Error::new(&problems::G96_NO_S, block.g_range[14]));
+        return Err(Error::new(&problems::G96_NO_S, block.g_range(14)));
     }
     unused::check(block)?;
     check_p(block)
@@ -155,7 +153,7 @@ fn check_g10(block: &Block) -> Result<(), Error> {
     let p_range = if block.has(b'P') {
         block.range_of(b'P')
     } else {
-        block.g_range[0]
+        block.g_range(0)
     };
     let at_least = |least: f64| p.is_some_and(|p| p.is_nan() || p >= least);
     match block.word(b'L').map_or(-1, |l| l as i32) {
@@ -169,16 +167,16 @@ fn check_g10(block: &Block) -> Result<(), Error> {
         1 | 10 | 11 => {
             let written = [b'R', b'I', b'J', b'Q'].into_iter().any(|letter| block.has(letter));
             if !written && block.given & crate::block::AXES == 0 {
-                return Err(Error::new(&problems::G10_NOTHING, block.g_range[0]));
+                return Err(Error::new(&problems::G10_NOTHING, block.g_range(0)));
             }
         }
-        _ => return Err(Error::new(&problems::G10_NO_L, block.g_range[0])),
+        _ => return Err(Error::new(&problems::G10_NO_L, block.g_range(0))),
     }
     Ok(())
 }
 
 fn check_m(block: &Block) -> Result<(), Error> {
-    let range = block.m_range[5];
+    let range = block.m_range(5);
     let missing = match block.m[5] {
         62 => Some((b'P', &problems::M62_P)),
         63 => Some((b'P', &problems::M63_P)),
@@ -192,7 +190,7 @@ fn check_m(block: &Block) -> Result<(), Error> {
         return Err(Error::new(problem, range));
     }
     if block.m[6] == 61 && !block.word(b'Q').is_some_and(|q| q >= 0.0 || q.is_nan()) {
-        return Err(Error::new(&problems::M61_Q, block.m_range[6]));
+        return Err(Error::new(&problems::M61_Q, block.m_range(6)));
     }
     Ok(())
 }

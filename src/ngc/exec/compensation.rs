@@ -23,7 +23,7 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     if code == 400 {
         return comp::end(engine, block, at, sink);
     }
-    let range = block.g_range[7];
+    let range = block.g_range(7);
     if !matches!(engine.state.plane, Plane::Xy | Plane::Xz) {
         return Err(Error::new(&WRONG_PLANE, range));
     }
@@ -55,7 +55,7 @@ fn named(problem: &'static Problem, block: &Block, range: trunnion_syntax::TextR
 /// G41.1 and G42.1: D is a diameter in program units, L an orientation.
 fn by_diameter(engine: &Engine, block: &Block) -> Result<(f64, i32), Error> {
     let Some(diameter) = block.word(b'D') else {
-        return Err(named(&NO_D, block, block.g_range[7]));
+        return Err(named(&NO_D, block, block.g_range(7)));
     };
     let orientation = block.word(b'L').map_or(0, |l| l as i32);
     if block.has(b'L') && engine.state.plane != Plane::Xz {
@@ -85,7 +85,7 @@ fn by_tool(engine: &mut Engine, block: &Block) -> Result<(f64, i32), Error> {
     };
     // 9 is the middle of the edge, as of a mill
     if !matches!(tool.orientation, 0 | 9) && engine.state.plane != Plane::Xz {
-        return Err(named(&LATHE_TOOL, block, block.g_range[7]));
+        return Err(named(&LATHE_TOOL, block, block.g_range(7)));
     }
     let unit = access::unit_of(engine.setup.machine_units, engine.state.units);
     Ok((tool.diameter / 2.0 * unit, tool.orientation))

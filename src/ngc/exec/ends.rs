@@ -28,6 +28,12 @@ pub(crate) fn cycle_end(state: &State, block: &Block) -> Result<Pose, Error> {
     }
     let mut end = state.current;
     let incremental = state.distance == DistanceMode::Incremental;
+    if !(incremental || state.lathe_diameter || state.wrapped != [false; 3] || block.is_polar()) {
+        for (place, letter) in AXES.into_iter().enumerate() {
+            end[place] = block.word(letter).unwrap_or(end[place]);
+        }
+        return Ok(end);
+    }
     for (place, letter) in AXES.into_iter().enumerate() {
         let Some(value) = word(state, block, letter) else {
             continue;

@@ -35,7 +35,7 @@ fn store(engine: &mut Engine, first: usize) {
 /// By way of the programmed point; with axis words only the named axes go to the stored point.
 fn go(engine: &mut Engine, first: usize, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     if engine.state.side != Side::Off {
-        return Err(Error::new(&problems::HOME_COMPENSATION, block.g_range[0]));
+        return Err(Error::new(&problems::HOME_COMPENSATION, block.g_range(0)));
     }
     let by_way_of = ends::end(&engine.state, block)?;
     rapid(engine, by_way_of, at, sink);

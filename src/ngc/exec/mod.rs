@@ -63,6 +63,15 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
             engine.state.unmodelled = Some(own.tenths);
         }
     }
+    let only = block.is_motion_only();
+    engine.state.motion_only = only && matches!(block.motion, 0 | 10) && engine.state.side == Side::Off;
+    if only {
+        // what the other steps look for is not there
+        modal::feed_rate(engine, block, at, sink);
+        move_tool(engine, block, at, sink)?;
+        engine.refresh_parameters();
+        return Ok(After::Go);
+    }
     modes(engine, block, at, sink)?;
     switches(engine, block, at, sink)?;
     if flow::context::run(engine, block, at, sink)? {
@@ -151,7 +160,7 @@ fn setting(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> R
 /// The motion of the block.
 fn move_tool(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     if block.g[0] == 530 && block.motion >= 0 && engine.state.side != Side::Off {
-        return Err(Error::new(&problems::G53_COMPENSATION, block.g_range[0]));
+        return Err(Error::new(&problems::G53_COMPENSATION, block.g_range(0)));
     }
     engine.state.last_motion = engine.state.motion;
     match block.motion {

@@ -57,7 +57,7 @@ pub(crate) fn plane(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
         _ => Plane::Vw,
     };
     if engine.state.side != Side::Off && plane != engine.state.plane {
-        return Err(Error::new(&problems::PLANE_COMPENSATION, block.g_range[2]));
+        return Err(Error::new(&problems::PLANE_COMPENSATION, block.g_range(2)));
     }
     engine.state.plane = plane;
     engine.emit(Canon::Plane(plane), at, sink);
@@ -99,7 +99,7 @@ fn change_units(engine: &mut Engine, units: Units) {
 pub(crate) fn control_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let Some(code) = block.g_code(13) else { return Ok(()) };
     if engine.state.side != Side::Off {
-        return Err(Error::new(&problems::CONTROL_COMPENSATION, block.g_range[13]));
+        return Err(Error::new(&problems::CONTROL_COMPENSATION, block.g_range(13)));
     }
     let mode = match code {
         610 => MotionMode::ExactPath,
@@ -188,7 +188,7 @@ pub(crate) fn retract(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn
 pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let Some(code) = block.g_code(12) else { return Ok(()) };
     if engine.state.side != Side::Off {
-        return Err(Error::new(&problems::G5X_COMPENSATION, block.g_range[12]));
+        return Err(Error::new(&problems::G5X_COMPENSATION, block.g_range(12)));
     }
     let index = match code {
         540..=590 => (code - 530) / 10,

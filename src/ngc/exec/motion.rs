@@ -68,7 +68,7 @@ pub(crate) fn check_feed(
 ) -> Result<(), Error> {
     let state = &engine.state;
     match state.feed_mode {
-        FeedMode::InverseTime if !block.has(b'F') => return Err(Error::new(missing_f, block.g_range[1])),
+        FeedMode::InverseTime if !block.has(b'F') => return Err(Error::new(missing_f, block.g_range(1))),
         FeedMode::PerMinute | FeedMode::PerRevolution if state.feed_rate == 0.0 => {
             return Err(Error::new(zero, code_range(block)));
         }
@@ -82,7 +82,7 @@ pub(crate) fn check_feed(
 
 /// The motion code's bytes, or the line's where the code is modal.
 pub(crate) fn code_range(block: &Block) -> trunnion_syntax::TextRange {
-    if block.g[1] >= 0 { block.g_range[1] } else { block.range }
+    if block.g[1] >= 0 { block.g_range(1) } else { block.range }
 }
 
 /// G0, G1.

@@ -8,7 +8,7 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
     let active = engine.state.origin_index;
     let index = if number == 0 { active } else { number };
     if engine.state.side != Side::Off && index == active {
-        return Err(Error::new(&problems::G10_COMPENSATION, block.g_range[0]));
+        return Err(Error::new(&problems::G10_COMPENSATION, block.g_range(0)));
     }
     if let Some(letter) = [b'I', b'J'].into_iter().find(|&letter| block.has(letter)) {
         return Err(Error::new(&problems::G10_IJ, block.range_of(letter)));
@@ -56,9 +56,9 @@ fn origin_of_position(engine: &Engine, block: &Block, stored: &Pose, rotation: f
 /// G92, G52, G92.1, G92.2, G92.3.
 pub(crate) fn axis_offsets(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let (code, range) = if matches!(block.g[0], 520 | 920) {
-        (block.g[0], block.g_range[0])
+        (block.g[0], block.g_range(0))
     } else if block.g[16] >= 0 {
-        (block.g[16], block.g_range[16])
+        (block.g[16], block.g_range(16))
     } else {
         return Ok(());
     };

@@ -20,7 +20,7 @@ pub(crate) fn signals(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn
             let problem = if code == 67 { &problems::M67_E } else { &problems::M68_E };
             let index = block.word(b'E').map_or(-1, |e| e.round() as i32);
             if index < 0 {
-                return Err(Error::new(problem, block.m_range[5]));
+                return Err(Error::new(problem, block.m_range(5)));
             }
             let call = Canon::AnalogOutput {
                 index,
@@ -36,7 +36,7 @@ pub(crate) fn signals(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn
 
 /// M66: what is read is put into parameter 5399; it is known to the machine only.
 fn wait(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
-    let range = block.m_range[5];
+    let range = block.m_range(5);
     if engine.state.side != Side::Off {
         return Err(Error::new(&problems::M66_COMPENSATION, range));
     }

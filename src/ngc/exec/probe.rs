@@ -9,7 +9,7 @@ const SHORT_MM: f64 = 0.254;
 pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let state = &engine.state;
     if state.side != Side::Off {
-        return Err(Error::new(&problems::PROBE_COMPENSATION, block.g_range[1]));
+        return Err(Error::new(&problems::PROBE_COMPENSATION, block.g_range(1)));
     }
     if state.feed_rate == 0.0 || state.feed_mode == FeedMode::InverseTime {
         return Err(Error::new(&problems::ZERO_FEED_PROBE, motion::code_range(block)));

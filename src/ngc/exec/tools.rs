@@ -98,7 +98,7 @@ pub(crate) fn select(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
 
 /// M6, M61.
 pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
-    let range = block.m_range[6];
+    let range = block.m_range(6);
     match block.m[6] {
         6 => {
             if engine.state.side != Side::Off {
@@ -181,7 +181,7 @@ fn put_in_spindle(engine: &mut Engine, row: i32) {
 /// G43, G43.1, G43.2, G49.
 pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let Some(code) = block.g_code(8) else { return Ok(()) };
-    let range = block.g_range[8];
+    let range = block.g_range(8);
     if engine.state.side != Side::Off {
         return Err(Error::new(&problems::LENGTH_COMPENSATION, range));
     }
@@ -319,12 +319,12 @@ fn offset_of_position(engine: &Engine, block: &Block, stored: &Pose, fixture: bo
 /// G10 L0: the table is read again; refused while a tool is in the spindle.
 fn reload(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     if engine.state.side != Side::Off {
-        return Err(Error::new(&problems::TOOL_NUMBER_COMPENSATION, block.g_range[0]));
+        return Err(Error::new(&problems::TOOL_NUMBER_COMPENSATION, block.g_range(0)));
     }
     let tool = engine.state.tools.first().map_or(0, |row| row.number);
     if tool > 0 {
         let text = problems::G10_LOADED.message.replace("{}", &tool.to_string());
-        return Err(Error::with(&problems::G10_LOADED, block.g_range[0], text));
+        return Err(Error::with(&problems::G10_LOADED, block.g_range(0), text));
     }
     if engine.setup.start == Start::Unknown {
         engine.state.tools = engine.setup.tool_rows();

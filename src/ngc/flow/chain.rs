@@ -26,13 +26,7 @@ pub(crate) struct Chains(Arc<Table>);
 
 impl Chains {
     /// The chain of a call made at a line that itself was reached by `parent`.
-    pub(crate) fn call(
-        &mut self,
-        parent: ChainId,
-        (file, line): (FileId, u32),
-        name: NameId,
-        style: Style,
-    ) -> ChainId {
+    pub(crate) fn call(&mut self, parent: ChainId, (file, line): (FileId, u32), name: NameId, style: Style) -> ChainId {
         let key = (parent, file, line);
         if let Some(&id) = self.0.known.get(&key) {
             return id;

@@ -25,7 +25,7 @@ pub(crate) struct Context {
 /// # Errors
 /// Nothing was saved at this level of calls, or a code cannot be restored.
 pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<bool, Error> {
-    let range = block.m_range[7];
+    let range = block.m_range(7);
     match block.m[7] {
         code @ (70 | 73) => {
             let context = Context {
@@ -84,8 +84,7 @@ fn to(engine: &mut Engine, context: &Context, range: TextRange, at: At, sink: &m
     if let Some(block) = block.as_mut().filter(|block| block.m_count == 0)
         && let Some((group, code)) = changed.next()
     {
-        block.m[group] = code;
-        block.m_range[group] = range;
+        block.put_m(group, code, range);
         block.m_count = 1;
         if block.g[13] == path_code(MotionMode::Continuous(0.0)) && !block.has(b'P') {
             // P of G64 is P of the M code, too: M50 to M53 switch off
@@ -111,20 +110,17 @@ fn modes(now: &State, saved: &State, g92: [bool; 2], range: TextRange) -> Option
     let mut any = false;
     for ((group, code), (_, other)) in wanted.into_iter().zip(present) {
         if code != other {
-            block.g[group] = code;
-            block.g_range[group] = range;
+            block.put_g(group, code, range);
             any = true;
         }
     }
     if g92[0] != g92[1] {
         // G92 comes back by G92.2 or G92.3
-        block.g[16] = if g92[0] { 923 } else { 922 };
-        block.g_range[16] = range;
+        block.put_g(16, if g92[0] { 923 } else { 922 }, range);
         any = true;
     }
     if saved.motion_mode != now.motion_mode || saved.naive_tolerance.to_bits() != now.naive_tolerance.to_bits() {
-        block.g[13] = path_code(saved.motion_mode);
-        block.g_range[13] = range;
+        block.put_g(13, path_code(saved.motion_mode), range);
         if let MotionMode::Continuous(tolerance) = saved.motion_mode
             && tolerance != 0.0
         {
@@ -147,8 +143,7 @@ fn modes(now: &State, saved: &State, g92: [bool; 2], range: TextRange) -> Option
         _ => 4,
     };
     if turn(saved) != turn(now) {
-        block.m[7] = turn(saved);
-        block.m_range[7] = range;
+        block.put_m(7, turn(saved), range);
         block.m_count = 1;
         any = true;
     }
@@ -280,16 +275,14 @@ fn with_g(range: TextRange, codes: &[(usize, i16)]) -> Block {
     let mut block = Block::new();
     block.clear(range);
     for &(group, code) in codes {
-        block.g[group] = code;
-        block.g_range[group] = range;
+        block.put_g(group, code, range);
     }
     block
 }
 
 fn with_m(range: TextRange, group: usize, code: i16) -> Block {
     let mut block = with_g(range, &[]);
-    block.m[group] = code;
-    block.m_range[group] = range;
+    block.put_m(group, code, range);
     block.m_count = 1;
     block
 }

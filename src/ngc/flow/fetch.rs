@@ -134,10 +134,9 @@ impl Engine {
         into.place = place;
         into.next = Self::behind(place, range);
         into.memo = super::Memo::default();
-        if let Some(line) = into.o.take() {
-            line.values
-                .into_iter()
-                .for_each(|value| into.line.pool.take_back(value));
+        let mut kept = into.o.take();
+        if let Some(line) = &mut kept {
+            line.values.drain(..).for_each(|value| into.line.pool.take_back(value));
         }
         into.kind = Kind::Blank;
         into.flaw = too_long(range);
@@ -153,8 +152,13 @@ impl Engine {
             Some(b'%') if is_percent(source, text) => into.kind = Kind::Percent,
             Some(b'o') => {
                 let mut cursor = head.cursor;
-                into.flaw = text_flaw(source, text);
-                into.o = Some(Box::new(oline::read(&mut cursor, &mut into.line.pool)));
+                into.flaw = flaw_with(source, text, head.flaw);
+                let line = oline::read(&mut cursor, &mut into.line.pool);
+                match &mut kept {
+                    Some(kept) => **kept = line,
+                    None => kept = Some(Box::new(line)),
+                }
+                into.o = kept;
                 into.kind = Kind::Label;
             }
             Some(b'm') => compile_m(source, &head, text, into),
@@ -197,9 +201,11 @@ fn compile_m(source: &[u8], head: &Head<'_>, text: TextRange, into: &mut Compile
 
 /// What is wrong with a line before its sense counts: comments, N. Lines of words look at these themselves.
 pub(super) fn text_flaw(source: &[u8], text: TextRange) -> Option<Error> {
-    read::comment_flaw(source, text).or_else(|| {
-        head(source, text)
-            .flaw
-            .map(|range| Error::new(&problems::SEQUENCE_NUMBER, range))
-    })
+    flaw_with(source, text, head(source, text).flaw)
+}
+
+/// The same where it is known what is wrong with N.
+fn flaw_with(source: &[u8], text: TextRange, number: Option<TextRange>) -> Option<Error> {
+    let error = || number.map(|range| Error::new(&problems::SEQUENCE_NUMBER, range));
+    read::comment_flaw(source, text).or_else(error)
 }

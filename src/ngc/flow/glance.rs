@@ -18,18 +18,18 @@ pub(super) enum Look<'s> {
     Unclear,
 }
 
-/// Looks at one line.
+/// Looks at one line; `bracket`: there is a `(` in it.
 #[inline]
-pub(super) fn look(line: &[u8]) -> Look<'_> {
+pub(super) fn look(line: &[u8], bracket: bool) -> Look<'_> {
     let Some(start) = line.iter().position(|byte| !matches!(byte, b' ' | b'\t')) else {
         return Look::Nothing;
     };
     let rest = &line[start..];
     match rest[0] {
         b'\n' | b';' => Look::Nothing,
-        b'o' | b'O' if memchr::memchr(b'(', rest).is_none() => label(&rest[1..]).unwrap_or(Look::Unclear),
+        b'o' | b'O' if !bracket => label(&rest[1..]).unwrap_or(Look::Unclear),
         b'n' | b'N' | b'o' | b'O' => Look::Unclear,
-        b'#' | b'a'..=b'z' | b'A'..=b'Z' if memchr::memchr(b'(', rest).is_none() => Look::Nothing,
+        b'#' | b'a'..=b'z' | b'A'..=b'Z' if !bracket => Look::Nothing,
         _ => Look::Unclear,
     }
 }
@@ -97,7 +97,7 @@ mod tests {
             line in "[ \\t]{0,2}[oO]?(1|12|007|0|<a_1>|<A b>|#1|<a)?[ ]{0,2}(if|else|else if|endif|while|endwhile|call|endsub|sub|end sub|return|do|G1 X1|#2=3|N5|%|/)?( ?\\[1\\]| ?[(;]c[)]?|x| 2)?\r?\n"
         ) {
             let expected = full(line.as_bytes());
-            match look(line.as_bytes()) {
+            match look(line.as_bytes(), line.contains('(')) {
                 Look::Unclear => {}
                 Look::Nothing => prop_assert_eq!(expected, Some(None), "{:?}", line),
                 Look::Label(name, global) => {

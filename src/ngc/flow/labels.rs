@@ -81,12 +81,18 @@ pub(crate) struct Subprogram {
     pub(crate) body: Place,
 }
 
+/// Numbers below this have a place in a list.
+const SMALL: u32 = 1 << 18;
+
 #[derive(Clone, Debug, Default)]
 struct Names {
-    /// Names that are whole numbers, as the control writes them: most of all labels.
+    /// Of names that are whole numbers as the control writes them, which most are: the small ones in their place (0: none), the others.
+    small: Vec<u32>,
     numbers: HashMap<u32, u32>,
     ids: HashMap<Name, u32>,
     texts: Vec<Name>,
+    /// Of each name, the first subprogram in which it is a label, and the label; the others.
+    first: Vec<Option<(u32, u32)>>,
     scoped: HashMap<(u32, u32), u32>,
 }
 
@@ -115,6 +121,7 @@ impl Labels {
     pub(crate) fn name(&mut self, text: &Name) -> NameId {
         let number = number(text.as_bytes());
         let known = match number {
+            Some(number) if number < SMALL => self.names.small.get(number as usize).filter(|id| **id != 0),
             Some(number) => self.names.numbers.get(&number),
             None => self.names.ids.get(text),
         };
@@ -124,10 +131,18 @@ impl Labels {
         let names = Arc::make_mut(&mut self.names);
         let id = names.texts.len() as u32;
         names.texts.push(text.clone());
+        names.first.push(None);
         match number {
-            Some(number) => names.numbers.insert(number, id),
-            None => names.ids.insert(text.clone(), id),
-        };
+            Some(number) if number < SMALL => {
+                let place = number as usize;
+                if place >= names.small.len() {
+                    names.small.resize(place + 1, 0);
+                }
+                names.small[place] = id;
+            }
+            Some(number) => _ = names.numbers.insert(number, id),
+            None => _ = names.ids.insert(text.clone(), id),
+        }
         self.subprograms.push(None);
         NameId(id)
     }
@@ -143,11 +158,23 @@ impl Labels {
     /// The label of a structure inside a subprogram.
     pub(crate) fn label(&mut self, sub: NameId, name: NameId) -> LabelId {
         let key = (sub.0, name.0);
-        if let Some(&id) = self.names.scoped.get(&key) {
-            return LabelId(id);
+        let first = self.names.first[name.0 as usize];
+        match first {
+            Some((own, id)) if own == sub.0 => return LabelId(id),
+            Some(_) => {
+                if let Some(&id) = self.names.scoped.get(&key) {
+                    return LabelId(id);
+                }
+            }
+            None => {}
         }
         let id = self.structures.len() as u32;
-        Arc::make_mut(&mut self.names).scoped.insert(key, id);
+        let names = Arc::make_mut(&mut self.names);
+        if first.is_none() {
+            names.first[name.0 as usize] = Some((sub.0, id));
+        } else {
+            names.scoped.insert(key, id);
+        }
         self.structures.push(None);
         LabelId(id)
     }

@@ -3,9 +3,9 @@ use super::Memo;
 use std::collections::VecDeque;
 
 /// Lines of one page.
-const PAGE: u32 = 256;
+const PAGE: u32 = 128;
 /// So many pages are kept per file, those that began last.
-const KEPT: usize = 32;
+const KEPT: usize = 64;
 
 type Page = [Option<Kept>; PAGE as usize];
 
@@ -75,6 +75,10 @@ impl Lines {
     /// Whether the 64 lines from one on, whose number 64 divides, all ran.
     pub(crate) fn all_ran(&self, line: u32) -> bool {
         self.ran.get((line / 64) as usize) == Some(&u64::MAX)
+    }
+    /// Lines from here on were never skipped.
+    pub(crate) fn glanced(&self) -> u32 {
+        self.glanced
     }
     /// Whether a line that is skipped was skipped or run before; it is noted that it was looked at.
     pub(crate) fn glance(&mut self, line: u32) -> bool {

@@ -61,6 +61,7 @@ impl Engine {
             return Sought::Landed(compiled, seeking, keep);
         }
         loop {
+            let counts = self.pass(&seeking);
             let place = self.flow.here;
             if place.offset as usize >= self.files[place.file.0 as usize].bytes().len() {
                 return Sought::EndOfFile;
@@ -74,17 +75,10 @@ impl Engine {
             }
             let range = self.range_at(place);
             let next = Self::behind(place, range);
-            match self.first_look(place, range, &seeking) {
-                Some(false) => {
-                    self.flow.here = next;
-                    continue;
-                }
-                Some(true) => {
-                    let compiled = self.read(place, false);
-                    self.landed(place, &seeking);
-                    return Sought::Landed(compiled, seeking, false);
-                }
-                None => {}
+            if counts {
+                let compiled = self.read(place, false);
+                self.landed(place, &seeking);
+                return Sought::Landed(compiled, seeking, false);
             }
             match self.glance(place, range, &mut seeking) {
                 Glance::Counts(line) => return self.land(place, next, *line, seeking),
@@ -123,24 +117,43 @@ impl Engine {
         self.flow.seeking = None;
         self.flow.lines(place.file).run(place.line);
     }
-    /// Whether a skipped line counts, where its first signs say it.
-    #[inline]
-    fn first_look(&self, place: Place, range: TextRange, seeking: &Seeking) -> Option<bool> {
-        let line = &self.files[place.file.0 as usize].bytes()[range.as_usize()];
-        if line.len() > glance::LONGEST {
-            return None;
-        }
-        match glance::look(line) {
-            Look::Nothing => Some(false),
-            Look::Label(name, is_global) => {
-                let (wanted, global) = match seeking.goal {
-                    Goal::Label(_, wanted) => (wanted, false),
-                    Goal::Definition(wanted) | Goal::Subprogram(wanted, _) => (wanted, true),
-                };
-                Some(is_global == global && self.flow.labels.name_bytes(wanted).eq_ignore_ascii_case(name))
+    /// Passes lines that by their first signs count for nothing; whether the line behind them counts by its first signs.
+    fn pass(&mut self, seeking: &Seeking) -> bool {
+        let mut here = self.flow.here;
+        let source = std::sync::Arc::clone(&self.files[here.file.0 as usize]);
+        let glanced = self.flow.lines(here.file).glanced();
+        let (wanted, global) = match seeking.goal {
+            Goal::Label(_, wanted) => (wanted, false),
+            Goal::Definition(wanted) | Goal::Subprogram(wanted, _) => (wanted, true),
+        };
+        let wanted = self.flow.labels.name_bytes(wanted);
+        let mut fuel = self.flow.fuel;
+        let mut counts = false;
+        while (here.offset as usize) < source.bytes().len() && fuel > 0 {
+            let (range, has_comment) = source.line_and_bracket(here.offset);
+            let line = &source.bytes()[range.as_usize()];
+            if line.len() > glance::LONGEST {
+                break;
             }
-            Look::Unclear => None,
+            match glance::look(line, has_comment) {
+                Look::Nothing => {}
+                Look::Label(name, is_global) => {
+                    counts = is_global == global && wanted.eq_ignore_ascii_case(name);
+                }
+                Look::Unclear => break,
+            }
+            if counts {
+                break;
+            }
+            fuel -= u64::from(here.line < glanced);
+            here = Self::behind(here, range);
         }
+        self.flow.fuel = fuel;
+        if here.line > self.flow.here.line {
+            self.flow.lines(here.file).glance(here.line - 1);
+        }
+        self.flow.here = here;
+        counts
     }
     fn note(&mut self, place: Place) {
         self.flow.at = crate::At {

@@ -198,7 +198,7 @@ impl Engine {
             return Ok(exec::execute(self, block, at, sink)?);
         }
         // M99 ends the main program like M2; behind other words in a subprogram it is no return
-        let range = block.m_range[4];
+        let range = block.m_range(4);
         let inside = !self.flow.calls.is_empty();
         block.m[4] = if inside { -1 } else { 2 };
         let after = exec::execute(self, block, at, sink)?;

@@ -272,8 +272,7 @@ fn g_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) 
         Some(other) if other != CANCEL => return refuse(&problems::G_GROUP),
         _ => {}
     }
-    block.g[group] = code;
-    block.g_range[group] = range;
+    block.put_g(group, code, range);
     Ok(())
 }
 
@@ -299,8 +298,7 @@ fn m_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) 
     if block.m_code(group).is_some() {
         return Err(Error::new(&problems::M_GROUP, range));
     }
-    block.m[group] = code as i16;
-    block.m_range[group] = range;
+    block.put_m(group, code as i16, range);
     block.m_count += 1;
     Ok(())
 }

@@ -24,10 +24,11 @@ const LONGEST: usize = 250;
 pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut Block) -> Option<u32> {
     let from = start as usize;
     let text = &source[from..source.len().min(from + LONGEST)];
-    let line_end = memchr::memchr(b'\n', text)?;
-    if line_end == 0 || !text[0].is_ascii_alphabetic() {
+    // an O line and a blank in front are not plain
+    if !text.first().is_some_and(u8::is_ascii_alphabetic) || text[0] | 0x20 == b'o' {
         return None;
     }
+    let line_end = memchr::memchr(b'\n', text)?;
     let mut stop = line_end - usize::from(text[line_end - 1] == b'\r');
     while text[stop - 1] == b' ' {
         stop -= 1;
@@ -96,6 +97,7 @@ fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
 #[cfg(test)]
 mod tests {
     use super::plain;
+    use crate::block::{G_GROUPS, M_GROUPS};
     use crate::read::{Line, evaluate};
     use crate::{Block, Engine, Setup, Source};
     use proptest::prelude::*;
@@ -131,10 +133,12 @@ mod tests {
             (long.g, long.m, long.m_count),
             "{text:?}"
         );
-        assert_eq!(
-            (short.g_range, short.m_range, short.range),
-            (long.g_range, long.m_range, long.range)
-        );
+        let ranges = |block: &Block| {
+            let g = (0..G_GROUPS).map(|group| block.g_range(group));
+            g.chain((0..M_GROUPS).map(|group| block.m_range(group)))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!((ranges(&short), short.range), (ranges(&long), long.range));
         true
     }
 

@@ -108,7 +108,7 @@ fn values_in_their_places() {
     );
     assert_eq!(block.range_of(b'X'), TextRange::new(12, 19));
     let cycle = run(&["G80 G81 G80"], &mut engine);
-    assert_eq!((cycle.g_code(1), cycle.g_range[1]), (Some(810), TextRange::new(4, 7)));
+    assert_eq!((cycle.g_code(1), cycle.g_range(1)), (Some(810), TextRange::new(4, 7)));
 }
 
 #[test]

@@ -36,7 +36,7 @@ impl Contour {
             };
         }
         if block.g[0] >= 0 && block.g[0] != 40 {
-            return Err(Error::new(&problems::CONTOUR, block.g_range[0]));
+            return Err(Error::new(&problems::CONTOUR, block.g_range(0)));
         }
         let to = self.end(state, block)?;
         let round = match motion {

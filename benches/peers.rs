@@ -198,10 +198,10 @@ fn distinct(count: usize) -> String {
                 .replace("3.5", &format!("3.5{index}"))
                 .replace("] ; step", &format!("] ; step {index}"));
             let own = own
-                .replace("30]", &format!("30.0{index}]"))
+                .replace("* 30]", &format!("* 30.0{index}]"))
                 .replace("1.25", &format!("1.25{index}"));
             let own = own
-                .replace("1000]", &format!("1000.{index}]"))
+                .replace("LT 1000]", &format!("LT 1000.{index}]"))
                 .replace("+ 1]", &format!("+ 1.0000{index}]"));
             let own = own
                 .replace("Z-0.5", &format!("Z-0.5{index}"))

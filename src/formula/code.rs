@@ -159,7 +159,10 @@ impl Formula {
     /// Moves its ranges by so many bytes (wrapping: 2^32 less leads back), to another place where the same text stands.
     #[inline]
     pub fn shift(&mut self, by: u32) {
-        self.range = self.range.shifted(by);
+        // a constant stands nowhere
+        if self.range != TextRange::default() {
+            self.range = self.range.shifted(by);
+        }
         if let Code::Steps { steps, .. } = &mut self.code {
             for step in steps {
                 step.range = step.range.shifted(by);

@@ -280,6 +280,27 @@ impl Compiled {
     }
 }
 
+impl OLine {
+    /// Moves its ranges by so many bytes (wrapping).
+    fn shift(&mut self, by: u32) {
+        for range in [&mut self.label_range, &mut self.keyword_range, &mut self.rest] {
+            *range = range.shifted(by);
+        }
+        if let Label::Computed(formula) = &mut self.label {
+            formula.shift(by);
+        }
+        for formula in &mut self.values {
+            formula.shift(by);
+        }
+        for flaw in self.flaw.iter_mut().chain(&mut self.tail) {
+            flaw.range = flaw.range.shifted(by);
+        }
+        for error in &mut self.errors {
+            error.range = error.range.shifted(by);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::labels::Place;

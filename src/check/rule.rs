@@ -14,6 +14,12 @@ pub struct InForce {
     pub tool_length_mm: Option<f64>,
     /// Coordinates are in a frame that is not modelled.
     pub frame_unknown: bool,
+    /// S is a cutting speed (G96).
+    pub surface_speed: bool,
+    /// Limit of the spindle's speed, 1/min.
+    pub spindle_limit_rpm: Option<f64>,
+    /// Something says whether lengths are inch or mm.
+    pub units_said: bool,
 }
 
 impl InForce {
@@ -23,6 +29,9 @@ impl InForce {
         Self {
             tool_length_mm: state.tool_length_mm,
             frame_unknown: state.frame_unknown,
+            surface_speed: state.surface_speed,
+            spindle_limit_rpm: state.spindle_limit_rpm,
+            units_said: state.units_said,
         }
     }
 }

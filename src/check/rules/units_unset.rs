@@ -25,8 +25,9 @@
 //!
 //! # Sources
 //! RS274/NGC Interpreter, version 3 (NIST), section 3.5.7; the Fanuc manuals on G20 and G21, which keep the unit of before power-off.
+use crate::InForce;
 use crate::prelude::*;
-use trunnion_interp::{ModalState, Motion};
+use trunnion_interp::Motion;
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Info,
@@ -37,7 +38,7 @@ pub(super) const RULE: Body = Body {
 /// X, Y, Z, U, V, W in the order of a position.
 const LINEAR: [usize; 6] = [0, 1, 2, 6, 7, 8];
 
-fn check(motion: &Motion, state: &ModalState, out: &mut Reporter<'_>) {
+fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
     if state.units_said {
         return;
     }

@@ -27,8 +27,9 @@
 //!
 //! # Sources
 //! The Fanuc Series 30i operator's manual, lathe system, on constant surface speed control and maximum spindle speed clamp.
+use crate::InForce;
 use crate::prelude::*;
-use trunnion_interp::{ModalState, Motion};
+use trunnion_interp::Motion;
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
@@ -36,7 +37,7 @@ pub(super) const RULE: Body = Body {
     level: Level::Motion(check),
 };
 
-fn check(motion: &Motion, state: &ModalState, out: &mut Reporter<'_>) {
+fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
     if !state.surface_speed
         || state.spindle_limit_rpm.is_some()
         || !motion.is_feed()

@@ -5,7 +5,7 @@ use crate::reader::Reader;
 use crate::run::{Interpreter, Report};
 use crate::values::number;
 use crate::words::{Number, Said, Words};
-use crate::{FaultKind, Motion, MotionKind, Refusal};
+use crate::{FaultKind, Motion, MotionKind, Position, Refusal};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
@@ -45,8 +45,27 @@ struct Cut {
     by: f64,
 }
 
+/// A place in the plane; a height that is not known counts as 0, as Y of a lathe that has none.
+fn point(position: &Position, axes: [usize; 3]) -> Option<Vec3> {
+    let mut point = Vec3::zeros();
+    for axis in &axes[..2] {
+        point[*axis] = position.get(*axis)?;
+    }
+    point[axes[2]] = position.get(axes[2]).unwrap_or(0.0);
+    Some(point)
+}
+
+/// Whether both ends of a motion are known in the plane.
+fn is_known(motion: &Motion, axes: [usize; 3]) -> bool {
+    point(&motion.start, axes).is_some() && point(&motion.end, axes).is_some()
+}
+
 fn flat(motion: &Motion, axes: [usize; 3]) -> Option<Vec3> {
-    let mut way = motion.end.xyz()? - motion.start.xyz()?;
+    let height = 1 << axes[2];
+    if (motion.start.known ^ motion.end.known) & height != 0 {
+        return None;
+    }
+    let mut way = point(&motion.end, axes)? - point(&motion.start, axes)?;
     let level = way[axes[2]].abs() <= 1e-9;
     way[axes[2]] = 0.0;
     (motion.kind == MotionKind::Linear && level && way.norm() > 1e-9).then_some(way)
@@ -134,10 +153,16 @@ impl Interpreter<'_> {
         let mut before = waiting.told;
         let axes = plane_axes(before.1.plane);
         let arcs = matches!(before.0.kind, MotionKind::Arc(_)) || matches!(next.0.kind, MotionKind::Arc(_));
+        let known = is_known(&before.0, axes) && is_known(&next.0, axes);
         let ways = (flat(&before.0, axes), flat(&next.0, axes));
         let (Some(first), Some(second)) = ways else {
-            if arcs {
-                let what = format!(",{} at an arc", char::from(waiting.letter));
+            if arcs || !known {
+                let place = if arcs {
+                    "at an arc"
+                } else {
+                    "from or to a place that is not known"
+                };
+                let what = format!(",{} {place}", char::from(waiting.letter));
                 report.fault(report.whole(), FaultKind::NotModelled { what });
                 for axis in &axes[..2] {
                     before.0.end.forget(*axis);
@@ -181,7 +206,11 @@ impl Interpreter<'_> {
 
 impl Cut {
     fn apply(&self, mut before: Told, round: bool, next: &mut Told, on: &mut Vec<Told>) {
-        let Some(corner) = before.0.end.xyz() else { return };
+        let Some(corner) = point(&before.0.end, self.axes) else {
+            on.push(before);
+            return;
+        };
+        let whole = before.0.end.xyz().is_some();
         let (from, to) = (corner - self.first * self.by, corner + self.second * self.by);
         for axis in &self.axes[..2] {
             before.0.end.set(*axis, from[*axis]);
@@ -199,7 +228,8 @@ impl Cut {
             normal[self.axes[2]] = 1.0;
             let radius = self.by / tan(0.5 * self.turn.abs());
             let inward = normal.cross(&self.first) * self.turn.signum();
-            MotionKind::Arc(Some(Arc {
+            // without its height the arc is true in its plane only
+            MotionKind::Arc(whole.then_some(Arc {
                 start: from,
                 end: to,
                 centre: from + inward * radius,

@@ -86,6 +86,19 @@ fn corners_of_a_lathe() {
 }
 
 #[test]
+fn a_lathe_without_y_has_corners_too() {
+    let source = "G0 X20. Z0.\nG1 Z-20. R2. F.1\nX40.\n";
+    assert_eq!(
+        lines("fanuc-30i-lathe-a", source)[1..],
+        ["L X10 Z-18 F0.1/rev", "A? X12 Z-20 F0.1/rev", "L X20 Z-20 F0.1/rev"]
+    );
+    assert_eq!(faults("fanuc-30i-lathe-a", source), [""; 0]);
+    // what is not known is no mistake
+    let unknown = faults("fanuc-30i-lathe-a", "G1 Z-20. R2. F.1\nX40.\n");
+    assert!(unknown.len() == 1 && unknown[0].contains("NotModelled"), "{unknown:?}");
+}
+
+#[test]
 fn h_and_d_are_modal() {
     let tool = |number: u32, length: f64| Tool {
         number,

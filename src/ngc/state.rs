@@ -173,6 +173,8 @@ pub struct State {
     pub feed_hold: bool,
     /// Axes with words in the block in hand: bit i is axis i of a [`Pose`].
     pub named_axes: u16,
+    /// The line that runs while compensation tells what it has held back: the listing numbers calls by it.
+    pub told_by: Option<crate::At>,
     /// The spindle's row of the tool table before the last change.
     pub(crate) spindle_row_before: Option<crate::ToolEntry>,
     /// The motions of the block in hand lead to points that are told in the machine's own frame (G53, G28, G30).
@@ -246,7 +248,8 @@ impl Told {
         } else {
             &mut self.origin
         };
-        for axis in 0..9 {
+        // of U V W the listing's machine takes no offset over
+        for axis in 0..6 {
             self.position[axis] += old[axis] - new[axis];
         }
         *old = new;
@@ -329,6 +332,7 @@ impl State {
             adaptive_feed: false,
             feed_hold: true,
             named_axes: 0,
+            told_by: None,
             spindle_row_before: None,
             machine_frame: false,
             motion_only: false,

@@ -121,6 +121,11 @@ impl Shift {
             *value += sign * zero;
         }
         moved.values[2] += sign * self.length;
+        for axis in 0..9 {
+            if !moved.values[axis].is_finite() {
+                moved.forget(axis);
+            }
+        }
         moved
     }
 }

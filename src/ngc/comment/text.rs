@@ -23,6 +23,8 @@ pub(super) fn fill(text: &[u8], engine: &Engine) -> Vec<u8> {
                 Some((length, name)) => {
                     let value = match name {
                         Name::Text(name) => values.named(&name).ok(),
+                        // a number that nothing else reads
+                        Name::Number(Some(0)) => Some(0.0),
                         Name::Number(index) => index.and_then(|index| values.numbered(index).ok()),
                     };
                     at += length;

@@ -100,7 +100,9 @@ impl Engine {
         let values = indices
             .into_iter()
             .map(|index| {
-                let forgotten = !self.setup.g92_persists() && matches!(index, 5210..=5219);
+                // a program that ends without M2 leaves them
+                let resets = self.flow.met_end() && !self.setup.g92_persists();
+                let forgotten = resets && matches!(index, 5210..=5219);
                 let value = if forgotten { 0.0 } else { self.parameter(index as usize) };
                 (index, value)
             })

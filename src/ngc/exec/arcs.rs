@@ -81,6 +81,9 @@ pub(super) fn axes(plane: Plane) -> Option<Axes> {
 /// G2, G3.
 pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let range = motion::code_range(block);
+    if engine.state.exit_pending {
+        return Err(Error::new(&BEHIND_COMPENSATION, range));
+    }
     let Some(axes) = axes(engine.state.plane) else {
         return Err(Error::new(&OTHER_PLANE, range));
     };
@@ -100,9 +103,6 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     let polar = block.radius.is_some() || block.angle.is_some();
     if by_radius && !named(first) && !named(second) && !polar {
         return Err(Error::new(axes.no_end, range));
-    }
-    if engine.state.exit_pending {
-        return Err(Error::new(&BEHIND_COMPENSATION, range));
     }
     engine.state.motion = block.motion;
     let end = ends::end(&engine.state, block)?;

@@ -152,7 +152,11 @@ fn polar(state: &State, block: &Block) -> Result<(f64, f64), Error> {
     let given_angle = block.angle.map(f64::to_radians);
     let (radius, angle) = if state.distance == DistanceMode::Incremental {
         if at_origin {
-            return Err(Error::new(&problems::POLAR_INCREMENTAL, block.range));
+            let problem = match block.radius {
+                Some(_) => &problems::POLAR_INCREMENTAL,
+                None => &problems::POLAR_INCREMENTAL_ANGLE,
+            };
+            return Err(Error::new(problem, block.range));
         }
         (
             radius_here + block.radius.unwrap_or(0.0),

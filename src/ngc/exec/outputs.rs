@@ -96,8 +96,10 @@ pub(crate) fn coolant(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn
 pub(crate) fn overrides(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     // without P, or with any P but 0, the switch is on
     let on = block.word(b'P').is_none_or(|p| p != 0.0);
-    // M51 takes $, says its message, and refuses every value of it
-    if block.m[9] == 51 && block.spindle.is_some() {
+    let spindles = engine.setup.spindles() as i32;
+    // M51 takes one spindle, but not the first, and without $ all of them
+    let chosen = block.spindle.filter(|_| block.m[9] == 51);
+    if chosen.is_some_and(|spindle| !(1..spindles).contains(&spindle)) {
         return Err(Error::new(&problems::SPINDLE_RANGE_M51, block.range));
     }
     match block.m[9] {
@@ -106,7 +108,7 @@ pub(crate) fn overrides(engine: &mut Engine, block: &Block, at: At, sink: &mut d
             engine.state.feed_override = on;
             engine.state.speed_override = on;
             engine.emit(Canon::Switch(Switch::FeedOverride, on), at, sink);
-            for spindle in 0..engine.setup.spindles() as i32 {
+            for spindle in 0..spindles {
                 engine.emit(Canon::Switch(Switch::SpeedOverride(spindle), on), at, sink);
             }
         }
@@ -115,9 +117,10 @@ pub(crate) fn overrides(engine: &mut Engine, block: &Block, at: At, sink: &mut d
             engine.emit(Canon::Switch(Switch::FeedOverride, on), at, sink);
         }
         51 => {
-            // without $ it is for all
-            engine.state.speed_override = on;
-            for spindle in 0..engine.setup.spindles() as i32 {
+            if chosen.is_none() {
+                engine.state.speed_override = on;
+            }
+            for spindle in chosen.map_or(0..spindles, |spindle| spindle..spindle + 1) {
                 engine.emit(Canon::Switch(Switch::SpeedOverride(spindle), on), at, sink);
             }
         }

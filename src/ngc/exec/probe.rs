@@ -30,7 +30,8 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
         short_of(&engine.state.told.position, &end, SHORT_MM / engine.state.units.mm())
     };
     for (axis, value) in end.into_iter().enumerate() {
-        engine.set_parameter(5061 + axis, value);
+        let wrapped = ends::is_wrapped(&engine.state, axis);
+        engine.set_parameter(5061 + axis, if wrapped { value.rem_euclid(360.0) } else { value });
     }
     engine.state.current = touched;
     engine.state.told.reach(&touched);

@@ -20,6 +20,7 @@ problems! {
     POLAR_PLANE Other "Cannot use polar coordinate except in G17 plane" "Write G17 in a line before."
     POLAR_G53 Other "Cannot use polar coordinates with G53" "Write X and Y."
     POLAR_ORIGIN Other "Must specify angle in polar coordinate if at the origin" "Add an angle ^."
+    POLAR_INCREMENTAL_ANGLE Other "G91 motion with polar coordinates is indeterminate when at the origin" "Move away from the origin first, or write the radius, too, under G90."
     POLAR_INCREMENTAL Other "Incremental motion with polar coordinates is indeterminate when at the origin"
         "Move away from the origin first, or write X and Y."
     TOO_MANY_M Other "Too many m codes on line" "Write at most four M codes in a line."

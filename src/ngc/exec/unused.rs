@@ -137,7 +137,14 @@ fn check_each(block: &Block) -> Result<(), Error> {
                 || codes.user()
         }
         b'R' => {
-            codes.arc() || codes.cycle() || codes.motion(&[760]) || codes.roughing() || codes.g10() || codes.m(7, &[19])
+            // G41.1 and G42.1 take an R that means nothing
+            codes.arc()
+                || codes.cycle()
+                || codes.motion(&[760])
+                || codes.roughing()
+                || codes.g10()
+                || codes.m(7, &[19])
+                || codes.g(7, &[411, 421])
         }
         _ => true,
     };

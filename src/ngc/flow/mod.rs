@@ -265,6 +265,10 @@ impl Flow {
     pub(crate) fn at(&self) -> At {
         self.at
     }
+    /// M2, M30 or M99 has ended the program.
+    pub(crate) fn met_end(&self) -> bool {
+        self.end.is_some()
+    }
     /// The calls of a chain, outermost first.
     pub(crate) fn frames(&self, id: ChainId) -> Vec<crate::Frame> {
         self.chains.frames(id, &self.labels)

@@ -340,3 +340,16 @@ fn a_loop_that_comes_back_to_the_same_values_is_proved_to_be_endless() {
         "{moves:?}"
     );
 }
+
+#[test]
+fn what_is_known_of_a_position_is_a_number() {
+    // the sum of offset and coordinate is larger than any number
+    let source = "G21\nG10 L2 P1 X[EXP[709.7]]\nG0 X[EXP[709.7]] Y0\nG4 P1\nG1 Y1 F1\nM2\n";
+    let log = run_bytes("linuxcnc", source.as_bytes(), &Setup::default()).1;
+    assert_eq!(log.motions.len(), 3, "{:?}", log.motions);
+    for motion in &log.motions {
+        let known =
+            |position: &trunnion_interp::Position| (0..9).all(|axis| position.get(axis).is_none_or(f64::is_finite));
+        assert!(known(&motion.start) && known(&motion.end), "{motion:?}");
+    }
+}

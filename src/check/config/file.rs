@@ -141,7 +141,10 @@ fn known_dialect(name: Spanned<String>) -> Result<String, ConfigError> {
     let names = trunnion_dialect::BUILTIN_NAMES.join(", ");
     Err(at(
         &name,
-        format!("no dialect is called `{}`; there are {names}", name.get_ref()),
+        format!(
+            "no dialect is called `{}`; there are {names}; a table of your own is named by `dialect_table`",
+            name.get_ref()
+        ),
     ))
 }
 

@@ -380,8 +380,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         }
         let source = self.program.source().get(range.as_usize()).unwrap_or_default();
         if source.first() == Some(&b'/') && self.dialect.quirks.delete_rest {
-            let on = self.delete == Some(true);
-            self.words.rest_deleted = on.then_some(range);
+            self.words.rest_deleted = (self.delete == Some(true)).then_some(range);
             return;
         }
         self.words.has_content = true;

@@ -201,7 +201,10 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
                     usize::try_from(engine.state.current_row).unwrap_or(0)
                 }
                 None => 0,
-                Some(0) => return spindle_row_offset(engine, block, at, sink),
+                Some(0) => {
+                    spindle_row_offset(engine, block, at, sink);
+                    return Ok(());
+                }
                 Some(number) => engine.tool_row(number, block.range_of(b'H'))?,
             };
             engine.tool_row_offset(row)
@@ -215,7 +218,8 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
                 return Err(Error::new(&problems::H_AND_AXES, range));
             }
             if h == Some(0) {
-                return spindle_row_offset(engine, block, at, sink);
+                spindle_row_offset(engine, block, at, sink);
+                return Ok(());
             }
             // with axis words the control looks for a tool of its own number for "no H", and never finds it
             let row = engine.tool_row(h.unwrap_or(-1), if h.is_some() { block.range_of(b'H') } else { range })?;
@@ -229,7 +233,7 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
 
 /// H0 of G43 and G43.2: the row of the spindle as it was before a change in the same block, which the control takes over behind the
 /// block. In a check that row is not relied upon.
-fn spindle_row_offset(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+fn spindle_row_offset(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
     let before = engine.state.spindle_row_before.filter(|_| block.m[6] == 6);
     let row = match before {
         Some(_) if engine.setup.start == Start::Unknown => [f64::NAN; 9],
@@ -243,7 +247,6 @@ fn spindle_row_offset(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn
     };
     frame::change_tool_offset(&mut engine.state, offset);
     engine.emit(Canon::ToolOffset(offset), at, sink);
-    Ok(())
 }
 
 /// G10 L0, L1, L10, L11.

@@ -1,4 +1,5 @@
 //! Motions built by hand, followed on machines: what happens at the end of a block and inside it.
+mod asked;
 mod blocks;
 mod common;
 mod controls;
@@ -6,6 +7,7 @@ mod excursions;
 mod great_circle;
 mod guide_vane;
 mod orientation;
+mod programs;
 mod random;
 mod review;
 mod saddle;

@@ -1,0 +1,193 @@
+//! Whole programs on their machines.
+use crate::controls::plain;
+use trunnion_geometry::deg;
+use trunnion_interp::{Fault, Feed, ModalState, Motion, MotionKind, Setup, Sink, run};
+use trunnion_machine::{Follower, Leg, Machine};
+use trunnion_syntax::{Program, parse};
+
+/// Follows a program.
+struct Followed<'m> {
+    follower: Follower<'m>,
+    legs: Vec<(u32, Leg)>,
+}
+
+impl Sink for Followed<'_> {
+    fn motion(&mut self, motion: &Motion, _: &ModalState) {
+        let leg = self.follower.follow(motion);
+        self.legs.push((motion.block.0 + 1, leg));
+    }
+    fn fault(&mut self, _: Fault) {}
+}
+
+/// Legs with the line of each; `None`, said aloud, where the file is not there.
+fn followed<'m>(machine: &'m Machine, dialect: &str, file: &str) -> Option<Followed<'m>> {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../../shared/data")
+        .join(file);
+    let Ok(source) = std::fs::read(&path) else {
+        crate::guide_vane::skipped(file);
+        return None;
+    };
+    let dialect = trunnion_dialect::builtin(dialect).expect("built in");
+    let program: Program = parse(source, dialect.lex);
+    let mut followed = Followed {
+        follower: Follower::new(machine),
+        legs: Vec::new(),
+    };
+    let mut setup = Setup::default();
+    setup.control.tcp_codes.clone_from(&machine.control.tcp_codes);
+    run(&program, dialect, &setup, &mut followed);
+    Some(followed)
+}
+
+/// The same 3+2 part for a Fanuc (rotary words, then G53.1) and an 840D (CYCLE800 with direction -1): the same joints.
+#[test]
+fn a_part_for_two_controls_has_the_same_joints() {
+    let fanuc = plain("", "family = \"fanuc-30i\"");
+    let sinumerik = plain("", "family = \"sinumerik-840d\"");
+    let (Some(a), Some(b)) = (
+        followed(&fanuc, "fanuc-30i", "five-axis-pairs/smpl_sim08_5ax_fanuc_mm.nc"),
+        followed(
+            &sinumerik,
+            "sinumerik-840d",
+            "five-axis-pairs/smpl_sim08_5ax_sinumerik_mm.mpf",
+        ),
+    ) else {
+        return;
+    };
+    // the profile of the first tool
+    let joints = |followed: &Followed<'_>, tool: Option<u32>| -> Vec<[f64; 5]> {
+        let feeds = followed
+            .legs
+            .iter()
+            .filter(|(_, leg)| leg.motion.is_feed() && leg.motion.tilt.normal.is_some());
+        let first = feeds.clone().next().map(|(_, leg)| leg.motion.tool);
+        let own =
+            feeds.filter(|(_, leg)| leg.motion.tool == tool || (tool.is_none() && Some(leg.motion.tool) == first));
+        own.filter_map(|(_, leg)| {
+            leg.end
+                .as_ref()
+                .ok()
+                .map(|end| std::array::from_fn(|axis| end.joints[axis]))
+        })
+        .collect()
+    };
+    let (a, b) = (joints(&a, Some(4)), joints(&b, None));
+    assert!(a.len() > 20 && b.len() >= a.len(), "{} {}", a.len(), b.len());
+    for (index, (a, b)) in a.iter().zip(&b).enumerate() {
+        for axis in 0..5 {
+            assert!((a[axis] - b[axis]).abs() < 2e-3, "{index}: {a:?} {b:?}");
+        }
+    }
+    assert!(
+        (deg(a[0][0]) - 90.0).abs() < 1e-6 && (deg(a[0][1]) + 15.0).abs() < 1e-6,
+        "{:?}",
+        a[0]
+    );
+}
+
+/// Kinematics notes 10: 4 306 feed moves in inverse time, 1 078.7 s; C over-speeds in 6 blocks, worst 17.91 times at line 494; three jumps
+/// of C over 90 deg, all rapids; ranges of A and C.
+#[test]
+fn the_impeller_has_its_numbers() {
+    let machine = trunnion_machine::builtin("linuxcnc-xyzac-trt").expect("built in");
+    let Some(run) = followed(machine, "linuxcnc", "linuxcnc-5axis/impeller-7bl-xyzac.ngc") else {
+        return;
+    };
+    let feeds: Vec<_> = run.legs.iter().filter(|(_, leg)| leg.motion.is_feed()).collect();
+    assert_eq!(feeds.len(), 4306);
+    let seconds: f64 = feeds
+        .iter()
+        .map(|(_, leg)| match leg.motion.feed {
+            Feed::InverseTime(per_minute) => 60.0 / per_minute,
+            _ => panic!("not in inverse time"),
+        })
+        .sum();
+    assert!((seconds - 1078.7).abs() < 0.05, "{seconds}");
+    let mut over = Vec::new();
+    for (line, leg) in &feeds {
+        let (Some(start), Ok(end), Feed::InverseTime(per_minute)) = (&leg.start, &leg.end, leg.motion.feed) else {
+            panic!("not followed: line {line}")
+        };
+        let speed = deg((end.joints[0] - start.joints[0]).abs()) * per_minute / 60.0;
+        if speed > 30.0 {
+            over.push((speed / 30.0, *line));
+        }
+    }
+    let worst = over
+        .iter()
+        .copied()
+        .fold((0.0, 0), |a: (f64, u32), b| if b.0 > a.0 + 1e-9 { b } else { a });
+    assert_eq!((over.len(), worst.1), (6, 494), "{over:?}");
+    assert!((worst.0 - 17.91).abs() < 0.01, "{}", worst.0);
+    let jumps: Vec<u32> = run
+        .legs
+        .iter()
+        .filter(|(_, leg)| deg(leg.rotary_change[0]) > 90.0)
+        .map(|(line, leg)| {
+            assert_eq!(leg.motion.kind, MotionKind::Rapid);
+            *line
+        })
+        .collect();
+    assert_eq!(jumps, [3401, 4146, 4504]);
+    let range = |axis: usize| {
+        let values = run
+            .legs
+            .iter()
+            .filter_map(|(_, leg)| leg.end.as_ref().ok().map(|end| deg(end.joints[axis])));
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value), high.max(value))
+        })
+    };
+    let close = |found: (f64, f64), wanted: (f64, f64)| {
+        (found.0 - wanted.0).abs() < 0.006 && (found.1 - wanted.1).abs() < 0.006
+    };
+    assert!(close(range(1), (-74.49, 0.0)), "{:?}", range(1));
+    assert!(close(range(0), (-399.805, 0.0)), "{:?}", range(0));
+}
+
+/// Kinematics notes 10: 1 735 feed moves along lines; at the programmed times Y is over its 20 mm/s in 5 blocks, Z in 13, A over its 30 deg/s in 11;
+/// the worst is 1.559 times as fast, at line 1397.
+#[test]
+fn the_boat_has_its_numbers() {
+    let machine = trunnion_machine::builtin("linuxcnc-xyzac-trt").expect("built in");
+    let Some(run) = followed(machine, "linuxcnc", "linuxcnc-5axis/boat-xyzac.ngc") else {
+        return;
+    };
+    let feeds: Vec<_> = run.legs.iter().filter(|(_, leg)| leg.motion.is_feed()).collect();
+    let lines = feeds
+        .iter()
+        .filter(|(_, leg)| leg.motion.kind == MotionKind::Linear)
+        .count();
+    // the notes count lines; there are four arcs beside them
+    assert_eq!((lines, feeds.len()), (1735, 1739));
+    let letters = [b'X', b'Y', b'Z', b'A', b'C'];
+    let mut over = [0; 5];
+    let mut worst = (0.0, 0);
+    for (line, leg) in &feeds {
+        let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
+            panic!("not followed: line {line}")
+        };
+        let seconds = match leg.motion.feed {
+            Feed::InverseTime(per_minute) => 60.0 / per_minute,
+            Feed::PerMinute(feed) => 60.0 * leg.length / feed,
+            _ => panic!("no feed: line {line}"),
+        };
+        for (slot, letter) in over.iter_mut().zip(letters) {
+            let joint = machine.joint(letter).expect("an axis");
+            let (limit, change) = (
+                machine.axes[joint].max_speed.expect("declared"),
+                end.joints[joint] - start.joints[joint],
+            );
+            let times = change.abs() / (seconds * limit);
+            if times > 1.0 + 1e-9 {
+                *slot += 1;
+            }
+            if times.is_finite() && times > worst.0 + 1e-9 {
+                worst = (times, *line);
+            }
+        }
+    }
+    assert_eq!((over, worst.1), ([0, 5, 13, 11, 0], 1397), "{worst:?}");
+    assert!((worst.0 - 1.559).abs() < 0.001, "{worst:?}");
+}

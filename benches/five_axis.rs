@@ -81,17 +81,7 @@ fn main() {
         ),
         None => println!("\nrs274 is not installed: no ratio to it"),
     }
-    let [one, two] =
-        [1, 2].map(|threads| cpu::passed(RUNS, || check_on(&parse(text.clone(), dialect.lex), &settings, threads)));
-    let same = format!("{report:?}") == format!("{:?}", check_on(&program, &settings, 2));
-    println!(
-        "\ntime that passes: one thread {:.3} us/block, two threads {:.3} ({:.0} blocks/s, {:.2} x); the reports are {}",
-        one / BLOCKS as f64 * 1e6,
-        two / BLOCKS as f64 * 1e6,
-        BLOCKS as f64 / two,
-        one / two,
-        if same { "the same" } else { "DIFFERENT" }
-    );
+    threads(&text, &settings, &format!("{report:?}"));
     println!(
         "\nfindings: {} in {} motions",
         report.diagnostics.len(),
@@ -104,6 +94,22 @@ fn main() {
         .expect("this program starts again");
     print!("{}", String::from_utf8_lossy(&child.stdout));
     fs::remove_file(&path).ok();
+}
+
+/// The time that passes with one thread and with two, and whether both find the same.
+fn threads(text: &[u8], settings: &Settings<'_>, report: &str) {
+    let lex = settings.dialect.lex;
+    let [one, two] =
+        [1, 2].map(|threads| cpu::passed(RUNS, || check_on(&parse(text.to_vec(), lex), settings, threads)));
+    let same = report == format!("{:?}", check_on(&parse(text.to_vec(), lex), settings, 2));
+    println!(
+        "\ntime that passes: one thread {:.3} us/block, two threads {:.3} ({:.0} blocks/s, {:.2} x); the reports are {}",
+        one / BLOCKS as f64 * 1e6,
+        two / BLOCKS as f64 * 1e6,
+        BLOCKS as f64 / two,
+        one / two,
+        if same { "the same" } else { "DIFFERENT" }
+    );
 }
 
 /// Reads, parses and checks the file once, and prints the peak memory of this process (Linux).

@@ -6,7 +6,7 @@ fn unused(dialect: &str, source: &str) -> Vec<String> {
     let found = faults(dialect, source);
     let found = found.into_iter().filter(|fault| fault.contains("Unused"));
     found
-        .map(|fault| fault.splitn(3, ':').nth(1).unwrap_or_default().trim().to_owned())
+        .map(|fault| fault.split(':').nth(1).unwrap_or_default().trim().to_owned())
         .collect()
 }
 

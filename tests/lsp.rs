@@ -326,7 +326,7 @@ fn several_mistakes_of_a_linuxcnc_program_are_told_once_each() {
 
 #[test]
 fn a_finding_of_a_loop_says_how_often_and_an_endless_one_how_long() {
-    let program = "g21 g90 g17 g94\n#1 = 0\no1 while [#1 lt 4]\n  g1 x#1\n  #1 = [#1 + 1]\no1 endwhile\no2 while [1]\no2 endwhile\nm2\n";
+    let program = "g21 g90 g17 g94\n#1 = 0\no1 while [#1 lt 4]\n  g1 x#1\n  #1 = [#1 + 1]\no1 endwhile\n#2 = 0\no2 while [1]\n  #2 = [#2 + 1]\no2 endwhile\nm2\n";
     let mut client = Client::start(&json!({}));
     let uri = "untitled:/again.ngc";
     client.open(uri, program);

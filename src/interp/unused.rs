@@ -98,7 +98,10 @@ impl Interpreter<'_> {
                         .builder_may_own(CodeKind::M, (number * 10.0).round() as u32)
                 })
         };
-        if opaque || code.owner == Owner::MachineBuilder || of_builder() {
+        // an auxiliary function is the machine's: where the control does not refuse its words they may be for it, and move no axis
+        let auxiliary =
+            code.kind == CodeKind::M && code.action == Action::NoMotion && self.dialect.alarm("unused-word").is_none();
+        if opaque || auxiliary || code.owner == Owner::MachineBuilder || of_builder() {
             return ALL;
         }
         // which letters an arc reads hangs on its plane

@@ -201,8 +201,17 @@ fn same_fault(a: &FaultKind, b: &FaultKind, faults: Faults) -> bool {
                 ..
             },
         ) => refusal == other && (alarm == number || quotes(alarm.as_ref()) && quotes(number.as_ref())),
+        // the control's sentence names lines
+        (
+            FaultKind::MissingSubprogram {
+                name: a, searched: x, ..
+            },
+            FaultKind::MissingSubprogram {
+                name: b, searched: y, ..
+            },
+        ) => x == y && (faults == Faults::Kinds || folded(a) == folded(b)),
         // how many blocks ran depends on empty ones
-        (FaultKind::EndlessLoop { .. }, FaultKind::EndlessLoop { .. }) => true,
+        (FaultKind::EndlessLoop { proved: a, .. }, FaultKind::EndlessLoop { proved: b, .. }) => a == b,
         // a text as written
         (FaultKind::NotModelled { what: a }, FaultKind::NotModelled { what: b }) => {
             faults == Faults::Kinds || folded(a) == folded(b)

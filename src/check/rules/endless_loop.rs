@@ -8,7 +8,7 @@
 //! ```gcode fanuc-30i
 //! N10 #1 = 0
 //! N20 WHILE [#1 LT 3] DO 1
-//! ;^^^^^^^^^^^^^^^^^^^^^^^ endless-loop: this never ends
+//! ;^^^^^^^^^^^^^^^^^^^^^^^ endless-loop: this did not come to an end
 //! N30 #2 = #2 + 1
 //! N40 END 1
 //! N50 M30

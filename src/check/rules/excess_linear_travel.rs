@@ -9,7 +9,7 @@
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z200 A10 C0
 //! N30 G1 X5 A25 F50
-//! ;      ^^^ excess-linear-travel: the linear axes run
+//! ;         ^^^ excess-linear-travel: the linear axes run
 //! N40 M30
 //! ```
 //!

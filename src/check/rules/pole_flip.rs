@@ -12,7 +12,7 @@
 //! N2920 G1 X-28.38474 Y-1.84041 Z59.90263 A1.047 C4.822
 //! N2930 G1 X-28.38709 Y-1.53565 Z59.93222 A0.081 C52.595 F40
 //! ;                                              ^^^^^^^ pole-flip: C turns 47.773 deg while the tool axis passes 0.081 deg
-//! ;     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ excess-linear-travel: the linear axes run 23.132 mm
+//! ;                                              ^^^^^^^ excess-linear-travel: the linear axes run 23.132 mm
 //! ;                                              ^^^^^^^ fast-pole: at F40 the tool axis has to keep
 //! N2940 M30
 //! ```

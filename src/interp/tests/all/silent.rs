@@ -29,6 +29,9 @@ fn words_that_nothing_reads() {
         ("grbl", "G2 X5 Y0 I2.5 K1 F9\n", &["K1"]),
         ("grbl", "G10 L20 P1 X0\nG4 P1\n", &[]),
         ("iso-6983", "G0 X1 D4\n", &["D4"]),
+        // an output of a plasma torch
+        ("iso-6983", "M11 P1\n", &[]),
+        ("grbl", "M8 P1\n", &["P1"]),
     ] {
         assert_eq!(unused(dialect, source), want, "{dialect}: {source}");
     }

@@ -73,7 +73,9 @@ impl Blocks<'_> {
     pub(crate) fn stays(&self, block: &Block<'_>) -> bool {
         let table = self.program.tokens();
         let range = block.range();
-        if range.as_usize().len() > LAID_OUT {
+        // LinuxCNC refuses a long line: made shorter, it would run
+        let length = range.as_usize().len();
+        if length > LAID_OUT || self.dialect.quirks.rs274 && length > LONGEST_NGC {
             return true;
         }
         let errors = self.program.errors();

@@ -6,7 +6,8 @@ use trunnion_dialect::Dialect;
 use trunnion_interp::{Fault, FaultKind, Interpreter, ModalState, Motion, Setup, Sink};
 use trunnion_syntax::{BlockId, Program};
 
-/// Blocks that a proof runs beyond those that the program has, so that loops are followed and do not take forever.
+/// Blocks that a proof runs beyond those that the program has, so that loops are followed and do not take forever. The proof counts
+/// them, not the interpreters: empty blocks of one side would make its interpreter stop before the other one.
 const MOST_REPEATED: u64 = 1_000_000;
 
 /// How far faults must agree.
@@ -36,10 +37,14 @@ pub(crate) fn first_difference(
     faults: Faults,
 ) -> Option<Difference> {
     let mut setup = setup.clone();
-    setup.limits.blocks = setup.limits.blocks.min(MOST_REPEATED + before.block_count() as u64);
+    let most = setup.limits.blocks.min(MOST_REPEATED) + before.block_count() as u64;
+    setup.limits.blocks = most.saturating_mul(2);
     let (mut a, mut b) = (Run::new(before, dialect, &setup), Run::new(after, dialect, &setup));
     let mut reached = BlockId(0);
     loop {
+        if a.blocks.max(b.blocks) >= most {
+            return None;
+        }
         let (left, right) = (a.advance(), b.advance());
         reached = left.unwrap_or(reached);
         let at = |what| Some(Difference { block: reached, what });
@@ -78,6 +83,8 @@ struct Run<'a> {
     program: &'a Program,
     interpreter: Interpreter<'a>,
     events: Events,
+    /// Blocks that it has run, empty ones too.
+    blocks: u64,
 }
 
 impl<'a> Run<'a> {
@@ -97,6 +104,7 @@ impl<'a> Run<'a> {
                 refused: None,
                 first_alone: !dialect.quirks.rs274,
             },
+            blocks: 0,
         }
     }
 
@@ -104,6 +112,7 @@ impl<'a> Run<'a> {
     fn advance(&mut self) -> Option<BlockId> {
         loop {
             let block = self.interpreter.advance(self.program, &mut self.events)?;
+            self.blocks += 1;
             if !is_empty(&self.program.block(block)) {
                 return Some(block);
             }

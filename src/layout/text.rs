@@ -7,9 +7,12 @@ use crate::style::Style;
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{Block, Format, Item, Program};
 
-/// The text in the given style. A text in which lone carriage returns stand beside other line ends stays as it is. What stands behind the closing `%` is no program and stays byte for byte.
+/// The text in the given style. A text in which lone carriage returns stand beside other line ends stays as it is, and for LinuxCNC
+/// each one with a lone carriage return, which ends no line there. What stands behind the closing `%` is no program and stays byte for
+/// byte.
 pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Vec<u8> {
-    let Some(ending) = common_line_end(program) else {
+    let ending = common_line_end(program).filter(|ending| !(dialect.quirks.rs274 && *ending == b"\r"));
+    let Some(ending) = ending else {
         return program.source().to_vec();
     };
     let blocks = Blocks {

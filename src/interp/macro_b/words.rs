@@ -106,7 +106,9 @@ impl<'d> Interpreter<'d> {
     fn begins_another(&self, block: &Block<'_>) -> bool {
         let inside = self.flow.deep.as_ref().is_some_and(|deep| {
             let starts = deep.place.section.is_some_and(|section| section.0 == block.id().0);
-            starts || !deep.calls.is_empty()
+            // a jump has led back to the start of the program that runs
+            let again = deep.ran.has(block.id().0);
+            starts || again || !deep.calls.is_empty()
         });
         !inside && self.memory.last_content.is_some()
     }

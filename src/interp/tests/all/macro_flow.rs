@@ -39,6 +39,20 @@ fn a_while_loop_runs_while_its_condition_holds() {
 }
 
 #[test]
+fn a_jump_back_to_the_program_number_does_not_end_the_program() {
+    // wherever the number stands in the file
+    for before in ["", "\n", "(c)\n", "%\n"] {
+        let source = format!("{before}O1 #1=0\nN5 G0X#1\n#1=#1+1\nIF[#1LT3]GOTO5\nM30\n");
+        assert_eq!(clean(&source), ["R X0", "R X1", "R X2"], "{source}");
+        let source = format!("{before}O1 N5 #1=#1+1\nIF[#1EQ0]THEN#1=1\nG0X#1\nIF[#1LT3]GOTO5\nM30\n");
+        assert_eq!(clean(&source), ["R X1", "R X2", "R X3"], "{source}");
+        let source = format!("{before}O1 DO1\nG0X1.\nEND1\nM30\n");
+        let said = said(&source);
+        assert!(said.iter().any(|line| line.ends_with("endless")), "{source}: {said:?}");
+    }
+}
+
+#[test]
 fn loops_nest_three_deep_and_numbers_are_used_again() {
     let source = "#1=0\nWHILE[#1LT2]DO1\n#2=0\nWHILE[#2LT2]DO2\n#3=0\nWHILE[#3LT2]DO3\nG0X[#1*100+#2*10+#3]\n#3=#3+1\nEND3\n#2=#2+1\nEND2\n\
                   #1=#1+1\nEND1\nWHILE[#1LT3]DO1\nG0Y1.\n#1=#1+1\nEND1\nM30\n";

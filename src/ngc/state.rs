@@ -137,8 +137,8 @@ pub struct State {
     pub speed: [f64; 8],
     /// 0: stopped, 1: clockwise, -1: counter-clockwise; per spindle.
     pub turning: [i8; 8],
-    /// Spindle of `$`.
-    pub active_spindle: usize,
+    /// The spindle that G33, G33.1, G74, G76 and G84 wait for: the last `$` of one of them, or that of G96 and G97 (without: the first).
+    pub thread_spindle: usize,
     /// Coolant.
     pub mist: bool,
     /// Coolant.
@@ -314,7 +314,7 @@ impl State {
             spindle_mode: [SpindleMode::ConstantRpm; 8],
             speed: [0.0; 8],
             turning: [0; 8],
-            active_spindle: 0,
+            thread_spindle: 0,
             mist: false,
             flood: false,
             motion_mode: MotionMode::Continuous(0.0),

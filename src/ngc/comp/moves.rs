@@ -110,8 +110,13 @@ pub(crate) fn along(
         centre = here.centre;
     } else {
         let found = corner::corner(engine.state.side, here.normal, direction, bulging(engine));
-        let new = Way::Line(here.beside(direction), way);
-        turn(engine, found, kind, &here, direction, new, block, at, sink)?;
+        let coming = Coming {
+            kind,
+            direction,
+            way: Way::Line(here.beside(direction), way),
+            end,
+        };
+        turn(engine, found, &here, coming, block, at, sink)?;
     }
     let line = queue::Line {
         rapid,
@@ -177,12 +182,17 @@ pub(crate) fn arc(engine: &mut Engine, arc: &Arc, block: &Block, at: At, sink: &
         let found = corner::corner(engine.state.side, here.normal, direction, outward > 0.0);
         // the control fits the corner to the radius at the end of the arc, as if the contour came to that circle
         let fitted = plane::length(plane::sub(target, arc.centre));
-        let new = Way::Circle(arc.centre, fitted + outward * here.radius, arc.turns > 0);
+        let coming = Coming {
+            kind: Kind::Feed,
+            direction,
+            way: Way::Circle(arc.centre, fitted + outward * here.radius, arc.turns > 0),
+            end: arc.end,
+        };
         let mut here = here;
         if engine.queue.last_arc().is_none() {
             here.fitted = plane::add(here.centre, plane::scaled(start, fitted / radius - 1.0));
         }
-        turn(engine, found, Kind::Feed, &here, direction, new, block, at, sink)?;
+        turn(engine, found, &here, coming, block, at, sink)?;
         queue::Bow {
             end: plane::with_point(plane, arc.end, centre),
             centre: arc.centre,
@@ -255,19 +265,33 @@ fn entry(engine: &mut Engine, arc: &Arc, here: &Here, end: Point, at: At) -> que
     }
 }
 
-/// Ends the held moves at the corner before the new one, and goes around it where it is an outside corner.
-#[allow(clippy::too_many_arguments)]
+/// The move behind a corner.
+struct Coming {
+    kind: Kind,
+    /// From the contour to the cutter, at its start.
+    direction: Point,
+    way: Way,
+    /// Where it leads.
+    end: Pose,
+}
+
+/// Ends the held moves at the corner before the new one, and goes around it where it is an outside corner. On the way around the control
+/// turns the rotary axes to where the new move ends.
 fn turn(
     engine: &mut Engine,
     found: Corner,
-    kind: Kind,
     here: &Here,
-    direction: Point,
-    new: Way,
+    coming: Coming,
     block: &Block,
     at: At,
     sink: &mut dyn Sink,
 ) -> Result<(), Error> {
+    let Coming {
+        kind,
+        direction,
+        way: new,
+        end: target,
+    } = coming;
     match found {
         Corner::Flat => queue::release(engine, sink),
         Corner::Inside => {
@@ -288,7 +312,8 @@ fn turn(
                 Way::Circle(..) => queue::release(engine, sink),
             }
             let plane = engine.state.plane;
-            let end = plane::with_point(plane, engine.state.current, here.beside(direction));
+            let mut end = plane::with_point(plane, engine.state.current, here.beside(direction));
+            end[3..].copy_from_slice(&target[3..]);
             match kind {
                 Kind::Rapid => {
                     let line = queue::Line {

@@ -121,7 +121,7 @@ fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
     }
     let both = block.has(b'X') && block.has(b'Y');
     let one = block.has(b'X') != block.has(b'Y');
-    if one || (!both && !continued && block.has_axes()) {
+    if one {
         return Err(work.refuse(&problems::NURBS_POINT));
     }
     // the first line may leave P out

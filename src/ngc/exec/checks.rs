@@ -120,6 +120,11 @@ pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
         _ => {}
     }
     check_m(block)?;
+    unused::check(block)?;
+    check_p(block)?;
+    if block.g[14] == 960 && !block.has(b'S') {
+        return Err(Error::new(&problems::G96_NO_S, block.g_range(14)));
+    }
     if matches!(block.motion, 330 | 331) {
         if !block.has(b'K') {
             return Err(Error::new(&problems::G33_NO_K, motion::code_range(block)));
@@ -128,11 +133,7 @@ pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
             return Err(Error::new(&problems::G33_F, block.range_of(b'F')));
         }
     }
-    if block.g[14] == 960 && !block.has(b'S') {
-        return Err(Error::new(&problems::G96_NO_S, block.g_range(14)));
-    }
-    unused::check(block)?;
-    check_p(block)
+    Ok(())
 }
 
 /// P of arcs and of M19 counts.

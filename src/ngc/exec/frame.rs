@@ -46,7 +46,7 @@ pub(crate) fn to_program(state: &State, machine: &Pose) -> Pose {
 pub(crate) fn named_point(state: &State, machine: &Pose) -> Pose {
     let program = to_program(state, machine);
     std::array::from_fn(|axis| {
-        if (3..6).contains(&axis) {
+        if (3..6).contains(&axis) && !state.wrapped[axis - 3] {
             program[axis] + state.tool_offset[axis]
         } else {
             program[axis]

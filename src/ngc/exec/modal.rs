@@ -25,8 +25,7 @@ pub(crate) fn feed_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut d
     remark(engine, text, at, sink);
     let per_revolution = i32::from(mode == FeedMode::PerRevolution);
     engine.state.feed_mode = mode;
-    let spindle = engine.state.active_spindle as i32;
-    engine.emit(Canon::FeedMode(spindle, per_revolution), at, sink);
+    engine.emit(Canon::FeedMode(0, per_revolution), at, sink);
     if mode != FeedMode::InverseTime {
         // an F of another mode would be meant otherwise: it must be written again
         engine.state.feed_rate = 0.0;
@@ -219,7 +218,7 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
 pub(crate) fn spindle_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let Some(code) = block.g_code(14) else { return Ok(()) };
     let spindle = match block.spindle.map(usize::try_from) {
-        None => engine.state.active_spindle,
+        None => 0,
         Some(Ok(number)) if number < engine.setup.spindles() => number,
         Some(_) => return Err(Error::new(&problems::SPINDLE_RANGE_MODE, block.range)),
     };
@@ -230,6 +229,7 @@ pub(crate) fn spindle_mode(engine: &mut Engine, block: &Block, at: At, sink: &mu
         SpindleMode::ConstantSurface(block.word(b'D').map_or(1e30, f64::abs))
     };
     engine.state.spindle_mode[spindle] = mode;
+    engine.state.thread_spindle = spindle;
     let ceiling = match mode {
         SpindleMode::ConstantRpm => 0.0,
         SpindleMode::ConstantSurface(ceiling) => ceiling,

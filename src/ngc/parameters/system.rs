@@ -44,13 +44,13 @@ pub(super) const NAMES: &[(&str, Read)] = &[
     ("_remap_level", |_| 0.0),
     ("_retract_old_z", |v| truth(v.state.retract == RetractMode::OldZ)),
     ("_retract_r_plane", |v| truth(v.state.retract == RetractMode::RPlane)),
-    ("_rpm", |v| v.state.speed[v.state.active_spindle]),
+    ("_rpm", |v| v.state.speed[0]),
     ("_selected_pocket", |v| pocket(v, v.state.selected_row)),
     ("_selected_tool", |v| f64::from(v.state.selected_tool.max(0))),
     ("_speed_override", |v| truth(v.state.speed_override)),
     ("_spindle_css_mode", |v| truth(surface_speed(v))),
-    ("_spindle_cw", |v| truth(v.state.turning[v.state.active_spindle] == 1)),
-    ("_spindle_on", |v| truth(v.state.turning[v.state.active_spindle] != 0)),
+    ("_spindle_cw", |v| truth(v.state.turning[0] == 1)),
+    ("_spindle_on", |v| truth(v.state.turning[0] != 0)),
     ("_spindle_rpm_mode", |v| truth(!surface_speed(v))),
     // 1 where motion is carried out: a check asks what the machine will do
     ("_task", |v| truth(v.is_check())),
@@ -83,7 +83,7 @@ fn machine(values: &Values<'_>, axis: usize) -> f64 {
 }
 
 fn surface_speed(values: &Values<'_>) -> bool {
-    let mode = values.state.spindle_mode[values.state.active_spindle];
+    let mode = values.state.spindle_mode[0];
     matches!(mode, SpindleMode::ConstantSurface(_))
 }
 

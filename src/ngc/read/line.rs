@@ -272,7 +272,9 @@ impl Line {
 
 /// A word that may be there once is there a second time.
 pub(super) fn twice_there(letter: u8, range: TextRange) -> Error {
-    let letter = char::from(letter.to_ascii_lowercase());
+    let lower = letter.to_ascii_lowercase();
+    // as the control writes them
+    let letter = char::from(if matches!(lower, b'u'..=b'w') { lower.to_ascii_uppercase() } else { lower });
     Error::with(
         &problems::REPEATED,
         range,

@@ -232,8 +232,14 @@ fn clipped(start: Point, contour: &[Segment], place: usize, sign: f64) -> Point 
     start
 }
 
-/// The contour at a distance on the side of the start.
-fn with_allowance(start: Point, contour: &[Segment], allowance: f64) -> Result<Vec<Segment>, Stopped> {
+/// The contour at a distance on the side of the start. `place`: the coordinate along which it goes, 0 is Z, 1 is X; it decides where the
+/// start lies on neither side.
+fn with_allowance(
+    start: Point,
+    contour: &[Segment],
+    allowance: f64,
+    place: usize,
+) -> Result<Vec<Segment>, Stopped> {
     let (Some(first), Some(last)) = (contour.first(), contour.last()) else {
         return Ok(Vec::new());
     };
@@ -241,8 +247,13 @@ fn with_allowance(start: Point, contour: &[Segment], allowance: f64) -> Result<V
     let seen = |point: Point| [point[0] - from[0], point[1] - from[1]];
     let mut side = cross(seen(last.from), seen(start));
     if side == 0.0 {
-        let forward = if last.to[0] > from[0] { 1.0 } else { -1.0 };
-        side = if last.to[1] < from[1] { -forward } else { forward };
+        let along = if place == 0 { 1.0 } else { -1.0 };
+        let forward = if last.to[place] > from[place] { along } else { -along };
+        side = if last.to[1 - place] < from[1 - place] {
+            -forward
+        } else {
+            forward
+        };
     }
     Ok(offset::offset(
         contour,
@@ -266,7 +277,7 @@ fn finishing(out: &mut Out<'_>, start: Point, contour: &[Segment], words: &Words
             return Err((&problems::MANY).into());
         }
         let allowance = words.e + (words.d - words.e) * left / words.p;
-        let pass = with_allowance(start, contour, allowance)?;
+        let pass = with_allowance(start, contour, allowance, place)?;
         out.rapid(start).map_err(Stopped::Refused)?;
         if let Some(first) = pass.first() {
             out.rapid(first.from).map_err(Stopped::Refused)?;
@@ -299,7 +310,7 @@ fn roughing(out: &mut Out<'_>, code: i16, start: Point, contour: &[Segment], wor
         signs: [-sign, if deeper { -1.0 } else { 1.0 }],
     };
     let start = clipped(start, contour, place, sign);
-    let contour = with_allowance(start, contour, words.d)?;
+    let contour = with_allowance(start, contour, words.d, place)?;
     out.rapid(start).map_err(Stopped::Refused)?;
     let turned: Vec<Segment> = contour.iter().map(|piece| frame.piece_to(piece)).collect();
     let rough = Rough {

@@ -26,6 +26,11 @@ pub(super) fn offset(contour: &[Segment], distance_left: f64) -> Result<Vec<Segm
             }
             done.push(moved);
         } else {
+            // an outer corner behind a piece that vanishes: the control was seen to cut the rounding there, and to leave it out
+            let before = index.checked_sub(1).map(|at| &contour[at]);
+            if before.is_some_and(|before| is_outer(turn_between(before, piece), distance_left)) {
+                return Err(&problems::SWALLOWED);
+            }
             dropped = !inner(&mut done, moved)?;
         }
     }
@@ -34,6 +39,16 @@ pub(super) fn offset(contour: &[Segment], distance_left: f64) -> Result<Vec<Segm
         return Err(&problems::SWALLOWED);
     }
     Ok(done)
+}
+
+/// Sine of the angle by which the way turns between two pieces; positive: to the left.
+fn turn_between(before: &Segment, piece: &Segment) -> f64 {
+    cross(before.direction(before.to), piece.direction(piece.from))
+}
+
+/// Whether a corner turns away from the side of the offset.
+fn is_outer(turn: f64, distance_left: f64) -> bool {
+    turn.abs() >= 1e-6 && (turn > 0.0) != (distance_left > 0.0)
 }
 
 /// Joins a piece to the one before it.
@@ -45,7 +60,7 @@ fn corner(
     distance_left: f64,
     dropped: &mut bool,
 ) -> Result<(), &'static Problem> {
-    let turn = cross(before.direction(before.to), piece.direction(piece.from));
+    let turn = turn_between(before, piece);
     if turn.abs() < 1e-6 {
         if before.round.is_none() && piece.round.is_none() {
             let way = piece.direction(piece.from);
@@ -60,7 +75,7 @@ fn corner(
         done.push(moved);
         return Ok(());
     }
-    if (turn > 0.0) == (distance_left > 0.0) {
+    if !is_outer(turn, distance_left) {
         *dropped = !inner(done, moved)?;
         return Ok(());
     }
@@ -86,6 +101,10 @@ fn corner(
 /// Cuts off the last pieces where the next one meets them. `false`: the next piece vanishes.
 fn inner(done: &mut Vec<Segment>, moved: Segment) -> Result<bool, &'static Problem> {
     while let Some(last) = done.last().copied() {
+        // of the two points at which they may meet the control was seen to take the far one
+        if last.is_arc() && moved.is_arc() {
+            return Err(&problems::ARC_CORNER);
+        }
         match meeting(&last, &moved) {
             Meeting::At(point) => {
                 if let Some(end) = done.last_mut() {

@@ -34,6 +34,8 @@ problems! {
         "Make D smaller, or check it on the control."
     SHALLOW NotModelled "corner of a turning contour that is nearly straight, with an allowance: how the control rounds it is not known"
         "This is no mistake of the program. Check it on the control."
+    ARC_CORNER NotModelled "corner between two arcs of a turning contour, with an allowance: how the control cuts it is not known"
+        "This is no mistake of the program. Let the arcs meet without a corner, or check it on the control."
     FINISH_COMPENSATED NotModelled "G70 with cutter compensation: the way of the tool is not known"
         "This is no mistake of the program. Check it on the control."
     POCKET_ARCS NotModelled "pockets of a turning contour with several arcs: where the control cuts them is not known"

@@ -219,6 +219,9 @@ impl Walk<'_> {
         if length < -1e-9 {
             return Err((&problems::ENDLESS).into());
         }
+        if length.abs() < 1e-9 {
+            return Ok(());
+        }
         self.feed([end[0], level])?;
         let half = length / 2.0;
         let retract = if self.rough.retract < 0.0 || self.rough.retract > half {

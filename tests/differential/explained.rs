@@ -91,7 +91,7 @@ pub(crate) const EXPLAINED: &[Explanation] = &[
 ];
 
 /// Messages of what this interpreter does not model.
-const REFUSED: [&str; 11] = [
+const REFUSED: [&str; 13] = [
     "pockets of a turning contour with several arcs: where the control cuts them is not known",
     "M61 or G10 L0 with cutter radius compensation on: where the control goes on from is not known",
     "a spline (G5, G5.1) before the end of another one (G5.2): the control mixes their control points",
@@ -101,6 +101,8 @@ const REFUSED: [&str; 11] = [
     "contour of a turning cycle whose allowance is greater than its details at the ends: the way of the tool is not known",
     "corner of a turning contour that is nearly straight, with an allowance: how the control rounds it is not known",
     "corner between two arcs of a turning contour, with an allowance: how the control cuts it is not known",
+    "corner of a turning contour whose radius or chamfer goes less than 0.01 along the cut: how the control takes it is not known",
+    "outer corner of a turning contour that has A or C elsewhere, with an allowance: how the control goes around it is not known",
     "G70 with cutter compensation: the way of the tool is not known",
     "arc of a turning contour with its deepest point inside, or with unequal radii: how the control cuts there is not known",
 ];

@@ -88,13 +88,12 @@ fn orient(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Re
     }
     // all of them at once (-1) it does not turn
     let number = block.spindle.unwrap_or(0);
-    let spindle = usize::try_from(number)
-        .ok()
-        .filter(|spindle| *spindle < engine.setup.spindles());
-    let Some(spindle) = spindle else {
+    let exists = usize::try_from(number).is_ok_and(|spindle| spindle < engine.setup.spindles());
+    if !exists {
         return Err(Error::new(&problems::SPINDLE_RANGE_M19, block.range));
-    };
-    engine.state.turning[spindle] = 0;
+    }
+    // whichever it turns, the control takes all of them as stopped
+    engine.state.turning = [0; 8];
     if block.has(b'R') || block.has(b'P') {
         engine.emit(Canon::OrientSpindle(number, angle, mode as i32), at, sink);
     }

@@ -307,6 +307,6 @@ fn failed(error: &Error, block: &Block) -> Error {
         };
     }
     let problem: &'static Problem = error.problem;
-    let detail = format!("M7x: restore_settings failed : '{text}': {}", error.message());
+    let detail = format!("M7x: restore_settings failed executing: '{text}': {}", error.message());
     Error::with(problem, error.range, detail)
 }

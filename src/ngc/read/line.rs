@@ -274,7 +274,11 @@ impl Line {
 pub(super) fn twice_there(letter: u8, range: TextRange) -> Error {
     let lower = letter.to_ascii_lowercase();
     // as the control writes them
-    let letter = char::from(if matches!(lower, b'u'..=b'w') { lower.to_ascii_uppercase() } else { lower });
+    let letter = char::from(if matches!(lower, b'u'..=b'w') {
+        lower.to_ascii_uppercase()
+    } else {
+        lower
+    });
     Error::with(
         &problems::REPEATED,
         range,

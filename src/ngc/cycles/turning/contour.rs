@@ -99,8 +99,12 @@ impl Contour {
             positive: counter,
         })
     }
-    /// Its pieces; the first is the way to the contour.
-    pub(super) fn finish(self, range: TextRange) -> Result<Vec<Segment>, Error> {
+    /// Whether a corner behind its first piece is rounded or cut off.
+    pub(super) fn has_corners(&self) -> bool {
+        self.pieces.iter().any(|(_, corner)| *corner != Corner::Sharp)
+    }
+    /// Its pieces; the first is the way to the contour. `travels`: coordinates along which the cycle may cut, 0 is Z, 1 is X.
+    pub(super) fn finish(self, range: TextRange, travels: &[usize]) -> Result<Vec<Segment>, Error> {
         let unknown = self.pieces.iter().any(|(piece, _)| {
             let centre = piece.round.map_or([0.0; 2], |round| round.centre);
             let numbers = [piece.from, piece.to];
@@ -130,6 +134,9 @@ impl Contour {
             if let Some(last) = done.pop() {
                 match fillet(&last, &piece, before) {
                     Ok(Some((start, middle, end))) => {
+                        if travels.iter().any(|&place| is_fine(&middle, place)) {
+                            return Err(Error::new(&problems::FINE, range));
+                        }
                         done.push(last.with_ends(last.from, start));
                         done.push(middle);
                         piece = piece.with_ends(end, piece.to);
@@ -160,6 +167,15 @@ fn by_radius(from: Point, to: Point, radius: f64, counter: bool) -> Point {
         f64::midpoint(from[0], to[0]) - side * way[1],
         f64::midpoint(from[1], to[1]) + side * way[0],
     ]
+}
+
+/// The control leaves out corners that go less than this along the cut, or takes them as steps back: observed from `rs274` by bisection,
+/// program units.
+const FINE: f64 = 0.01;
+
+/// Whether the piece of a corner goes so little along a coordinate that the control does not take it as it is.
+pub(super) fn is_fine(piece: &Segment, place: usize) -> bool {
+    (piece.to[place] - piece.from[place]).abs() < FINE * (1.0 + 1e-6)
 }
 
 type Fillet = (Point, Segment, Point);

@@ -167,7 +167,13 @@ impl Turning {
         };
         let Words { d, e, i, p, r } = self.words;
         let known = [d, e, i, p, r].iter().chain(&self.start).all(|value| value.is_finite());
-        let pieces = self.contour.finish(range);
+        let travels: &[usize] = match self.code / 10 {
+            70 => &[0, 1],
+            71 => &[0],
+            _ => &[1],
+        };
+        let corners = self.contour.has_corners();
+        let pieces = self.contour.finish(range, travels);
         let pieces = match pieces {
             Ok(pieces) if known || pieces.len() < 2 => pieces,
             Ok(_) => return Err(refuse(engine, Error::new(&problems::UNKNOWN, range))),
@@ -191,9 +197,9 @@ impl Turning {
         let result = if entry_is_round {
             Err(Stopped::Problem(&problems::CONTOUR))
         } else if self.code == 700 {
-            finishing(&mut out, self.start, contour, &self.words)
+            finishing(&mut out, self.start, contour, corners, &self.words)
         } else {
-            roughing(&mut out, self.code, self.start, contour, &self.words)
+            roughing(&mut out, self.code, self.start, contour, corners, &self.words)
         };
         result.map_err(|stopped| match stopped {
             Stopped::Problem(problem) => refuse(out.engine, Error::new(problem, range)),
@@ -233,12 +239,13 @@ fn clipped(start: Point, contour: &[Segment], place: usize, sign: f64) -> Point 
 }
 
 /// The contour at a distance on the side of the start. `place`: the coordinate along which it goes, 0 is Z, 1 is X; it decides where the
-/// start lies on neither side.
+/// start lies on neither side. `corners`: it has rounded or chamfered ones.
 fn with_allowance(
     start: Point,
     contour: &[Segment],
     allowance: f64,
     place: usize,
+    corners: bool,
 ) -> Result<Vec<Segment>, Stopped> {
     let (Some(first), Some(last)) = (contour.first(), contour.last()) else {
         return Ok(Vec::new());
@@ -255,14 +262,22 @@ fn with_allowance(
             forward
         };
     }
-    Ok(offset::offset(
-        contour,
-        if side > 0.0 { allowance } else { -allowance },
-    )?)
+    let allowance = offset::Allowance {
+        left: if side > 0.0 { allowance } else { -allowance },
+        place,
+        corners,
+    };
+    Ok(offset::offset(contour, allowance)?)
 }
 
 /// G70: along the contour, P times, ever nearer.
-fn finishing(out: &mut Out<'_>, start: Point, contour: &[Segment], words: &Words) -> Result<(), Stopped> {
+fn finishing(
+    out: &mut Out<'_>,
+    start: Point,
+    contour: &[Segment],
+    corners: bool,
+    words: &Words,
+) -> Result<(), Stopped> {
     let along = (0..2).find_map(|place| monotonic(contour, place).map(|sign| (place, sign)));
     let Some((place, sign)) = along else {
         return Err((&problems::MONOTONIC).into());
@@ -277,7 +292,7 @@ fn finishing(out: &mut Out<'_>, start: Point, contour: &[Segment], words: &Words
             return Err((&problems::MANY).into());
         }
         let allowance = words.e + (words.d - words.e) * left / words.p;
-        let pass = with_allowance(start, contour, allowance, place)?;
+        let pass = with_allowance(start, contour, allowance, place, corners)?;
         out.rapid(start).map_err(Stopped::Refused)?;
         if let Some(first) = pass.first() {
             out.rapid(first.from).map_err(Stopped::Refused)?;
@@ -290,7 +305,14 @@ fn finishing(out: &mut Out<'_>, start: Point, contour: &[Segment], words: &Words
 }
 
 /// G71 and G72 with their forms.
-fn roughing(out: &mut Out<'_>, code: i16, start: Point, contour: &[Segment], words: &Words) -> Result<(), Stopped> {
+fn roughing(
+    out: &mut Out<'_>,
+    code: i16,
+    start: Point,
+    contour: &[Segment],
+    corners: bool,
+    words: &Words,
+) -> Result<(), Stopped> {
     let swapped = code >= 720;
     let place = usize::from(swapped);
     let Some(sign) = monotonic(contour, place) else {
@@ -310,7 +332,7 @@ fn roughing(out: &mut Out<'_>, code: i16, start: Point, contour: &[Segment], wor
         signs: [-sign, if deeper { -1.0 } else { 1.0 }],
     };
     let start = clipped(start, contour, place, sign);
-    let contour = with_allowance(start, contour, words.d, place)?;
+    let contour = with_allowance(start, contour, words.d, place, corners)?;
     out.rapid(start).map_err(Stopped::Refused)?;
     let turned: Vec<Segment> = contour.iter().map(|piece| frame.piece_to(piece)).collect();
     let rough = Rough {

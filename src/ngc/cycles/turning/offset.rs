@@ -1,10 +1,23 @@
 //! The contour with an allowance: every piece moved sideways, outer corners rounded, inner ones cut where the pieces meet.
+use super::contour::is_fine;
 use super::problems;
 use super::segment::{NEAR, Point, Round, Segment, cross, distance};
 use crate::Problem;
 
-/// The contour at a distance to its left (negative: to its right).
-pub(super) fn offset(contour: &[Segment], distance_left: f64) -> Result<Vec<Segment>, &'static Problem> {
+/// How far beside the contour.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Allowance {
+    /// To its left; negative: to its right.
+    pub(super) left: f64,
+    /// The coordinate along which the cycle cuts: 0 is Z, 1 is X.
+    pub(super) place: usize,
+    /// The contour has rounded or chamfered corners.
+    pub(super) corners: bool,
+}
+
+/// The contour with an allowance.
+pub(super) fn offset(contour: &[Segment], allowance: Allowance) -> Result<Vec<Segment>, &'static Problem> {
+    let distance_left = allowance.left;
     if distance_left == 0.0 {
         return Ok(contour.to_vec());
     }
@@ -19,7 +32,7 @@ pub(super) fn offset(contour: &[Segment], distance_left: f64) -> Result<Vec<Segm
             && !dropped
             && !done.is_empty()
         {
-            corner(&mut done, before, piece, moved, distance_left, &mut dropped)?;
+            corner(&mut done, before, piece, moved, allowance, &mut dropped)?;
         } else if done.is_empty() {
             if dropped {
                 return Err(&problems::SWALLOWED);
@@ -57,9 +70,10 @@ fn corner(
     before: &Segment,
     piece: &Segment,
     moved: Segment,
-    distance_left: f64,
+    allowance: Allowance,
     dropped: &mut bool,
 ) -> Result<(), &'static Problem> {
+    let distance_left = allowance.left;
     let turn = turn_between(before, piece);
     if turn.abs() < 1e-6 {
         if before.round.is_none() && piece.round.is_none() {
@@ -79,21 +93,26 @@ fn corner(
         *dropped = !inner(done, moved)?;
         return Ok(());
     }
-    // the control leaves out short arcs in corners that are nearly straight
-    if turn.abs() < 0.3 {
-        return Err(&problems::SHALLOW);
+    // with A or C in the contour the control was seen to leave out arcs of any length
+    if allowance.corners {
+        return Err(&problems::BESIDE_CORNER);
     }
     let Some(last) = done.last().copied() else {
         return Err(&problems::SWALLOWED);
     };
-    done.push(Segment {
+    let around = Segment {
         from: last.to,
         to: moved.from,
         round: Some(Round {
             centre: piece.from,
             positive: distance_left < 0.0,
         }),
-    });
+    };
+    // the control leaves out short arcs
+    if is_fine(&around, allowance.place) {
+        return Err(&problems::SHALLOW);
+    }
+    done.push(around);
     done.push(moved);
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Programs with the calls that `rs274 -g` of LinuxCNC 2.9 made of them, held against ours.
 //!
-//! A file is a row of cases: the program, `---`, the calls and, with a `!` in front, the error, `===`.
+//! A file is a row of cases: the program, `---`, the calls and, with a `!` in front, the error, `===`. What stands in front of `+++` is the
+//! machine's INI file.
 use crate::listing;
 use std::fmt::Write;
 use std::path::Path;
@@ -16,7 +17,12 @@ fn compare(name: &str) {
     for case in text.split("===\n").filter(|case| !case.trim().is_empty()) {
         let (program, expected) = case.split_once("---\n").expect("there");
         let expected: Vec<&str> = expected.lines().collect();
-        let listed = listing::list(program);
+        let (ini, program) = program.split_once("+++\n").unwrap_or(("", program));
+        let setup = trunnion_ngc::Setup {
+            ini: trunnion_ngc::Ini::parse(ini.as_bytes()),
+            ..trunnion_ngc::Setup::default()
+        };
+        let listed = listing::list_with(program, &setup);
         let mut ours = listed.lines();
         ours.extend(listed.errors.first().map(|error| format!("! {}", error.trim_end())));
         count += 1;

@@ -137,8 +137,8 @@ pub struct State {
     pub speed: [f64; 8],
     /// 0: stopped, 1: clockwise, -1: counter-clockwise; per spindle.
     pub turning: [i8; 8],
-    /// The spindle that G33, G33.1, G74, G76 and G84 wait for: the last `$` of one of them, or that of G96 and G97 (without: the first).
-    pub thread_spindle: usize,
+    /// The spindle that threads and feed per revolution follow: the last `$` of a thread, or that of G93 to G97 (without: the first).
+    pub chosen_spindle: usize,
     /// Coolant.
     pub mist: bool,
     /// Coolant.
@@ -234,8 +234,8 @@ impl Told {
     /// Follows one call.
     pub(crate) fn follow(&mut self, call: &Canon) {
         match call {
-            Canon::Traverse(pose) | Canon::Feed(pose) => self.position = *pose,
-            Canon::Nurbs { end, .. } => self.position = *end,
+            Canon::Traverse(pose) | Canon::Feed(pose) => self.reach(pose),
+            Canon::Nurbs { end, .. } => self.reach(end),
             Canon::G5xOffset(_, pose) => self.shift(*pose, false),
             Canon::G92Offset(pose) => self.shift(*pose, true),
             Canon::Units(units) => self.units(*units == Units::Inch),
@@ -268,7 +268,8 @@ impl Told {
     }
     /// A motion whose call does not hold the whole pose has ended.
     pub(crate) fn reach(&mut self, end: &Pose) {
-        self.position = *end;
+        // the listing's machine has no U V W
+        self.position[..6].copy_from_slice(&end[..6]);
     }
 }
 
@@ -314,7 +315,7 @@ impl State {
             spindle_mode: [SpindleMode::ConstantRpm; 8],
             speed: [0.0; 8],
             turning: [0; 8],
-            thread_spindle: 0,
+            chosen_spindle: 0,
             mist: false,
             flood: false,
             motion_mode: MotionMode::Continuous(0.0),

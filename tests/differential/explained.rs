@@ -85,6 +85,15 @@ pub(crate) const EXPLAINED: &[Explanation] = &[
         },
     },
     Explanation {
+        why: "the control takes its own entry arc of a turning tool as wrong, or draws a full circle instead; we refuse it in both cases",
+        holds: |control, ours| {
+            const INVALID: &str = "BUG: cutter compensation has generated an invalid arc";
+            let refused = ours.error.starts_with(INVALID);
+            let same = control.error.lines().next() == ours.error.lines().next();
+            refused && (same && same_calls(control, ours) || control.error.is_empty() && is_head(ours, control))
+        },
+    },
+    Explanation {
         why: "the control crashes (a corner in a turning contour with nothing before it), we refuse",
         holds: |control, ours| control.crashed && !ours.good && is_refused(&ours.error),
     },

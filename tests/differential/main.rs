@@ -45,6 +45,8 @@ fn answer(output: &Output, parameters: Option<&str>) -> Answer {
     let mut errors = text(&output.stderr).lines().map(str::to_owned).collect::<Vec<_>>();
     errors.retain(|line| line != "executing");
     let mut calls: Vec<String> = text(&output.stdout).lines().map(str::to_owned).collect();
+    // a word to its authors that rs274 prints between the calls of some turning contours
+    calls.retain(|line| !line.starts_with("Oops ("));
     calls.extend(parameters.into_iter().flat_map(str::lines).map(str::to_owned));
     Answer {
         calls,

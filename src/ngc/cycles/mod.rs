@@ -45,12 +45,12 @@ impl Work<'_> {
         };
         let count = self.engine.setup.spindles();
         let spindle = usize::try_from(number).ok().filter(|&number| number < count);
-        self.engine.state.thread_spindle = spindle.ok_or_else(|| self.refuse(problem))?;
+        self.engine.state.chosen_spindle = spindle.ok_or_else(|| self.refuse(problem))?;
         Ok(())
     }
     /// The spindle whose turning counts, and which way it turns: 0, 1, -1.
     fn turning(&self) -> (i32, i8) {
-        let spindle = self.engine.state.thread_spindle;
+        let spindle = self.engine.state.chosen_spindle;
         (spindle as i32, self.engine.state.turning[spindle])
     }
 }

@@ -116,8 +116,11 @@ fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
         work.engine.spline.order = 3;
     }
     if let Some(order) = block.word(b'L') {
-        // observed: the greatest of a spline counts, at least 3
-        work.engine.spline.order = work.engine.spline.order.max(order as u32);
+        // observed: the last one above 3 counts
+        let order = order as u32;
+        if order > 3 {
+            work.engine.spline.order = order;
+        }
     }
     let both = block.has(b'X') && block.has(b'Y');
     let one = block.has(b'X') != block.has(b'Y');

@@ -48,6 +48,14 @@ impl Engine {
         let first = system(index);
         (self.stored_pose(first), self.parameter(first + 9))
     }
+    /// The offset of G92 as the parameters tell it, program units.
+    pub(crate) fn stored_axis_offset(&self) -> Pose {
+        match self.parameter(G92_ON) {
+            0.0 => [0.0; 9],
+            on if on.is_nan() => [f64::NAN; 9],
+            _ => self.stored_pose(G92),
+        }
+    }
     /// The words of the block over a pose: what is not given stays.
     pub(crate) fn over(&self, block: &Block, pose: Pose) -> Pose {
         std::array::from_fn(|axis| word(&self.state, block, super::ends::AXES[axis]).unwrap_or(pose[axis]))

@@ -1,13 +1,13 @@
 //! What must fit together in a block before anything of it is done.
 use super::{motion, problems, unused};
 use crate::block::M_GROUPS;
-use crate::{Block, DistanceMode, Engine, Error, Plane, State};
+use crate::{Block, DistanceMode, Error, Plane, State};
 
 /// A line holds at most so many M codes.
 const M_CODES: u8 = 4;
 
-/// How many M codes there are, and whether the machine has the user's ones.
-pub(crate) fn codes(engine: &Engine, block: &Block) -> Result<(), Error> {
+/// How many M codes there are.
+pub(crate) fn codes(block: &Block) -> Result<(), Error> {
     if block.m_count > M_CODES {
         let last = (0..M_GROUPS)
             .filter(|&group| block.m[group] >= 0)
@@ -15,13 +15,7 @@ pub(crate) fn codes(engine: &Engine, block: &Block) -> Result<(), Error> {
         let range = last.max_by_key(|range| range.start).unwrap_or(block.range);
         return Err(Error::new(&problems::TOO_MANY_M, range));
     }
-    match block.m_code(10) {
-        Some(code) if !engine.setup.user_codes => {
-            let text = problems::UNKNOWN_M.message.replace("{}", &code.to_string());
-            Err(Error::with(&problems::UNKNOWN_M, block.m_range(10), text))
-        }
-        _ => Ok(()),
-    }
+    Ok(())
 }
 
 /// Finds out which motion applies to the block: the code given, or the one in force where axis words ask for it.
@@ -103,6 +97,7 @@ pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
         40 if !block.word(b'P').is_some_and(|p| p >= 0.0 || p.is_nan()) => {
             return Err(Error::new(&problems::G4_NO_P, block.g_range(0)));
         }
+        40 if matches!(block.g[1], 20 | 30) => return Err(Error::new(&problems::G4_ARC, block.g_range(0))),
         100 => check_g10(block)?,
         530 => {
             if !matches!(block.motion, 0 | 10) {
@@ -119,7 +114,6 @@ pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
         }
         _ => {}
     }
-    check_m(block)?;
     unused::check(block)?;
     check_p(block)?;
     if block.g[14] == 960 && !block.has(b'S') {
@@ -160,7 +154,6 @@ fn check_g10(block: &Block) -> Result<(), Error> {
     match block.word(b'L').map_or(-1, |l| l as i32) {
         2 if !at_least(0.0) || p.is_some_and(|p| p > 9.0) => return Err(Error::new(&problems::G10_L2_P, p_range)),
         20 if !at_least(0.0) || p.is_some_and(|p| p > 9.0) => return Err(Error::new(&problems::G10_L20_P, p_range)),
-        20 if block.has(b'R') => return Err(Error::new(&problems::G10_L20_R, block.range_of(b'R'))),
         0 | 2 | 20 => {}
         1 if !at_least(1.0) => return Err(Error::new(&problems::G10_L1_P, p_range)),
         10 if !at_least(1.0) => return Err(Error::new(&problems::G10_L10_P, p_range)),
@@ -172,26 +165,6 @@ fn check_g10(block: &Block) -> Result<(), Error> {
             }
         }
         _ => return Err(Error::new(&problems::G10_NO_L, block.g_range(0))),
-    }
-    Ok(())
-}
-
-fn check_m(block: &Block) -> Result<(), Error> {
-    let range = block.m_range(5);
-    let missing = match block.m[5] {
-        62 => Some((b'P', &problems::M62_P)),
-        63 => Some((b'P', &problems::M63_P)),
-        64 => Some((b'P', &problems::M64_P)),
-        65 => Some((b'P', &problems::M65_P)),
-        _ => None,
-    };
-    if let Some((letter, problem)) = missing
-        && !block.has(letter)
-    {
-        return Err(Error::new(problem, range));
-    }
-    if block.m[6] == 61 && !block.word(b'Q').is_some_and(|q| q >= 0.0 || q.is_nan()) {
-        return Err(Error::new(&problems::M61_Q, block.m_range(6)));
     }
     Ok(())
 }

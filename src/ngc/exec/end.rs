@@ -26,11 +26,7 @@ pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
     let unknown = engine.state.origin_index == 0;
     engine.state.origin_offset = if unknown { [f64::NAN; 9] } else { origin };
     engine.state.rotation_xy = if unknown { f64::NAN } else { rotation };
-    engine.state.axis_offset = match engine.parameter(access::G92_ON) {
-        0.0 => [0.0; 9],
-        on if on.is_nan() => [f64::NAN; 9],
-        _ => engine.stored_pose(access::G92),
-    };
+    engine.state.axis_offset = engine.stored_axis_offset();
     if engine.setup.start == Start::Zero {
         // machine zero in program coordinates; as on the control the rotation plays no part here, nor do the offsets of U V W
         let offsets = frame::sum(&engine.state.origin_offset, &engine.state.axis_offset);

@@ -10,6 +10,7 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     match block.g[0] {
         280 => go(engine, HOME, block, at, sink),
         300 => go(engine, SECOND_HOME, block, at, sink),
+        281 | 301 if engine.state.side != Side::Off => Err(Error::new(&problems::STORE_COMPENSATION, block.g_range(0))),
         281 => {
             store(engine, HOME);
             Ok(())

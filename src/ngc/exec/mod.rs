@@ -45,7 +45,7 @@ pub(crate) fn check(engine: &Engine, block: &mut Block) -> Result<(), Error> {
         }
         return Ok(());
     }
-    checks::codes(engine, block)?;
+    checks::codes(block)?;
     checks::modelled(block, &engine.state)?;
     checks::choose_motion(block, &engine.state)?;
     checks::check(block, &engine.state)
@@ -108,7 +108,7 @@ fn named_axes(block: &Block) -> u16 {
 /// Feed mode, F, S, T.
 fn modes(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     modal::spindle_mode(engine, block, at, sink)?;
-    modal::feed_mode(engine, block, at, sink);
+    modal::feed_mode(engine, block, at, sink)?;
     modal::feed_rate(engine, block, at, sink);
     spindle::speed(engine, block, at, sink)?;
     tools::select(engine, block, at, sink)
@@ -122,7 +122,7 @@ fn switches(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> 
         spindle::turn(engine, block, at, sink)?;
         outputs::coolant(engine, block, at, sink);
         outputs::overrides(engine, block, at, sink)?;
-        outputs::user(engine, block, at, sink);
+        outputs::user(engine, block, at, sink)?;
     }
     if block.g[0] == 40 {
         engine.emit(Canon::Dwell(block.word(b'P').unwrap_or(0.0)), at, sink);
@@ -141,7 +141,7 @@ fn geometry(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> 
     modal::control_mode(engine, block, at, sink)?;
     modal::distance(engine, block, at, sink);
     modal::arc_distance(engine, block, at, sink);
-    modal::retract(engine, block, at, sink);
+    modal::retract(engine, block, at, sink)?;
     Ok(())
 }
 

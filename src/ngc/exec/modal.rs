@@ -1,8 +1,8 @@
 //! Modal changes of a block: feed mode, F, units, plane, path control, distance and retract modes, diameters.
 use super::{frame, problems};
 use crate::{
-    At, Block, Canon, DistanceMode, Engine, Error, FeedMode, MotionMode, Plane, RetractMode, Side, Sink, SpindleMode,
-    Units,
+    At, Block, Canon, DistanceMode, Engine, Error, FeedMode, MotionMode, Plane, Problem, RetractMode, Side, Sink,
+    SpindleMode, Units,
 };
 use std::sync::Arc;
 
@@ -12,8 +12,9 @@ pub(crate) fn remark(engine: &mut Engine, text: &'static str, at: At, sink: &mut
 }
 
 /// G93, G94, G95.
-pub(crate) fn feed_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
-    let Some(code) = block.g_code(5) else { return };
+pub(crate) fn feed_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let Some(code) = block.g_code(5) else { return Ok(()) };
+    let spindle = choose_spindle(engine, block, &problems::SPINDLE_RANGE_FEED)?;
     let (mode, text) = match code {
         930 => (FeedMode::InverseTime, "interpreter: feed mode set to inverse time"),
         940 => (FeedMode::PerMinute, "interpreter: feed mode set to units per minute"),
@@ -25,12 +26,14 @@ pub(crate) fn feed_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut d
     remark(engine, text, at, sink);
     let per_revolution = i32::from(mode == FeedMode::PerRevolution);
     engine.state.feed_mode = mode;
-    engine.emit(Canon::FeedMode(0, per_revolution), at, sink);
+    let of_spindle = if mode == FeedMode::PerRevolution { spindle } else { 0 };
+    engine.emit(Canon::FeedMode(of_spindle as i32, per_revolution), at, sink);
     if mode != FeedMode::InverseTime {
         // an F of another mode would be meant otherwise: it must be written again
         engine.state.feed_rate = 0.0;
         engine.emit(Canon::FeedRate(0.0), at, sink);
     }
+    Ok(())
 }
 
 /// F; under G93 it belongs to its motion alone.
@@ -172,8 +175,11 @@ pub(crate) fn diameters(engine: &mut Engine, block: &Block, at: At, sink: &mut d
 }
 
 /// G98, G99.
-pub(crate) fn retract(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
-    let Some(code) = block.g_code(10) else { return };
+pub(crate) fn retract(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let Some(code) = block.g_code(10) else { return Ok(()) };
+    if engine.state.side != Side::Off {
+        return Err(Error::new(&problems::RETRACT_COMPENSATION, block.g_range(10)));
+    }
     let (mode, text) = if code == 980 {
         (RetractMode::OldZ, "interpreter: retract mode set to old_z")
     } else {
@@ -181,6 +187,7 @@ pub(crate) fn retract(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn
     };
     remark(engine, text, at, sink);
     engine.state.retract = mode;
+    Ok(())
 }
 
 /// G54-G59.3.
@@ -214,14 +221,21 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
     Ok(())
 }
 
-/// G96, G97.
-pub(crate) fn spindle_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
-    let Some(code) = block.g_code(14) else { return Ok(()) };
+/// The spindle that a mode names: the first where it names none. Threads and feed per revolution follow it from then on.
+fn choose_spindle(engine: &mut Engine, block: &Block, problem: &'static Problem) -> Result<usize, Error> {
     let spindle = match block.spindle.map(usize::try_from) {
         None => 0,
         Some(Ok(number)) if number < engine.setup.spindles() => number,
-        Some(_) => return Err(Error::new(&problems::SPINDLE_RANGE_MODE, block.range)),
+        Some(_) => return Err(Error::new(problem, block.range)),
     };
+    engine.state.chosen_spindle = spindle;
+    Ok(spindle)
+}
+
+/// G96, G97.
+pub(crate) fn spindle_mode(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let Some(code) = block.g_code(14) else { return Ok(()) };
+    let spindle = choose_spindle(engine, block, &problems::SPINDLE_RANGE_MODE)?;
     let mode = if code == 970 {
         SpindleMode::ConstantRpm
     } else {
@@ -229,7 +243,6 @@ pub(crate) fn spindle_mode(engine: &mut Engine, block: &Block, at: At, sink: &mu
         SpindleMode::ConstantSurface(block.word(b'D').map_or(1e30, f64::abs))
     };
     engine.state.spindle_mode[spindle] = mode;
-    engine.state.thread_spindle = spindle;
     let ceiling = match mode {
         SpindleMode::ConstantRpm => 0.0,
         SpindleMode::ConstantSurface(ceiling) => ceiling,

@@ -72,7 +72,7 @@ pub(crate) fn check_feed(
         FeedMode::PerMinute | FeedMode::PerRevolution if state.feed_rate == 0.0 => {
             return Err(Error::new(zero, code_range(block)));
         }
-        FeedMode::PerRevolution if state.speed[0] == 0.0 => {
+        FeedMode::PerRevolution if state.speed[state.chosen_spindle] == 0.0 => {
             return Err(Error::new(&problems::ZERO_SPEED_PER_REV, code_range(block)));
         }
         _ => {}

@@ -13,6 +13,9 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
     if let Some(letter) = [b'I', b'J'].into_iter().find(|&letter| block.has(letter)) {
         return Err(Error::new(&problems::G10_IJ, block.range_of(letter)));
     }
+    if let (Some(20.0), true) = (block.word(b'L'), block.has(b'R')) {
+        return Err(Error::new(&problems::G10_L20_R, block.range_of(b'R')));
+    }
     let (stored, stored_rotation) = engine.stored_origin(index);
     let rotation = block.word(b'R').unwrap_or(stored_rotation);
     let origin = if block.word(b'L') == Some(20.0) {
@@ -41,6 +44,8 @@ fn origin_of_position(engine: &Engine, block: &Block, stored: &Pose, rotation: f
     let mut other = state.clone();
     other.origin_offset = *stored;
     other.rotation_xy = rotation;
+    // the control takes the parameters here, which the program may have written since G92
+    other.axis_offset = engine.stored_axis_offset();
     let here = frame::to_program(&other, &machine);
     let wanted = engine.over(block, here);
     other.origin_offset = [0.0; 9];

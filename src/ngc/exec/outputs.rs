@@ -5,6 +5,27 @@ use crate::{At, Block, Canon, Coolant, Engine, Error, Side, Sink, Switch};
 /// M62-M68.
 pub(crate) fn signals(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let code = block.m[5];
+    let held = match code {
+        62 => Some(&problems::M62_COMPENSATION),
+        63 => Some(&problems::M63_COMPENSATION),
+        64 | 65 => Some(&problems::M64_COMPENSATION),
+        67 => Some(&problems::M67_COMPENSATION),
+        68 => Some(&problems::M68_COMPENSATION),
+        _ => None,
+    };
+    if let Some(problem) = held.filter(|_| engine.state.side != Side::Off) {
+        return Err(Error::new(problem, block.m_range(5)));
+    }
+    let no_output = match code {
+        62 => Some(&problems::M62_P),
+        63 => Some(&problems::M63_P),
+        64 => Some(&problems::M64_P),
+        65 => Some(&problems::M65_P),
+        _ => None,
+    };
+    if let Some(problem) = no_output.filter(|_| !block.has(b'P')) {
+        return Err(Error::new(problem, block.m_range(5)));
+    }
     match code {
         62..=65 => {
             let index = block.word(b'P').unwrap_or(0.0).round() as i32;
@@ -102,8 +123,18 @@ pub(crate) fn overrides(engine: &mut Engine, block: &Block, at: At, sink: &mut d
     if chosen.is_some_and(|spindle| !(1..spindles).contains(&spindle)) {
         return Err(Error::new(&problems::SPINDLE_RANGE_M51, block.range));
     }
-    match block.m[9] {
-        code @ (48 | 49) => {
+    let code = block.m[9];
+    if code >= 0 && engine.state.side != Side::Off {
+        let enables = code == 48 || code != 49 && on;
+        let problem = if enables {
+            &problems::ENABLE_COMPENSATION
+        } else {
+            &problems::DISABLE_COMPENSATION
+        };
+        return Err(Error::new(problem, block.m_range(9)));
+    }
+    match code {
+        48 | 49 => {
             let on = code == 48;
             engine.state.feed_override = on;
             engine.state.speed_override = on;
@@ -138,9 +169,14 @@ pub(crate) fn overrides(engine: &mut Engine, block: &Block, at: At, sink: &mut d
 }
 
 /// M100-M199.
-pub(crate) fn user(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
+pub(crate) fn user(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     if let Some(code) = block.m_code(10) {
+        if !engine.setup.user_codes {
+            let text = problems::UNKNOWN_M.message.replace("{}", &code.to_string());
+            return Err(Error::with(&problems::UNKNOWN_M, block.m_range(10), text));
+        }
         let word = |letter| block.word(letter).unwrap_or(-1.0);
         engine.emit(Canon::UserCode(i32::from(code), word(b'P'), word(b'Q')), at, sink);
     }
+    Ok(())
 }

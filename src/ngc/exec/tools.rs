@@ -117,6 +117,9 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
             forget_place(engine);
         }
         61 => {
+            if !block.word(b'Q').is_some_and(|q| q >= 0.0 || q.is_nan()) {
+                return Err(Error::new(&problems::M61_Q, range));
+            }
             let tool = block.word(b'Q').unwrap_or(0.0).round() as i32;
             // rs274 goes on from the place that it has told last, which is not where compensation is
             if engine.state.side != Side::Off {
@@ -304,9 +307,7 @@ fn offset_of_position(engine: &Engine, block: &Block, stored: &Pose, fixture: bo
     // what the parameters say now, also where a program has written them
     let index = if fixture { FIXTURE_SYSTEM } else { state.origin_index };
     (with.origin_offset, with.rotation_xy) = engine.stored_origin(index);
-    if fixture {
-        with.axis_offset = [0.0; 9];
-    }
+    with.axis_offset = if fixture { [0.0; 9] } else { engine.stored_axis_offset() };
     with.tool_offset = *stored;
     let here = frame::to_program(&with, &machine);
     let wanted = engine.over(block, here);

@@ -29,9 +29,16 @@ pub(super) fn look(line: &[u8], bracket: bool) -> Look<'_> {
         b'\n' | b';' => Look::Nothing,
         b'o' | b'O' if !bracket => label(&rest[1..]).unwrap_or(Look::Unclear),
         b'n' | b'N' | b'o' | b'O' => Look::Unclear,
+        b'm' | b'M' if may_call(&rest[1..]) => Look::Unclear,
         b'#' | b'a'..=b'z' | b'A'..=b'Z' if !bracket => Look::Nothing,
         _ => Look::Unclear,
     }
+}
+
+/// Whether `M98` may stand there: the control reads such a line as a whole.
+fn may_call(rest: &[u8]) -> bool {
+    let first = rest.iter().find(|byte| !matches!(byte, b' ' | b'\t'));
+    matches!(first, Some(b'9' | b'0' | b'[' | b'+'))
 }
 
 /// What stands behind the O: digits without a zero in front, or `<name>`, and a keyword without blanks inside.

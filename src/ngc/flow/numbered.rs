@@ -75,6 +75,36 @@ impl Engine {
         }
         Ok((number, rounds))
     }
+    /// What is wrong with the words of an `M98` that is skipped, as far as its values are known.
+    pub(super) fn skipped_call_flaw(&mut self, compiled: &Compiled) -> Option<Error> {
+        if compiled.flaw.is_some() {
+            return compiled.flaw.clone();
+        }
+        let mut block = self.block.take().unwrap_or_default();
+        let result = self.skipped_call(compiled, &mut block);
+        self.block = Some(block);
+        result.err().filter(|error| error.problem != &read::UNDECIDED)
+    }
+    fn skipped_call(&self, compiled: &Compiled, block: &mut Block) -> Result<(), Error> {
+        let range = compiled
+            .o
+            .as_ref()
+            .map_or(compiled.line.range, |line| line.keyword_range);
+        if self.flow.no_fanuc {
+            return Err(Error::new(&problems::FANUC_CALL_OFF, range));
+        }
+        read::evaluate(&compiled.line, &self.values(), block)?;
+        if let Some(error) = compiled.line.errors.first() {
+            return Err(error.clone());
+        }
+        match block.word(b'P') {
+            None => Err(Error::new(&problems::NO_P, range)),
+            Some(number) if !number.is_nan() && oline::whole(number).is_none() => {
+                Err(Error::new(&problems::LABEL, block.range_of(b'P')))
+            }
+            Some(_) => Ok(()),
+        }
+    }
     /// `M99` inside a call: the next round, or back.
     pub(super) fn return_numbered(&mut self, compiled: &Compiled, sink: &mut dyn Sink) -> Result<After, Halt> {
         let (Some(line), Some(call)) = (&compiled.o, self.flow.calls.last_mut()) else {

@@ -181,8 +181,19 @@ impl Engine {
             _ if head.delete && self.setup.block_delete => Glance::Nothing,
             Some(b'%') if fetch::is_percent(source, text) => Glance::Percent,
             Some(b'o') => self.glance_label(&head, seeking),
+            Some(b'm') => self.glance_call(place),
             _ => Glance::Nothing,
         }
+    }
+    /// Looks at a skipped line that begins with M: `M98` is read as a whole, as if it ran.
+    fn glance_call(&mut self, place: Place) -> Glance {
+        let compiled = self.read(place, false);
+        let refused = match compiled.kind {
+            Kind::CallNumbered => self.skipped_call_flaw(&compiled),
+            _ => None,
+        };
+        self.put_back(compiled, false);
+        refused.map_or(Glance::Nothing, Glance::Refused)
     }
     /// Looks at a skipped O line: whether it counts.
     fn glance_label(&mut self, head: &Head<'_>, seeking: &mut Seeking) -> Glance {

@@ -9,7 +9,7 @@ mod rough;
 mod segment;
 
 use super::Work;
-use crate::{At, Block, Engine, Error, Plane, Pose, Problem, Side, Sink, State, exec};
+use crate::{At, Block, DistanceMode, Engine, Error, Plane, Pose, Problem, Side, Sink, State, exec};
 use contour::Contour;
 use rough::{Frame, Move, Pockets, Rough, Stopped};
 use segment::{Point, Segment, cross};
@@ -62,7 +62,15 @@ pub(super) fn begin(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
         lose(work.engine);
         return Err(refuse(work, &problems::FINISH_COMPENSATED, code));
     }
-    let end = exec::end_of(&work.engine.state, block)?;
+    // X and Z are coordinates also under G91
+    let end = match work.engine.state.distance {
+        DistanceMode::Absolute => exec::end_of(&work.engine.state, block)?,
+        DistanceMode::Incremental => {
+            let mut state = work.engine.state.clone();
+            state.distance = DistanceMode::Absolute;
+            exec::end_of(&state, block)?
+        }
+    };
     work.engine.state.motion = 0;
     exec::traverse(work.engine, end, block, work.at, work.sink)?;
     if q.is_nan() {

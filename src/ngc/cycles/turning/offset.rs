@@ -134,6 +134,10 @@ fn inner(done: &mut Vec<Segment>, moved: Segment) -> Result<bool, &'static Probl
             }
             Meeting::BeforeLast => {
                 done.pop();
+                // the control was seen to keep an arc whole, and to run the piece behind it backward
+                if done.last().is_some_and(Segment::is_arc) {
+                    return Err(&problems::SWALLOWED);
+                }
             }
             Meeting::BehindNext => return Ok(false),
             Meeting::Unclear => return Err(&problems::SWALLOWED),

@@ -252,6 +252,8 @@ fn tell(engine: &mut Engine, held: Held, sink: &mut dyn Sink) {
             let end = plane::point(plane, &bow.end);
             engine.queue.told = end;
             let pose = &bow.end;
+            let reached = plane::with_point(plane, bow.end, plane::add(end, shift));
+            engine.state.told.reach(&reached);
             let arc = Canon::Arc {
                 end: plane::add(end, shift),
                 centre: plane::add(bow.centre, shift),

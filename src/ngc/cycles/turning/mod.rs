@@ -62,9 +62,10 @@ pub(super) fn begin(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
         lose(work.engine);
         return Err(refuse(work, &problems::FINISH_COMPENSATED, code));
     }
-    // X and Z are coordinates also under G91
+    // under G91 the control moves to X and Z as coordinates, and takes them as steps for the start of the contour
+    let start = exec::end_of(&work.engine.state, block)?;
     let end = match work.engine.state.distance {
-        DistanceMode::Absolute => exec::end_of(&work.engine.state, block)?,
+        DistanceMode::Absolute => start,
         DistanceMode::Incremental => {
             let mut state = work.engine.state.clone();
             state.distance = DistanceMode::Absolute;
@@ -82,7 +83,7 @@ pub(super) fn begin(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
         return Err(Error::new(&problems::NOT_INTEGER, block.range_of(b'Q')));
     }
     let word = |letter: u8, otherwise: f64| block.word(letter).unwrap_or(otherwise);
-    let start = [end[2], end[0]];
+    let start = [start[2], start[0]];
     work.engine.turning = Some(Box::new(Turning {
         code,
         subprogram: whole as i64,

@@ -9,6 +9,7 @@ pub mod config;
 mod diagnostic;
 pub mod fixture;
 pub mod header;
+mod needs;
 mod pass;
 mod place;
 mod porting;
@@ -30,6 +31,7 @@ mod words;
 pub use analysis::{check, check_on};
 pub use config::{Config, ConfigError, RuleLevel, Settings};
 pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
+pub use needs::Needs;
 pub use report::{Report, Summary, Verdict};
 pub use rule::{
     EndRule, Ending, FaultRule, Guarantee, InForce, LegRule, Level, MotionRule, ProgramRule, Rule, TextRule,

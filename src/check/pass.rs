@@ -1,4 +1,5 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
+use crate::needs::Needs;
 use crate::report::Summary;
 use crate::rule::{EndRule, Ending, FaultRule, InForce, LegRule, MotionRule, ProgramRule, TextRule};
 use crate::sink::{Active, Reporter, active};
@@ -19,7 +20,9 @@ pub(crate) struct Pass<'a> {
     whole: Vec<Active<ProgramRule>>,
     faults: Vec<Active<FaultRule>>,
     motions: Vec<Active<MotionRule>>,
-    legs: Vec<Active<LegRule>>,
+    legs: Vec<Active<(Needs, LegRule)>>,
+    /// What holds of all legs of the machine.
+    facts: Needs,
     ends: Vec<Active<EndRule>>,
     suppressions: &'a Suppressions,
     ported: bool,
@@ -57,7 +60,7 @@ impl<'a> Pass<'a> {
                 _ => None,
             }),
             legs: active(levels, |level| match level {
-                Level::Leg(run) => Some(run),
+                Level::Leg(needs, run) => Some((needs, run)),
                 _ => None,
             }),
             ends: active(levels, |level| match level {
@@ -66,6 +69,7 @@ impl<'a> Pass<'a> {
             }),
             suppressions,
             ported: !settings.port_to.is_empty(),
+            facts: settings.machine.map_or(Needs::NOTHING, Needs::of_machine),
             follower: settings.machine.map(Follower::new),
             posture: 0,
             trail: Trail::default(),
@@ -134,10 +138,17 @@ impl<'a> Pass<'a> {
         let Some(follower) = &self.follower else { return };
         self.trail.add(follower.machine(), leg);
         let view = LegView::new(follower.machine(), leg, self.posture, &self.trail);
+        let facts = self.facts.of_leg(follower.machine(), leg, self.posture, &self.trail);
         for rule in &self.legs {
-            self.reporter.enter(rule, Some(leg.motion.block), self.summary.motions);
-            (rule.run)(&view, &mut self.reporter);
-            self.reporter.leave();
+            let (needs, run) = rule.run;
+            let asked = needs.are_met(facts);
+            // a debug build asks them all and sees that the others are silent
+            if asked || cfg!(debug_assertions) {
+                self.reporter.enter(rule, Some(leg.motion.block), self.summary.motions);
+                run(&view, &mut self.reporter);
+                debug_assert!(asked || self.reporter.is_silent(), "{} needs less", rule.name);
+                self.reporter.leave();
+            }
         }
         self.time.add(&view, self.reporter.dialect());
         match &leg.end {

@@ -1,5 +1,6 @@
 //! What a rule file imports.
 pub(crate) use crate::Severity;
+pub(crate) use crate::needs::Needs;
 pub(crate) use crate::place::{axis_word, code_range, orientation_range};
 pub(crate) use crate::refusal::refused;
 pub(crate) use crate::rule::{Body, Guarantee, Level};

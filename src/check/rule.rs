@@ -1,5 +1,5 @@
 //! What a rule is: data, and a function that reads one level of the analysis.
-use crate::{Severity, sink::Reporter, view::LegView, view::Overview};
+use crate::{Severity, needs::Needs, sink::Reporter, view::LegView, view::Overview};
 use trunnion_interp::{Fault, ModalState, Motion};
 use trunnion_syntax::{SyntaxError, TextRange};
 
@@ -64,8 +64,8 @@ pub enum Level {
     Fault(FaultRule),
     /// Each motion as programmed.
     Motion(MotionRule),
-    /// Each leg of the machine.
-    Leg(LegRule),
+    /// Each leg of the machine of which this holds.
+    Leg(Needs, LegRule),
     /// What is known at the end, once.
     End(EndRule),
 }
@@ -77,7 +77,7 @@ impl Level {
             Self::Text(_) | Self::TextAndFault(..) | Self::End(_) => "text",
             Self::Program(_) => "program",
             Self::Fault(_) | Self::Motion(_) => "motion",
-            Self::Leg(_) => "machine",
+            Self::Leg(..) => "machine",
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Where rules report to: wording is theirs; levels, suppression, block numbers and merging are done here.
 use crate::diagnostic::Origin;
+use crate::needs::Needs;
 use crate::rule::LegRule;
 use crate::runs::{Log, Merge, Repeat};
 use crate::suppress::Suppressions;
@@ -152,7 +153,7 @@ impl<'a> Reporter<'a> {
     }
 
     /// Words the worst legs of runs that only kept them.
-    pub(crate) fn word_worst(&mut self, machine: &Machine, rules: &[Active<LegRule>]) {
+    pub(crate) fn word_worst(&mut self, machine: &Machine, rules: &[Active<(Needs, LegRule)>]) {
         for unworded in self.log.end(self.program) {
             let kept = &unworded.kept;
             let mut words = None;
@@ -160,7 +161,7 @@ impl<'a> Reporter<'a> {
                 let view = LegView::new(machine, &kept.leg, kept.posture_before, &kept.trail);
                 self.enter(rule, Some(kept.leg.motion.block), 0);
                 self.wording = true;
-                (rule.run)(&view, self);
+                (rule.run.1)(&view, self);
                 self.wording = false;
                 let mut drafts = self.pending.drain(..);
                 let own = |draft: &Draft| {
@@ -175,10 +176,11 @@ impl<'a> Reporter<'a> {
 
     /// True the first time the running rule asks for `cause`, so that one cause is told once.
     pub fn once(&mut self, cause: u64) -> bool {
-        let told = (self.name, cause);
-        let first = !self.told.contains(&told);
+        // causes differ more often than rules do, and are compared faster
+        let known = |told: &(&'static str, u64)| told.1 == cause && told.0 == self.name;
+        let first = !self.told.iter().any(known);
         if first {
-            self.told.push(told);
+            self.told.push((self.name, cause));
         }
         first
     }
@@ -197,6 +199,11 @@ impl<'a> Reporter<'a> {
     pub(crate) fn origin(&mut self, again: bool, chain: ChainId) {
         self.log.again = again;
         self.chain = chain;
+    }
+
+    /// Whether the running rule has reported nothing.
+    pub(crate) fn is_silent(&self) -> bool {
+        self.pending.is_empty()
     }
 
     /// Takes what the rule reported.

@@ -138,6 +138,11 @@ impl Trail {
         if self.window.count < WINDOW {
             return None;
         }
+        // most windows are far from it, which sums in any order tell
+        let (turned, chords) = (any_sum(&self.window.turned), any_sum(&self.window.chord));
+        if turned * ROUNDED_UP <= ratio * chords.max(least) {
+            return None;
+        }
         let turned: f64 = self.window.turned.iter().sum();
         let chords: f64 = self.window.chord.iter().sum();
         // a chord is never longer than its arc
@@ -153,6 +158,16 @@ impl Trail {
     pub(crate) fn rapids(&self) -> Option<&Rapids> {
         (self.state == State::Arrived).then_some(&self.rapids)
     }
+}
+
+/// More than the difference between sums of the same numbers in different orders can be.
+const ROUNDED_UP: f64 = 1.0 + 1e-9;
+
+/// The sum in the order that is fastest.
+#[inline]
+fn any_sum(values: &[f64; WINDOW]) -> f64 {
+    let [a, b, c, d, e, f, g, h, i, j] = values;
+    ((a + b) + (c + d)) + ((e + f) + (g + h)) + (i + j)
 }
 
 /// The part of a way at right angles to the tool, mm.

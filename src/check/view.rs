@@ -39,9 +39,16 @@ pub struct LegView<'a> {
 }
 
 /// Whether X Y Z are the tip's in the workpiece frame: tool centre point control, or vectors.
+#[inline]
 pub(crate) fn leads_tip(motion: &Motion) -> bool {
     let led = motion.tcp || matches!(motion.orientation, Orientation::Vector(..)) || motion.tilt.normal.is_some();
     led && matches!(motion.tilt.swivel, Swivel::No | Swivel::TipStays)
+}
+
+/// Whether a rotary joint turns, by more than rounding.
+#[inline]
+pub(crate) fn turns(leg: &Leg) -> bool {
+    leg.rotary_change.iter().any(|change| *change > NO_TURN)
 }
 
 impl<'a> LegView<'a> {
@@ -106,7 +113,7 @@ impl<'a> LegView<'a> {
 
     /// Whether a rotary joint turns, by more than rounding.
     pub fn rotary_turns(&self) -> bool {
-        self.leg.rotary_change.iter().any(|change| *change > NO_TURN)
+        turns(self.leg)
     }
 
     /// `mm/min` or `deg/min`.

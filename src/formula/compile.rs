@@ -2,6 +2,7 @@
 use crate::brackets::{Bracket, Compiler, Waiting};
 use crate::code::{Code, Formula, Op, Step};
 use crate::cursor::is_blank;
+use crate::fast;
 use crate::words::{Function, take_angled, take_function, take_name, take_numeral, text};
 use crate::{Cursor, FormulaError, FormulaErrorKind, Grammar, Name, Target};
 use smallvec::SmallVec;
@@ -43,6 +44,23 @@ pub(crate) fn value_with(
         };
         return (formula, None);
     }
+    if grammar == Grammar::Rs274 {
+        let mut steps = pool.pop().unwrap_or_default();
+        if let Some(formula) = fast::value(cursor, &mut steps) {
+            return (formula, None);
+        }
+        pool.push(steps);
+    }
+    compiled(cursor, grammar, pool)
+}
+
+/// A value of any shape.
+pub(crate) fn compiled(
+    cursor: &mut Cursor<'_>,
+    grammar: Grammar,
+    pool: &mut Vec<Vec<Step>>,
+) -> (Formula, Option<FormulaError>) {
+    let start = cursor.at();
     let mut compiler = Compiler {
         cursor,
         grammar,
@@ -154,7 +172,7 @@ fn bracketed_number(cursor: &mut Cursor<'_>) -> Option<(f64, TextRange)> {
 
 /// The value with its sign, which a decimal does not keep of `-0`.
 #[inline]
-fn signed(decimal: Decimal, negative: bool) -> f64 {
+pub(crate) fn signed(decimal: Decimal, negative: bool) -> f64 {
     if decimal.mantissa == 0 && negative {
         -0.0
     } else {
@@ -176,7 +194,7 @@ fn called(mut cursor: Cursor<'_>) -> TextRange {
 }
 
 /// Whether a number goes on behind the blanks at the start of `rest`.
-fn continues(rest: &[u8]) -> bool {
+pub(crate) fn continues(rest: &[u8]) -> bool {
     rest.iter()
         .find(|byte| !is_blank(**byte))
         .is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')

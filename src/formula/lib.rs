@@ -11,6 +11,7 @@ mod cursor;
 mod degrees;
 mod error;
 mod eval;
+mod fast;
 mod name;
 mod pool;
 mod words;

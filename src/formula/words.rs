@@ -28,7 +28,7 @@ pub(crate) struct Operator {
     pub(crate) rank: u8,
 }
 
-const fn operator(binary: Binary, rank: u8) -> Operator {
+pub(crate) const fn operator(binary: Binary, rank: u8) -> Operator {
     Operator { binary, rank }
 }
 
@@ -145,7 +145,7 @@ fn take_written<T>(cursor: &mut Cursor<'_>, grammar: Grammar, find: fn([u8; 4]) 
 
 /// The operator that four letters begin with, and its length.
 #[inline]
-fn short_operator(head: [u8; 4]) -> Option<(Operator, u32)> {
+pub(crate) fn short_operator(head: [u8; 4]) -> Option<(Operator, u32)> {
     let [a, b, c, _] = head;
     Some(match [a, b] {
         [b'*', b'*'] => (operator(Binary::Power, 6), 2),
@@ -165,7 +165,7 @@ fn short_operator(head: [u8; 4]) -> Option<(Operator, u32)> {
 
 /// The function that four letters are or begin with, and its length.
 #[inline]
-fn short_function(head: [u8; 4]) -> Option<(Function, u32)> {
+pub(crate) fn short_function(head: [u8; 4]) -> Option<(Function, u32)> {
     let one = |unary, length| Some((Function::One(unary), length));
     match &head {
         b"acos" => one(Unary::Acos, 4),

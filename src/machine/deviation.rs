@@ -2,7 +2,7 @@
 use crate::bound::{Piece, peak};
 use crate::follow::leads_path;
 use crate::stray::Stray;
-use crate::tip_path::TipPath;
+use crate::tip_path::{Run, TipPath};
 use crate::{Leg, Machine, RapidPath};
 use trunnion_interp::MotionKind;
 
@@ -57,8 +57,20 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
     if leg.rotary_change == [0.0; 2] || leads_path(&leg.motion) {
         return Some(none);
     }
-    let path = TipPath::new(machine, start, end, arc);
+    let run = Run::new(machine, start, end);
     let tolerance = tolerance_mm.max(0.0);
+    if arc.is_none() {
+        // most lines are settled here, without a path
+        let (bend, rounding) = run.bound(None);
+        let at_once = bend * 0.125 + rounding;
+        if at_once <= tolerance {
+            return Some(Deviation {
+                bound_mm: at_once,
+                ..none
+            });
+        }
+    }
+    let path = TipPath::new(run, arc);
     let arc = path.laid_arc();
     // both run evenly from a common start to a common end: at the same moment they differ by at most the eighth of both bends
     let at_once = (path.bend + arc.as_ref().map_or(0.0, |arc| arc.bend)) * 0.125 + path.rounding;

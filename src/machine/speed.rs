@@ -154,7 +154,7 @@ fn constant_load(machine: &Machine, (start, end): (&Stance, &Stance), changes: C
             .iter()
             .any(|&index| constants.linear[index].joint == joint)
     };
-    let mut worst: Option<Load> = None;
+    let (mut worst, mut most): (Option<Load>, f64) = (None, 0.0);
     for (joint, axis) in machine.axes.iter().enumerate() {
         let constant = match (changes, axis.kind) {
             (Changes::Nothing, _) | (Changes::Solved, AxisKind::Rotary) => true,
@@ -168,8 +168,9 @@ fn constant_load(machine: &Machine, (start, end): (&Stance, &Stance), changes: C
                 limit,
                 rate,
             };
-            if worst.is_none_or(|w| load.share() > w.share()) {
-                worst = Some(load);
+            let share = load.share();
+            if worst.is_none() || share > most {
+                (worst, most) = (Some(load), share);
             }
         }
     }

@@ -8,8 +8,8 @@ use trunnion_geometry::math::sin_cos;
 /// Share of a coordinate that rounding may cost in a whole chain; the bound is padded by it.
 const ROUNDING: f64 = 1e-13;
 
-/// The tip path W(t) in the workpiece frame while all joints run linearly (X Y Z perhaps along an arc), and the chord of its ends.
-pub(crate) struct TipPath<'a> {
+/// What the joints do between two stances while all of them run linearly.
+pub(crate) struct Run<'a> {
     machine: &'a Machine,
     start: &'a Stance,
     tool: Vec3,
@@ -18,10 +18,17 @@ pub(crate) struct TipPath<'a> {
     change: [f64; 2],
     shifts: [Vec3; 3],
     ways: [Vec3; 3],
+    /// Tip at the start, mm.
+    from: Vec3,
+    /// Way of the tip from start to end, mm.
+    chord: Vec3,
+}
+
+/// The tip path W(t) in the workpiece frame while all joints run linearly (X Y Z perhaps along an arc), and the chord of its ends.
+pub(crate) struct TipPath<'a> {
+    run: Run<'a>,
     /// Words that run along an arc.
     bulge: Option<Bulge>,
-    /// Tip at the start, mm.
-    pub(crate) from: Vec3,
     /// Way of the tip from start to end, mm.
     pub(crate) chord: Vec3,
     /// Q: bound of |W''|, mm per block squared.
@@ -31,7 +38,7 @@ pub(crate) struct TipPath<'a> {
 }
 
 /// What an arc in the words X Y Z adds to a straight run of their joints.
-struct Bulge {
+pub(crate) struct Bulge {
     arc: Arc,
     /// For X, Y, Z: place in the chain and motion of the joint per mm of word, machine frame.
     motions: [Option<(usize, Vec3)>; 3],
@@ -69,9 +76,10 @@ fn gain(columns: &[Vec3]) -> f64 {
     columns.iter().map(row).fold(0.0, f64::max).sqrt() * (1.0 + 1e-12)
 }
 
-impl<'a> TipPath<'a> {
-    /// From `start` to `end`; `arc`: what the words X Y Z run along, if not a line.
-    pub(crate) fn new(machine: &'a Machine, start: &'a Stance, end: &Stance, arc: Option<&Arc>) -> Self {
+impl<'a> Run<'a> {
+    /// From `start` to `end`.
+    #[inline]
+    pub(crate) fn new(machine: &'a Machine, start: &'a Stance, end: &Stance) -> Self {
         let constants = &machine.constants;
         let tool = machine.gauge_point - machine.tool_axis * end.tool_length;
         let (mut shifts, mut ways) = ([Vec3::zeros(); 3], [Vec3::zeros(); 3]);
@@ -86,7 +94,7 @@ impl<'a> TipPath<'a> {
             change[index] = rotary.sign * end.joints[rotary.joint] - angles[index];
         }
         let from = start.point_with(end.tool_length);
-        let mut path = Self {
+        Self {
             machine,
             start,
             tool,
@@ -94,20 +102,16 @@ impl<'a> TipPath<'a> {
             change,
             shifts,
             ways,
-            bulge: arc.map(|arc| Bulge::new(machine, arc)),
             from,
             chord: end.point - from,
-            bend: 0.0,
-            rounding: 0.0,
-        };
-        path.bound();
-        path
+        }
     }
 
     /// Bounds of rate and second derivative of the linear shift at a place of the chain.
-    fn shift_bounds(&self, segment: usize) -> (f64, f64) {
+    #[inline]
+    fn shift_bounds(&self, bulge: Option<&Bulge>, segment: usize) -> (f64, f64) {
         let way = self.ways[segment].norm();
-        let Some(bulge) = &self.bulge else { return (way, 0.0) };
+        let Some(bulge) = bulge else { return (way, 0.0) };
         let mut columns = [Vec3::zeros(); 3];
         for (column, motion) in columns.iter_mut().zip(&bulge.motions) {
             if let Some((at, motion)) = motion
@@ -121,17 +125,18 @@ impl<'a> TipPath<'a> {
         (way + gain * rate, gain * bend)
     }
 
-    /// Works out `bend` and `rounding`, axis by axis from the tool to the workpiece: turning a point with rate v and second derivative at
+    /// `bend` and `rounding` of a path, axis by axis from the tool to the workpiece: turning a point with rate v and second derivative at
     /// most a by D adds D r to v and 2 D v + D^2 r to a, r its largest distance from the axis: at an end, or above the chord by a / 8.
     /// Before the axis nearest the tool the point runs straight or along an arc; after the axis nearest the workpiece it is the tip itself,
     /// and a turn keeps distances from its axis: with two rotary axes no point needs to be turned. Source: kinematics notes 3.
-    fn bound(&mut self) {
+    #[inline]
+    pub(crate) fn bound(&self, bulge: Option<&Bulge>) -> (f64, f64) {
         let rotary = self.machine.constants.rotary();
         let count = rotary.len();
-        let (mut rate, mut bend) = self.shift_bounds(count);
+        let (mut rate, mut bend) = self.shift_bounds(bulge, count);
         let arm = self.tool + self.shifts[count];
         let mut size = arm.abs().sum() + self.shifts[0].abs().sum() + self.from.abs().sum() + self.chord.abs().sum();
-        if let Some(bulge) = &self.bulge {
+        if let Some(bulge) = bulge {
             size += bulge.arc.start.abs().sum() + bulge.arc.centre.abs().sum() + bulge.arc.radius_end;
         }
         for (index, axis) in rotary.iter().enumerate().rev() {
@@ -143,13 +148,27 @@ impl<'a> TipPath<'a> {
             let off = |arm: &Vec3| axis.direction.cross(arm).norm_squared();
             let radius = off(&(from - axis.point)).max(off(&(from - axis.point + way))).sqrt() + bend * 0.125;
             let turned = self.change[index].abs();
-            let shift = self.shift_bounds(index);
+            let shift = self.shift_bounds(bulge, index);
             bend += 2.0 * turned * rate + turned * turned * radius + shift.1;
             rate += turned * radius + shift.0;
             size += axis.point.abs().sum() + self.shifts[index].abs().sum() + self.ways[index].abs().sum();
         }
-        self.bend = bend * (1.0 + 1e-9);
-        self.rounding = size * ROUNDING;
+        (bend * (1.0 + 1e-9), size * ROUNDING)
+    }
+}
+
+impl<'a> TipPath<'a> {
+    /// `arc`: what the words X Y Z run along, if not a line.
+    pub(crate) fn new(run: Run<'a>, arc: Option<&Arc>) -> Self {
+        let bulge = arc.map(|arc| Bulge::new(run.machine, arc));
+        let (bend, rounding) = run.bound(bulge.as_ref());
+        Self {
+            chord: run.chord,
+            run,
+            bulge,
+            bend,
+            rounding,
+        }
     }
 
     /// W(t) less the tip at the start, mm; exactly zero and the chord at the ends.
@@ -160,8 +179,9 @@ impl<'a> TipPath<'a> {
         if t >= 1.0 {
             return self.chord;
         }
-        let mut shifts = self.shifts;
-        for (shift, way) in shifts.iter_mut().zip(&self.ways) {
+        let run = &self.run;
+        let mut shifts = run.shifts;
+        for (shift, way) in shifts.iter_mut().zip(&run.ways) {
             *shift += way * t;
         }
         if let Some(bulge) = &self.bulge {
@@ -172,20 +192,20 @@ impl<'a> TipPath<'a> {
                 }
             }
         }
-        let mut turns = self.start.turns(self.machine);
+        let mut turns = run.start.turns(run.machine);
         for (index, turn) in turns.iter_mut().enumerate() {
-            if self.change[index] != 0.0 {
-                (turn.sin, turn.cos) = sin_cos(self.angles[index] + self.change[index] * t);
+            if run.change[index] != 0.0 {
+                (turn.sin, turn.cos) = sin_cos(run.angles[index] + run.change[index] * t);
             }
         }
-        place(&self.machine.constants, &turns, &shifts, &self.tool) - self.from
+        place(&run.machine.constants, &turns, &shifts, &run.tool) - run.from
     }
 
     /// The segment that an arc programs, in the workpiece: the arc as it lies in the workpiece at the start of the block, its end carried
     /// evenly to where the tip ends. Without rotary motion it is the arc itself.
     pub(crate) fn laid_arc(&self) -> Option<LaidArc<'_>> {
         let bulge = self.bulge.as_ref()?;
-        let turns = self.start.turns(self.machine);
+        let turns = self.run.start.turns(self.run.machine);
         let columns = bulge.motions.map(|motion| {
             let Some((segment, motion)) = motion else {
                 return Vec3::zeros();

@@ -104,7 +104,7 @@ impl Words {
         } else {
             (1.0, motion.tool_length_mm)
         };
-        for (joint, slot) in joints.iter_mut().enumerate().take(self.count) {
+        for joint in 0..self.count.min(MAX_AXES) {
             let letter = usize::from(self.letter[joint]);
             if letter >= AXIS_LETTERS.len()
                 || position.known & (1 << letter) == 0
@@ -114,7 +114,7 @@ impl Words {
             }
             let word = position.values[letter] * self.scale[joint];
             let zero = motion.zero[letter] * self.zero_scale[joint] * offset;
-            *slot = word + zero + self.per_length[joint] * length;
+            joints[joint] = word + zero + self.per_length[joint] * length;
             known |= 1 << joint;
         }
         (joints, known)

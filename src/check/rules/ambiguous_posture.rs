@@ -41,7 +41,7 @@ use trunnion_machine::{Open, OpenCause};
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::OPEN, check),
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {

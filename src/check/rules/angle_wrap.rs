@@ -38,7 +38,7 @@ use trunnion_machine::{Limits, Wrap};
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::TURNS_FAR, check),
 };
 
 /// Turns that are half a turn but for rounding are none the less.

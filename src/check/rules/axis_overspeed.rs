@@ -42,7 +42,7 @@ use trunnion_machine::{Axis, AxisKind};
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::FEED, check),
 };
 
 /// Relative room for rounding.

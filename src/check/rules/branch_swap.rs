@@ -36,7 +36,7 @@ use crate::prelude::*;
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::EXCESS, check),
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {

@@ -34,7 +34,7 @@ use crate::view::NO_TURN;
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::CLAMP), check),
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {

@@ -42,7 +42,7 @@ use trunnion_syntax::Program;
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::FEED.and(Needs::TURNS), check),
 };
 
 /// A shorter tip path counts as this, mm.

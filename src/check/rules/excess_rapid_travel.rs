@@ -44,7 +44,7 @@ use trunnion_geometry::rad;
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Heuristic,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::ARRIVES, check),
 };
 
 /// A shorter direct way counts as this, mm or deg.

@@ -56,7 +56,7 @@ use trunnion_geometry::rad;
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::FEED.and(Needs::TURNS), check),
 };
 
 /// A smaller turn of the tool axis counts as this, deg.

@@ -42,7 +42,7 @@ use trunnion_interp::Feed;
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Heuristic,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::FEED, check),
 };
 
 /// Where the first axis turns less than this many times as far as the tool axis the pole is not to blame.
@@ -66,9 +66,10 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let by_acceleration = axis.max_acceleration.map_or(0.0, |limit| (PASS / limit).sqrt());
     let cone = |angle: f64| by_speed.max(by_acceleration) * angle / seconds;
     let passes = view.leg.pole_angle_min;
-    // an arc is at most pi / 2 times its chord
+    // an arc is at least its chord, at most pi / 2 times as long, and at most 1.0472 times where the chord is no longer than 1
     let chord = (end.axis - start.axis).norm();
-    if passes >= cone(chord * core::f64::consts::FRAC_PI_2) {
+    let longest = if chord <= 1.0 { 1.05 } else { core::f64::consts::FRAC_PI_2 };
+    if passes >= cone(chord * longest) || turn <= AMPLIFIED * chord * (1.0 - 1e-9) {
         return;
     }
     let angle = angle_between(&start.axis, &end.axis);

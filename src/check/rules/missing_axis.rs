@@ -27,7 +27,7 @@ use trunnion_machine::NoStance;
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::LOST, check),
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {

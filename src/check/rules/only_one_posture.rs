@@ -33,7 +33,7 @@ use trunnion_machine::{Limits, Machine, Orientations, Stance, orientations, wind
 pub(super) const RULE: Body = Body {
     severity: Severity::Info,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::LEADS_TIP), check),
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {

@@ -42,7 +42,7 @@ use trunnion_machine::{OrientationDeviation, orientation_deviation};
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::VECTORS), check),
 };
 
 /// Keys for merging: a deviation, one that is not proven, a control that is not known, ends that are opposite.

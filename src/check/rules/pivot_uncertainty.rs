@@ -40,7 +40,7 @@ use trunnion_machine::{AxisUncertainty, Stance, pivot_sensitivity_between};
 pub(super) const RULE: Body = Body {
     severity: Severity::Info,
     guarantee: Guarantee::Heuristic,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::FEED.and(Needs::UNCERTAIN), check),
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {

@@ -34,7 +34,7 @@ use crate::prelude::*;
 pub(super) const RULE: Body = Body {
     severity: Severity::Info,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::FEED.and(Needs::CROSSES), check),
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {

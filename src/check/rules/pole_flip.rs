@@ -42,7 +42,7 @@ use trunnion_machine::feed_limit_tight;
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::FEED.and(Needs::NEAR_POLE), check),
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {

@@ -30,7 +30,7 @@ use trunnion_machine::NoStance;
 pub(super) const RULE: Body = Body {
     severity: Severity::Info,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::LOST, check),
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {

@@ -45,7 +45,7 @@ use trunnion_machine::{Deviation, swept_deviation};
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::VECTORS), check),
 };
 
 /// No tool is longer, mm.

@@ -39,7 +39,7 @@ use trunnion_machine::Limits;
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(check),
+    level: Level::Leg(Needs::CABLE, check),
 };
 
 /// Least reserve, deg.

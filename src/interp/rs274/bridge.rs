@@ -118,10 +118,24 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
+    #[inline]
     fn motion(&mut self, kind: MotionKind, end: Position, shift: &Shift, feed: Feed, at: At, state: &State) {
+        self.motion_to(kind, [end, shift.machine(&end)], shift, feed, at, state);
+    }
+
+    /// `ends`: where the motion ends, and that in coordinates of the machine.
+    fn motion_to(
+        &mut self,
+        kind: MotionKind,
+        ends: [Position; 2],
+        shift: &Shift,
+        feed: Feed,
+        at: At,
+        state: &State,
+    ) {
         let block = self.block(at);
         let start = shift.programmed(&self.told.machine);
-        let mut end = end;
+        let [mut end, mut machine] = ends;
         let mut kind = kind;
         if self.interpreter.state.tcp && state.machine_frame {
             self.frame_unknown(at);
@@ -129,16 +143,18 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             for axis in LINEAR_AXES {
                 end.forget(axis);
             }
+            machine = shift.machine(&end);
         }
         if self.told.is_hidden() {
             for axis in LINEAR_AXES {
                 end.forget(axis);
             }
+            machine = shift.machine(&end);
             if let MotionKind::Arc(arc) = &mut kind {
                 *arc = None;
             }
         }
-        self.told.machine = shift.machine(&end);
+        self.told.machine = machine;
         let interpreter = &mut *self.interpreter;
         interpreter.state.position = end;
         interpreter.chain = self.told.places.chain(at);
@@ -225,8 +241,9 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
             Canon::Feed(pose) => {
                 let shift = self.shift(state);
                 let end = shift.coordinates(pose);
-                let feed = self.feed(&shift.machine(&end), at, state);
-                self.motion(MotionKind::Linear, end, &shift, feed, at, state);
+                let machine = shift.machine(&end);
+                let feed = self.feed(&machine, at, state);
+                self.motion_to(MotionKind::Linear, [end, machine], &shift, feed, at, state);
             }
             &Canon::Arc {
                 end,

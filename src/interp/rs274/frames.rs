@@ -71,8 +71,9 @@ impl Shift {
         let mut position = Position::default();
         for (axis, value) in values.into_iter().enumerate() {
             if value.is_finite() {
-                position.set(axis, value);
+                position.values[axis] = value;
             }
+            position.known |= u16::from(value.is_finite()) << axis;
         }
         position
     }
@@ -121,11 +122,8 @@ impl Shift {
             *value += sign * zero;
         }
         moved.values[2] += sign * self.length;
-        for axis in 0..9 {
-            if !moved.values[axis].is_finite() {
-                moved.forget(axis);
-            }
-        }
+        let finite = |axis: usize| u16::from(moved.values[axis].is_finite()) << axis;
+        moved.known &= (0..9).fold(0, |mask, axis| mask | finite(axis));
         moved
     }
 }

@@ -24,9 +24,9 @@ pub(super) struct Head<'s> {
     pub(super) first: Option<u8>,
 }
 
-/// Looks at how a line begins.
-pub(super) fn head(source: &[u8], range: TextRange) -> Head<'_> {
-    let mut cursor = Cursor::new(source, trimmed(source, range));
+/// Looks at how a line begins; `text` is [`trimmed`].
+pub(super) fn head(source: &[u8], text: TextRange) -> Head<'_> {
+    let mut cursor = Cursor::new(source, text);
     let delete = cursor.eat(b'/');
     let mut flaw = None;
     if cursor.peek() == Some(b'n') {
@@ -52,7 +52,12 @@ pub(super) fn head(source: &[u8], range: TextRange) -> Head<'_> {
 /// The line without its line end; it ends at a NUL, too.
 pub(super) fn trimmed(source: &[u8], range: TextRange) -> TextRange {
     let bytes = &source[range.start as usize..range.end as usize];
-    let end = memchr::memchr(0, bytes).unwrap_or(bytes.len());
+    ends_at(bytes, memchr::memchr(0, bytes), range)
+}
+
+/// The same where it is known where the first NUL stands.
+fn ends_at(bytes: &[u8], nul: Option<usize>, range: TextRange) -> TextRange {
+    let end = nul.unwrap_or(bytes.len());
     let length = bytes[..end]
         .iter()
         .rposition(|byte| !byte.is_ascii_whitespace())
@@ -112,7 +117,7 @@ impl Engine {
         let source = self.files[place.file.0 as usize].bytes();
         let Some(key) = Key::of(source, range) else {
             let mut compiled = self.flow.texts.nowhere();
-            self.compile(place, &mut compiled);
+            self.compile_range(place, range, &mut compiled);
             return compiled;
         };
         let (mut compiled, known) = self.flow.texts.find(&key, source, &self.files, keep);
@@ -122,27 +127,30 @@ impl Engine {
             compiled.memo = super::Memo::default();
             compiled.move_to(key, place.file);
         } else {
-            self.compile(place, &mut compiled);
+            self.compile_range(place, range, &mut compiled);
             compiled.comes_from(&key, place.file);
         }
         compiled
     }
     /// Reads the line at a place. What is wrong with it is in what was read.
     pub(super) fn compile(&self, place: Place, into: &mut Compiled) {
+        self.compile_range(place, self.range_at(place), into);
+    }
+    /// Reads the line at a place, whose bytes are known.
+    fn compile_range(&self, place: Place, range: TextRange, into: &mut Compiled) {
         let source = self.files[place.file.0 as usize].bytes();
-        let range = self.range_at(place);
         into.place = place;
         into.next = Self::behind(place, range);
         into.memo = super::Memo::default();
-        let mut kept = into.o.take();
-        if let Some(line) = &mut kept {
-            line.values.drain(..).for_each(|value| into.line.pool.take_back(value));
+        if let Some(line) = into.o.take() {
+            into.spare = Some(line);
         }
         into.kind = Kind::Blank;
         into.flaw = too_long(range);
-        let nul = memchr::memchr(0, &source[range.start as usize..range.end as usize]);
+        let bytes = &source[range.start as usize..range.end as usize];
+        let nul = memchr::memchr(0, bytes);
         into.cut = nul.map(|at| TextRange::new(range.start + at as u32, range.end));
-        let text = trimmed(source, range);
+        let text = ends_at(bytes, nul, range);
         if text.start == text.end || into.flaw.is_some() {
             return;
         }
@@ -153,12 +161,9 @@ impl Engine {
             Some(b'o') => {
                 let mut cursor = head.cursor;
                 into.flaw = flaw_with(source, text, head.flaw);
-                let line = oline::read(&mut cursor, &mut into.line.pool);
-                match &mut kept {
-                    Some(kept) => **kept = line,
-                    None => kept = Some(Box::new(line)),
-                }
-                into.o = kept;
+                let mut line = into.spare.take().unwrap_or_default();
+                oline::read(&mut cursor, &mut into.line.pool, &mut line);
+                into.o = Some(line);
                 into.kind = Kind::Label;
             }
             Some(b'm') => compile_m(source, &head, text, into),

@@ -68,7 +68,7 @@ fn label(rest: &[u8]) -> Option<Look<'_>> {
 mod tests {
     use super::{Look, look};
     use crate::flow::fetch;
-    use crate::flow::oline::{self, Keyword, Label};
+    use crate::flow::oline::{self, Keyword, Label, OLine};
     use proptest::prelude::*;
     use trunnion_formula::Pool;
     use trunnion_syntax::TextRange;
@@ -89,7 +89,8 @@ mod tests {
             return (head.first != Some(b'%')).then_some(None);
         }
         let mut cursor = head.cursor;
-        let read = oline::read(&mut cursor, &mut Pool::default());
+        let mut read = OLine::default();
+        oline::read(&mut cursor, &mut Pool::default(), &mut read);
         let Label::Text(name) = &read.label else { return None };
         let global = matches!(read.keyword, Keyword::EndSub | Keyword::Call | Keyword::Return);
         let sub = matches!(read.keyword, Keyword::Sub | Keyword::Bare);

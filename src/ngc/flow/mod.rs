@@ -93,6 +93,8 @@ pub(crate) struct Compiled {
     next: Place,
     kind: Kind,
     o: Option<Box<OLine>>,
+    /// An O line that it was before, kept for its storage.
+    spare: Option<Box<OLine>>,
     /// What a NUL cuts off, until it was told.
     cut: Option<TextRange>,
     /// What is wrong with its text as a whole; it is not read further then.

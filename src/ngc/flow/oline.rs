@@ -88,38 +88,46 @@ pub(crate) struct OLine {
 /// Most arguments of a call: they become #1 to #30.
 const ARGUMENTS: usize = 30;
 
-/// Reads an O line; the cursor stands before the O.
-pub(crate) fn read(cursor: &mut Cursor<'_>, pool: &mut Pool) -> OLine {
+impl Default for OLine {
+    fn default() -> Self {
+        Self {
+            keyword: Keyword::Bare,
+            label: Label::Text(Name::new("")),
+            label_range: TextRange::default(),
+            keyword_range: TextRange::default(),
+            values: Vec::new(),
+            flaw: None,
+            tail: None,
+            rest: TextRange::default(),
+            errors: Vec::new(),
+        }
+    }
+}
+
+/// Reads an O line; the cursor stands before the O. `line` lends its storage.
+pub(crate) fn read(cursor: &mut Cursor<'_>, pool: &mut Pool, line: &mut OLine) {
     let start = cursor.at();
     cursor.bump();
-    let mut errors = Vec::new();
-    let label = label(cursor, &mut errors, pool);
-    let label_range = cursor.since(start);
-    let mut line = OLine {
-        keyword: Keyword::Bare,
-        label,
-        label_range,
-        keyword_range: label_range,
-        values: Vec::new(),
-        flaw: None,
-        tail: None,
-        rest: TextRange::new(cursor.at(), cursor.at()),
-        errors,
-    };
+    line.values.drain(..).for_each(|value| pool.take_back(value));
+    line.errors.clear();
+    (line.flaw, line.tail) = (None, None);
+    line.label = label(cursor, &mut line.errors, pool);
+    line.label_range = cursor.since(start);
+    (line.keyword, line.keyword_range) = (Keyword::Bare, line.label_range);
+    line.rest = TextRange::new(cursor.at(), cursor.at());
     if ends(cursor) {
         line.tail = tail(cursor);
-        return line;
+        return;
     }
     let Some((keyword, range)) = keyword(cursor) else {
         line.flaw = Some(Flaw {
             problem: &problems::UNKNOWN_KEYWORD,
             range: unknown(cursor),
         });
-        return line;
+        return;
     };
     (line.keyword, line.keyword_range) = (keyword, range);
-    values(cursor, &mut line, pool);
-    line
+    values(cursor, line, pool);
 }
 
 /// Reads the `M98` or `M99` a line begins with, if it does; the cursor stands before the M.

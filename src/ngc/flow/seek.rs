@@ -198,7 +198,8 @@ impl Engine {
     /// Looks at a skipped O line: whether it counts.
     fn glance_label(&mut self, head: &Head<'_>, seeking: &mut Seeking) -> Glance {
         let mut cursor = head.cursor;
-        let line = oline::read(&mut cursor, &mut Pool::default());
+        let mut line = OLine::default();
+        oline::read(&mut cursor, &mut Pool::default(), &mut line);
         if matches!(line.label, oline::Label::Computed(_)) {
             seeking.fixed = false;
         }

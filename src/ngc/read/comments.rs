@@ -6,6 +6,8 @@ use trunnion_syntax::TextRange;
 /// The first error of the line's comments: the control looks at them before anything else. `text` is the line without its end.
 pub(crate) fn flaw(source: &[u8], text: TextRange) -> Option<Error> {
     let bytes = &source[text.as_usize()];
+    // without one nothing can be wrong
+    memchr::memchr(b'(', bytes)?;
     let mut open = None;
     for (at, byte) in bytes.iter().enumerate() {
         let at = text.start + at as u32;

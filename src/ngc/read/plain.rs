@@ -23,7 +23,8 @@ const LONGEST: usize = 250;
 #[inline]
 pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut Block) -> Option<u32> {
     let from = start as usize;
-    let text = &source[from..source.len().min(from + LONGEST)];
+    let wide = &source[from..source.len().min(from + LONGEST)];
+    let text = wide;
     // an O line and a blank in front are not plain
     if !text.first().is_some_and(u8::is_ascii_alphabetic) || text[0] | 0x20 == b'o' {
         return None;
@@ -48,7 +49,7 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
         if LETTERS & bit == 0 || (block.given | missing) & bit != 0 {
             return None;
         }
-        let (value, end) = number(text, at + 1)?;
+        let (value, end) = number(text, wide, at + 1)?;
         // M98 and M99 are calls and returns
         if letter == b'M' && value >= 98.0 {
             return None;
@@ -60,11 +61,29 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
     Some(start + line_end as u32 + 1)
 }
 
-/// Sign, digits and point at `at`, and what stands behind them; nothing of a number may follow behind blanks.
+/// Sign, digits and point at `at`, and what stands behind them; nothing of a number may follow behind blanks. `wide`: the text with what
+/// stands behind its line.
 #[inline]
-fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
+fn number(text: &[u8], wide: &[u8], at: usize) -> Option<(f64, usize)> {
     let negative = *text.get(at)? == b'-';
     let first = at + usize::from(negative || text[at] == b'+');
+    let (mantissa, places, end) = match short(wide, first) {
+        Some(found) => found,
+        None => long(text, first)?,
+    };
+    if text[end] == b' ' {
+        let next = text[end..].iter().find(|byte| **byte != b' ');
+        if next.is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.') {
+            return None;
+        }
+    }
+    // both operands are exact, so the one operation rounds correctly
+    let value = mantissa as f64 / POWERS[places];
+    Some((if negative { -value } else { value }, end))
+}
+
+/// Digits and point one by one: all digits as a whole number, how many stand behind the point, and where they end.
+fn long(text: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     let (mut mantissa, mut end, mut point) = (0u64, first, usize::MAX);
     loop {
         let byte = *text.get(end)?;
@@ -82,16 +101,43 @@ fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
     if digits == 0 || digits > 18 || mantissa > EXACT {
         return None;
     }
-    if text[end] == b' ' {
-        let next = text[end..].iter().find(|byte| **byte != b' ');
-        if next.is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.') {
-            return None;
-        }
-    }
     let places = if point == usize::MAX { 0 } else { end - point - 1 };
-    // both operands are exact, so the one operation rounds correctly
-    let value = mantissa as f64 / POWERS[places];
-    Some((if negative { -value } else { value }, end))
+    Some((mantissa, places, end))
+}
+
+/// The same eight bytes at a time, where at most seven digits stand on either side of the point; `None` elsewhere. A line's end and what
+/// may stand in front of it are no digits, so that nothing behind them is taken.
+#[inline]
+fn short(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
+    let (whole, before) = eight(wide, first)?;
+    let end = first + before;
+    if wide[end] != b'.' {
+        return (before > 0).then_some((whole, 0, end));
+    }
+    let (part, behind) = eight(wide, end + 1)?;
+    (before + behind > 0).then_some((whole * SCALES[behind] + part, behind, end + 1 + behind))
+}
+
+/// Powers of ten.
+const SCALES: [u64; 8] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000];
+
+/// The digits at `at` as a whole number, and how many they are, where they are fewer than eight.
+#[inline]
+fn eight(wide: &[u8], at: usize) -> Option<(u64, usize)> {
+    let word = u64::from_le_bytes(wide.get(at..at + 8)?.try_into().ok()?);
+    const HIGH: u64 = 0xf0f0_f0f0_f0f0_f0f0;
+    // a digit is 3x, and stays below 40 when 6 is added; a sum that overflows spoils only what stands behind a byte that is no digit
+    let other = ((word & HIGH) | ((word.wrapping_add(0x0606_0606_0606_0606) & HIGH) >> 4)) ^ 0x3333_3333_3333_3333;
+    if other == 0 {
+        return None;
+    }
+    let count = other.trailing_zeros() as usize / 8;
+    // zeros in front, then pairs, fours and eight digits at once
+    let digits = (word & !HIGH).checked_shl(64 - 8 * count as u32).unwrap_or(0);
+    let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
+    let low = (pairs & 0x0000_00ff_0000_00ff).wrapping_mul(0x000f_4240_0000_0064);
+    let high = (pairs >> 16 & 0x0000_00ff_0000_00ff).wrapping_mul(0x0000_2710_0000_0001);
+    Some((low.wrapping_add(high) >> 32, count))
 }
 
 #[cfg(test)]

@@ -60,7 +60,8 @@ impl Needs {
     /// What holds of all legs of a machine.
     pub(crate) fn of_machine(machine: &Machine) -> Self {
         let any = |holds: fn(&trunnion_machine::Axis) -> bool| machine.axes.iter().any(holds);
-        let uncertain = any(|axis| axis.extra.point_uncertainty.is_some() || axis.extra.direction_uncertainty.is_some());
+        let uncertain =
+            any(|axis| axis.extra.point_uncertainty.is_some() || axis.extra.direction_uncertainty.is_some());
         Self(
             Self::CABLE.when(any(|axis| axis.extra.cable))
                 | Self::CLAMP.when(any(|axis| axis.extra.clamp))
@@ -77,7 +78,11 @@ impl Needs {
         if let Ok(end) = &leg.end {
             lost = false;
             crosses = leg.start.as_ref().is_some_and(|start| {
-                let before = if start.branch == 0 { posture_before } else { start.branch };
+                let before = if start.branch == 0 {
+                    posture_before
+                } else {
+                    start.branch
+                };
                 before * end.branch < 0
             });
         }
@@ -98,4 +103,3 @@ impl Needs {
         )
     }
 }
-

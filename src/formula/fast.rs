@@ -182,7 +182,9 @@ impl Fast<'_, '_> {
         } else {
             let length = self.digits(start + 1, false).filter(|length| *length <= INDEX_DIGITS)?;
             let digits = &self.text[start + 1..=start + length];
-            let index = digits.iter().fold(0, |index, digit| 10 * index + i64::from(digit - b'0'));
+            let index = digits
+                .iter()
+                .fold(0, |index, digit| 10 * index + i64::from(digit - b'0'));
             (Op::Read(index), start + 1 + length)
         };
         (self.at, self.end) = (end, end);
@@ -227,7 +229,10 @@ impl Fast<'_, '_> {
 
     /// The operator here, taken; `Some(None)`: a bracket closes.
     #[inline]
-    #[expect(clippy::option_option, reason = "the end of a bracket and what is not for this reader are two answers")]
+    #[expect(
+        clippy::option_option,
+        reason = "the end of a bracket and what is not for this reader are two answers"
+    )]
     fn operator(&mut self) -> Option<Option<Operator>> {
         let (found, length) = match self.byte()? {
             b']' => return Some(None),
@@ -292,7 +297,11 @@ mod tests {
         let (slow, error) = compiled(&mut general, Grammar::Rs274, &mut Vec::new());
         assert_eq!(error, None, "{text:?}");
         assert_eq!(fast, slow, "{text:?}");
-        assert_eq!((cursor.at(), cursor.behind()), (general.at(), general.behind()), "{text:?}");
+        assert_eq!(
+            (cursor.at(), cursor.behind()),
+            (general.at(), general.behind()),
+            "{text:?}"
+        );
         true
     }
 
@@ -315,8 +324,22 @@ mod tests {
             assert!(same(text), "{text:?}");
         }
         for text in [
-            "5", "-5", "[#1", "[#1 5]", "##1", "#[1]", "ATAN[1]/[2]", "[1 * * 2]", "[- 5]", "[---#5]", "[1. 5]", "#1.5", "#1 5",
-            "[EXISTS[#<a>]]", "#<a b>", "",
+            "5",
+            "-5",
+            "[#1",
+            "[#1 5]",
+            "##1",
+            "#[1]",
+            "ATAN[1]/[2]",
+            "[1 * * 2]",
+            "[- 5]",
+            "[---#5]",
+            "[1. 5]",
+            "#1.5",
+            "#1 5",
+            "[EXISTS[#<a>]]",
+            "#<a b>",
+            "",
         ] {
             assert!(!same(text), "{text:?}");
         }

@@ -68,7 +68,11 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let passes = view.leg.pole_angle_min;
     // an arc is at least its chord, at most pi / 2 times as long, and at most 1.0472 times where the chord is no longer than 1
     let chord = (end.axis - start.axis).norm();
-    let longest = if chord <= 1.0 { 1.05 } else { core::f64::consts::FRAC_PI_2 };
+    let longest = if chord <= 1.0 {
+        1.05
+    } else {
+        core::f64::consts::FRAC_PI_2
+    };
     if passes >= cone(chord * longest) || turn <= AMPLIFIED * chord * (1.0 - 1e-9) {
         return;
     }

@@ -124,15 +124,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     }
 
     /// `ends`: where the motion ends, and that in coordinates of the machine.
-    fn motion_to(
-        &mut self,
-        kind: MotionKind,
-        ends: [Position; 2],
-        shift: &Shift,
-        feed: Feed,
-        at: At,
-        state: &State,
-    ) {
+    fn motion_to(&mut self, kind: MotionKind, ends: [Position; 2], shift: &Shift, feed: Feed, at: At, state: &State) {
         let block = self.block(at);
         let start = shift.programmed(&self.told.machine);
         let [mut end, mut machine] = ends;

@@ -5,9 +5,10 @@ use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Name, Pool, Targe
 use trunnion_syntax::TextRange;
 
 /// What an O line says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Keyword {
     /// Nothing: a program number, or the head of a Fanuc-style subprogram.
+    #[default]
     Bare,
     Sub,
     EndSub,
@@ -66,7 +67,7 @@ pub(crate) struct Flaw {
 }
 
 /// One O line. What is wrong with a value is inside its formula and comes out when it is evaluated, as on the control.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct OLine {
     pub(crate) keyword: Keyword,
     pub(crate) label: Label,
@@ -88,19 +89,9 @@ pub(crate) struct OLine {
 /// Most arguments of a call: they become #1 to #30.
 const ARGUMENTS: usize = 30;
 
-impl Default for OLine {
+impl Default for Label {
     fn default() -> Self {
-        Self {
-            keyword: Keyword::Bare,
-            label: Label::Text(Name::new("")),
-            label_range: TextRange::default(),
-            keyword_range: TextRange::default(),
-            values: Vec::new(),
-            flaw: None,
-            tail: None,
-            rest: TextRange::default(),
-            errors: Vec::new(),
-        }
+        Self::Text(Name::new(""))
     }
 }
 

@@ -121,11 +121,13 @@ fn short(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
 /// Powers of ten.
 const SCALES: [u64; 8] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000];
 
+/// The upper halves of eight bytes.
+const HIGH: u64 = 0xf0f0_f0f0_f0f0_f0f0;
+
 /// The digits at `at` as a whole number, and how many they are, where they are fewer than eight.
 #[inline]
 fn eight(wide: &[u8], at: usize) -> Option<(u64, usize)> {
     let word = u64::from_le_bytes(wide.get(at..at + 8)?.try_into().ok()?);
-    const HIGH: u64 = 0xf0f0_f0f0_f0f0_f0f0;
     // a digit is 3x, and stays below 40 when 6 is added; a sum that overflows spoils only what stands behind a byte that is no digit
     let other = ((word & HIGH) | ((word.wrapping_add(0x0606_0606_0606_0606) & HIGH) >> 4)) ^ 0x3333_3333_3333_3333;
     if other == 0 {

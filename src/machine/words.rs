@@ -104,7 +104,8 @@ impl Words {
         } else {
             (1.0, motion.tool_length_mm)
         };
-        for joint in 0..self.count.min(MAX_AXES) {
+        let count = self.count.min(MAX_AXES);
+        for (joint, slot) in joints[..count].iter_mut().enumerate() {
             let letter = usize::from(self.letter[joint]);
             if letter >= AXIS_LETTERS.len()
                 || position.known & (1 << letter) == 0
@@ -114,7 +115,7 @@ impl Words {
             }
             let word = position.values[letter] * self.scale[joint];
             let zero = motion.zero[letter] * self.zero_scale[joint] * offset;
-            joints[joint] = word + zero + self.per_length[joint] * length;
+            *slot = word + zero + self.per_length[joint] * length;
             known |= 1 << joint;
         }
         (joints, known)

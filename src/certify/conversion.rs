@@ -12,3 +12,6 @@ pub use claim::{ConversionClaim, ConversionProof, Part};
 pub use proof::converted;
 pub use reading::{Assume, Posed, Ran, Reading, Run, read};
 pub use track::{Track, carried, rotary};
+
+#[cfg(test)]
+mod tests;

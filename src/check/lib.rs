@@ -5,6 +5,7 @@ mod again;
 mod analysis;
 mod apart;
 mod both;
+mod clamps;
 pub mod config;
 mod diagnostic;
 pub mod fixture;

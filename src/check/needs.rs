@@ -36,7 +36,7 @@ impl Needs {
     pub const ARRIVES: Self = Self(1 << 10);
     /// A machine with an axis that winds up a cable.
     pub const CABLE: Self = Self(1 << 11);
-    /// A machine with an axis that must not turn while cutting.
+    /// A machine with an axis that must not turn while cutting, or that codes clamp.
     pub const CLAMP: Self = Self(1 << 12);
     /// A machine whose file says how well an axis is known.
     pub const UNCERTAIN: Self = Self(1 << 13);
@@ -64,7 +64,7 @@ impl Needs {
             any(|axis| axis.extra.point_uncertainty.is_some() || axis.extra.direction_uncertainty.is_some());
         Self(
             Self::CABLE.when(any(|axis| axis.extra.cable))
-                | Self::CLAMP.when(any(|axis| axis.extra.clamp))
+                | Self::CLAMP.when(any(|axis| axis.extra.clamp || axis.extra.clamp_codes.is_some()))
                 | Self::UNCERTAIN.when(uncertain),
         )
     }

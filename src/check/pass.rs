@@ -1,4 +1,5 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
+use crate::clamps::Clamps;
 use crate::needs::Needs;
 use crate::report::Summary;
 use crate::rule::{EndRule, Ending, FaultRule, InForce, LegRule, MotionRule, ProgramRule, TextRule};
@@ -30,6 +31,8 @@ pub(crate) struct Pass<'a> {
     /// Sign of the last posture off the pole.
     posture: i8,
     trail: Trail,
+    /// The machine has clamps that codes open and close.
+    clamps: bool,
     time: CycleTime,
     summary: Summary,
     visited: Visited,
@@ -73,6 +76,7 @@ impl<'a> Pass<'a> {
             follower: settings.machine.map(Follower::new),
             posture: 0,
             trail: Trail::default(),
+            clamps: settings.machine.is_some_and(Clamps::on),
             time: CycleTime::default(),
             summary: Summary::default(),
             visited: Visited::new(program.block_count()),
@@ -95,6 +99,10 @@ impl<'a> Pass<'a> {
     pub(crate) fn ran(&mut self, block: BlockId) -> bool {
         self.executed += 1;
         self.last_ran = Some(block);
+        if let (true, Some(follower)) = (self.clamps, &self.follower) {
+            let program = self.reporter.program();
+            self.trail.clamps.ran(follower.machine(), program, block);
+        }
         self.visited.add(block)
     }
 
@@ -179,6 +187,17 @@ impl<'a> Pass<'a> {
         }
     }
 
+    /// Whether a code that the control leaves to the builder is one of those that the machine file names.
+    fn machine_has_said(&self, fault: &Fault) -> bool {
+        let builders = matches!(fault.kind, FaultKind::UnknownCode { machine_builder: true });
+        let machine = self
+            .follower
+            .as_ref()
+            .filter(|_| self.clamps && builders)
+            .map(Follower::machine);
+        machine.is_some_and(|machine| Clamps::names(machine, &self.reporter.program().text(fault.range)))
+    }
+
     /// Whether a rule was looked for, so that its silence says something.
     fn looked_for(&self, name: &str) -> bool {
         let motion =
@@ -226,7 +245,7 @@ impl Sink for Pass<'_> {
     }
 
     fn fault(&mut self, fault: Fault) {
-        if self.text_has_told(&fault) {
+        if self.text_has_told(&fault) || self.machine_has_said(&fault) {
             return;
         }
         self.reporter.origin(self.visited.has(fault.block), ChainId::MAIN);
@@ -252,6 +271,9 @@ impl Pass<'_> {
             self.reporter.leave();
         }
         if let Some(follower) = &mut self.follower {
+            if self.clamps {
+                self.trail.clamps.before(self.reporter.program(), motion);
+            }
             let leg = follower.follow(motion);
             self.read_leg(&leg);
         }

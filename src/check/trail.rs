@@ -1,4 +1,5 @@
 //! What the legs before tell a rule: how far the rotary axes turned in the last feed blocks, and the rapid motions since the last cut.
+use crate::clamps::Clamps;
 use crate::view::leads_tip;
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
@@ -16,6 +17,8 @@ pub(crate) struct Trail {
     window: Window,
     rapids: Rapids,
     state: State,
+    /// Clamps of the rotary axes.
+    pub(crate) clamps: Clamps,
 }
 
 /// What the last leg was.
@@ -74,7 +77,10 @@ impl Trail {
     /// Takes the next leg; then the rules look at it.
     pub(crate) fn add(&mut self, machine: &Machine, leg: &Leg) {
         let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
-            *self = Self::default();
+            *self = Self {
+                clamps: self.clamps,
+                ..Self::default()
+            };
             return;
         };
         match leg.motion.kind {

@@ -91,24 +91,39 @@ impl<'a> LegView<'a> {
         self.leg.length <= 0.0 && !self.leads_tip()
     }
 
-    /// Whether linear and rotary axes move together under an F whose meaning a parameter of the control decides: mm/min of
+    /// Whether rotary axes move under an F whose meaning a parameter of the control decides. Together with linear axes: mm/min of
     /// X Y Z, or of the root of mm2 + deg2. RS274/NGC (LinuxCNC) and Sinumerik (geometry axes) say which; tool centre point
-    /// control means the tip, inverse time a duration.
+    /// control means the tip, inverse time a duration. On a Haas also where only they turn, see [`Self::turns_by_diameter`].
     pub fn feed_is_ambiguous(&self, dialect: &str) -> bool {
         let motion = self.motion();
         let tip = self.leads_tip() && !motion.machine_coordinates;
-        if tip || self.leg.length <= 0.0 || !self.rotary_turns() {
+        if tip || !self.rotary_turns() {
             return false;
         }
-        let by_way = matches!(motion.feed, Feed::PerMinute(_) | Feed::PerRevolution(_));
+        if self.leg.length <= 0.0 {
+            return self.turns_by_diameter(dialect);
+        }
         let says_which = self.machine.control.feed.is_some();
         let says_which = says_which
             || match dialect {
-                "fanuc-30i" => false,
+                "fanuc-30i" | "haas-ngc" => false,
                 "iso-6983" => matches!(self.machine.control.family.as_str(), "linuxcnc" | "sinumerik-840d"),
                 _ => true,
             };
-        by_way && !says_which
+        self.feed_is_by_way() && !says_which
+    }
+
+    /// Whether only rotary axes turn on a Haas, which counts F along circles whose diameters are its settings 34 and 79, so that they
+    /// may turn faster than by F in degrees. Source: Haas mill operator's manual, G93, where these settings are not needed.
+    pub fn turns_by_diameter(&self, dialect: &str) -> bool {
+        let only_turns = self.feed_in_degrees() && self.motion().is_feed() && self.rotary_turns();
+        let says_which = self.machine.control.feed.is_some();
+        dialect == "haas-ngc" && only_turns && self.feed_is_by_way() && !says_which
+    }
+
+    /// Whether F counts along a way: neither a duration nor unknown.
+    fn feed_is_by_way(&self) -> bool {
+        matches!(self.motion().feed, Feed::PerMinute(_) | Feed::PerRevolution(_))
     }
 
     /// Whether a rotary joint turns, by more than rounding.

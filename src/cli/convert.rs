@@ -268,6 +268,25 @@ fn summary(name: &str, converted: &Converted) -> Vec<String> {
             places.join(", ")
         ));
     }
+    for beyond in &converted.beyond {
+        lines.push(format!(
+            "{name}:{}: {beyond}; that is reckoned from a zero point at machine zero: declare yours ([work_offsets])",
+            beyond.line
+        ));
+    }
+    if !converted.travel_undecided.is_empty() {
+        let places: Vec<String> = converted.travel_undecided.iter().take(20).map(u32::to_string).collect();
+        lines.push(format!(
+            "{name}: inside {} motions it is not known whether the axes stay in their travel: lines {}",
+            converted.travel_undecided.len(),
+            places.join(", ")
+        ));
+    }
+    for axis in &converted.clamps {
+        lines.push(format!(
+            "{name}: {axis} has a clamp that codes close and open: none is written, put them in"
+        ));
+    }
     for (what, line) in &converted.left_out {
         lines.push(format!("{name}:{line}: {what} has no counterpart and is left out"));
     }
@@ -280,6 +299,16 @@ fn document(loaded: &Loaded, machine: Option<&Machine>, converted: &Converted) -
         .left_out
         .iter()
         .map(|(what, line)| json!({ "what": what, "line": line }))
+        .collect();
+    let beyond: Vec<_> = converted
+        .beyond
+        .iter()
+        .map(|one| {
+            json!({
+                "line": one.line, "axis": one.axis, "unit": one.unit, "value": one.value, "limit": one.limit,
+                "inside": one.inside,
+            })
+        })
         .collect();
     let document = json!({
         "schema": "trunnion-convert/1",
@@ -304,6 +333,9 @@ fn document(loaded: &Loaded, machine: Option<&Machine>, converted: &Converted) -
         },
         "left_out": left_out,
         "swap_lines": converted.swaps,
+        "beyond_travel": beyond,
+        "travel_undecided_lines": converted.travel_undecided,
+        "clamps": converted.clamps,
     });
     let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
     text.push('\n');

@@ -3,6 +3,7 @@ use crate::emit::{parts, parts_beside};
 use crate::events::job;
 use crate::plan::{Out, Planner};
 use crate::setting::Setting;
+use crate::travel::{Beyond, Travel, travel, zeros_declared};
 use crate::{Options, Refused, Target};
 use trunnion_certify::Outcome;
 use trunnion_certify::conversion::{
@@ -43,6 +44,13 @@ pub struct Converted {
     pub left_out: Vec<(String, u32)>,
     /// Lines of cuts in which the table turns to the other posture or winds back (only with `allow_swap`).
     pub swaps: Vec<u32>,
+    /// Axes that leave their travel, each limit once, reckoned from a zero point that nobody has declared. Where it is declared, such a
+    /// program is refused.
+    pub beyond: Vec<Beyond>,
+    /// Lines of motions between whose ends the travel could not be decided.
+    pub travel_undecided: Vec<u32>,
+    /// Axes that the machine's codes clamp and release; none of these codes is written.
+    pub clamps: Vec<char>,
 }
 
 /// Converts a program and proves it.
@@ -88,7 +96,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     let (outs, swaps) = planner.plan(&job)?;
     let (written, moved) = setting.write(&reading, &job, &outs, source.setup, options)?;
     let claim = setting.claim(options, tolerance_mm);
-    let (proof, turned) = prove(source, (&reading, machine), &setting, (&written, &moved), &outs, &claim)?;
+    let (proof, turned, travel) = prove(source, (&reading, machine), &setting, (&written, &moved), &outs, &claim)?;
     if let Some(&index) = turned.first().filter(|_| !options.allow_swap) {
         let block = reading.motions[index].motion.block;
         let message = format!(
@@ -99,6 +107,8 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     }
     let swaps = if turned.is_empty() { swaps } else { turned };
     let line = |block| place(&reading.program, block);
+    let declared = zeros_declared(&job, source.setup, options);
+    let (beyond, travel_undecided) = travel.judge(&reading, setting.machine, declared, line)?;
     Ok(Converted {
         text: written,
         dialect: setting.dialect,
@@ -113,6 +123,9 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
             .iter()
             .map(|&index| line(reading.motions[index].motion.block))
             .collect(),
+        beyond,
+        travel_undecided,
+        clamps: setting.clamps(),
     })
 }
 
@@ -184,12 +197,13 @@ fn prove(
     (text, moved): (&str, &[u32]),
     outs: &[Out],
     claim: &ConversionClaim,
-) -> Result<(ConversionProof, Vec<usize>), Refused> {
+) -> Result<(ConversionProof, Vec<usize>, Travel), Refused> {
     // vectors say by themselves where the tool points
     let machine = setting.mode.machine().or(setting.machine.filter(|_| setting.vectors));
     let mut setup = source.setup.clone();
     // codes of the builder of the machine that it is written for
     setup.control.tcp_codes = setting.machine.and_then(|machine| machine.control.tcp_codes.clone());
+    setup.control.further_axes = setting.machine.map(Machine::further_axes).unwrap_or_default();
     let after = read(&Run {
         text: text.as_bytes(),
         dialect: setting.dialect,
@@ -221,7 +235,8 @@ fn prove(
     } else {
         Vec::new()
     };
-    Ok((proof, turned))
+    let travel = travel(&after, &parts, machine);
+    Ok((proof, turned, travel))
 }
 
 /// Motions before whose cut makes a control that is given vectors turn to the other posture, as rule branch-swap counts it.

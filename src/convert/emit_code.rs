@@ -65,6 +65,7 @@ impl<'a> Writer<'a> {
     /// The whole program, and its lines (from 1, ascending) that make motions of the program before.
     pub(crate) fn write(mut self, job: &Job, outs: &[Out]) -> Result<(String, Vec<u32>), Refused> {
         self.header(job)?;
+        self.joints_at_start()?;
         let names_offset = job
             .events
             .iter()
@@ -198,6 +199,26 @@ impl<'a> Writer<'a> {
             _ => self_name(name, job, options, post),
         })?;
         self.modal.set("mode", feed_mode);
+        Ok(())
+    }
+
+    /// Where the machine leads the tip from the start, that ends: until a tool is in the spindle, or for the whole program.
+    fn joints_at_start(&mut self) -> Result<(), Refused> {
+        let Some(machine) = self.mode.machine() else {
+            return Ok(());
+        };
+        let codes = machine.control.tcp_codes.as_ref().filter(|codes| codes.at_start);
+        match codes.map(|codes| codes.off.first()) {
+            Some(Some(off)) => self.line(off),
+            Some(None) if matches!(self.mode, Mode::Joints(_)) => {
+                let message = format!(
+                    "{} leads the tip from the start of a program, and its file names no code that ends it: leave --no-tcp out",
+                    machine.id
+                );
+                return Err(self.refuse(None, message));
+            }
+            _ => {}
+        }
         Ok(())
     }
 

@@ -8,6 +8,7 @@ use crate::post::ArcWords;
 use crate::template::fill;
 use trunnion_geometry::{Vec3, arc::Arc, deg};
 use trunnion_interp::{AXIS_LETTERS, Feed};
+use trunnion_machine::{AxisKind, Machine};
 use trunnion_syntax::BlockId;
 
 /// Planes by their normal: code, letters of the centre, index of the two axes.
@@ -83,6 +84,7 @@ impl Writer<'_> {
                 let text = format!("{}{}", WORDS[slot], number(value, self.post.angle, self.post.point));
                 words.extend(self.modal.change(WORDS[slot], text));
             }
+            self.idle_words(machine, words);
         } else if self.options.orientation == OrientationWords::Vectors {
             let part = |value: f64| number(value, self.post.vector, self.post.point);
             let template = self.post.template("vector").unwrap_or_default();
@@ -96,6 +98,25 @@ impl Writer<'_> {
             if arc_axis.is_none() {
                 words.extend(self.modal.change("vector", text.unwrap_or_default()));
             }
+        }
+    }
+
+    /// Axes that the kinematics are not solved for stand where the plan holds them: at `hold`, or at zero. A program must say so once.
+    fn idle_words(&mut self, machine: &Machine, words: &mut Vec<String>) {
+        for (joint, axis) in machine.axes.iter().enumerate() {
+            let slot = AXIS_LETTERS.iter().position(|known| *known == axis.letter);
+            let Some(slot) = slot.filter(|slot| *slot > 2 && !machine.rotary.contains(&joint)) else {
+                continue;
+            };
+            let text = match axis.kind {
+                AxisKind::Linear => self.length(-self.zero[slot]),
+                AxisKind::Rotary => {
+                    let value = deg(axis.extra.hold.unwrap_or(0.0)) - self.zero[slot];
+                    number(value, self.post.angle, self.post.point)
+                }
+            };
+            let text = format!("{}{text}", WORDS[slot]);
+            words.extend(self.modal.change(WORDS[slot], text));
         }
     }
 

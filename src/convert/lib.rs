@@ -22,9 +22,11 @@ mod refuse;
 mod sample;
 mod setting;
 mod template;
+mod travel;
 
 pub use cl::{ClFeed, ClPoint, ClTool, cl_text};
 pub use convert::{Converted, Source, convert};
 pub use options::{Options, OrientationWords, Target, Units};
 pub use post::{BUILTIN_POSTS, Post, PostError, builtin_post, builtin_post_source, load_post};
 pub use refuse::Refused;
+pub use travel::Beyond;

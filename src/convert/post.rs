@@ -339,11 +339,15 @@ impl Post {
         self.template("length-on").is_some_and(|text| text.contains("{tool}"))
     }
 
-    /// The code that switches tool centre point control on or off: the one that the machine declares, else the post's.
+    /// The code that switches tool centre point control on or off: the one that the machine declares, else the post's. Empty where a
+    /// machine always leads the tip; `None`: there is no such code.
     pub fn tcp_code(&self, machine: Option<&Machine>, on: bool) -> Option<String> {
-        let declared = machine.and_then(|machine| machine.control.tcp_codes.as_ref());
-        let code = declared.and_then(|codes| if on { &codes.on } else { &codes.off }.first().cloned());
-        code.or_else(|| if on { &self.tcp_on } else { &self.tcp_off }.clone())
+        let Some(codes) = machine.and_then(|machine| machine.control.tcp_codes.as_ref()) else {
+            return if on { &self.tcp_on } else { &self.tcp_off }.clone();
+        };
+        let code = if on { &codes.on } else { &codes.off }.first().cloned();
+        let always = codes.at_start && codes.off.is_empty();
+        code.or_else(|| always.then(String::new))
     }
 
     /// A template; `None`: the control has no such code.

@@ -86,6 +86,13 @@ impl<'a> Setting<'a> {
         })
     }
 
+    /// Letters of the axes that codes clamp.
+    pub(crate) fn clamps(&self) -> Vec<char> {
+        let axes = self.machine.map_or(&[][..], |machine| &machine.axes);
+        let clamped = axes.iter().filter(|axis| axis.extra.clamp_codes.is_some());
+        clamped.map(|axis| char::from(axis.letter)).collect()
+    }
+
     pub(crate) fn has(&self, key: &str) -> bool {
         self.post.is_none_or(|post| post.template(key).is_some())
     }

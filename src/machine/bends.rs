@@ -268,34 +268,4 @@ impl Carried {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{Carried, Turn};
-    use trunnion_geometry::Vec3;
-
-    fn turned(spin: (f64, f64), rate: f64, bend: f64) -> (f64, f64) {
-        let still = Turn {
-            axis: Vec3::new(0.0, 0.0, 1.0),
-            sin: 0.0,
-            cos: 1.0,
-        };
-        let mut point = Carried {
-            start: Vec3::new(3.0, 0.0, 0.0),
-            end: Vec3::new(0.0, 4.0, 7.0),
-            rate,
-            bend,
-            length: 0.5,
-        };
-        point.turn(spin, &Vec3::zeros(), &still, &still, |_, arm| *arm);
-        (point.rate, point.bend)
-    }
-
-    #[test]
-    fn turning_adds_what_the_notes_say() {
-        // radius 4 at the end, 4.25 above the chord of a piece of half a block with |W''| <= 8
-        assert_eq!(turned((2.0, 0.0), 0.0, 0.0), (8.0, 16.0));
-        assert_eq!(turned((2.0, 5.0), 0.0, 0.0), (8.0, 36.0));
-        assert_eq!(turned((2.0, 5.0), 1.0, 0.0), (9.0, 40.0));
-        assert_eq!(turned((2.0, 0.0), 1.0, 8.0), (9.5, 29.0));
-        assert_eq!(turned((0.0, 0.0), 1.0, 8.0), (1.0, 8.0));
-    }
-}
+mod tests;

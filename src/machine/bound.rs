@@ -175,6 +175,23 @@ mod tests {
     }
 
     #[test]
+    fn both_bounds_are_exact_where_they_can_be() {
+        let piece = Piece {
+            from: 0.25,
+            to: 0.75,
+            value_from: 1.0,
+            value_to: 2.0,
+            tag_from: (),
+            tag_to: (),
+        };
+        assert_eq!(piece.below_parabola(16.0), 2.5);
+        // lines of slope 4 meet at 2.5
+        assert_eq!(piece.below_roof(4.0), 2.5);
+        // too flat to reach the other end: that end counts
+        assert_eq!(piece.below_roof(0.5), 2.0);
+    }
+
+    #[test]
     fn samples_run_out_but_the_bound_stays_sound() {
         let found = peak(|_| 0.0, |p| p.to - p.from, |_, _, _| false);
         assert!(found.bound >= 0.0);

@@ -76,6 +76,15 @@ pub enum Wrap {
     ModuloSign,
 }
 
+/// The M codes of a clamp.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ClampCodes {
+    /// Number of the one that clamps.
+    pub on: u16,
+    /// Number of the one that releases.
+    pub off: u16,
+}
+
 /// Properties of an axis beyond kinematics.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct AxisExtra {
@@ -83,6 +92,8 @@ pub struct AxisExtra {
     pub wrap: Wrap,
     /// The axis must not move while cutting (3+2, indexed).
     pub clamp: bool,
+    /// M codes by which a program clamps the axis and releases it; `None`: the file names none.
+    pub clamp_codes: Option<ClampCodes>,
     /// The turns of the axis wind up a cable or a hose.
     pub cable: bool,
     /// The axis is also a spindle (mill-turn).
@@ -304,6 +315,12 @@ impl Machine {
     pub fn joint(&self, letter: u8) -> Option<usize> {
         let upper = letter.to_ascii_uppercase();
         self.axes.iter().position(|axis| axis.letter == upper)
+    }
+
+    /// Letters of its axes beside X Y Z A B C.
+    pub fn further_axes(&self) -> Vec<u8> {
+        let letters = self.axes.iter().map(|axis| axis.letter);
+        letters.filter(|letter| !b"XYZABC".contains(letter)).collect()
     }
 
     /// The axes that are held, with the joint values they are held at, rad.

@@ -297,8 +297,11 @@ fn notes(axis: &Axis, unit: &str, plain: impl Fn(f64) -> f64) -> Vec<String> {
             number(plain(value))
         ));
     }
+    if let Some(codes) = extra.clamp_codes {
+        notes.push(format!("clamped by M{}, released by M{}", codes.on, codes.off));
+    }
     let flags = [
-        (extra.clamp, "clamped while cutting (declared, not used yet)"),
+        (extra.clamp, "must stand still while cutting"),
         (extra.cable, "winds up a cable (declared, not used yet)"),
         (extra.spindle, "also a spindle (declared, not used yet)"),
         (extra.diameter, "words are diameters"),

@@ -88,3 +88,78 @@ pub(crate) fn pole_angle_min_great_circle(machine: &Machine, u0: &Vec3, u1: &Vec
         ends
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BUILTIN_MACHINES, builtin, tool_axis_at};
+    use trunnion_geometry::math::{angle_between, cos, sin};
+
+    /// Angle between a tool axis and the nearer end of the first rotary axis.
+    fn from_pole(machine: &Machine, axis: &Vec3) -> f64 {
+        let angle = angle_between(axis, &machine.constants.rotary[0].direction);
+        angle.min(PI - angle)
+    }
+
+    /// Against many moments, on all machines with two rotary axes, over ranges with none, one and several multiples of half a turn.
+    #[test]
+    fn the_smallest_angle_on_a_straight_run_of_the_second_joint() {
+        let mut judged = 0;
+        for name in BUILTIN_MACHINES {
+            let machine = builtin(name).expect("built in");
+            let Some(pair) = &machine.constants.pair else { continue };
+            for (from, to) in [
+                (-0.3, 0.4),
+                (0.2, 1.1),
+                (2.8, 3.5),
+                (-3.5, -2.9),
+                (3.0, 3.1),
+                (0.5, 3.6),
+                (-4.0, -0.5),
+                (2.0, 6.6),
+                (1.0, -1.0),
+                (4.0, 5.5),
+                (-6.5, -6.0),
+            ] {
+                let angle = |q: f64| from_pole(machine, &tool_axis_at(machine, [0.7, q]));
+                let found = pole_angle_min(&machine.constants, pair, (from, angle(from)), (to, angle(to)));
+                let dense = (0..=4000).map(|i| angle(from + (to - from) * f64::from(i) / 4000.0));
+                let truth = dense.fold(f64::INFINITY, f64::min);
+                // between two moments the angle may be smaller by half a step
+                assert!(
+                    found <= truth + 1e-9 && found >= truth - (to - from).abs() / 8000.0 - 1e-9,
+                    "{name} {from} {to}: {found}, not {truth}"
+                );
+                judged += 1;
+            }
+        }
+        assert!(judged > 150, "{judged}");
+    }
+
+    #[test]
+    fn the_smallest_angle_on_a_great_circle() {
+        let machine = builtin("mikron-ucp710").expect("built in");
+        let axis = |tilt: f64, azimuth: f64| Vec3::new(sin(tilt) * cos(azimuth), sin(tilt) * sin(azimuth), cos(tilt));
+        for (from, to) in [
+            // past the pole, past its other end, past neither, over it
+            (axis(0.5, 0.0), axis(0.6, 2.5)),
+            (axis(2.6, 0.3), axis(2.8, -2.2)),
+            (axis(0.3, 0.0), axis(0.9, 0.2)),
+            (axis(1.2, 0.0), axis(1.9, 0.1)),
+            (axis(0.4, 0.0), axis(0.5, PI - 1e-4)),
+            (axis(0.7, 1.0), axis(0.2, 1.1)),
+        ] {
+            let angle = angle_between(&from, &to);
+            let side = (to - from * from.dot(&to)).normalize();
+            let at = |t: f64| from_pole(machine, &(from * cos(angle * t) + side * sin(angle * t)));
+            let found = pole_angle_min_great_circle(machine, &from, &to, at(0.0).min(at(1.0)));
+            let truth = (0..=4000)
+                .map(|i| at(f64::from(i) / 4000.0))
+                .fold(f64::INFINITY, f64::min);
+            assert!(
+                found <= truth + 1e-9 && found >= truth - angle / 8000.0 - 1e-9,
+                "{from:?} {to:?}: {found}, not {truth}"
+            );
+        }
+    }
+}

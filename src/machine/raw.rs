@@ -91,6 +91,7 @@ pub(crate) struct RawAxis {
     pub(crate) dynamics: RawDynamics,
     #[serde(default)]
     pub(crate) clamp: bool,
+    pub(crate) clamp_codes: Option<RawClampCodes>,
     #[serde(default)]
     pub(crate) cable: bool,
     #[serde(default)]
@@ -105,6 +106,14 @@ pub(crate) struct RawAxis {
     pub(crate) uncertainty: RawUncertainty,
     pub(crate) note: Option<String>,
     pub(crate) source: Option<String>,
+}
+
+/// Codes that clamp an axis and release it: `{ on = "M10", off = "M11" }`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RawClampCodes {
+    pub(crate) on: Word,
+    pub(crate) off: Word,
 }
 
 #[derive(Deserialize, Clone, Copy, PartialEq, Eq)]

@@ -222,4 +222,61 @@ mod tests {
         }
         assert!(judged > 500, "{judged}");
     }
+
+    /// On a meridian from `tilt` on, by `turn` deg: the bounds on a piece of it, as another program works them out from
+    /// S^2 = D (1 - y^2) - (e1.u - c y)^2 with c = y = cos 50 deg (head) or 0.
+    #[test]
+    fn the_terms_of_the_bounds() {
+        let b50 = "nutating-head-b50";
+        for (name, tilt, turn, piece, rate, bend) in [
+            (
+                b50,
+                30.0,
+                30.0,
+                (0.25, 0.5),
+                [1.171_307_298_968_873_5, 0.828_239_333_954_189_1],
+                [8.680_195_306_606_201, 2.781_898_579_167_786_6],
+            ),
+            (
+                b50,
+                85.0,
+                12.0,
+                (0.0, 1.0),
+                [0.868_983_117_466_426_4, 0.868_983_117_466_426_4],
+                [10.411_049_866_414_457, 4.609_632_539_885_379],
+            ),
+            (
+                "ferrari-bc",
+                30.0,
+                10.0,
+                (0.0, 1.0),
+                [0.349_065_850_398_865_95, 0.224_375_203_601_086_18],
+                [0.313_286_885_013_727_4, 0.161_611_947_939_399_48],
+            ),
+        ] {
+            let machine = builtin(name).expect("built in");
+            let pole = machine.constants.rotary[0].direction;
+            let across = if pole.x.abs() < 0.5 { Vec3::x() } else { Vec3::y() };
+            let at = |tilt: f64| {
+                let (sin, cos) = trunnion_geometry::math::sin_cos(trunnion_geometry::rad(tilt));
+                pole * cos + across * sin
+            };
+            let circle = GreatCircle {
+                machine,
+                pair: machine.constants.pair.as_ref().expect("two rotary axes"),
+                start: at(tilt),
+                side: at(tilt + 90.0),
+                angle: trunnion_geometry::rad(turn),
+                branch: 1,
+            };
+            let found = circle.bounds(piece.0, piece.1);
+            for i in 0..2 {
+                let near = |found: f64, wanted: f64| (found - wanted).abs() <= 1e-7 * wanted;
+                assert!(
+                    near(found.rate[i], rate[i]) && near(found.bend[i], bend[i]),
+                    "{name}: {found:?}, not {rate:?} {bend:?}"
+                );
+            }
+        }
+    }
 }

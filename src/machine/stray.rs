@@ -179,3 +179,67 @@ fn from_segment(point: &Vec3, ends: &[Vec3; 2]) -> f64 {
     }
     (off - way * (off.dot(&way) / length2).clamp(0.0, 1.0)).norm()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn piece(feet: [f64; 2], far: [f64; 2]) -> Piece<Near> {
+        // W stands at the origin at both ends; the feet lie as far from it as `far` says
+        let near = |s: f64, foot: f64| Near {
+            s,
+            point: Vec3::zeros(),
+            foot: Vec3::x() * foot,
+        };
+        Piece {
+            from: 0.0,
+            to: 0.5,
+            value_from: 1.0,
+            value_to: 2.0,
+            tag_from: near(feet[0], far[0]),
+            tag_to: near(feet[1], far[1]),
+        }
+    }
+
+    /// W'' at most 8, so 2 on half a block; S'' at most 50.
+    fn over(feet: [f64; 2], far: [f64; 2]) -> f64 {
+        let stray = Stray {
+            point: |_: f64| Vec3::zeros(),
+            point_bend: 8.0,
+            curve: |_: f64| Vec3::zeros(),
+            curve_bend: 50.0,
+        };
+        stray.over(&piece(feet, far))
+    }
+
+    #[test]
+    fn the_least_of_three_ways_to_choose_the_foot_is_the_bound() {
+        // feet 0.1 apart: 0.5 of the curve, less than the point's own 2
+        assert!((over([0.2, 0.3], [0.0, 0.0]) - (2.0 + 2.5 / 8.0)).abs() < 1e-12);
+        // 0.4 apart: 8; at the first foot the far end is 2.5 away, at the second the near end 2.6
+        assert!((over([0.2, 0.6], [2.5, 2.6]) - 2.75).abs() < 1e-12);
+        assert!((over([0.2, 0.6], [2.6, 2.5]) - 2.75).abs() < 1e-12);
+        // standing feet are worse: 2 + 10 / 8
+        assert!((over([0.2, 0.6], [9.0, 9.0]) - 3.25).abs() < 1e-12);
+        // the end at which the foot is found counts too
+        assert!((over([0.2, 0.6], [0.5, 9.0]) - 1.25).abs() < 1e-12);
+        assert!((over([0.2, 0.6], [9.0, 0.5]) - 2.25).abs() < 1e-12);
+    }
+
+    /// A spike of the curve that a thousand looks miss comes within 0.01 mm of the point: what is said to be sampled is no more.
+    #[test]
+    fn a_foot_that_was_not_found_is_allowed_for() {
+        let spike = |s: f64| {
+            let off = (s - 0.712_345_6) * 1e7;
+            Vec3::new(0.0, 4.99 / (1.0 + off * off), 0.0)
+        };
+        let stray = Stray {
+            point: |_: f64| Vec3::new(0.0, 5.0, 0.0),
+            point_bend: 0.0,
+            curve: spike,
+            curve_bend: 1e15,
+        };
+        let found = stray.farthest(|_, _, samples| samples > 4);
+        assert!(found.sampled <= 0.01 + 1e-9, "{found:?}");
+    }
+}

@@ -1,6 +1,6 @@
 //! Checks of single entries of a machine file, each with the place it stands at, and their conversion to mm, rad and s.
 use crate::raw::{Number, RawAxis, RawKind, RawLimits, RawMode, RawSide, RawWrap, Triple, Word};
-use crate::{Axis, AxisExtra, AxisKind, Limits, Side, Wrap};
+use crate::{Axis, AxisExtra, AxisKind, ClampCodes, Limits, Side, Wrap};
 use core::ops::Range;
 use trunnion_geometry::{Vec3, rad};
 use trunnion_interp::AXIS_LETTERS;
@@ -267,6 +267,7 @@ fn extra(raw: &RawAxis, kind: AxisKind, scale: impl Fn(f64) -> f64) -> Result<Ax
             RawWrap::ModuloSign => Wrap::ModuloSign,
         },
         clamp: raw.clamp,
+        clamp_codes: clamp_codes(raw, kind)?,
         cable: raw.cable,
         spindle: raw.spindle,
         diameter: raw
@@ -284,6 +285,35 @@ fn extra(raw: &RawAxis, kind: AxisKind, scale: impl Fn(f64) -> f64) -> Result<Ax
             .map(|seconds| rad(seconds / 3600.0)),
         hold: hold(raw, kind)?.map(&scale),
     })
+}
+
+/// The M codes that clamp a rotary axis and release it.
+fn clamp_codes(raw: &RawAxis, kind: AxisKind) -> Result<Option<ClampCodes>, Fault> {
+    let Some(written) = &raw.clamp_codes else {
+        return Ok(None);
+    };
+    let fault = |word: &Word, why: &str| Fault {
+        message: format!("{:?} {why}", word.get_ref()),
+        span: word.span(),
+    };
+    let number = |word: &Word| match word.get_ref().strip_prefix('M').map(str::parse) {
+        Some(Ok(number)) => Ok(number),
+        _ => Err(fault(word, "is no M code: write M and its number, as \"M10\"")),
+    };
+    let codes = ClampCodes {
+        on: number(&written.on)?,
+        off: number(&written.off)?,
+    };
+    if kind == AxisKind::Linear {
+        return Err(fault(
+            &written.on,
+            "belongs to a rotary axis: linear ones are not clamped by codes here",
+        ));
+    }
+    if codes.on == codes.off {
+        return Err(fault(&written.off, "cannot both clamp the axis and release it"));
+    }
+    Ok(Some(codes))
 }
 
 /// The value that a rotary axis is held at, deg.

@@ -10,6 +10,8 @@ const WIDTH: i32 = 1200;
 const HEIGHT: i32 = 800;
 /// Height of the header, pixels.
 const HEADER: i32 = 92;
+/// Height of a further row of the legend, pixels.
+const LEGEND_ROW: f64 = 22.0;
 
 /// The sheet.
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -91,7 +93,9 @@ pub(crate) fn sheet(
         let size = ((WIDTH * SCALE) as u32, (HEIGHT * SCALE) as u32);
         let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
         root.fill(&WHITE)?;
-        let (top, rest) = root.split_vertically(px(f64::from(HEADER)));
+        let places = places(legend);
+        let rows = places.last().map_or(0, |(row, _)| *row);
+        let (top, rest) = root.split_vertically(px(f64::from(HEADER) + LEGEND_ROW * rows as f64));
         let bold = font(20.0);
         top.draw(&Text::new(header.title.clone(), (px(24.0), px(12.0)), bold))?;
         top.draw(&Text::new(
@@ -99,7 +103,9 @@ pub(crate) fn sheet(
             (px(24.0), px(40.0)),
             font(14.0).color(&GREY),
         ))?;
-        draw_legend(&top, legend)?;
+        for (entry, (row, x)) in legend.iter().zip(&places) {
+            draw_entry(&top, entry, (px(*x), px(72.0 + LEGEND_ROW * *row as f64)))?;
+        }
         body(&rest)?;
         root.present()?;
     }
@@ -110,38 +116,50 @@ pub(crate) fn sheet(
     Ok(text.replacen(&large, &shown, 1))
 }
 
-fn draw_legend(top: &Area<'_>, legend: &[Entry]) -> Result<(), PlotError> {
-    let (mut x, y) = (px(24.0), px(72.0));
-    for (swatch, label) in legend {
-        let to = x + px(26.0);
-        match swatch {
-            Swatch::Line(colour) => {
+/// Row and left edge, px, of each entry of a legend: what does not fit into a row begins the next.
+fn places(legend: &[Entry]) -> Vec<(usize, f64)> {
+    let (left, mut row) = (24.0, 0);
+    let mut x = left;
+    let mut out = Vec::with_capacity(legend.len());
+    for (_, label) in legend {
+        let width = 32.0 + 7.4 * label.chars().count() as f64;
+        if x > left && x + width > f64::from(WIDTH) - left {
+            (row, x) = (row + 1, left);
+        }
+        out.push((row, x));
+        x += width + 22.0;
+    }
+    out
+}
+
+fn draw_entry(top: &Area<'_>, (swatch, label): &Entry, (x, y): (i32, i32)) -> Result<(), PlotError> {
+    let to = x + px(26.0);
+    match swatch {
+        Swatch::Line(colour) => {
+            top.draw(&PathElement::new(
+                vec![(x, y), (to, y)],
+                colour.stroke_width(px(2.0) as u32),
+            ))?;
+        }
+        Swatch::Dashed(colour) => {
+            for part in 0..3 {
+                let from = x + px(9.0) * part;
                 top.draw(&PathElement::new(
-                    vec![(x, y), (to, y)],
+                    vec![(from, y), (from + px(6.0), y)],
                     colour.stroke_width(px(2.0) as u32),
                 ))?;
             }
-            Swatch::Dashed(colour) => {
-                for part in 0..3 {
-                    let from = x + px(9.0) * part;
-                    top.draw(&PathElement::new(
-                        vec![(from, y), (from + px(6.0), y)],
-                        colour.stroke_width(px(2.0) as u32),
-                    ))?;
-                }
-            }
-            Swatch::Dot(colour) => top.draw(&Circle::new((x + px(13.0), y), px(5.0), colour.filled()))?,
-            Swatch::Filled(colour) => {
-                top.draw(&Rectangle::new([(x, y - px(6.0)), (to, y + px(6.0))], colour.filled()))?;
-            }
         }
-        top.draw(&Text::new(
-            label.clone(),
-            (to + px(6.0), y),
-            anchored(14.0, HPos::Left, VPos::Center),
-        ))?;
-        x = to + px(6.0) + px(7.4 * label.chars().count() as f64 + 22.0);
+        Swatch::Dot(colour) => top.draw(&Circle::new((x + px(13.0), y), px(5.0), colour.filled()))?,
+        Swatch::Filled(colour) => {
+            top.draw(&Rectangle::new([(x, y - px(6.0)), (to, y + px(6.0))], colour.filled()))?;
+        }
     }
+    top.draw(&Text::new(
+        label.clone(),
+        (to + px(6.0), y),
+        anchored(14.0, HPos::Left, VPos::Center),
+    ))?;
     Ok(())
 }
 
@@ -200,6 +218,24 @@ mod tests {
         );
         assert!(text.contains("viewBox=\"0 0 12000 8000\"") && text.contains("a &lt; b") && text.contains("f&amp;g"));
         assert!(text.trim_end().ends_with("</svg>"));
+    }
+
+    /// Nothing runs off the sheet, nothing overlaps, and the rows come one below the other.
+    #[test]
+    fn a_long_legend_goes_on_in_the_next_row() {
+        let entry = |text: &str| (Swatch::Line(BLUE), text.to_owned());
+        let legend: Vec<Entry> = (0..14).map(|i| entry(&"excess-rotary-travel (12)"[i..])).collect();
+        let found = places(&legend);
+        let right = |i: usize| found[i].1 + 32.0 + 7.4 * legend[i].1.chars().count() as f64;
+        for i in 0..legend.len() {
+            assert!(right(i) <= f64::from(WIDTH), "{found:?}");
+            if i > 0 {
+                let (before, now) = (found[i - 1], found[i]);
+                assert!(now.0 == before.0 && now.1 > right(i - 1) || now == (before.0 + 1, 24.0), "{found:?}");
+            }
+        }
+        assert!(found[13].0 >= 2, "{found:?}");
+        assert!(places(&[]).is_empty());
     }
 
     #[test]

@@ -50,6 +50,62 @@ fn a_sample_for_every_control() {
     }
 }
 
+/// Program and summary for every post, and CL data.
+#[test]
+fn every_post_is_looked_at() {
+    let (piece, plate) = (sample("apt/small-piece.apt"), sample("apt/plate.apt"));
+    for (dialect, file, machine) in [
+        ("sinumerik-840d", &piece, "mikron-ucp710"),
+        ("fanuc-30i", &piece, "mikron-ucp710"),
+        ("haas-ngc", &piece, "mikron-ucp710"),
+        ("linuxcnc", &piece, "linuxcnc-xyzac-trt"),
+        ("iso-6983", &plate, "mill-3axis"),
+        ("grbl", &plate, "mill-3axis"),
+        ("apt", &piece, "mikron-ucp710"),
+    ] {
+        let output = trunnion(&["convert", file, "--to", dialect, "--machine", machine]);
+        assert_eq!(status(&output), 0, "{dialect}: {}", text(&output.stderr));
+        let summary = text(&output.stderr).replace(file.as_str(), "FILE");
+        insta::assert_snapshot!(
+            format!("convert_{dialect}"),
+            format!("{}---\n{summary}", text(&output.stdout))
+        );
+    }
+}
+
+/// The travel of the machine: told where the zero point is nobody's, refused where it is declared.
+#[test]
+fn a_program_that_leaves_the_travel_is_told_or_refused() {
+    let folder = TempDir::new().expect("works");
+    let file = write(
+        &folder,
+        "far.apt",
+        "UNITS/MM\nLOADTL/1\nSPINDL/5000,CLW\nFEDRAT/500\nRAPID\nGOTO/0,0,50,0,0,1\nGOTO/400,0,50,0,0,1\nFINI\n",
+    );
+    let arguments = ["convert", str(&file), "--machine", "mikron-ucp710"];
+    let told = trunnion(&arguments);
+    let summary = text(&told.stderr);
+    assert_eq!(status(&told), 0, "{summary}");
+    assert!(
+        summary.contains(":7: X would go to 400.0000 mm, its limit is 355.0000 mm; that is reckoned from a zero point at machine zero"),
+        "{summary}"
+    );
+    let document = json(&trunnion(&[&arguments[..], &["--format", "json"]].concat()));
+    assert_eq!(document["beyond_travel"][0]["axis"], "X");
+    write(
+        &folder,
+        "trunnion.toml",
+        "[work_offsets]\nG54 = { X = 0, Y = 0, Z = 0 }\n",
+    );
+    let refused = trunnion(&arguments);
+    let summary = text(&refused.stderr);
+    assert_eq!(status(&refused), 1, "{summary}");
+    assert!(
+        text(&refused.stdout).is_empty() && summary.contains(":7:1: refused: the program would leave the travel"),
+        "{summary}"
+    );
+}
+
 #[test]
 fn what_is_written_passes_check_and_goes_back() {
     let folder = TempDir::new().expect("works");

@@ -220,3 +220,25 @@ fn arc_bend(arc: &Arc) -> f64 {
     let radius = arc.radius_start.max(arc.radius_end);
     radius * arc.sweep * arc.sweep + 2.0 * ((arc.radius_end - arc.radius_start) * arc.sweep).abs()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A spiral from 10 to 25 mm by 1.1 rad: the larger radius, and the widening twice.
+    #[test]
+    fn a_spiral_bends_by_its_larger_radius_and_its_widening() {
+        for radii in [[10.0, 25.0], [25.0, 10.0]] {
+            let arc = Arc {
+                start: Vec3::x() * radii[0],
+                end: Vec3::x(),
+                centre: Vec3::zeros(),
+                normal: Vec3::z(),
+                sweep: -1.1,
+                radius_start: radii[0],
+                radius_end: radii[1],
+            };
+            assert!((arc_bend(&arc) - (25.0 * 1.21 + 2.0 * 15.0 * 1.1)).abs() < 1e-12);
+        }
+    }
+}

@@ -108,3 +108,16 @@ fn a_point_that_runs_outward_bends_twice() {
         path.bend().0 / 8.0
     );
 }
+
+/// A point above the tip is nearer to A: 40 mm of tool, 25 of them below the point, A 100 mm below the nose.
+#[test]
+fn a_point_above_the_tip_bends_by_its_own_distance() {
+    let machine = builtin("mikron-ucp710").expect("built in");
+    let (mut from, mut to) = ([0.0; MAX_AXES], [0.0; MAX_AXES]);
+    // Z at 100 mm, A from 0 to 18 deg
+    (from[4], to[4], to[1]) = (1.0, 1.0, 0.1);
+    let path = path(machine, &[from, to], Interpolation::Joints, 25.0);
+    let turn = rad(18.0);
+    let wanted = turn * turn * (100.0 - 40.0 + 25.0);
+    assert!((path.bend().0 - wanted).abs() < 1e-9, "{} not {wanted}", path.bend().0);
+}

@@ -95,6 +95,7 @@ impl FileControl {
                 off: codes.off.clone(),
                 at_start: codes.at_start,
             }),
+            further_axes: Vec::new(),
             reference_points,
         })
     }

@@ -25,14 +25,16 @@
 //! Sound for axes with a declared speed, at the worst moment inside the block; an axis that moves without a declared speed is
 //! reported as unknown, once. Where linear and rotary axes move together without tool centre point control and a parameter of
 //! the control says whether F counts along X Y Z or along all axes (Fanuc and its like), silence holds for both; where an axis
-//! is overrun in the reading along X Y Z, the fastest, this rule says unknown, once, and `feed-drop` is silent. Up to 8
-//! consecutive blocks are reported one by one, longer runs as one with their worst.
+//! is overrun in the reading along X Y Z, the fastest, this rule says unknown, once, and `feed-drop` is silent. Where only rotary
+//! axes turn on a Haas, whose settings say how F counts, it says unknown, once. Up to 8 consecutive blocks are reported one by one,
+//! longer runs as one with their worst.
 //!
 //! # Thresholds
 //! `vmax` of each axis in the machine file.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 4.1 and 5 (VEL-AXIS).
+//! Trunnion's kinematics notes, sections 4.1 and 5 (VEL-AXIS). Haas mill operator's manual, G93: settings 34 and 79 (diameters of the 4th
+//! and 5th axis) are not needed there, hence are under G94.
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 use crate::view::NO_TURN;
@@ -53,6 +55,9 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return;
     }
     undeclared(view, out);
+    if view.turns_by_diameter(out.dialect()) {
+        return by_diameter(view, out);
+    }
     let judged = view.feed_limit().and_then(|limit| Some((limit, limit.axis_speed?)));
     let Some((limit, needed)) = judged else {
         return undecided(view, out);
@@ -136,6 +141,23 @@ fn ambiguous(view: &LegView<'_>, out: &mut Reporter<'_>) {
     .merge_everywhere(cause);
 }
 
+/// A Haas counts F along circles whose diameters are settings.
+fn by_diameter(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let cause = hash("feed by diameter");
+    if out.repeats_unknown(view, cause, 0.0) {
+        return;
+    }
+    let range = code_range(out.program(), view.motion().block);
+    out.report(
+        range,
+        "F with rotary axes alone: this control counts it along circles whose diameters are its settings 34 and 79; not judged",
+    )
+    .note("the axes may turn faster than by F in degrees per minute")
+    .help("program inverse time (G93), or declare [control] feed = \"xyz\" where F is in degrees")
+    .unknown()
+    .merge_everywhere(cause);
+}
+
 /// A block whose speed cannot be told although its ends and its feed are known: told once per cause.
 fn undecided(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let Some((start, end)) = view.stances() else { return };
@@ -207,6 +229,30 @@ mod tests {
             found[0]
                 .values
                 .contains(&("feed_deg_min", crate::ValueKey::Number(7300.0)))
+        );
+    }
+
+    /// Haas counts F of a turn along a circle of a set diameter, so that C may run faster than by F in degrees: 7100 are within its speed.
+    #[test]
+    fn on_a_haas_the_feed_of_a_turn_is_a_setting() {
+        let unknown = "F with rotary axes alone: this control counts it along circles";
+        for (feed, drawn) in [("F7100.", true), ("F7300.", true), ("G93 F2.", false)] {
+            let mark = if drawn {
+                format!(";^^ axis-overspeed: {unknown}\n")
+            } else {
+                String::new()
+            };
+            assert_drawn(
+                "gcode haas-ngc mikron-ucp710",
+                &format!("G0 X0. Y0. Z50. A30. C0.\nG1 C90. {feed}\n{mark}"),
+            );
+        }
+        let both = "G0 X0. Y0. Z50. A30. C0.\nG1 X1. C9. F1000.\n;^^ axis-overspeed: F with linear and rotary axes moving together\n;     ^^ path-deviation: the tip\n";
+        assert_drawn("gcode haas-ngc mikron-ucp710", both);
+        // said: degrees
+        assert_drawn(
+            "gcode haas-ngc mikron-ucp710+control.feed=\"xyz\"",
+            "G0 X0. Y0. Z50. A30. C0.\nG1 C90. F7100.\n",
         );
     }
 

@@ -1,7 +1,7 @@
 //! What LinuxCNC's interpreter is told of a run's setup.
 use crate::{LengthUnit, Setup, Tool};
 use trunnion_dialect::{Code, CodeKind, Dialect};
-use trunnion_ngc::{Parameters, Setup as Told, Start, ToolEntry, ToolTable, Units};
+use trunnion_ngc::{Ini, Parameters, Setup as Told, Start, ToolEntry, ToolTable, Units};
 
 /// First parameter of the coordinate systems: X of G54; 20 further on that of G55 (LinuxCNC documentation, Parameters).
 const FIRST_SYSTEM: u32 = 5221;
@@ -65,8 +65,14 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
     let mut motions: Vec<u32> = motions.filter(|code| code.0 == b'G').map(|code| code.1).collect();
     motions.sort_unstable();
     let tools = setup.tools.iter().chain(declared).filter(|tool| tool.number != 0);
+    let mut ini = Ini::default();
+    let further = setup.control.further_axes.iter().map(|letter| char::from(*letter));
+    let coordinates = "XYZABC".chars().chain(further).collect();
+    ini.values
+        .insert(("TRAJ".to_owned(), "COORDINATES".to_owned()), coordinates);
     Told {
         start: Start::Unknown,
+        ini,
         machine_units: match setup.control.units {
             Some(LengthUnit::Inch) => Units::Inch,
             Some(LengthUnit::Millimetre) | None => Units::Millimetre,

@@ -6,6 +6,7 @@ use super::Imported;
 use super::draft::{Draft, DraftAxis};
 use crate::MachineError;
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 
@@ -137,6 +138,7 @@ pub fn import_freecad(name: &str, text: &str) -> Result<Imported, MachineError> 
             return Err(source.error(raw.get(), message));
         }
     }
+    unread(&source, file.machine.map_or(text, RawValue::get), &machine.axes, &mut draft.open)?;
     order(placed, &mut draft)?;
     draft.open.push(
         "accelerations and the gauge point are not part of a FreeCAD machine; the gauge point is taken as the origin"
@@ -222,6 +224,41 @@ fn axis(
         },
         parent: entry.parent,
     })
+}
+
+/// Tells what the file says and nothing here reads. A frame of the base moves every place and direction.
+fn unread<'a>(
+    source: &Source<'a>,
+    machine: &'a str,
+    axes: &BTreeMap<String, &'a RawValue>,
+    open: &mut Vec<String>,
+) -> Result<(), MachineError> {
+    let all: BTreeMap<String, IgnoredAny> = source.parse(machine)?;
+    let known = |key: &str, list: &[&str]| list.contains(&key);
+    let (frames, others): (Vec<_>, Vec<_>) = all
+        .keys()
+        .filter(|key| !known(key, &["name", "manufacturer", "description", "units", "axes"]))
+        .partition(|key| key.contains("frame") || *key == "reference_system");
+    for key in frames {
+        open.push(format!(
+            "{key} is not read: places and directions are taken as they stand; where it is more than the identity they are wrong"
+        ));
+    }
+    if !others.is_empty() {
+        let names: Vec<&str> = others.into_iter().map(String::as_str).collect();
+        open.push(format!("not read: {}", names.join(", ")));
+    }
+    for (letter, raw) in axes {
+        let all: BTreeMap<String, IgnoredAny> = parse_here(source, raw)?;
+        let keys = all
+            .keys()
+            .filter(|key| !known(key, &["type", "role", "parent", "joint", "limits", "max_velocity", "name"]));
+        let keys: Vec<&str> = keys.map(String::as_str).collect();
+        if !keys.is_empty() {
+            open.push(format!("axis {letter}: not read: {}", keys.join(", ")));
+        }
+    }
+    Ok(())
 }
 
 fn parse_here<'a, T: Deserialize<'a>>(source: &Source<'a>, raw: &'a RawValue) -> Result<T, MachineError> {

@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
 mod code;
 mod guide_vane;
+mod machines;
 mod proof;
 mod real;
 mod refused;

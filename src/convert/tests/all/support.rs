@@ -26,6 +26,7 @@ pub(crate) fn assuming(
 ) -> Result<Converted, Refused> {
     let mut setup = Setup::default();
     setup.control.tcp_codes = machine(source).and_then(|machine| machine.control.tcp_codes.clone());
+    setup.control.further_axes = machine(source).map(Machine::further_axes).unwrap_or_default();
     let source = Source {
         text: text.as_bytes(),
         dialect: trunnion_dialect::builtin(dialect).expect("built in"),

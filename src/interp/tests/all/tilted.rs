@@ -115,6 +115,61 @@ fn what_is_not_modelled_says_so_and_hides_the_position() {
     near(one[0].end.xyz(), [1.0, -3.0, 2.0]);
 }
 
+/// Codes that turn planes, zero points or axes and are not modelled: each is named, and where anything is afterwards is not known.
+#[test]
+fn no_code_that_turns_something_passes_for_a_plain_motion() {
+    for (dialect, code, end) in [
+        ("haas-ngc", "G254", "G255"),
+        ("haas-ngc", "G268 X1. Y2. Z3. I10. J20. K30.", "G269"),
+        ("haas-ngc", "G268 X1. Y2. Z3. I10. J20. K30. Q321", "G269"),
+        ("fanuc-30i", "G68.2 P2 Q1 X0. Y0. Z0.", "G69"),
+        ("fanuc-30i", "G68.2 P3 Q1 X0. Y0. Z0. I1. J0. K0.", "G69"),
+        ("fanuc-30i", "G68.2 P4 X0. Y0. Z0. I10. J20. K0.", "G69"),
+        ("fanuc-30i", "G68.3 X0. Y0. Z0.", "G69"),
+        ("fanuc-30i", "G54.2 P1", "G54.2 P0"),
+        ("fanuc-30i", "G54.4 P1", "G54.4 P0"),
+        ("linuxcnc", "G68.2 X0 Y0 Z0 I10 J20 K30", "G69"),
+        ("linuxcnc", "G68.3 X0 Y0 Z0", "G69"),
+        ("linuxcnc", "G68.4 X0 Y0 Z0 I10 J20 K30", "G69"),
+    ] {
+        let text = format!("G0 X1. Y2. Z3.\n{code}\nG0 X4. Y5. Z6.\nG1 X7. F100.\n{end}\n");
+        let log = run_text(dialect, &text);
+        let name = code.split(' ').next().unwrap_or_default();
+        let said = faults(dialect, &text);
+        assert!(
+            said.iter().any(|fault| fault.contains(name)),
+            "{dialect} {code}: {said:?}"
+        );
+        for motion in &log.motions[1..] {
+            assert_eq!(motion.end.xyz(), None, "{dialect} {code}: {}", line(motion));
+        }
+    }
+    // these turn the rotary axes once
+    for (dialect, code) in [
+        ("haas-ngc", "G253"),
+        ("linuxcnc", "G53.1 P0"),
+        ("linuxcnc", "G53.3 P0 X1 Y2 Z3"),
+        ("linuxcnc", "G53.6 P0"),
+        ("fanuc-30i", "G53.1"),
+        ("fanuc-30i", "G53.6 P1"),
+    ] {
+        let text = format!("G0 X1. Y2. Z3. A4. C5.\n{code}\nG0 X4. Y5. Z6.\n");
+        let log = run_text(dialect, &text);
+        let name = code.split(' ').next().unwrap_or_default();
+        let said = faults(dialect, &text);
+        assert!(
+            said.iter().any(|fault| fault.contains(name)),
+            "{dialect} {code}: {said:?}"
+        );
+        let last = log.motions.last().expect("a motion");
+        assert!(
+            last.end.get(3).is_none() && last.end.get(5).is_none(),
+            "{dialect} {code}: {}",
+            line(last)
+        );
+    }
+}
+
 /// Roll 30 about X, then pitch 20 about Y (Q123). About fixed axes the normal is Ry Rx z, about turned axes Rx Ry z; Q213 swaps the two.
 #[test]
 fn roll_pitch_and_yaw_are_known_where_the_control_says_what_they_turn_about() {

@@ -28,6 +28,11 @@ fn followed<'m>(machine: &'m Machine, dialect: &str, file: &str) -> Option<Follo
         crate::guide_vane::skipped(file);
         return None;
     };
+    Some(text_followed(machine, dialect, source))
+}
+
+/// Legs of a text, with the line of each.
+fn text_followed<'m>(machine: &'m Machine, dialect: &str, source: Vec<u8>) -> Followed<'m> {
     let dialect = trunnion_dialect::builtin(dialect).expect("built in");
     let program: Program = parse(source, dialect.lex);
     let mut followed = Followed {
@@ -37,7 +42,42 @@ fn followed<'m>(machine: &'m Machine, dialect: &str, file: &str) -> Option<Follo
     let mut setup = Setup::default();
     setup.control.tcp_codes.clone_from(&machine.control.tcp_codes);
     run(&program, dialect, &setup, &mut followed);
-    Some(followed)
+    followed
+}
+
+/// The plane leans by 30 deg about X: A30 C0 or A-30 C180 stand on it. G53.1 turns there with X Y Z as they are, G53.6 with the tip where
+/// it is; P names the solution, where the machine file says which one that is.
+#[test]
+fn a_turn_about_the_tip_takes_the_solution_that_p_names() {
+    let said = "family = \"fanuc-30i\"\nposture_words = { solutions = { 1 = \"A+\", 2 = \"A-\" } }";
+    for (control, code, a, open) in [
+        (said, "G53.6 P1", 30.0, false),
+        (said, "G53.6 P2", -30.0, false),
+        (said, "G53.6", 30.0, false),
+        (said, "G53.1 P1", 30.0, false),
+        (said, "G53.1 P2", -30.0, false),
+        ("family = \"fanuc-30i\"", "G53.6 P2", 30.0, true),
+    ] {
+        let machine = plain("", control);
+        let text = format!("G0 X100. Y20. Z50. A0. C0.\nG68.2 X0. Y0. Z0. I0. J30. K0.\n{code}\nG1 X5. Y0. Z10. F100.\nM30\n");
+        let followed = text_followed(&machine, "fanuc-30i", text.into_bytes());
+        let (_, turn) = &followed.legs[1];
+        let (start, end) = (turn.start.expect("known"), turn.end.as_ref().expect("reached"));
+        assert!((deg(end.joints[1]) - a).abs() < 1e-9, "{code}: {:?}", end.joints);
+        assert_eq!(turn.open.is_some(), open, "{code}");
+        let shift = (end.tip - start.tip).norm();
+        let stays = start.joints[2..5] == end.joints[2..5];
+        if code.starts_with("G53.6") {
+            assert!(shift < 1e-9 && !stays, "{code}: {shift}");
+        } else {
+            assert!(shift > 1.0 && stays, "{code}: {shift}");
+        }
+        // the motion behind it is in the plane, whatever the solution: the tip 5 along X, 10 up the normal
+        let (_, cut) = &followed.legs[2];
+        let tip = cut.end.as_ref().expect("known").tip;
+        let wanted = trunnion_geometry::Vec3::new(5.0, -5.0, 75.0_f64.sqrt());
+        assert!((tip - wanted).norm() < 1e-9, "{code}: {tip:?}");
+    }
 }
 
 /// The same 3+2 part for a Fanuc (rotary words, then G53.1) and an 840D (CYCLE800 with direction -1): the same joints.

@@ -1,36 +1,36 @@
 //! Bounds against dense sampling on random blocks of all built-in machines and of random chains: never below the truth, and at most 1.2
 //! times it. `TRUNNION_BLOCKS=1000000 cargo test --release -p trunnion-machine soundness` judges that many.
-use crate::blocks::with_arc;
 use crate::common::{vector, words};
+use crate::led::{travel, with_spiral};
 use crate::random::{Random, random_machine};
 use trunnion_geometry::math::{angle_between, cos, sin};
-use trunnion_geometry::{Vec3, deg, rad};
+use trunnion_geometry::{deg, rad};
 use trunnion_interp::{Motion, MotionKind, Position};
 use trunnion_machine::{
-    AxisKind, BUILTIN_MACHINES, Follower, Joints, Leg, Machine, builtin, forward, inverse, linear_travel,
-    orientation_deviation, swept_deviation, tip_deviation, tool_axis_at,
+    AxisKind, BUILTIN_MACHINES, Follower, Joints, Leg, Machine, builtin, forward, inverse, orientation_deviation,
+    swept_deviation, tip_deviation, tool_axis_at,
 };
 
-const SAMPLES: usize = 160;
+pub(crate) const SAMPLES: usize = 160;
 
-fn blocks() -> usize {
+pub(crate) fn blocks() -> usize {
     let wanted = std::env::var("TRUNNION_BLOCKS").ok();
     wanted.map_or(1500, |text| text.parse().expect("TRUNNION_BLOCKS is a number"))
 }
 
 /// Tolerances of the rules, so that the early answers are judged too.
 const TIP_MM: f64 = 0.01;
-const AXIS: f64 = 0.1;
-const SWEPT_MM: f64 = 0.05;
+pub(crate) const AXIS: f64 = 0.1;
+pub(crate) const SWEPT_MM: f64 = 0.05;
 
 /// Machines with rotary axes: built in, or random.
-struct Machines {
+pub(crate) struct Machines {
     known: Vec<Machine>,
     random: Machine,
 }
 
 impl Machines {
-    fn new(random: &mut Random) -> Self {
+    pub(crate) fn new(random: &mut Random) -> Self {
         let known = BUILTIN_MACHINES
             .iter()
             .map(|name| builtin(name).expect("built in").clone())
@@ -42,7 +42,7 @@ impl Machines {
         }
     }
 
-    fn pick(&mut self, random: &mut Random) -> &Machine {
+    pub(crate) fn pick(&mut self, random: &mut Random) -> &Machine {
         let which = random.below(self.known.len() * 2);
         if which < self.known.len() {
             return &self.known[which];
@@ -56,7 +56,7 @@ impl Machines {
 }
 
 /// Axis words, mm and deg; `turn` scales the rotary move, `way` the linear one.
-fn ends(random: &mut Random, machine: &Machine, turn: f64, way: f64) -> (Position, Position) {
+pub(crate) fn ends(random: &mut Random, machine: &Machine, turn: f64, way: f64) -> (Position, Position) {
     let (mut from, mut to) = (Position::default(), Position::default());
     for axis in &machine.axes {
         let Some(letter) = trunnion_interp::AxisLetter::new(axis.letter) else {
@@ -75,14 +75,14 @@ fn ends(random: &mut Random, machine: &Machine, turn: f64, way: f64) -> (Positio
     (from, to)
 }
 
-fn follow(machine: &Machine, first: &Motion, second: &Motion) -> Option<Leg> {
+pub(crate) fn follow(machine: &Machine, first: &Motion, second: &Motion) -> Option<Leg> {
     let mut follower = Follower::new(machine);
     follower.follow(first).end.ok()?;
     let leg = follower.follow(second);
     leg.end.is_ok().then_some(leg)
 }
 
-fn joints(leg: &Leg, t: f64) -> Joints {
+pub(crate) fn joints(leg: &Leg, t: f64) -> Joints {
     let mut joints = leg.start.expect("known").joints;
     for (value, end) in joints.iter_mut().zip(leg.end.as_ref().expect("known").joints) {
         *value += (end - *value) * t;
@@ -91,13 +91,13 @@ fn joints(leg: &Leg, t: f64) -> Joints {
 }
 
 /// Smallest over s of the distance from a point to a curve: a grid, then each of its valleys by thirds.
-fn nearest(curve: &dyn Fn(f64) -> f64) -> f64 {
+pub(crate) fn nearest(curve: &dyn Fn(f64) -> f64) -> f64 {
     let share = |i: usize| i as f64 / SAMPLES as f64;
     let grid: Vec<f64> = (0..=SAMPLES).map(|i| curve(share(i))).collect();
     let mut least = f64::INFINITY;
     for i in 0..=SAMPLES {
         let (before, after) = (i.saturating_sub(1), (i + 1).min(SAMPLES));
-        if grid[i] > grid[before] || grid[i] > grid[after] || grid[i] > least * 1.1 {
+        if grid[i] > grid[before] || grid[i] > grid[after] {
             continue;
         }
         let (mut low, mut high) = (share(before), share(after));
@@ -115,14 +115,14 @@ fn nearest(curve: &dyn Fn(f64) -> f64) -> f64 {
 }
 
 /// Largest value at even shares of the block and at one more.
-fn farthest(count: usize, also: f64, distance: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn farthest(count: usize, also: f64, distance: impl Fn(f64) -> f64) -> f64 {
     (0..=count)
         .map(|i| distance(i as f64 / count as f64))
         .fold(distance(also), f64::max)
 }
 
 /// Holds a sample and a bound against the truth found by sampling.
-fn hold(what: &str, (sampled, bound): (f64, f64), truth: f64, tolerance: f64) {
+pub(crate) fn hold(what: &str, (sampled, bound): (f64, f64), truth: f64, tolerance: f64) {
     assert!(
         bound >= truth * (1.0 - 1e-9) - 1e-9,
         "{what}: bound {bound} truth {truth}"
@@ -149,9 +149,9 @@ fn without_tcp(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
         ..words(start, end)
     };
     // arcs in diameters are not followed
-    let is_arc = random.below(8) == 0 && machine.axes.iter().all(|axis| !axis.extra.diameter);
+    let is_arc = random.below(4) == 0 && machine.axes.iter().all(|axis| !axis.extra.diameter);
     if is_arc {
-        second = with_arc(random, &second);
+        second = with_spiral(random, &second);
     }
     let first = Motion {
         start: Position::default(),
@@ -245,34 +245,12 @@ fn with_vectors(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
         nearest(&|s| (point - way * s - circle(s) * above).norm())
     });
     hold("body", (swept.sampled_mm, swept.bound_mm), truth, SWEPT_MM);
-    travel(machine, &leg, tip, way, above, seen);
-}
-
-fn travel(machine: &Machine, leg: &Leg, tip: Vec3, way: Vec3, length: f64, seen: &mut [usize; 4]) {
-    let Some(found) = linear_travel(machine, leg, 1.0) else {
-        return;
+    let along = |t: f64| {
+        let mut q = joints(&leg, t);
+        inverse(machine, &mut q, &(tip + way * t), above).expect("spans space");
+        q
     };
-    let at = |t: f64| {
-        let mut q = joints(leg, t);
-        inverse(machine, &mut q, &(tip + way * t), length).expect("spans space");
-        Vec3::from_iterator(machine.linear[..3].iter().map(|&joint| q[joint]))
-    };
-    let polygon: f64 = (0..SAMPLES)
-        .map(|i| (at((i + 1) as f64 / SAMPLES as f64) - at(i as f64 / SAMPLES as f64)).norm())
-        .sum();
-    seen[3] += 1;
-    assert!(
-        found.most_mm >= polygon * (1.0 - 1e-9) - 1e-9,
-        "{found:?} polygon {polygon}"
-    );
-    if found.most_mm.is_infinite() {
-        // through a posture where the linear axes do not span space they run away without end
-        return;
-    }
-    assert!(found.least_mm <= polygon * 1.02 + 1e-6, "{found:?} polygon {polygon}");
-    if found.most_mm > 1.0 && machine.constants.shared_segment.is_some() {
-        assert!(found.most_mm <= polygon * 1.02 + 1e-6, "{found:?} polygon {polygon}");
-    }
+    seen[3] += usize::from(travel(machine, &leg, &along));
 }
 
 #[test]
@@ -291,7 +269,7 @@ fn bounds_hold_on_random_blocks_of_all_machines() {
     }
     let share = |count: usize| count as f64 / wanted as f64;
     assert!(
-        share(seen[0]) > 0.5 && share(seen[1]) > 0.05 && share(seen[2]) > 0.1 && share(seen[3]) > 0.1,
+        share(seen[0]) > 0.45 && share(seen[1]) > 0.05 && share(seen[2]) > 0.1 && share(seen[3]) > 0.1,
         "{seen:?}"
     );
 }

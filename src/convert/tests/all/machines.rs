@@ -1,0 +1,143 @@
+//! Machines of all kinds as targets: tool centre point control from the start, held axes, travels, LinuxCNC.
+use crate::support::{machine, refusal, text, to};
+use trunnion_certify::conversion::Assume;
+use trunnion_convert::{Converted, Options, Refused, Source, Target, builtin_post, convert};
+use trunnion_interp::{Setup, WorkOffset};
+
+const PIECE: &str = include_str!("../../../../samples/programs/apt/small-piece.apt");
+
+fn linuxcnc(name: &str, tcp: bool) -> Result<Converted, Refused> {
+    let options = Options {
+        tcp,
+        ..Options::default()
+    };
+    to((PIECE, "apt", ""), "linuxcnc", name, &options)
+}
+
+/// The codes are those that the machine's file names, in their own sense.
+#[test]
+fn linuxcnc_leads_the_tip_by_the_codes_of_the_machine() {
+    for (name, on, off) in [
+        ("linuxcnc-xyzac-trt", "M428", "M429"),
+        ("linuxcnc-xyzbc-trt-conventional", "M428", "M429"),
+        ("linuxcnc-xyzab-tdr", "M428", "M429"),
+        ("linuxcnc-xyzacb-trsrn", "M429", "M428"),
+    ] {
+        let written = text(linuxcnc(name, true));
+        let lines: Vec<&str> = written.lines().collect();
+        let place = |code: &str| lines.iter().position(|line| *line == code);
+        let first = lines.iter().position(|line| line.starts_with("G0 "));
+        let (on, off) = (place(on).expect("switched on"), place(off).expect("switched off"));
+        assert!(Some(on) < first && first < Some(off), "{name}\n{written}");
+    }
+    insta::assert_snapshot!(text(linuxcnc("linuxcnc-xyzac-trt", true)));
+}
+
+/// The bridge mill leads the tip when a program begins: it is ended before the tool change, and for good without.
+#[test]
+fn a_machine_that_leads_the_tip_from_the_start() {
+    let written = text(linuxcnc("linuxcnc-bridge-mill", true));
+    let place = |text: &str| written.find(text).unwrap_or_else(|| panic!("no {text} in\n{written}"));
+    assert!(
+        place("\nM429\n") < place(" M6\n") && place(" M6\n") < place("\nM428\n"),
+        "{written}"
+    );
+    let joints = text(linuxcnc("linuxcnc-bridge-mill", false));
+    assert!(joints.contains("\nM429\n") && !joints.contains("M428"), "{joints}");
+    // and back: the same points
+    let back = to(
+        (&joints, "linuxcnc", "linuxcnc-bridge-mill"),
+        "apt",
+        "",
+        &Options::default(),
+    )
+    .expect("proved");
+    assert!(back.proof.path_mm <= 0.01, "{:?}", back.proof);
+}
+
+/// Nothing ends it on this machine, so nothing is written, and joints cannot be.
+#[test]
+fn a_machine_that_always_leads_the_tip() {
+    let written = text(linuxcnc("linuxcnc-max5", true));
+    assert!(!written.contains("M428") && !written.contains("M429"), "{written}");
+    let refused = refusal(linuxcnc("linuxcnc-max5", false));
+    assert!(refused.message.contains("names no code that ends it"), "{refused}");
+}
+
+/// An axis that the kinematics are not solved for is told where it stands, once.
+#[test]
+fn axes_beyond_five_are_told_where_they_stand() {
+    for (name, word) in [("linuxcnc-xyzacb-trsrn", " A0"), ("linuxcnc-bridge-mill", " W0")] {
+        let written = text(linuxcnc(name, true));
+        assert_eq!(written.matches(word).count(), 1, "{name}\n{written}");
+    }
+}
+
+fn with_zero(x: Option<f64>, options: &Options) -> Result<Converted, Refused> {
+    let mut setup = Setup::default();
+    if let Some(x) = x {
+        let mut values = [0.0; 9];
+        values[0] = x;
+        setup.work_offsets.push(WorkOffset {
+            name: "G54".to_owned(),
+            values,
+        });
+    }
+    let source = Source {
+        text: b"UNITS/MM\nLOADTL/1\nSPINDL/5000,CLW\nFEDRAT/500\nRAPID\nGOTO/0,0,50,0,0,1\nGOTO/100,0,50,0,0,1\nGOTO/300,0,50,0,0,1\nFINI\n",
+        dialect: trunnion_dialect::builtin("apt").expect("built in"),
+        machine: None,
+        setup: &setup,
+        assume: Assume::default(),
+    };
+    let target = Target::Code {
+        post: builtin_post("sinumerik-840d").expect("built in"),
+        machine: machine("mikron-ucp710"),
+    };
+    convert(&source, &target, options)
+}
+
+/// X of the Mikron ends at 355 mm. From a declared zero the program is refused, from one that nobody declared it is told.
+#[test]
+fn the_travel_of_linear_axes_is_kept_or_told() {
+    for tcp in [true, false] {
+        let options = Options {
+            tcp,
+            ..Options::default()
+        };
+        let inside = with_zero(Some(54.0), &options).expect("inside");
+        assert_eq!((inside.beyond, inside.travel_undecided), (vec![], vec![]));
+        let refused = refusal(with_zero(Some(56.0), &options));
+        assert!(
+            refused
+                .message
+                .contains("X would go to 356.0000 mm, its limit is 355.0000 mm"),
+            "{refused}"
+        );
+        assert_eq!(refused.place.map(|(line, _)| line), Some(8), "{refused}");
+        assert!(with_zero(None, &options).expect("inside").beyond.is_empty());
+    }
+    // the same travel, told: no zero is declared
+    let far = "UNITS/MM\nLOADTL/1\nSPINDL/5000,CLW\nFEDRAT/500\nRAPID\nGOTO/0,0,50,0,0,1\nGOTO/400,0,50,0,0,1\nFINI\n";
+    let told = to((far, "apt", ""), "sinumerik-840d", "mikron-ucp710", &Options::default()).expect("told");
+    assert_eq!(told.beyond.len(), 1);
+    assert_eq!(
+        (told.beyond[0].line, told.beyond[0].axis, told.beyond[0].value),
+        (7, 'X', 400.0)
+    );
+}
+
+/// Both ends are legal, and between them the table swings the tip's place beyond the travel.
+#[test]
+fn a_travel_that_is_left_inside_a_block_is_told() {
+    // C turns by 60 deg about the machine zero with the tip at a radius of 400 mm: at both ends X is 346.4 mm, half way 400 mm
+    let text = "TRAORI\nG54\nG0 X400 Y0 Z50 A0 C0\nM3 S1000\nG0 X346.41016 Y-200 A20 C-30\nG1 X346.41016 Y200 C30 F500\nTRAFOOF\nM30\n";
+    let made = to(
+        (text, "sinumerik-840d", "mikron-ucp710"),
+        "sinumerik-840d",
+        "mikron-ucp710",
+        &Options::default(),
+    )
+    .expect("told");
+    assert!(made.beyond.iter().any(|one| one.axis == 'X'), "{:?}", made.beyond);
+}

@@ -1,0 +1,145 @@
+//! Whether the program that is written stays inside the travel of its machine.
+use crate::job::{Event, Job};
+use crate::{Options, Refused};
+use trunnion_certify::conversion::{Part, Reading};
+use trunnion_geometry::deg;
+use trunnion_interp::Setup;
+use trunnion_machine::{AxisKind, Excess, Machine, limit_excess};
+use trunnion_syntax::BlockId;
+
+/// An axis that would leave its travel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beyond {
+    /// Line of the program before.
+    pub line: u32,
+    /// Letter of the axis.
+    pub axis: char,
+    /// Where it would go, mm or deg.
+    pub value: f64,
+    /// Its limit, mm or deg.
+    pub limit: f64,
+    /// `mm` or `deg`.
+    pub unit: &'static str,
+    /// Inside the block, between two ends that are legal.
+    pub inside: bool,
+}
+
+impl core::fmt::Display for Beyond {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let where_ = if self.inside { " inside the block" } else { "" };
+        write!(
+            f,
+            "{} would go to {:.4} {}{where_}, its limit is {:.4} {}",
+            self.axis, self.value, self.unit, self.limit, self.unit
+        )
+    }
+}
+
+/// What leaves the travel, and where that is not known: motions of the program before.
+#[derive(Default)]
+pub(crate) struct Travel {
+    /// Each limit once, where it is broken first, with the worst value.
+    beyond: Vec<(usize, Excess)>,
+    undecided: Vec<usize>,
+}
+
+/// Looks at every motion of the program after.
+pub(crate) fn travel(after: &Reading, parts: &[Part], machine: Option<&Machine>) -> Travel {
+    let mut travel = Travel::default();
+    let Some(machine) = machine else { return travel };
+    let (mut was, mut is) = (0, 0);
+    let mut found = Vec::new();
+    for part in parts {
+        let (before, count) = match part {
+            Part::Moves(count) => (1, *count as usize),
+            Part::Left => (1, 0),
+            Part::Added(count) => (0, *count as usize),
+        };
+        for posed in &after.motions[is..is + count] {
+            let Some(leg) = &posed.leg else { continue };
+            found.clear();
+            let decided = limit_excess(machine, leg, &mut found);
+            if !decided && travel.undecided.last() != Some(&was) {
+                travel.undecided.push(was);
+            }
+            for excess in &found {
+                travel.add(was, *excess);
+            }
+        }
+        was += before;
+        is += count;
+    }
+    travel
+}
+
+impl Travel {
+    fn add(&mut self, was: usize, excess: Excess) {
+        let off = |one: &Excess| (one.value - one.limit).abs();
+        let same = |known: &&mut (usize, Excess)| known.1.axis == excess.axis && known.1.limit == excess.limit;
+        match self.beyond.iter_mut().find(same) {
+            Some(known) if off(&known.1) >= off(&excess) => {}
+            Some(known) => known.1 = excess,
+            None => self.beyond.push((was, excess)),
+        }
+    }
+
+    /// The findings in words and numbers, and the lines where the travel is not decided. Where the zero points are declared, a program
+    /// that leaves the travel is refused: it could never run.
+    ///
+    /// # Errors
+    /// See above.
+    pub(crate) fn judge(
+        &self,
+        reading: &Reading,
+        machine: Option<&Machine>,
+        zeros_declared: bool,
+        line: impl Fn(BlockId) -> u32,
+    ) -> Result<(Vec<Beyond>, Vec<u32>), Refused> {
+        // what is added in front of the first motion, or behind the last, stands there
+        let block = |was: usize| {
+            let motion = reading.motions.get(was).or(reading.motions.last());
+            motion.map(|posed| posed.motion.block).unwrap_or_default()
+        };
+        let mut all = Vec::new();
+        for (was, excess) in &self.beyond {
+            let Some(axis) = machine.and_then(|machine| machine.axes.get(excess.axis)) else {
+                continue;
+            };
+            let (unit, plain): (_, fn(f64) -> f64) = match axis.kind {
+                AxisKind::Linear => ("mm", |value| value),
+                AxisKind::Rotary => ("deg", deg),
+            };
+            let beyond = Beyond {
+                line: line(block(*was)),
+                axis: char::from(axis.letter),
+                value: plain(excess.value),
+                limit: plain(excess.limit),
+                unit,
+                inside: excess.inside,
+            };
+            if zeros_declared {
+                let message = format!("the program would leave the travel of the machine: {beyond}");
+                return Err(Refused::at(&reading.program, block(*was), message));
+            }
+            all.push(beyond);
+        }
+        let undecided = self.undecided.iter().map(|was| line(block(*was))).collect();
+        Ok((all, undecided))
+    }
+}
+
+/// Whether every work offset that the program after names is declared, so that joints are where they will be.
+pub(crate) fn zeros_declared(job: &Job, setup: &Setup, options: &Options) -> bool {
+    let declared = |name: &str| {
+        setup
+            .work_offsets
+            .iter()
+            .any(|offset| offset.name.eq_ignore_ascii_case(name))
+    };
+    let mut named = job.events.iter().filter_map(|placed| match &placed.event {
+        Event::WorkOffset(name) => Some(name.as_str()),
+        _ => None,
+    });
+    let first = named.next().unwrap_or(&options.work_offset);
+    declared(first) && named.all(declared)
+}

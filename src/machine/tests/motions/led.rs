@@ -1,0 +1,258 @@
+//! Under tool centre point control, along lines, helices and spirals, on all built-in machines and random chains: way of the linear axes,
+//! highest feed, excursions, strays of tool axis and body, against dense sampling. `TRUNNION_BLOCKS` as in `soundness`.
+use crate::blocks::with_arc;
+use crate::common::{vector, words};
+use crate::random::Random;
+use crate::soundness::{AXIS, Machines, SAMPLES, SWEPT_MM, blocks, ends, farthest, follow, hold, joints, nearest};
+use trunnion_geometry::math::{angle_between, cos, sin};
+use trunnion_geometry::{Vec3, arc::Arc, rad};
+use trunnion_interp::{Motion, MotionKind, Position};
+use trunnion_machine::{
+    Joints, Leg, Machine, excursions, feed_limit_tight, inverse, linear_travel, orientation_deviation, swept_deviation,
+    tip_deviation, tool_axis_at,
+};
+
+/// A helix of up to three turns from the start of a motion, every third one with a radius that changes.
+pub(crate) fn with_spiral(random: &mut Random, motion: &Motion) -> Motion {
+    let mut motion = with_arc(random, motion);
+    let MotionKind::Arc(Some(mut arc)) = motion.kind else {
+        return motion;
+    };
+    if random.below(4) == 0 {
+        arc.sweep *= 3.0;
+    }
+    if random.below(3) == 0 {
+        arc.radius_end *= random.range(0.6, 1.6);
+    }
+    let radial = (arc.start - arc.centre) / arc.radius_start;
+    let turned = radial * cos(arc.sweep) + arc.normal.cross(&radial) * sin(arc.sweep);
+    let rise = arc.normal * arc.normal.dot(&(arc.end - arc.start));
+    arc.end = arc.centre + turned * arc.radius_end + rise;
+    for axis in 0..3 {
+        motion.end.set(axis, arc.end[axis]);
+    }
+    motion.kind = MotionKind::Arc(Some(arc));
+    motion
+}
+
+/// Way of the linear axes against the polygon through many moments; false where it has no bound.
+pub(crate) fn travel(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints) -> bool {
+    let Some(found) = linear_travel(machine, leg, 1.0) else {
+        return false;
+    };
+    let all: Vec<Joints> = (0..=SAMPLES).map(|i| along(i as f64 / SAMPLES as f64)).collect();
+    let step = |two: &[Joints]| {
+        let squares = machine
+            .linear
+            .iter()
+            .map(|&joint| (two[1][joint] - two[0][joint]).powi(2));
+        squares.sum::<f64>().sqrt()
+    };
+    let polygon: f64 = all.windows(2).map(step).sum();
+    assert!(
+        found.most_mm >= polygon * (1.0 - 1e-9) - 1e-9,
+        "{found:?} polygon {polygon}"
+    );
+    if found.most_mm.is_infinite() {
+        // through a posture where the linear axes do not span space they run away without end
+        return true;
+    }
+    assert!(found.least_mm <= polygon * 1.02 + 1e-6, "{found:?} polygon {polygon}");
+    if found.most_mm > 1.0 && machine.constants.shared_segment.is_some() {
+        assert!(found.most_mm <= polygon * 1.02 + 1e-6, "{found:?} polygon {polygon}");
+    }
+    true
+}
+
+/// Highest feed against the largest share of any axis' speed at many moments; `speed`: of the tip, mm per block.
+fn feed(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints, speed: &dyn Fn(f64) -> f64) -> bool {
+    let Some(found) = feed_limit_tight(machine, leg) else {
+        return false;
+    };
+    let step = 1e-5;
+    let mut truth = f64::INFINITY;
+    for i in 0..=SAMPLES {
+        let t = (i as f64 / SAMPLES as f64).clamp(step, 1.0 - step);
+        let (before, after) = (along(t - step), along(t + step));
+        for (joint, axis) in machine.axes.iter().enumerate() {
+            let rate = (after[joint] - before[joint]).abs() / (2.0 * step);
+            if let Some(limit) = axis.max_speed
+                && rate > 0.0
+            {
+                truth = truth.min(60.0 * speed(t) * limit / rate);
+            }
+        }
+    }
+    let limit = found.feed_mm_min;
+    assert!(limit <= truth * (1.0 + 1e-5), "limit {limit} truth {truth}");
+    let even = (speed(0.0) - speed(1.0)).abs() < 1e-9 * speed(0.0);
+    if machine.constants.shared_segment.is_some() && even {
+        // between two moments an axis may be a little faster than at both
+        assert!(limit >= truth * 0.97, "limit {limit} truth {truth}");
+    }
+    true
+}
+
+/// Largest value of a joint: the largest of many moments, then by thirds between its neighbours.
+fn summit(all: &[Joints], value: impl Fn(&Joints) -> f64, along: &dyn Fn(f64) -> Joints) -> f64 {
+    let best = (0..all.len())
+        .max_by(|a, b| value(&all[*a]).total_cmp(&value(&all[*b])))
+        .expect("many");
+    let share = |i: usize| i.min(SAMPLES) as f64 / SAMPLES as f64;
+    let (mut low, mut high) = (share(best.saturating_sub(1)), share(best + 1));
+    for _ in 0..40 {
+        let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        if value(&along(a)) > value(&along(b)) {
+            high = b;
+        } else {
+            low = a;
+        }
+    }
+    value(&all[best]).max(value(&along(0.5 * (low + high))))
+}
+
+/// How far linear axes run beyond both their ends, against many moments.
+fn beyond(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints) -> usize {
+    const LEAST: f64 = 1.0;
+    let all: Vec<Joints> = (0..=SAMPLES).map(|i| along(i as f64 / SAMPLES as f64)).collect();
+    let found = excursions(machine, leg, LEAST);
+    for solved in machine.constants.solved {
+        let joint = machine.constants.linear[solved].joint;
+        for (sign, upward) in [(1.0, true), (-1.0, false)] {
+            let top = summit(&all, |q| sign * q[joint], along);
+            let truth = top - (sign * all[0][joint]).max(sign * all[SAMPLES][joint]);
+            let own = found.iter().find(|one| one.axis == joint && one.upward == upward);
+            match own {
+                // through a posture where the linear axes do not span space they run away without end
+                Some(own) if own.beyond_mm > 1e4 => {}
+                Some(own) => assert!(
+                    own.beyond_mm >= truth - 2e-3 && own.beyond_mm <= truth * 1.02 + 0.1,
+                    "{own:?} truth {truth}"
+                ),
+                None => assert!(truth <= LEAST + 2e-3, "joint {joint} runs {truth} mm beyond"),
+            }
+        }
+    }
+    found.len()
+}
+
+/// Rotary words while the tip is led.
+fn by_words(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
+    let turn = [0.05, 1.0, 20.0, 60.0][random.below(4)];
+    let way = [0.1, 5.0, 80.0][random.below(3)];
+    let (start, end) = ends(random, machine, turn, way);
+    let mut second = Motion {
+        tcp: true,
+        tool_length_mm: random.range(0.0, 120.0),
+        ..words(start, end)
+    };
+    let is_arc = random.below(3) > 0 && machine.axes.iter().all(|axis| !axis.extra.diameter);
+    if is_arc {
+        second = with_spiral(random, &second);
+    }
+    let first = Motion {
+        start: Position::default(),
+        end: start,
+        kind: MotionKind::Linear,
+        ..second
+    };
+    let Some(leg) = follow(machine, &first, &second) else {
+        return;
+    };
+    let (from, to) = (leg.start.expect("known").tip, leg.end.as_ref().expect("known").tip);
+    let tip = |t: f64| match &second.kind {
+        MotionKind::Arc(Some(arc)) => arc.point_at(t),
+        _ => from + (to - from) * t,
+    };
+    let speed = |t: f64| match &second.kind {
+        MotionKind::Arc(Some(arc)) => arc.derivative_at(t).norm(),
+        _ => (to - from).norm(),
+    };
+    let along = |t: f64| {
+        let mut q = joints(&leg, t);
+        // where the linear axes do not span space they are nowhere
+        if inverse(machine, &mut q, &tip(t), second.tool_length_mm).is_none() {
+            q.fill(f64::NAN);
+        }
+        q
+    };
+    if (0..=SAMPLES).any(|i| {
+        along(i as f64 / SAMPLES as f64)
+            .iter()
+            .any(|q| q.abs() > 1e5 || q.is_nan())
+    }) {
+        return;
+    }
+    assert_eq!(tip_deviation(machine, &leg, 0.01).expect("known").bound_mm, 0.0);
+    seen[0] += usize::from(travel(machine, &leg, &along));
+    seen[1] += usize::from(feed(machine, &leg, &along, &speed));
+    seen[2] += beyond(machine, &leg, &along);
+}
+
+/// Tool vectors that a control runs joint-linear while the tip runs along a helix: axis and body.
+fn by_vectors(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
+    let from = random.direction();
+    let to = (from + random.direction() * [0.002, 0.05, 0.8][random.below(3)]).normalize();
+    let above = random.range(5.0, 150.0);
+    let start = random.direction() * 80.0;
+    let first = Motion {
+        tool_length_mm: above,
+        ..vector(Position::default(), start.into(), from)
+    };
+    let second = Motion {
+        tool_length_mm: above,
+        ..vector(first.end, start.into(), to)
+    };
+    let second = with_spiral(random, &second);
+    let (MotionKind::Arc(Some(arc)), Some(leg)) = (second.kind, follow(machine, &first, &second)) else {
+        return;
+    };
+    let Some(found) = orientation_deviation(machine, &leg, rad(AXIS)) else {
+        return;
+    };
+    let angle = angle_between(&from, &to);
+    let side = (to - from * from.dot(&to)).normalize();
+    let circle = |s: f64| from * cos(angle * s) + side * sin(angle * s);
+    let axis = |t: f64| {
+        let q = joints(&leg, t);
+        tool_axis_at(
+            machine,
+            [0, 1].map(|i| machine.rotary.get(i).map_or(0.0, |&joint| q[joint])),
+        )
+    };
+    let truth = farthest(40, found.at, |t| {
+        let axis = axis(t);
+        nearest(&|s| angle_between(&axis, &circle(s)))
+    });
+    seen[3] += 1;
+    hold("axis", (found.sampled, found.bound), truth, rad(AXIS));
+    let swept = swept_deviation(machine, &leg, above, SWEPT_MM).expect("as the axis");
+    let truth = farthest(40, swept.at, |t| {
+        let point = arc.point_at(t) + axis(t) * above;
+        nearest(&|s| (point - body(&arc, s, &circle(s), above)).norm())
+    });
+    seen[4] += 1;
+    hold("body", (swept.sampled_mm, swept.bound_mm), truth, SWEPT_MM);
+}
+
+/// The point of the tool's body where it should be.
+fn body(arc: &Arc, s: f64, axis: &Vec3, above: f64) -> Vec3 {
+    arc.point_at(s) + axis * above
+}
+
+#[test]
+fn soundness_while_the_tip_is_led_along_lines_and_helices() {
+    let mut random = Random(23);
+    let mut machines = Machines::new(&mut random);
+    let mut seen = [0; 5];
+    let wanted = blocks() / 3;
+    for _ in 0..wanted {
+        let machine = machines.pick(&mut random).clone();
+        if random.below(4) == 0 && machine.axes.iter().all(|axis| !axis.extra.diameter) {
+            by_vectors(&mut random, &machine, &mut seen);
+        } else {
+            by_words(&mut random, &machine, &mut seen);
+        }
+    }
+    assert!(seen.iter().all(|count| *count > wanted / 20), "{seen:?}");
+}

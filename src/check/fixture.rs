@@ -260,3 +260,18 @@ pub(crate) fn assert_drawn(info: &str, text: &str) -> Report {
         Err(message) => panic!("{message}"),
     }
 }
+
+/// Checks a text on a machine that no fence can name.
+#[cfg(test)]
+pub(crate) fn check_on(machine: &Machine, dialect: &str, text: &str) -> Report {
+    let dialect = trunnion_dialect::builtin(dialect).expect("built in");
+    let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
+    let settings = Settings {
+        dialect,
+        machine: Some(machine),
+        setup: Setup::default(),
+        rules: Vec::new(),
+        port_to: Vec::new(),
+    };
+    check(&program, &settings)
+}

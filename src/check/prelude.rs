@@ -1,7 +1,7 @@
 //! What a rule file imports.
 pub(crate) use crate::Severity;
 pub(crate) use crate::needs::Needs;
-pub(crate) use crate::place::{axis_word, code_range, orientation_range};
+pub(crate) use crate::place::{axis_word, code_range, once_at, orientation_range};
 pub(crate) use crate::refusal::refused;
 pub(crate) use crate::rule::{Body, Guarantee, Level};
 pub(crate) use crate::sink::Reporter;

@@ -55,9 +55,21 @@ pub(super) fn verdict_line(file: &Checked, color: bool) -> String {
     let s = &file.summary;
     let machine = file.machine.as_deref().unwrap_or("no machine");
     format!(
-        "{word} {} on {machine}: {} blocks, {} motions; {} errors, {} warnings, {} infos, {} unknown",
-        file.name, s.blocks, s.motions, s.errors, s.warnings, s.infos, s.unknown
+        "{word} {} on {machine}: {}, {}; {}, {}, {}, {} unknown",
+        file.name,
+        counted(s.blocks, "block"),
+        counted(s.motions, "motion"),
+        counted(s.errors, "error"),
+        counted(s.warnings, "warning"),
+        counted(s.infos, "info"),
+        s.unknown
     )
+}
+
+/// `1 error`, `2 errors`.
+fn counted(count: u64, what: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{plural}")
 }
 
 struct Finding<'a> {

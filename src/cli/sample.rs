@@ -49,6 +49,9 @@ pub(crate) struct Sample {
     /// Swings of the S-wall's lean (default 2).
     #[arg(long, value_name = "K")]
     waves: Option<usize>,
+    /// Side of the S-wall (default left); its faces are 3 mm apart.
+    #[arg(long, value_enum)]
+    side: Option<WallSide>,
     /// Chord error of the S-wall's points, mm (default 0.01).
     #[arg(long, value_name = "MM")]
     chord: Option<f64>,
@@ -82,6 +85,13 @@ pub(crate) struct Sample {
     /// Print the closed-form answers of the piece (JSON) instead of a program.
     #[arg(long)]
     answers: bool,
+}
+
+/// A face of the S-wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum WallSide {
+    Left,
+    Right,
 }
 
 /// The pieces.

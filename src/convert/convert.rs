@@ -10,24 +10,12 @@ use trunnion_certify::conversion::{
     Assume, ConversionClaim, ConversionProof, Part, Posed, Reading, Run, converted, read,
 };
 use trunnion_dialect::Dialect;
-use trunnion_interp::{Fault, FaultKind, Setup};
+use trunnion_interp::{Fault, FaultKind};
 use trunnion_machine::Machine;
 use trunnion_syntax::{Format, LineIndex, Program};
 
-/// A program that is to be converted.
-#[derive(Clone, Copy)]
-pub struct Source<'a> {
-    /// Its bytes.
-    pub text: &'a [u8],
-    /// Its dialect.
-    pub dialect: &'a Dialect,
-    /// The machine it is for; not needed for CL data, nor where it has no rotary words.
-    pub machine: Option<&'a Machine>,
-    /// Tools, offsets.
-    pub setup: &'a Setup,
-    /// What holds at its start, where it is an excerpt.
-    pub assume: Assume,
-}
+/// A program that is to be converted, with all it is read with.
+pub type Source<'a> = Run<'a>;
 
 /// A converted program, proved.
 #[derive(Clone, Debug)]
@@ -67,10 +55,8 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     }
     let reading = read(&Run {
         text: &text,
-        dialect: source.dialect,
         machine,
-        setup: source.setup,
-        assume: source.assume,
+        ..*source
     });
     understood(&reading, options)?;
     let job = job(&reading, source.dialect, options)?;

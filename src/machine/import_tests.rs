@@ -263,12 +263,21 @@ fn a_freecad_machine_keeps_the_sense_of_its_rotary_axes_open() {
     assert_eq!(machine.axes[4].max_speed, None);
     assert!(imported.open.contains(&"axis Z: max_velocity not given".to_owned()));
     // what is not read is told, above all a frame that would move everything
-    assert!(imported.open.contains(&"axis A: not read: allow_flip, solution_preference".to_owned()));
+    assert!(
+        imported
+            .open
+            .contains(&"axis A: not read: allow_flip, solution_preference".to_owned())
+    );
     assert!(imported.open.contains(&"not read: toolheads".to_owned()));
     assert!(!imported.open.iter().any(|line| line.contains("frame")));
     let framed = FREECAD.replace("\"toolheads\": []", "\"base_frame\": [[0, 0, 5], [1, 0, 0], [0, 1, 0]]");
     let framed = import_freecad("own.fcm", &framed).expect("a machine");
-    assert!(framed.open.iter().any(|line| line.starts_with("base_frame is not read: places and directions")));
+    assert!(
+        framed
+            .open
+            .iter()
+            .any(|line| line.starts_with("base_frame is not read: places and directions"))
+    );
     // nobody says which rotary axis carries which
     let flat = FREECAD.replace("\"parent\": \"A\"", "\"parent\": null");
     let refused = load("flat", &import_freecad("own.fcm", &flat).expect("a machine").toml).expect_err("no order");

@@ -12,6 +12,8 @@ const ARC: f64 = 50.0;
 const JOIN: f64 = 15.0;
 /// Length of the lower edge, mm.
 const LENGTH: f64 = 4.0 * JOIN + 2.0 * ARC;
+/// Thickness of the wall, across its lower edge, mm.
+const THICKNESS: f64 = 3.0;
 
 /// Sizes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +30,8 @@ pub struct SWall {
     pub chord: f64,
     /// The whole part turned about X, deg: 0 puts every change of sign on the pole.
     pub tilt_deg: f64,
+    /// The face to the right of the edge instead of the left one. It is run from the other end, so that both are milled the same way.
+    pub right: bool,
     /// mm/min.
     pub feed_mm_min: f64,
 }
@@ -38,19 +42,22 @@ impl SWall {
         LENGTH
     }
 
-    /// Lower edge and unit ruling (also the tool axis) at the arc length `s`, 0..=length; not tilted. Ruling: cos b z + sin b n with the
-    /// lean b = b0 sin(2 pi k s / L) and n to the left of the edge.
+    /// Lower edge, unit ruling (also the tool axis) and the direction off the face at the arc length `s` of the left edge, 0..=length; not
+    /// tilted. Ruling: cos b z + sin b n with the lean b = b0 sin(2 pi k s / L) and n to the left of the edge. The right face has the same
+    /// rulings, its edge lies beside the left one.
     fn upright(&self, edge: &Edge, s: f64) -> (Vec3, Vec3, Vec3) {
         let (point, heading) = edge.at(s);
         let lean = rad(self.lean_deg) * sin(TAU * self.waves as f64 * s / LENGTH);
         let (sin_h, cos_h) = sin_cos(heading);
         let left = Vec3::new(-sin_h, cos_h, 0.0);
         let (sin_b, cos_b) = sin_cos(lean);
-        (
-            point,
-            Vec3::z() * cos_b + left * sin_b,
-            left * cos_b - Vec3::z() * sin_b,
-        )
+        let off = left * cos_b - Vec3::z() * sin_b;
+        let ruling = Vec3::z() * cos_b + left * sin_b;
+        if self.right {
+            (point - left * THICKNESS, ruling, -off)
+        } else {
+            (point, ruling, off)
+        }
     }
 
     /// Point of the wall at arc length `s` and share `h` of the height (0: lower edge), mm.
@@ -59,12 +66,13 @@ impl SWall {
         self.tilted(&(point + ruling * (h * self.height / ruling.z)))
     }
 
-    /// Tip and tool axis at arc length `s`: the flank touches the wall at its lower edge.
+    /// Tip and tool axis after the way `s` along the edge: the flank touches the wall at its lower edge.
     pub fn at(&self, s: f64) -> (Vec3, Vec3) {
         self.place(&Edge::new(), s)
     }
 
     fn place(&self, edge: &Edge, s: f64) -> (Vec3, Vec3) {
+        let s = if self.right { LENGTH - s } else { s };
         let (point, ruling, side) = self.upright(edge, s);
         let tip = point + side * (0.5 * self.tool_diameter);
         (self.tilted(&tip), self.tilted(&ruling).normalize())
@@ -155,7 +163,7 @@ fn stretch(from: f64, to: f64) -> Vec3 {
         .sum()
 }
 
-/// One pass along the left side of the wall with points as near together as the chord error asks.
+/// One pass along one side of the wall with points as near together as the chord error asks.
 ///
 /// # Errors
 /// Sizes out of range.
@@ -176,7 +184,8 @@ pub fn s_wall(sizes: &SWall) -> Result<Piece, PieceError> {
         divide(sizes, &edge, at(stop), at(stop + 1), &mut points);
     }
     let title = format!(
-        "S-wall, lean {} deg, {} waves, part tilted {} deg, chord error {} mm, {} blocks",
+        "S-wall, {} side, lean {} deg, {} waves, part tilted {} deg, chord error {} mm, {} blocks",
+        if sizes.right { "right" } else { "left" },
         sizes.lean_deg,
         sizes.waves,
         sizes.tilt_deg,
@@ -224,6 +233,7 @@ mod tests {
             tool_diameter: 20.0,
             chord,
             tilt_deg: 0.0,
+            right: false,
             feed_mm_min: 500.0,
         }
     }
@@ -258,16 +268,37 @@ mod tests {
         assert!((deg(angle_between(&tilted.at(0.0).1, &Vec3::z())) - 0.1).abs() < 1e-9);
     }
 
-    /// The tip lies off the wall by the tool's radius: no point of the wall near it is nearer.
+    /// The tip lies off the wall by the tool's radius: no point of the wall near it is nearer. On either side.
     #[test]
     fn the_flank_touches_the_wall() {
-        let wall = sizes(0.1);
-        for s in [3.0, 33.0, 80.0, 101.0, 155.0] {
-            let (tip, _) = wall.at(s);
-            assert!((((tip - wall.wall(s, 0.0)).norm()) - 10.0).abs() < 1e-9);
-            for (ds, h) in [(-0.5, 0.0), (0.5, 0.0), (0.0, 0.02), (-0.2, 0.01), (0.2, 0.01)] {
-                assert!((tip - wall.wall(s + ds, h)).norm() > 10.0 - 1e-9, "{s} {ds} {h}");
+        for right in [false, true] {
+            let wall = SWall { right, ..sizes(0.1) };
+            for s in [3.0, 33.0, 80.0, 101.0, 155.0] {
+                let along = if right { LENGTH - s } else { s };
+                let (tip, _) = wall.at(s);
+                assert!((((tip - wall.wall(along, 0.0)).norm()) - 10.0).abs() < 1e-9);
+                for (ds, h) in [(-0.5, 0.0), (0.5, 0.0), (0.0, 0.02), (-0.2, 0.01), (0.2, 0.01)] {
+                    assert!((tip - wall.wall(along + ds, h)).norm() > 10.0 - 1e-9, "{s} {ds} {h}");
+                }
             }
+        }
+    }
+
+    /// Both faces are 3 mm apart, their tools on either side of both.
+    #[test]
+    fn the_wall_has_two_sides() {
+        let (left, right) = (
+            sizes(0.1),
+            SWall {
+                right: true,
+                ..sizes(0.1)
+            },
+        );
+        for s in [0.0, 20.0, 77.0, 130.0, LENGTH] {
+            let across = left.wall(s, 0.0) - right.wall(s, 0.0);
+            assert!((across.norm() - THICKNESS).abs() < 1e-12, "{s}");
+            let (tip, axis) = right.at(LENGTH - s);
+            assert!((tip - left.at(s).0).dot(&across) < 0.0 && (axis - left.at(s).1).norm() < 1e-12);
         }
     }
 

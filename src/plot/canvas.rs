@@ -231,7 +231,10 @@ mod tests {
             assert!(right(i) <= f64::from(WIDTH), "{found:?}");
             if i > 0 {
                 let (before, now) = (found[i - 1], found[i]);
-                assert!(now.0 == before.0 && now.1 > right(i - 1) || now == (before.0 + 1, 24.0), "{found:?}");
+                assert!(
+                    now.0 == before.0 && now.1 > right(i - 1) || now == (before.0 + 1, 24.0),
+                    "{found:?}"
+                );
             }
         }
         assert!(found[13].0 >= 2, "{found:?}");

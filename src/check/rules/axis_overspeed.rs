@@ -56,7 +56,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     }
     undeclared(view, out);
     if view.turns_by_diameter(out.dialect()) {
-        return by_diameter(view, out);
+        return unsettled(view, out, BY_DIAMETER);
     }
     let judged = view.feed_limit().and_then(|limit| Some((limit, limit.axis_speed?)));
     let Some((limit, needed)) = judged else {
@@ -66,7 +66,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return;
     }
     if view.feed_is_ambiguous(out.dialect()) {
-        return ambiguous(view, out);
+        return unsettled(view, out, AMBIGUOUS);
     }
     let axis = &view.machine.axes[limit.axis];
     let key = u64::from(axis.letter) + 256 * u64::from(view.feed_in_degrees());
@@ -125,37 +125,31 @@ pub(super) fn feed_keys(view: &LegView<'_>) -> [&'static str; 2] {
 }
 
 /// The fastest reading of F overruns an axis, another one may not.
-fn ambiguous(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let cause = hash("ambiguous feed");
-    if out.repeats_unknown(view, cause, 0.0) {
-        return;
-    }
-    let range = code_range(out.program(), view.motion().block);
-    out.report(
-        range,
-        "F with linear and rotary axes moving together: this control may count mm/min of X Y Z or sqrt(mm2+deg2); not judged",
-    )
-    .note("counted along X Y Z an axis is overrun here; a parameter of the control says what F means")
-    .help("switch tool centre point control on, or program inverse time (G93)")
-    .unknown()
-    .merge_everywhere(cause);
-}
+const AMBIGUOUS: [&str; 3] = [
+    "F with linear and rotary axes moving together: this control may count mm/min of X Y Z or sqrt(mm2+deg2); not judged",
+    "counted along X Y Z an axis is overrun here; a parameter of the control says what F means",
+    "switch tool centre point control on, or program inverse time (G93)",
+];
 
-/// A Haas counts F along circles whose diameters are settings.
-fn by_diameter(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let cause = hash("feed by diameter");
+/// A Haas counts F of a turn along circles whose diameters are settings.
+const BY_DIAMETER: [&str; 3] = [
+    "F with rotary axes alone: this control counts it along circles whose diameters are its settings 34 and 79; not judged",
+    "the axes may turn faster than by F in degrees per minute",
+    "program inverse time (G93), or declare [control] feed = \"xyz\" where F is in degrees",
+];
+
+/// What F means is not settled: message, note and help, once.
+fn unsettled(view: &LegView<'_>, out: &mut Reporter<'_>, [message, note, help]: [&str; 3]) {
+    let cause = hash(message);
     if out.repeats_unknown(view, cause, 0.0) {
         return;
     }
     let range = code_range(out.program(), view.motion().block);
-    out.report(
-        range,
-        "F with rotary axes alone: this control counts it along circles whose diameters are its settings 34 and 79; not judged",
-    )
-    .note("the axes may turn faster than by F in degrees per minute")
-    .help("program inverse time (G93), or declare [control] feed = \"xyz\" where F is in degrees")
-    .unknown()
-    .merge_everywhere(cause);
+    out.report(range, message)
+        .note(note)
+        .help(help)
+        .unknown()
+        .merge_everywhere(cause);
 }
 
 /// A block whose speed cannot be told although its ends and its feed are known: told once per cause.

@@ -157,7 +157,7 @@ fn between(view: &LegView<'_>, out: &mut Reporter<'_>, travel: &LinearTravel, ti
 
 #[cfg(test)]
 mod tests {
-    use crate::fixture::{Fixture, assert_drawn};
+    use crate::fixture::{Fixture, assert_drawn, check_on};
 
     #[test]
     fn five_times_the_way_of_the_tip_is_the_threshold() {
@@ -174,18 +174,9 @@ mod tests {
     /// What a ratio that is allowed makes of a block.
     fn status(ratio: f64) -> Option<(crate::Status, Vec<(&'static str, crate::ValueKey)>)> {
         let text = "TRAORI\nG0 X0 Y20 Z100 A10 C0\nG1 X3 A70 C50 F50\nM30\n";
-        let dialect = trunnion_dialect::builtin("sinumerik-840d").expect("embedded");
-        let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
         let mut machine = trunnion_machine::builtin("mikron-ucp710").expect("embedded").clone();
         machine.tolerances.linear_ratio = ratio;
-        let settings = crate::Settings {
-            dialect,
-            machine: Some(&machine),
-            setup: trunnion_interp::Setup::default(),
-            rules: Vec::new(),
-            port_to: Vec::new(),
-        };
-        let report = crate::check(&program, &settings);
+        let report = check_on(&machine, "sinumerik-840d", text);
         let found = report
             .diagnostics
             .into_iter()

@@ -127,7 +127,7 @@ fn duration(view: &LegView<'_>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use crate::Diagnostic;
-    use crate::fixture::Fixture;
+    use crate::fixture::{Fixture, check_on};
 
     fn found(text: &str) -> Vec<Diagnostic> {
         let fixture = Fixture::parse("gcode sinumerik-840d mikron-ucp710", text);
@@ -157,17 +157,8 @@ mod tests {
         let source = trunnion_machine::builtin_source("mikron-ucp710").expect("embedded");
         let text = source.replacen("vmax = 120", "vmax = 120, amax = 5", 1);
         let machine = trunnion_machine::load("slow", &text).expect("valid");
-        let dialect = trunnion_dialect::builtin("sinumerik-840d").expect("embedded");
         let program = "TRAORI\nG0 X0 Y0 Z50 A3 C0\nG1 X2 A3 C8 F320\nM30\n";
-        let program = trunnion_syntax::parse(program.as_bytes().to_vec(), dialect.lex);
-        let settings = crate::Settings {
-            dialect,
-            machine: Some(&machine),
-            setup: trunnion_interp::Setup::default(),
-            rules: Vec::new(),
-            port_to: Vec::new(),
-        };
-        let report = crate::check(&program, &settings);
+        let report = check_on(&machine, "sinumerik-840d", program);
         let own = report
             .diagnostics
             .iter()

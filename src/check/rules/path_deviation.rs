@@ -117,24 +117,17 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
 
 #[cfg(test)]
 mod tests {
+    use crate::fixture::{assert_drawn, check_on};
+
     /// The tip runs 29.304259 mm off its line; a tolerance between that and the bound is not proven to be kept.
     #[test]
     fn a_tolerance_between_sample_and_bound_is_not_proven() {
         let machine = trunnion_machine::builtin("mikron-ucp710").expect("embedded");
         let text = "G0 X100.051 Y0 Z0 A0 C0\nG1 X100.051 C90 F1000\nM30\n";
-        let dialect = trunnion_dialect::builtin("linuxcnc").expect("embedded");
-        let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
         let status = |tolerance: f64| {
             let config = crate::Config::parse(&format!("[tolerances]\ntip = {tolerance}\n")).expect("valid");
             let machine = config.machine_with_tolerances(machine);
-            let settings = crate::Settings {
-                dialect,
-                machine: Some(&machine),
-                setup: trunnion_interp::Setup::default(),
-                rules: Vec::new(),
-                port_to: Vec::new(),
-            };
-            let report = crate::check(&program, &settings);
+            let report = check_on(&machine, "linuxcnc", text);
             report
                 .diagnostics
                 .iter()
@@ -145,8 +138,6 @@ mod tests {
         assert_eq!(status(29.304_262), Some(crate::Status::Unknown));
         assert_eq!(status(29.31), None);
     }
-
-    use crate::fixture::assert_drawn;
 
     #[test]
     fn arcs_are_judged_while_a_rotary_axis_turns() {

@@ -49,11 +49,14 @@ fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
             .get(axis)
             .is_some_and(|end| end != 0.0 && motion.start.get(axis) != Some(end))
     };
-    if !LINEAR.iter().any(counts) || !out.once(0) {
+    if !LINEAR.iter().any(counts) {
         return;
     }
-    let range = code_range(out.program(), motion.block);
-    out.report(range, "nothing says whether lengths are inch or mm: they are taken as mm")
+    let message = "nothing says whether lengths are inch or mm: they are taken as mm";
+    let Some(draft) = once_at(motion, message, out) else {
+        return;
+    };
+    draft
         .note("the unit is what the control was left in, or what its parameters say")
         .help("write G21 or G20 (G71 or G70, UNITS/MM), or declare `[control] units = \"mm\"` in trunnion.toml or in the machine's file");
 }

@@ -45,11 +45,14 @@ fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
     {
         return;
     }
-    if !out.dialect().starts_with("fanuc") || !out.once(0) {
+    if !out.dialect().starts_with("fanuc") {
         return;
     }
-    let range = code_range(out.program(), motion.block);
-    out.report(range, "constant surface speed without a limit of the spindle's speed")
+    let message = "constant surface speed without a limit of the spindle's speed";
+    let Some(draft) = once_at(motion, message, out) else {
+        return;
+    };
+    draft
         .note("the spindle runs up to the machine's highest speed as the tool comes near the axis")
         .help("write the limit before: G50 S2000 (G92 S2000 in G code systems B and C and on mills)");
 }

@@ -1,5 +1,5 @@
 //! The piece that the options describe; options that it does not have are refused.
-use super::{Kind, Sample};
+use super::{Kind, Sample, WallSide};
 use crate::cli::failure::Failure;
 use trunnion_pieces::{
     CircleDiamondSquare, Cone, Piece, SWall, TurnedAxes, circle, circle_diamond_square, cone, corner_set, fixed_tip,
@@ -62,6 +62,7 @@ pub(super) fn wall_sizes(command: &Sample) -> SWall {
         tool_diameter: command.tool_diameter.unwrap_or(20.0),
         chord: command.chord.unwrap_or(0.01),
         tilt_deg: command.tilt.unwrap_or(0.0),
+        right: command.side == Some(WallSide::Right),
         feed_mm_min: command.feed.unwrap_or(500.0),
     }
 }
@@ -69,7 +70,7 @@ pub(super) fn wall_sizes(command: &Sample) -> SWall {
 fn foreign_options(command: &Sample) -> Result<(), Failure> {
     use Kind::{CircleA, CircleAc, CircleC, CircleDiamondSquare, Cone, CornerSet, FixedTip, SWall, Saddle, Staircase};
     let round = [Cone, CircleC, CircleA, CircleAc, FixedTip];
-    let table: [(&str, bool, &[Kind]); 10] = [
+    let table: [(&str, bool, &[Kind]); 11] = [
         ("half-angle", command.half_angle.is_some(), &[Cone]),
         (
             "tilt",
@@ -91,6 +92,7 @@ fn foreign_options(command: &Sample) -> Result<(), Failure> {
         ),
         ("lean", command.lean.is_some(), &[SWall]),
         ("waves", command.waves.is_some(), &[SWall]),
+        ("side", command.side.is_some(), &[SWall]),
         ("chord", command.chord.is_some(), &[SWall]),
     ];
     for (name, given, kinds) in table {

@@ -175,4 +175,62 @@ mod tests {
         let torn = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [5.0, 5.0, 1.0], [6.0, 5.0, 1.0]];
         assert_eq!(chords(2, &torn, &[0.0, 0.0, 1.0, 1.0, 2.0, 2.0], 0.1), None, "it jumps");
     }
+
+    /// Basis function by the recursion of Cox and de Boor: nothing of the polar form above.
+    fn basis(index: usize, degree: usize, u: f64, knots: &[f64], last: bool) -> f64 {
+        if degree == 0 {
+            let inside =
+                knots[index] <= u && (u < knots[index + 1] || last && knots[index] < u && u <= knots[index + 1]);
+            return f64::from(u8::from(inside));
+        }
+        let part = |over: f64, under: f64| if under > 0.0 { over / under } else { 0.0 };
+        let rise = part(u - knots[index], knots[index + degree] - knots[index]);
+        let fall = part(
+            knots[index + degree + 1] - u,
+            knots[index + degree + 1] - knots[index + 1],
+        );
+        rise * basis(index, degree - 1, u, knots, last) + fall * basis(index + 1, degree - 1, u, knots, last)
+    }
+
+    fn point(order: usize, points: &[[f64; 3]], knots: &[f64], u: f64) -> [f64; 2] {
+        let end = knots[points.len()];
+        let mut sum = [0.0; 3];
+        for (index, [x, y, weight]) in points.iter().enumerate() {
+            let share = basis(index, order - 1, u, knots, u >= end) * weight;
+            for (sum, value) in sum.iter_mut().zip([*x, *y, 1.0]) {
+                *sum += share * value;
+            }
+        }
+        [sum[0] / sum[2], sum[1] / sum[2]]
+    }
+
+    proptest::proptest! {
+        #![proptest_config(proptest::prelude::ProptestConfig { failure_persistence: None, ..proptest::prelude::ProptestConfig::with_cases(60) })]
+
+        /// No point of a random curve is farther from its chords than the tolerance, and the chords end where the curve does.
+        #[test]
+        fn no_point_of_a_curve_is_beyond_the_tolerance(
+            order in 2_usize..6,
+            places in proptest::collection::vec(proptest::array::uniform3(0.0..1.0_f64), 6..10),
+            tolerance in 0.002..0.5_f64,
+        ) {
+            let points: Vec<[f64; 3]> = places.iter().map(|[x, y, w]| [x * 40.0, y * 40.0, 0.3 + 2.0 * w]).collect();
+            let knots = clamped_uniform(order, points.len());
+            let Some(ends) = chords(order, &points, &[], tolerance) else {
+                // halving may come to no end only for the finest tolerances
+                proptest::prop_assert!(tolerance < 0.01, "{points:?}");
+                return Ok(());
+            };
+            let mut all = vec![[points[0][0], points[0][1]]];
+            all.extend(&ends);
+            let end = knots[points.len()];
+            for step in 0..=400 {
+                let at = point(order, &points, &knots, end * f64::from(step) / 400.0);
+                let off = all.windows(2).map(|two| distance(at, two[0], two[1])).fold(f64::INFINITY, f64::min);
+                proptest::prop_assert!(off <= tolerance * (1.0 + 1e-9) + 1e-9, "{off} at {step}");
+            }
+            let last = points[points.len() - 1];
+            proptest::prop_assert!(distance(all[all.len() - 1], [last[0], last[1]], [last[0], last[1]]) < 1e-9);
+        }
+    }
 }

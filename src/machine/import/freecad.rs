@@ -6,7 +6,6 @@ use super::Imported;
 use super::draft::{Draft, DraftAxis};
 use crate::MachineError;
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 
@@ -138,7 +137,12 @@ pub fn import_freecad(name: &str, text: &str) -> Result<Imported, MachineError> 
             return Err(source.error(raw.get(), message));
         }
     }
-    unread(&source, file.machine.map_or(text, RawValue::get), &machine.axes, &mut draft.open)?;
+    unread(
+        &source,
+        file.machine.map_or(text, RawValue::get),
+        &machine.axes,
+        &mut draft.open,
+    )?;
     order(placed, &mut draft)?;
     draft.open.push(
         "accelerations and the gauge point are not part of a FreeCAD machine; the gauge point is taken as the origin"
@@ -233,7 +237,7 @@ fn unread<'a>(
     axes: &BTreeMap<String, &'a RawValue>,
     open: &mut Vec<String>,
 ) -> Result<(), MachineError> {
-    let all: BTreeMap<String, IgnoredAny> = source.parse(machine)?;
+    let all: BTreeMap<String, &RawValue> = source.parse(machine)?;
     let known = |key: &str, list: &[&str]| list.contains(&key);
     let (frames, others): (Vec<_>, Vec<_>) = all
         .keys()
@@ -249,10 +253,13 @@ fn unread<'a>(
         open.push(format!("not read: {}", names.join(", ")));
     }
     for (letter, raw) in axes {
-        let all: BTreeMap<String, IgnoredAny> = parse_here(source, raw)?;
-        let keys = all
-            .keys()
-            .filter(|key| !known(key, &["type", "role", "parent", "joint", "limits", "max_velocity", "name"]));
+        let all: BTreeMap<String, &RawValue> = parse_here(source, raw)?;
+        let keys = all.keys().filter(|key| {
+            !known(
+                key,
+                &["type", "role", "parent", "joint", "limits", "max_velocity", "name"],
+            )
+        });
         let keys: Vec<&str> = keys.map(String::as_str).collect();
         if !keys.is_empty() {
             open.push(format!("axis {letter}: not read: {}", keys.join(", ")));

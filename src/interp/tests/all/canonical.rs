@@ -213,6 +213,24 @@ fn what_m428_means_is_said_by_the_machine() {
     assert!(told[0].contains("M428: to which kinematics it switches"), "{told:?}");
 }
 
+/// `[TRAJ] COORDINATES`: W is a word of a machine that has such an axis, and of no other.
+#[test]
+fn letters_of_further_axes_are_words_where_the_machine_has_them() {
+    let source = "G21 G0 X1 W2\nM2\n";
+    let mut setup = Setup::default();
+    let said = |setup: &Setup| {
+        let log = run_bytes("linuxcnc", source.as_bytes(), setup).1;
+        (
+            log.motions.last().and_then(|motion| motion.end.get(8)),
+            log.faults.len(),
+        )
+    };
+    assert_eq!(said(&setup).0, None);
+    assert!(said(&setup).1 > 0);
+    setup.control.further_axes = vec![b'W'];
+    assert_eq!(said(&setup), (Some(2.0), 0));
+}
+
 #[test]
 fn a_code_of_the_machine_under_compensation_is_unknown() {
     let source = "G21 F100\nG0 X0 Y0 Z0\nG41.1 D2\nG1 X20\nG1 X40\nM428\nG1 Y40\nG40\nM2\n";

@@ -28,15 +28,15 @@ fn at([x, y, z, a, c]: [f64; 5]) -> Position {
     position(&[(b'X', x), (b'Y', y), (b'Z', z), (b'A', a), (b'C', c)])
 }
 
-fn follow(machine: &Machine, second: Motion) -> Leg {
+fn follow(machine: &Machine, second: &Motion) -> Leg {
     let mut follower = Follower::new(machine);
     follower.follow(&Motion {
         start: Position::default(),
         end: second.start,
         kind: MotionKind::Linear,
-        ..second
+        ..*second
     });
-    follower.follow(&second)
+    follower.follow(second)
 }
 
 fn is(found: f64, wanted: f64) {
@@ -47,7 +47,7 @@ fn is(found: f64, wanted: f64) {
 }
 
 /// 8 times the bound of the tip's deviation: the bend itself.
-fn tip_bend(machine: &Machine, motion: Motion) -> f64 {
+fn tip_bend(machine: &Machine, motion: &Motion) -> f64 {
     let leg = follow(machine, motion);
     8.0 * tip_deviation(machine, &leg, 1e12).expect("known").bound_mm
 }
@@ -86,7 +86,7 @@ fn rates(arc: &Arc) -> (f64, f64) {
 #[test]
 fn a_tip_without_tcp_bends_as_the_terms_say() {
     let machine = right_angled();
-    let bend = |from, to| tip_bend(&machine, words(at(from), at(to)));
+    let bend = |from, to| tip_bend(&machine, &words(at(from), at(to)));
     let turn = rad(10.0);
     // A alone: D^2 r
     is(
@@ -137,7 +137,7 @@ fn an_arc_without_tcp_adds_its_rate_and_its_bend() {
             arc(Vec3::new(10.0, 0.0, 30.0), [10.0, 25.0], 1.1, 0.0),
             arc(Vec3::new(10.0, 0.0, 30.0), [25.0, 10.0], -2.5, 14.0),
         ] {
-            let found = tip_bend(&machine, along(arc, [0.0, 0.0], [8.0, 0.0]));
+            let found = tip_bend(&machine, &along(arc, [0.0, 0.0], [8.0, 0.0]));
             let (rate, bend) = rates(&arc);
             let skew = |p: Vec3| {
                 if gain > 1.0 {
@@ -161,7 +161,7 @@ fn an_arc_without_tcp_adds_its_rate_and_its_bend() {
 fn nothing_of_a_bend_may_be_left_out_beside_an_arc() {
     let machine = right_angled();
     let small = arc(Vec3::new(0.001, 0.0, 100.0), [0.001, 0.001], 0.5, 0.0);
-    let leg = follow(&machine, along(small, [-3.0, 0.0], [3.0, 0.0]));
+    let leg = follow(&machine, &along(small, [-3.0, 0.0], [3.0, 0.0]));
     let truth = 100.0 * (1.0 - cos(rad(3.0)));
     for share in [0.9, 0.95, 0.99, 1.0] {
         let found = tip_deviation(&machine, &leg, truth * share).expect("known");
@@ -178,10 +178,10 @@ fn a_way_bends_as_the_terms_say() {
         tcp: true,
         ..along(spiral, [0.0, 0.0], [8.0, 0.0])
     };
-    let leg = follow(&machine, led);
+    let leg = follow(&machine, &led);
     let (_, bend) = rates(&spiral);
     is(Way::new(&machine, &leg).expect("known").tip_bend(), bend);
-    let leg = follow(&machine, along(spiral, [0.0, 0.0], [8.0, 0.0]));
+    let leg = follow(&machine, &along(spiral, [0.0, 0.0], [8.0, 0.0]));
     let way = Way::new(&machine, &leg).expect("known");
     // X Y Z each no faster than the arc, each bent as it: their sums in the segment behind A
     let (rate, _) = rates(&spiral);
@@ -273,7 +273,7 @@ fn the_rough_bound_of_the_linear_axes_counts_every_distance() {
             ([0.0, 30.0, 40.0, 0.0, 0.0], [0.0, 0.0, 20.0, 5.0, 9.0]),
             ([0.0, 0.0, 20.0, 5.0, 9.0], [0.0, 30.0, 40.0, 0.0, 0.0]),
         ] {
-            let leg = follow(&machine, led(from, to));
+            let leg = follow(&machine, &led(from, to));
             let way = hypot(30.0, 20.0);
             let (turned, radius) = (rad(14.0), 50.0 + 60.0 + centre);
             let (rate, bend) = (
@@ -298,7 +298,7 @@ fn nothing_of_the_bend_of_a_linear_axis_may_be_left_out() {
         tcp: true,
         ..words(at([300.0, 0.0, 0.0, 0.0, -3.0]), at([300.0, 0.0, 0.0, 0.0, 3.0]))
     };
-    let leg = follow(&machine, led);
+    let leg = follow(&machine, &led);
     let rise = 300.0 * (1.0 - cos(rad(3.0)));
     let x = machine.joint(b'X').expect("an axis");
     for share in [0.91, 0.95, 0.99] {
@@ -322,7 +322,7 @@ fn nothing_of_the_bend_of_a_linear_axis_may_be_left_out() {
         end: flat.centre + Vec3::new(cos(0.03), sin(0.03), 0.0) * 500.0,
         ..flat
     };
-    let leg = follow(&machine, along(flat, [0.0, 0.0], [0.0, 0.0]));
+    let leg = follow(&machine, &along(flat, [0.0, 0.0], [0.0, 0.0]));
     let height = 500.0 * (1.0 - cos(0.03));
     for share in [0.91, 0.95, 0.99] {
         let found = excursions(&machine, &leg, height * share);
@@ -382,7 +382,7 @@ fn on_a_spiral_the_slowest_moment_carries_the_feed() {
         tcp: true,
         ..along(spiral, [20.0, 0.0], [20.0, 300.0])
     };
-    let leg = follow(machine, led);
+    let leg = follow(machine, &led);
     let limit = trunnion_machine::feed_limit_tight(machine, &leg).expect("known");
     let c = machine.joint(b'C').expect("an axis");
     assert_eq!(limit.axis, c);

@@ -103,7 +103,9 @@ pub fn joints(
             let unit = if axis.kind == AxisKind::Rotary { "deg" } else { "mm" };
             let name = format!("{} / {unit}", char::from(axis.letter));
             let values = record.samples.iter().map(|sample| sample.joints[joint]);
-            let upwards = with_limits(range(values, 1e-3), axis);
+            let [low, high] = with_limits(range(values, 1e-3), axis);
+            // a strip above the curve for the note on limits
+            let upwards = [low, high + NOTE_SHARE * (high - low)];
             let panel = Panel::new(
                 &field,
                 &Frame {
@@ -162,6 +164,9 @@ fn travel(axis: &Axis) -> Option<[f64; 2]> {
         AxisKind::Linear => [low, high],
     })
 }
+
+/// Height of the note on limits as a share of a field without it.
+const NOTE_SHARE: f64 = 0.22;
 
 /// The range with those limits that lie near it.
 fn with_limits(range: [f64; 2], axis: &Axis) -> [f64; 2] {

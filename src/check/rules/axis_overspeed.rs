@@ -229,25 +229,25 @@ mod tests {
     /// Haas counts F of a turn along a circle of a set diameter, so that C may run faster than by F in degrees: 7100 are within its speed.
     #[test]
     fn on_a_haas_the_feed_of_a_turn_is_a_setting() {
-        let unknown = "F with rotary axes alone: this control counts it along circles";
-        for (feed, drawn) in [("F7100.", true), ("F7300.", true), ("G93 F2.", false)] {
-            let mark = if drawn {
-                format!(";^^ axis-overspeed: {unknown}\n")
-            } else {
-                String::new()
-            };
-            assert_drawn(
-                "gcode haas-ngc mikron-ucp710",
-                &format!("G0 X0. Y0. Z50. A30. C0.\nG1 C90. {feed}\n{mark}"),
+        let said = |info: &str, block: &str| -> Vec<String> {
+            let text = format!("G0 X0. Y0. Z50. A30. C0.\n{block}\nM30\n");
+            let report = crate::fixture::Fixture::parse(info, &text).check().unwrap();
+            let own = report.diagnostics.iter().filter(|d| d.rule == "axis-overspeed");
+            own.map(|d| format!("{:?} {}", d.status, &d.message[..24])).collect()
+        };
+        let haas = "gcode haas-ngc mikron-ucp710";
+        for feed in ["F7100.", "F7300."] {
+            assert_eq!(
+                said(haas, &format!("G1 C90. {feed}")),
+                ["Unknown F with rotary axes alone"]
             );
         }
-        let both = "G0 X0. Y0. Z50. A30. C0.\nG1 X1. C9. F1000.\n;^^ axis-overspeed: F with linear and rotary axes moving together\n;     ^^ path-deviation: the tip\n";
-        assert_drawn("gcode haas-ngc mikron-ucp710", both);
+        assert_eq!(said(haas, "G93 G1 C90. F2."), [""; 0]);
+        assert_eq!(said(haas, "G1 X1. C9. F1000."), ["Unknown F with linear and rotary"]);
         // said: degrees
-        assert_drawn(
-            "gcode haas-ngc mikron-ucp710+control.feed=\"xyz\"",
-            "G0 X0. Y0. Z50. A30. C0.\nG1 C90. F7100.\n",
-        );
+        let declared = "gcode haas-ngc mikron-ucp710+control.feed=\"xyz\"";
+        assert_eq!(said(declared, "G1 C90. F7100."), [""; 0]);
+        assert_eq!(said(declared, "G1 C90. F7300.").len(), 1);
     }
 
     #[test]

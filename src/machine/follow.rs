@@ -223,6 +223,9 @@ impl<'m> Follower<'m> {
         if let Some(point) = self.words.point(&motion.end) {
             return Some(point + zero_point(motion));
         }
+        if motion.tilt.swivel == Swivel::TipStays {
+            return start.map(|stance| stance.point_with(motion.tool_length_mm));
+        }
         let stance = start.filter(|_| self.keeps(motion))?;
         let zero = zero_point(motion);
         let mut tip = stance.point_with(motion.tool_length_mm);

@@ -158,9 +158,8 @@ impl<'d> Interpreter<'d> {
     /// Turns the rotary axes onto the plane's normal.
     fn swivel(&mut self, swivel: Swivel, posture: Posture, report: &Report<'_>) {
         let start = self.state.position;
-        if swivel != Swivel::TipStays {
-            self.forget_linear();
-        }
+        // also where the tip stays: what X Y Z were without it being led is no place of the tip
+        self.forget_linear();
         self.state.position.known &= !ROTARY;
         let mut end = self.state.position;
         end.known &= !LINEAR;

@@ -129,7 +129,6 @@ fn no_code_that_turns_something_passes_for_a_plain_motion() {
         ("fanuc-30i", "G54.2 P1", "G54.2 P0"),
         ("fanuc-30i", "G54.4 P1", "G54.4 P0"),
         ("linuxcnc", "G68.2 X0 Y0 Z0 I10 J20 K30", "G69"),
-        ("linuxcnc", "G68.3 X0 Y0 Z0", "G69"),
         ("linuxcnc", "G68.4 X0 Y0 Z0 I10 J20 K30", "G69"),
     ] {
         let text = format!("G0 X1. Y2. Z3.\n{code}\nG0 X4. Y5. Z6.\nG1 X7. F100.\n{end}\n");

@@ -59,8 +59,9 @@ fn a_turn_about_the_tip_takes_the_solution_that_p_names() {
         ("family = \"fanuc-30i\"", "G53.6 P2", 30.0, true),
     ] {
         let machine = plain("", control);
-        let text =
-            format!("G0 X100. Y20. Z50. A0. C0.\nG68.2 X0. Y0. Z0. I0. J30. K0.\n{code}\nG1 X5. Y0. Z10. F100.\nM30\n");
+        let text = format!(
+            "G0 X100. Y20. Z50. A0. C10.\nG68.2 X0. Y0. Z0. I0. J30. K0.\n{code}\nG1 X5. Y0. Z10. F100.\nM30\n"
+        );
         let followed = text_followed(&machine, "fanuc-30i", text.into_bytes());
         let (_, turn) = &followed.legs[1];
         let (start, end) = (turn.start.expect("known"), turn.end.as_ref().expect("reached"));

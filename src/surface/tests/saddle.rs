@@ -170,6 +170,7 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
             tool_diameter: 0.0,
             chord,
             tilt_deg: 15.0,
+            right: false,
             feed_mm_min: 500.0,
         };
         let piece = s_wall(&sizes).expect("a piece");

@@ -89,8 +89,8 @@ fn parameter(scan: Scan<'_>, at: TokenId) -> Option<TokenId> {
 fn group(scan: Scan<'_>, at: TokenId) -> Option<TokenId> {
     let mut depth = 0u32;
     let mut before = TokenKind::BracketOpen;
-    for next in at..scan.end {
-        let kind = scan.kind(next);
+    let kinds = scan.table.kinds.get(at as usize..scan.end as usize)?;
+    for (behind, &kind) in (at + 1..).zip(kinds) {
         match kind {
             TokenKind::BracketOpen => depth += 1,
             TokenKind::BracketClose => {
@@ -109,7 +109,7 @@ fn group(scan: Scan<'_>, at: TokenId) -> Option<TokenId> {
                     return None;
                 }
                 if depth == 0 {
-                    return Some(next + 1);
+                    return Some(behind);
                 }
             }
             TokenKind::Blank | TokenKind::Comment => continue,

@@ -18,6 +18,8 @@ use trunnion_syntax::TextRange;
 const SLOTS: usize = 8192;
 /// The slot of a line that is not kept.
 const NOWHERE: u32 = u32::MAX;
+/// So many read forms that nobody needs are kept at most.
+const SPARE: usize = 64;
 
 /// Which part of a line its read form hangs on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -116,8 +118,9 @@ struct Slot {
 #[derive(Debug, Default)]
 pub(crate) struct Texts {
     slots: Vec<Slot>,
-    /// Kept for its storage.
-    spare: Option<Box<Compiled>>,
+    /// Kept for their storage.
+    #[expect(clippy::vec_box, reason = "they go from hand to hand and are large")]
+    spare: Vec<Box<Compiled>>,
 }
 
 /// A copy reads its lines again: check-points must not copy what can be had anew.
@@ -181,20 +184,20 @@ impl Texts {
             return self.room(at);
         }
         if let Some(old) = self.slots[at].read.take() {
-            self.spare = Some(old);
+            self.spare(old);
         }
         self.nowhere()
     }
     /// Room for a text that has a slot from now on.
     fn room(&mut self, at: usize) -> Box<Compiled> {
         let old = self.slots[at].read.take();
-        let mut read = old.or_else(|| self.spare.take()).unwrap_or_default();
+        let mut read = old.or_else(|| self.spare.pop()).unwrap_or_default();
         read.origin.slot = at as u32;
         read
     }
     /// Room for a line that is not kept.
     pub(super) fn nowhere(&mut self) -> Box<Compiled> {
-        let mut read = self.spare.take().unwrap_or_default();
+        let mut read = self.spare.pop().unwrap_or_default();
         read.origin.slot = NOWHERE;
         read
     }
@@ -203,7 +206,13 @@ impl Texts {
     pub(super) fn put_back(&mut self, read: Box<Compiled>) {
         match self.slots.get_mut(read.origin.slot as usize) {
             Some(slot) => slot.read = Some(read),
-            None => self.spare = Some(read),
+            None => self.spare(read),
+        }
+    }
+    /// Keeps storage.
+    fn spare(&mut self, read: Box<Compiled>) {
+        if self.spare.len() < SPARE {
+            self.spare.push(read);
         }
     }
 }

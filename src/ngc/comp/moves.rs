@@ -116,7 +116,7 @@ pub(crate) fn along(
             way: Way::Line(here.beside(direction), way),
             end,
         };
-        turn(engine, found, &here, coming, block, at, sink)?;
+        turn(engine, found, &here, &coming, block, at, sink)?;
     }
     let line = queue::Line {
         rapid,
@@ -192,7 +192,7 @@ pub(crate) fn arc(engine: &mut Engine, arc: &Arc, block: &Block, at: At, sink: &
         if engine.queue.last_arc().is_none() {
             here.fitted = plane::add(here.centre, plane::scaled(start, fitted / radius - 1.0));
         }
-        turn(engine, found, &here, coming, block, at, sink)?;
+        turn(engine, found, &here, &coming, block, at, sink)?;
         queue::Bow {
             end: plane::with_point(plane, arc.end, centre),
             centre: arc.centre,
@@ -281,7 +281,7 @@ fn turn(
     engine: &mut Engine,
     found: Corner,
     here: &Here,
-    coming: Coming,
+    coming: &Coming,
     block: &Block,
     at: At,
     sink: &mut dyn Sink,
@@ -291,7 +291,7 @@ fn turn(
         direction,
         way: new,
         end: target,
-    } = coming;
+    } = *coming;
     match found {
         Corner::Flat => queue::release(engine, sink),
         Corner::Inside => {

@@ -47,11 +47,6 @@ pub(crate) fn bare(line: &str) -> String {
     line.trim().to_owned()
 }
 
-/// Runs a program to its first error.
-pub(crate) fn list(program: &str) -> Listed {
-    list_with(program, &Setup::default())
-}
-
 /// Runs a program with a setup to its first error.
 pub(crate) fn list_with(program: &str, setup: &Setup) -> Listed {
     let source = Source::new(String::new(), Arc::from(program.as_bytes()));

@@ -110,7 +110,7 @@ const REFUSED: [&str; 13] = [
     "contour of a turning cycle whose allowance is greater than its details at the ends: the way of the tool is not known",
     "corner of a turning contour that is nearly straight, with an allowance: how the control rounds it is not known",
     "corner between two arcs of a turning contour, with an allowance: how the control cuts it is not known",
-    "corner of a turning contour whose radius or chamfer goes less than 0.01 along the cut: how the control takes it is not known",
+    "corner of a turning contour whose radius or chamfer goes less than 0.01 mm or inch, as programmed, along the cut: how the control takes it is not known",
     "outer corner of a turning contour that has A or C elsewhere, with an allowance: how the control goes around it is not known",
     "G70 with cutter compensation: the way of the tool is not known",
     "arc of a turning contour with its deepest point inside, or with unequal radii: how the control cuts there is not known",

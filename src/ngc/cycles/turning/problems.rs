@@ -32,7 +32,7 @@ problems! {
         "Take A or C out, or write the contour behind the move to it."
     SWALLOWED NotModelled "contour of a turning cycle whose allowance is greater than its details at the ends: the way of the tool is not known"
         "Make D smaller, or check it on the control."
-    FINE NotModelled "corner of a turning contour whose radius or chamfer goes less than 0.01 along the cut: how the control takes it is not known"
+    FINE NotModelled "corner of a turning contour whose radius or chamfer goes less than 0.01 mm or inch, as programmed, along the cut: how the control takes it is not known"
         "This is no mistake of the program. Leave A or C out, make it greater, or check it on the control."
     BESIDE_CORNER NotModelled "outer corner of a turning contour that has A or C elsewhere, with an allowance: how the control goes around it is not known"
         "This is no mistake of the program. Write A or C at this corner too, or check it on the control."

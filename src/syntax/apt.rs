@@ -106,7 +106,7 @@ pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut 
                 span.end.max(span.start + character(&source[span.start..]))
             }
         };
-        out.odd = true;
+        out.course.odd();
         lexer.bump(end - span.end);
     }
     out.finish(source, options, source.len() as u32);

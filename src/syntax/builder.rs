@@ -1,6 +1,25 @@
 //! What a lexer writes into: tokens, block starts and problems.
 use crate::scan::Scan;
-use crate::{Format, LexOptions, SyntaxError, TokenKind, TokenTable, items, record, straight};
+use crate::straight::Course;
+use crate::{Format, LexOptions, SyntaxError, TokenKind, TokenTable, items, record};
+
+/// So many tokens of the fast way are held back, and go to the table in one piece.
+pub(crate) const HELD: usize = 512;
+
+/// Tokens that are not in the table yet.
+struct Held {
+    kinds: [TokenKind; HELD],
+    starts: [u32; HELD],
+}
+
+impl Default for Held {
+    fn default() -> Self {
+        Self {
+            kinds: [TokenKind::Blank; HELD],
+            starts: [0; HELD],
+        }
+    }
+}
 
 /// Tokens and blocks as they grow. A block is checked as soon as it is complete.
 #[derive(Default)]
@@ -12,9 +31,8 @@ pub(crate) struct Builder {
     /// First token of the block at work.
     pub(crate) first: u32,
     /// Whether the block at work must be read once by the grammar, for problems.
-    pub(crate) odd: bool,
-    /// Whether it holds more than words, comments and blanks, all of it cut the fast way.
-    pub(crate) formula: bool,
+    pub(crate) course: Course,
+    held: Held,
 }
 
 impl Builder {
@@ -34,6 +52,25 @@ impl Builder {
         self.table.starts.push(start);
     }
 
+    /// Holds token `at` of those that [`Self::release`] adds. The place is below [`HELD`].
+    #[inline]
+    pub(crate) fn hold(&mut self, at: usize, kind: TokenKind, start: u32) {
+        self.held.kinds[at] = kind;
+        self.held.starts[at] = start;
+    }
+
+    /// Kind of token `at` of those that are held.
+    #[inline]
+    pub(crate) fn held(&self, at: usize) -> TokenKind {
+        self.held.kinds[at]
+    }
+
+    /// Adds the first `count` tokens that are held.
+    pub(crate) fn release(&mut self, count: usize) {
+        self.table.kinds.extend_from_slice(&self.held.kinds[..count]);
+        self.table.starts.extend_from_slice(&self.held.starts[..count]);
+    }
+
     /// Whether the block at work has nothing but blanks so far.
     pub(crate) fn block_is_empty(&self) -> bool {
         self.table.kinds[self.first as usize..]
@@ -44,10 +81,10 @@ impl Builder {
     /// Ends the block at work behind the last token, which ends at byte `end`.
     #[inline]
     pub(crate) fn end_block(&mut self, source: &[u8], options: LexOptions, end: u32) {
-        self.blocks.push(self.first);
-        if self.odd || self.formula {
+        if !self.course.end() {
             self.check(source, options, end);
         }
+        self.blocks.push(self.first);
         self.first = self.table.kinds.len() as u32;
     }
 
@@ -60,10 +97,9 @@ impl Builder {
         self.errors.sort_by_key(|error| (error.range.start, error.range.end));
     }
 
-    /// Reads the block once with the grammar, for its problems, unless a look at its kinds of tokens shows that it has none.
-    fn check(&mut self, source: &[u8], options: LexOptions, end: u32) {
-        self.formula = false;
-        let odd = core::mem::take(&mut self.odd);
+    /// Reads the block at work once with the grammar, for its problems. It ends at byte `end`.
+    #[cold]
+    pub(crate) fn check(&mut self, source: &[u8], options: LexOptions, end: u32) {
         self.table.end = end;
         let scan = Scan {
             source,
@@ -71,9 +107,6 @@ impl Builder {
             options,
             end: self.table.kinds.len() as u32,
         };
-        if !odd && straight::is_sound(scan, self.first) {
-            return;
-        }
         match options.format {
             Format::Iso => items::check(scan, self.first, &mut self.errors),
             Format::Apt => record::check(scan, self.first, &mut self.errors),

@@ -6,6 +6,7 @@ use crate::builder::Builder;
 use crate::error::SyntaxErrorKind;
 use crate::lines::character;
 use crate::sink::Sink;
+use crate::straight::Sign;
 use crate::{LexOptions, TextRange, TokenKind, plain};
 use logos::Logos;
 
@@ -71,9 +72,6 @@ enum Raw {
     Semicolon,
 }
 
-/// Words longer than this may have more digits than a decimal holds, and are looked at again.
-pub(crate) const SHORT_WORD: usize = 19;
-
 /// Lexes `source`, whose first byte stands at offset 0 of the file if `at_start`, into `out`.
 pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut Builder) {
     lex_with(source, options, at_start, out, plain::lex);
@@ -104,9 +102,12 @@ fn lex_with(
         let span = lexer.span();
         let start = span.start as u32;
         let kind = match raw {
-            Ok(Raw::Blank) => TokenKind::Blank,
+            Ok(Raw::Blank) => {
+                out.course.pass(Sign::Blank);
+                TokenKind::Blank
+            }
             Ok(Raw::Word) => {
-                out.odd |= span.len() > SHORT_WORD;
+                out.course.pass(Sign::word(span.len()));
                 TokenKind::Word
             }
             Ok(Raw::Newline) => {
@@ -115,7 +116,7 @@ fn lex_with(
                 continue;
             }
             Ok(raw) => {
-                out.odd = true;
+                out.course.odd();
                 let Some(kind) = settled(raw) else {
                     let (start, end) = (span.start, span.end);
                     let length = Special {
@@ -132,7 +133,7 @@ fn lex_with(
                 kind
             }
             Err(()) => {
-                out.odd = true;
+                out.course.odd();
                 let length = character(&source[span.start..]);
                 lexer.bump(length.saturating_sub(span.len()));
                 TokenKind::Unknown

@@ -2,8 +2,8 @@
 //! lexer's general machinery.
 //!
 //! It takes only what the lexer's own rules would cut in the same way (a test compares both), and stops before all else.
-use crate::builder::Builder;
-use crate::iso::SHORT_WORD;
+use crate::builder::{Builder, HELD};
+use crate::straight::{Course, Sign};
 use crate::{LexOptions, TokenKind};
 
 /// What a byte may begin.
@@ -16,8 +16,8 @@ enum Class {
     Blank,
     LineFeed,
     Return,
-    /// A token of one byte, whatever stands around it.
-    Sign(TokenKind),
+    /// A token of one byte, whatever stands around it: what it is, is in [`SIGNS`].
+    Sign,
     /// What stands behind it decides.
     Mark,
 }
@@ -32,13 +32,7 @@ const CLASSES: [Class; 256] = {
             b'\n' => Class::LineFeed,
             b'\r' => Class::Return,
             b' ' | b'\t' => Class::Blank,
-            b'[' => Class::Sign(TokenKind::BracketOpen),
-            b']' => Class::Sign(TokenKind::BracketClose),
-            b'=' => Class::Sign(TokenKind::Equals),
-            b'+' => Class::Sign(TokenKind::Plus),
-            b'-' => Class::Sign(TokenKind::Minus),
-            b'*' => Class::Sign(TokenKind::Star),
-            b',' => Class::Sign(TokenKind::Comma),
+            b'[' | b']' | b'=' | b'+' | b'-' | b'*' | b',' => Class::Sign,
             b'#' | b'/' | b'(' | b';' => Class::Mark,
             _ => Class::Other,
         };
@@ -47,10 +41,45 @@ const CLASSES: [Class; 256] = {
     classes
 };
 
-/// Whether the lexer's blanks go on with this byte.
+/// The tokens of one byte.
+const SIGNS: [(TokenKind, Sign); 256] = {
+    let mut signs = [(TokenKind::Unknown, Sign::Comma); 256];
+    signs[b'[' as usize] = (TokenKind::BracketOpen, Sign::Open);
+    signs[b']' as usize] = (TokenKind::BracketClose, Sign::Close);
+    signs[b'=' as usize] = (TokenKind::Equals, Sign::Equals);
+    signs[b'+' as usize] = (TokenKind::Plus, Sign::PlusMinus);
+    signs[b'-' as usize] = (TokenKind::Minus, Sign::PlusMinus);
+    signs[b'*' as usize] = (TokenKind::Star, Sign::StarSlash);
+    signs[b',' as usize] = (TokenKind::Comma, Sign::Comma);
+    signs
+};
+
+/// What a byte goes on with, as bits.
+const GOES_ON: [u8; 256] = {
+    let mut goes_on = [0; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        goes_on[byte] = match byte as u8 {
+            b'A'..=b'Z' | b'a'..=b'z' | b'_' => NAME,
+            b' ' | b'\t' | 0..=8 | 0x0B | 0x0C | 0x0E..=0x1F | 0x7F => BLANK,
+            _ => 0,
+        };
+        byte += 1;
+    }
+    goes_on
+};
+/// A name of letters.
+const NAME: u8 = 1;
+/// The lexer's blanks.
+const BLANK: u8 = 2;
+
+/// Behind the bytes from `at` on that go on with `what`.
 #[inline]
-fn goes_on_blank(byte: u8) -> bool {
-    matches!(byte, b' ' | b'\t' | 0..=8 | 0x0B | 0x0C | 0x0E..=0x1F | 0x7F)
+fn behind(source: &[u8], mut at: usize, what: u8) -> usize {
+    while at < source.len() && GOES_ON[usize::from(source[at])] & what != 0 {
+        at += 1;
+    }
+    at
 }
 
 /// Behind the digits at `at`.
@@ -62,82 +91,148 @@ fn digits(source: &[u8], mut at: usize) -> usize {
     at
 }
 
-/// Behind the letter at `at` with sign and number directly behind it; `None` if there is no number.
+/// The word at `at`, whose digits begin at `digits_at`: pushed, and what is behind it; `None` if there is no number.
 #[inline]
-fn word(source: &[u8], at: usize) -> Option<usize> {
-    let mut next = at + 1;
-    let first = *source.get(next)?;
-    if first == b'-' || first == b'+' {
-        next += 1;
+fn word(source: &[u8], at: usize, first: usize, cut: &mut Cut) -> Option<usize> {
+    let mut end = digits(source, first);
+    let mut count = end - first;
+    if source.get(end) == Some(&b'.') {
+        let point = end + 1;
+        end = digits(source, point);
+        count += end - point;
+        // `X1.` is cut by the lexer's own rules
+        if end == point {
+            return None;
+        }
     }
-    let whole = digits(source, next);
-    if source.get(whole) != Some(&b'.') {
-        return (whole > next).then_some(whole);
+    if count == 0 {
+        return None;
     }
-    let end = digits(source, whole + 1);
-    (end > next + 1).then_some(end)
+    cut.push(TokenKind::Word, Sign::word(end - at), at);
+    Some(end)
+}
+
+/// The tokens that are cut and not in the table yet.
+struct Cut<'o> {
+    out: &'o mut Builder,
+    /// So many are held.
+    count: usize,
+    course: Course,
+}
+
+impl Cut<'_> {
+    /// Adds a token.
+    #[inline]
+    fn push(&mut self, kind: TokenKind, sign: Sign, start: usize) {
+        self.course.pass(sign);
+        self.hold(kind, start);
+    }
+
+    /// Adds a token that the course knows.
+    #[inline]
+    fn hold(&mut self, kind: TokenKind, start: usize) {
+        self.out.hold(self.count, kind, start as u32);
+        self.count += 1;
+    }
+
+    /// Whether a number here may belong to the word, letter or number in front of it.
+    #[inline]
+    fn may_go_on(&self) -> bool {
+        let owns = |kind: TokenKind| matches!(kind, TokenKind::Word | TokenKind::Number | TokenKind::Letter);
+        match self.count {
+            // across the edge of what is held: rare enough
+            0 | 1 => {
+                self.out.table.kinds.iter().rev().take(2).any(|&kind| owns(kind))
+                    || self.count == 1 && owns(self.out.held(0))
+            }
+            count => match self.out.held(count - 1) {
+                TokenKind::Blank => owns(self.out.held(count - 2)),
+                kind => owns(kind),
+            },
+        }
+    }
+
+    /// Gives what is held to the table.
+    fn release(&mut self) {
+        self.out.release(self.count);
+        self.count = 0;
+    }
+
+    /// A line end behind `start`, and the end of its block.
+    #[inline]
+    fn line_end(&mut self, source: &[u8], options: LexOptions, start: usize, end: usize) {
+        self.hold(TokenKind::Newline, start);
+        let out = &mut *self.out;
+        out.blocks.push(out.first);
+        if !self.course.end() {
+            self.release();
+            self.out.check(source, options, end as u32);
+        }
+        self.out.first = (self.out.table.kinds.len() + self.count) as u32;
+    }
 }
 
 /// Lexes from `at` as far as tokens are plain; behind the last of them.
-pub(crate) fn lex(source: &[u8], mut at: usize, options: LexOptions, out: &mut Builder) -> usize {
-    while at < source.len() {
-        let start = at as u32;
-        match CLASSES[usize::from(source[at])] {
+pub(crate) fn lex(source: &[u8], at: usize, options: LexOptions, out: &mut Builder) -> usize {
+    let mut cut = Cut {
+        course: out.course,
+        out,
+        count: 0,
+    };
+    let end = lex_into(source, at, options, &mut cut);
+    cut.out.course = cut.course;
+    cut.release();
+    end
+}
+
+#[inline]
+fn lex_into(source: &[u8], mut at: usize, options: LexOptions, cut: &mut Cut) -> usize {
+    while let Some(&byte) = source.get(at) {
+        // a step adds two tokens at most
+        if cut.count > HELD - 2 {
+            cut.release();
+        }
+        let start = at;
+        match CLASSES[usize::from(byte)] {
             Class::Letter => {
-                if let Some(end) = word(source, at) {
-                    out.odd |= end - at > SHORT_WORD;
-                    out.push(TokenKind::Word, start);
-                    at = end;
-                    continue;
-                }
-                let Some(end) = letters(source, at, out) else {
+                let Some(end) = lettered(source, at, cut) else {
                     return at;
                 };
-                out.formula = true;
                 at = end;
             }
             Class::Blank => {
-                at += 1;
-                while at < source.len() && goes_on_blank(source[at]) {
-                    at += 1;
-                }
-                out.push(TokenKind::Blank, start);
+                at = behind(source, at + 1, BLANK);
+                cut.push(TokenKind::Blank, Sign::Blank, start);
             }
             Class::LineFeed => {
                 at += 1;
-                out.push(TokenKind::Newline, start);
-                out.end_block(source, options, at as u32);
+                cut.line_end(source, options, start, at);
             }
             Class::Return => {
                 at += 1 + usize::from(source.get(at + 1) == Some(&b'\n'));
-                out.push(TokenKind::Newline, start);
-                out.end_block(source, options, at as u32);
+                cut.line_end(source, options, start, at);
             }
-            Class::Sign(kind) => {
-                out.formula = true;
-                out.push(kind, start);
+            Class::Sign => {
+                let (kind, sign) = SIGNS[usize::from(byte)];
+                cut.push(kind, sign, start);
                 at += 1;
             }
             Class::Digit => {
-                if !stands_alone(out) {
+                // where it goes on with what stands in front of it, the lexer's own rules are asked
+                if cut.may_go_on() {
                     return at;
                 }
-                let whole = digits(source, at);
-                out.formula = true;
-                out.push(TokenKind::Number, start);
-                at = if source.get(whole) == Some(&b'.') {
-                    digits(source, whole + 1)
-                } else {
-                    whole
-                };
+                at = digits(source, at + 1);
+                if source.get(at) == Some(&b'.') {
+                    at = digits(source, at + 1);
+                }
+                cut.push(TokenKind::Number, Sign::number(at - start), start);
             }
             Class::Mark => {
-                let Some((kind, end)) = marked(source, at, options) else {
+                let Some((kind, sign, end)) = marked(source, at, options) else {
                     return at;
                 };
-                // comments are no problem wherever they stand
-                out.formula |= kind != TokenKind::Comment;
-                out.push(kind, start);
+                cut.push(kind, sign, start);
                 at = end;
             }
             Class::Other => return at,
@@ -148,51 +243,48 @@ pub(crate) fn lex(source: &[u8], mut at: usize, options: LexOptions, out: &mut B
 
 /// Kind and end of the token that begins with the `#`, `/`, `(` or `;` at `at`.
 #[inline]
-fn marked(source: &[u8], at: usize, options: LexOptions) -> Option<(TokenKind, usize)> {
+fn marked(source: &[u8], at: usize, options: LexOptions) -> Option<(TokenKind, Sign, usize)> {
     match source[at] {
-        b'#' => Some((TokenKind::Hash, hash(source, at)?)),
-        b'/' => (source.get(at + 1) != Some(&b'*')).then_some((TokenKind::Slash, at + 1)),
-        b'(' => Some((TokenKind::Comment, comment(source, at, options)?)),
+        b'#' => match *source.get(at + 1)? {
+            b'0'..=b'9' | b'#' | b'[' => Some((TokenKind::Hash, Sign::Hash, at + 1)),
+            b'<' => Some((TokenKind::Hash, Sign::Parameter, angled(source, at + 1)?)),
+            _ => None,
+        },
+        b'/' => (source.get(at + 1) != Some(&b'*')).then_some((TokenKind::Slash, Sign::StarSlash, at + 1)),
+        b'(' => Some((TokenKind::Comment, Sign::Comment, comment(source, at, options)?)),
         _ if options.semicolon_comment => {
             let end = memchr::memchr2(b'\n', b'\r', &source[at..]).map_or(source.len(), |length| at + length);
-            Some((TokenKind::Comment, end))
+            Some((TokenKind::Comment, Sign::Comment, end))
         }
         _ => None,
     }
 }
 
-/// A name, the letter of a value in `[ ]` or `#`, or `o<name>` at `at`: pushed, and what is behind it.
+/// The word, the name, the letter of a value in `[ ]` or `#`, or `o<name>` at `at`: pushed, and what is behind it.
 #[inline]
-fn letters(source: &[u8], at: usize, out: &mut Builder) -> Option<usize> {
-    let start = at as u32;
-    let next = *source.get(at + 1)?;
-    if next == b'<' {
-        if !source[at].eq_ignore_ascii_case(&b'o') {
-            return None;
+fn lettered(source: &[u8], at: usize, cut: &mut Cut) -> Option<usize> {
+    let end = at + 1;
+    let next = *source.get(end)?;
+    match next {
+        b'0'..=b'9' | b'.' => return word(source, at, end, cut),
+        b'[' | b'#' => {}
+        b'+' | b'-' if matches!(source.get(at + 2), Some(b'#' | b'[')) => {}
+        b'+' | b'-' => return word(source, at, end + 1, cut),
+        b'<' if source[at].eq_ignore_ascii_case(&b'o') => {
+            let behind = angled(source, end)?;
+            cut.push(TokenKind::Letter, Sign::Letter, at);
+            cut.push(TokenKind::Less, Sign::Called, end);
+            return Some(behind);
         }
-        let end = angled(source, at + 1)?;
-        out.push(TokenKind::Letter, start);
-        out.push(TokenKind::Less, start + 1);
-        return Some(end);
+        _ => {
+            let end = name(source, at)?;
+            cut.course.name(&source[at..end]);
+            cut.hold(TokenKind::Name, at);
+            return Some(end);
+        }
     }
-    let signed = matches!(next, b'+' | b'-') && matches!(source.get(at + 2), Some(b'#' | b'['));
-    if signed || matches!(next, b'#' | b'[') {
-        out.push(TokenKind::Letter, start);
-        return Some(at + 1);
-    }
-    let end = name(source, at)?;
-    out.push(TokenKind::Name, start);
+    cut.push(TokenKind::Letter, Sign::Letter, at);
     Some(end)
-}
-
-/// Behind the `#` at `at`, or behind the whole of `#<name>`.
-#[inline]
-fn hash(source: &[u8], at: usize) -> Option<usize> {
-    match *source.get(at + 1)? {
-        b'0'..=b'9' | b'#' | b'[' => Some(at + 1),
-        b'<' => angled(source, at + 1),
-        _ => None,
-    }
 }
 
 /// Behind `<name>` at `at`.
@@ -219,160 +311,13 @@ fn comment(source: &[u8], at: usize, options: LexOptions) -> Option<usize> {
     (rest[length] == b')' && !rest[..length].contains(&b'\r')).then_some(at + length + 2)
 }
 
-/// Whether a number here belongs to nothing in front of it.
-#[inline]
-fn stands_alone(out: &Builder) -> bool {
-    let owns = |kind: &TokenKind| matches!(kind, TokenKind::Word | TokenKind::Number);
-    match &out.table.kinds[out.first as usize..] {
-        [.., before, TokenKind::Blank] => !owns(before),
-        [.., before] => !owns(before) && *before != TokenKind::Letter,
-        [] => true,
-    }
-}
-
 /// Behind a name of letters at `at`; `None` where it is one letter, or digits follow and may belong to it.
 #[inline]
 fn name(source: &[u8], at: usize) -> Option<usize> {
-    let mut end = at + 1;
-    while end < source.len() && (source[end].is_ascii_alphabetic() || source[end] == b'_') {
-        end += 1;
-    }
+    let end = behind(source, at + 1, NAME);
     let digit = source.get(end).is_some_and(u8::is_ascii_digit);
     (end > at + 1 && !digit).then_some(end)
 }
 
 #[cfg(test)]
-mod tests {
-    use crate::{LexOptions, SyntaxError, TokenKind, iso, parse};
-    use proptest::prelude::*;
-
-    const OPTIONS: [LexOptions; 2] = [
-        LexOptions {
-            format: crate::Format::Iso,
-            paren_comment: true,
-            semicolon_comment: true,
-            slash_star_comment: true,
-            blanks_in_numbers: true,
-        },
-        LexOptions {
-            format: crate::Format::Iso,
-            paren_comment: false,
-            semicolon_comment: false,
-            slash_star_comment: false,
-            blanks_in_numbers: false,
-        },
-    ];
-
-    /// Tokens, blocks and problems of a text.
-    type Read = (Vec<(TokenKind, u32)>, Vec<u32>, Vec<SyntaxError>);
-
-    fn fast(text: &str, options: LexOptions) -> Read {
-        let program = parse(text.into(), options);
-        let table = program.tokens();
-        let tokens = (0..table.len() as u32).map(|at| (table.kind(at), table.range(at).start));
-        let blocks = program.blocks().map(|block| block.tokens().start);
-        (tokens.collect(), blocks.collect(), program.errors().to_vec())
-    }
-
-    /// The same by the general rules alone, with every odd block read by the grammar.
-    fn general(text: &str, options: LexOptions) -> Read {
-        let mut out = crate::builder::Builder::default();
-        iso::lex_by_rules(text.as_bytes(), options, true, &mut out);
-        let tokens = (0..out.table.len() as u32).map(|at| (out.table.kind(at), out.table.range(at).start));
-        (tokens.collect(), out.blocks, out.errors)
-    }
-
-    fn same(text: &str) {
-        for options in OPTIONS {
-            assert_eq!(fast(text, options), general(text, options), "{text:?}");
-        }
-    }
-
-    fn pieces() -> impl Strategy<Value = String> {
-        let piece = proptest::sample::select(vec![
-            "#<a>",
-            "#1",
-            "##2",
-            "#[",
-            "[",
-            "]",
-            "[1]",
-            "[#1+2]",
-            "=",
-            "+",
-            "-",
-            "*",
-            "**",
-            "/",
-            " ",
-            "  ",
-            "\t",
-            "G1",
-            "X",
-            "Y-",
-            "X1.5",
-            "Z-.5",
-            "1",
-            "2.5",
-            ".5",
-            "123456789012345678901",
-            "SIN",
-            "ATAN[1]/[2]",
-            "GT",
-            "MOD",
-            "AND",
-            "o1",
-            "O<s>",
-            "o",
-            "sub",
-            "call",
-            "if",
-            "IF",
-            "while",
-            "endif",
-            "DO",
-            "END",
-            "GOTO",
-            "DEF",
-            "EX",
-            "AC",
-            "XSIN",
-            "(c)",
-            "(",
-            ")",
-            ";d",
-            "\n",
-            "\n",
-            "\r\n",
-            "\r",
-            ",",
-            "<",
-            ">",
-            "%",
-            "N10",
-            ":",
-            "\"t\"",
-            "_A",
-            "EXISTS[#<_x>]",
-            "#1=",
-            "#<b> = ",
-            "/*",
-            "*/",
-        ]);
-        proptest::collection::vec(piece, 0..14).prop_map(|pieces| pieces.concat())
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(4000))]
-
-        #[test]
-        fn the_fast_way_cuts_as_the_rules_do(text in "[GXYoO#<>a-c_0-9. \\t\n\r\\[\\]=+*/(),;-]{0,40}") {
-            same(&text);
-        }
-
-        #[test]
-        fn the_fast_way_reads_macros_as_the_rules_do(text in pieces()) {
-            same(&text);
-        }
-    }
-}
+mod tests;

@@ -1,173 +1,312 @@
 //! Blocks of expressions that show by the kinds of their tokens that nothing is wrong with them: most of every macro.
 //!
 //! A block that passes here has no problem by the grammar of the items, which need not read it then (a test compares both); any
-//! other is read.
+//! other is read. The fast way of the lexer takes one step per token, by a table.
 use crate::expression::{is_function, is_one_of};
 use crate::names::{CONDITIONS, NUMBERED};
-use crate::scan::Scan;
-use crate::{TokenId, TokenKind};
+
+/// What a token is to the table: its kind, told apart further where the grammar does so.
+#[derive(Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub(crate) enum Sign {
+    Blank,
+    Newline,
+    Comment,
+    Word,
+    LongWord,
+    Letter,
+    /// A number that surely has no more digits than a decimal holds.
+    Number,
+    LongNumber,
+    /// `#` alone.
+    Hash,
+    /// `#<name>`
+    Parameter,
+    /// The `<name>` of `o<name>`.
+    Called,
+    Open,
+    Close,
+    PlusMinus,
+    StarSlash,
+    Equals,
+    Comma,
+    /// `IF`, `WHILE`
+    Condition,
+    /// `DO`, `END`
+    Numbered,
+    Call,
+    Function,
+    OtherName,
+}
+
+/// How many signs there are.
+const SIGNS: usize = Sign::OtherName as usize + 1;
+/// How many states there is room for.
+const STATES: usize = 256;
+
+/// How far a block is read: a state of the table.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Course(u8);
+
+/// Between two items, where a block begins and may end.
+const BETWEEN: u8 = 0;
+/// Behind the letter of a value in brackets or a parameter.
+const LETTER: u8 = 1;
+/// Behind the sign of such a value.
+const SIGNED: u8 = 2;
+/// Behind the `#` of such a value.
+const LETTER_HASH: u8 = 3;
+/// Behind the `#` of a parameter that is assigned to.
+const TARGET_HASH: u8 = 4;
+/// Behind a parameter that is assigned to.
+const TARGET: u8 = 5;
+/// Behind its `=`.
+const EQUALS: u8 = 6;
+/// Behind the sign of the value that is assigned.
+const EQUALS_SIGNED: u8 = 7;
+/// Behind the `#` of the value that is assigned.
+const EQUALS_HASH: u8 = 8;
+/// Behind the function of the value that is assigned.
+const FUNCTION: u8 = 9;
+/// Behind a value: no operator may follow.
+const VALUE: u8 = 10;
+/// Behind `IF` and its like.
+const CONDITION: u8 = 11;
+/// Behind `DO` and its like, which may own a number.
+const NUMBERED_NAME: u8 = 12;
+/// Behind `call`.
+const CALL: u8 = 13;
+/// Behind the brackets of a call.
+const CALLED: u8 = 14;
+/// Behind another name.
+const NAME: u8 = 15;
+/// Inside brackets, where a value is wanted (even) and where none is (odd), by what the brackets are: the value of a letter, ..
+const LETTER_GROUP: u8 = 16;
+/// .. the number of a parameter that is assigned to, ..
+const TARGET_GROUP: u8 = 18;
+/// .. the value that is assigned or the brackets of a name, ..
+const VALUE_GROUP: u8 = 20;
+/// .. an argument of a call.
+const CALL_GROUP: u8 = 22;
+/// The same with one bracket more around it is so much further on; blocks with more brackets than there is room for are odd.
+const DEEPER: u8 = 8;
+/// Behind the last of them.
+const TOO_DEEP: u8 = 248;
+/// Something that the grammar must look at.
+const ODD: u8 = 255;
+
+/// The state behind a token, by its sign and the state in front.
+static NEXT: [[u8; STATES]; SIGNS] = table();
+
+const fn table() -> [[u8; STATES]; SIGNS] {
+    let mut next = [[ODD; STATES]; SIGNS];
+    let mut state = 0;
+    while state < STATES {
+        let mut sign = 0;
+        while sign < SIGNS {
+            next[sign][state] = behind(state as u8, sign);
+            sign += 1;
+        }
+        state += 1;
+    }
+    next
+}
+
+/// The state behind the sign number `sign`.
+const fn behind(state: u8, sign: usize) -> u8 {
+    const fn is(sign: usize, other: Sign) -> bool {
+        sign == other as usize
+    }
+    if is(sign, Sign::LongWord) {
+        return ODD;
+    }
+    if state >= LETTER_GROUP {
+        return inside(state, sign);
+    }
+    if is(sign, Sign::Blank) {
+        // directly behind a sign or a function its operand must stand
+        return match state {
+            EQUALS_SIGNED | FUNCTION => ODD,
+            _ => state,
+        };
+    }
+    match state {
+        LETTER if is(sign, Sign::PlusMinus) => SIGNED,
+        LETTER if is(sign, Sign::Called) => BETWEEN,
+        LETTER | SIGNED => operand(sign, LETTER_HASH, LETTER_GROUP, BETWEEN),
+        LETTER_HASH | TARGET_HASH | EQUALS_HASH => {
+            let (group, end) = match state {
+                LETTER_HASH => (LETTER_GROUP, BETWEEN),
+                TARGET_HASH => (TARGET_GROUP, TARGET),
+                _ => (VALUE_GROUP, VALUE),
+            };
+            if is(sign, Sign::Number) || is(sign, Sign::LongNumber) {
+                end
+            } else {
+                operand(sign, state, group, end)
+            }
+        }
+        TARGET if is(sign, Sign::Equals) => EQUALS,
+        EQUALS if is(sign, Sign::PlusMinus) => EQUALS_SIGNED,
+        EQUALS | EQUALS_SIGNED if is(sign, Sign::Number) => VALUE,
+        EQUALS | EQUALS_SIGNED if is(sign, Sign::Function) => FUNCTION,
+        EQUALS | EQUALS_SIGNED => operand(sign, EQUALS_HASH, VALUE_GROUP, VALUE),
+        CALLED if is(sign, Sign::Open) => CALL_GROUP,
+        VALUE | CALLED if names(sign) => ODD,
+        BETWEEN | VALUE | CALLED => item(sign),
+        NAME | CALL | NUMBERED_NAME if is(sign, Sign::Newline) || is(sign, Sign::Comment) => BETWEEN,
+        FUNCTION | CONDITION | NAME if is(sign, Sign::Open) => VALUE_GROUP,
+        CALL if is(sign, Sign::Open) => CALL_GROUP,
+        _ => ODD,
+    }
+}
+
+/// Behind a token between two items.
+const fn item(sign: usize) -> u8 {
+    const ENDS: [usize; 3] = [Sign::Newline as usize, Sign::Comment as usize, Sign::Word as usize];
+    match sign {
+        _ if sign == ENDS[0] || sign == ENDS[1] || sign == ENDS[2] => BETWEEN,
+        _ if sign == Sign::Letter as usize => LETTER,
+        _ if sign == Sign::Hash as usize => TARGET_HASH,
+        _ if sign == Sign::Parameter as usize => TARGET,
+        _ if sign == Sign::Condition as usize => CONDITION,
+        _ if sign == Sign::Numbered as usize => NUMBERED_NAME,
+        _ if sign == Sign::Call as usize => CALL,
+        _ if names(sign) => NAME,
+        _ => ODD,
+    }
+}
+
+/// Whether a token is a name.
+const fn names(sign: usize) -> bool {
+    sign >= Sign::Condition as usize
+}
+
+/// Behind the first token of a parameter or of brackets.
+const fn operand(sign: usize, hash: u8, group: u8, end: u8) -> u8 {
+    match sign {
+        _ if sign == Sign::Hash as usize => hash,
+        _ if sign == Sign::Parameter as usize => end,
+        _ if sign == Sign::Open as usize => group,
+        _ => ODD,
+    }
+}
+
+/// Behind a token inside brackets: anything may stand there, but in front of each closing one a value must.
+const fn inside(state: u8, sign: usize) -> u8 {
+    if state >= TOO_DEEP {
+        return ODD;
+    }
+    let (group, lacks) = (state & !1, state & 1 == 0);
+    match sign {
+        _ if sign == Sign::Blank as usize || sign == Sign::Comment as usize => state,
+        _ if sign == Sign::Newline as usize => ODD,
+        _ if sign == Sign::Close as usize => match group {
+            _ if lacks => ODD,
+            LETTER_GROUP => BETWEEN,
+            TARGET_GROUP => TARGET,
+            VALUE_GROUP => VALUE,
+            CALL_GROUP => CALLED,
+            _ => group - DEEPER + 1,
+        },
+        _ if sign == Sign::Open as usize => match group + DEEPER {
+            TOO_DEEP.. => ODD,
+            deeper => deeper,
+        },
+        // cut the fast way, a `#` alone has its value behind it
+        _ if sign == Sign::PlusMinus as usize || sign == Sign::StarSlash as usize || sign == Sign::Equals as usize => {
+            group
+        }
+        _ => group + 1,
+    }
+}
 
 /// The longest number, its sign counted, that surely has no more digits than a decimal holds.
-const SHORT_NUMBER: u32 = 18;
+const SHORT_NUMBER: usize = 18;
+/// Words longer than this may have more digits than a decimal holds, and are looked at again.
+const SHORT_WORD: usize = 19;
 
-/// Whether the block that starts at token `first`, all of it cut the fast way, surely has no problem.
-pub(crate) fn is_sound(scan: Scan<'_>, first: TokenId) -> bool {
-    let mut at = first;
-    while at < scan.end {
-        let behind = match scan.kind(at) {
-            TokenKind::Blank | TokenKind::Comment | TokenKind::Newline => Some(at + 1),
-            TokenKind::Word => word(scan, at),
-            TokenKind::Letter => letter(scan, at),
-            TokenKind::Hash => assignment(scan, at),
-            TokenKind::Name => name(scan, at),
-            _ => None,
+impl Sign {
+    /// A word of so many bytes.
+    #[inline]
+    pub(crate) fn word(length: usize) -> Self {
+        if length > SHORT_WORD {
+            Self::LongWord
+        } else {
+            Self::Word
+        }
+    }
+
+    /// A number of so many bytes.
+    #[inline]
+    pub(crate) fn number(length: usize) -> Self {
+        if length < SHORT_NUMBER {
+            Self::Number
+        } else {
+            Self::LongNumber
+        }
+    }
+}
+
+impl Course {
+    /// Behind a token.
+    #[inline]
+    pub(crate) fn pass(&mut self, sign: Sign) {
+        self.0 = NEXT[sign as usize][usize::from(self.0)];
+    }
+
+    /// Behind a name.
+    #[inline]
+    pub(crate) fn name(&mut self, text: &[u8]) {
+        let sign = match self.0 {
+            BETWEEN => first_name(text),
+            EQUALS | EQUALS_SIGNED if is_function(text) => Sign::Function,
+            _ => Sign::OtherName,
         };
-        let Some(behind) = behind else { return false };
-        at = behind;
+        self.pass(sign);
     }
-    true
-}
 
-/// A word with its number that is not assigned to and has no comma behind it.
-#[inline]
-fn word(scan: Scan<'_>, at: TokenId) -> Option<TokenId> {
-    let next = scan.kind(at + 1);
-    let behind = if next == TokenKind::Blank {
-        scan.kind(at + 2)
-    } else {
-        next
-    };
-    (behind != TokenKind::Equals && next != TokenKind::Comma).then_some(at + 1)
-}
+    /// Behind a token that the grammar must look at.
+    #[inline]
+    pub(crate) fn odd(&mut self) {
+        self.0 = ODD;
+    }
 
-/// A letter whose value is a parameter, an expression, or one of them behind a sign; the `o` of `o<name>`.
-fn letter(scan: Scan<'_>, at: TokenId) -> Option<TokenId> {
-    let next = scan.skip_blank(at + 1);
-    match scan.kind(next) {
-        TokenKind::BracketOpen => unassigned(scan, group(scan, next)?),
-        TokenKind::Hash => parameter(scan, next),
-        TokenKind::Plus | TokenKind::Minus => {
-            let value = scan.skip_blank(next + 1);
-            match scan.kind(value) {
-                TokenKind::BracketOpen => group(scan, value),
-                TokenKind::Hash => parameter(scan, value),
-                _ => None,
-            }
-        }
-        TokenKind::Less => (!is_one_byte(scan, next)).then_some(next + 1),
-        _ => None,
+    /// Ends the block: whether it surely has no problem.
+    #[inline]
+    pub(crate) fn end(&mut self) -> bool {
+        self.pass(Sign::Newline);
+        let sound = self.0 == BETWEEN;
+        *self = Self::default();
+        sound
     }
 }
 
-/// `end`, unless a `=` follows there.
-fn unassigned(scan: Scan<'_>, end: TokenId) -> Option<TokenId> {
-    (scan.kind(scan.skip_blank(end)) != TokenKind::Equals).then_some(end)
-}
-
-fn is_one_byte(scan: Scan<'_>, at: TokenId) -> bool {
-    let range = scan.range(at);
-    range.end - range.start == 1
-}
-
-/// Behind a parameter: `#1`, `##2`, `#[1+2]`, `#<name>`.
-fn parameter(scan: Scan<'_>, at: TokenId) -> Option<TokenId> {
-    let mut next = at;
-    while scan.kind(next) == TokenKind::Hash {
-        if !is_one_byte(scan, next) {
-            return Some(next + 1);
-        }
-        next = scan.skip_blank(next + 1);
-    }
-    match scan.kind(next) {
-        TokenKind::Number => Some(next + 1),
-        TokenKind::BracketOpen => group(scan, next),
-        _ => None,
+/// What a name between two items is.
+fn first_name(text: &[u8]) -> Sign {
+    match (text.len(), text[0].to_ascii_lowercase()) {
+        (2, b'i') | (4 | 5 | 8, b'w') | (5, b'u') | (5 | 6, b'e') if is_one_of(text, &CONDITIONS) => Sign::Condition,
+        (2, b'd') | (3, b'e' | b'l') if is_one_of(text, &NUMBERED) => Sign::Numbered,
+        (4, b'c') if text.eq_ignore_ascii_case(b"call") => Sign::Call,
+        _ => Sign::OtherName,
     }
 }
 
-/// Behind a bracket and its partner, with a value in front of every closing one.
-fn group(scan: Scan<'_>, at: TokenId) -> Option<TokenId> {
-    let mut depth = 0u32;
-    let mut before = TokenKind::BracketOpen;
-    let kinds = scan.table.kinds.get(at as usize..scan.end as usize)?;
-    for (behind, &kind) in (at + 1..).zip(kinds) {
-        match kind {
-            TokenKind::BracketOpen => depth += 1,
-            TokenKind::BracketClose => {
-                depth -= 1;
-                let lacks = matches!(
-                    before,
-                    TokenKind::BracketOpen
-                        | TokenKind::Plus
-                        | TokenKind::Minus
-                        | TokenKind::Star
-                        | TokenKind::Slash
-                        | TokenKind::Equals
-                );
-                // cut the fast way, a `#` alone has its value behind it
-                if lacks {
-                    return None;
-                }
-                if depth == 0 {
-                    return Some(behind);
-                }
-            }
-            TokenKind::Blank | TokenKind::Comment => continue,
-            TokenKind::Newline | TokenKind::ParenOpen | TokenKind::ParenClose => return None,
-            _ => {}
-        }
-        before = kind;
-    }
-    None
-}
+#[cfg(test)]
+mod tests {
+    use super::first_name;
+    use crate::names::{CONDITIONS, NUMBERED};
+    use crate::straight::Sign;
 
-/// `#1 = value`, with one operand.
-fn assignment(scan: Scan<'_>, at: TokenId) -> Option<TokenId> {
-    let equals = scan.skip_blank(parameter(scan, at)?);
-    if !scan.assigns(equals) {
-        return None;
-    }
-    let value = scan.skip_blank(equals + 1);
-    let signed = matches!(scan.kind(value), TokenKind::Plus | TokenKind::Minus);
-    let operand = if signed { value + 1 } else { value };
-    let end = match scan.kind(operand) {
-        TokenKind::Number => {
-            let length = scan.range(operand).end - scan.range(operand).start;
-            let alone = !matches!(scan.kind(operand + 1), TokenKind::Comma | TokenKind::Name);
-            (alone && length < SHORT_NUMBER).then_some(operand + 1)?
+    #[test]
+    fn names_are_told_apart_by_length_and_first_letter_without_loss() {
+        for name in CONDITIONS {
+            assert!(first_name(name.as_bytes()) == Sign::Condition, "{name}");
+            assert!(first_name(name.to_lowercase().as_bytes()) == Sign::Condition, "{name}");
         }
-        TokenKind::Hash => parameter(scan, operand)?,
-        TokenKind::BracketOpen => group(scan, operand)?,
-        TokenKind::Name if scan.kind(operand + 1) == TokenKind::BracketOpen && is_function(scan.text(operand)) => {
-            group(scan, operand + 1)?
+        for name in NUMBERED {
+            assert!(first_name(name.as_bytes()) == Sign::Numbered, "{name}");
         }
-        _ => return None,
-    };
-    ends_value(scan, end)
-}
-
-/// `end`, where a value ends there: no operator follows.
-fn ends_value(scan: Scan<'_>, end: TokenId) -> Option<TokenId> {
-    matches!(
-        scan.kind(scan.skip_blank(end)),
-        TokenKind::Newline | TokenKind::Comment | TokenKind::Hash | TokenKind::Word | TokenKind::Letter
-    )
-    .then_some(end)
-}
-
-/// A name that stands alone, or has brackets behind it: `endif`, `while [..]`, `call [..] [..]`.
-fn name(scan: Scan<'_>, at: TokenId) -> Option<TokenId> {
-    let next = scan.skip_blank(at + 1);
-    let text = scan.text(at);
-    match scan.kind(next) {
-        TokenKind::Newline | TokenKind::Comment => (!is_one_of(text, &CONDITIONS)).then_some(at + 1),
-        TokenKind::BracketOpen if !is_one_of(text, &NUMBERED) => {
-            let mut end = group(scan, next)?;
-            while text.eq_ignore_ascii_case(b"call") && scan.kind(scan.skip_blank(end)) == TokenKind::BracketOpen {
-                end = group(scan, scan.skip_blank(end))?;
-            }
-            ends_value(scan, end)
-        }
-        _ => None,
+        assert!(first_name(b"Call") == Sign::Call && first_name(b"callsub") == Sign::OtherName);
     }
 }

@@ -98,7 +98,8 @@ pub(crate) enum Op {
     Fail(Box<FormulaErrorKind>),
 }
 
-/// One operation with the part of the file it comes from.
+/// One operation with the part of the text it comes from, counted from the start of the formula (wrapping): a formula that is found
+/// again elsewhere is moved without a look at its steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Step {
     pub(crate) op: Op,
@@ -163,11 +164,6 @@ impl Formula {
         if self.range != TextRange::default() {
             self.range = self.range.shifted(by);
         }
-        if let Code::Steps { steps, .. } = &mut self.code {
-            for step in steps {
-                step.range = step.range.shifted(by);
-            }
-        }
     }
 
     /// The steps of the code; none for a plain number.
@@ -182,7 +178,7 @@ impl Formula {
     pub fn reads(&self) -> impl Iterator<Item = Variable<'_>> {
         self.steps().iter().filter_map(|step| match &step.op {
             Op::Read(index) | Op::ReadNullable(index) => Some(Variable::Numbered(*index)),
-            Op::ReadAt | Op::ReadNullableAt => Some(Variable::Computed(step.range)),
+            Op::ReadAt | Op::ReadNullableAt => Some(Variable::Computed(step.range.shifted(self.range.start))),
             Op::Named(name) | Op::NamedAt(name) => Some(Variable::Named(name)),
             _ => None,
         })

@@ -37,6 +37,7 @@ pub(crate) fn value_with(
     if let Some((value, range)) = bracketed_number(cursor) {
         let mut steps = pool.pop().unwrap_or_default();
         let op = Op::Number(value);
+        let range = range.shifted(start.wrapping_neg());
         steps.push(Step { op, range });
         let formula = Formula {
             range: cursor.since(start),
@@ -151,6 +152,18 @@ fn plain_number(cursor: &mut Cursor<'_>) -> Option<Formula> {
     })
 }
 
+/// `[1.5]` without blanks and nothing else in brackets, as a number: for a place where a value in brackets must stand. The cursor stands
+/// behind it then.
+#[inline]
+pub fn number_in_brackets(cursor: &mut Cursor<'_>) -> Option<Formula> {
+    let start = cursor.at();
+    let (value, _) = bracketed_number(cursor)?;
+    Some(Formula {
+        range: cursor.since(start),
+        code: Code::Literal { value, decimal: None },
+    })
+}
+
 /// `[1.5]` without blanks: a number in brackets, and where the number stands.
 #[inline]
 fn bracketed_number(cursor: &mut Cursor<'_>) -> Option<(f64, TextRange)> {
@@ -229,6 +242,9 @@ impl Compiler<'_, '_> {
                 range,
                 code: Code::Literal { value, decimal },
             };
+        }
+        for step in &mut self.steps {
+            step.range = step.range.shifted(range.start.wrapping_neg());
         }
         Formula {
             range,

@@ -24,16 +24,21 @@ impl Formula {
 
     #[inline]
     fn run(&self, variables: &(impl Variables + ?Sized)) -> Result<f64, FormulaError> {
-        match &self.code {
-            Code::Literal { value, .. } => Ok(*value),
+        let result = match &self.code {
+            Code::Literal { value, .. } => return Ok(*value),
             Code::Steps { steps, depth } if *depth <= SHALLOW => run(steps, variables, &mut [0.0; SHALLOW]),
             Code::Steps { steps, depth } => run(steps, variables, &mut vec![0.0; *depth]),
-        }
+        };
+        result.map_err(|error| FormulaError {
+            range: error.range.shifted(self.range.start),
+            ..*error
+        })
     }
 }
 
-/// Runs the code; `stack` is as long as the compiler counted.
-fn run(steps: &[Step], variables: &(impl Variables + ?Sized), stack: &mut [f64]) -> Result<f64, FormulaError> {
+/// Runs the code; `stack` is as long as the compiler counted. Errors are placed from the start of the formula, and are rare: they are
+/// held elsewhere, so that a value is handed back in a register.
+fn run(steps: &[Step], variables: &(impl Variables + ?Sized), stack: &mut [f64]) -> Result<f64, Box<FormulaError>> {
     let mut height = 0;
     for step in steps {
         let result = match &step.op {
@@ -42,7 +47,14 @@ fn run(steps: &[Step], variables: &(impl Variables + ?Sized), stack: &mut [f64])
                 height += 1;
                 continue;
             }
-            Op::Read(index) => numbered(variables, *index),
+            Op::Read(index) => match variables.numbered(*index) {
+                Ok(value) => {
+                    stack[height] = known(value);
+                    height += 1;
+                    continue;
+                }
+                error => of_number(*index, error),
+            },
             Op::ReadNullable(index) => nullable(variables, *index),
             Op::Named(name) => match variables.named_as(name) {
                 Ok(value) => {
@@ -78,10 +90,10 @@ fn run(steps: &[Step], variables: &(impl Variables + ?Sized), stack: &mut [f64])
         match result {
             Ok(value) => stack[height] = value,
             Err(kind) => {
-                return Err(FormulaError {
+                return Err(Box::new(FormulaError {
                     range: step.range,
                     kind,
-                });
+                }));
             }
         }
         height += 1;
@@ -89,9 +101,11 @@ fn run(steps: &[Step], variables: &(impl Variables + ?Sized), stack: &mut [f64])
     let (Some(value), Some(last)) = (stack.first(), steps.last()) else {
         return Ok(f64::NAN);
     };
-    checked(*value).map_err(|kind| FormulaError {
-        range: last.range,
-        kind,
+    checked(*value).map_err(|kind| {
+        Box::new(FormulaError {
+            range: last.range,
+            kind,
+        })
     })
 }
 
@@ -117,7 +131,12 @@ fn known(value: f64) -> f64 {
 
 #[inline]
 fn numbered(variables: &(impl Variables + ?Sized), index: i64) -> Result<f64, FormulaErrorKind> {
-    match variables.numbered(index) {
+    of_number(index, variables.numbered(index))
+}
+
+#[inline]
+fn of_number(index: i64, value: Result<f64, ValueError>) -> Result<f64, FormulaErrorKind> {
+    match value {
         Ok(value) => Ok(known(value)),
         Err(ValueError::NotReadable(reason)) => Err(FormulaErrorKind::NotReadable(reason)),
         Err(ValueError::OutOfRange | ValueError::NotDefined) => Err(FormulaErrorKind::ParameterOutOfRange(index)),

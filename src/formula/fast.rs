@@ -18,8 +18,6 @@ const INDEX_DIGITS: usize = 9;
 struct Fast<'t, 'v> {
     /// What is not read yet of the line when it begins.
     text: &'t [u8],
-    /// Where the text begins in the file.
-    from: u32,
     at: usize,
     /// One past the last byte of the operand that was read last.
     end: usize,
@@ -43,7 +41,6 @@ pub(crate) fn value(cursor: &mut Cursor<'_>, steps: &mut Vec<Step>) -> Option<Fo
     let from = cursor.at();
     let mut fast = Fast {
         text,
-        from,
         at: 0,
         end: 0,
         steps,
@@ -70,6 +67,12 @@ pub(crate) fn value(cursor: &mut Cursor<'_>, steps: &mut Vec<Step>) -> Option<Fo
     })
 }
 
+/// A part of the value's text.
+#[inline]
+fn range(start: usize, end: usize) -> TextRange {
+    TextRange::new(start as u32, end as u32)
+}
+
 impl Fast<'_, '_> {
     #[inline]
     fn byte(&self) -> Option<u8> {
@@ -84,13 +87,8 @@ impl Fast<'_, '_> {
     }
 
     #[inline]
-    fn range(&self, start: usize, end: usize) -> TextRange {
-        TextRange::new(self.from + start as u32, self.from + end as u32)
-    }
-
-    #[inline]
     fn push(&mut self, op: Op, start: usize, end: usize) -> Option<()> {
-        let range = self.range(start, end);
+        let range = range(start, end);
         *self.starts.get_mut(self.height)? = range.start;
         self.steps.push(Step { op, range });
         self.height += 1;
@@ -101,7 +99,7 @@ impl Fast<'_, '_> {
     /// The value on top begins here.
     #[inline]
     fn begins(&mut self, start: usize) -> Option<()> {
-        *self.starts.get_mut(self.height.checked_sub(1)?)? = self.from + start as u32;
+        *self.starts.get_mut(self.height.checked_sub(1)?)? = start as u32;
         Some(())
     }
 
@@ -119,7 +117,7 @@ impl Fast<'_, '_> {
                 self.at += 1;
                 self.operand()?;
                 if sign == b'-' {
-                    let range = self.range(start, self.end);
+                    let range = range(start, self.end);
                     self.steps.push(Step {
                         op: Op::Unary(Unary::Negate),
                         range,
@@ -212,7 +210,7 @@ impl Fast<'_, '_> {
         self.open -= 1;
         self.at += 1;
         self.end = self.at;
-        let range = self.range(start, self.end);
+        let range = range(start, self.end);
         // the end of a value that may be infinite is marked where something goes on behind it
         let unary = call.or_else(|| {
             let infinite = matches!(self.steps.last(), Some(Step { op: Op::Binary(_), .. }));
@@ -265,7 +263,7 @@ impl Fast<'_, '_> {
             self.waits -= 1;
             self.height = self.height.checked_sub(1)?;
             let start = *self.starts.get(self.height.checked_sub(1)?)?;
-            let range = TextRange::new(start, self.from + self.end as u32);
+            let range = TextRange::new(start, self.end as u32);
             self.steps.push(Step {
                 op: Op::Binary(self.waiting[self.waits].binary),
                 range,
@@ -285,8 +283,9 @@ mod tests {
 
     /// Whether this way takes the text; then it is what the compiler makes of it.
     fn same(text: &str) -> bool {
-        let all = TextRange::new(0, text.len() as u32);
-        let mut cursor = Cursor::new(text.as_bytes(), all);
+        let there = format!("G1 X{text}");
+        let all = TextRange::new(4, there.len() as u32);
+        let mut cursor = Cursor::new(there.as_bytes(), all);
         let mut general = cursor;
         let mut steps = Vec::new();
         let Some(fast) = value(&mut cursor, &mut steps) else {

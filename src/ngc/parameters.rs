@@ -283,12 +283,13 @@ impl Variables for Values<'_> {
 /// Whether a name is of all programs.
 #[inline]
 fn is_global(name: &Name) -> bool {
-    name.as_bytes().first() == Some(&b'_')
+    name.begins_with(b'_')
 }
 
 impl Values<'_> {
     /// What the control itself knows by a name.
     #[cold]
+    #[inline(never)]
     fn own(&self, name: &str) -> Result<f64, ValueError> {
         if let Some(inside) = name.strip_prefix("_ini[") {
             return self.ini(inside);

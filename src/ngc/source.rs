@@ -100,16 +100,6 @@ impl Source {
         let length = memchr(b'\n', rest).map_or(rest.len(), |at| at + 1);
         TextRange::new(start, start + length as u32)
     }
-    /// The same, and whether there is a `(` in it.
-    #[inline]
-    pub(crate) fn line_and_bracket(&self, start: u32) -> (TextRange, bool) {
-        let rest = &self.bytes()[start as usize..];
-        match memchr::memchr2(b'\n', b'(', rest) {
-            Some(at) if rest[at] == b'\n' => (TextRange::new(start, start + at as u32 + 1), false),
-            Some(_) => (self.line_at(start), true),
-            None => (TextRange::new(start, self.bytes().len() as u32), false),
-        }
-    }
     /// The line (from 0) in which a byte lies.
     pub fn line_of(&self, offset: u32) -> u32 {
         let block = self.starts.partition_point(|&start| start <= offset).saturating_sub(1);

@@ -39,20 +39,19 @@ enum Kind {
 }
 
 /// Tells the comment of a line that was read.
+#[inline]
 pub(crate) fn run(engine: &mut Engine, line: &Line, at: At, sink: &mut dyn Sink) -> Result<(), Halt> {
-    let Some(range) = line.comment.or(line.remark) else {
-        return Ok(());
-    };
-    let source = Arc::clone(&engine.files[at.file.0 as usize]);
+    let source = &engine.files[at.file.0 as usize];
     if let Some(remark) = line.remark {
         let text = trim_start(&source.bytes()[remark.start as usize + 1..remark.end as usize]);
         if starts_with(text, b"py,") {
             return Err(python());
         }
-        if line.comment.is_none() {
-            return Ok(());
-        }
     }
+    let Some(range) = line.comment else {
+        return Ok(());
+    };
+    let source = Arc::clone(source);
     tell(engine, source.bytes(), range, at, sink)
 }
 

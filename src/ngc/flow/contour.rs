@@ -1,7 +1,8 @@
 //! The subprogram of a turning cycle (G70 to G72.2): it is called like any other, but of its blocks only the motion counts, and that is
 //! not made but taken as the contour. Where it returns, the cycle runs.
+use super::label::Label;
 use super::labels::Style;
-use super::oline::{Keyword, Label, OLine};
+use super::oline::{Keyword, OLine};
 use super::{Compiled, Halt};
 use crate::cycles::Turning;
 use crate::exec::After;

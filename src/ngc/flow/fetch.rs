@@ -113,8 +113,21 @@ impl Engine {
     }
     /// The line at a place in its read form. `keep`: it will run again.
     pub(super) fn read(&mut self, place: Place, keep: bool) -> Box<Compiled> {
-        let range = self.range_at(place);
+        self.read_behind(place, keep, false)
+    }
+    /// The same; `skipped`: lines were skipped in front of it.
+    #[inline]
+    pub(super) fn read_behind(&mut self, place: Place, keep: bool, skipped: bool) -> Box<Compiled> {
         let source = self.files[place.file.0 as usize].bytes();
+        match self.flow.texts.guess(source, place, skipped) {
+            Some(compiled) => compiled,
+            None => self.look_up(place, keep, skipped),
+        }
+    }
+    /// The same, by its text.
+    fn look_up(&mut self, place: Place, keep: bool, skipped: bool) -> Box<Compiled> {
+        let source = self.files[place.file.0 as usize].bytes();
+        let range = self.range_at(place);
         let Some(key) = Key::of(source, range) else {
             let mut compiled = self.flow.texts.nowhere();
             self.compile_range(place, range, &mut compiled);
@@ -122,14 +135,12 @@ impl Engine {
         };
         let (mut compiled, known) = self.flow.texts.find(&key, source, &self.files, keep);
         if known {
-            compiled.place = place;
-            compiled.next = Self::behind(place, range);
-            compiled.memo = super::Memo::default();
-            compiled.move_to(key, place.file);
+            compiled.stands_for(place, key);
         } else {
             self.compile_range(place, range, &mut compiled);
             compiled.comes_from(&key, place.file);
         }
+        self.flow.texts.follows(compiled.slot(), skipped);
         compiled
     }
     /// Reads the line at a place. What is wrong with it is in what was read.

@@ -2,8 +2,6 @@
 //!
 //! It settles only what the full look at a skipped line would settle in the same way (a test compares both).
 
-use super::oline::{self, Keyword};
-
 /// Lines up to this length, their line end counted, are looked at here.
 pub(super) const LONGEST: usize = 253;
 
@@ -18,14 +16,45 @@ pub(super) enum Look<'s> {
     Unclear,
 }
 
+/// How long the first line of a text is, its line end counted, and whether there is a `(` in it.
+#[inline]
+pub(super) fn length(text: &[u8]) -> (usize, bool) {
+    const ONES: u64 = u64::from_ne_bytes([1; 8]);
+    const HIGH: u64 = u64::from_ne_bytes([0x80; 8]);
+    // where a byte is the one that is looked for, its highest bit is set; above the first one others may be, too
+    let marks = |word: u64, byte: u8| {
+        let other = word ^ u64::from_ne_bytes([byte; 8]);
+        other.wrapping_sub(ONES) & !other & HIGH
+    };
+    let mut at = 0;
+    // lines are short: words of eight bytes are faster than a call
+    for bytes in text.as_chunks::<8>().0 {
+        let word = u64::from_le_bytes(*bytes);
+        let (ends, brackets) = (marks(word, b'\n'), marks(word, b'('));
+        if ends | brackets != 0 {
+            let (end, bracket) = (ends.trailing_zeros(), brackets.trailing_zeros());
+            if end < bracket {
+                return (at + end as usize / 8 + 1, false);
+            }
+            break;
+        }
+        at += 8;
+    }
+    let rest = &text[at..];
+    let end = memchr::memchr(b'\n', rest);
+    let length = end.map_or(rest.len(), |end| end + 1);
+    (at + length, memchr::memchr(b'(', &rest[..length]).is_some())
+}
+
 /// Looks at one line; `bracket`: there is a `(` in it.
 #[inline]
 pub(super) fn look(line: &[u8], bracket: bool) -> Look<'_> {
-    let Some(start) = line.iter().position(|byte| !matches!(byte, b' ' | b'\t')) else {
+    let is_blank = |byte: &&u8| matches!(**byte, b' ' | b'\t');
+    let rest = &line[line.iter().take_while(is_blank).count()..];
+    let Some(first) = rest.first() else {
         return Look::Nothing;
     };
-    let rest = &line[start..];
-    match rest[0] {
+    match first {
         b'\n' | b';' => Look::Nothing,
         b'o' | b'O' if !bracket => label(&rest[1..]).unwrap_or(Look::Unclear),
         b'n' | b'N' | b'o' | b'O' => Look::Unclear,
@@ -42,33 +71,89 @@ fn may_call(rest: &[u8]) -> bool {
 }
 
 /// What stands behind the O: digits without a zero in front, or `<name>`, and a keyword without blanks inside.
+#[inline]
 fn label(rest: &[u8]) -> Option<Look<'_>> {
-    let (name, behind) = if rest.first() == Some(&b'<') {
-        let end = rest
-            .iter()
-            .skip(1)
-            .position(|byte| !(byte.is_ascii_alphanumeric() || *byte == b'_'))?;
-        (rest.get(end + 1) == Some(&b'>')).then_some((&rest[1..=end], &rest[end + 2..]))?
+    let named = rest.first() == Some(&b'<');
+    let mut end = usize::from(named);
+    let mut at = if named {
+        while rest
+            .get(end)
+            .is_some_and(|byte| byte.is_ascii_alphanumeric() || *byte == b'_')
+        {
+            end += 1;
+        }
+        if rest.get(end) != Some(&b'>') {
+            return None;
+        }
+        end + 1
     } else {
-        let end = rest.iter().position(|byte| !byte.is_ascii_digit())?;
-        let plain = (1..=9).contains(&end) && (rest[0] != b'0' || end == 1);
-        plain.then_some(rest.split_at(end))?
+        while rest.get(end).is_some_and(u8::is_ascii_digit) {
+            end += 1;
+        }
+        if !(1..=9).contains(&end) || (rest[0] == b'0' && end > 1) {
+            return None;
+        }
+        end
     };
-    let blanks = behind.iter().position(|byte| !matches!(byte, b' ' | b'\t'))?;
-    let word = &behind[blanks..];
-    let end = word.iter().position(|byte| !byte.is_ascii_alphabetic())?;
-    let global = match oline::keyword_of(&word[..end])? {
-        Keyword::Sub => return None,
-        keyword => matches!(keyword, Keyword::EndSub | Keyword::Call | Keyword::Return),
+    while matches!(rest.get(at), Some(b' ' | b'\t')) {
+        at += 1;
+    }
+    let word = at;
+    // the keyword's letters in lower case, as one number
+    let mut letters = 0u64;
+    while let Some(byte) = rest.get(at).filter(|byte| byte.is_ascii_alphabetic()) {
+        letters = letters << 8 | u64::from(byte | 0x20);
+        at += 1;
+    }
+    let global = match at - word {
+        ..=8 => is_global(letters)?,
+        9 if rest[word..at].eq_ignore_ascii_case(b"endrepeat") => false,
+        _ => return None,
     };
-    Some(Look::Label(name, global))
+    // a line that ends here was cut off
+    rest.get(at)?;
+    Some(Look::Label(&rest[usize::from(named)..end], global))
+}
+
+/// Whether a keyword, its letters as one number, takes part in calls and returns (true) or in structures; `None` for `sub`, and for a word
+/// that is none of them.
+#[inline]
+fn is_global(letters: u64) -> Option<bool> {
+    const fn of(word: &[u8]) -> u64 {
+        let mut letters = 0;
+        let mut at = 0;
+        while at < word.len() {
+            letters = letters << 8 | word[at] as u64;
+            at += 1;
+        }
+        letters
+    }
+    const GLOBAL: [u64; 3] = [of(b"endsub"), of(b"call"), of(b"return")];
+    const LOCAL: [u64; 10] = [
+        of(b"if"),
+        of(b"else"),
+        of(b"endif"),
+        of(b"while"),
+        of(b"endwhile"),
+        of(b"elseif"),
+        of(b"do"),
+        of(b"repeat"),
+        of(b"break"),
+        of(b"continue"),
+    ];
+    if LOCAL.contains(&letters) {
+        Some(false)
+    } else {
+        GLOBAL.contains(&letters).then_some(true)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::{Look, look};
     use crate::flow::fetch;
-    use crate::flow::oline::{self, Keyword, Label, OLine};
+    use crate::flow::label::Label;
+    use crate::flow::oline::{self, Keyword, OLine};
     use proptest::prelude::*;
     use trunnion_formula::Pool;
     use trunnion_syntax::TextRange;
@@ -91,14 +176,25 @@ mod tests {
         let mut cursor = head.cursor;
         let mut read = OLine::default();
         oline::read(&mut cursor, &mut Pool::default(), &mut read);
-        let Label::Text(name) = &read.label else { return None };
+        let name = match &read.label {
+            Label::Number(number) => number.to_string(),
+            Label::Text(name) => name.to_string(),
+            Label::Computed(_) => return None,
+        };
         let global = matches!(read.keyword, Keyword::EndSub | Keyword::Call | Keyword::Return);
         let sub = matches!(read.keyword, Keyword::Sub | Keyword::Bare);
-        (!sub).then(|| Some((name.to_string(), global)))
+        (!sub).then_some(Some((name, global)))
     }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn a_line_is_as_long_as_it_is(text in "[a-z \\n(\u{29}\u{8}\u{b}\u{a9}]{0,40}") {
+            let text = text.as_bytes();
+            let length = text.iter().position(|byte| *byte == b'\n').map_or(text.len(), |end| end + 1);
+            prop_assert_eq!(super::length(text), (length, text[..length].contains(&b'(')));
+        }
 
         #[test]
         fn what_is_seen_at_first_sight_is_so(

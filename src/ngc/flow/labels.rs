@@ -119,32 +119,49 @@ impl Labels {
     }
     /// The number of a name.
     pub(crate) fn name(&mut self, text: &Name) -> NameId {
-        let number = number(text.as_bytes());
-        let known = match number {
-            Some(number) if number < SMALL => self.names.small.get(number as usize).filter(|id| **id != 0),
-            Some(number) => self.names.numbers.get(&number),
-            None => self.names.ids.get(text),
-        };
-        if let Some(&id) = known {
+        if let Some(number) = number(text.as_bytes()) {
+            return self.numbered(number);
+        }
+        if let Some(&id) = self.names.ids.get(text) {
             return NameId(id);
         }
+        let (names, id) = self.new_name(text.clone());
+        names.ids.insert(text.clone(), id);
+        NameId(id)
+    }
+    /// The number of a name that is a number of up to nine digits.
+    #[inline]
+    pub(crate) fn numbered(&mut self, number: u32) -> NameId {
+        let known = if number < SMALL {
+            self.names.small.get(number as usize).filter(|id| **id != 0)
+        } else {
+            self.names.numbers.get(&number)
+        };
+        match known {
+            Some(&id) => NameId(id),
+            None => self.new_number(number),
+        }
+    }
+    fn new_number(&mut self, number: u32) -> NameId {
+        let (names, id) = self.new_name(Name::number(number));
+        if number < SMALL {
+            let place = number as usize;
+            if place >= names.small.len() {
+                names.small.resize(place + 1, 0);
+            }
+            names.small[place] = id;
+        } else {
+            names.numbers.insert(number, id);
+        }
+        NameId(id)
+    }
+    fn new_name(&mut self, text: Name) -> (&mut Names, u32) {
+        self.subprograms.push(None);
         let names = Arc::make_mut(&mut self.names);
         let id = names.texts.len() as u32;
-        names.texts.push(text.clone());
+        names.texts.push(text);
         names.first.push(None);
-        match number {
-            Some(number) if number < SMALL => {
-                let place = number as usize;
-                if place >= names.small.len() {
-                    names.small.resize(place + 1, 0);
-                }
-                names.small[place] = id;
-            }
-            Some(number) => _ = names.numbers.insert(number, id),
-            None => _ = names.ids.insert(text.clone(), id),
-        }
-        self.subprograms.push(None);
-        NameId(id)
+        (names, id)
     }
     /// A name as written, blanks removed, lower case.
     pub(crate) fn text(&self, name: NameId) -> &str {

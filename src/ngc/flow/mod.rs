@@ -11,6 +11,7 @@ mod endless;
 mod ends;
 mod fetch;
 mod glance;
+mod label;
 mod labels;
 mod lines;
 mod numbered;

@@ -1,7 +1,6 @@
 //! Fanuc-style calls: `M98 P.. L..` and `M99`.
 use super::labels::Style;
-use super::oline;
-use super::{Compiled, Halt, context, problems};
+use super::{Compiled, Halt, context, label, oline, problems};
 use crate::exec::{self, After};
 use crate::read;
 use crate::{Block, Engine, Error, Sink};
@@ -64,7 +63,7 @@ impl Engine {
                 )));
             }
         }
-        let whole = |value: f64, range| match oline::whole(value) {
+        let whole = |value: f64, range| match label::whole(value) {
             Some(number) => Ok(number),
             None => Err(Error::new(&problems::LABEL, range)),
         };
@@ -99,7 +98,7 @@ impl Engine {
         }
         match block.word(b'P') {
             None => Err(Error::new(&problems::NO_P, range)),
-            Some(number) if !number.is_nan() && oline::whole(number).is_none() => {
+            Some(number) if !number.is_nan() && label::whole(number).is_none() => {
                 Err(Error::new(&problems::LABEL, block.range_of(b'P')))
             }
             Some(_) => Ok(()),

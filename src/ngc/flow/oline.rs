@@ -1,7 +1,8 @@
 //! O lines as text: label, keyword, condition or arguments; and the `M98` / `M99` that a line may begin with.
+use super::label::{Label, label};
 use super::problems;
 use crate::Problem;
-use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Name, Pool, Target, ValueError, Variables, target};
+use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Name, Pool, ValueError, Variables, number_in_brackets};
 use trunnion_syntax::TextRange;
 
 /// What an O line says.
@@ -50,15 +51,6 @@ const KEYWORDS: [(&str, Keyword); 15] = [
     ("continue", Keyword::Continue),
 ];
 
-/// What stands behind the O.
-#[derive(Clone, Debug)]
-pub(crate) enum Label {
-    /// `<name>` without blanks and in lower case, or a number as the control writes it.
-    Text(Name),
-    /// `#1`, `[2*#3]`: known when the line runs.
-    Computed(Formula),
-}
-
 /// Something on the line that no value will mend.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Flaw {
@@ -88,12 +80,6 @@ pub(crate) struct OLine {
 
 /// Most arguments of a call: they become #1 to #30.
 const ARGUMENTS: usize = 30;
-
-impl Default for Label {
-    fn default() -> Self {
-        Self::Text(Name::new(""))
-    }
-}
 
 /// Reads an O line; the cursor stands before the O. `line` lends its storage.
 pub(crate) fn read(cursor: &mut Cursor<'_>, pool: &mut Pool, line: &mut OLine) {
@@ -176,70 +162,6 @@ impl Variables for NoVariables {
     fn exists(&self, _: &str) -> bool {
         false
     }
-}
-
-fn label(cursor: &mut Cursor<'_>, errors: &mut Vec<FormulaError>, pool: &mut Pool) -> Label {
-    if let Some(name) = plain_name(cursor) {
-        return Label::Text(name);
-    }
-    if cursor.eat(b'<') {
-        // a name that is not closed takes the rest of the line
-        let mut name = String::new();
-        while let Some(byte) = cursor.bump() {
-            if byte == b'>' {
-                break;
-            }
-            name.push(char::from(byte));
-        }
-        return Label::Text(Name::new(name.trim_end_matches(['\r', '\n'])));
-    }
-    if let Some(digits) = plain_label(cursor) {
-        return Label::Text(digits);
-    }
-    let (formula, error) = pool.value_or_error(cursor, Grammar::Rs274);
-    errors.extend(error);
-    match formula.number().and_then(whole) {
-        Some(number) => Label::Text(Name::new(&number.to_string())),
-        None => Label::Computed(formula),
-    }
-}
-
-/// `<name>` at the cursor, where the name is closed and made of letters, digits and `_`.
-fn plain_name(cursor: &mut Cursor<'_>) -> Option<Name> {
-    let (&b'<', _) = cursor.rest().split_first()? else {
-        return None;
-    };
-    let mut ahead = *cursor;
-    match target(&mut ahead, Grammar::Rs274) {
-        Ok(Target::Named(name)) if name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') => {
-            *cursor = ahead;
-            Some(name)
-        }
-        _ => None,
-    }
-}
-
-/// The digits at the cursor, where they are a number as the control writes it and a keyword or nothing follows.
-fn plain_label(cursor: &mut Cursor<'_>) -> Option<Name> {
-    let rest = cursor.rest();
-    let length = rest
-        .iter()
-        .position(|byte| !byte.is_ascii_digit())
-        .unwrap_or(rest.len());
-    let behind = rest[length..].iter().find(|byte| !matches!(byte, b' ' | b'\t' | b'\r'));
-    let ends = behind.is_none_or(u8::is_ascii_alphabetic);
-    if !(1..=9).contains(&length) || (rest[0] == b'0' && length > 1) || !ends {
-        return None;
-    }
-    let digits = core::str::from_utf8(&rest[..length]).ok()?;
-    cursor.skip_to(cursor.at() + length as u32);
-    Some(Name::new(digits))
-}
-
-/// A whole number, where it is one within the tolerance that the control grants.
-pub(crate) fn whole(value: f64) -> Option<i64> {
-    let nearest = (value + 0.5).floor();
-    ((value - nearest).abs() <= 0.0001).then_some(nearest as i64)
 }
 
 fn keyword(cursor: &mut Cursor<'_>) -> Option<(Keyword, TextRange)> {
@@ -361,6 +283,10 @@ fn arguments(cursor: &mut Cursor<'_>, line: &mut OLine, pool: &mut Pool) {
 }
 
 fn push(cursor: &mut Cursor<'_>, line: &mut OLine, pool: &mut Pool) {
+    if let Some(value) = number_in_brackets(cursor) {
+        line.values.push(value);
+        return;
+    }
     let (value, error) = pool.value_or_error(cursor, Grammar::Rs274);
     line.values.push(value);
     line.errors.extend(error);
@@ -371,10 +297,21 @@ fn ends(cursor: &Cursor<'_>) -> bool {
     matches!(cursor.peek(), None | Some(b'(' | b';' | b'\r' | b'\n' | 0))
 }
 
+#[inline]
 fn skip_comments(cursor: &mut Cursor<'_>) {
+    if matches!(cursor.peek(), Some(b'(' | b'\r' | b'\n')) {
+        skip_some_comments(cursor);
+    }
+}
+
+fn skip_some_comments(cursor: &mut Cursor<'_>) {
     while let Some(byte) = cursor.peek() {
         match byte {
-            b'(' => while cursor.bump().is_some_and(|byte| byte != b')') {},
+            b'(' => {
+                let rest = cursor.rest();
+                let length = memchr::memchr(b')', rest).map_or(rest.len(), |close| close + 1);
+                cursor.skip_to(cursor.at() + length as u32);
+            }
             b'\r' | b'\n' => {
                 cursor.bump();
             }

@@ -76,7 +76,7 @@ impl Engine {
             let range = self.range_at(place);
             let next = Self::behind(place, range);
             if counts {
-                let compiled = self.read(place, false);
+                let compiled = self.read_behind(place, false, true);
                 self.landed(place, &seeking);
                 return Sought::Landed(compiled, seeking, false);
             }
@@ -119,23 +119,26 @@ impl Engine {
     }
     /// Passes lines that by their first signs count for nothing; whether the line behind them counts by its first signs.
     fn pass(&mut self, seeking: &Seeking) -> bool {
-        let mut here = self.flow.here;
-        let source = std::sync::Arc::clone(&self.files[here.file.0 as usize]);
-        let glanced = self.flow.lines(here.file).glanced();
+        let from = self.flow.here;
+        let glanced = self.flow.lines(from.file).glanced();
         let (wanted, global) = match seeking.goal {
             Goal::Label(_, wanted) => (wanted, false),
             Goal::Definition(wanted) | Goal::Subprogram(wanted, _) => (wanted, true),
         };
         let wanted = self.flow.labels.name_bytes(wanted);
+        let bytes = self.files[from.file.0 as usize].bytes();
+        let (mut line, mut offset) = (from.line, from.offset as usize);
         let mut fuel = self.flow.fuel;
         let mut counts = false;
-        while (here.offset as usize) < source.bytes().len() && fuel > 0 {
-            let (range, has_comment) = source.line_and_bracket(here.offset);
-            let line = &source.bytes()[range.as_usize()];
-            if line.len() > glance::LONGEST {
+        while fuel > 0 {
+            let Some(rest) = bytes.get(offset..).filter(|rest| !rest.is_empty()) else {
+                break;
+            };
+            let (length, has_comment) = glance::length(rest);
+            if length > glance::LONGEST {
                 break;
             }
-            match glance::look(line, has_comment) {
+            match glance::look(&rest[..length], has_comment) {
                 Look::Nothing => {}
                 Look::Label(name, is_global) => {
                     counts = is_global == global && wanted.eq_ignore_ascii_case(name);
@@ -145,14 +148,19 @@ impl Engine {
             if counts {
                 break;
             }
-            fuel -= u64::from(here.line < glanced);
-            here = Self::behind(here, range);
+            fuel -= u64::from(line < glanced);
+            line += 1;
+            offset += length;
         }
         self.flow.fuel = fuel;
-        if here.line > self.flow.here.line {
-            self.flow.lines(here.file).glance(here.line - 1);
+        if line > from.line {
+            self.flow.lines(from.file).glance(line - 1);
         }
-        self.flow.here = here;
+        self.flow.here = Place {
+            line,
+            offset: offset as u32,
+            ..from
+        };
         counts
     }
     fn note(&mut self, place: Place) {
@@ -200,7 +208,7 @@ impl Engine {
         let mut cursor = head.cursor;
         let mut line = OLine::default();
         oline::read(&mut cursor, &mut Pool::default(), &mut line);
-        if matches!(line.label, oline::Label::Computed(_)) {
+        if matches!(line.label, super::label::Label::Computed(_)) {
             seeking.fixed = false;
         }
         let name = match self.name_of(&line) {

@@ -2,8 +2,9 @@
 //!
 //! Labels become known when their opening line runs and stay known: an `endwhile` that is met again jumps back again, a repeat that
 //! was left by `return` goes on with the rounds that were left. That is what the control does.
+use super::label::{Label, whole};
 use super::labels::{LabelId, NameId, Opener, Structure};
-use super::oline::{self, Keyword, Label, OLine};
+use super::oline::{Keyword, OLine};
 use super::{Compiled, Goal, Halt, Seeking, problems};
 use crate::exec::After;
 use crate::{Engine, Error, Problem, Sink};
@@ -38,7 +39,7 @@ impl Engine {
             Some(name) => name,
             None => self.name_of(line)?,
         };
-        if matches!(line.label, Label::Text(_)) {
+        if !matches!(line.label, Label::Computed(_)) {
             compiled.memo.name = Some(name);
         }
         if line.keyword == Keyword::Bare && self.flow.no_fanuc {
@@ -58,10 +59,11 @@ impl Engine {
     /// The name of a label.
     pub(super) fn name_of(&mut self, line: &OLine) -> Result<NameId, Halt> {
         match &line.label {
+            Label::Number(number) => Ok(self.flow.labels.numbered(*number)),
             Label::Text(text) => Ok(self.flow.labels.name(text)),
             Label::Computed(formula) => {
                 let value = self.decided(formula, line)?;
-                let Some(number) = oline::whole(value) else {
+                let Some(number) = whole(value) else {
                     return Err(Error::new(&problems::LABEL, line.label_range).into());
                 };
                 Ok(self.flow.labels.name(&Name::new(&number.to_string())))
@@ -77,7 +79,7 @@ impl Engine {
             return label;
         }
         let label = self.flow.labels.label(sub, name);
-        if matches!(line.label, Label::Text(_)) {
+        if !matches!(line.label, Label::Computed(_)) {
             compiled.memo.label = Some((sub, label));
         }
         label
@@ -361,8 +363,9 @@ impl Engine {
     /// The label as the control names it inside a subprogram.
     fn scoped_text(&self, line: &OLine) -> String {
         let label = match &line.label {
+            Label::Number(number) => number.to_string(),
             Label::Text(text) => text.to_string(),
-            Label::Computed(formula) => self.value(formula).ok().and_then(oline::whole).unwrap_or(0).to_string(),
+            Label::Computed(formula) => self.value(formula).ok().and_then(whole).unwrap_or(0).to_string(),
         };
         format!("{}#{label}", self.flow.labels.text(self.flow.sub))
     }

@@ -5,8 +5,9 @@
 //! time on, so that programs whose lines all differ fill no memory.
 use super::Compiled;
 use super::fetch::LONGEST;
+use super::label::{Label, digits};
 use super::labels::Place;
-use super::oline::{Label, OLine};
+use super::oline::OLine;
 use crate::{FileId, Source};
 use core::hash::BuildHasher;
 use foldhash::fast::FixedState;
@@ -36,7 +37,7 @@ enum Part {
 pub(super) struct Key {
     part: Part,
     /// The O and its label, where they are plain and not part of the text.
-    label: Option<(TextRange, Name)>,
+    label: Option<(TextRange, Label)>,
     /// The bytes that are compared.
     text: TextRange,
     hash: u64,
@@ -51,9 +52,13 @@ impl Key {
             return None;
         }
         let (part, label, behind) = match plain_label(bytes) {
-            Some((part, start, end, name)) => {
+            Some((start, end, label)) => {
+                let part = match label {
+                    Label::Number(_) => Part::BehindNumber,
+                    _ => Part::BehindName,
+                };
                 let range = TextRange::new(line.start + start as u32, line.start + end as u32);
-                (part, Some((range, name)), end)
+                (part, Some((range, label)), end)
             }
             None => (Part::Whole, None, 0),
         };
@@ -68,22 +73,26 @@ impl Key {
 
 /// The O word that a line begins with, where its label is plain: where it begins and ends.
 #[inline]
-fn plain_label(line: &[u8]) -> Option<(Part, usize, usize, Name)> {
-    let start = line.iter().position(|byte| !matches!(byte, b' ' | b'\t'))?;
-    if !matches!(line[start], b'o' | b'O') {
-        return None;
-    }
+fn plain_label(line: &[u8]) -> Option<(usize, usize, Label)> {
+    let start = o_word(line)?;
     let rest = &line[start + 1..];
     if let Some((b'<', inside)) = rest.split_first() {
         let (name, length) = Name::before(inside, b'>')?;
-        return Some((Part::BehindName, start, start + length + 3, name));
+        return Some((start, start + length + 3, Label::Text(name)));
     }
-    let length = rest.iter().position(|byte| !byte.is_ascii_digit())?;
-    if !(1..=9).contains(&length) || (rest[0] == b'0' && length > 1) {
-        return None;
+    let (number, length) = digits(rest)?;
+    // a line that ends here was cut off
+    (length < rest.len()).then_some((start, start + length + 1, Label::Number(number)))
+}
+
+/// Where the O stands that a line begins with.
+#[inline]
+fn o_word(line: &[u8]) -> Option<usize> {
+    let mut start = 0;
+    while matches!(line.get(start), Some(b' ' | b'\t')) {
+        start += 1;
     }
-    let (name, _) = Name::before(rest, rest[length])?;
-    Some((Part::BehindNumber, start, start + length + 1, name))
+    matches!(line.get(start), Some(b'o' | b'O')).then_some(start)
 }
 
 /// Where a read form comes from.
@@ -112,6 +121,8 @@ struct Slot {
     hash: u64,
     /// It was met twice, or runs in a loop.
     read: Option<Box<Compiled>>,
+    /// Slots of the texts that were read behind it the last time: where the run went on, and where it skipped lines.
+    after: [u32; 2],
 }
 
 /// The texts that were read.
@@ -121,6 +132,8 @@ pub(crate) struct Texts {
     /// Kept for their storage.
     #[expect(clippy::vec_box, reason = "they go from hand to hand and are large")]
     spare: Vec<Box<Compiled>>,
+    /// Slot of the text that was read last.
+    last: u32,
 }
 
 /// A copy reads its lines again: check-points must not copy what can be had anew.
@@ -138,6 +151,51 @@ impl Texts {
             .get_mut(slot as usize)?
             .read
             .take_if(|read| read.place == place)
+    }
+    /// The line at a place, if it says what stood the last time behind the line that was read before it (`skipped`: where lines were
+    /// skipped in between): then its text need not be looked for.
+    #[inline]
+    pub(super) fn guess(&mut self, source: &[u8], place: Place, skipped: bool) -> Option<Box<Compiled>> {
+        let at = self.slots.get(self.last as usize)?.after[usize::from(skipped)];
+        let slot = self.slots.get_mut(at as usize)?;
+        let read = slot.read.as_deref_mut()?;
+        if read.origin.file != place.file {
+            return None;
+        }
+        let (label, behind) = match read.origin.part {
+            Part::Whole => (None, place.offset),
+            Part::BehindNumber => {
+                let line = source.get(place.offset as usize..)?;
+                let start = o_word(line)?;
+                let (number, length) = digits(line.get(start + 1..)?)?;
+                let start = place.offset + start as u32;
+                (Some((start, number)), start + 1 + length as u32)
+            }
+            Part::BehindName => return None,
+        };
+        let there = source.get(read.origin.text.as_usize())?;
+        let here = source.get(behind as usize..)?.get(..there.len())?;
+        let end = behind + there.len() as u32;
+        // a text without its line end could go on here
+        if here != there || there.last() != Some(&b'\n') || end - place.offset > LONGEST {
+            return None;
+        }
+        read.stands_at(place, TextRange::new(behind, end));
+        if let (Some((start, number)), Some(line)) = (label, &mut read.o) {
+            line.is_labelled(Label::Number(number), TextRange::new(start, behind));
+        }
+        self.last = at;
+        slot.read.take()
+    }
+    /// Notes that the text of this slot stands behind the one that was read last.
+    #[inline]
+    pub(super) fn follows(&mut self, slot: u32, skipped: bool) {
+        if (slot as usize) < self.slots.len() {
+            if let Some(last) = self.slots.get_mut(self.last as usize) {
+                last.after[usize::from(skipped)] = slot;
+            }
+            self.last = slot;
+        }
     }
     /// The read form of a text, with `true`, to be moved to where it stands now; else room to read it into. `keep`: it will run again.
     #[inline]
@@ -231,34 +289,41 @@ impl Compiled {
         let as_seen = match (&key.label, self.o.as_deref()) {
             (None, _) => true,
             (
-                Some((range, name)),
+                Some((range, label)),
                 Some(OLine {
-                    label: Label::Text(own),
+                    label: own,
                     label_range,
                     ..
                 }),
-            ) => own == name && label_range == range,
+            ) => own == label && label_range == range,
             _ => false,
         };
         if self.cut.is_some() || !as_seen {
             self.origin.slot = NOWHERE;
         }
     }
-    /// Moves its ranges from where the text was run last to where it stands now.
+    /// Moves it from where its text was run last to a line where the text stands at `text`.
     #[inline]
-    pub(super) fn move_to(&mut self, key: Key, file: FileId) {
-        let by = key.text.start.wrapping_sub(self.origin.text.start);
-        self.origin.file = file;
-        self.origin.text = key.text;
+    pub(super) fn stands_at(&mut self, place: Place, text: TextRange) {
+        self.place = place;
+        self.next = Place {
+            line: place.line + 1,
+            offset: text.end,
+            ..place
+        };
+        self.memo = super::Memo::default();
+        let by = text.start.wrapping_sub(self.origin.text.start);
+        self.origin.file = place.file;
+        self.origin.text = text;
         if by != 0 {
             self.shift(by);
         }
-        if let (Some((range, name)), Some(line)) = (key.label, &mut self.o) {
-            if line.keyword_range == line.label_range {
-                line.keyword_range = range;
-            }
-            line.label_range = range;
-            line.label = Label::Text(name);
+    }
+    /// The same of the line of this key.
+    pub(super) fn stands_for(&mut self, place: Place, key: Key) {
+        self.stands_at(place, key.text);
+        if let (Some((range, label)), Some(line)) = (key.label, &mut self.o) {
+            line.is_labelled(label, range);
         }
     }
     fn shift(&mut self, by: u32) {
@@ -290,6 +355,15 @@ impl Compiled {
 }
 
 impl OLine {
+    /// It stands behind another label.
+    #[inline]
+    fn is_labelled(&mut self, label: Label, range: TextRange) {
+        if self.keyword_range == self.label_range {
+            self.keyword_range = range;
+        }
+        self.label_range = range;
+        self.label = label;
+    }
     /// Moves its ranges by so many bytes (wrapping).
     fn shift(&mut self, by: u32) {
         for range in [&mut self.label_range, &mut self.keyword_range, &mut self.rest] {
@@ -311,90 +385,4 @@ impl OLine {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::labels::Place;
-    use super::{Compiled, NOWHERE};
-    use crate::{Engine, Setup, Source};
-    use proptest::prelude::*;
-    use std::sync::Arc;
-
-    /// All that a read form says.
-    fn said(read: &Compiled) -> String {
-        let line = &read.line;
-        let words = (&line.number, line.delete, &line.items, &line.words, &line.assignments);
-        let rest = (line.range, &line.comment, &line.remark, &line.errors);
-        format!(
-            "{:?} {:?} {:?} {:?} {words:?} {rest:?}",
-            read.kind, read.o, read.cut, read.flaw
-        )
-    }
-
-    /// Reads both lines of a program, the second one as it is found by its text; whether it was found, and what both ways say of it.
-    fn both(first: &str, second: &str) -> (bool, String, String) {
-        let text = format!("{first}\n\n{second}\n");
-        let source = Source::new(String::new(), text.as_bytes().into());
-        let mut engine = Engine::new(Arc::new(source), &Setup::default());
-        let there = Place {
-            line: 2,
-            offset: first.len() as u32 + 2,
-            ..Place::default()
-        };
-        let read = engine.read(Place::default(), true);
-        let slot = read.slot();
-        engine.put_back(read, false);
-        let moved = engine.read(there, true);
-        let mut fresh = Compiled::default();
-        engine.compile(there, &mut fresh);
-        assert_eq!((moved.place, moved.next), (fresh.place, fresh.next));
-        let words = |read: &Compiled| {
-            let counts = matches!(
-                read.kind,
-                super::super::Kind::Words | super::super::Kind::CallNumbered | super::super::Kind::ReturnNumbered
-            );
-            counts && read.flaw.is_none()
-        };
-        let mut moved = moved;
-        if !words(&moved) && !words(&fresh) {
-            // nobody looks at the words of such a line
-            moved.line = fresh.line.clone();
-        }
-        (slot != NOWHERE && slot == moved.slot(), said(&moved), said(&fresh))
-    }
-
-    #[test]
-    fn what_is_found_by_its_text_is_what_is_read() {
-        for (first, second) in [
-            ("  G1 X#<w> Y[#<h> - 1.25] (c)", "  G1 X#<w> Y[#<h> - 1.25] (c)"),
-            (
-                "o7 if [#1 GT 10 AND #<h> LT 1000] ;c",
-                "O12 if [#1 GT 10 AND #<h> LT 1000] ;c",
-            ),
-            ("o<ab> call [3] [0.5] [#2]", "o<abc_d> call [3] [0.5] [#2]"),
-            ("o7", "o77"),
-            ("#<a> = [1 + 2] #3=4", "#<a> = [1 + 2] #3=4"),
-            ("G1 X1 X2 Y[1+", "G1 X1 X2 Y[1+"),
-            ("o7 foo", "o9 foo"),
-        ] {
-            let (found, moved, fresh) = both(first, second);
-            assert!(found, "{first:?}");
-            assert_eq!(moved, fresh, "{first:?}");
-        }
-        // where the number does not end with its digits, what stands behind is no text of its own
-        for (first, second) in [("o7.5 if [1]", "o8.5 if [1]"), ("o7 7 if [1]", "o8 7 if [1]")] {
-            let (found, moved, fresh) = both(first, second);
-            assert!(!found, "{first:?}");
-            assert_eq!(moved, fresh, "{first:?}");
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn whatever_stands_there(
-            line in "[/ ]{0,2}(N5 )?(o(7|<ab>|#1|1\\.5|\\[1\\]) ?(if|while|sub|call|endif|else|foo)?|G1 X#<w>|#1=|#<a>=5|X1\\.2\\.3|M98 P1|M99|%|X1 X)[ 7.]{0,2}(\\[[#<x>1+2.]{0,5}\\]){0,2}( ;c| \\(d\\)|\\(a\\(b)?"
-        ) {
-            let other = line.replacen("o7", "O12", 1).replacen("<ab>", "<abc_d>", 1);
-            let (_, moved, fresh) = both(&line, &other);
-            prop_assert_eq!(moved, fresh);
-        }
-    }
-}
+mod tests;

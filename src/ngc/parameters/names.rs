@@ -16,15 +16,20 @@ impl Names {
     /// The value of a name.
     #[inline]
     pub(super) fn get(&self, name: &Name) -> Option<f64> {
-        match self.few.iter().find(|(known, _)| known == name) {
+        match self.few.iter().find(|(known, _)| known.is(name)) {
             Some((_, value)) => Some(*value),
             None if self.rest.is_empty() => None,
-            None => self.rest.get(name).copied(),
+            None => self.one_of_many(name),
         }
+    }
+    #[cold]
+    #[inline(never)]
+    fn one_of_many(&self, name: &Name) -> Option<f64> {
+        self.rest.get(name).copied()
     }
     /// Gives a name a value.
     pub(super) fn set(&mut self, name: &Name, value: f64) {
-        if let Some((_, place)) = self.few.iter_mut().find(|(known, _)| known == name) {
+        if let Some((_, place)) = self.few.iter_mut().find(|(known, _)| known.is(name)) {
             *place = value;
         } else if self.few.len() < FEW {
             self.few.push((name.clone(), value));

@@ -1,13 +1,14 @@
 //! What a leg must be like for a rule to have anything to say of it: most rules are not asked about most legs.
+use crate::rules::{excess_linear_travel, excess_rotary_travel, fast_pole};
 use crate::trail::Trail;
 use crate::view::{leads_tip, turns};
 use core::f64::consts::PI;
-use trunnion_interp::Orientation;
-use trunnion_machine::{Leg, Machine};
+use trunnion_interp::{Feed, Orientation};
+use trunnion_machine::{Allowances, Leg, Machine, glance};
 
 /// Things that must hold of a leg, all of them, before a rule is asked; without one of them the rule says nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Needs(u16);
+pub struct Needs(u32);
 
 impl Needs {
     /// Nothing: the rule looks at all legs.
@@ -41,6 +42,19 @@ impl Needs {
     /// A machine whose file says how well an axis is known.
     pub const UNCERTAIN: Self = Self(1 << 13);
 
+    /// A joint that may leave its travel.
+    pub const BEYOND: Self = Self(1 << 14);
+    /// A tip that may leave its segment by more than the tolerance.
+    pub const STRAYS: Self = Self(1 << 15);
+    /// An axis that may have to hold the feed back, or one without a declared speed.
+    pub const HURRIES: Self = Self(1 << 16);
+    /// Linear joints that may run farther than their ratio to the tip's way allows.
+    pub const TRAVELS: Self = Self(1 << 17);
+    /// Rotary joints that may have turned farther in the last blocks than their ratio to the tool axis allows.
+    pub const WINDS: Self = Self(1 << 18);
+    /// A pole that may be too near for the first rotary axis.
+    pub const POLE_HURRIES: Self = Self(1 << 19);
+
     /// This and that.
     pub const fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)
@@ -53,25 +67,41 @@ impl Needs {
     }
 
     #[inline]
-    fn when(self, holds: bool) -> u16 {
+    fn when(self, holds: bool) -> u32 {
         if holds { self.0 } else { 0 }
     }
 
-    /// What holds of all legs of a machine.
-    pub(crate) fn of_machine(machine: &Machine) -> Self {
+}
+
+/// What holds of the legs of one machine.
+pub(crate) struct Facts<'m> {
+    machine: &'m Machine,
+    allowances: Allowances,
+    /// What holds of all of them.
+    always: u32,
+    /// Seconds that the first rotary axis needs for a pass at 1 rad from the pole, per rad.
+    pole_pass: f64,
+}
+
+impl<'m> Facts<'m> {
+    pub(crate) fn new(machine: &'m Machine) -> Self {
         let any = |holds: fn(&trunnion_machine::Axis) -> bool| machine.axes.iter().any(holds);
         let uncertain =
             any(|axis| axis.extra.point_uncertainty.is_some() || axis.extra.direction_uncertainty.is_some());
-        Self(
-            Self::CABLE.when(any(|axis| axis.extra.cable))
-                | Self::CLAMP.when(any(|axis| axis.extra.clamp || axis.extra.clamp_codes.is_some()))
-                | Self::UNCERTAIN.when(uncertain),
-        )
+        Self {
+            machine,
+            allowances: Allowances::of(machine),
+            always: Needs::CABLE.when(any(|axis| axis.extra.cable))
+                | Needs::CLAMP.when(any(|axis| axis.extra.clamp || axis.extra.clamp_codes.is_some()))
+                | Needs::UNCERTAIN.when(uncertain),
+            pole_pass: machine.rotary.first().map_or(0.0, |&first| fast_pole::pass(&machine.axes[first])),
+        }
     }
 
-    /// What holds of a leg, beside what holds of its machine. `posture_before` as in [`crate::LegView`].
+    /// What holds of a leg. `posture_before` as in [`crate::LegView`].
     #[inline]
-    pub(crate) fn of_leg(self, machine: &Machine, leg: &Leg, posture_before: i8, trail: &Trail) -> Self {
+    pub(crate) fn of_leg(&self, leg: &Leg, posture_before: i8, trail: &Trail) -> Needs {
+        let machine = self.machine;
         let motion = &leg.motion;
         let [first, second] = leg.rotary_change;
         let (mut lost, mut crosses) = (true, false);
@@ -87,19 +117,60 @@ impl Needs {
             });
         }
         let near_pole = machine.rotary.len() == 2 && leg.pole_angle_min < machine.tolerances.pole_cone;
-        Self(
-            self.0
-                | Self::FEED.when(motion.is_feed())
-                | Self::TURNS.when(turns(leg))
-                | Self::TURNS_FAR.when(first > PI || second > PI)
-                | Self::LEADS_TIP.when(leads_tip(motion))
-                | Self::VECTORS.when(matches!(motion.orientation, Orientation::Vector(..)))
-                | Self::LOST.when(lost)
-                | Self::OPEN.when(leg.open.is_some())
-                | Self::EXCESS.when(leg.rotary_excess > 0.0)
-                | Self::NEAR_POLE.when(near_pole)
-                | Self::CROSSES.when(crosses)
-                | Self::ARRIVES.when(trail.rapids().is_some()),
+        Needs(
+            self.always
+                | Needs::FEED.when(motion.is_feed())
+                | Needs::TURNS.when(turns(leg))
+                | Needs::TURNS_FAR.when(first > PI || second > PI)
+                | Needs::LEADS_TIP.when(leads_tip(motion))
+                | Needs::VECTORS.when(matches!(motion.orientation, Orientation::Vector(..)))
+                | Needs::LOST.when(lost)
+                | Needs::OPEN.when(leg.open.is_some())
+                | Needs::EXCESS.when(leg.rotary_excess > 0.0)
+                | Needs::NEAR_POLE.when(near_pole)
+                | Needs::CROSSES.when(crosses)
+                | Needs::ARRIVES.when(trail.rapids().is_some())
+                | self.at_a_glance(leg, trail),
         )
     }
+
+    /// What a look at a line along which all joints run straight cannot rule out; of other legs everything.
+    #[inline]
+    fn at_a_glance(&self, leg: &Leg, trail: &Trail) -> u32 {
+        const ALL: u32 = Needs::BEYOND.0
+            | Needs::STRAYS.0
+            | Needs::HURRIES.0
+            | Needs::TRAVELS.0
+            | Needs::WINDS.0
+            | Needs::POLE_HURRIES.0;
+        let machine = self.machine;
+        let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
+            return ALL;
+        };
+        let Some(seen) = glance(machine, &self.allowances, leg) else {
+            return ALL;
+        };
+        let tolerances = &machine.tolerances;
+        let seconds = match leg.motion.feed {
+            Feed::PerMinute(feed) if feed > 0.0 && leg.length > 0.0 => leg.length / feed * 60.0,
+            Feed::InverseTime(per_minute) if per_minute > 0.0 && leg.length > 0.0 => 60.0 / per_minute,
+            // a look does not do for what F means then
+            _ => f64::NAN,
+        };
+        let held_back = tolerances.feed_drop_warning > 1.0;
+        let travels = seen.linear_mm <= excess_linear_travel::allowed(machine, (end.tip - start.tip).norm());
+        // what is not a number rules nothing out
+        Needs::BEYOND.when(!seen.inside)
+            | Needs::STRAYS.when(!at_most(seen.stray_mm, tolerances.tip_mm))
+            | Needs::HURRIES.when(held_back || !at_most(seen.axes_s, seconds))
+            | Needs::TRAVELS.when(!travels)
+            | Needs::WINDS.when(excess_rotary_travel::winds(machine, trail))
+            | Needs::POLE_HURRIES.when(fast_pole::may_hurry(leg, (start, end), self.pole_pass, seconds))
+    }
+}
+
+/// Whether a number is known to be at most another.
+#[inline]
+fn at_most(value: f64, most: f64) -> bool {
+    value <= most
 }

@@ -1,6 +1,6 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
 use crate::clamps::Clamps;
-use crate::needs::Needs;
+use crate::needs::{Facts, Needs};
 use crate::report::Summary;
 use crate::rule::{EndRule, Ending, FaultRule, InForce, LegRule, MotionRule, ProgramRule, TextRule};
 use crate::sink::{Active, Reporter, active};
@@ -22,8 +22,10 @@ pub(crate) struct Pass<'a> {
     faults: Vec<Active<FaultRule>>,
     motions: Vec<Active<MotionRule>>,
     legs: Vec<Active<(Needs, LegRule)>>,
-    /// What holds of all legs of the machine.
-    facts: Needs,
+    /// What tells of a leg which of them have anything to look at.
+    facts: Option<Facts<'a>>,
+    /// Those that the last leg asked, and what held of it.
+    asked: (Needs, Vec<Active<LegRule>>),
     ends: Vec<Active<EndRule>>,
     suppressions: &'a Suppressions,
     ported: bool,
@@ -72,7 +74,8 @@ impl<'a> Pass<'a> {
             }),
             suppressions,
             ported: !settings.port_to.is_empty(),
-            facts: settings.machine.map_or(Needs::NOTHING, Needs::of_machine),
+            facts: settings.machine.map(Facts::new),
+            asked: (Needs::NOTHING, Vec::new()),
             follower: settings.machine.map(Follower::new),
             posture: 0,
             trail: Trail::default(),
@@ -143,20 +146,28 @@ impl<'a> Pass<'a> {
     }
 
     fn read_leg(&mut self, leg: &Leg) {
-        let Some(follower) = &self.follower else { return };
+        let (Some(follower), Some(facts)) = (&self.follower, &self.facts) else {
+            return;
+        };
         self.trail.add(follower.machine(), leg);
         let view = LegView::new(follower.machine(), leg, self.posture, &self.trail);
-        let facts = self.facts.of_leg(follower.machine(), leg, self.posture, &self.trail);
-        for rule in &self.legs {
-            let (needs, run) = rule.run;
-            let asked = needs.are_met(facts);
-            // a debug build asks them all and sees that the others are silent
-            if asked || cfg!(debug_assertions) {
-                self.reporter.enter(rule, Some(leg.motion.block), self.summary.motions);
-                run(&view, &mut self.reporter);
-                debug_assert!(asked || self.reporter.is_silent(), "{} needs less", rule.name);
-                self.reporter.leave();
-            }
+        let holds = facts.of_leg(leg, self.posture, &self.trail);
+        if holds != self.asked.0 || self.asked.1.is_empty() {
+            // one leg is like the other in most programs
+            let (of, asked) = &mut self.asked;
+            *of = holds;
+            asked.clear();
+            let met = self.legs.iter().filter(|rule| rule.run.0.are_met(holds));
+            asked.extend(met.map(|rule| rule.with(rule.run.1)));
+        }
+        for rule in &self.asked.1 {
+            self.reporter
+                .enter(rule, Some(leg.motion.block), self.summary.motions);
+            (rule.run)(&view, &mut self.reporter);
+            self.reporter.leave();
+        }
+        if cfg!(debug_assertions) {
+            see_silent(&self.legs, &mut self.reporter, &view, (holds, self.summary.motions));
         }
         self.time.add(&view, self.reporter.dialect());
         match &leg.end {
@@ -236,6 +247,22 @@ impl<'a> Pass<'a> {
             summary,
             cycle_time_s,
         }
+    }
+}
+
+/// A debug build asks also the rules that a leg gives nothing to look at, and sees that they are silent. `at`: what holds of the leg, and
+/// its number.
+fn see_silent(
+    legs: &[Active<(Needs, LegRule)>],
+    reporter: &mut Reporter<'_>,
+    view: &LegView<'_>,
+    (holds, number): (Needs, u64),
+) {
+    for rule in legs.iter().filter(|rule| !rule.run.0.are_met(holds)) {
+        reporter.enter(rule, Some(view.leg.motion.block), number);
+        (rule.run.1)(view, reporter);
+        debug_assert!(reporter.is_silent(), "{} needs less", rule.name);
+        reporter.leave();
     }
 }
 

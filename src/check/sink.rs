@@ -20,6 +20,18 @@ pub(crate) struct Active<F> {
     pub(crate) run: F,
 }
 
+impl<F> Active<F> {
+    /// The same with something else to run.
+    pub(crate) fn with<G>(&self, run: G) -> Active<G> {
+        Active {
+            name: self.name,
+            severity: self.severity,
+            level: self.level,
+            run,
+        }
+    }
+}
+
 /// Collects findings of rules.
 pub struct Reporter<'a> {
     program: &'a Program,
@@ -39,6 +51,8 @@ pub struct Reporter<'a> {
     told: Vec<(&'static str, u64)>,
     /// A rule words a leg it has found before.
     wording: bool,
+    /// The running rule has reported or counted something.
+    spoke: bool,
 }
 
 /// A finding while its rule still words it.
@@ -63,6 +77,7 @@ impl<'a> Reporter<'a> {
             pending: Vec::new(),
             told: Vec::new(),
             wording: false,
+            spoke: false,
         }
     }
 
@@ -93,6 +108,7 @@ impl<'a> Reporter<'a> {
 
     /// Starts a finding; the message says what is wrong, in one sentence with numbers and units.
     pub fn report(&mut self, range: TextRange, message: impl Into<String>) -> &mut Draft {
+        self.spoke = true;
         let range = self.inside(range);
         let diagnostic = Diagnostic {
             rule: self.name,
@@ -149,7 +165,9 @@ impl<'a> Reporter<'a> {
             block,
             sequence: self.sequence,
         };
-        !self.wording && !self.suppressions.allows(rule, block) && self.log.absorb(repeat, view)
+        let absorbed = !self.wording && !self.suppressions.allows(rule, block) && self.log.absorb(repeat, view);
+        self.spoke |= absorbed;
+        absorbed
     }
 
     /// Words the worst legs of runs that only kept them.
@@ -193,6 +211,7 @@ impl<'a> Reporter<'a> {
         self.level = rule.level;
         self.block = block;
         self.sequence = sequence;
+        self.spoke = false;
     }
 
     /// How the run came to what the rules see next: whether its block ran `again`, and in which calls.
@@ -201,9 +220,9 @@ impl<'a> Reporter<'a> {
         self.chain = chain;
     }
 
-    /// Whether the running rule has reported nothing.
+    /// Whether the running rule has reported nothing and counted nothing.
     pub(crate) fn is_silent(&self) -> bool {
-        self.pending.is_empty()
+        !self.spoke
     }
 
     /// Takes what the rule reported.

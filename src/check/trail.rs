@@ -141,12 +141,7 @@ impl Trail {
     /// Turn of the rotary axes and of the tool axis in the last ten feed blocks, rad, where the first is more than `ratio` times the
     /// second (which counts as `least` at least).
     pub(crate) fn excess_turn(&self, ratio: f64, least: f64) -> Option<(f64, f64)> {
-        if self.window.count < WINDOW {
-            return None;
-        }
-        // most windows are far from it, which sums in any order tell
-        let (turned, chords) = (any_sum(&self.window.turned), any_sum(&self.window.chord));
-        if turned * ROUNDED_UP <= ratio * chords.max(least) {
+        if !self.may_exceed(ratio, least) {
             return None;
         }
         let turned: f64 = self.window.turned.iter().sum();
@@ -158,6 +153,13 @@ impl Trail {
         let angle = |chord: &f64| if *chord < 2.0 { 2.0 * asin(0.5 * chord) } else { PI };
         let tilted: f64 = self.window.chord.iter().map(angle).sum();
         (turned > ratio * tilted.max(least)).then_some((turned, tilted))
+    }
+
+    /// Whether [`Self::excess_turn`] may find anything: most windows are far from it, which sums in any order tell.
+    #[inline]
+    pub(crate) fn may_exceed(&self, ratio: f64, least: f64) -> bool {
+        let window = &self.window;
+        window.count >= WINDOW && any_sum(&window.turned) * ROUNDED_UP > ratio * any_sum(&window.chord).max(least)
     }
 
     /// The rapid motions that led to the feed motion in hand.

@@ -21,7 +21,7 @@ pub struct Excess {
 }
 
 /// How far a joint may lie beyond its limit and still count as on it, mm or rad: rounding.
-const SLACK: f64 = 1e-6;
+pub(crate) const SLACK: f64 = 1e-6;
 
 /// How near sample and bound are brought, mm, where a limit is broken inside a block.
 const CLOSE_MM: f64 = 1e-3;

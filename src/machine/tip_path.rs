@@ -157,6 +157,14 @@ impl<'a> Run<'a> {
     }
 }
 
+/// Bound of the distance between the tip's path and its chord while all joints run straight from `start` to `end`, mm: the eighth of the
+/// largest second derivative, and rounding. Source: kinematics notes 3.
+#[inline]
+pub(crate) fn straight_stray(machine: &Machine, start: &Stance, end: &Stance) -> f64 {
+    let (bend, rounding) = Run::new(machine, start, end).bound(None);
+    bend * 0.125 + rounding
+}
+
 impl<'a> TipPath<'a> {
     /// `arc`: what the words X Y Z run along, if not a line.
     pub(crate) fn new(run: Run<'a>, arc: Option<&Arc>) -> Self {

@@ -32,7 +32,7 @@ use trunnion_machine::{AxisKind, Excess, limit_excess};
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::NOTHING, check),
+    level: Level::Leg(Needs::BEYOND, check),
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {

@@ -44,7 +44,7 @@ use trunnion_machine::{Axis, AxisKind};
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED, check),
+    level: Level::Leg(Needs::FEED.and(Needs::HURRIES), check),
 };
 
 /// Relative room for rounding.

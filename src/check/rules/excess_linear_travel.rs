@@ -36,13 +36,13 @@
 //! machines with two rotary axes.
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
-use trunnion_machine::{LinearTravel, excursions, linear_travel};
+use trunnion_machine::{LinearTravel, Machine, excursions, linear_travel};
 use trunnion_syntax::Program;
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::TURNS), check),
+    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::TRAVELS), check),
 };
 
 /// A shorter tip path counts as this, mm.
@@ -53,6 +53,12 @@ const BETWEEN: u64 = 1;
 
 /// Axes that run farther than this beyond both ends are noted, mm.
 const BEYOND_MM: f64 = 1.0;
+
+/// How far the linear joints may run while the tip runs `tip`, mm.
+#[inline]
+pub(crate) fn allowed(machine: &Machine, tip: f64) -> f64 {
+    machine.tolerances.linear_ratio * tip.max(LEAST_MM)
+}
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if !view.motion().is_feed() || !view.rotary_turns() {
@@ -65,7 +71,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         (end.tip - start.tip).norm()
     };
     let ratio = view.machine.tolerances.linear_ratio;
-    let allowed = ratio * tip.max(LEAST_MM);
+    let allowed = allowed(view.machine, tip);
     let Some(travel) = linear_travel(view.machine, view.leg, allowed) else {
         return;
     };

@@ -51,16 +51,24 @@
 //! # Sources
 //! Trunnion's kinematics notes, section 5 (ROT-EXCESS).
 use crate::prelude::*;
+use crate::trail::Trail;
 use trunnion_geometry::rad;
+use trunnion_machine::Machine;
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::TURNS), check),
+    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::WINDS), check),
 };
 
 /// A smaller turn of the tool axis counts as this, deg.
 const LEAST_DEG: f64 = 0.1;
+
+/// Whether the last blocks may have turned too far.
+#[inline]
+pub(crate) fn winds(machine: &Machine, trail: &Trail) -> bool {
+    trail.may_exceed(machine.tolerances.rotary_ratio, rad(LEAST_DEG))
+}
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if !view.motion().is_feed() || !view.rotary_turns() {

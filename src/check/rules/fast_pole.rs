@@ -38,11 +38,12 @@ use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 use trunnion_geometry::math::angle_between;
 use trunnion_interp::Feed;
+use trunnion_machine::{Axis, Leg, Stance};
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Heuristic,
-    level: Level::Leg(Needs::FEED, check),
+    level: Level::Leg(Needs::FEED.and(Needs::POLE_HURRIES), check),
 };
 
 /// Where the first axis turns less than this many times as far as the tool axis the pole is not to blame.
@@ -54,6 +55,32 @@ const STILL: f64 = 1.7e-6;
 /// Peak acceleration of the first axis on a straight pass is this times w^2 / d^2 (kinematics notes 2.4).
 const PASS: f64 = 0.6495;
 
+/// Seconds that an axis needs for a pass at 1 rad from the pole, per rad that the tool axis turns (kinematics notes 2.4).
+pub(crate) fn pass(axis: &Axis) -> f64 {
+    let by_speed = axis.max_speed.map_or(0.0, |speed| 1.0 / speed);
+    let by_acceleration = axis.max_acceleration.map_or(0.0, |limit| (PASS / limit).sqrt());
+    by_speed.max(by_acceleration)
+}
+
+/// Whether the pole may be too near, by the chord between the tool axes instead of the angle; `pass` is that of the first rotary axis.
+/// Also where the block's time is not a number.
+#[inline]
+pub(crate) fn may_hurry(leg: &Leg, (start, end): (&Stance, &Stance), pass: f64, seconds: f64) -> bool {
+    let turn = leg.rotary_change[0];
+    if turn == 0.0 {
+        return false;
+    }
+    // an arc is at least its chord, at most pi / 2 times as long, and at most 1.0472 times where the chord is no longer than 1
+    let chord = (end.axis - start.axis).norm();
+    let longest = if chord <= 1.0 {
+        1.05
+    } else {
+        core::f64::consts::FRAC_PI_2
+    };
+    let far = leg.pole_angle_min * seconds >= pass * chord * longest * (1.0 + 1e-9);
+    !far && turn > AMPLIFIED * chord * (1.0 - 1e-9)
+}
+
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let turn = view.leg.rotary_change[0];
     if turn == 0.0 || !view.motion().is_feed() || view.machine.constants.pair.is_none() {
@@ -62,18 +89,10 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let Some((start, end)) = view.stances() else { return };
     let axis = &view.machine.axes[view.machine.rotary[0]];
     let Some(seconds) = duration(view) else { return };
-    let by_speed = axis.max_speed.map_or(0.0, |speed| 1.0 / speed);
-    let by_acceleration = axis.max_acceleration.map_or(0.0, |limit| (PASS / limit).sqrt());
-    let cone = |angle: f64| by_speed.max(by_acceleration) * angle / seconds;
+    let pass = pass(axis);
+    let cone = |angle: f64| pass * angle / seconds;
     let passes = view.leg.pole_angle_min;
-    // an arc is at least its chord, at most pi / 2 times as long, and at most 1.0472 times where the chord is no longer than 1
-    let chord = (end.axis - start.axis).norm();
-    let longest = if chord <= 1.0 {
-        1.05
-    } else {
-        core::f64::consts::FRAC_PI_2
-    };
-    if passes >= cone(chord * longest) || turn <= AMPLIFIED * chord * (1.0 - 1e-9) {
+    if !may_hurry(view.leg, (start, end), pass, seconds) {
         return;
     }
     let angle = angle_between(&start.axis, &end.axis);

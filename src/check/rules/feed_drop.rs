@@ -38,7 +38,7 @@ use crate::runs::SHORT_RUN;
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED, check),
+    level: Level::Leg(Needs::FEED.and(Needs::HURRIES), check),
 };
 
 /// Relative room for rounding.

@@ -39,7 +39,7 @@ use trunnion_interp::MotionKind;
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
     guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED, check),
+    level: Level::Leg(Needs::FEED.and(Needs::STRAYS), check),
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {

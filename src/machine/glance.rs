@@ -1,0 +1,97 @@
+//! What a block in which all joints run straight does at most, in one look at its joints: enough to settle most blocks.
+use crate::follow::leads_path;
+use crate::limits::SLACK;
+use crate::tip_path::straight_stray;
+use crate::{AxisKind, Joints, Leg, Limits, MAX_AXES, Machine};
+use trunnion_interp::MotionKind;
+
+/// Room for rounding in a bound, relative.
+const ROUNDED_UP: f64 = 1.0 + 1e-9;
+
+/// What the axes of a machine allow, axis by axis, so that a loop over them needs no look at what is declared and what is not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Allowances {
+    /// Travel, mm or rad, with the room for rounding; infinite without one.
+    low: Joints,
+    high: Joints,
+    /// Seconds per mm or rad at the highest speed; infinite where none is declared.
+    per_speed: Joints,
+    /// One for linear axes, zero for rotary ones.
+    linear: Joints,
+    count: usize,
+}
+
+impl Allowances {
+    /// Of a machine.
+    pub fn of(machine: &Machine) -> Self {
+        let axes = &machine.axes;
+        let mut allowances = Self {
+            low: [f64::NEG_INFINITY; MAX_AXES],
+            high: [f64::INFINITY; MAX_AXES],
+            per_speed: [f64::INFINITY; MAX_AXES],
+            linear: [0.0; MAX_AXES],
+            count: axes.len().min(MAX_AXES),
+        };
+        for (joint, axis) in axes.iter().enumerate().take(MAX_AXES) {
+            if let Limits::Range(low, high) = axis.limits {
+                (allowances.low[joint], allowances.high[joint]) = (low - SLACK, high + SLACK);
+            }
+            if let Some(speed) = axis.max_speed {
+                allowances.per_speed[joint] = 1.0 / speed;
+            }
+            if axis.kind == AxisKind::Linear {
+                allowances.linear[joint] = 1.0;
+            }
+        }
+        allowances
+    }
+}
+
+/// Upper bounds of what a leg does whose joints all run straight from one known stance to another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Glance {
+    /// All joints stay inside their travel ([`crate::limit_excess`] finds nothing).
+    pub inside: bool,
+    /// Seconds that the slowest axis needs for its way; infinite where an axis that moves declares no speed.
+    pub axes_s: f64,
+    /// Length of the way of the linear joints, mm ([`crate::linear_travel`]).
+    pub linear_mm: f64,
+    /// How far the tip leaves its segment, mm ([`crate::tip_deviation`]).
+    pub stray_mm: f64,
+}
+
+/// A look at a line along which all joints run straight; `None` for all other legs. `allowances` are those of the machine. Source: kinematics notes 3, as in the functions
+/// that [`Glance`] names.
+#[inline]
+pub fn glance(machine: &Machine, allowances: &Allowances, leg: &Leg) -> Option<Glance> {
+    let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
+        return None;
+    };
+    if leg.motion.kind != MotionKind::Linear || leg.start_given || leads_path(&leg.motion) {
+        return None;
+    }
+    let (mut inside, mut axes_s, mut way2) = (true, 0.0_f64, 0.0);
+    for joint in 0..allowances.count.min(MAX_AXES) {
+        let value = end.joints[joint];
+        let way = (value - start.joints[joint]).abs();
+        inside &= value >= allowances.low[joint] && value <= allowances.high[joint];
+        // an axis that stands still needs no speed: then the product is not a number, which the larger one ignores
+        axes_s = axes_s.max(way * allowances.per_speed[joint]);
+        // where a value is not finite the sum is none either, also that of a rotary axis
+        way2 += allowances.linear[joint] * way * way;
+    }
+    if !way2.is_finite() {
+        return None;
+    }
+    let stray_mm = if leg.rotary_change == [0.0; 2] {
+        0.0
+    } else {
+        straight_stray(machine, start, end)
+    };
+    Some(Glance {
+        inside,
+        axes_s: axes_s * ROUNDED_UP,
+        linear_mm: way2.sqrt() * ROUNDED_UP,
+        stray_mm,
+    })
+}

@@ -1,12 +1,13 @@
-//! What a leg must be like for a rule to have anything to say of it: most rules are not asked about most legs.
+//! What a motion or leg must be like for a rule to have anything to say of it: most rules are not asked about most of them.
+use crate::rule::InForce;
 use crate::rules::{excess_linear_travel, excess_rotary_travel, fast_pole};
 use crate::trail::Trail;
 use crate::view::{leads_tip, turns};
 use core::f64::consts::PI;
-use trunnion_interp::{Feed, Orientation};
+use trunnion_interp::{Feed, Motion, Orientation};
 use trunnion_machine::{Allowances, Leg, Machine, glance};
 
-/// Things that must hold of a leg, all of them, before a rule is asked; without one of them the rule says nothing.
+/// Things that must hold of a motion or leg, all of them, before a rule is asked; without one of them the rule says nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Needs(u32);
 
@@ -55,6 +56,15 @@ impl Needs {
     /// A pole that may be too near for the first rotary axis.
     pub const POLE_HURRIES: Self = Self(1 << 19);
 
+    /// A spindle that is off.
+    pub const SPINDLE_OFF: Self = Self(1 << 20);
+    /// Lengths of which nothing says whether they are inch or mm.
+    pub const UNITS_UNSAID: Self = Self(1 << 21);
+    /// S as a cutting speed.
+    pub const SURFACE_SPEED: Self = Self(1 << 22);
+    /// A feed motion with another tool than the feed motion before it.
+    pub const FIRST_CUT: Self = Self(1 << 23);
+
     /// This and that.
     pub const fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)
@@ -70,7 +80,17 @@ impl Needs {
     fn when(self, holds: bool) -> u32 {
         if holds { self.0 } else { 0 }
     }
-
+    /// What holds of a motion as programmed; `last_cut`: the tool of the last feed motion.
+    #[inline]
+    pub(crate) fn of_motion(motion: &Motion, in_force: &InForce, last_cut: Option<u32>) -> Self {
+        Self(
+            Self::FEED.when(motion.is_feed())
+                | Self::SPINDLE_OFF.when(motion.spindle_on == Some(false))
+                | Self::UNITS_UNSAID.when(!in_force.units_said)
+                | Self::SURFACE_SPEED.when(in_force.surface_speed)
+                | Self::FIRST_CUT.when(motion.is_feed() && motion.tool != last_cut),
+        )
+    }
 }
 
 /// What holds of the legs of one machine.
@@ -94,7 +114,10 @@ impl<'m> Facts<'m> {
             always: Needs::CABLE.when(any(|axis| axis.extra.cable))
                 | Needs::CLAMP.when(any(|axis| axis.extra.clamp || axis.extra.clamp_codes.is_some()))
                 | Needs::UNCERTAIN.when(uncertain),
-            pole_pass: machine.rotary.first().map_or(0.0, |&first| fast_pole::pass(&machine.axes[first])),
+            pole_pass: machine
+                .rotary
+                .first()
+                .map_or(0.0, |&first| fast_pole::pass(&machine.axes[first])),
         }
     }
 

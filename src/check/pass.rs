@@ -20,7 +20,9 @@ pub(crate) struct Pass<'a> {
     text: Vec<Active<TextRule>>,
     whole: Vec<Active<ProgramRule>>,
     faults: Vec<Active<FaultRule>>,
-    motions: Vec<Active<MotionRule>>,
+    motions: Vec<Active<(Needs, MotionRule)>>,
+    /// The tool of the last feed motion.
+    last_cut: Option<u32>,
     legs: Vec<Active<(Needs, LegRule)>>,
     /// What tells of a leg which of them have anything to look at.
     facts: Option<Facts<'a>>,
@@ -61,9 +63,10 @@ impl<'a> Pass<'a> {
                 _ => None,
             }),
             motions: active(levels, |level| match level {
-                Level::Motion(run) => Some(run),
+                Level::Motion(needs, run) => Some((needs, run)),
                 _ => None,
             }),
+            last_cut: None,
             legs: active(levels, |level| match level {
                 Level::Leg(needs, run) => Some((needs, run)),
                 _ => None,
@@ -161,8 +164,7 @@ impl<'a> Pass<'a> {
             asked.extend(met.map(|rule| rule.with(rule.run.1)));
         }
         for rule in &self.asked.1 {
-            self.reporter
-                .enter(rule, Some(leg.motion.block), self.summary.motions);
+            self.reporter.enter(rule, Some(leg.motion.block), self.summary.motions);
             (rule.run)(&view, &mut self.reporter);
             self.reporter.leave();
         }
@@ -292,10 +294,20 @@ impl Pass<'_> {
         let late = motion.chain == ChainId::MAIN && self.last_ran == Some(motion.block);
         self.reporter
             .origin(self.visited.has(motion.block) && !late, motion.chain);
+        let holds = Needs::of_motion(motion, &in_force, self.last_cut);
+        if motion.is_feed() {
+            self.last_cut = motion.tool;
+        }
         for rule in &self.motions {
-            self.reporter.enter(rule, Some(motion.block), self.summary.motions);
-            (rule.run)(motion, in_force, &mut self.reporter);
-            self.reporter.leave();
+            let (needs, run) = rule.run;
+            let asked = needs.are_met(holds);
+            // a debug build asks them all and sees that the others are silent
+            if asked || cfg!(debug_assertions) {
+                self.reporter.enter(rule, Some(motion.block), self.summary.motions);
+                run(motion, in_force, &mut self.reporter);
+                debug_assert!(asked || self.reporter.is_silent(), "{} needs less", rule.name);
+                self.reporter.leave();
+            }
         }
         if let Some(follower) = &mut self.follower {
             if self.clamps {

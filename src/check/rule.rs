@@ -62,8 +62,8 @@ pub enum Level {
     Program(ProgramRule),
     /// Each fault of the run.
     Fault(FaultRule),
-    /// Each motion as programmed.
-    Motion(MotionRule),
+    /// Each motion as programmed of which this holds.
+    Motion(Needs, MotionRule),
     /// Each leg of the machine of which this holds.
     Leg(Needs, LegRule),
     /// What is known at the end, once.
@@ -76,7 +76,7 @@ impl Level {
         match self {
             Self::Text(_) | Self::TextAndFault(..) | Self::End(_) => "text",
             Self::Program(_) => "program",
-            Self::Fault(_) | Self::Motion(_) => "motion",
+            Self::Fault(_) | Self::Motion(..) => "motion",
             Self::Leg(..) => "machine",
         }
     }

@@ -26,11 +26,11 @@ pub(crate) struct State {
     /// Sign of the last stance that had one, 0 when there was none.
     pub(crate) sign: i8,
     /// Rotary joints that a turn onto a tilted plane has set and no word has named since, as a mask.
-    aimed: u16,
+    pub(crate) aimed: u16,
     /// Letters that the last motion's end knew.
-    named: u16,
+    pub(crate) named: u16,
     /// Whether the last motion's X Y Z were tip coordinates.
-    tip_words: bool,
+    pub(crate) tip_words: bool,
 }
 
 /// Follows motions; cloning it makes a check-point.
@@ -71,6 +71,14 @@ impl<'m> Follower<'m> {
 
     /// Moves the machine. What cannot be followed leaves it at an unknown position until the program gives one again.
     pub fn follow(&mut self, motion: &Motion) -> Leg {
+        if self.is_straight(motion) {
+            return self.straight(motion);
+        }
+        self.general(motion)
+    }
+
+    /// [`Self::follow`] for any motion.
+    pub(crate) fn general(&mut self, motion: &Motion) -> Leg {
         let given = self.state.stance.is_none() && self.begin(motion);
         self.step(motion, given)
     }

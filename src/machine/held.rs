@@ -49,7 +49,7 @@ impl Carried {
 
 impl Machine {
     /// Whether no axis is held: so it is with nearly every machine.
-    fn all_move(&self) -> bool {
+    pub(crate) fn all_move(&self) -> bool {
         self.constants.rotary_count + self.constants.linear_count == self.axes.len()
     }
 

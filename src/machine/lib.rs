@@ -40,6 +40,7 @@ mod spec;
 mod speed;
 mod spin;
 mod stance;
+mod straight;
 mod stray;
 mod swept;
 mod text;

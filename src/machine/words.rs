@@ -31,6 +31,10 @@ pub(crate) struct Words {
     pub(crate) diameters: bool,
     /// Whether words of some rotary axis are not taken literally.
     pub(crate) wraps: bool,
+    /// Whether every joint has a letter and a word of it leads it where it says: no diameters, no wraps, no held axes.
+    pub(crate) literal: bool,
+    /// The letters of the joints as a mask.
+    letters: u16,
 }
 
 impl Words {
@@ -45,6 +49,8 @@ impl Words {
             point_scale: Vec3::new(1.0, 1.0, 1.0),
             diameters: false,
             wraps: false,
+            literal: false,
+            letters: 0,
         };
         for (joint, axis) in machine.axes.iter().enumerate().take(MAX_AXES) {
             let diameter = axis.extra.diameter && axis.kind == AxisKind::Linear;
@@ -55,11 +61,14 @@ impl Words {
             if let Some(index) = AXIS_LETTERS.iter().position(|&letter| letter == axis.letter) {
                 words.letter[joint] = index as u8;
                 words.foreign &= !(1 << index);
+                words.letters |= 1 << index;
                 if index < 3 {
                     words.point_scale[index] = words.scale[joint];
                 }
             }
         }
+        let lettered = words.letters.count_ones() as usize == machine.axes.len();
+        words.literal = lettered && !words.diameters && !words.wraps && machine.all_move();
         let constants = &machine.constants;
         let along = constants.inverse_motion * machine.tool_axis;
         for (&index, value) in constants.solved.iter().zip(along.iter()) {
@@ -68,21 +77,29 @@ impl Words {
         words
     }
 
+    /// Whether a position tells all joints.
+    #[inline]
+    pub(crate) fn names_all(&self, position: &Position) -> bool {
+        position.known & self.letters == self.letters
+    }
+
     /// Bit mask of all joints.
     pub(crate) fn all(&self) -> u16 {
         ((1_u32 << self.count) - 1) as u16
     }
 
     /// The first letter that the motion gives a value to and that is no axis of the machine. Words that stay as they were are no news.
+    #[inline]
     pub(crate) fn foreign(&self, motion: &Motion) -> Option<u8> {
-        let named = motion.end.known & self.foreign;
-        if named == 0 {
-            return None;
+        let mut named = motion.end.known & self.foreign;
+        while named != 0 {
+            let letter = named.trailing_zeros() as usize;
+            if motion.start.get(letter) != motion.end.get(letter) {
+                return Some(AXIS_LETTERS[letter]);
+            }
+            named &= named - 1;
         }
-        (0..AXIS_LETTERS.len())
-            .filter(|letter| named & (1 << letter) != 0)
-            .find(|&letter| motion.start.get(letter) != motion.end.get(letter))
-            .map(|letter| AXIS_LETTERS[letter])
+        None
     }
 
     /// The letter of a rotary axis that the active work offset turns.

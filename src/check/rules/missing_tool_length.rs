@@ -37,7 +37,7 @@ use trunnion_interp::Motion;
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Heuristic,
-    level: Level::Motion(check),
+    level: Level::Motion(Needs::FIRST_CUT, check),
 };
 
 fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {

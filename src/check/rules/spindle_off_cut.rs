@@ -32,7 +32,7 @@ use trunnion_interp::Motion;
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
     guarantee: Guarantee::Sound,
-    level: Level::Motion(check),
+    level: Level::Motion(Needs::FEED.and(Needs::SPINDLE_OFF), check),
 };
 
 fn check(motion: &Motion, _: InForce, out: &mut Reporter<'_>) {

@@ -32,7 +32,7 @@ use trunnion_interp::Motion;
 pub(super) const RULE: Body = Body {
     severity: Severity::Info,
     guarantee: Guarantee::Sound,
-    level: Level::Motion(check),
+    level: Level::Motion(Needs::UNITS_UNSAID, check),
 };
 
 /// X, Y, Z, U, V, W in the order of a position.

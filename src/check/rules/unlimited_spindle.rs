@@ -34,7 +34,7 @@ use trunnion_interp::Motion;
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
     guarantee: Guarantee::Sound,
-    level: Level::Motion(check),
+    level: Level::Motion(Needs::FEED.and(Needs::SURFACE_SPEED), check),
 };
 
 fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {

@@ -1,0 +1,147 @@
+//! The short way for what most programs are full of: a line in words of the joints, from one known stance to the next.
+use crate::choice::cheapest_in_posture;
+use crate::follow::State;
+use crate::{Follower, Leg, MAX_AXES, Stance, pole};
+use core::f64::consts::FRAC_PI_2;
+use trunnion_interp::{Motion, MotionKind, Orientation, Posture, Swivel};
+
+impl Follower<'_> {
+    /// Whether [`Self::straight`] does for a motion: the words name all joints, and nothing stands between words and joints but offsets.
+    #[inline]
+    pub(crate) fn is_straight(&self, motion: &Motion) -> bool {
+        let tilt = &motion.tilt;
+        self.words.literal
+            && self.state.stance.is_some()
+            && matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear)
+            && !(motion.tcp || motion.machine_coordinates)
+            && matches!(motion.orientation, Orientation::Words)
+            && tilt.normal.is_none()
+            && tilt.swivel == Swivel::No
+            && tilt.posture == Posture::ByRule
+            && motion.start.xyz().is_some()
+            && self.words.names_all(&motion.end)
+            && self.words.foreign(motion).is_none()
+    }
+
+    /// Follows a motion of which [`Self::is_straight`] holds, as the general way would (a test compares both).
+    #[inline]
+    pub(crate) fn straight(&mut self, motion: &Motion) -> Leg {
+        let machine = self.machine;
+        let all = self.words.all();
+        let (joints, _) = self.words.joints(motion, &motion.end, false);
+        let start = self.state.stance;
+        let end = self.stand(motion, &joints, start.as_ref(), None);
+        let mut leg = Leg {
+            motion: *motion,
+            start,
+            start_given: false,
+            end: Ok(end),
+            open: None,
+            known_joints: (joints, all),
+            rotary_change: [0.0; 2],
+            pole_angle_min: FRAC_PI_2,
+            rotary_excess: 0.0,
+            length: 0.0,
+        };
+        self.measure_straight(&mut leg, &end);
+        let rotary = end.rotary(machine);
+        let sign = if end.branch == 0 { self.state.sign } else { end.branch };
+        self.state = State {
+            stance: Some(end),
+            known_joints: (joints, all),
+            rotary,
+            rotary_known: true,
+            sign,
+            aimed: self.state.aimed & all,
+            named: motion.end.known,
+            tip_words: false,
+        };
+        leg
+    }
+
+    #[inline]
+    fn measure_straight(&self, leg: &mut Leg, end: &Stance) {
+        let Some(start) = &leg.start else { return };
+        let (from, to) = (start.rotary(self.machine), end.rotary(self.machine));
+        leg.rotary_change = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
+        if let (Some(from), Some(to)) = (leg.motion.start.xyz(), leg.motion.end.xyz()) {
+            leg.length = (to - from).norm();
+        }
+        leg.length = self.feed_length(leg);
+        let constants = &self.machine.constants;
+        leg.pole_angle_min = end.pole_angle;
+        let Some(pair) = &constants.pair else { return };
+        leg.pole_angle_min =
+            pole::pole_angle_min(constants, pair, (from[1], start.pole_angle), (to[1], end.pole_angle));
+        if self.state.sign * end.branch < 0 {
+            let cheapest = cheapest_in_posture(self.machine, &end.axis, self.state.sign, from);
+            let total = leg.rotary_change[0] + leg.rotary_change[1];
+            leg.rotary_excess = cheapest.map_or(0.0, |least| (total - least).max(0.0));
+        }
+    }
+}
+
+const _: () = assert!(MAX_AXES <= 16, "a mask of joints has 16 bits");
+
+#[cfg(test)]
+mod tests {
+    use crate::{BUILTIN_MACHINES, Follower, builtin};
+    use proptest::prelude::*;
+    use trunnion_interp::{ChainId, Feed, Motion, MotionKind, Orientation, Position, Tilt};
+    use trunnion_syntax::BlockId;
+
+    /// A motion to a place, known coordinates only.
+    fn motion(start: Position, end: Position, kind: MotionKind, offset: f64) -> Motion {
+        let mut zero = [0.0; 9];
+        (zero[0], zero[3]) = (offset, offset * 0.1);
+        Motion {
+            block: BlockId(0),
+            chain: ChainId::MAIN,
+            kind,
+            start,
+            end,
+            orientation: Orientation::Words,
+            tcp: false,
+            great_circle: None,
+            feed: Feed::PerMinute(500.0),
+            spindle_on: Some(true),
+            spindle_rpm: None,
+            zero,
+            tool_length_mm: offset * 2.0,
+            machine_coordinates: false,
+            tool: None,
+            tilt: Tilt::default(),
+        }
+    }
+
+    proptest! {
+        /// On every machine both ways give the same legs and leave the same state.
+        #[test]
+        fn the_short_way_is_the_general_way(
+            machine in 0..BUILTIN_MACHINES.len(),
+            offset in prop_oneof![Just(0.0), -50.0..50.0],
+            places in proptest::collection::vec((proptest::array::uniform9(-120.0..120.0), 0..12_u8, any::<bool>()), 2..8),
+        ) {
+            let machine = builtin(BUILTIN_MACHINES[machine]).expect("built in");
+            let mut short = Follower::new(machine);
+            let mut at = Position::default();
+            for (values, held, rapid) in places {
+                let mut to = at;
+                for (axis, value) in values.into_iter().enumerate() {
+                    // an axis that the machine lacks, and one that stands still
+                    if at.known & (1 << axis) == 0 || (axis < 6 && axis != usize::from(held)) {
+                        to.set(axis, value);
+                    }
+                }
+                let kind = if rapid { MotionKind::Rapid } else { MotionKind::Linear };
+                let motion = motion(at, to, kind, offset);
+                let mut general = short.clone();
+                let expected = general.general(&motion);
+                let leg = short.follow(&motion);
+                prop_assert_eq!(format!("{leg:?}"), format!("{expected:?}"));
+                prop_assert_eq!(format!("{:?}", short.state), format!("{:?}", general.state));
+                at = to;
+            }
+        }
+    }
+}

@@ -32,6 +32,8 @@ pub(crate) struct Pass<'a> {
     suppressions: &'a Suppressions,
     ported: bool,
     follower: Option<Follower<'a>>,
+    /// The last leg, kept for its storage.
+    leg: Option<Box<Leg>>,
     /// Sign of the last posture off the pole.
     posture: i8,
     trail: Trail,
@@ -80,6 +82,7 @@ impl<'a> Pass<'a> {
             facts: settings.machine.map(Facts::new),
             asked: (Needs::NOTHING, Vec::new()),
             follower: settings.machine.map(Follower::new),
+            leg: None,
             posture: 0,
             trail: Trail::default(),
             clamps: settings.machine.is_some_and(Clamps::on),
@@ -313,8 +316,12 @@ impl Pass<'_> {
             if self.clamps {
                 self.trail.clamps.before(self.reporter.program(), motion);
             }
-            let leg = follower.follow(motion);
-            self.read_leg(&leg);
+            let mut leg = self.leg.take();
+            follower.follow_into(motion, &mut leg);
+            if let Some(leg) = &leg {
+                self.read_leg(leg);
+            }
+            self.leg = leg;
         }
     }
 }

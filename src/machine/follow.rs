@@ -71,10 +71,17 @@ impl<'m> Follower<'m> {
 
     /// Moves the machine. What cannot be followed leaves it at an unknown position until the program gives one again.
     pub fn follow(&mut self, motion: &Motion) -> Leg {
-        if self.is_straight(motion) {
-            return self.straight(motion);
-        }
         self.general(motion)
+    }
+
+    /// [`Self::follow`] into the storage of the leg before, which is made where there is none.
+    #[inline]
+    pub fn follow_into(&mut self, motion: &Motion, leg: &mut Option<Box<Leg>>) {
+        match leg {
+            Some(leg) if self.is_straight(motion) => self.straight(motion, leg),
+            Some(leg) => **leg = self.general(motion),
+            None => *leg = Some(Box::new(self.general(motion))),
+        }
     }
 
     /// [`Self::follow`] for any motion.

@@ -1,8 +1,6 @@
 //! The short way for what most programs are full of: a line in words of the joints, from one known stance to the next.
 use crate::choice::cheapest_in_posture;
-use crate::follow::State;
-use crate::{Follower, Leg, MAX_AXES, Stance, pole};
-use core::f64::consts::FRAC_PI_2;
+use crate::{Follower, Leg, Stance, pole};
 use trunnion_interp::{Motion, MotionKind, Orientation, Posture, Swivel};
 
 impl Follower<'_> {
@@ -25,42 +23,35 @@ impl Follower<'_> {
 
     /// Follows a motion of which [`Self::is_straight`] holds, as the general way would (a test compares both).
     #[inline]
-    pub(crate) fn straight(&mut self, motion: &Motion) -> Leg {
-        let machine = self.machine;
+    pub(crate) fn straight(&mut self, motion: &Motion, leg: &mut Leg) {
         let all = self.words.all();
-        let (joints, _) = self.words.joints(motion, &motion.end, false);
-        let start = self.state.stance;
-        let end = self.stand(motion, &joints, start.as_ref(), None);
-        let mut leg = Leg {
-            motion: *motion,
-            start,
-            start_given: false,
-            end: Ok(end),
-            open: None,
-            known_joints: (joints, all),
-            rotary_change: [0.0; 2],
-            pole_angle_min: FRAC_PI_2,
-            rotary_excess: 0.0,
-            length: 0.0,
-        };
-        self.measure_straight(&mut leg, &end);
-        let rotary = end.rotary(machine);
-        let sign = if end.branch == 0 { self.state.sign } else { end.branch };
-        self.state = State {
-            stance: Some(end),
-            known_joints: (joints, all),
-            rotary,
-            rotary_known: true,
-            sign,
-            aimed: self.state.aimed & all,
-            named: motion.end.known,
-            tip_words: false,
-        };
-        leg
+        leg.motion = *motion;
+        leg.start = self.state.stance;
+        leg.start_given = false;
+        leg.open = None;
+        leg.rotary_excess = 0.0;
+        leg.known_joints = self.words.joints(motion, &motion.end, false);
+        let end = self.stand(motion, &leg.known_joints.0, leg.start.as_ref(), None);
+        leg.end = Ok(end);
+        self.measure_straight(leg, &end);
+        let state = &mut self.state;
+        state.known_joints = leg.known_joints;
+        state.rotary = end.rotary(self.machine);
+        state.rotary_known = true;
+        if end.branch != 0 {
+            state.sign = end.branch;
+        }
+        state.aimed &= all;
+        state.named = motion.end.known;
+        state.tip_words = false;
+        state.stance = Some(end);
     }
 
     #[inline]
     fn measure_straight(&self, leg: &mut Leg, end: &Stance) {
+        leg.rotary_change = [0.0; 2];
+        leg.length = 0.0;
+        leg.pole_angle_min = end.pole_angle;
         let Some(start) = &leg.start else { return };
         let (from, to) = (start.rotary(self.machine), end.rotary(self.machine));
         leg.rotary_change = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
@@ -69,7 +60,6 @@ impl Follower<'_> {
         }
         leg.length = self.feed_length(leg);
         let constants = &self.machine.constants;
-        leg.pole_angle_min = end.pole_angle;
         let Some(pair) = &constants.pair else { return };
         leg.pole_angle_min =
             pole::pole_angle_min(constants, pair, (from[1], start.pole_angle), (to[1], end.pole_angle));
@@ -80,8 +70,6 @@ impl Follower<'_> {
         }
     }
 }
-
-const _: () = assert!(MAX_AXES <= 16, "a mask of joints has 16 bits");
 
 #[cfg(test)]
 mod tests {
@@ -124,7 +112,7 @@ mod tests {
         ) {
             let machine = builtin(BUILTIN_MACHINES[machine]).expect("built in");
             let mut short = Follower::new(machine);
-            let mut at = Position::default();
+            let (mut at, mut leg) = (Position::default(), None);
             for (values, held, rapid) in places {
                 let mut to = at;
                 for (axis, value) in values.into_iter().enumerate() {
@@ -137,8 +125,9 @@ mod tests {
                 let motion = motion(at, to, kind, offset);
                 let mut general = short.clone();
                 let expected = general.general(&motion);
-                let leg = short.follow(&motion);
-                prop_assert_eq!(format!("{leg:?}"), format!("{expected:?}"));
+                short.follow_into(&motion, &mut leg);
+                let leg = leg.as_deref();
+                prop_assert_eq!(format!("{leg:?}"), format!("{:?}", Some(&expected)));
                 prop_assert_eq!(format!("{:?}", short.state), format!("{:?}", general.state));
                 at = to;
             }

@@ -29,6 +29,8 @@ pub struct Block {
     /// 7: cutter compensation, 8: tool length, 10: retract, 12: coordinate system, 13: path control, 14: spindle mode, 15: lathe
     /// diameter mode, 16: G92.x); -1 where there is none.
     pub g: [i16; G_GROUPS],
+    /// Bit per group: it has a code.
+    g_groups: u32,
     /// Range of the code of each group; valid where there is one.
     g_ranges: [TextRange; G_GROUPS],
     /// M codes by group (4: stopping, 5: digital I/O, 6: tool change, 7: spindle, 8: coolant, 9: overrides, 10: user-defined).
@@ -63,6 +65,7 @@ impl Block {
         Self {
             range: TextRange::default(),
             g: [NONE; G_GROUPS],
+            g_groups: 0,
             g_ranges: [TextRange::default(); G_GROUPS],
             m: [NONE; M_GROUPS],
             m_ranges: [TextRange::default(); M_GROUPS],
@@ -82,6 +85,7 @@ impl Block {
     pub fn clear(&mut self, range: TextRange) {
         self.range = range;
         self.g = [NONE; G_GROUPS];
+        self.g_groups = 0;
         self.m = [NONE; M_GROUPS];
         self.m_count = 0;
         self.motion = NONE;
@@ -146,6 +150,7 @@ impl Block {
     #[inline]
     pub(crate) fn put_g(&mut self, group: usize, code: i16, range: TextRange) {
         self.g[group] = code;
+        self.g_groups |= 1 << group;
         self.g_ranges[group] = range;
     }
     /// Puts an M code in its group; it is not counted.
@@ -157,9 +162,15 @@ impl Block {
     /// Whether nothing but a motion code, axis words and words that belong to it are there: no other code, no S, no T.
     #[inline]
     pub(crate) fn is_motion_only(&self) -> bool {
-        let codes = self.g[0] == NONE && self.g[2..].iter().all(|code| *code == NONE) && self.m_count == 0;
+        let codes = self.g_groups & !MOTION == 0 && self.m_count == 0;
         let words = 1 << (b'S' - b'A') | 1 << (b'T' - b'A');
         codes && self.given & words == 0 && self.spindle.is_none() && self.own.is_none()
+    }
+    /// Whether nothing but a motion code, axis words and F are there, no polar words.
+    #[inline]
+    pub(crate) fn is_line_only(&self) -> bool {
+        let words = AXES | 1 << (b'F' - b'A');
+        self.given & !words == 0 && self.given & AXES != 0 && !self.is_polar() && self.is_motion_only()
     }
     /// The code of an M group, if there is one.
     #[inline]
@@ -177,6 +188,9 @@ impl Block {
         self.given & AXES != 0 || self.radius.is_some() || self.angle.is_some()
     }
 }
+
+/// The bit of the motion codes' group.
+const MOTION: u32 = 1 << 1;
 
 /// Bits of A B C U V W X Y Z.
 pub(crate) const AXES: u32 = 0b111 | (0b11_1111 << 20);

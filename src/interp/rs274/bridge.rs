@@ -44,8 +44,18 @@ pub(super) struct Told {
     pub(super) hidden: bool,
     /// The line in hand was one motion and nothing else: what is in force behind it was taken over with the motion.
     pub(super) settled: bool,
+    /// While lines are motions and nothing else, which no offset can change: the offsets, and where the last of them ended.
+    pub(super) steady: Option<Steady>,
     /// The kinematics were switched, nobody knows to which: X Y Z say nothing about the machine.
     pub(super) kinematics_unknown: bool,
+}
+
+/// See [`Told::steady`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Steady {
+    shift: Shift,
+    /// As programmed.
+    end: Position,
 }
 
 impl Told {
@@ -125,7 +135,6 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// `ends`: where the motion ends, and that in coordinates of the machine.
     fn motion_to(&mut self, kind: MotionKind, ends: [Position; 2], shift: &Shift, feed: Feed, at: At, state: &State) {
-        let block = self.block(at);
         let start = shift.programmed(&self.told.machine);
         let [mut end, mut machine] = ends;
         let mut kind = kind;
@@ -146,11 +155,19 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 *arc = None;
             }
         }
+        super::modal::refresh(&mut self.interpreter.state, state, shift);
+        self.tell(kind, [start, end, machine], shift, feed, at);
+    }
+
+    /// Hands a motion on. `places`: where it starts and ends, and that in coordinates of the machine.
+    #[inline]
+    fn tell(&mut self, kind: MotionKind, places: [Position; 3], shift: &Shift, feed: Feed, at: At) {
+        let block = self.block(at);
+        let [start, end, machine] = places;
         self.told.machine = machine;
         let interpreter = &mut *self.interpreter;
         interpreter.state.position = end;
         interpreter.chain = self.told.places.chain(at);
-        super::modal::refresh(&mut interpreter.state, state, shift);
         let modal = &interpreter.state;
         let motion = Motion {
             block,
@@ -171,6 +188,29 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             tilt: crate::Tilt::default(),
         };
         self.sink.motion(&motion, &self.interpreter.state);
+    }
+
+    /// A straight motion.
+    #[inline]
+    fn line(&mut self, kind: MotionKind, pose: &Pose, at: At, state: &State) {
+        let steady = self.told.steady;
+        let shift = steady.map_or_else(|| self.shift(state), |steady| steady.shift);
+        let end = shift.coordinates(pose);
+        let machine = shift.machine(&end);
+        let feed = if matches!(kind, MotionKind::Rapid) {
+            Feed::Rapid
+        } else {
+            self.feed(&machine, at, state)
+        };
+        match steady {
+            // what is in force is as it was behind the motion before
+            Some(steady) => {
+                super::modal::refresh_motion(&mut self.interpreter.state, state);
+                self.tell(kind, [steady.end, end, machine], &shift, feed, at);
+            }
+            None => self.motion_to(kind, [end, machine], &shift, feed, at, state),
+        }
+        self.told.steady = self.told.settled.then_some(Steady { shift, end });
     }
 
     /// Where an arc ends, and the arc as far as its start is known.
@@ -223,20 +263,14 @@ struct ArcCall {
 impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
     fn call(&mut self, call: &Canon, at: At, state: &State) {
         let straight = matches!(call, Canon::Traverse(_) | Canon::Feed(_));
-        self.told.settled = straight && state.motion_only && !self.told.is_hidden();
+        let told = &mut *self.told;
+        told.settled = straight && state.motion_only && !told.is_hidden();
+        if !(told.settled || matches!(call, Canon::FeedRate(_))) {
+            told.steady = None;
+        }
         match call {
-            Canon::Traverse(pose) => {
-                let shift = self.shift(state);
-                let end = shift.coordinates(pose);
-                self.motion(MotionKind::Rapid, end, &shift, Feed::Rapid, at, state);
-            }
-            Canon::Feed(pose) => {
-                let shift = self.shift(state);
-                let end = shift.coordinates(pose);
-                let machine = shift.machine(&end);
-                let feed = self.feed(&machine, at, state);
-                self.motion_to(MotionKind::Linear, [end, machine], &shift, feed, at, state);
-            }
+            Canon::Traverse(pose) => self.line(MotionKind::Rapid, pose, at, state),
+            Canon::Feed(pose) => self.line(MotionKind::Linear, pose, at, state),
             &Canon::Arc {
                 end,
                 centre,

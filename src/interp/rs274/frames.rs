@@ -1,17 +1,18 @@
 //! Between the coordinates of canonical calls and those of motions: mm and degrees, offsets told apart from what is programmed.
-use crate::{AXIS_LETTERS, Position};
+use crate::Position;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::sin_cos;
 use trunnion_ngc::{Pose, State};
 
-/// Axes of [`AXIS_LETTERS`] that turn.
+/// Axes of [`crate::AXIS_LETTERS`] that turn.
+#[inline]
 fn is_rotary(axis: usize) -> bool {
-    matches!(AXIS_LETTERS[axis], b'A' | b'B' | b'C')
+    (3..6).contains(&axis)
 }
 
 /// What program coordinates lack to be machine coordinates. LinuxCNC: machine = R (program + G92) + G5x + tool offset, with R the
 /// rotation about Z (LinuxCNC documentation, Coordinate Systems).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Shift {
     /// mm per program unit.
     unit: f64,
@@ -58,6 +59,7 @@ impl Shift {
     }
 
     /// A pose of a canonical call as coordinates of a motion; what is not a number is unknown.
+    #[inline]
     pub(super) fn coordinates(&self, pose: &Pose) -> Position {
         let mut values = Self::metric(pose, self.unit);
         for (value, inside) in values.iter_mut().zip(self.inside) {
@@ -68,17 +70,20 @@ impl Shift {
             values[0] = x * cosine - y * sine;
             values[1] = x * sine + y * cosine;
         }
+        if all_finite(&values) {
+            return Position { values, known: ALL };
+        }
         let mut position = Position::default();
         for (axis, value) in values.into_iter().enumerate() {
             if value.is_finite() {
-                position.values[axis] = value;
+                position.set(axis, value);
             }
-            position.known |= u16::from(value.is_finite()) << axis;
         }
         position
     }
 
     /// mm and deg from program units.
+    #[inline]
     pub(super) fn metric(pose: &Pose, unit: f64) -> Pose {
         std::array::from_fn(|axis| pose[axis] * if is_rotary(axis) { 1.0 } else { unit })
     }
@@ -107,25 +112,39 @@ impl Shift {
     }
 
     /// Coordinates of a motion as the machine has them.
+    #[inline]
     pub(super) fn machine(&self, coordinates: &Position) -> Position {
         self.moved(coordinates, 1.0)
     }
 
     /// Coordinates of a motion from those of the machine.
+    #[inline]
     pub(super) fn programmed(&self, machine: &Position) -> Position {
         self.moved(machine, -1.0)
     }
 
+    #[inline]
     fn moved(&self, position: &Position, sign: f64) -> Position {
         let mut moved = *position;
         for (value, zero) in moved.values.iter_mut().zip(self.zero) {
             *value += sign * zero;
         }
         moved.values[2] += sign * self.length;
-        let finite = |axis: usize| u16::from(moved.values[axis].is_finite()) << axis;
-        moved.known &= (0..9).fold(0, |mask, axis| mask | finite(axis));
+        if !all_finite(&moved.values) {
+            let finite = |axis: usize| u16::from(moved.values[axis].is_finite()) << axis;
+            moved.known &= (0..9).fold(0, |mask, axis| mask | finite(axis));
+        }
         moved
     }
+}
+
+/// All axes as a mask.
+const ALL: u16 = (1 << 9) - 1;
+
+/// Whether all values are finite: times zero each is zero then, and else none.
+#[inline]
+fn all_finite(values: &Pose) -> bool {
+    values.iter().map(|value| value * 0.0).sum::<f64>() == 0.0
 }
 
 #[cfg(test)]

@@ -170,6 +170,7 @@ impl Interpreter<'_> {
         if ran && told.settled && lost == [false; 2] {
             return Some(block);
         }
+        told.steady = None;
         if lost[0] {
             forget(engine, told, &LINEAR_AXES);
         }

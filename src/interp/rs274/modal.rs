@@ -27,13 +27,23 @@ pub(super) fn refresh(modal: &mut ModalState, state: &State, shift: &Shift) {
         trunnion_ngc::FeedMode::PerMinute => FeedMode::PerMinute,
         trunnion_ngc::FeedMode::PerRevolution => FeedMode::PerRevolution,
     };
-    if modal.feed_mode == FeedMode::InverseTime {
-        modal.feed = (state.inverse_time > 0.0).then_some(state.inverse_time);
-    }
+    refresh_feed(modal, state);
     modal.compensation = match state.side {
         Side::Off => 0,
         Side::Left => 41,
         Side::Right => 42,
     };
     modal.zero = shift.zero;
+}
+
+/// The same after a line of a motion and its F only.
+pub(super) fn refresh_motion(modal: &mut ModalState, state: &State) {
+    modal.motion = motion(state.motion);
+    refresh_feed(modal, state);
+}
+
+fn refresh_feed(modal: &mut ModalState, state: &State) {
+    if modal.feed_mode == FeedMode::InverseTime {
+        modal.feed = (state.inverse_time > 0.0).then_some(state.inverse_time);
+    }
 }

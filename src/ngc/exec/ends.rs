@@ -6,6 +6,17 @@ use trunnion_geometry::math;
 /// Letters in the order of a pose.
 pub(crate) const AXES: [u8; 9] = *b"XYZABCUVW";
 
+/// The place of each axis letter in a pose; counted from A.
+const PLACES: [usize; 26] = {
+    let mut places = [0; 26];
+    let mut place = 0;
+    while place < AXES.len() {
+        places[(AXES[place] - b'A') as usize] = place;
+        place += 1;
+    }
+    places
+};
+
 /// A full turn, deg.
 const TURN: f64 = 360.0;
 
@@ -29,8 +40,11 @@ pub(crate) fn cycle_end(state: &State, block: &Block) -> Result<Pose, Error> {
     let mut end = state.current;
     let incremental = state.distance == DistanceMode::Incremental;
     if !(incremental || state.lathe_diameter || state.wrapped != [false; 3] || block.is_polar()) {
-        for (place, letter) in AXES.into_iter().enumerate() {
-            end[place] = block.word(letter).unwrap_or(end[place]);
+        let mut given = block.given & crate::block::AXES;
+        while given != 0 {
+            let letter = given.trailing_zeros() as usize;
+            end[PLACES[letter]] = block.words[letter];
+            given &= given - 1;
         }
         return Ok(end);
     }

@@ -66,11 +66,7 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
     let only = block.is_motion_only();
     engine.state.motion_only = only && matches!(block.motion, 0 | 10) && engine.state.side == Side::Off;
     if only {
-        // what the other steps look for is not there
-        modal::feed_rate(engine, block, at, sink);
-        move_tool(engine, block, at, sink)?;
-        engine.refresh_parameters();
-        return Ok(After::Go);
+        return move_only(engine, block, at, sink);
     }
     modes(engine, block, at, sink)?;
     switches(engine, block, at, sink)?;
@@ -96,6 +92,43 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
     };
     engine.refresh_parameters();
     Ok(after)
+}
+
+/// Whether a block is nothing but a line (G0, G1) and its F: then [`check`] finds nothing, and [`line()`] does what [`execute`] would.
+/// `block.motion` is filled in.
+#[inline]
+pub(crate) fn choose_line(engine: &Engine, block: &mut Block) -> bool {
+    let state = &engine.state;
+    let code = if block.g[1] >= 0 { block.g[1] } else { state.motion };
+    let is_line = matches!(code, 0 | 10) && block.is_line_only();
+    if is_line && state.unmodelled.is_none() && state.side == Side::Off {
+        block.motion = code;
+        if cfg!(debug_assertions) {
+            let mut checked = block.clone();
+            let found = check(engine, &mut checked);
+            debug_assert!(found.is_ok() && checked.motion == code, "a line that the check refuses");
+        }
+        return true;
+    }
+    false
+}
+
+/// Runs a block that [`choose_line`] has chosen.
+#[inline]
+pub(crate) fn line(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<After, Error> {
+    engine.state.named_axes = named_axes(block);
+    engine.state.machine_frame = false;
+    engine.state.motion_only = true;
+    move_only(engine, block, at, sink)
+}
+
+/// A block without anything but a motion and its F: what the other steps look for is not there.
+#[inline]
+fn move_only(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<After, Error> {
+    modal::feed_rate(engine, block, at, sink);
+    move_tool(engine, block, at, sink)?;
+    engine.refresh_parameters();
+    Ok(After::Go)
 }
 
 /// Axes with words: bit i is axis i of a pose. Polar words lead along X and Y.

@@ -52,6 +52,9 @@ impl Engine {
     fn run_plain(&mut self, block: &mut Block, sink: &mut dyn Sink) -> Result<After, Error> {
         self.flow.watch.stir();
         self.note_values(block, true);
+        if exec::choose_line(self, block) {
+            return exec::line(self, block, self.flow.at, sink);
+        }
         exec::check(self, block)?;
         exec::execute(self, block, self.flow.at, sink)
     }

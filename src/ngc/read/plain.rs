@@ -14,72 +14,88 @@ const POWERS: [f64; 19] = [
 /// Up to this whole number every one is a double.
 const EXACT: u64 = 1 << 53;
 /// Letters that begin a word of a value: all but N and O.
-const LETTERS: u32 = 0x03ff_ffff & !(1 << (b'N' - b'A')) & !(1 << (b'O' - b'A'));
+const LETTERS: u32 = 0x03ff_ffff & !bit(b'N') & !bit(b'O');
+/// Letters of words that take any value: the axes.
+const ANY_VALUE: u32 = crate::block::AXES;
+/// Letters that may stand in a line twice: they name codes.
+const CODES: u32 = bit(b'G') | bit(b'M');
 /// A line with more bytes is not plain.
 const LONGEST: usize = 250;
+
+const fn bit(letter: u8) -> u32 {
+    1 << (letter - b'A')
+}
 
 /// Reads the line that begins at byte `start` into `block`; one past its line end. `None` where it is not plain: then the block holds
 /// nothing of use.
 #[inline]
 pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut Block) -> Option<u32> {
     let from = start as usize;
-    let wide = &source[from..source.len().min(from + LONGEST)];
-    let text = wide;
-    // an O line and a blank in front are not plain
-    if !text.first().is_some_and(u8::is_ascii_alphabetic) || text[0] | 0x20 == b'o' {
-        return None;
+    let text = &source[from..source.len().min(from + LONGEST)];
+    // an O line and a blank in front are not plain: no letter that begins a word
+    block.clear(TextRange::new(start, start));
+    let mut open = LETTERS & !values.missing_axes();
+    let (mut at, mut stop) = (0, 0);
+    if matches!(text.first(), Some(b'N' | b'n')) {
+        (block.number, at) = sequence_number(text)?;
     }
-    let line_end = memchr::memchr(b'\n', text)?;
-    let mut stop = line_end - usize::from(text[line_end - 1] == b'\r');
-    while text[stop - 1] == b' ' {
-        stop -= 1;
-    }
-    // whatever stands there ends the number in front of it
-    let text = &text[..=stop];
-    block.clear(TextRange::new(start, start + stop as u32));
-    let missing = values.missing_axes();
-    let mut at = 0;
-    while at < stop {
-        if text[at] == b' ' {
-            at += 1;
-            continue;
+    loop {
+        let letter = *text.get(at)? & !0x20;
+        let place = letter.wrapping_sub(b'A');
+        if place >= 26 || open >> place & 1 == 0 {
+            break;
         }
-        let letter = text[at].to_ascii_uppercase();
-        let bit = 1u32.checked_shl(u32::from(letter.wrapping_sub(b'A')))?;
-        if LETTERS & bit == 0 || (block.given | missing) & bit != 0 {
-            return None;
-        }
-        let (value, end) = number(text, wide, at + 1)?;
+        let (value, end) = number(text, at + 1)?;
         // M98 and M99 are calls and returns
         if letter == b'M' && value >= 98.0 {
             return None;
         }
         let range = TextRange::new(start + at as u32, start + end as u32);
-        put(letter, value, range, values, block).ok()?;
-        at = end;
+        if ANY_VALUE >> place & 1 != 0 {
+            block.put(letter, value, range);
+        } else {
+            put(letter, value, range, values, block).ok()?;
+        }
+        open &= !(1 << place) | CODES;
+        (at, stop) = (end, end);
+        // what goes on behind blanks must be a word: a digit or a point there belongs to the number before them
+        while *text.get(at)? == b' ' {
+            at += 1;
+        }
     }
-    Some(start + line_end as u32 + 1)
+    at += usize::from(text[at] == b'\r');
+    if stop == 0 || *text.get(at)? != b'\n' {
+        return None;
+    }
+    block.range = TextRange::new(start, start + stop as u32);
+    Some(start + at as u32 + 1)
 }
 
-/// Sign, digits and point at `at`, and what stands behind them; nothing of a number may follow behind blanks. `wide`: the text with what
-/// stands behind its line.
+/// N at the line's start and the blanks behind its number: digits, perhaps with one point between them.
+fn sequence_number(text: &[u8]) -> Option<(Option<f64>, usize)> {
+    text.get(1).filter(|byte| byte.is_ascii_digit())?;
+    let (value, mut end) = number(text, 1)?;
+    if text[end - 1] == b'.' {
+        return None;
+    }
+    while *text.get(end)? == b' ' {
+        end += 1;
+    }
+    Some((Some(value), end))
+}
+
+/// Sign, digits and point at `at`, and what stands behind them.
 #[inline]
-fn number(text: &[u8], wide: &[u8], at: usize) -> Option<(f64, usize)> {
-    let negative = *text.get(at)? == b'-';
-    let first = at + usize::from(negative || text[at] == b'+');
-    let (mantissa, places, end) = match short(wide, first) {
+fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
+    let sign = *text.get(at)?;
+    let first = at + usize::from(sign == b'-' || sign == b'+');
+    let (mantissa, places, end) = match short(text, first) {
         Some(found) => found,
         None => long(text, first)?,
     };
-    if text[end] == b' ' {
-        let next = text[end..].iter().find(|byte| **byte != b' ');
-        if next.is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.') {
-            return None;
-        }
-    }
     // both operands are exact, so the one operation rounds correctly
     let value = mantissa as f64 / POWERS[places];
-    Some((if negative { -value } else { value }, end))
+    Some((if sign == b'-' { -value } else { value }, end))
 }
 
 /// Digits and point one by one: all digits as a whole number, how many stand behind the point, and where they end.
@@ -105,8 +121,8 @@ fn long(text: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     Some((mantissa, places, end))
 }
 
-/// The same eight bytes at a time, where at most seven digits stand on either side of the point; `None` elsewhere. A line's end and what
-/// may stand in front of it are no digits, so that nothing behind them is taken.
+/// The same eight bytes at a time, where at most seven digits stand on either side of the point; `None` elsewhere. A line's end is no digit,
+/// so that nothing behind it is taken.
 #[inline]
 fn short(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     let (whole, before) = eight(wide, first)?;
@@ -127,19 +143,20 @@ const HIGH: u64 = 0xf0f0_f0f0_f0f0_f0f0;
 /// The digits at `at` as a whole number, and how many they are, where they are fewer than eight.
 #[inline]
 fn eight(wide: &[u8], at: usize) -> Option<(u64, usize)> {
-    let word = u64::from_le_bytes(wide.get(at..at + 8)?.try_into().ok()?);
+    let word = u64::from_le_bytes(*wide.get(at..)?.first_chunk()?);
     // a digit is 3x, and stays below 40 when 6 is added; a sum that overflows spoils only what stands behind a byte that is no digit
     let other = ((word & HIGH) | ((word.wrapping_add(0x0606_0606_0606_0606) & HIGH) >> 4)) ^ 0x3333_3333_3333_3333;
     if other == 0 {
         return None;
     }
-    let count = other.trailing_zeros() as usize / 8;
+    // bits in front of the first byte that is no digit: 0, 8, .. 56
+    let bits = other.trailing_zeros() & 0x38;
     // zeros in front, then pairs, fours and eight digits at once
-    let digits = (word & !HIGH).checked_shl(64 - 8 * count as u32).unwrap_or(0);
+    let digits = (word & !HIGH) << 8 << (56 - bits);
     let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
     let low = (pairs & 0x0000_00ff_0000_00ff).wrapping_mul(0x000f_4240_0000_0064);
     let high = (pairs >> 16 & 0x0000_00ff_0000_00ff).wrapping_mul(0x0000_2710_0000_0001);
-    Some((low.wrapping_add(high) >> 32, count))
+    Some((low.wrapping_add(high) >> 32, (bits / 8) as usize))
 }
 
 #[cfg(test)]
@@ -187,6 +204,11 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         assert_eq!((ranges(&short), short.range), (ranges(&long), long.range));
+        assert_eq!(
+            short.number.map(f64::to_bits),
+            long.number.map(f64::to_bits),
+            "{text:?}"
+        );
         true
     }
 
@@ -197,12 +219,31 @@ mod tests {
             "g0x1y2\r\n",
             "F100  S2000 M3 \n",
             "X12345678901234.5\n",
+            "N10 G1 X1\n",
+            "n0010.50X1 Y2 \r\n",
+            "G1 G90 M3 M8 X1\n",
         ] {
             assert!(same(text), "{text:?}");
         }
         for text in [
-            "X1 2\n", "X1X2\n", "N1 X1\n", "(a) X1\n", "X[1]\n", "X#1\n", "M98 P1\n", "G77.7\n", "X1;\n", "X1",
-            "X- 1\n", "X1 .5\n", "F-1\n",
+            "X1 2\n",
+            "X1X2\n",
+            "N1. X1\n",
+            "N-1 X1\n",
+            "N1 5 X1\n",
+            "N5\n",
+            "X1 N5\n",
+            "N.5X1\n",
+            "(a) X1\n",
+            "X[1]\n",
+            "X#1\n",
+            "M98 P1\n",
+            "G77.7\n",
+            "X1;\n",
+            "X1",
+            "X- 1\n",
+            "X1 .5\n",
+            "F-1\n",
         ] {
             assert!(!same(text), "{text:?}");
         }
@@ -210,7 +251,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn both_ways_read_the_same(text in "([GMXYZFSTHPAx][-+]?[0-9]{0,3}[.]?[0-9]{0,3} ?){0,5}[\r]?\n") {
+        fn both_ways_read_the_same(text in "(N[0-9]{0,3}[.]?[0-9]{0,2} ?)?([GMXYZFSTHPAx][-+]?[0-9]{0,3}[.]?[0-9]{0,3} ?){0,5}[\r]?\n") {
             same(&text);
         }
     }

@@ -27,7 +27,7 @@ pub(crate) struct Pass<'a> {
     /// What tells of a leg which of them have anything to look at.
     facts: Option<Facts<'a>>,
     /// Those that the last leg asked, and what held of it.
-    asked: (Needs, Vec<Active<LegRule>>),
+    asked: (Option<Needs>, Vec<Active<LegRule>>),
     ends: Vec<Active<EndRule>>,
     suppressions: &'a Suppressions,
     ported: bool,
@@ -80,7 +80,7 @@ impl<'a> Pass<'a> {
             suppressions,
             ported: !settings.port_to.is_empty(),
             facts: settings.machine.map(Facts::new),
-            asked: (Needs::NOTHING, Vec::new()),
+            asked: (None, Vec::new()),
             follower: settings.machine.map(Follower::new),
             leg: None,
             posture: 0,
@@ -158,10 +158,10 @@ impl<'a> Pass<'a> {
         self.trail.add(follower.machine(), leg);
         let view = LegView::new(follower.machine(), leg, self.posture, &self.trail);
         let holds = facts.of_leg(leg, self.posture, &self.trail);
-        if holds != self.asked.0 || self.asked.1.is_empty() {
+        if self.asked.0 != Some(holds) {
             // one leg is like the other in most programs
             let (of, asked) = &mut self.asked;
-            *of = holds;
+            *of = Some(holds);
             asked.clear();
             let met = self.legs.iter().filter(|rule| rule.run.0.are_met(holds));
             asked.extend(met.map(|rule| rule.with(rule.run.1)));

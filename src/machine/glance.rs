@@ -95,3 +95,58 @@ pub fn glance(machine: &Machine, allowances: &Allowances, leg: &Leg) -> Option<G
         stray_mm,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Allowances, glance};
+    use crate::straight::tests::motion;
+    use crate::{BUILTIN_MACHINES, Follower, builtin, limit_excess, linear_travel, tip_deviation};
+    use proptest::prelude::*;
+    use trunnion_interp::{AXIS_LETTERS, MotionKind, Position};
+
+    proptest! {
+        /// What a look rules out the functions behind it rule out too, and no bound is below what they find.
+        #[test]
+        fn a_look_promises_no_more_than_the_full_functions(
+            machine in 0..BUILTIN_MACHINES.len(),
+            from in proptest::array::uniform9(-400.0..400.0),
+            by in proptest::array::uniform9(-30.0..30.0),
+            share in prop_oneof![Just(1.0), 0.0..0.1],
+            still in 0..512_u16,
+        ) {
+            let machine = builtin(BUILTIN_MACHINES[machine]).expect("built in");
+            let (mut start, mut end) = (Position::default(), Position::default());
+            let own = |axis: &usize| machine.axes.iter().any(|own| own.letter == AXIS_LETTERS[*axis]);
+            for axis in (0..9).filter(own) {
+                start.set(axis, from[axis]);
+                let way = if still & (1 << axis) == 0 { by[axis] * share } else { 0.0 };
+                end.set(axis, from[axis] + way);
+            }
+            let mut follower = Follower::new(machine);
+            follower.follow(&motion(Position::default(), start, MotionKind::Rapid, 0.0));
+            let leg = follower.follow(&motion(start, end, MotionKind::Linear, 0.0));
+            let Some(seen) = glance(machine, &Allowances::of(machine), &leg) else {
+                // held axes are asked to stand elsewhere
+                prop_assert!(leg.end.is_err(), "{:?}", leg.motion);
+                return Ok(());
+            };
+            let mut found = Vec::new();
+            prop_assert!(limit_excess(machine, &leg, &mut found));
+            prop_assert_eq!(seen.inside, found.is_empty());
+            let (from, to) = (leg.start.expect("followed"), leg.end.clone().expect("followed"));
+            for (joint, axis) in machine.axes.iter().enumerate() {
+                let way = (to.joints[joint] - from.joints[joint]).abs();
+                match axis.max_speed {
+                    Some(speed) => prop_assert!(seen.axes_s >= way / speed),
+                    None => prop_assert!(way == 0.0 || seen.axes_s == f64::INFINITY),
+                }
+            }
+            let travel = linear_travel(machine, &leg, 0.0).expect("a line");
+            prop_assert!(seen.linear_mm >= travel.most_mm && seen.linear_mm <= travel.most_mm * (1.0 + 1e-6));
+            let stray = tip_deviation(machine, &leg, f64::INFINITY).expect("a line");
+            prop_assert!(seen.stray_mm >= stray.bound_mm);
+            let stray = tip_deviation(machine, &leg, 0.0).expect("a line");
+            prop_assert!(seen.stray_mm >= stray.sampled_mm);
+        }
+    }
+}

@@ -72,14 +72,14 @@ impl Follower<'_> {
 }
 
 #[cfg(test)]
-mod tests {
-    use crate::{BUILTIN_MACHINES, Follower, builtin};
+pub(crate) mod tests {
+    use crate::{BUILTIN_MACHINES, Follower, Leg, Open, OpenCause, builtin};
     use proptest::prelude::*;
     use trunnion_interp::{ChainId, Feed, Motion, MotionKind, Orientation, Position, Tilt};
     use trunnion_syntax::BlockId;
 
-    /// A motion to a place, known coordinates only.
-    fn motion(start: Position, end: Position, kind: MotionKind, offset: f64) -> Motion {
+    /// A motion in joint words, with offsets in X and A and a tool.
+    pub(crate) fn motion(start: Position, end: Position, kind: MotionKind, offset: f64) -> Motion {
         let mut zero = [0.0; 9];
         (zero[0], zero[3]) = (offset, offset * 0.1);
         Motion {
@@ -112,7 +112,7 @@ mod tests {
         ) {
             let machine = builtin(BUILTIN_MACHINES[machine]).expect("built in");
             let mut short = Follower::new(machine);
-            let (mut at, mut leg) = (Position::default(), None);
+            let (mut at, mut leg): (_, Option<Box<Leg>>) = (Position::default(), None);
             for (values, held, rapid) in places {
                 let mut to = at;
                 for (axis, value) in values.into_iter().enumerate() {
@@ -125,9 +125,17 @@ mod tests {
                 let motion = motion(at, to, kind, offset);
                 let mut general = short.clone();
                 let expected = general.general(&motion);
+                if let Some(leg) = &mut leg {
+                    // nothing of the leg before may be left
+                    leg.rotary_excess = 7.0;
+                    leg.pole_angle_min = 7.0;
+                    leg.length = 7.0;
+                    leg.rotary_change = [7.0; 2];
+                    leg.start_given = true;
+                    leg.open = Some(Open { cause: OpenCause::Tie, taken: [7.0; 2], other: [7.0; 2] });
+                }
                 short.follow_into(&motion, &mut leg);
-                let leg = leg.as_deref();
-                prop_assert_eq!(format!("{leg:?}"), format!("{:?}", Some(&expected)));
+                prop_assert_eq!(format!("{:?}", leg.as_deref()), format!("{:?}", Some(&expected)));
                 prop_assert_eq!(format!("{:?}", short.state), format!("{:?}", general.state));
                 at = to;
             }

@@ -85,7 +85,8 @@ impl Shift {
     /// mm and deg from program units.
     #[inline]
     pub(super) fn metric(pose: &Pose, unit: f64) -> Pose {
-        std::array::from_fn(|axis| pose[axis] * if is_rotary(axis) { 1.0 } else { unit })
+        let [x, y, z, a, b, c, u, v, w] = *pose;
+        [x * unit, y * unit, z * unit, a, b, c, u * unit, v * unit, w * unit]
     }
 
     /// A point X Y Z of a canonical call, program units.

@@ -83,7 +83,7 @@ fn tell(engine: &mut Engine, source: &[u8], range: TextRange, at: At, sink: &mut
         Kind::Append => log("LOGAPPEND", text),
         Kind::Abort => {
             let text = text::fill(text, engine);
-            return Err(Halt::Refused(if text.is_empty() {
+            return Err(Halt::from(if text.is_empty() {
                 Error::new(&ABORT, range)
             } else {
                 Error::with(&ABORT, range, String::from_utf8_lossy(&text).into_owned())

@@ -17,11 +17,11 @@ impl Engine {
         compiled: &mut Compiled,
         line: &OLine,
         name: NameId,
-        sought: Option<Seeking>,
+        sought: Option<&Seeking>,
     ) -> Result<(), Halt> {
         if sought.is_some() {
             // a call in the text of its own definition, which is passed over: as on the control its arguments are not evaluated
-            self.flow.seeking = sought;
+            self.flow.seeking = sought.copied();
             return Ok(());
         }
         let mut arguments = [0.0; ARGUMENTS];
@@ -141,7 +141,7 @@ impl Engine {
         compiled: &mut Compiled,
         line: &OLine,
         name: NameId,
-        sought: Option<Seeking>,
+        sought: Option<&Seeking>,
     ) -> Result<(), Halt> {
         self.flow.watch.stir();
         let style = if line.keyword == Keyword::Sub {
@@ -218,7 +218,7 @@ impl Engine {
         self.files[file.0 as usize].path.clone()
     }
     /// `o... endsub [..]`, `o... return [..]`
-    pub(super) fn end_sub(&mut self, line: &OLine, sought: Option<Seeking>, sink: &mut dyn Sink) -> Result<(), Halt> {
+    pub(super) fn end_sub(&mut self, line: &OLine, sought: Option<&Seeking>, sink: &mut dyn Sink) -> Result<(), Halt> {
         let passed = matches!(sought, Some(seeking) if matches!(seeking.goal, Goal::Definition(_)));
         let value = line.values.first().map(|formula| {
             if passed {
@@ -230,7 +230,7 @@ impl Engine {
         let value = value.transpose();
         if let Some(seeking) = sought {
             if line.keyword == Keyword::Return || matches!(seeking.goal, Goal::Subprogram(..)) {
-                self.flow.seeking = sought;
+                self.flow.seeking = sought.copied();
             }
             // the control sets the value while it reads the line, in a skip, too
             self.store.set_returned(value?);

@@ -189,11 +189,14 @@ impl Engine {
     pub(super) fn put_back(&mut self, compiled: Box<Compiled>, keep: bool) {
         if keep {
             let place = compiled.place;
-            let kept = Kept {
-                slot: compiled.slot(),
-                memo: compiled.memo,
-            };
-            self.flow.lines(place.file).keep(place.line, kept);
+            let slot = compiled.slot();
+            let lines = self.flow.lines(place.file);
+            // nothing is found out about words
+            let same = |kept: &mut Kept| compiled.kind == Kind::Words && kept.slot == slot;
+            if !lines.kept(place.line).is_some_and(same) {
+                let memo = compiled.memo;
+                lines.keep(place.line, Kept { slot, memo });
+            }
         }
         self.flow.texts.put_back(compiled);
     }

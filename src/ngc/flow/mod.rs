@@ -40,8 +40,8 @@ use trunnion_syntax::TextRange;
 /// Why a line did not run to its end.
 #[derive(Debug)]
 pub(crate) enum Halt {
-    /// The control refuses it.
-    Refused(Error),
+    /// The control refuses it. Errors are rare: they are held elsewhere, so that what goes well is handed back in few bytes.
+    Refused(Box<Error>),
     /// The control refuses it, and the errors are told.
     Told,
     /// What happens depends on something unknown: the sentence that says so.
@@ -52,7 +52,7 @@ pub(crate) enum Halt {
 
 impl From<Error> for Halt {
     fn from(error: Error) -> Self {
-        Self::Refused(error)
+        Self::Refused(error.into())
     }
 }
 

@@ -32,6 +32,14 @@ pub(crate) enum Keyword {
     ReturnNumbered,
 }
 
+impl Keyword {
+    /// Whether it takes part in definitions, calls and returns, whose labels belong to no subprogram.
+    #[inline]
+    pub(crate) fn is_global(self) -> bool {
+        matches!(self, Self::Bare | Self::Sub | Self::EndSub | Self::Call | Self::Return)
+    }
+}
+
 /// Longer words before those they begin with.
 const KEYWORDS: [(&str, Keyword); 15] = [
     ("endrepeat", Keyword::EndRepeat),

@@ -215,7 +215,7 @@ impl Engine {
             Ok(name) => name,
             // a label that has no value yet is none that is looked for
             Err(super::Halt::Refused(error)) if error.problem.class == Class::Variable => return Glance::Nothing,
-            Err(super::Halt::Refused(error)) => return Glance::Refused(error),
+            Err(super::Halt::Refused(error)) => return Glance::Refused(*error),
             Err(super::Halt::Undecided(why)) => return Glance::Undecided(why),
             Err(super::Halt::Told | super::Halt::Endless(_)) => return Glance::Nothing,
         };
@@ -231,10 +231,7 @@ impl Engine {
         if line.keyword == Keyword::Bare && self.flow.no_fanuc {
             return Glance::Refused(Error::new(&problems::FANUC_HEAD_OFF, line.label_range));
         }
-        let is_global = matches!(
-            line.keyword,
-            Keyword::Bare | Keyword::Sub | Keyword::EndSub | Keyword::Call | Keyword::Return
-        );
+        let is_global = line.keyword.is_global();
         let counts = match seeking.goal {
             Goal::Label(_, wanted) => !is_global && name == wanted,
             Goal::Definition(wanted) => {

@@ -89,7 +89,7 @@ impl Engine {
         }
         let result = match sought {
             None => self.run_line(&mut compiled, sink),
-            Some(seeking) => self.run_label(&mut compiled, Some(seeking), sink),
+            Some(seeking) => self.run_label(&mut compiled, Some(&seeking), sink),
         };
         if matches!(result, Err(Halt::Refused(_) | Halt::Told)) {
             let source = self.files[place.file.0 as usize].bytes();

@@ -15,7 +15,7 @@ impl Engine {
     pub(super) fn run_label(
         &mut self,
         compiled: &mut Compiled,
-        sought: Option<Seeking>,
+        sought: Option<&Seeking>,
         sink: &mut dyn Sink,
     ) -> Result<After, Halt> {
         let Some(line) = compiled.o.take() else {
@@ -32,7 +32,7 @@ impl Engine {
         &mut self,
         compiled: &mut Compiled,
         line: &OLine,
-        sought: Option<Seeking>,
+        sought: Option<&Seeking>,
         sink: &mut dyn Sink,
     ) -> Result<After, Halt> {
         let name = match compiled.memo.name {
@@ -89,7 +89,7 @@ impl Engine {
         compiled: &mut Compiled,
         line: &OLine,
         name: NameId,
-        sought: Option<Seeking>,
+        sought: Option<&Seeking>,
     ) -> Result<(), Halt> {
         let label = self.label_of(compiled, line, name);
         let goal = Goal::Label(label, name);
@@ -203,7 +203,7 @@ impl Engine {
         compiled: &mut Compiled,
         line: &OLine,
         (label, goal): (LabelId, Goal),
-        sought: Option<Seeking>,
+        sought: Option<&Seeking>,
         value: f64,
     ) -> Result<(), Halt> {
         self.opened(line, label, &[Opener::If])?;
@@ -219,7 +219,7 @@ impl Engine {
         compiled: &mut Compiled,
         line: &OLine,
         (label, goal): (LabelId, Goal),
-        sought: Option<Seeking>,
+        sought: Option<&Seeking>,
         value: f64,
     ) -> Result<(), Halt> {
         if let Some(known) = self.flow.labels.structure(label)
@@ -276,7 +276,7 @@ impl Engine {
         compiled: &mut Compiled,
         line: &OLine,
         (label, goal): (LabelId, Goal),
-        sought: Option<Seeking>,
+        sought: Option<&Seeking>,
     ) -> Result<(), Halt> {
         match self.flow.labels.structure(label) {
             Some(known) if !matches!(known.opener, Opener::While | Opener::Do) => {
@@ -292,7 +292,7 @@ impl Engine {
     }
     /// After a refusal: structures count as opened and are gone through once, so that the lines inside are checked and their ends are
     /// no new errors.
-    fn recover(&mut self, compiled: &mut Compiled, line: &OLine, sought: Option<Seeking>) {
+    fn recover(&mut self, compiled: &mut Compiled, line: &OLine, sought: Option<&Seeking>) {
         let opener = match line.keyword {
             Keyword::If => Opener::If,
             Keyword::While => Opener::While,
@@ -301,7 +301,9 @@ impl Engine {
             _ => {
                 // what was looked for is still looked for
                 if self.flow.seeking.is_none() && line.keyword != Keyword::Bare {
-                    self.flow.seeking = sought.filter(|seeking| !matches!(seeking.goal, Goal::Subprogram(..)));
+                    self.flow.seeking = sought
+                        .copied()
+                        .filter(|seeking| !matches!(seeking.goal, Goal::Subprogram(..)));
                 }
                 return;
             }

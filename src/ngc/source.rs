@@ -15,6 +15,9 @@ impl FileId {
 /// So many lines share one entry of the index: a file of nothing but line ends must not cost four times its size in memory.
 pub(crate) const STRIDE: u32 = 64;
 
+/// So many bytes are looked at together while the index is made.
+const BLOCK: usize = 512;
+
 /// Bytes that others may hold, too.
 #[derive(Debug)]
 enum Bytes {
@@ -55,17 +58,19 @@ impl Source {
     fn of(path: String, held: Bytes) -> Self {
         let bytes = held.get();
         let mut starts = vec![0];
-        let mut lines = 0;
-        let mut end = 0;
-        for at in memchr_iter(b'\n', bytes) {
-            end = at as u32 + 1;
-            lines += 1;
-            if lines % STRIDE == 0 {
-                starts.push(end);
+        let mut lines = 0u32;
+        for (block, from) in bytes.chunks(BLOCK).zip((0..).step_by(BLOCK)) {
+            let count = memchr_iter(b'\n', block).count() as u32;
+            // most blocks begin no entry of the index: counting is much faster than looking where each line ends
+            if lines % STRIDE + count >= STRIDE {
+                let ends = memchr_iter(b'\n', block).zip(lines + 1..);
+                let entries = ends.filter(|(_, line)| line % STRIDE == 0);
+                starts.extend(entries.map(|(at, _)| (from + at) as u32 + 1));
             }
+            lines += count;
         }
         // a last line without line end counts as a line
-        lines += u32::from(end < bytes.len() as u32);
+        lines += u32::from(bytes.last().is_some_and(|byte| *byte != b'\n'));
         Self {
             path,
             bytes: held,
@@ -107,5 +112,32 @@ impl Source {
         let to = (offset as usize).min(self.bytes().len());
         let line = block as u32 * STRIDE + memchr_iter(b'\n', &self.bytes()[from..to.max(from)]).count() as u32;
         line.min(self.lines.saturating_sub(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Source;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn lines_are_where_they_are(lengths in proptest::collection::vec(0usize..40, 0..400), closed: bool) {
+            let mut text: String = lengths.iter().map(|length| "x".repeat(*length) + "\n").collect();
+            if !closed {
+                text.push('y');
+            }
+            let source = Source::new(String::new(), text.as_bytes().into());
+            let lines: Vec<&str> = text.split_inclusive('\n').collect();
+            prop_assert_eq!(source.line_count() as usize, lines.len());
+            let mut offset = 0;
+            for (number, line) in (0..).zip(&lines) {
+                let range = source.line(number).expect("it is there");
+                prop_assert_eq!(range.as_usize(), offset..offset + line.len());
+                prop_assert_eq!(source.line_of(offset as u32), number);
+                offset += line.len();
+            }
+            prop_assert_eq!(source.line(lines.len() as u32), None);
+        }
     }
 }

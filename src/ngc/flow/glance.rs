@@ -46,11 +46,11 @@ pub(super) fn length(text: &[u8]) -> (usize, bool) {
     (at + length, memchr::memchr(b'(', &rest[..length]).is_some())
 }
 
-/// Looks at one line; `bracket`: there is a `(` in it.
+/// Looks at the first line of a text; `bracket`: there is a `(` in it.
 #[inline]
-pub(super) fn look(line: &[u8], bracket: bool) -> Look<'_> {
+pub(super) fn look(text: &[u8], bracket: bool) -> Look<'_> {
     let is_blank = |byte: &&u8| matches!(**byte, b' ' | b'\t');
-    let rest = &line[line.iter().take_while(is_blank).count()..];
+    let rest = &text[text.iter().take_while(is_blank).count()..];
     let Some(first) = rest.first() else {
         return Look::Nothing;
     };
@@ -98,21 +98,48 @@ fn label(rest: &[u8]) -> Option<Look<'_>> {
     while matches!(rest.get(at), Some(b' ' | b'\t')) {
         at += 1;
     }
-    let word = at;
-    // the keyword's letters in lower case, as one number
-    let mut letters = 0u64;
-    while let Some(byte) = rest.get(at).filter(|byte| byte.is_ascii_alphabetic()) {
-        letters = letters << 8 | u64::from(byte | 0x20);
-        at += 1;
-    }
-    let global = match at - word {
-        ..=8 => is_global(letters)?,
-        9 if rest[word..at].eq_ignore_ascii_case(b"endrepeat") => false,
-        _ => return None,
-    };
+    let letters = keyword(rest.get(at..)?);
+    at += letters.len;
+    let global = is_global(letters.word)?;
     // a line that ends here was cut off
     rest.get(at)?;
     Some(Look::Label(&rest[usize::from(named)..end], global))
+}
+
+/// The letters that a text begins with.
+struct Letters {
+    /// In lower case, the first one lowest; 0 where they are more than eight.
+    word: u64,
+    len: usize,
+}
+
+/// The word that a text begins with.
+#[inline]
+fn keyword(text: &[u8]) -> Letters {
+    let Some(bytes) = text.first_chunk::<8>() else {
+        let mut word = [0; 8];
+        let len = text.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+        for (to, byte) in word.iter_mut().zip(&text[..len]) {
+            *to = byte | 0x20;
+        }
+        let word = u64::from_le_bytes(word);
+        return Letters { word, len };
+    };
+    let of = |byte: u8| u64::from_le_bytes([byte; 8]);
+    let lower = u64::from_le_bytes(*bytes) | of(0x20);
+    // the highest bit of each byte: not ASCII, from `a` on, behind `z`
+    let plain = lower & of(0x7f);
+    let letter = (plain + of(0x80 - b'a')) & !(plain + of(0x80 - b'z' - 1)) & !lower;
+    let others = !letter & of(0x80);
+    let len = others.trailing_zeros() as usize / 8;
+    if len == 8 {
+        // longer words are for the full look
+        let longer = text.get(8).is_some_and(u8::is_ascii_alphabetic);
+        let word = if longer { 0 } else { lower };
+        return Letters { word, len };
+    }
+    let word = lower & ((1 << (8 * len)) - 1);
+    Letters { word, len }
 }
 
 /// Whether a keyword, its letters as one number, takes part in calls and returns (true) or in structures; `None` for `sub`, and for a word
@@ -123,7 +150,7 @@ fn is_global(letters: u64) -> Option<bool> {
         let mut letters = 0;
         let mut at = 0;
         while at < word.len() {
-            letters = letters << 8 | word[at] as u64;
+            letters |= (word[at] as u64) << (8 * at);
             at += 1;
         }
         letters
@@ -198,10 +225,12 @@ mod tests {
 
         #[test]
         fn what_is_seen_at_first_sight_is_so(
-            line in "[ \\t]{0,2}[oO]?(1|12|007|0|<a_1>|<A b>|#1|<a)?[ ]{0,2}(if|else|else if|endif|while|endwhile|call|endsub|sub|end sub|return|do|G1 X1|#2=3|N5|%|/)?( ?\\[1\\]| ?[(;]c[)]?|x| 2)?\r?\n"
+            line in "[ \\t]{0,2}[oO]?(1|12|007|0|<a_1>|<A b>|#1|<a)?[ ]{0,2}(if|else|else if|endif|while|endwhile|call|endsub|sub|end sub|return|do|G1 X1|#2=3|N5|%|/)?( ?\\[1\\]| ?[(;]c[)]?|x| 2)?\r?\n",
+            behind in "[a-z(0-9]{0,9}"
         ) {
             let expected = full(line.as_bytes());
-            match look(line.as_bytes(), line.contains('(')) {
+            let followed = format!("{line}{behind}");
+            match look(followed.as_bytes(), line.contains('(')) {
                 Look::Unclear => {}
                 Look::Nothing => prop_assert_eq!(expected, Some(None), "{:?}", line),
                 Look::Label(name, global) => {

@@ -138,7 +138,7 @@ impl Engine {
             if length > glance::LONGEST {
                 break;
             }
-            match glance::look(&rest[..length], has_comment) {
+            match glance::look(rest, has_comment) {
                 Look::Nothing => {}
                 Look::Label(name, is_global) => {
                     counts = is_global == global && wanted.eq_ignore_ascii_case(name);

@@ -213,6 +213,29 @@ mod tests {
         (!sub).then_some(Some((name, global)))
     }
 
+    #[test]
+    fn keywords_are_known_at_first_sight() {
+        let local = "if else elseif endif while endwhile do repeat break continue";
+        let global = "endsub call return";
+        for (words, is_global) in [(local, false), (global, true)] {
+            for word in words.split(' ') {
+                for text in [
+                    format!(" o12 {word}\n"),
+                    format!("O12{}[1]\nG1 X2\n", word.to_uppercase()),
+                ] {
+                    assert_eq!(look(text.as_bytes(), false), Look::Label(b"12", is_global), "{text:?}");
+                }
+            }
+        }
+        for word in ["sub", "endrepeat", "iff", "whilewhile", "x"] {
+            assert_eq!(
+                look(format!("o1 {word}\nG1\n").as_bytes(), false),
+                Look::Unclear,
+                "{word}"
+            );
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 

@@ -1,5 +1,5 @@
 //! What is found by its text beside what is read.
-use super::{Compiled, NOWHERE, Part};
+use super::{Compiled, Label, NOWHERE, Part, plain_label};
 use crate::flow::Kind;
 use crate::flow::labels::Place;
 use crate::{Engine, Setup, Source};
@@ -19,7 +19,12 @@ fn said(read: &Compiled) -> String {
 
 /// Reads both lines of a program, the second one as it is found by its text; whether it was found, and what both ways say of it.
 fn both(first: &str, second: &str) -> (bool, String, String) {
-    let text = format!("{first}\n\n{second}\n{second}\n");
+    // the third one has a number of its own where the text stands behind a number
+    let third = match plain_label(format!("{second}\n").as_bytes()) {
+        Some((start, end, Label::Number(_))) => format!("{}o345{}", &second[..start], &second[end..]),
+        _ => second.to_owned(),
+    };
+    let text = format!("{first}\n\n{second}\n{third}\n");
     let source = Source::new(String::new(), text.as_bytes().into());
     let mut engine = Engine::new(Arc::new(source), &Setup::default());
     let there = Place {
@@ -53,7 +58,7 @@ fn compared(moved: &mut Compiled, fresh: &Compiled) -> (String, String) {
     (said(moved), said(fresh))
 }
 
-/// Reads the same line once more behind one that was read; `sure`: it is surely taken without a look for its text.
+/// Reads the line behind one that was read, which says the same; `sure`: it is surely taken without a look for its text.
 fn guessed(mut engine: Engine, before: Box<Compiled>, sure: bool) {
     let there = before.next;
     engine.put_back(before, false);

@@ -4,7 +4,7 @@
 use crate::pass::Pass;
 use crate::rule::InForce;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
+use trunnion_interp::{ChainId, Fault, Feed, Interpreter, ModalState, Motion, MotionKind, Position, Sink};
 use trunnion_syntax::{BlockId, Program};
 
 /// Programs of fewer blocks are not worth a second thread.
@@ -20,24 +20,68 @@ const BATCHES: usize = 4;
 enum Told {
     /// The next of [`Batch::motions`].
     Motion,
+    /// The next of [`Batch::lines`].
+    Line,
     /// The next of [`Batch::faults`].
     Fault,
     /// A block has run.
     Ran(BlockId),
 }
 
-/// A piece of a run.
+/// What a line tells that the motion before it does not tell: see [`Sink::next_line`].
+struct Line {
+    block: BlockId,
+    chain: ChainId,
+    rapid: bool,
+    feed: Feed,
+    end: Position,
+}
+
+impl Line {
+    /// The motion that follows another.
+    fn follow(&self, motion: &mut Motion) {
+        motion.block = self.block;
+        motion.chain = self.chain;
+        motion.kind = if self.rapid {
+            MotionKind::Rapid
+        } else {
+            MotionKind::Linear
+        };
+        motion.feed = self.feed;
+        motion.start = motion.end;
+        motion.end = self.end;
+    }
+}
+
+/// A piece of a run. Lines are most of it, and what goes from core to core costs more than what is worked out again.
 #[derive(Default)]
 struct Batch {
     order: Vec<Told>,
     motions: Vec<(Motion, InForce)>,
+    lines: Vec<Line>,
     faults: Vec<Fault>,
+    /// A motion was told, in this batch or before it.
+    begun: bool,
 }
 
 impl Sink for Batch {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
         self.order.push(Told::Motion);
         self.motions.push((*motion, InForce::of(state)));
+        self.begun = true;
+    }
+    fn next_line(&mut self, motion: &Motion, state: &ModalState) {
+        if !self.begun {
+            return self.motion(motion, state);
+        }
+        self.order.push(Told::Line);
+        self.lines.push(Line {
+            block: motion.block,
+            chain: motion.chain,
+            rapid: motion.kind == MotionKind::Rapid,
+            feed: motion.feed,
+            end: motion.end,
+        });
     }
     fn fault(&mut self, fault: Fault) {
         self.order.push(Told::Fault);
@@ -46,14 +90,21 @@ impl Sink for Batch {
 }
 
 impl Batch {
-    /// Shows the pass what was told; the batch is empty then and keeps its storage.
-    fn show(&mut self, pass: &mut Pass<'_>) {
-        let mut motions = self.motions.iter();
+    /// Shows the pass what was told; the batch is empty then and keeps its storage. `last`: the motion told last.
+    fn show(&mut self, pass: &mut Pass<'_>, last: &mut Option<(Motion, InForce)>) {
+        let (mut motions, mut lines) = (self.motions.iter(), self.lines.iter());
         let mut faults = self.faults.drain(..);
         for told in self.order.drain(..) {
             match told {
                 Told::Motion => {
                     if let Some((motion, in_force)) = motions.next() {
+                        pass.take_motion(motion, *in_force);
+                        *last = Some((*motion, *in_force));
+                    }
+                }
+                Told::Line => {
+                    if let (Some(line), Some((motion, in_force))) = (lines.next(), last.as_mut()) {
+                        line.follow(motion);
                         pass.take_motion(motion, *in_force);
                     }
                 }
@@ -63,6 +114,7 @@ impl Batch {
         }
         drop(faults);
         self.motions.clear();
+        self.lines.clear();
     }
 }
 
@@ -83,8 +135,9 @@ pub(crate) fn run(
             tell(program, &mut interpreter, &full, &emptied);
             interpreter
         });
+        let mut last = None;
         for mut batch in filled {
-            batch.show(pass);
+            batch.show(pass, &mut last);
             // whoever runs the program may have come to its end
             _ = empty.send(batch);
         }
@@ -111,10 +164,12 @@ fn tell(
                 continue;
             }
         }
+        let begun = batch.begun;
         if full.send(batch).is_err() || ran.is_none() {
             return;
         }
         let Ok(next) = emptied.recv() else { return };
         batch = next;
+        batch.begun = begun;
     }
 }

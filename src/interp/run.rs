@@ -9,6 +9,11 @@ use trunnion_syntax::{BlockId, Format, Program, TextRange};
 pub trait Sink {
     /// A motion; `state` is the modal state after its block.
     fn motion(&mut self, motion: &Motion, state: &ModalState);
+    /// A rapid or linear motion that begins where the motion before it ended and differs from it in block, chain, kind, places and feed
+    /// only: what is in force is the same but for the motion code and F.
+    fn next_line(&mut self, motion: &Motion, state: &ModalState) {
+        self.motion(motion, state);
+    }
     /// A fact about what is wrong.
     fn fault(&mut self, fault: Fault);
     /// Called after each block (also those without motion).

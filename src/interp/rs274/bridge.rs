@@ -44,18 +44,17 @@ pub(super) struct Told {
     pub(super) hidden: bool,
     /// The line in hand was one motion and nothing else: what is in force behind it was taken over with the motion.
     pub(super) settled: bool,
-    /// While lines are motions and nothing else, which no offset can change: the offsets, and where the last of them ended.
-    pub(super) steady: Option<Steady>,
+    /// While lines are motions and nothing else, which no offset can change: the offsets, and the last of them.
+    pub(super) steady: Option<Box<Steady>>,
     /// The kinematics were switched, nobody knows to which: X Y Z say nothing about the machine.
     pub(super) kinematics_unknown: bool,
 }
 
 /// See [`Told::steady`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Steady {
     shift: Shift,
-    /// As programmed.
-    end: Position,
+    motion: Motion,
 }
 
 impl Told {
@@ -135,6 +134,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// `ends`: where the motion ends, and that in coordinates of the machine.
     fn motion_to(&mut self, kind: MotionKind, ends: [Position; 2], shift: &Shift, feed: Feed, at: At, state: &State) {
+        let block = self.block(at);
         let start = shift.programmed(&self.told.machine);
         let [mut end, mut machine] = ends;
         let mut kind = kind;
@@ -155,19 +155,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 *arc = None;
             }
         }
-        super::modal::refresh(&mut self.interpreter.state, state, shift);
-        self.tell(kind, [start, end, machine], shift, feed, at);
-    }
-
-    /// Hands a motion on. `places`: where it starts and ends, and that in coordinates of the machine.
-    #[inline]
-    fn tell(&mut self, kind: MotionKind, places: [Position; 3], shift: &Shift, feed: Feed, at: At) {
-        let block = self.block(at);
-        let [start, end, machine] = places;
         self.told.machine = machine;
         let interpreter = &mut *self.interpreter;
         interpreter.state.position = end;
         interpreter.chain = self.told.places.chain(at);
+        super::modal::refresh(&mut interpreter.state, state, shift);
         let modal = &interpreter.state;
         let motion = Motion {
             block,
@@ -188,29 +180,50 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             tilt: crate::Tilt::default(),
         };
         self.sink.motion(&motion, &self.interpreter.state);
+        let shift = *shift;
+        // what comes next is told by what differs
+        self.told.steady = self.told.settled.then(|| Box::new(Steady { shift, motion }));
     }
 
     /// A straight motion.
     #[inline]
     fn line(&mut self, kind: MotionKind, pose: &Pose, at: At, state: &State) {
-        let steady = self.told.steady;
-        let shift = steady.map_or_else(|| self.shift(state), |steady| steady.shift);
-        let end = shift.coordinates(pose);
-        let machine = shift.machine(&end);
-        let feed = if matches!(kind, MotionKind::Rapid) {
+        let rapid = matches!(kind, MotionKind::Rapid);
+        let (end, machine) = if let Some(steady) = &self.told.steady {
+            let end = steady.shift.coordinates(pose);
+            (end, steady.shift.machine(&end))
+        } else {
+            let shift = self.shift(state);
+            let end = shift.coordinates(pose);
+            let machine = shift.machine(&end);
+            let feed = if rapid {
+                Feed::Rapid
+            } else {
+                self.feed(&machine, at, state)
+            };
+            return self.motion_to(kind, [end, machine], &shift, feed, at, state);
+        };
+        let feed = if rapid {
             Feed::Rapid
         } else {
             self.feed(&machine, at, state)
         };
-        match steady {
-            // what is in force is as it was behind the motion before
-            Some(steady) => {
-                super::modal::refresh_motion(&mut self.interpreter.state, state);
-                self.tell(kind, [steady.end, end, machine], &shift, feed, at);
-            }
-            None => self.motion_to(kind, [end, machine], &shift, feed, at, state),
+        let block = self.block(at);
+        let interpreter = &mut *self.interpreter;
+        interpreter.state.position = end;
+        interpreter.chain = self.told.places.chain(at);
+        super::modal::refresh_motion(&mut interpreter.state, state);
+        self.told.machine = machine;
+        if let Some(steady) = &mut self.told.steady {
+            let motion = &mut steady.motion;
+            motion.block = block;
+            motion.chain = interpreter.chain;
+            motion.kind = kind;
+            motion.start = motion.end;
+            motion.end = end;
+            motion.feed = feed;
+            self.sink.next_line(motion, &interpreter.state);
         }
-        self.told.steady = self.told.settled.then_some(Steady { shift, end });
     }
 
     /// Where an arc ends, and the arc as far as its start is known.

@@ -70,6 +70,8 @@ pub struct Constants {
     pub linear_count: usize,
     /// The three entries of `linear` that inverse kinematics solves for; further ones (a quill) keep their value.
     pub solved: [usize; 3],
+    /// Whether linear axes lie in each segment of the chain.
+    pub occupied: [bool; 3],
     /// The segment shared by the three solved axes; `None` when they lie in different ones.
     pub shared_segment: Option<usize>,
     /// Inverse of the matrix whose columns are the motions of the three solved axes.
@@ -132,6 +134,10 @@ impl Constants {
             None
         };
         let shared_segment = shared.then_some(segment);
+        let mut occupied = [false; 3];
+        for axis in &linear[..linear_count] {
+            occupied[axis.segment] = true;
+        }
         let cartesian = cartesian(&inverse_motion);
         Some(Self {
             rotary,
@@ -139,6 +145,7 @@ impl Constants {
             linear,
             linear_count,
             solved,
+            occupied,
             shared_segment,
             inverse_motion,
             cartesian,

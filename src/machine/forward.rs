@@ -42,12 +42,30 @@ impl Turn {
     /// The turned vector (Rodrigues' formula).
     #[inline]
     pub(crate) fn apply(&self, v: &Vec3) -> Vec3 {
-        v * self.cos + self.axis.cross(v) * self.sin + self.axis * (self.axis.dot(v) * (1.0 - self.cos))
+        self.by(self.sin, v)
     }
     /// The vector turned back.
     #[inline]
     pub(crate) fn undo(&self, v: &Vec3) -> Vec3 {
-        v * self.cos - self.axis.cross(v) * self.sin + self.axis * (self.axis.dot(v) * (1.0 - self.cos))
+        self.by(-self.sin, v)
+    }
+    /// By the angle with this sine. Most axes lie along a coordinate, which a turn about them leaves as it is.
+    #[inline]
+    fn by(&self, sin: f64, v: &Vec3) -> Vec3 {
+        let (e, cos) = (&self.axis, self.cos);
+        if e.x == 0.0 && e.y == 0.0 {
+            let sin = sin * e.z;
+            return Vec3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z);
+        }
+        if e.y == 0.0 && e.z == 0.0 {
+            let sin = sin * e.x;
+            return Vec3::new(v.x, v.y * cos - v.z * sin, v.y * sin + v.z * cos);
+        }
+        if e.x == 0.0 && e.z == 0.0 {
+            let sin = sin * e.y;
+            return Vec3::new(v.x * cos + v.z * sin, v.y, v.z * cos - v.x * sin);
+        }
+        v * cos + e.cross(v) * sin + e * (e.dot(v) * (1.0 - cos))
     }
 }
 
@@ -88,4 +106,34 @@ pub fn tool_axis_at(machine: &Machine, q: [f64; 2]) -> Vec3 {
         axis = Turn::new(constants, index, q[index]).apply(&axis);
     }
     axis
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Turn;
+    use proptest::prelude::*;
+    use trunnion_geometry::Vec3;
+    use trunnion_geometry::math::{rotate, sin_cos};
+
+    proptest! {
+        /// Along each coordinate, both ways, and askew: as the formula without its short cuts, and back again.
+        #[test]
+        fn turns_are_those_of_rodrigues(
+            axis in prop_oneof![
+                (0..3_usize, any::<bool>()).prop_map(|(axis, back)| Vec3::ith(axis, if back { -1.0 } else { 1.0 })),
+                // askew by so little that its length along the coordinate is 1 to the last bit
+                (0..3_usize).prop_map(|axis| Vec3::ith(axis, 1.0) + Vec3::ith((axis + 1) % 3, 9e-9)),
+                proptest::array::uniform3(-1.0..1.0).prop_map(|v: [f64; 3]| Vec3::from(v).normalize()),
+            ],
+            angle in -7.0..7.0,
+            v in proptest::array::uniform3(-1e3..1e3),
+        ) {
+            let v = Vec3::from(v);
+            let (sin, cos) = sin_cos(angle);
+            let turn = Turn { axis, sin, cos };
+            let turned = turn.apply(&v);
+            prop_assert!((turned - rotate(&axis, angle, &v)).norm() < 1e-11, "{turned}");
+            prop_assert!((turn.undo(&turned) - v).norm() < 1e-11);
+        }
+    }
 }

@@ -110,6 +110,9 @@ impl<'a> Run<'a> {
     /// Bounds of rate and second derivative of the linear shift at a place of the chain.
     #[inline]
     fn shift_bounds(&self, bulge: Option<&Bulge>, segment: usize) -> (f64, f64) {
+        if !self.machine.constants.occupied[segment] {
+            return (0.0, 0.0);
+        }
         let way = self.ways[segment].norm();
         let Some(bulge) = bulge else { return (way, 0.0) };
         let mut columns = [Vec3::zeros(); 3];

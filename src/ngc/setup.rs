@@ -83,6 +83,19 @@ pub struct ToolEntry {
     pub orientation: i32,
 }
 
+impl ToolEntry {
+    /// A row that no tool has; it is never found by its number.
+    pub(crate) const NOBODY: Self = Self {
+        number: i32::MIN,
+        pocket: -1,
+        offset: [0.0; 9],
+        diameter: 0.0,
+        front_angle: 0.0,
+        back_angle: 0.0,
+        orientation: 0,
+    };
+}
+
 /// The tool table. Row 0 is the spindle.
 #[derive(Clone, Debug, Default)]
 pub struct ToolTable {

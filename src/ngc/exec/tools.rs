@@ -19,7 +19,8 @@ impl Engine {
             return Ok(0);
         }
         let rows = self.state.tools.iter().skip(1);
-        match rows.enumerate().find(|(_, row)| row.number == number) {
+        let is_it = |row: &ToolEntry| row.number == number && *row != ToolEntry::NOBODY;
+        match rows.enumerate().find(|(_, row)| is_it(row)) {
             Some((place, _)) => Ok(place + 1),
             None if self.setup.any_tool => {
                 let entry = ToolEntry {

@@ -43,7 +43,8 @@ impl Ini {
 
 impl ToolTable {
     /// Reads lines of words: T number, P pocket, X Y Z A B C U V W offsets, D diameter, I and J angles, Q orientation; `;` begins a
-    /// comment. Lines that are no row are told beside the rows.
+    /// comment. Lines that are no row are told beside the rows. Each P takes a row, also a second P of one line and those of a line that
+    /// is no row (so `rs274`): tools behind it move down.
     pub fn parse(bytes: &[u8]) -> (Self, Vec<BadLine>) {
         let mut rows = Vec::new();
         let mut bad = Vec::new();
@@ -52,9 +53,16 @@ impl ToolTable {
             if words.is_empty() {
                 continue;
             }
+            let pockets = pockets(words);
             match row(words) {
-                Ok(entry) => rows.push(entry),
-                Err(message) => bad.push(BadLine { line, message }),
+                Ok(entry) => {
+                    rows.extend((1..pockets).map(|_| ToolEntry::NOBODY));
+                    rows.push(entry);
+                }
+                Err(message) => {
+                    rows.extend((0..pockets).map(|_| ToolEntry::NOBODY));
+                    bad.push(BadLine { line, message });
+                }
             }
         }
         (Self { rows }, bad)
@@ -77,6 +85,17 @@ impl ToolTable {
             ],
         }
     }
+}
+
+/// How many P words with a number a line has, whatever else stands there.
+fn pockets(words: &str) -> usize {
+    let is_pocket = |word: &&str| {
+        let number = word
+            .strip_prefix(['P', 'p'])
+            .map(|text| text.strip_prefix(['+', '-']).unwrap_or(text));
+        number.is_some_and(|number| number.starts_with(|sign: char| sign.is_ascii_digit()))
+    };
+    words.split_whitespace().filter(is_pocket).count()
 }
 
 /// One row of a tool table.

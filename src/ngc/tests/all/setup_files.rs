@@ -17,7 +17,7 @@ fn the_first_of_equal_keys_counts() {
 #[test]
 fn rows_of_a_tool_table_are_words_and_other_lines_are_told() {
     let (table, bad) = ToolTable::parse(b"T1 P7 Z-.5 D2 Q9 ;a\n; only a comment\nT2 K3\nfoo\nP9 Z1\n");
-    assert_eq!(table.rows.len(), 1);
+    assert_eq!(table.rows.len(), 2, "the P of the last line takes a row");
     let row = table.rows[0];
     assert_eq!(
         (row.number, row.pocket, row.offset[2], row.diameter, row.orientation),
@@ -25,6 +25,26 @@ fn rows_of_a_tool_table_are_words_and_other_lines_are_told() {
     );
     let lines: Vec<usize> = bad.iter().map(|bad| bad.line).collect();
     assert_eq!(lines, [3, 4, 5]);
+}
+
+/// Answers of rs274 to the same tables: `CHANGE_TOOL(row)`.
+#[test]
+fn each_pocket_word_of_a_tool_table_takes_a_row() {
+    for (text, tool, row) in [
+        ("T2 P2 Z1\nT7 P7 Z2\n", 7, 2),
+        ("T2 P2 Z1\nT7 P7 Z2 P0.0\nT9 P9 Z3\n", 7, 3),
+        ("T2 P2 Z1\nT7 P7 Z2 P0.0\nT9 P9 Z3 P0.0\n", 9, 5),
+        ("P1 T2 Z1 P2 p3\nT7 P7 Z2\n", 2, 3),
+        ("P2 P3\nT7 P7 Z2\n", 7, 3),
+        ("K3 P2 P4 T2\nT7 P7 Z2\n", 7, 3),
+        ("T2 Px P2\nT7 P7 Z2\n", 7, 2),
+        ("T2 P2000 P1\nT7 P7 P-1 Z2\n", 7, 4),
+        ("foo\nT5 P\nT7 P7 Z2\n", 7, 1),
+    ] {
+        let (table, _) = ToolTable::parse(text.as_bytes());
+        let found = table.rows.iter().position(|entry| entry.number == tool);
+        assert_eq!(found.map(|place| place + 1), Some(row), "{text}");
+    }
 }
 
 #[test]

@@ -74,16 +74,6 @@ impl<'m> Follower<'m> {
         self.general(motion)
     }
 
-    /// [`Self::follow`] into the storage of the leg before, which is made where there is none.
-    #[inline]
-    pub fn follow_into(&mut self, motion: &Motion, leg: &mut Option<Box<Leg>>) {
-        match leg {
-            Some(leg) if self.is_straight(motion) => self.straight(motion, leg),
-            Some(leg) => **leg = self.general(motion),
-            None => *leg = Some(Box::new(self.general(motion))),
-        }
-    }
-
     /// [`Self::follow`] for any motion.
     pub(crate) fn general(&mut self, motion: &Motion) -> Leg {
         let given = self.state.stance.is_none() && self.begin(motion);
@@ -291,32 +281,6 @@ impl<'m> Follower<'m> {
             .solved
             .iter()
             .fold(0, |mask, &index| mask | 1 << constants.linear[index].joint)
-    }
-
-    /// The joints outside the mask are unknown.
-    pub(crate) fn unknown(&self, known: u16) -> NoStance {
-        NoStance::PositionUnknown(self.letters(!known))
-    }
-
-    fn unknown_tip(&self, motion: &Motion, tip_known: bool, known: u16) -> NoStance {
-        let mut letters = String::new();
-        if !tip_known {
-            letters.extend(
-                "XYZ"
-                    .chars()
-                    .enumerate()
-                    .filter(|(i, _)| motion.end.get(*i).is_none())
-                    .map(|(_, c)| c),
-            );
-        }
-        NoStance::PositionUnknown(letters + &self.letters(!known))
-    }
-
-    fn letters(&self, joints: u16) -> String {
-        let axes = self.machine.axes.iter().enumerate();
-        axes.filter(|(joint, _)| joints & (1 << joint) != 0)
-            .map(|(_, axis)| char::from(axis.letter))
-            .collect()
     }
 
     /// A stance with the given joints (without `tip`) or with the given rotary joints and tip (linear joints left to be solved).

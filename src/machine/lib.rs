@@ -47,6 +47,7 @@ mod text;
 mod tip_path;
 mod travel;
 mod uncertainty;
+mod unknown;
 mod validate;
 mod windings;
 mod witness;

@@ -4,6 +4,16 @@ use crate::{Follower, Leg, Stance, pole};
 use trunnion_interp::{Motion, MotionKind, Orientation, Posture, Swivel};
 
 impl Follower<'_> {
+    /// [`Self::follow`] into the storage of the leg before, which is made where there is none.
+    #[inline]
+    pub fn follow_into(&mut self, motion: &Motion, leg: &mut Option<Box<Leg>>) {
+        match leg {
+            Some(leg) if self.is_straight(motion) => self.straight(motion, leg),
+            Some(leg) => **leg = self.general(motion),
+            None => *leg = Some(Box::new(self.general(motion))),
+        }
+    }
+
     /// Whether [`Self::straight`] does for a motion: the words name all joints, and nothing stands between words and joints but offsets.
     #[inline]
     pub(crate) fn is_straight(&self, motion: &Motion) -> bool {

@@ -4,6 +4,7 @@ use super::faults::{fault_of, placed};
 use super::feed::Rate;
 use super::frames::Shift;
 use super::places::Places;
+use super::steady::Steady;
 use crate::{Fault, FaultKind, Feed, Interpreter, Motion, MotionKind, Orientation, Position, Sink};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::{Arc, Turning};
@@ -48,13 +49,6 @@ pub(super) struct Told {
     pub(super) steady: Option<Box<Steady>>,
     /// The kinematics were switched, nobody knows to which: X Y Z say nothing about the machine.
     pub(super) kinematics_unknown: bool,
-}
-
-/// See [`Told::steady`].
-#[derive(Clone, Debug)]
-pub(super) struct Steady {
-    shift: Shift,
-    motion: Motion,
 }
 
 impl Told {
@@ -133,7 +127,15 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     }
 
     /// `ends`: where the motion ends, and that in coordinates of the machine.
-    fn motion_to(&mut self, kind: MotionKind, ends: [Position; 2], shift: &Shift, feed: Feed, at: At, state: &State) {
+    pub(super) fn motion_to(
+        &mut self,
+        kind: MotionKind,
+        ends: [Position; 2],
+        shift: &Shift,
+        feed: Feed,
+        at: At,
+        state: &State,
+    ) {
         let block = self.block(at);
         let start = shift.programmed(&self.told.machine);
         let [mut end, mut machine] = ends;
@@ -182,48 +184,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.sink.motion(&motion, &self.interpreter.state);
         let shift = *shift;
         // what comes next is told by what differs
-        self.told.steady = self.told.settled.then(|| Box::new(Steady { shift, motion }));
-    }
-
-    /// A straight motion.
-    #[inline]
-    fn line(&mut self, kind: MotionKind, pose: &Pose, at: At, state: &State) {
-        let rapid = matches!(kind, MotionKind::Rapid);
-        let (end, machine) = if let Some(steady) = &self.told.steady {
-            let end = steady.shift.coordinates(pose);
-            (end, steady.shift.machine(&end))
-        } else {
-            let shift = self.shift(state);
-            let end = shift.coordinates(pose);
-            let machine = shift.machine(&end);
-            let feed = if rapid {
-                Feed::Rapid
-            } else {
-                self.feed(&machine, at, state)
-            };
-            return self.motion_to(kind, [end, machine], &shift, feed, at, state);
-        };
-        let feed = if rapid {
-            Feed::Rapid
-        } else {
-            self.feed(&machine, at, state)
-        };
-        let block = self.block(at);
-        let interpreter = &mut *self.interpreter;
-        interpreter.state.position = end;
-        interpreter.chain = self.told.places.chain(at);
-        super::modal::refresh_motion(&mut interpreter.state, state);
-        self.told.machine = machine;
-        if let Some(steady) = &mut self.told.steady {
-            let motion = &mut steady.motion;
-            motion.block = block;
-            motion.chain = interpreter.chain;
-            motion.kind = kind;
-            motion.start = motion.end;
-            motion.end = end;
-            motion.feed = feed;
-            self.sink.next_line(motion, &interpreter.state);
-        }
+        self.told.steady = self.told.settled.then(|| Box::new(Steady::new(shift, motion)));
     }
 
     /// Where an arc ends, and the arc as far as its start is known.

@@ -8,6 +8,7 @@ mod frames;
 mod modal;
 mod places;
 mod setup;
+mod steady;
 
 use crate::{FaultKind, Frame, Interpreter, Sink};
 use bridge::{Bridge, LINEAR_AXES, Told};

@@ -182,9 +182,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             tilt: crate::Tilt::default(),
         };
         self.sink.motion(&motion, &self.interpreter.state);
-        let shift = *shift;
         // what comes next is told by what differs
-        self.told.steady = self.told.settled.then(|| Box::new(Steady::new(shift, motion)));
+        self.told.steady = self.told.settled.then(|| Box::new(Steady::new(shift, &motion)));
     }
 
     /// Where an arc ends, and the arc as far as its start is known.

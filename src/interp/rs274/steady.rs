@@ -13,8 +13,11 @@ pub(super) struct Steady {
 }
 
 impl Steady {
-    pub(super) fn new(shift: Shift, motion: Motion) -> Self {
-        Self { shift, motion }
+    pub(super) fn new(shift: &Shift, motion: &Motion) -> Self {
+        Self {
+            shift: *shift,
+            motion: *motion,
+        }
     }
 }
 

@@ -232,13 +232,18 @@ mod tests {
         for i in 0..3000 {
             let _ = writeln!(
                 long,
-                "G1 X{} Y{} A{}.{} C{}{}",
+                "{} X{} Y{} A{}.{} C{}{}",
+                ["G1", "G1", "G1 F900", "G0", "G1 F6000"][i % 5],
                 i % 900,
                 i % 7,
                 i % 40,
                 i % 9,
                 (i * 37) % 720,
-                if i % 311 == 0 { " G77.7" } else { "" }
+                match i {
+                    _ if i % 311 == 0 => " G77.7",
+                    _ if i % 97 == 0 => " M9",
+                    _ => "",
+                }
             );
         }
         let looped = "#<i> = 0\no1 while [#<i> LT 900]\nG1 X[#<i> * 2] A[#<i>] F100\nS-1\n#<i> = [#<i> + 1]\no1 endwhile\nX#<none>\n";

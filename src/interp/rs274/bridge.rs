@@ -182,8 +182,9 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             tilt: crate::Tilt::default(),
         };
         self.sink.motion(&motion, &self.interpreter.state);
-        // what comes next is told by what differs
-        self.told.steady = self.told.settled.then(|| Box::new(Steady::new(shift, &motion)));
+        // what comes next is told by what differs, unless an offset is not known
+        let steady = self.told.settled && machine.known == end.known;
+        self.told.steady = steady.then(|| Box::new(Steady::new(shift, &motion)));
     }
 
     /// Where an arc ends, and the arc as far as its start is known.

@@ -61,5 +61,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             motion.feed = feed;
             self.sink.next_line(motion, &interpreter.state);
         }
+        if machine.known != end.known {
+            self.told.steady = None;
+        }
     }
 }

@@ -25,6 +25,7 @@ mod orientation;
 mod properties;
 mod repeated;
 mod silent;
+mod steady;
 mod support;
 mod tilted;
 mod tools;

@@ -129,7 +129,7 @@ fn analyse(
             directives: &directives,
         });
     }
-    let interpreter = Interpreter::new(settings.dialect, &settings.setup);
+    let interpreter = settings.interpreter();
     if unreadable {
         return Some(pass.finish(&interpreter));
     }

@@ -11,7 +11,7 @@ pub use tool::parse_tool_flag;
 use crate::Severity;
 use trunnion_dialect::Dialect;
 use trunnion_geometry::rad;
-use trunnion_interp::Setup;
+use trunnion_interp::{Interpreter, Setup};
 use trunnion_machine::{Machine, Tolerances};
 
 /// Level of a rule in `trunnion.toml`: `[rules] pole-flip = "error"`.
@@ -177,6 +177,19 @@ pub struct Settings<'a> {
     pub rules: Vec<(String, RuleLevel)>,
     /// Dialects that the program is to be carried over to: the rule `porting` says what would change its meaning there.
     pub port_to: Vec<String>,
+}
+
+impl Settings<'_> {
+    /// At the start of a program, told what the machine says of its codes.
+    pub(crate) fn interpreter(&self) -> Interpreter<'static> {
+        let codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
+        if codes == self.setup.control.clamp_codes {
+            return Interpreter::new(self.dialect, &self.setup);
+        }
+        let mut setup = self.setup.clone();
+        setup.control.clamp_codes = codes;
+        Interpreter::new(self.dialect, &setup)
+    }
 }
 
 #[cfg(test)]

@@ -191,7 +191,7 @@ fn setup() -> Setup {
 
 /// A built-in machine; `NAME+KEY` has `KEY = true` added to its first rotary axis, `NAME+A.KEY` to axis A, `NAME+A.KEY=5` with
 /// that value, `NAME+control.KEY=5` to the control; `NAME+undeclared` names no rule for postures.
-fn machine(name: &str) -> Result<Machine, String> {
+pub(crate) fn machine(name: &str) -> Result<Machine, String> {
     let none = || format!("no machine {name}");
     let Some((builtin, key)) = name.split_once('+') else {
         return trunnion_machine::builtin(name).cloned().ok_or_else(none);
@@ -264,12 +264,18 @@ pub(crate) fn assert_drawn(info: &str, text: &str) -> Report {
 /// Checks a text on a machine that no fence can name.
 #[cfg(test)]
 pub(crate) fn check_on(machine: &Machine, dialect: &str, text: &str) -> Report {
+    check_with(machine, dialect, text, Setup::default())
+}
+
+/// The same with tools, offsets, other files.
+#[cfg(test)]
+pub(crate) fn check_with(machine: &Machine, dialect: &str, text: &str, setup: Setup) -> Report {
     let dialect = trunnion_dialect::builtin(dialect).expect("built in");
     let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
     let settings = Settings {
         dialect,
         machine: Some(machine),
-        setup: Setup::default(),
+        setup,
         rules: Vec::new(),
         port_to: Vec::new(),
     };

@@ -5,7 +5,6 @@ mod again;
 mod analysis;
 mod apart;
 mod both;
-mod clamps;
 pub mod config;
 mod diagnostic;
 pub mod fixture;

@@ -1,5 +1,4 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
-use crate::clamps::Clamps;
 use crate::needs::{Facts, Needs};
 use crate::report::Summary;
 use crate::rule::{EndRule, Ending, FaultRule, InForce, LegRule, MotionRule, ProgramRule, TextRule};
@@ -37,8 +36,6 @@ pub(crate) struct Pass<'a> {
     /// Sign of the last posture off the pole.
     posture: i8,
     trail: Trail,
-    /// The machine has clamps that codes open and close.
-    clamps: bool,
     time: CycleTime,
     summary: Summary,
     visited: Visited,
@@ -85,7 +82,6 @@ impl<'a> Pass<'a> {
             leg: None,
             posture: 0,
             trail: Trail::default(),
-            clamps: settings.machine.is_some_and(Clamps::on),
             time: CycleTime::default(),
             summary: Summary::default(),
             visited: Visited::new(program.block_count()),
@@ -108,10 +104,6 @@ impl<'a> Pass<'a> {
     pub(crate) fn ran(&mut self, block: BlockId) -> bool {
         self.executed += 1;
         self.last_ran = Some(block);
-        if let (true, Some(follower)) = (self.clamps, &self.follower) {
-            let program = self.reporter.program();
-            self.trail.clamps.ran(follower.machine(), program, block);
-        }
         self.visited.add(block)
     }
 
@@ -203,17 +195,6 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// Whether a code that the control leaves to the builder is one of those that the machine file names.
-    fn machine_has_said(&self, fault: &Fault) -> bool {
-        let builders = matches!(fault.kind, FaultKind::UnknownCode { machine_builder: true });
-        let machine = self
-            .follower
-            .as_ref()
-            .filter(|_| self.clamps && builders)
-            .map(Follower::machine);
-        machine.is_some_and(|machine| Clamps::names(machine, &self.reporter.program().text(fault.range)))
-    }
-
     /// Whether a rule was looked for, so that its silence says something.
     fn looked_for(&self, name: &str) -> bool {
         let motion =
@@ -277,7 +258,7 @@ impl Sink for Pass<'_> {
     }
 
     fn fault(&mut self, fault: Fault) {
-        if self.text_has_told(&fault) || self.machine_has_said(&fault) {
+        if self.text_has_told(&fault) {
             return;
         }
         self.reporter.origin(self.visited.has(fault.block), ChainId::MAIN);
@@ -313,9 +294,7 @@ impl Pass<'_> {
             }
         }
         if let Some(follower) = &mut self.follower {
-            if self.clamps {
-                self.trail.clamps.before(self.reporter.program(), motion);
-            }
+            self.trail.clamps = in_force.clamps;
             let mut leg = self.leg.take();
             follower.follow_into(motion, &mut leg);
             if let Some(leg) = &leg {

@@ -1,6 +1,6 @@
 //! What a rule is: data, and a function that reads one level of the analysis.
 use crate::{Severity, needs::Needs, sink::Reporter, view::LegView, view::Overview};
-use trunnion_interp::{Fault, ModalState, Motion};
+use trunnion_interp::{Clamps, Fault, ModalState, Motion};
 use trunnion_syntax::{SyntaxError, TextRange};
 
 /// Reads a problem of the text.
@@ -20,6 +20,8 @@ pub struct InForce {
     pub spindle_limit_rpm: Option<f64>,
     /// Something says whether lengths are inch or mm.
     pub units_said: bool,
+    /// Clamps of rotary axes.
+    pub clamps: Clamps,
 }
 
 impl InForce {
@@ -32,6 +34,7 @@ impl InForce {
             surface_speed: state.surface_speed,
             spindle_limit_rpm: state.spindle_limit_rpm,
             units_said: state.units_said,
+            clamps: state.clamps,
         }
     }
 }

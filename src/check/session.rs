@@ -160,10 +160,7 @@ impl Session {
         let wanted_at = first.unwrap_or(u64::MAX);
         let after = self.check_points.partition_point(|point| point.executed <= wanted_at);
         let point = self.check_points.get(after.wrapping_sub(1));
-        let mut interpreter = point.map_or_else(
-            || Interpreter::new(settings.dialect, &settings.setup),
-            |point| point.interpreter.clone(),
-        );
+        let mut interpreter = point.map_or_else(|| settings.interpreter(), |point| point.interpreter.clone());
         let memory = point.and_then(|point| point.machine.as_ref());
         let follower = settings.machine.map(|machine| match memory {
             Some(memory) => Follower::resume(machine, memory),

@@ -1,10 +1,9 @@
 //! What the legs before tell a rule: how far the rotary axes turned in the last feed blocks, and the rapid motions since the last cut.
-use crate::clamps::Clamps;
 use crate::view::leads_tip;
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{asin, rotate};
-use trunnion_interp::MotionKind;
+use trunnion_interp::{Clamps, MotionKind};
 use trunnion_machine::{Joints, Leg, Machine, Stance};
 use trunnion_syntax::BlockId;
 
@@ -17,7 +16,7 @@ pub(crate) struct Trail {
     window: Window,
     rapids: Rapids,
     state: State,
-    /// Clamps of the rotary axes.
+    /// Clamps of the rotary axes with the leg in hand.
     pub(crate) clamps: Clamps,
 }
 

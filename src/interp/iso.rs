@@ -175,6 +175,8 @@ impl<'d> Interpreter<'d> {
         self.called_cycle(codes, words, &block, &mut motion, report);
         if words.forgets_all {
             self.forget_position();
+            // what is not understood may be a call
+            self.state.clamps.lose();
         }
         if words.writes_system {
             self.system_changed();

@@ -7,6 +7,7 @@ mod apt;
 mod apt_motion;
 mod apt_tool;
 mod arc;
+mod clamps;
 mod codes;
 mod compensation;
 mod corner;
@@ -37,6 +38,7 @@ mod unused;
 mod values;
 mod words;
 
+pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
 pub use directive::{Directive, directives};
 pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
 pub use modal::{FeedMode, ModalState};

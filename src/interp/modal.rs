@@ -68,6 +68,8 @@ pub struct ModalState {
     pub compensation: u8,
     /// Coordinates are in a frame that is not modelled (G68.2, CYCLE800, TRANS): motions have unknown X Y Z.
     pub frame_unknown: bool,
+    /// Clamps of rotary axes, where the setup names their codes.
+    pub clamps: crate::Clamps,
     /// Programmed position.
     pub position: Position,
     /// Last orientation.
@@ -112,6 +114,7 @@ impl ModalState {
             multax: false,
             compensation: 0,
             frame_unknown: false,
+            clamps: crate::Clamps::default(),
             position: Position::default(),
             orientation: Orientation::Words,
             ended: false,

@@ -33,6 +33,7 @@ impl Interpreter<'_> {
     /// A subprogram may have changed anything.
     pub(crate) fn forget_everything(&mut self) {
         self.forget_position();
+        self.state.clamps.lose();
         self.state.spindle_on = None;
         self.state.spindle_rpm = None;
         self.state.feed = None;

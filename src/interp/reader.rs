@@ -3,31 +3,14 @@ use crate::codes::Found;
 use crate::macro_b::Macros;
 use crate::own::Own;
 use crate::system::{SystemWrite, system_write};
-use crate::values::number;
+use crate::values::{number, tenths};
 use crate::words::{Said, Words, put};
-use crate::{AXIS_LETTERS, FaultKind};
+use crate::{AXIS_LETTERS, AllClampCodes, Clamps, FaultKind};
 use trunnion_dialect::{Action, Code, CodeKind, Dialect, Role};
 use trunnion_syntax::{Address, BlockId, Call, Decimal, Item, Program, SyntaxError, TextRange, Value, Word};
 
 /// No coordinate, feed or number of a tool is larger; squares and sums stay finite.
 pub(crate) const LARGEST: f64 = 1e12;
-
-/// Ten times the number of a code, where that is whole: G43.4 is 434.
-fn tenths(decimal: Decimal) -> Option<u32> {
-    let mut mantissa = decimal.mantissa.checked_mul(10)?;
-    let mut scale = decimal.scale;
-    while scale > 0 {
-        if mantissa % 10 != 0 {
-            return None;
-        }
-        mantissa /= 10;
-        scale -= 1;
-    }
-    if scale < 0 {
-        return None;
-    }
-    u32::try_from(mantissa).ok()
-}
 
 /// Index in [`AXIS_LETTERS`] of each letter from A; `NO_AXIS` where it is none.
 const AXES: [u8; 26] = {
@@ -57,6 +40,8 @@ pub(crate) struct Reader<'a, 'd, F: FnMut(TextRange, FaultKind)> {
     pub(crate) codes: &'a mut Vec<Found<'d>>,
     /// The switch for block delete, where its state is known.
     pub(crate) delete: Option<bool>,
+    /// The clamps, and their codes.
+    pub(crate) clamps: (&'a mut Clamps, &'a AllClampCodes),
     /// Variables and flow, in dialects that have macros.
     pub(crate) macros: Option<Macros<'a>>,
     /// Variables of a Sinumerik program.
@@ -300,10 +285,11 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             Value::Number(decimal) => tenths(decimal),
             Value::Expression(range) if self.macros.is_some() => match self.macro_code(word, range) {
                 Some(tenths) => Some(tenths),
-                None => return,
+                None => return self.unread_code(kind),
             },
             Value::Expression(_) | Value::Call(..) | Value::Text(_) => {
                 self.words.forgets_all = true;
+                self.unread_code(kind);
                 return self.not_modelled(word.range);
             }
             Value::Missing | Value::Bad => return,
@@ -311,6 +297,8 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
         if self.macros.is_some() && tenths.is_some_and(|tenths| self.takes_flow_code(kind, tenths, word.range)) {
             return;
         }
+        let (clamps, codes) = &mut self.clamps;
+        let clamps_axis = kind == CodeKind::M && tenths.is_some_and(|tenths| clamps.hear(codes, tenths));
         let code = tenths.and_then(|tenths| match kind {
             CodeKind::M => self.dialect.m(tenths),
             _ => self.dialect.g(tenths),
@@ -323,10 +311,20 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             });
             return self.flow_is_lost(code);
         }
+        if clamps_axis {
+            // the machine has said what it does
+            return;
+        }
         let machine_builder = tenths.is_some_and(|tenths| self.dialect.builder_may_own(kind, tenths));
         self.words.unknown_code |= kind == CodeKind::G;
         self.words.builder_code |= machine_builder;
         (self.report)(word.range, FaultKind::UnknownCode { machine_builder });
+    }
+
+    fn unread_code(&mut self, kind: CodeKind) {
+        if kind == CodeKind::M {
+            self.clamps.0.hear_unread(self.clamps.1);
+        }
     }
 
     fn call(&mut self, call: &Call) {

@@ -148,6 +148,8 @@ pub struct ControlData {
     pub roll_pitch_yaw: Option<RollPitchYaw>,
     /// Codes that switch the kinematics between tool centre point control and joints (`M428`); `None`: the machine does not say.
     pub tcp_codes: Option<TcpCodes>,
+    /// Codes by which a program closes and opens the clamps of rotary axes, as the machine names them.
+    pub clamp_codes: crate::AllClampCodes,
     /// Letters of axes that the machine has beside X Y Z A B C: on a LinuxCNC only they are words (`[TRAJ] COORDINATES`).
     pub further_axes: Vec<u8>,
     /// Reference points in machine coordinates, mm and degrees: G28 goes to the first, G30 P2 to the second.

@@ -4,6 +4,23 @@ use crate::reader::{LARGEST, Reader};
 use crate::words::{Number, Reading, Said};
 use trunnion_syntax::{Decimal, TextRange, Value, Word};
 
+/// Ten times the number of a code, where that is whole: G43.4 is 434.
+pub(crate) fn tenths(decimal: Decimal) -> Option<u32> {
+    let mut mantissa = decimal.mantissa.checked_mul(10)?;
+    let mut scale = decimal.scale;
+    while scale > 0 {
+        if mantissa % 10 != 0 {
+            return None;
+        }
+        mantissa /= 10;
+        scale -= 1;
+    }
+    if scale < 0 {
+        return None;
+    }
+    u32::try_from(mantissa).ok()
+}
+
 /// A number, unless it is beyond what can be reckoned with.
 pub(crate) fn number(decimal: Decimal, range: TextRange) -> Said {
     let value = decimal.to_f64();

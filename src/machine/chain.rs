@@ -76,15 +76,6 @@ pub enum Wrap {
     ModuloSign,
 }
 
-/// The M codes of a clamp.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ClampCodes {
-    /// Number of the one that clamps.
-    pub on: u16,
-    /// Number of the one that releases.
-    pub off: u16,
-}
-
 /// Properties of an axis beyond kinematics.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct AxisExtra {
@@ -93,7 +84,7 @@ pub struct AxisExtra {
     /// The axis must not move while cutting (3+2, indexed).
     pub clamp: bool,
     /// M codes by which a program clamps the axis and releases it; `None`: the file names none.
-    pub clamp_codes: Option<ClampCodes>,
+    pub clamp_codes: Option<trunnion_interp::ClampCodes>,
     /// The turns of the axis wind up a cable or a hose.
     pub cable: bool,
     /// The axis is also a spindle (mill-turn).
@@ -321,6 +312,18 @@ impl Machine {
     pub fn further_axes(&self) -> Vec<u8> {
         let letters = self.axes.iter().map(|axis| axis.letter);
         letters.filter(|letter| !b"XYZABC".contains(letter)).collect()
+    }
+
+    /// The codes of its clamps, as an interpreter wants them.
+    pub fn clamp_codes(&self) -> trunnion_interp::AllClampCodes {
+        let mut codes = trunnion_interp::AllClampCodes::default();
+        for axis in &self.axes {
+            let letter = trunnion_interp::AxisLetter::new(axis.letter);
+            if let Some(slot) = letter.and_then(|letter| codes.get_mut(usize::from(letter.0))) {
+                *slot = axis.extra.clamp_codes;
+            }
+        }
+        codes
     }
 
     /// The axes that are held, with the joint values they are held at, rad.

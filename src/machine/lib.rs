@@ -74,8 +74,8 @@ pub use asked::{AxisSign, PostureWords};
 pub use at::{Moment, Way};
 pub use builtin::{BUILTIN_MACHINES, builtin, builtin_source};
 pub use chain::{
-    Axis, AxisExtra, AxisKind, Body, ClampCodes, Control, FeedMeaning, Gantry, Home, Joints, Limits, MAX_AXES, Machine,
-    PoleAction, RapidPath, Side, Tolerances, Wrap,
+    Axis, AxisExtra, AxisKind, Body, Control, FeedMeaning, Gantry, Home, Joints, Limits, MAX_AXES, Machine, PoleAction,
+    RapidPath, Side, Tolerances, Wrap,
 };
 pub use compare::{AlongBlock, Comparison, TipDifference};
 pub use constants::{Constants, LinearAxis, PairConstants, RotaryAxis};

@@ -1,9 +1,10 @@
 //! Checks of single entries of a machine file, each with the place it stands at, and their conversion to mm, rad and s.
 use crate::raw::{Number, RawAxis, RawKind, RawLimits, RawMode, RawSide, RawWrap, Triple, Word};
-use crate::{Axis, AxisExtra, AxisKind, ClampCodes, Limits, Side, Wrap};
+use crate::{Axis, AxisExtra, AxisKind, Limits, Side, Wrap};
 use core::ops::Range;
 use trunnion_geometry::{Vec3, rad};
 use trunnion_interp::AXIS_LETTERS;
+use trunnion_interp::ClampCodes;
 
 /// Numbers above this (mm, deg, or per second) are taken for mistakes; it also keeps every formula far from overflow.
 const LARGEST: f64 = 1e9;

@@ -107,6 +107,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     if let (None, Some(machine)) = (setup.control.units, &machine) {
         setup.control.units = machine.control.units;
     }
+    setup.control.clamp_codes = machine.as_ref().map(Machine::clamp_codes).unwrap_or_default();
     setup.control.further_axes = machine.as_ref().map(Machine::further_axes).unwrap_or_default();
     setup.library = library(path, &config, config_file.as_ref())?;
     let mut port_to = config.port_to.clone();

@@ -95,6 +95,7 @@ impl FileControl {
                 off: codes.off.clone(),
                 at_start: codes.at_start,
             }),
+            clamp_codes: trunnion_interp::AllClampCodes::default(),
             further_axes: Vec::new(),
             reference_points,
         })

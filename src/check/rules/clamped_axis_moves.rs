@@ -38,15 +38,14 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for motions between known positions. Where a motion may turn an axis and its clamp is closed, not yet named, named in the same
-//! block, or by an expression or a file that is called, the finding is unknown. Codes in a called file in which nothing moves are not seen.
+//! Sound for motions between known positions. Where it is not known whether a motion turns a clamped axis, or its clamp is not yet named,
+//! named in the same block, or behind a code or call whose effect is not known, the finding is unknown. Codes of called files count.
 //!
 //! # Sources
 //! Trunnion's kinematics notes, section 5 (LOCK-3P2).
-use crate::clamps::{Clamp, said};
 use crate::prelude::*;
 use crate::view::NO_TURN;
-use trunnion_interp::{AxisLetter, MotionKind, Orientation};
+use trunnion_interp::{AxisLetter, Clamp, MotionKind, Orientation};
 use trunnion_machine::AxisKind;
 
 pub(super) const RULE: Body = Body {
@@ -130,12 +129,11 @@ fn by_code(view: &LegView<'_>, axis: usize, out: &mut Reporter<'_>) {
         return;
     }
     let block = view.motion().block;
-    let here = (block.0 as usize) < out.program().block_count() && said(&out.program().block(block), codes).is_some();
-    let clamp = if here {
-        Clamp::NotRead
-    } else {
-        view.trail.clamps.of(axis)
-    };
+    let clamps = &view.trail.clamps;
+    let (clamp, here) = AxisLetter::new(entry.letter).map_or((Clamp::Unsaid, false), |letter| {
+        let here = clamps.named_here(letter);
+        (if here { Clamp::Unknown } else { clamps.of(letter) }, here)
+    });
     let (name, key) = (letter(entry.letter), 256 + u64::from(entry.letter));
     let range = axis_word(out.program(), block, entry.letter);
     let note = format!(
@@ -158,11 +156,11 @@ fn by_code(view: &LegView<'_>, axis: usize, out: &mut Reporter<'_>) {
         }
         (Clamp::Closed, _) => format!("{name} is clamped, and it is not known whether this turns it"),
         (Clamp::Unsaid, _) => format!("{name} may be clamped: no M{} or M{} has run yet", codes.on, codes.off),
-        (Clamp::NotRead, _) if here => {
+        (Clamp::Unknown, _) if here => {
             format!("{name} may be clamped: whether its clamp moves before this block's motion or behind is not known")
         }
-        (Clamp::NotRead, _) => {
-            format!("{name} may be clamped: the code is an expression, or stands in a file that is called")
+        (Clamp::Unknown, _) => {
+            format!("{name} may be clamped: which code of its clamp ran last is not known")
         }
     };
     let cause = clamp as u64 * 2 + u64::from(here);
@@ -179,7 +177,9 @@ fn by_code(view: &LegView<'_>, axis: usize, out: &mut Reporter<'_>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::fixture::assert_drawn;
+    use crate::fixture::{assert_drawn, check_with, machine};
+    use std::sync::Arc;
+    use trunnion_interp::{Files, Library, Loaded, Setup};
 
     #[test]
     fn a_run_of_blocks_is_told_once_and_the_free_axis_may_turn() {
@@ -222,11 +222,113 @@ mod tests {
     }
 
     #[test]
-    fn a_code_by_an_expression_is_not_decided() {
+    fn a_code_by_an_expression_counts_where_its_value_is_known() {
         drawn(
             "haas-ngc",
-            "M11\nG0 X0. Y0. Z50. A20. C0.\n#1=10\nM#1\nG0 C9.\n;  ^^^ clamped-axis-moves: C may be clamped: the code is an expression\nM30\n",
+            "M11\nG0 X0. Y0. Z50. A20. C0.\n#1=10\nM#1\nG0 C9.\n;  ^^^ clamped-axis-moves: C turns by 9 deg while it is clamped\nM30\n",
         );
+        assert_eq!(
+            told("haas-ngc", None, "M11\nG0 X0. Y0. Z50. A20. C0.\nM#500\nG0 C9.\nM30\n"),
+            ["C may be clamped: which code of its clamp ran last is not known"],
+        );
+    }
+
+    /// One file under any name.
+    struct OneFile(&'static str);
+
+    impl Files for OneFile {
+        fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+            let bytes = self.0.as_bytes().into();
+            Ok(Loaded {
+                path: format!("{name}.nc"),
+                bytes,
+            })
+        }
+    }
+
+    /// What the rule says of a text that may call the file.
+    fn told(dialect: &str, file: Option<&'static str>, text: &str) -> Vec<String> {
+        let setup = Setup {
+            library: Library(file.map(|text| Arc::new(OneFile(text)) as Arc<dyn Files>)),
+            ..Setup::default()
+        };
+        of_setup(dialect, setup, text)
+    }
+
+    fn of_setup(dialect: &str, setup: Setup, text: &str) -> Vec<String> {
+        let machine = machine(CODES).expect("built in");
+        let report = check_with(&machine, dialect, text, setup);
+        let strange = |rule: &str| ["unknown-code", "rejected-block"].contains(&rule);
+        assert!(
+            !report.diagnostics.iter().any(|found| strange(found.rule)),
+            "{report:#?}"
+        );
+        let found = report.diagnostics.iter();
+        let found = found.filter(|found| found.rule == "clamped-axis-moves");
+        found.map(|found| found.message.clone()).collect()
+    }
+
+    const TURNS: &str = "C turns by 9 deg while it is clamped";
+
+    #[test]
+    fn codes_of_a_called_file_without_motion_are_read() {
+        let main = "M11\nG0 X0. Y0. Z50. A20. C0.\nM98 P7\nG0 C9.\nM30\n";
+        assert_eq!(told("haas-ngc", Some("O7\nM10\nM99\n"), main), [TURNS]);
+        assert_eq!(told("fanuc-30i", Some("O7\nM10\nM99\n"), main), [TURNS]);
+        let closed = main.replace("M98", "M10\nM98");
+        assert_eq!(told("fanuc-30i", Some("O7\nM11\nM99\n"), &closed), [""; 0]);
+        // behind what is not there nothing is known
+        let gone = "M11\nM98 P7\nG0 X0. Y0. Z50. A20. C0.\nG0 C9.\nM30\n";
+        let mut setup = Setup::default();
+        setup.library = Library(None);
+        let found = of_setup("fanuc-30i", setup, gone);
+        assert_eq!(
+            found,
+            ["C may be clamped: which code of its clamp ran last is not known"]
+        );
+    }
+
+    #[test]
+    fn a_linuxcnc_program_is_read_the_same() {
+        let main = "M11\nG0 X0 Y0 Z50 A20 C0\no<seven> call\nG0 C9\nM2\n";
+        assert_eq!(
+            told("linuxcnc", Some("o<seven> sub\nM10\no<seven> endsub\nM2\n"), main),
+            [TURNS]
+        );
+        assert_eq!(
+            told("linuxcnc", Some("o<seven> sub\nM11\no<seven> endsub\nM2\n"), main),
+            [""; 0]
+        );
+        let skipped = "M11\nG0 X0 Y0 Z50 A20 C0\no1 if [0]\nM10\no1 endif\nG0 C9\nM2\n";
+        assert_eq!(told("linuxcnc", None, skipped), [""; 0]);
+        // only the last of two codes is called
+        let both = "M11\nG0 X0 Y0 Z50 A20 C0\nM10 M11\nG0 C9\nM2\n";
+        assert_eq!(
+            told("linuxcnc", None, both),
+            ["C may be clamped: which code of its clamp ran last is not known"]
+        );
+    }
+
+    #[test]
+    fn blocks_that_are_deleted_close_nothing() {
+        for (on, found) in [(true, vec![]), (false, vec![TURNS.to_owned()])] {
+            let mut setup = Setup::default();
+            setup.control.block_delete = Some(on);
+            let text = "M11\nG0 X0. Y0. Z50. A20. C0.\n/M10\nG0 C9.\nM30\n";
+            assert_eq!(of_setup("haas-ngc", setup, text), found, "{on}");
+        }
+    }
+
+    #[test]
+    fn a_motion_that_compensation_tells_late_has_the_clamp_of_its_own_block() {
+        let contour = |before: &str, behind: &str| {
+            let text = format!(
+                "(trunnion: tool 1 flat diameter 10 length 100)\nT1 M6\nM11\nG0 X0. Y0. Z50. A0. C0.\nG1 G41 D1 X10. F500.\n{before}\nX20. C9.\n{behind}\nX30. Y10.\nG40 X40.\nM30\n"
+            );
+            told("haas-ngc", None, &text)
+        };
+        assert_eq!(contour("M11", "M10"), [""; 0]);
+        assert_eq!(contour("M10", "M11"), [TURNS]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::read::{Macros, Mode};
 use crate::reader::Reader;
 use crate::run::{Interpreter, Sink};
 use crate::words::Words;
-use crate::{Fault, FaultKind, Refusal};
+use crate::{Clamps, Fault, FaultKind, Refusal};
 use trunnion_syntax::{BlockId, Format, Program, TextRange};
 
 impl Interpreter<'_> {
@@ -71,6 +71,7 @@ impl Interpreter<'_> {
                 words: &mut words,
                 codes: &mut codes,
                 delete: None,
+                clamps: (&mut Clamps::default(), &self.setup.control.clamp_codes),
                 macros: Some(Macros {
                     mode: Mode::Text,
                     deep: &mut deep,

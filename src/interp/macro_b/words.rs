@@ -22,6 +22,8 @@ impl<'d> Interpreter<'d> {
         report: &mut Report<'_>,
     ) {
         let mode = if self.flow.follows { Mode::Follow } else { Mode::Step };
+        let mut clamps = self.state.clamps;
+        clamps.begin_block();
         let macros = Macros {
             mode,
             deep: &mut self.flow.deep,
@@ -36,6 +38,7 @@ impl<'d> Interpreter<'d> {
             words,
             codes,
             delete: self.setup.control.block_delete,
+            clamps: (&mut clamps, &self.setup.control.clamp_codes),
             macros: self.dialect.quirks.macro_b.then_some(macros),
             own: self.dialect.quirks.user_names.then_some(&mut self.memory.own),
             report: |range: TextRange, kind| report.fault(range, kind),
@@ -50,6 +53,7 @@ impl<'d> Interpreter<'d> {
             }
             reader.take(item);
         }
+        self.state.clamps = clamps;
         if let Some(range) = words.rest_deleted.filter(|_| words.flow) {
             // statements are read as a whole
             let what = "`/` behind a statement of a macro".to_owned();

@@ -18,8 +18,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         } else {
             dialect.m(own.tenths)
         };
+        let clamps_axis = self.clamp_code(own, state);
         let Some(code) = code else {
-            self.fault(at, own.range, FaultKind::UnknownCode { machine_builder: true });
+            if !clamps_axis {
+                self.fault(at, own.range, FaultKind::UnknownCode { machine_builder: true });
+            }
             return;
         };
         let known = matches!(
@@ -66,6 +69,22 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
         }
         self.interpreter.state.frame_unknown = self.told.is_hidden();
+    }
+
+    /// Takes a code that closes or opens a clamp; whether it is one.
+    fn clamp_code(&mut self, own: OwnCode, state: &State) -> bool {
+        if own.letter != b'M' {
+            return false;
+        }
+        let interpreter = &mut *self.interpreter;
+        let codes = &interpreter.setup.control.clamp_codes;
+        let clamps = &mut interpreter.state.clamps;
+        let is_one = clamps.hear(codes, own.tenths);
+        // motions before it in the text may come behind it; of several codes in one line only the last is told
+        if !own.alone || is_one && state.side != Side::Off {
+            clamps.hear_unread(codes);
+        }
+        is_one
     }
 
     /// A code that switches the kinematics.

@@ -126,6 +126,7 @@ impl Interpreter<'_> {
             sink,
         };
         bridge.told.settled = false;
+        bridge.interpreter.state.clamps.begin_block();
         let step = engine.step(&mut bridge);
         let at = engine.at();
         // behind the last line nothing runs, and nothing in a program without anything in it
@@ -177,6 +178,7 @@ impl Interpreter<'_> {
         }
         if lost[1] {
             forget(engine, told, &[3, 4, 5]);
+            self.state.clamps.lose();
         }
         let shift = Shift::of(&engine.state, &told.g92);
         modal::refresh(&mut self.state, &engine.state, &shift);

@@ -59,7 +59,11 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
     );
     values.sort_unstable_by_key(|(number, _)| *number);
     let mut own: Vec<(u8, u32)> = dialect.codes().iter().filter_map(numbered).collect();
+    // what a code of a clamp does the machine has said; those that the control knows itself it does not ask for
+    let clamps = setup.control.clamp_codes.iter().flatten();
+    own.extend(clamps.flat_map(|codes| [codes.on, codes.off].map(|code| (b'M', u32::from(code) * 10))));
     own.sort_unstable();
+    own.dedup();
     let is_motion = |code: &&Code| code.group.as_deref() == Some("motion");
     let motions = dialect.codes().iter().filter(is_motion).filter_map(numbered);
     let mut motions: Vec<u32> = motions.filter(|code| code.0 == b'G').map(|code| code.1).collect();

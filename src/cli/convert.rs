@@ -284,7 +284,7 @@ fn summary(name: &str, converted: &Converted) -> Vec<String> {
     }
     for axis in &converted.clamps {
         lines.push(format!(
-            "{name}: {axis} has a clamp that codes close and open: none is written, put them in"
+            "{name}: {axis} has a clamp whose codes are not written: put them in, or name them in the machine file (clamp_codes)"
         ));
     }
     for (what, line) in &converted.left_out {

@@ -1,5 +1,6 @@
 //! One conversion: read, plan, write, read back, prove.
 use crate::emit::{parts, parts_beside};
+use crate::emit_code::Written;
 use crate::events::job;
 use crate::plan::{Out, Planner};
 use crate::setting::Setting;
@@ -10,7 +11,7 @@ use trunnion_certify::conversion::{
     Assume, ConversionClaim, ConversionProof, Part, Posed, Reading, Run, converted, read,
 };
 use trunnion_dialect::Dialect;
-use trunnion_interp::{Fault, FaultKind};
+use trunnion_interp::{AllClampCodes, Fault, FaultKind};
 use trunnion_machine::Machine;
 use trunnion_syntax::{Format, LineIndex, Program};
 
@@ -37,7 +38,8 @@ pub struct Converted {
     pub beyond: Vec<Beyond>,
     /// Lines of motions between whose ends the travel could not be decided.
     pub travel_undecided: Vec<u32>,
-    /// Axes that the machine's codes clamp and release; none of these codes is written.
+    /// Axes with a clamp whose codes are not written, because the machine names none or the control has no word for them. A remark at
+    /// the head of the text says so too.
     pub clamps: Vec<char>,
 }
 
@@ -59,8 +61,11 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         ..*source
     });
     understood(&reading, options)?;
-    let job = job(&reading, source.dialect, options)?;
     let setting = Setting::new(target, options)?;
+    // clamps are closed and opened anew for the machine that it is written for
+    let rewritten =
+        Some(&source.setup.control.clamp_codes).filter(|_| setting.clamp_codes() != AllClampCodes::default());
+    let job = job(&reading, source.dialect, options, rewritten)?;
     let tolerance_mm = options.tolerance_mm.unwrap_or_else(|| setting.tolerance());
     if !(tolerance_mm.is_finite() && tolerance_mm > 0.0) {
         return Err(Refused::new("the tolerance must be a positive number of millimetres"));
@@ -80,7 +85,9 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     };
     setting.head_lengths(&reading, &job)?;
     let (outs, swaps) = planner.plan(&job)?;
-    let (written, moved) = setting.write(&reading, &job, &outs, source.setup, options)?;
+    let Written {
+        text: written, moved, ..
+    } = setting.write(&reading, &job, &outs, source.setup, options)?;
     let claim = setting.claim(options, tolerance_mm);
     let (proof, turned, travel) = prove(source, (&reading, machine), &setting, (&written, &moved), &outs, &claim)?;
     if let Some(&index) = turned.first().filter(|_| !options.allow_swap) {
@@ -111,7 +118,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
             .collect(),
         beyond,
         travel_undecided,
-        clamps: setting.clamps(),
+        clamps: setting.clamps_left(),
     })
 }
 
@@ -189,6 +196,7 @@ fn prove(
     let mut setup = source.setup.clone();
     // codes of the builder of the machine that it is written for
     setup.control.tcp_codes = setting.machine.and_then(|machine| machine.control.tcp_codes.clone());
+    setup.control.clamp_codes = setting.machine.map(Machine::clamp_codes).unwrap_or_default();
     setup.control.further_axes = setting.machine.map(Machine::further_axes).unwrap_or_default();
     let after = read(&Run {
         text: text.as_bytes(),

@@ -1,10 +1,12 @@
 //! Writes G-code as a post says.
+use crate::clamps::{Clamping, Step, remark};
 use crate::emit::{declaration, plain};
 use crate::events::ACTIVE;
 use crate::job::{Coolant, Event, Job, Placed};
 use crate::modal::Modal;
 use crate::number::number;
 use crate::plan::{Mode, Out};
+use crate::setting::Setting;
 use crate::template::fill;
 use crate::{Options, OrientationWords, Post, Refused};
 use core::fmt::Write;
@@ -22,7 +24,8 @@ pub(crate) struct Writer<'a> {
     pub(crate) mode: Mode<'a>,
     pub(crate) options: &'a Options,
     pub(crate) setup: &'a Setup,
-    pub(crate) machine_name: &'a str,
+    setting: &'a Setting<'a>,
+    pub(crate) clamping: Clamping,
     text: String,
     pub(crate) modal: Modal,
     next_number: u32,
@@ -35,22 +38,32 @@ pub(crate) struct Writer<'a> {
     pub(crate) zero: [f64; 9],
 }
 
+/// A program as it is written.
+pub(crate) struct Written {
+    pub(crate) text: String,
+    /// Its lines (from 1, ascending) that make motions of the program before.
+    pub(crate) moved: Vec<u32>,
+    /// What was written that clamps depend on.
+    pub(crate) clamping: Clamping,
+}
+
 impl<'a> Writer<'a> {
     pub(crate) fn new(
         reading: &'a Reading,
         post: &'a Post,
-        mode: Mode<'a>,
+        setting: &'a Setting<'a>,
         options: &'a Options,
         setup: &'a Setup,
-        machine_name: &'a str,
+        clamping: Clamping,
     ) -> Self {
         Self {
             reading,
             post,
-            mode,
+            mode: setting.mode,
             options,
             setup,
-            machine_name,
+            setting,
+            clamping,
             text: String::new(),
             modal: Modal::default(),
             next_number: post.number_from,
@@ -62,9 +75,12 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The whole program, and its lines (from 1, ascending) that make motions of the program before.
-    pub(crate) fn write(mut self, job: &Job, outs: &[Out]) -> Result<(String, Vec<u32>), Refused> {
+    pub(crate) fn write(mut self, job: &Job, outs: &[Out]) -> Result<Written, Refused> {
         self.header(job)?;
+        for letter in self.setting.clamps_left() {
+            let text = self.setting.machine.map(|machine| remark(machine, letter));
+            self.comment(&text.unwrap_or_default())?;
+        }
         self.joints_at_start()?;
         let names_offset = job
             .events
@@ -79,7 +95,11 @@ impl<'a> Writer<'a> {
         }
         self.not_ready()?;
         self.template("footer", None, |name| self_name(name, job, self.options, self.post))?;
-        Ok((self.text, self.moved))
+        Ok(Written {
+            text: self.text,
+            moved: self.moved,
+            clamping: self.clamping,
+        })
     }
 
     pub(crate) fn refuse(&self, block: Option<BlockId>, message: String) -> Refused {
@@ -90,7 +110,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Fills a template and writes its lines. A template that the post does not have refuses.
-    fn template(
+    pub(crate) fn template(
         &mut self,
         key: &str,
         block: Option<BlockId>,
@@ -188,7 +208,7 @@ impl<'a> Writer<'a> {
         let units = self.post.template(units).unwrap_or_default().to_owned();
         let feed_mode = self.post.template("feed-per-minute").unwrap_or_default().to_owned();
         let title = self.title(job.name.as_deref().unwrap_or_default());
-        let machine = plain(self.machine_name);
+        let machine = plain(self.setting.machine.map_or("", |machine| machine.name.as_str()));
         let (options, post) = (self.options, self.post);
         self.template("header", None, |name| match name {
             "tools" => Some(tools.join("\n")),
@@ -283,6 +303,7 @@ impl<'a> Writer<'a> {
                 self.template(key, block, |_| None)
             }
             Event::Auxiliary(code) => {
+                self.clamp(Step::Code(*code), placed.block)?;
                 self.template("auxiliary", block, |name| (name == "number").then(|| code.to_string()))
             }
             Event::WorkOffset(name) => self.work_offset(name, block),

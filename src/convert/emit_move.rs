@@ -1,6 +1,7 @@
 //! The words of one motion.
 use crate::OrientationWords;
 use crate::Refused;
+use crate::clamps::Step;
 use crate::emit_code::{WORDS, Writer};
 use crate::number::{number, significant};
 use crate::plan::{Move, Shape};
@@ -44,7 +45,7 @@ impl Writer<'_> {
         };
         words.extend(self.modal.change("motion", code.to_owned()));
         let before = words.len();
-        self.coordinates(one, axis, &mut words);
+        let turns = self.coordinates(one, axis, &mut words);
         if words.len() == before {
             // nothing changes: a word makes it a motion
             words.push(format!("X{}", self.length(one.xyz.x)));
@@ -53,13 +54,17 @@ impl Writer<'_> {
             self.arc_words(&arc, axis, &mut words);
         }
         self.feed(one, &mut words);
+        let cuts = one.shape != Shape::Rapid;
+        self.clamp(Step::Motion { turns, cuts }, block)?;
         let line = words.join(" ");
         self.line(&line);
         self.moved.push(self.lines);
         Ok(())
     }
 
-    fn coordinates(&mut self, one: &Move, arc_axis: Option<usize>, words: &mut Vec<String>) {
+    /// The words of the axes, as far as they are news; bit per axis beside X Y Z that they may turn or shift.
+    fn coordinates(&mut self, one: &Move, arc_axis: Option<usize>, words: &mut Vec<String>) -> u16 {
+        let mut turns = 0;
         for (axis, word) in WORDS.into_iter().enumerate().take(3) {
             let text = format!("{word}{}", self.length(one.xyz[axis]));
             if arc_axis.is_some_and(|normal| normal != axis) {
@@ -82,9 +87,11 @@ impl Writer<'_> {
             for (slot, index) in rotary {
                 let value = deg(one.q[index]) - self.zero[slot];
                 let text = format!("{}{}", WORDS[slot], number(value, self.post.angle, self.post.point));
-                words.extend(self.modal.change(WORDS[slot], text));
+                let news = self.modal.change(WORDS[slot], text);
+                turns |= u16::from(news.is_some()) << slot;
+                words.extend(news);
             }
-            self.idle_words(machine, words);
+            turns |= self.idle_words(machine, words);
         } else if self.options.orientation == OrientationWords::Vectors {
             let part = |value: f64| number(value, self.post.vector, self.post.point);
             let template = self.post.template("vector").unwrap_or_default();
@@ -96,13 +103,20 @@ impl Writer<'_> {
             });
             // arcs keep the vector: their I J K are the centre
             if arc_axis.is_none() {
-                words.extend(self.modal.change("vector", text.unwrap_or_default()));
+                let news = self.modal.change("vector", text.unwrap_or_default());
+                if news.is_some() {
+                    // which axes turn is for the control to say
+                    turns = u16::MAX;
+                }
+                words.extend(news);
             }
         }
+        turns
     }
 
     /// Axes that the kinematics are not solved for stand where the plan holds them: at `hold`, or at zero. A program must say so once.
-    fn idle_words(&mut self, machine: &Machine, words: &mut Vec<String>) {
+    fn idle_words(&mut self, machine: &Machine, words: &mut Vec<String>) -> u16 {
+        let mut said = 0;
         for (joint, axis) in machine.axes.iter().enumerate() {
             let slot = AXIS_LETTERS.iter().position(|known| *known == axis.letter);
             let Some(slot) = slot.filter(|slot| *slot > 2 && !machine.rotary.contains(&joint)) else {
@@ -116,8 +130,11 @@ impl Writer<'_> {
                 }
             };
             let text = format!("{}{text}", WORDS[slot]);
-            words.extend(self.modal.change(WORDS[slot], text));
+            let news = self.modal.change(WORDS[slot], text);
+            said |= u16::from(news.is_some()) << slot;
+            words.extend(news);
         }
+        said
     }
 
     fn arc_words(&self, arc: &Arc, axis: usize, words: &mut Vec<String>) {

@@ -3,7 +3,7 @@ use crate::job::{Coolant, Event, Job, Placed};
 use crate::{Options, Refused};
 use trunnion_certify::conversion::{Ran, Reading};
 use trunnion_dialect::{Action, Dialect};
-use trunnion_interp::Tool;
+use trunnion_interp::{AllClampCodes, Tool};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, Value, Word};
 
 /// What a block says beside its motions.
@@ -25,7 +25,13 @@ pub(crate) struct Said {
 pub(crate) type Cannot = (TextRange, String);
 
 /// All events of a program.
-pub(crate) fn job(reading: &Reading, dialect: &Dialect, options: &Options) -> Result<Job, Refused> {
+/// `clamps`: the codes of clamps, where they are written anew.
+pub(crate) fn job(
+    reading: &Reading,
+    dialect: &Dialect,
+    options: &Options,
+    clamps: Option<&AllClampCodes>,
+) -> Result<Job, Refused> {
     let program = &reading.program;
     if let Some(block) = reading.elsewhere {
         let message =
@@ -48,7 +54,7 @@ pub(crate) fn job(reading: &Reading, dialect: &Dialect, options: &Options) -> Re
         let block = program.block(ran.block);
         let said = match program.options().format {
             Format::Apt => crate::events_apt::said(&block, options),
-            Format::Iso => said(&block, dialect, options),
+            Format::Iso => said(&block, dialect, options, clamps),
         }
         .map_err(|(range, message)| Refused::range(program, range, message))?;
         teller.block(reading, ran, said, motions)?;
@@ -201,7 +207,12 @@ pub(crate) const ACTIVE: &[&str] = &[
 ];
 
 /// What an ISO block says.
-fn said(block: &Block<'_>, dialect: &Dialect, options: &Options) -> Result<Said, Cannot> {
+fn said(
+    block: &Block<'_>,
+    dialect: &Dialect,
+    options: &Options,
+    clamps: Option<&AllClampCodes>,
+) -> Result<Said, Cannot> {
     let program = block.program();
     let mut said = Said::default();
     for item in block.items() {
@@ -226,6 +237,7 @@ fn said(block: &Block<'_>, dialect: &Dialect, options: &Options) -> Result<Said,
                     "block delete: whether the block runs depends on a switch; take the `/` or the block away";
                 return Err((range, message.to_owned()));
             }
+            Item::Word(word) if clamps.is_some_and(|clamps| is_clamp(&word, clamps)) => {}
             Item::Word(word) => said_by_word(&word, program, dialect, options, &mut said)?,
             Item::Call(call) => {
                 let name = program.text(call.name);
@@ -245,6 +257,15 @@ fn said(block: &Block<'_>, dialect: &Dialect, options: &Options) -> Result<Said,
         }
     }
     Ok(said)
+}
+
+/// Whether a word is the code of a clamp.
+fn is_clamp(word: &Word, clamps: &AllClampCodes) -> bool {
+    let (Address::Letter(b'M'), Value::Number(number)) = (word.address, word.value) else {
+        return false;
+    };
+    let is = |code: u16| number.to_f64().total_cmp(&f64::from(code)).is_eq();
+    clamps.iter().flatten().any(|codes| is(codes.on) || is(codes.off))
 }
 
 fn said_by_word(

@@ -3,6 +3,7 @@
 //! It proposes a program; [`trunnion_certify::conversion`] reads both texts from scratch and compares them motion for motion. What cannot be
 //! proved within tolerance is refused with reason and place. *It never vouches for itself.*
 mod cl;
+mod clamps;
 mod convert;
 mod emit;
 mod emit_apt;

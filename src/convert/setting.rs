@@ -1,14 +1,15 @@
 //! What is written and how: the target, checked before anything is read.
+use crate::clamps::Clamping;
 use crate::emit_apt::{self, AptWriter};
-use crate::emit_code::Writer;
+use crate::emit_code::{Writer, Written};
 use crate::job::Job;
 use crate::number::rounding;
 use crate::plan::{Mode, Out};
 use crate::{Options, OrientationWords, Post, Refused, Target};
 use trunnion_certify::conversion::{ConversionClaim, Reading};
-use trunnion_dialect::Dialect;
+use trunnion_dialect::{Action, Dialect};
 use trunnion_geometry::deg;
-use trunnion_interp::Setup;
+use trunnion_interp::{AllClampCodes, ClampCodes, Setup};
 use trunnion_machine::{Machine, Side};
 
 /// Tolerance where neither machine nor user names one, mm.
@@ -86,11 +87,35 @@ impl<'a> Setting<'a> {
         })
     }
 
-    /// Letters of the axes that codes clamp.
-    pub(crate) fn clamps(&self) -> Vec<char> {
+    /// Codes of the clamps of the machine, as far as they can be written: not where the control means something else by them.
+    pub(crate) fn clamp_codes(&self) -> AllClampCodes {
+        let mut codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
+        for slot in &mut codes {
+            *slot = slot.filter(|codes| self.can_write(*codes));
+        }
+        codes
+    }
+
+    fn can_write(&self, codes: ClampCodes) -> bool {
+        let free = |code: u16| {
+            let known = self.dialect.m(u32::from(code) * 10);
+            known.is_none_or(|code| {
+                let grouped = code.group.as_deref();
+                code.action == Action::NoMotion && grouped.is_none_or(|group| group == "clamp")
+            })
+        };
+        let words = self.post.is_some_and(|post| post.template("auxiliary").is_some());
+        words && free(codes.on) && free(codes.off)
+    }
+
+    /// Letters of the axes with a clamp whose codes are not written.
+    pub(crate) fn clamps_left(&self) -> Vec<char> {
         let axes = self.machine.map_or(&[][..], |machine| &machine.axes);
-        let clamped = axes.iter().filter(|axis| axis.extra.clamp_codes.is_some());
-        clamped.map(|axis| char::from(axis.letter)).collect()
+        let left = axes.iter().filter(|axis| match axis.extra.clamp_codes {
+            Some(codes) => !self.can_write(codes),
+            None => axis.extra.clamp,
+        });
+        left.map(|axis| char::from(axis.letter)).collect()
     }
 
     pub(crate) fn has(&self, key: &str) -> bool {
@@ -142,14 +167,21 @@ impl<'a> Setting<'a> {
         outs: &[Out],
         setup: &Setup,
         options: &Options,
-    ) -> Result<(String, Vec<u32>), Refused> {
-        match self.post {
-            None => Ok((AptWriter::new(reading, options, outs).write(job, outs)?, Vec::new())),
-            Some(post) => {
-                let name = self.machine.map_or("", |machine| machine.name.as_str());
-                Writer::new(reading, post, self.mode, options, setup, name).write(job, outs)
-            }
+    ) -> Result<Written, Refused> {
+        let Some(post) = self.post else {
+            return Ok(Written {
+                text: AptWriter::new(reading, options, outs).write(job, outs)?,
+                moved: Vec::new(),
+                clamping: Clamping::default(),
+            });
+        };
+        let write = |clamping| Writer::new(reading, post, self, options, setup, clamping).write(job, outs);
+        let written = write(Clamping::default())?;
+        let codes = self.clamp_codes();
+        if codes == AllClampCodes::default() {
+            return Ok(written);
         }
+        write(Clamping::planned(&codes, &written.clamping))
     }
 
     /// What the digits of the output can hold.

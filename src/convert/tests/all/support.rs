@@ -26,6 +26,7 @@ pub(crate) fn assuming(
 ) -> Result<Converted, Refused> {
     let mut setup = Setup::default();
     setup.control.tcp_codes = machine(source).and_then(|machine| machine.control.tcp_codes.clone());
+    setup.control.clamp_codes = machine(source).map(Machine::clamp_codes).unwrap_or_default();
     setup.control.further_axes = machine(source).map(Machine::further_axes).unwrap_or_default();
     let source = Source {
         text: text.as_bytes(),

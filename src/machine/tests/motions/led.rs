@@ -3,14 +3,10 @@
 use crate::blocks::with_arc;
 use crate::common::{vector, words};
 use crate::random::Random;
-use crate::soundness::{AXIS, Machines, SAMPLES, SWEPT_MM, blocks, ends, farthest, follow, hold, joints, nearest};
-use trunnion_geometry::math::{angle_between, cos, sin};
-use trunnion_geometry::{Vec3, arc::Arc, rad};
+use crate::soundness::{Machines, SAMPLES, axes, blocks, circle, ends, follow, joints, strays};
+use trunnion_geometry::math::{cos, sin};
 use trunnion_interp::{Motion, MotionKind, Position};
-use trunnion_machine::{
-    Joints, Leg, Machine, excursions, feed_limit_tight, inverse, linear_travel, orientation_deviation, swept_deviation,
-    tip_deviation, tool_axis_at,
-};
+use trunnion_machine::{Joints, Leg, Machine, excursions, feed_limit_tight, inverse, linear_travel, tip_deviation};
 
 /// A helix of up to three turns from the start of a motion, every third one with a radius that changes.
 pub(crate) fn with_spiral(random: &mut Random, motion: &Motion) -> Motion {
@@ -33,6 +29,11 @@ pub(crate) fn with_spiral(random: &mut Random, motion: &Motion) -> Motion {
     }
     motion.kind = MotionKind::Arc(Some(arc));
     motion
+}
+
+/// Whether all joints are somewhere, and nowhere near where the linear axes do not span space.
+pub(crate) fn stays_near(along: &dyn Fn(f64) -> Joints) -> bool {
+    (0..=SAMPLES).all(|i| along(i as f64 / SAMPLES as f64).iter().all(|q| q.abs() <= 1e5))
 }
 
 /// Way of the linear axes against the polygon through many moments; false where it has no bound.
@@ -65,7 +66,7 @@ pub(crate) fn travel(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints
 }
 
 /// Highest feed against the largest share of any axis' speed at many moments; `speed`: of the tip, mm per block.
-fn feed(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints, speed: &dyn Fn(f64) -> f64) -> bool {
+pub(crate) fn feed(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints, speed: &dyn Fn(f64) -> f64) -> bool {
     let Some(found) = feed_limit_tight(machine, leg) else {
         return false;
     };
@@ -112,7 +113,7 @@ fn summit(all: &[Joints], value: impl Fn(&Joints) -> f64, along: &dyn Fn(f64) ->
 }
 
 /// How far linear axes run beyond both their ends, against many moments.
-fn beyond(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints) -> usize {
+pub(crate) fn beyond(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints) -> usize {
     const LEAST: f64 = 1.0;
     let all: Vec<Joints> = (0..=SAMPLES).map(|i| along(i as f64 / SAMPLES as f64)).collect();
     let found = excursions(machine, leg, LEAST);
@@ -137,7 +138,7 @@ fn beyond(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints) -> usize 
 }
 
 /// Rotary words while the tip is led.
-fn by_words(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
+fn by_words(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
     let turn = [0.05, 1.0, 20.0, 60.0][random.below(4)];
     let way = [0.1, 5.0, 80.0][random.below(3)];
     let (start, end) = ends(random, machine, turn, way);
@@ -176,11 +177,7 @@ fn by_words(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
         }
         q
     };
-    if (0..=SAMPLES).any(|i| {
-        along(i as f64 / SAMPLES as f64)
-            .iter()
-            .any(|q| q.abs() > 1e5 || q.is_nan())
-    }) {
+    if !stays_near(&along) {
         return;
     }
     assert_eq!(tip_deviation(machine, &leg, 0.01).expect("known").bound_mm, 0.0);
@@ -190,9 +187,8 @@ fn by_words(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
 }
 
 /// Tool vectors that a control runs joint-linear while the tip runs along a helix: axis and body.
-fn by_vectors(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
-    let from = random.direction();
-    let to = (from + random.direction() * [0.002, 0.05, 0.8][random.below(3)]).normalize();
+fn by_vectors(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
+    let [from, to] = axes(random);
     let above = random.range(5.0, 150.0);
     let start = random.direction() * 80.0;
     let first = Motion {
@@ -207,44 +203,14 @@ fn by_vectors(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
     let (MotionKind::Arc(Some(arc)), Some(leg)) = (second.kind, follow(machine, &first, &second)) else {
         return;
     };
-    let Some(found) = orientation_deviation(machine, &leg, rad(AXIS)) else {
-        return;
-    };
-    let angle = angle_between(&from, &to);
-    let side = (to - from * from.dot(&to)).normalize();
-    let circle = |s: f64| from * cos(angle * s) + side * sin(angle * s);
-    let axis = |t: f64| {
-        let q = joints(&leg, t);
-        tool_axis_at(
-            machine,
-            [0, 1].map(|i| machine.rotary.get(i).map_or(0.0, |&joint| q[joint])),
-        )
-    };
-    let truth = farthest(40, found.at, |t| {
-        let axis = axis(t);
-        nearest(&|s| angle_between(&axis, &circle(s)))
-    });
-    seen[3] += 1;
-    hold("axis", (found.sampled, found.bound), truth, rad(AXIS));
-    let swept = swept_deviation(machine, &leg, above, SWEPT_MM).expect("as the axis");
-    let truth = farthest(40, swept.at, |t| {
-        let point = arc.point_at(t) + axis(t) * above;
-        nearest(&|s| (point - body(&arc, s, &circle(s), above)).norm())
-    });
-    seen[4] += 1;
-    hold("body", (swept.sampled_mm, swept.bound_mm), truth, SWEPT_MM);
-}
-
-/// The point of the tool's body where it should be.
-fn body(arc: &Arc, s: f64, axis: &Vec3, above: f64) -> Vec3 {
-    arc.point_at(s) + axis * above
+    seen[3] += usize::from(strays(machine, &leg, &circle(from, to), &|t| arc.point_at(t), above));
 }
 
 #[test]
 fn soundness_while_the_tip_is_led_along_lines_and_helices() {
     let mut random = Random(23);
     let mut machines = Machines::new(&mut random);
-    let mut seen = [0; 5];
+    let mut seen = [0; 4];
     let wanted = blocks() / 3;
     for _ in 0..wanted {
         let machine = machines.pick(&mut random).clone();

@@ -4,7 +4,7 @@ use crate::common::{vector, words};
 use crate::led::{travel, with_spiral};
 use crate::random::{Random, random_machine};
 use trunnion_geometry::math::{angle_between, cos, sin};
-use trunnion_geometry::{deg, rad};
+use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_interp::{Motion, MotionKind, Position};
 use trunnion_machine::{
     AxisKind, BUILTIN_MACHINES, Follower, Joints, Leg, Machine, builtin, forward, inverse, orientation_deviation,
@@ -20,8 +20,8 @@ pub(crate) fn blocks() -> usize {
 
 /// Tolerances of the rules, so that the early answers are judged too.
 const TIP_MM: f64 = 0.01;
-pub(crate) const AXIS: f64 = 0.1;
-pub(crate) const SWEPT_MM: f64 = 0.05;
+const AXIS: f64 = 0.1;
+const SWEPT_MM: f64 = 0.05;
 
 /// Machines with rotary axes: built in, or random.
 pub(crate) struct Machines {
@@ -91,7 +91,7 @@ pub(crate) fn joints(leg: &Leg, t: f64) -> Joints {
 }
 
 /// Smallest over s of the distance from a point to a curve: a grid, then each of its valleys by thirds.
-pub(crate) fn nearest(curve: &dyn Fn(f64) -> f64) -> f64 {
+fn nearest(curve: &dyn Fn(f64) -> f64) -> f64 {
     let share = |i: usize| i as f64 / SAMPLES as f64;
     let grid: Vec<f64> = (0..=SAMPLES).map(|i| curve(share(i))).collect();
     let mut least = f64::INFINITY;
@@ -115,14 +115,14 @@ pub(crate) fn nearest(curve: &dyn Fn(f64) -> f64) -> f64 {
 }
 
 /// Largest value at even shares of the block and at one more.
-pub(crate) fn farthest(count: usize, also: f64, distance: impl Fn(f64) -> f64) -> f64 {
+fn farthest(count: usize, also: f64, distance: impl Fn(f64) -> f64) -> f64 {
     (0..=count)
         .map(|i| distance(i as f64 / count as f64))
         .fold(distance(also), f64::max)
 }
 
 /// Holds a sample and a bound against the truth found by sampling.
-pub(crate) fn hold(what: &str, (sampled, bound): (f64, f64), truth: f64, tolerance: f64) {
+fn hold(what: &str, (sampled, bound): (f64, f64), truth: f64, tolerance: f64) {
     assert!(
         bound >= truth * (1.0 - 1e-9) - 1e-9,
         "{what}: bound {bound} truth {truth}"
@@ -199,10 +199,56 @@ fn without_tcp(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
     hold("tip", (found.sampled_mm, found.bound_mm), truth, TIP_MM);
 }
 
-/// Tool vectors that a control runs joint-linear: axis and body; and the length that the linear joints run.
-fn with_vectors(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
+/// Two tool axes, near each other or not.
+pub(crate) fn axes(random: &mut Random) -> [Vec3; 2] {
     let from = random.direction();
     let to = (from + random.direction() * [0.002, 0.05, 0.8][random.below(3)]).normalize();
+    [from, to]
+}
+
+/// The great circle between two tool axes, by the share of its angle.
+pub(crate) fn circle(from: Vec3, to: Vec3) -> impl Fn(f64) -> Vec3 {
+    let angle = angle_between(&from, &to);
+    let side = (to - from * from.dot(&to)).normalize();
+    move |s| from * cos(angle * s) + side * sin(angle * s)
+}
+
+/// How far tool axis and body stray where a control runs joint-linear what is meant along `circle`, while the tip runs along `tip`; false
+/// where nothing is known.
+pub(crate) fn strays(
+    machine: &Machine,
+    leg: &Leg,
+    circle: &dyn Fn(f64) -> Vec3,
+    tip: &dyn Fn(f64) -> Vec3,
+    above: f64,
+) -> bool {
+    let Some(found) = orientation_deviation(machine, leg, rad(AXIS)) else {
+        return false;
+    };
+    let axis = |t: f64| {
+        let q = joints(leg, t);
+        tool_axis_at(
+            machine,
+            [0, 1].map(|i| machine.rotary.get(i).map_or(0.0, |&joint| q[joint])),
+        )
+    };
+    let truth = farthest(40, found.at, |t| {
+        let axis = axis(t);
+        nearest(&|s| angle_between(&axis, &circle(s)))
+    });
+    hold("axis", (found.sampled, found.bound), truth, rad(AXIS));
+    let swept = swept_deviation(machine, leg, above, SWEPT_MM).expect("as the axis");
+    let truth = farthest(40, swept.at, |t| {
+        let point = tip(t) + axis(t) * above;
+        nearest(&|s| (point - tip(s) - circle(s) * above).norm())
+    });
+    hold("body", (swept.sampled_mm, swept.bound_mm), truth, SWEPT_MM);
+    true
+}
+
+/// Tool vectors that a control runs joint-linear: axis and body; and the length that the linear joints run.
+fn with_vectors(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
+    let [from, to] = axes(random);
     let tip = random.direction() * 80.0;
     let way = random.direction() * [0.1, 2.0, 40.0][random.below(3)];
     let above = random.range(5.0, 150.0);
@@ -217,34 +263,13 @@ fn with_vectors(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
     let Some(leg) = follow(machine, &first, &second) else {
         return;
     };
-    let Some(found) = orientation_deviation(machine, &leg, rad(AXIS)) else {
-        return;
-    };
     // words may be diameters
     let (tip, end) = (leg.start.expect("known").tip, leg.end.as_ref().expect("known").tip);
     let way = end - tip;
-    let angle = angle_between(&from, &to);
-    let side = (to - from * from.dot(&to)).normalize();
-    let circle = |s: f64| from * cos(angle * s) + side * sin(angle * s);
-    let axis = |t: f64| {
-        let q = joints(&leg, t);
-        tool_axis_at(
-            machine,
-            [0, 1].map(|i| machine.rotary.get(i).map_or(0.0, |&joint| q[joint])),
-        )
-    };
-    let truth = farthest(40, found.at, |t| {
-        let axis = axis(t);
-        nearest(&|s| angle_between(&axis, &circle(s)))
-    });
+    if !strays(machine, &leg, &circle(from, to), &|t| tip + way * t, above) {
+        return;
+    }
     seen[2] += 1;
-    hold("axis", (found.sampled, found.bound), truth, rad(AXIS));
-    let swept = swept_deviation(machine, &leg, above, SWEPT_MM).expect("as the axis");
-    let truth = farthest(40, swept.at, |t| {
-        let point = way * t + axis(t) * above;
-        nearest(&|s| (point - way * s - circle(s) * above).norm())
-    });
-    hold("body", (swept.sampled_mm, swept.bound_mm), truth, SWEPT_MM);
     let along = |t: f64| {
         let mut q = joints(&leg, t);
         inverse(machine, &mut q, &(tip + way * t), above).expect("spans space");

@@ -8,12 +8,12 @@ use std::f64::consts::TAU;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{Motion, MotionKind, Position};
 use trunnion_machine::{
-    Joints, Leg, MAX_AXES, Machine, Orientations, feed_limit_tight, inverse, orientation_deviation, orientations,
-    swept_deviation, tip_deviation,
+    Joints, Leg, MAX_AXES, Machine, Orientations, excursions, feed_limit_tight, inverse, linear_travel,
+    orientation_deviation, orientations, swept_deviation, tip_deviation,
 };
 
 /// Steps in which a posture is followed along the circle.
-const STEPS: usize = 2000;
+const STEPS: usize = 500;
 
 /// The joints that reach the tool axes of a circle, in one posture.
 struct Path<'a> {
@@ -23,24 +23,25 @@ struct Path<'a> {
     axis: &'a dyn Fn(f64) -> Vec3,
     /// Rotary joints after each step, without jumps of whole turns.
     steps: Vec<Joints>,
+    /// An axis turns by more than half a radian in a step: who stands between two of them is not known here.
+    coarse: bool,
 }
 
 impl<'a> Path<'a> {
-    /// `None` where the circle leaves the posture, or turns an axis by more than half a radian in a step.
+    /// `None` where the circle leaves the posture.
     fn new(machine: &'a Machine, start: &Joints, branch: i8, axis: &'a dyn Fn(f64) -> Vec3) -> Option<Self> {
         let mut path = Self {
             machine,
             branch,
             axis,
             steps: vec![*start],
+            coarse: false,
         };
         for i in 1..=STEPS {
             let last = path.steps[i - 1];
             let next = path.rotary(i as f64 / STEPS as f64, &last)?;
             let jump = |joint: &usize| (next[*joint] - last[*joint]).abs() > 0.5;
-            if machine.rotary.iter().any(jump) {
-                return None;
-            }
+            path.coarse |= machine.rotary.iter().any(jump);
             path.steps.push(next);
         }
         Some(path)
@@ -114,9 +115,21 @@ fn judge(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
         let swept = swept_deviation(machine, &leg, above, 0.0).map(|found| found.bound_mm);
         assert_eq!(swept, Some(0.0));
     }
-    let start = leg.start.expect("known");
-    let Some(path) = Path::new(machine, &start.joints, start.branch, &circle) else {
-        seen[4] += usize::from(feed_limit_tight(machine, &leg).is_none());
+    let (start, end) = (leg.start.expect("known"), leg.end.as_ref().expect("known"));
+    let path = Path::new(machine, &start.joints, start.branch, &circle);
+    if path.as_ref().is_some_and(|path| path.coarse) {
+        return;
+    }
+    let reaches = |path: &Path<'_>| {
+        let off = |joint: &usize| (path.steps[STEPS][*joint] - end.joints[*joint]).abs() > 1e-6;
+        !machine.rotary.iter().any(off)
+    };
+    let Some(path) = path.filter(reaches) else {
+        // over the pole, or to the other posture: how the joints get there is not known
+        assert!(feed_limit_tight(machine, &leg).is_none(), "{} {leg:?}", machine.id);
+        assert!(linear_travel(machine, &leg, 1.0).is_none(), "{} {leg:?}", machine.id);
+        assert!(excursions(machine, &leg, 1.0).is_empty(), "{} {leg:?}", machine.id);
+        seen[4] += 1;
         return;
     };
     let along = |t: f64| {
@@ -125,10 +138,6 @@ fn judge(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
     };
     if !stays_near(&along) {
         return;
-    }
-    let end = leg.end.as_ref().expect("known");
-    for &joint in &machine.rotary {
-        assert!((along(1.0)[joint] - end.joints[joint]).abs() < 1e-6, "joint {joint}");
     }
     seen[usize::from(is_arc)] += usize::from(travel(machine, &leg, &along));
     seen[2] += usize::from(feed(machine, &leg, &along, &speed));
@@ -140,10 +149,13 @@ fn soundness_on_great_circles() {
     let mut random = Random(37);
     let mut machines = Machines::new(&mut random);
     let mut seen = [0; 5];
-    let wanted = blocks() / 5;
+    let wanted = blocks() / 6;
     for _ in 0..wanted {
         let machine = machines.pick(&mut random).clone();
         judge(&mut random, &machine, &mut seen);
     }
-    assert!(seen[..4].iter().all(|count| *count > wanted / 20), "{seen:?}");
+    assert!(
+        seen[..4].iter().all(|count| *count > wanted / 10) && seen[4] > 0,
+        "{seen:?}"
+    );
 }

@@ -9,7 +9,7 @@ use trunnion_geometry::Vec3;
 use trunnion_interp::{Motion, MotionKind, Position};
 use trunnion_machine::{
     Joints, Leg, MAX_AXES, Machine, Orientations, excursions, feed_limit_tight, inverse, linear_travel,
-    orientation_deviation, orientations, swept_deviation, tip_deviation,
+    orientation_deviation, orientations, solution_s, swept_deviation, tip_deviation,
 };
 
 /// Steps in which a posture is followed along the circle.
@@ -23,8 +23,10 @@ struct Path<'a> {
     axis: &'a dyn Fn(f64) -> Vec3,
     /// Rotary joints after each step, without jumps of whole turns.
     steps: Vec<Joints>,
-    /// An axis turns by more than half a radian in a step: who stands between two of them is not known here.
-    coarse: bool,
+    /// The largest turn of an axis in a step, rad.
+    fastest: f64,
+    /// The smallest |S|: how far it keeps from pole and edge of the reach.
+    least_s: f64,
 }
 
 impl<'a> Path<'a> {
@@ -35,13 +37,17 @@ impl<'a> Path<'a> {
             branch,
             axis,
             steps: vec![*start],
-            coarse: false,
+            fastest: 0.0,
+            least_s: f64::INFINITY,
         };
         for i in 1..=STEPS {
             let last = path.steps[i - 1];
             let next = path.rotary(i as f64 / STEPS as f64, &last)?;
-            let jump = |joint: &usize| (next[*joint] - last[*joint]).abs() > 0.5;
-            path.coarse |= machine.rotary.iter().any(jump);
+            for &joint in &machine.rotary {
+                path.fastest = path.fastest.max((next[joint] - last[joint]).abs());
+            }
+            let second = machine.rotary.get(1).map_or(0.0, |&joint| next[joint]);
+            path.least_s = path.least_s.min(solution_s(machine, second).abs());
             path.steps.push(next);
         }
         Some(path)
@@ -117,7 +123,8 @@ fn judge(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
     }
     let (start, end) = (leg.start.expect("known"), leg.end.as_ref().expect("known"));
     let path = Path::new(machine, &start.joints, start.branch, &circle);
-    if path.as_ref().is_some_and(|path| path.coarse) {
+    if path.as_ref().is_some_and(|path| path.fastest > 0.5) {
+        // half a radian in a step, hard by the pole: on which turn the axis stands is not known here
         return;
     }
     let reaches = |path: &Path<'_>| {
@@ -127,7 +134,8 @@ fn judge(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
     let Some(path) = path.filter(reaches) else {
         // over the pole, or to the other posture: how the joints get there is not known
         assert!(feed_limit_tight(machine, &leg).is_none(), "{} {leg:?}", machine.id);
-        assert!(linear_travel(machine, &leg, 1.0).is_none(), "{} {leg:?}", machine.id);
+        let most = linear_travel(machine, &leg, 1.0).map(|found| found.most_mm);
+        assert!(most.is_none_or(f64::is_infinite), "{} {leg:?}", machine.id);
         assert!(excursions(machine, &leg, 1.0).is_empty(), "{} {leg:?}", machine.id);
         seen[4] += 1;
         return;
@@ -139,7 +147,7 @@ fn judge(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
     if !stays_near(&along) {
         return;
     }
-    seen[usize::from(is_arc)] += usize::from(travel(machine, &leg, &along));
+    seen[usize::from(is_arc)] += usize::from(travel(machine, &leg, &along, path.least_s > 0.3));
     seen[2] += usize::from(feed(machine, &leg, &along, &speed));
     seen[3] += beyond(machine, &leg, &along);
 }

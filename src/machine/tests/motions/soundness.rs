@@ -275,7 +275,7 @@ fn with_vectors(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
         inverse(machine, &mut q, &(tip + way * t), above).expect("spans space");
         q
     };
-    seen[3] += usize::from(travel(machine, &leg, &along));
+    seen[3] += usize::from(travel(machine, &leg, &along, true));
 }
 
 #[test]

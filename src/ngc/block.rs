@@ -18,8 +18,6 @@ pub struct OwnCode {
     pub tenths: u32,
     /// Its bytes.
     pub range: TextRange,
-    /// No other such code stands before it in the line. Only the last one is called.
-    pub alone: bool,
 }
 
 /// One line, evaluated. Codes are ten times their number (G38.2 is 382; M codes are whole: M6 is 6).

@@ -279,9 +279,7 @@ mod tests {
         assert_eq!(told("fanuc-30i", Some("O7\nM11\nM99\n"), &closed), [""; 0]);
         // behind what is not there nothing is known
         let gone = "M11\nM98 P7\nG0 X0. Y0. Z50. A20. C0.\nG0 C9.\nM30\n";
-        let mut setup = Setup::default();
-        setup.library = Library(None);
-        let found = of_setup("fanuc-30i", setup, gone);
+        let found = told("fanuc-30i", None, gone);
         assert_eq!(
             found,
             ["C may be clamped: which code of its clamp ran last is not known"]
@@ -301,8 +299,10 @@ mod tests {
         );
         let skipped = "M11\nG0 X0 Y0 Z50 A20 C0\no1 if [0]\nM10\no1 endif\nG0 C9\nM2\n";
         assert_eq!(told("linuxcnc", None, skipped), [""; 0]);
-        // only the last of two codes is called
-        let both = "M11\nG0 X0 Y0 Z50 A20 C0\nM10 M11\nG0 C9\nM2\n";
+        // beside another code it is clear, of two only the last is called
+        let beside = "M11\nG0 X0 Y0 Z50 A20 C0\nM10 M8 (M11)\nG0 C9\nM2\n";
+        assert_eq!(told("linuxcnc", None, beside), [TURNS]);
+        let both = "M11\nG0 X0 Y0 Z50 A20 C0\nM10 m 1 1\nG0 C9\nM2\n";
         assert_eq!(
             told("linuxcnc", None, both),
             ["C may be clamped: which code of its clamp ran last is not known"]

@@ -80,8 +80,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let codes = &interpreter.setup.control.clamp_codes;
         let clamps = &mut interpreter.state.clamps;
         let is_one = clamps.hear(codes, own.tenths);
-        // motions before it in the text may come behind it; of several codes in one line only the last is told
-        if !own.alone || is_one && state.side != Side::Off {
+        // motions before it in the text may come behind it
+        if is_one && state.side != Side::Off {
             clamps.hear_unread(codes);
         }
         is_one

@@ -308,13 +308,7 @@ fn m_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) 
 fn own(letter: u8, tenths: u32, range: TextRange, values: &Values<'_>, block: &mut Block) -> bool {
     let owns = values.owns(letter, tenths);
     if owns {
-        let alone = block.own.is_none();
-        block.own = Some(crate::OwnCode {
-            letter,
-            tenths,
-            range,
-            alone,
-        });
+        block.own = Some(crate::OwnCode { letter, tenths, range });
     }
     owns
 }

@@ -56,13 +56,7 @@ fn main() {
     line("+ fold into motions", parsed + folded, newline, megabytes);
     let followed = time(|| follow(&program, machine));
     line("+ follow the machine", parsed + followed, newline, megabytes);
-    let settings = Settings {
-        dialect,
-        machine: Some(machine),
-        setup: Setup::default(),
-        rules: Vec::new(),
-        port_to: Vec::new(),
-    };
+    let settings = Settings::new(dialect, Some(machine), Setup::default());
     let full = time(|| check_on(&parse(text.clone(), dialect.lex), &settings, 1));
     line("parse and full check", full, newline, megabytes);
     let report = check_on(&program, &settings, 1);
@@ -118,13 +112,7 @@ fn memory_child(path: &std::ffi::OsStr) {
     let size = text.len() as f64;
     let dialect = builtin("linuxcnc").expect("built in");
     let machine = machine::builtin("mikron-ucp710").expect("built in");
-    let settings = Settings {
-        dialect,
-        machine: Some(machine),
-        setup: Setup::default(),
-        rules: Vec::new(),
-        port_to: Vec::new(),
-    };
+    let settings = Settings::new(dialect, Some(machine), Setup::default());
     black_box(check_on(&parse(text, dialect.lex), &settings, 2));
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = status

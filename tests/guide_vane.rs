@@ -55,13 +55,7 @@ fn named(name: &str) -> &'static Dialect {
 fn found(text: &str, name: &str, machine: &Machine) -> Vec<Diagnostic> {
     let dialect = named(name);
     let program = parse(text.as_bytes().to_vec(), dialect.lex);
-    let settings = Settings {
-        dialect,
-        machine: Some(machine),
-        setup: Setup::default(),
-        rules: Vec::new(),
-        port_to: Vec::new(),
-    };
+    let settings = Settings::new(dialect, Some(machine), Setup::default());
     check(&program, &settings).diagnostics
 }
 

@@ -109,13 +109,7 @@ fn examine(name: &str, text: Vec<u8>, dialect: &'static Dialect, machine: usize)
     }
     assert_eq!(at, source.len(), "{name}: tokens tile the file");
     let machine = builtin(BUILTIN_MACHINES[machine % BUILTIN_MACHINES.len()]);
-    let settings = Settings {
-        dialect,
-        machine,
-        setup: bounded(),
-        rules: Vec::new(),
-        port_to: Vec::new(),
-    };
+    let settings = Settings::new(dialect, machine, bounded());
     let report = check(&program, &settings);
     let lines = LineIndex::new(source);
     for d in &report.diagnostics {
@@ -185,13 +179,7 @@ fn rewrites_of_mutated_strips_are_certified_or_refused() {
         };
         let dialect = detect(path.file_name().and_then(|n| n.to_str()), &text, None).dialect;
         let program = parse(text, dialect.lex);
-        let settings = Settings {
-            dialect,
-            machine,
-            setup: bounded(),
-            rules: Vec::new(),
-            port_to: Vec::new(),
-        };
+        let settings = Settings::new(dialect, machine, bounded());
         for rewrite in rewrites() {
             match attempt(
                 rewrite,

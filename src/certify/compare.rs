@@ -320,3 +320,11 @@ pub(crate) fn forward_residual(machine: &Machine, at: Place, leg: &Leg) -> Resul
     }
     Ok(Some((mm, degrees)))
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn what_is_not_a_number_keeps_no_limit() {
+        assert!(super::above(f64::NAN, 1.0) && super::above(1.1, 1.0) && !super::above(1.0, 1.0));
+    }
+}

@@ -179,7 +179,18 @@ pub struct Settings<'a> {
     pub port_to: Vec<String>,
 }
 
-impl Settings<'_> {
+impl<'a> Settings<'a> {
+    /// Every rule at its own level, and no other dialect to be carried over to.
+    pub fn new(dialect: &'static Dialect, machine: Option<&'a Machine>, setup: Setup) -> Self {
+        Self {
+            dialect,
+            machine,
+            setup,
+            rules: Vec::new(),
+            port_to: Vec::new(),
+        }
+    }
+
     /// At the start of a program, told what the machine says of its codes.
     pub(crate) fn interpreter(&self) -> Interpreter<'static> {
         let codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();

@@ -272,12 +272,6 @@ pub(crate) fn check_on(machine: &Machine, dialect: &str, text: &str) -> Report {
 pub(crate) fn check_with(machine: &Machine, dialect: &str, text: &str, setup: Setup) -> Report {
     let dialect = trunnion_dialect::builtin(dialect).expect("built in");
     let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
-    let settings = Settings {
-        dialect,
-        machine: Some(machine),
-        setup,
-        rules: Vec::new(),
-        port_to: Vec::new(),
-    };
+    let settings = Settings::new(dialect, Some(machine), setup);
     check(&program, &settings)
 }

@@ -199,6 +199,28 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// A feed motion in axis words that no program tells: nothing is in force beside it (no offset, no tool, no tool centre point control;
+    /// feed and spindle are not said).
+    pub fn line(start: Position, end: Position) -> Self {
+        Self {
+            block: BlockId(0),
+            chain: ChainId::MAIN,
+            kind: MotionKind::Linear,
+            start,
+            end,
+            orientation: Orientation::Words,
+            tcp: false,
+            great_circle: None,
+            feed: Feed::Unknown,
+            spindle_on: None,
+            spindle_rpm: None,
+            zero: [0.0; 9],
+            tool_length_mm: 0.0,
+            machine_coordinates: false,
+            tool: None,
+            tilt: Tilt::default(),
+        }
+    }
     /// Whether it is a feed motion (line or arc).
     pub fn is_feed(&self) -> bool {
         matches!(self.kind, MotionKind::Linear | MotionKind::Arc(_))

@@ -139,22 +139,9 @@ fn both_paths_bend() {
 /// A feed motion along a line.
 fn line(tcp: bool, start: trunnion_interp::Position, end: trunnion_interp::Position) -> trunnion_interp::Motion {
     trunnion_interp::Motion {
-        block: trunnion_syntax::BlockId(0),
-        chain: trunnion_interp::ChainId::MAIN,
-        kind: trunnion_interp::MotionKind::Linear,
-        start,
-        end,
-        orientation: trunnion_interp::Orientation::Words,
         tcp,
-        great_circle: None,
-        feed: trunnion_interp::Feed::Unknown,
-        spindle_on: None,
-        spindle_rpm: None,
-        zero: [0.0; 9],
         tool_length_mm: 60.0,
-        machine_coordinates: false,
-        tool: None,
-        tilt: trunnion_interp::Tilt::default(),
+        ..trunnion_interp::Motion::line(start, end)
     }
 }
 

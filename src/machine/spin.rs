@@ -147,7 +147,7 @@ mod tests {
     use crate::{BUILTIN_MACHINES, Follower, Machine, builtin};
     use trunnion_geometry::Vec3;
     use trunnion_geometry::math::rotate;
-    use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Position};
+    use trunnion_interp::{Feed, Motion, Orientation, Position};
 
     fn rates(machine: &Machine, circle: &GreatCircle<'_>, t: f64, from: [f64; 2]) -> [f64; 2] {
         let [first, second] = &machine.constants.rotary;
@@ -173,22 +173,11 @@ mod tests {
             (0..3).for_each(|axis| end.set(axis, 0.0));
             let mut go = |axis: Vec3| {
                 follower.follow(&Motion {
-                    block: trunnion_syntax::BlockId(0),
-                    chain: trunnion_interp::ChainId::MAIN,
-                    kind: MotionKind::Linear,
-                    start: end,
-                    end,
                     orientation: Orientation::Vector(None, axis),
                     tcp: true,
                     great_circle: Some(true),
                     feed: Feed::PerMinute(1.0),
-                    spindle_on: None,
-                    spindle_rpm: None,
-                    zero: [0.0; 9],
-                    tool_length_mm: 0.0,
-                    machine_coordinates: false,
-                    tool: None,
-                    tilt: trunnion_interp::Tilt::default(),
+                    ..Motion::line(end, end)
                 })
             };
             go(vector(0.1, tilt));

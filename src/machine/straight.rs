@@ -85,30 +85,19 @@ impl Follower<'_> {
 pub(crate) mod tests {
     use crate::{BUILTIN_MACHINES, Follower, Leg, Open, OpenCause, builtin};
     use proptest::prelude::*;
-    use trunnion_interp::{ChainId, Feed, Motion, MotionKind, Orientation, Position, Tilt};
-    use trunnion_syntax::BlockId;
+    use trunnion_interp::{Feed, Motion, MotionKind, Position};
 
     /// A motion in joint words, with offsets in X and A and a tool.
     pub(crate) fn motion(start: Position, end: Position, kind: MotionKind, offset: f64) -> Motion {
         let mut zero = [0.0; 9];
         (zero[0], zero[3]) = (offset, offset * 0.1);
         Motion {
-            block: BlockId(0),
-            chain: ChainId::MAIN,
             kind,
-            start,
-            end,
-            orientation: Orientation::Words,
-            tcp: false,
-            great_circle: None,
             feed: Feed::PerMinute(500.0),
             spindle_on: Some(true),
-            spindle_rpm: None,
             zero,
             tool_length_mm: offset * 2.0,
-            machine_coordinates: false,
-            tool: None,
-            tilt: Tilt::default(),
+            ..Motion::line(start, end)
         }
     }
 

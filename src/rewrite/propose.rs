@@ -191,13 +191,11 @@ mod tests {
         let mut machine = trunnion_machine::builtin("mikron-ucp710").expect("built in").clone();
         let c = machine.joint(b'C').expect("C");
         machine.axes[c].limits = Limits::Range(-2.0, 20.0);
-        let settings = Settings {
-            dialect: trunnion_dialect::builtin("sinumerik-840d").expect("built in"),
-            machine: Some(&machine),
-            setup: trunnion_interp::Setup::default(),
-            rules: Vec::new(),
-            port_to: Vec::new(),
-        };
+        let settings = Settings::new(
+            trunnion_dialect::builtin("sinumerik-840d").expect("built in"),
+            Some(&machine),
+            trunnion_interp::Setup::default(),
+        );
         let text = "TRAORI\nG0 X0 Y0 Z50 A10 C0\nG1 X1 C5 F100\nX2 C3\nM30\n";
         let program = parse(text.as_bytes().to_vec(), settings.dialect.lex);
         let rewrite = Rewrite {

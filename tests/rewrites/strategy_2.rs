@@ -55,13 +55,7 @@ pub(crate) fn tool(shape: ToolShape) -> Setup {
 /// Settings for mikron-ucp710.
 pub(crate) fn settings(dialect: &str, setup: Setup) -> Settings<'static> {
     let dialect = dialect::builtin(dialect).expect("a built-in dialect");
-    Settings {
-        dialect,
-        machine: machine::builtin("mikron-ucp710"),
-        setup,
-        rules: Vec::new(),
-        port_to: Vec::new(),
-    }
+    Settings::new(dialect, machine::builtin("mikron-ucp710"), setup)
 }
 
 /// Runs a rewrite.

@@ -90,15 +90,26 @@ fn proof(
     after: (&Reading, Option<&Machine>),
     path_mm: f64,
 ) -> Result<ConversionProof, Outcome> {
-    let claim = ConversionClaim {
+    converted(before, after, &[Part::Moves(1), Part::Moves(1)], &claim(path_mm, 1e9))
+}
+
+fn claim(path_mm: f64, time_share: f64) -> ConversionClaim {
+    ConversionClaim {
         end_mm: 1e-6,
         end_deg: 1e-5,
         path_mm,
         path_deg: None,
         feed_mm_min: 1e9,
-        time_share: 1e9,
-    };
-    converted(before, after, &[Part::Moves(1), Part::Moves(1)], &claim)
+        time_share,
+    }
+}
+
+#[track_caller]
+fn refused(outcome: Result<ConversionProof, Outcome>, why: &str) {
+    match outcome {
+        Err(Outcome::Refuted(witness)) => assert!(witness.message.contains(why), "{witness}"),
+        other => panic!("{other:?}"),
+    }
 }
 
 /// A quarter of a circle and its chord: 2.93 mm apart in the middle, where no sample lies.
@@ -156,5 +167,89 @@ fn the_tool_axis_between_the_samples_counts() {
         is(found.path_mm, 0.0);
         let near = (found.path_deg - deg(2.0 * asin(0.5 * bend / 8.0))).abs();
         assert!(near < 1e-4, "{found:?}");
+    }
+}
+
+/// A straight way of the tip before, an arc about A after: both ends agree, 0.19 mm between them do not.
+#[test]
+fn the_way_after_bends_too() {
+    let swing = "G0 X0 Y30 Z40 A0 C0\nG1 A10 F100\nM30\n";
+    let after = reading(swing, "sinumerik-840d", Some(mikron()));
+    let end = after.motions[1].end.as_ref().expect("known").tip;
+    let text = format!(
+        "TRAORI\nG0 X0 Y30 Z40 A0 C0\nG1 X{} Y{} Z{} A10 F100\nM30\n",
+        end.x, end.y, end.z
+    );
+    let before = reading(&text, "sinumerik-840d", Some(mikron()));
+    let held = |path_mm: f64| proof((&before, Some(mikron())), (&after, Some(mikron())), path_mm);
+    let truth = 50.0 * (1.0 - cos(rad(5.0)));
+    for share in [0.5, 0.9, 0.999] {
+        refused(held(truth * share), "inside the block the tip");
+    }
+    let found = held(truth * 1.1).expect("near enough").path_mm;
+    assert!(found >= truth && found <= truth * 1.1, "{found}");
+}
+
+#[test]
+fn another_spindle_speed_is_refuted() {
+    let at = |rpm: u32| {
+        let text = format!("S{rpm} M3\nG0 X0 Y0 Z0\nG1 X5 F100\nM30\n");
+        reading(&text, "sinumerik-840d", None)
+    };
+    proof((&at(1000), None), (&at(1000), None), 0.01).expect("the same");
+    refused(proof((&at(1000), None), (&at(1001), None), 0.01), "the spindle differs");
+}
+
+/// F of a turn counts degrees: what is compared is the time, whether longer or shorter.
+#[test]
+fn a_motion_that_takes_another_time_is_refuted() {
+    let at = |feed: u32| {
+        let text = format!("G0 X0 Y30 Z40 A0 C0\nG1 A10 F{feed}\nM30\n");
+        reading(&text, "sinumerik-840d", Some(mikron()))
+    };
+    let moves = [Part::Moves(1), Part::Moves(1)];
+    let held = |one: u32, two: u32| {
+        let (before, after) = (at(one), at(two));
+        let machine = Some(mikron());
+        converted((&before, machine), (&after, machine), &moves, &claim(0.01, 0.1))
+    };
+    is(held(100, 105).expect("near enough").time_share, 1.0 - 100.0 / 105.0);
+    refused(held(100, 50), "it takes");
+    refused(held(100, 200), "it takes");
+}
+
+/// A rapid to nowhere known may be left out in front of all known places of its tool, or behind them, and not between.
+#[test]
+fn a_rapid_between_known_places_is_not_left_out() {
+    let places = ["G0 X0. Y0. Z5.\n", "G0 X1. Y0. Z5.\n"];
+    let after = reading(&format!("{}{}M30\n", places[0], places[1]), "fanuc-30i", None);
+    let lost = "G28 Z5.\n";
+    for (before, left, fine) in [
+        (format!("{lost}{}{}M30\n", places[0], places[1]), 0, true),
+        (format!("{}{lost}{}M30\n", places[0], places[1]), 1, false),
+        (format!("{}{}{lost}M30\n", places[0], places[1]), 2, true),
+    ] {
+        let before = reading(&before, "fanuc-30i", None);
+        let unknown: Vec<usize> = (0..before.motions.len())
+            .filter(|&index| before.motions[index].end.is_err())
+            .collect();
+        assert!(
+            !unknown.is_empty() && unknown.contains(&left) || left > 0,
+            "{unknown:?}"
+        );
+        let parts: Vec<Part> = before
+            .motions
+            .iter()
+            .map(|posed| match posed.end {
+                Err(_) => Part::Left,
+                Ok(_) => Part::Moves(1),
+            })
+            .collect();
+        let outcome = converted((&before, None), (&after, None), &parts, &claim(0.01, 0.1));
+        if fine {
+            assert_eq!(outcome.expect("only places").left_out as usize, unknown.len());
+        } else {
+            refused(outcome, "must not be left out");
+        }
     }
 }

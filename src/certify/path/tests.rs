@@ -121,3 +121,25 @@ fn a_point_above_the_tip_bends_by_its_own_distance() {
     let wanted = turn * turn * (100.0 - 40.0 + 25.0);
     assert!((path.bend().0 - wanted).abs() < 1e-9, "{} not {wanted}", path.bend().0);
 }
+
+/// Tips that swing to opposite sides of their chords: what lies between two moments is the sum of both bends.
+#[test]
+fn two_paths_bend_apart_by_the_sum_of_their_bends() {
+    let machine = builtin("mikron-ucp710").expect("built in");
+    let swing = |share: f64| {
+        let mut to = [0.0; MAX_AXES];
+        let a = machine.axes.iter().position(|axis| axis.letter == b'A').expect("an A");
+        to[a] = share;
+        path(machine, &[[0.0; MAX_AXES], to], Interpolation::Joints, 0.0)
+    };
+    let (left, right) = (swing(0.3), swing(-0.2));
+    let found = apart(&left, &right);
+    let bend = left.bend().0 + right.bend().0;
+    assert!(left.bend().0 > 1.0 && right.bend().0 > 1.0);
+    let steps = (bend.max(left.bend().1 + right.bend().1) / 8e-6)
+        .sqrt()
+        .ceil()
+        .min(512.0);
+    let wanted = found.sampled_mm + bend / (8.0 * steps * steps);
+    assert!((found.bound_mm - wanted).abs() < 1e-9, "{found:?}, not {wanted}");
+}

@@ -223,6 +223,8 @@ fn another_zero_tool_length_or_dwell_is_another_path() {
     };
     for (before, after, why) in [
         ("G54 G0 X1.", "G55 G0 X1.", "the zero point"),
+        // at the same place, but only as long as the offset is none
+        ("G0 X1.", "G53 G0 X1.", "the zero point"),
         (
             "T1 M6\nG0 X1. Y1. Z1.",
             "T2 M6\nG0 X1. Y1. Z1.",
@@ -250,6 +252,25 @@ fn another_feed_is_told() {
     let certificate = proved(fanuc("G1 X1. F100.", "G1 X1. F200.", &Setup::default()));
     assert_eq!(certificate.motions.process_changed, 1);
     assert!(certificate.summary().ends_with("feed or spindle speed differ"));
+    let speed = |rpm: u32| format!("S{rpm} M3\nG1 X1. F100.");
+    let certificate = proved(fanuc(&speed(1000), &speed(1001), &Setup::default()));
+    assert_eq!(certificate.motions.process_changed, 1);
+}
+
+/// Half a degree of the table under a tilted tool is within the claim, and still another way.
+#[test]
+fn a_turn_that_is_not_whole_is_another_way() {
+    let text = "TRAORI\nG0 X0 Y0 Z50 A10 C0\nG1 X1 C6 F100\nM30\n";
+    let claim = Claim::SamePoses {
+        tolerance_mm: 1e-3,
+        tolerance_deg: 1.0,
+    };
+    let certificate = proved(prove(text, &text.replace("C6", "C6.5"), &claim));
+    let (end, way) = (
+        certificate.worst.axis_change_deg.value,
+        certificate.worst.path_axis_bound_deg.value,
+    );
+    assert!(end > 0.08 && way >= end && way < 1.0, "{end} {way}");
 }
 
 /// At the pole half a turn of the table is the same pose, but not a whole turn.

@@ -115,13 +115,7 @@ mod tests {
                 let dialect = trunnion_dialect::builtin("sinumerik-840d").unwrap();
                 let report = crate::check(
                     &trunnion_syntax::parse(text.into_bytes(), dialect.lex),
-                    &crate::Settings {
-                        dialect,
-                        machine: Some(&machine),
-                        setup: trunnion_interp::Setup::default(),
-                        rules: Vec::new(),
-                        port_to: Vec::new(),
-                    },
+                    &crate::Settings::new(dialect, Some(&machine), trunnion_interp::Setup::default()),
                 );
                 let found: Vec<_> = report.diagnostics.iter().filter(|d| d.rule == "angle-wrap").collect();
                 if f64::abs(turn) > 180.0 {

@@ -129,13 +129,7 @@ mod tests {
         });
         let report = crate::check(
             &trunnion_syntax::parse(text.into(), dialect.lex),
-            &crate::Settings {
-                dialect,
-                machine: trunnion_machine::builtin("mikron-ucp710"),
-                setup,
-                rules: Vec::new(),
-                port_to: Vec::new(),
-            },
+            &crate::Settings::new(dialect, trunnion_machine::builtin("mikron-ucp710"), setup),
         );
         let found: Vec<_> = report
             .diagnostics

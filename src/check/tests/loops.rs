@@ -21,16 +21,14 @@ impl Files for One {
 
 fn settings() -> Settings<'static> {
     let sub = One("7", "G1 X5000. F500.\nX0.\nM99\n");
-    Settings {
-        dialect: trunnion_dialect::builtin("fanuc-30i").expect("built in"),
-        machine: trunnion_machine::builtin("mill-3axis"),
-        setup: Setup {
+    Settings::new(
+        trunnion_dialect::builtin("fanuc-30i").expect("built in"),
+        trunnion_machine::builtin("mill-3axis"),
+        Setup {
             library: Library(Some(Arc::new(sub))),
             ..Setup::default()
         },
-        rules: Vec::new(),
-        port_to: Vec::new(),
-    }
+    )
 }
 
 fn program(text: &str) -> Program {

@@ -4,12 +4,11 @@ use super::{Posture, WindingChoice};
 use crate::cli::failure::Failure;
 use core::f64::consts::TAU;
 use trunnion_geometry::{Vec3, deg};
-use trunnion_interp::{ChainId, Feed, Motion, MotionKind, Orientation, Position};
+use trunnion_interp::{Feed, Motion, Orientation, Position};
 use trunnion_machine::{
     Follower, Joints, Limits, MAX_AXES, Machine, NoStance, Orientations, Solution, inverse, orientations,
 };
 use trunnion_pieces::{Move, Piece};
-use trunnion_syntax::BlockId;
 
 /// Where the machine stands.
 #[derive(Clone, Copy, Debug)]
@@ -46,22 +45,12 @@ fn as_the_control(piece: &Piece, machine: &Machine) -> Result<Vec<Place>, Failur
         let mut end = start;
         (0..3).for_each(|axis| end.set(axis, step.tip[axis]));
         let leg = follower.follow(&Motion {
-            block: BlockId(0),
-            chain: ChainId::MAIN,
-            kind: MotionKind::Linear,
-            start,
-            end,
             orientation: Orientation::Vector(None, step.axis),
             tcp: true,
-            great_circle: None,
             feed: Feed::PerMinute(piece.feed_mm_min),
             spindle_on: Some(true),
-            spindle_rpm: None,
-            zero: [0.0; 9],
             tool_length_mm: TOOL_LENGTH,
-            machine_coordinates: false,
-            tool: None,
-            tilt: trunnion_interp::Tilt::default(),
+            ..Motion::line(start, end)
         });
         start = end;
         let stance = leg.end.map_err(|why| refusal(index, step, &words(&why)))?;

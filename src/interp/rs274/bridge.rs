@@ -43,8 +43,6 @@ pub(super) struct Told {
     pub(super) lost_rotary: bool,
     /// A tilted plane that is not modelled is in force: X Y Z say nothing about the machine.
     pub(super) hidden: bool,
-    /// The line in hand was one motion and nothing else: what is in force behind it was taken over with the motion.
-    pub(super) settled: bool,
     /// While lines are motions and nothing else, which no offset can change: the offsets, and the last of them.
     pub(super) steady: Option<Box<Steady>>,
     /// The kinematics were switched, nobody knows to which: X Y Z say nothing about the machine.
@@ -135,7 +133,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         feed: Feed,
         at: At,
         state: &State,
-    ) {
+    ) -> Motion {
         let block = self.block(at);
         let start = shift.programmed(&self.told.machine);
         let [mut end, mut machine] = ends;
@@ -182,9 +180,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             tilt: crate::Tilt::default(),
         };
         self.sink.motion(&motion, &self.interpreter.state);
-        // what comes next is told by what differs, unless an offset is not known
-        let steady = self.told.settled && machine.known == end.known;
-        self.told.steady = steady.then(|| Box::new(Steady::new(shift, &motion)));
+        motion
     }
 
     /// Where an arc ends, and the arc as far as its start is known.
@@ -238,13 +234,13 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
     fn call(&mut self, call: &Canon, at: At, state: &State) {
         let straight = matches!(call, Canon::Traverse(_) | Canon::Feed(_));
         let told = &mut *self.told;
-        told.settled = straight && state.motion_only && !told.is_hidden();
-        if !(told.settled || matches!(call, Canon::FeedRate(_))) {
+        let only = straight && state.motion_only && !told.is_hidden();
+        if !(only || matches!(call, Canon::FeedRate(_))) {
             told.steady = None;
         }
         match call {
-            Canon::Traverse(pose) => self.line(MotionKind::Rapid, pose, at, state),
-            Canon::Feed(pose) => self.line(MotionKind::Linear, pose, at, state),
+            Canon::Traverse(pose) => self.line(MotionKind::Rapid, pose, only, at, state),
+            Canon::Feed(pose) => self.line(MotionKind::Linear, pose, only, at, state),
             &Canon::Arc {
                 end,
                 centre,

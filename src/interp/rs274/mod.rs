@@ -125,7 +125,9 @@ impl Interpreter<'_> {
             program,
             sink,
         };
-        bridge.told.settled = false;
+        if let Some(steady) = &mut bridge.told.steady {
+            steady.settled = false;
+        }
         bridge.interpreter.state.clamps.begin_block();
         let step = engine.step(&mut bridge);
         let at = engine.at();
@@ -174,7 +176,8 @@ impl Interpreter<'_> {
         }
         self.memory.last_content = Some(block);
         let lost = [std::mem::take(&mut told.lost), std::mem::take(&mut told.lost_rotary)];
-        if ran && told.settled && lost == [false; 2] {
+        let settled = told.steady.as_ref().is_some_and(|steady| steady.settled);
+        if ran && settled && lost == [false; 2] {
             return Some(block);
         }
         told.steady = None;

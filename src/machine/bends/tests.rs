@@ -1,5 +1,5 @@
 //! The terms of the bounds, one by one.
-use super::{Carried, Course, Machine, MotionKind, Turn};
+use super::{Carried, Course, Machine, Turn};
 use core::fmt::Write;
 use trunnion_geometry::{Mat3, Vec3};
 
@@ -57,22 +57,10 @@ fn bends(machine: &Machine, tool_length: f64, ends: [&[(u8, f64)]; 2]) -> (Vec3,
         position
     });
     let led = |start, end| trunnion_interp::Motion {
-        block: trunnion_syntax::BlockId(0),
-        chain: trunnion_interp::ChainId::MAIN,
-        kind: MotionKind::Linear,
-        start,
-        end,
-        orientation: trunnion_interp::Orientation::Words,
         tcp: true,
-        great_circle: None,
         feed: trunnion_interp::Feed::PerMinute(1.0),
-        spindle_on: None,
-        spindle_rpm: None,
-        zero: [0.0; 9],
         tool_length_mm: tool_length,
-        machine_coordinates: false,
-        tool: None,
-        tilt: trunnion_interp::Tilt::default(),
+        ..trunnion_interp::Motion::line(start, end)
     };
     let mut follower = crate::Follower::new(machine);
     follower.follow(&led(trunnion_interp::Position::default(), start));

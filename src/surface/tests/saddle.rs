@@ -1,7 +1,7 @@
 //! The saddle of kinematics notes A7 on a table-table machine without tool centre point control: the error of its trajectory surface.
 use core::f64::consts::TAU;
 use trunnion_geometry::{Vec3, deg};
-use trunnion_interp::{ChainId, Feed, Motion, MotionKind, Orientation, Position};
+use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_machine::{Follower, Leg, MAX_AXES, Machine, Orientations, Way, builtin, inverse, orientations};
 use trunnion_pieces::{Piece, SWall, s_wall, saddle, saddle_net};
 use trunnion_surface::{Errors, Judge, Options, Required, Sheet, required};
@@ -38,25 +38,14 @@ fn legs(machine: &Machine, piece: &Piece, naive: bool) -> Vec<Leg> {
         end.set(5, deg(c));
         legs.push(follower.follow(&Motion {
             block: BlockId(index as u32),
-            chain: ChainId::MAIN,
             kind: if index == 0 {
                 MotionKind::Rapid
             } else {
                 MotionKind::Linear
             },
-            start,
-            end,
-            orientation: Orientation::Words,
-            tcp: false,
-            great_circle: None,
             feed: Feed::PerMinute(500.0),
             spindle_on: Some(true),
-            spindle_rpm: None,
-            zero: [0.0; 9],
-            tool_length_mm: 0.0,
-            machine_coordinates: false,
-            tool: None,
-            tilt: trunnion_interp::Tilt::default(),
+            ..Motion::line(start, end)
         }));
         start = end;
     }
@@ -190,25 +179,16 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
             (0..3).for_each(|axis| end.set(axis, step.tip[axis]));
             let leg = follower.follow(&Motion {
                 block: BlockId(index as u32),
-                chain: ChainId::MAIN,
                 kind: if index == 0 || index + 1 == count {
                     MotionKind::Rapid
                 } else {
                     MotionKind::Linear
                 },
-                start,
-                end,
                 orientation: Orientation::Vector(None, step.axis),
                 tcp: true,
-                great_circle: None,
                 feed: Feed::PerMinute(500.0),
                 spindle_on: Some(true),
-                spindle_rpm: None,
-                zero: [0.0; 9],
-                tool_length_mm: 0.0,
-                machine_coordinates: false,
-                tool: None,
-                tilt: trunnion_interp::Tilt::default(),
+                ..Motion::line(start, end)
             });
             start = end;
             judge.leg(&leg);

@@ -115,13 +115,7 @@ fn written(
 fn findings(text: &str, dialect: &str, machine: &Machine) -> Vec<String> {
     let dialect = trunnion_dialect::builtin(dialect).expect("built in");
     let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
-    let settings = Settings {
-        dialect,
-        machine: Some(machine),
-        setup: setup_of(machine),
-        rules: Vec::new(),
-        port_to: Vec::new(),
-    };
+    let settings = Settings::new(dialect, Some(machine), setup_of(machine));
     let found = check(&program, &settings).diagnostics.into_iter();
     let ours = found.filter(|found| ["clamped-axis-moves", "unknown-code", "rejected-block"].contains(&found.rule));
     ours.map(|found| found.message).collect()

@@ -1,27 +1,13 @@
 //! Motions built by hand for tests.
 use trunnion_geometry::Vec3;
-use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Position};
-use trunnion_syntax::BlockId;
+use trunnion_interp::{Feed, Motion, Orientation, Position};
 
 /// A linear feed motion with nothing known.
 pub(crate) fn motion() -> Motion {
     Motion {
-        block: BlockId(0),
-        chain: trunnion_interp::ChainId::MAIN,
-        kind: MotionKind::Linear,
-        start: Position::default(),
-        end: Position::default(),
-        orientation: Orientation::Words,
-        tcp: false,
-        great_circle: None,
         feed: Feed::PerMinute(2000.0),
         spindle_on: Some(true),
-        spindle_rpm: None,
-        zero: [0.0; 9],
-        tool_length_mm: 0.0,
-        machine_coordinates: false,
-        tool: None,
-        tilt: trunnion_interp::Tilt::default(),
+        ..Motion::line(Position::default(), Position::default())
     }
 }
 

@@ -1,8 +1,8 @@
 //! Length of the linear joints' path, and how far an axis runs beyond its ends.
-use crate::common::{motion, position};
+use crate::common::{motion, position, words};
 use trunnion_geometry::math::sin;
-use trunnion_geometry::rad;
-use trunnion_interp::{Motion, Position};
+use trunnion_geometry::{Vec3, rad};
+use trunnion_interp::{Motion, MotionKind, Position};
 use trunnion_machine::{Follower, Leg, Machine, builtin, excursions, linear_travel};
 
 fn leg(tcp: bool, from: &[(u8, f64)], to: &[(u8, f64)]) -> (&'static Machine, Leg) {
@@ -111,4 +111,37 @@ fn enough_settles_it_early_and_without_tcp_the_way_is_straight() {
     let (machine, straight) = leg(false, &from, &to);
     let found = linear_travel(machine, &straight, 0.0).expect("known");
     assert_eq!((found.least_mm, found.most_mm), (50.0, 50.0));
+}
+
+/// A quarter of a circle under tool centre point control, in four pieces: root(chord^2 + Q^2 h^4 / 12) each, where each of three axes may
+/// bend by r sweep^2.
+#[test]
+fn an_arc_in_four_pieces_is_as_long_as_the_formula_says() {
+    let machine = builtin("mikron-ucp710").expect("built in");
+    let at = |x: f64, y: f64| position(&[(b'X', x), (b'Y', y), (b'Z', 50.0), (b'A', 0.0), (b'C', 0.0)]);
+    let (radius, sweep) = (10.0, std::f64::consts::FRAC_PI_2);
+    let arc = trunnion_geometry::arc::Arc {
+        start: Vec3::new(radius, 0.0, 50.0),
+        end: Vec3::new(0.0, radius, 50.0),
+        centre: Vec3::new(0.0, 0.0, 50.0),
+        normal: Vec3::z(),
+        sweep,
+        radius_start: radius,
+        radius_end: radius,
+    };
+    let led = |motion: Motion| Motion { tcp: true, ..motion };
+    let first = led(words(Position::default(), at(radius, 0.0)));
+    let second = Motion {
+        kind: MotionKind::Arc(Some(arc)),
+        ..led(words(at(radius, 0.0), at(0.0, radius)))
+    };
+    let mut follower = Follower::new(machine);
+    follower.follow(&first);
+    let leg = follower.follow(&second);
+    let found = linear_travel(machine, &leg, 1e9).expect("known");
+    let chord = 2.0 * radius * sin(sweep / 8.0);
+    let bend = 3f64.sqrt() * radius * sweep * sweep / 16.0;
+    let most = 4.0 * (chord * chord + bend * bend / 12.0).sqrt();
+    assert!((found.least_mm - 4.0 * chord).abs() < 1e-9, "{found:?}");
+    assert!((found.most_mm - most).abs() < 1e-9, "{found:?}, not {most}");
 }

@@ -15,6 +15,56 @@ pub(crate) struct Ours {
     pub(crate) exact: Answer,
 }
 
+impl Ours {
+    /// Without cuts that lead nowhere.
+    fn moving(&self) -> Self {
+        let gone = standstills(&self.answer);
+        Self {
+            answer: self.answer.without(&gone),
+            exact: self.exact.without(&gone),
+        }
+    }
+}
+
+impl Answer {
+    /// Without these calls, and without the numbers of all.
+    fn without(&self, gone: &[usize]) -> Self {
+        let stays = |(at, _): &(usize, &String)| gone.binary_search(at).is_err();
+        let bare = |(_, line): (usize, &String)| match line.split_once(" N") {
+            Some((number, rest)) if number.trim().bytes().all(|sign| sign.is_ascii_digit()) => rest.to_owned(),
+            _ => line.clone(),
+        };
+        Self {
+            calls: self.calls.iter().enumerate().filter(stays).map(bare).collect(),
+            ..self.clone()
+        }
+    }
+}
+
+/// Which calls are straight cuts to where the move before them has led, in the ZX plane of turning cycles.
+fn standstills(answer: &Answer) -> Vec<usize> {
+    // Z and X of the end; arcs begin with them, in this order
+    let end = |line: &str| {
+        let (name, numbers) = line.split_once('(')?;
+        let numbers: Vec<&str> = numbers.split(", ").collect();
+        let [first, second] = if name.ends_with("ARC_FEED") {
+            [0, 1]
+        } else if name.ends_with("STRAIGHT_FEED") || name.ends_with("STRAIGHT_TRAVERSE") {
+            [2, 0]
+        } else {
+            return None;
+        };
+        Some([(*numbers.get(first)?).to_owned(), (*numbers.get(second)?).to_owned()])
+    };
+    let pairs = answer.calls.windows(2).zip(1..);
+    pairs
+        .filter(|(pair, _)| {
+            pair[1].contains("STRAIGHT_FEED(") && end(&pair[0]).is_some() && end(&pair[0]) == end(&pair[1])
+        })
+        .map(|(_, at)| at)
+        .collect()
+}
+
 impl core::ops::Deref for Ours {
     type Target = Answer;
     fn deref(&self) -> &Answer {
@@ -62,6 +112,17 @@ pub(crate) const EXPLAINED: &[Explanation] = &[
         },
     },
     Explanation {
+        why: "a cut of no length in a turning cycle: whether the control tells it hangs on its rounding, and it leads nowhere",
+        holds: |control, ours| {
+            control.good && ours.good && {
+                let (ours, control) = (ours.moving(), control.without(&standstills(control)));
+                same_but(&control, &ours, |a, b, exact| {
+                    is_zero(a) && is_zero(b) || is_tie(a, b, exact)
+                })
+            }
+        },
+    },
+    Explanation {
         why: "a program without anything in it: the control does not begin to run it, so it does not reset the machine either",
         holds: |control, ours| {
             let first = |answer: &Answer| answer.error.lines().next().map(str::to_owned);
@@ -101,6 +162,7 @@ pub(crate) const EXPLAINED: &[Explanation] = &[
 
 /// Messages of what this interpreter does not model.
 const REFUSED: [&str; 13] = [
+    "rounded or chamfered corner of a turning contour beside an arc, or that takes half of a line across the cut: how the control takes it is not known",
     "pockets of a turning contour with several arcs: where the control cuts them is not known",
     "M61 or G10 L0 with cutter radius compensation on: where the control goes on from is not known",
     "a spline (G5, G5.1) before the end of another one (G5.2): the control mixes their control points",
@@ -111,7 +173,6 @@ const REFUSED: [&str; 13] = [
     "corner of a turning contour that is nearly straight, with an allowance: how the control rounds it is not known",
     "corner between two arcs of a turning contour, with an allowance: how the control cuts it is not known",
     "corner of a turning contour whose radius or chamfer goes less than 0.01 mm or inch, as programmed, along the cut: how the control takes it is not known",
-    "outer corner of a turning contour that has A or C elsewhere, with an allowance: how the control goes around it is not known",
     "G70 with cutter compensation: the way of the tool is not known",
     "arc of a turning contour with its deepest point inside, or with unequal radii: how the control cuts there is not known",
 ];

@@ -10,15 +10,20 @@ impl Program {
         let (mut x, mut z) = (self.random.between(2.0, 8.0), self.random.between(-1.0, 2.0));
         self.line(&format!("G0 X{} Z{}", number(x), number(z)));
         for _ in 0..2 + self.random.below(4) {
-            let (dx, dz) = (self.random.between(0.0, 6.0), self.random.between(-9.0, -0.5));
+            // details finer than the allowance are a world of their own
+            let scale = if self.random.one_in(4) { 0.1 } else { 1.0 };
+            let (dx, dz) = (
+                self.random.between(0.0, 6.0) * scale,
+                self.random.between(-9.0, -0.5) * scale,
+            );
             let dx = if self.random.one_in(5) { -dx / 2.0 } else { dx };
             x += dx;
             z += dz;
             let (x, z) = (number(x), number(z));
             let corner = match self.random.below(9) {
-                0 => " A0.4",
-                1 => " C0.3",
-                _ => "",
+                0 => format!(" A{}", number(self.random.between(0.1, 1.2))),
+                1 => format!(" C{}", number(self.random.between(0.1, 1.2))),
+                _ => String::new(),
             };
             let text = match self.random.below(9) {
                 0 => format!("G1 U{} W{}{corner}", number(dx), number(dz)),
@@ -44,7 +49,11 @@ impl Program {
                 }
             }
         } else {
-            for (word, n) in [(" D0.3", 3), (" I{p}", 2), (" R{p}", 2)] {
+            if self.random.one_in(3) {
+                text.push_str(" D");
+                text.push_str(&number(self.random.between(0.05, 0.8)));
+            }
+            for (word, n) in [(" I{p}", 2), (" R{p}", 2)] {
                 if self.random.one_in(n) {
                     text.push_str(&self.fill(word));
                 }

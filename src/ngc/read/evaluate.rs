@@ -284,7 +284,9 @@ fn m_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) 
     if code < 0 {
         return Err(Error::new(&problems::NEGATIVE_M, range));
     }
-    if m_group(code).is_none() && own(b'M', code as u32 * 10, range, values, block) {
+    // a number of which ten times is no number any more is no code of any machine
+    let tenths = code.unsigned_abs().checked_mul(10);
+    if m_group(code).is_none() && tenths.is_some_and(|tenths| own(b'M', tenths, range, values, block)) {
         return Ok(());
     }
     if code > 199 {

@@ -129,6 +129,8 @@ impl Contour {
         }
         let mut done: Vec<Segment> = Vec::with_capacity(self.pieces.len());
         let mut before = Corner::Sharp;
+        // pieces behind a rounding, and how much of them it takes
+        let mut rounded = Vec::new();
         for (piece, corner) in self.pieces {
             let mut piece = piece;
             if let Some(last) = done.pop() {
@@ -136,6 +138,13 @@ impl Contour {
                     Ok(Some((start, middle, end))) => {
                         if travels.iter().any(|&place| is_fine(&middle, place)) {
                             return Err(Error::new(&problems::FINE, range));
+                        }
+                        // beside arcs the control was seen to take some for a step back that is none
+                        if last.is_arc() || piece.is_arc() {
+                            return Err(Error::new(&problems::DOUBTFUL, range));
+                        }
+                        if middle.is_arc() {
+                            rounded.push((done.len() + 2, distance(piece.from, end)));
                         }
                         done.push(last.with_ends(last.from, start));
                         done.push(middle);
@@ -147,6 +156,18 @@ impl Contour {
             }
             done.push(piece);
             before = corner;
+        }
+        let doubtful = rounded.iter().any(|&(at, taken)| {
+            done.get(at)
+                .is_some_and(|piece| leaves_little_across(piece, taken, travels))
+        });
+        if doubtful {
+            return Err(Error::new(&problems::DOUBTFUL, range));
+        }
+        // either coordinate may be the travel: which one the control takes hangs on arcs that lead there and back
+        let back = |piece: &Segment| travels.iter().any(|&place| piece.turns_back(place));
+        if travels.len() > 1 && done.iter().any(back) {
+            return Err(Error::new(&problems::ARC, range));
         }
         Ok(done)
     }
@@ -176,6 +197,12 @@ const FINE: f64 = 0.01;
 /// Whether the piece of a corner goes so little along a coordinate that the control does not take it as it is.
 pub(super) fn is_fine(piece: &Segment, place: usize) -> bool {
     (piece.to[place] - piece.from[place]).abs() < FINE * (1.0 + 1e-6)
+}
+
+/// Whether a line across the cut keeps no more than the rounding before it takes: the control was seen to take it for a step back.
+fn leaves_little_across(piece: &Segment, taken: f64, travels: &[usize]) -> bool {
+    let across = |&place: &usize| (piece.to[place] - piece.from[place]).abs() < 1e-9;
+    !piece.is_arc() && travels.iter().any(across) && distance(piece.from, piece.to) < taken * (1.0 + 1e-6) + 1e-6
 }
 
 type Fillet = (Point, Segment, Point);

@@ -248,13 +248,12 @@ fn clipped(start: Point, contour: &[Segment], place: usize, sign: f64) -> Point 
 }
 
 /// The contour at a distance on the side of the start. `place`: the coordinate along which it goes, 0 is Z, 1 is X; it decides where the
-/// start lies on neither side. `corners`: it has rounded or chamfered ones.
+/// start lies on neither side. `corners`: some are rounded or cut off.
 fn with_allowance(
     start: Point,
     contour: &[Segment],
     allowance: f64,
-    place: usize,
-    corners: bool,
+    (place, corners): (usize, bool),
 ) -> Result<Vec<Segment>, Stopped> {
     let (Some(first), Some(last)) = (contour.first(), contour.last()) else {
         return Ok(Vec::new());
@@ -301,7 +300,7 @@ fn finishing(
             return Err((&problems::MANY).into());
         }
         let allowance = words.e + (words.d - words.e) * left / words.p;
-        let pass = with_allowance(start, contour, allowance, place, corners)?;
+        let pass = with_allowance(start, contour, allowance, (place, corners))?;
         out.rapid(start).map_err(Stopped::Refused)?;
         if let Some(first) = pass.first() {
             out.rapid(first.from).map_err(Stopped::Refused)?;
@@ -341,7 +340,7 @@ fn roughing(
         signs: [-sign, if deeper { -1.0 } else { 1.0 }],
     };
     let start = clipped(start, contour, place, sign);
-    let contour = with_allowance(start, contour, words.d, place, corners)?;
+    let contour = with_allowance(start, contour, words.d, (place, corners))?;
     out.rapid(start).map_err(Stopped::Refused)?;
     let turned: Vec<Segment> = contour.iter().map(|piece| frame.piece_to(piece)).collect();
     let rough = Rough {

@@ -11,47 +11,94 @@ pub(super) struct Allowance {
     pub(super) left: f64,
     /// The coordinate along which the cycle cuts: 0 is Z, 1 is X.
     pub(super) place: usize,
-    /// The contour has rounded or chamfered corners.
+    /// Some of its ends come from a corner that is rounded or cut off.
     pub(super) corners: bool,
 }
 
-/// The contour with an allowance.
+/// Most steps: small pieces grow, or vanish soon.
+const STEPS: usize = 10_000;
+
+/// The contour with an allowance. The control moves it in steps of at most half its smallest piece: which corners are rounded, and by how
+/// much, tells them (observed from `rs274`).
 pub(super) fn offset(contour: &[Segment], allowance: Allowance) -> Result<Vec<Segment>, &'static Problem> {
-    let distance_left = allowance.left;
-    if distance_left == 0.0 {
-        return Ok(contour.to_vec());
-    }
-    let mut done: Vec<Segment> = Vec::with_capacity(contour.len());
+    let mut contour = contour.to_vec();
+    let mut left = allowance.left.abs();
     let mut dropped = false;
-    for (index, piece) in contour.iter().enumerate() {
-        let Some(moved) = piece.shifted(distance_left) else {
-            dropped = true;
-            continue;
-        };
-        if let Some(before) = index.checked_sub(1).map(|at| &contour[at])
-            && !dropped
-            && !done.is_empty()
-        {
-            corner(&mut done, before, piece, moved, allowance, &mut dropped)?;
-        } else if done.is_empty() {
-            if dropped {
-                return Err(&problems::SWALLOWED);
-            }
-            done.push(moved);
-        } else {
-            // an outer corner behind a piece that vanishes: the control was seen to cut the rounding there, and to leave it out
-            let before = index.checked_sub(1).map(|at| &contour[at]);
-            if before.is_some_and(|before| is_outer(turn_between(before, piece), distance_left)) {
-                return Err(&problems::SWALLOWED);
-            }
-            dropped = !inner(&mut done, moved)?;
-        }
-    }
-    let short = done.iter().any(|piece| distance(piece.from, piece.to) < 2.0 * NEAR);
-    if dropped || short {
+    // an arc with corners at its ends that is finer than the allowance: which steps the control takes is not known
+    let joints = |at: usize| {
+        contour
+            .get(at.wrapping_sub(1)..at.saturating_add(2))
+            .unwrap_or(&contour)
+    };
+    let cornered = |at: usize| {
+        joints(at)
+            .windows(2)
+            .any(|pair| turn_between(&pair[0], &pair[1]).abs() > 1e-6)
+    };
+    let fine = |at: usize| contour[at].is_arc() && contour[at].size() < 2.0 * left && cornered(at);
+    if (0..contour.len()).any(fine) {
         return Err(&problems::SWALLOWED);
     }
-    Ok(done)
+    for _ in 0..STEPS {
+        if left <= 0.0 {
+            break;
+        }
+        let smallest = contour.iter().map(Segment::size).fold(f64::INFINITY, f64::min);
+        let step = left.min(smallest / 2.0);
+        left -= step;
+        let step = step.copysign(allowance.left);
+        (contour, dropped) = moved(
+            &contour,
+            Allowance {
+                left: step,
+                ..allowance
+            },
+        )?;
+    }
+    // of arcs that are about to vanish the control refuses some
+    let tiny = |piece: &Segment| piece.is_arc() && piece.size() < 2.0 * NEAR;
+    if left > 0.0 || dropped || (allowance.left != 0.0 && contour.iter().any(tiny)) {
+        return Err(&problems::SWALLOWED);
+    }
+    Ok(contour)
+}
+
+/// The contour moved sideways in one step, corner by corner. A piece that is too small once its start is where it belongs is left out.
+fn moved(contour: &[Segment], allowance: Allowance) -> Result<(Vec<Segment>, bool), &'static Problem> {
+    let mut done: Vec<Segment> = Vec::with_capacity(contour.len() + 4);
+    let (mut gone, mut dropped) = (false, false);
+    for piece in contour {
+        gone = match piece.shifted(allowance.left) {
+            Some(moved) => {
+                corner(&mut done, moved, piece.from, allowance)?;
+                let left_out = done.len() > 1 && done.last().is_some_and(|piece| is_tiny(piece, allowance.place));
+                // of a line the control was seen to keep something of the order of its length
+                if left_out && done.pop().is_some_and(|piece| !piece.is_arc()) {
+                    return Err(&problems::SWALLOWED);
+                }
+                left_out
+            }
+            None if done.is_empty() => return Err(&problems::SWALLOWED),
+            None => true,
+        };
+        dropped |= gone;
+    }
+    if gone {
+        Err(&problems::SWALLOWED)
+    } else {
+        Ok((done, dropped))
+    }
+}
+
+/// Whether the control leaves a piece out: by its length, arcs by how far they lead along the cut (observed by bisection, arcs at slopes of
+/// 7 to 83 degrees).
+fn is_tiny(piece: &Segment, place: usize) -> bool {
+    let way = if piece.is_arc() {
+        (piece.to[place] - piece.from[place]).abs()
+    } else {
+        distance(piece.from, piece.to)
+    };
+    way < NEAR
 }
 
 /// Sine of the angle by which the way turns between two pieces; positive: to the left.
@@ -64,114 +111,71 @@ fn is_outer(turn: f64, distance_left: f64) -> bool {
     turn.abs() >= 1e-6 && (turn > 0.0) != (distance_left > 0.0)
 }
 
-/// Joins a piece to the one before it.
-fn corner(
-    done: &mut Vec<Segment>,
-    before: &Segment,
-    piece: &Segment,
-    moved: Segment,
-    allowance: Allowance,
-    dropped: &mut bool,
-) -> Result<(), &'static Problem> {
-    let distance_left = allowance.left;
-    let turn = turn_between(before, piece);
-    if turn.abs() < 1e-6 {
-        if before.round.is_none() && piece.round.is_none() {
-            let way = piece.direction(piece.from);
-            let along_an_axis = way[0] == 0.0 || way[1] == 0.0;
-            // slanted lines are parallel or not by the control's rounding
-            return Err(if along_an_axis {
-                &problems::PARALLEL
-            } else {
-                &problems::SHALLOW
-            });
-        }
+/// Joins a piece to the one before it; `at`: where its corner was before this step.
+fn corner(done: &mut Vec<Segment>, moved: Segment, at: Point, allowance: Allowance) -> Result<(), &'static Problem> {
+    let Some(last) = done.last().copied() else {
         done.push(moved);
         return Ok(());
+    };
+    let distance_left = allowance.left;
+    let turn = turn_between(&last, &moved);
+    if turn.abs() < 1e-6 && !last.is_arc() && !moved.is_arc() {
+        let way = moved.direction(moved.from);
+        let along_an_axis = !allowance.corners && (way[0] == 0.0 || way[1] == 0.0);
+        // slanted lines, and lines behind a corner, are parallel or not by the control's rounding
+        return Err(if along_an_axis {
+            &problems::PARALLEL
+        } else {
+            &problems::SHALLOW
+        });
     }
-    if !is_outer(turn, distance_left) {
-        *dropped = !inner(done, moved)?;
+    if turn.abs() < 1e-6 {
+        let middle = [0, 1].map(|place| f64::midpoint(last.to[place], moved.from[place]));
+        join(done, moved, middle);
         return Ok(());
     }
-    // with A or C in the contour the control was seen to leave out arcs of any length
-    if allowance.corners {
-        return Err(&problems::BESIDE_CORNER);
-    }
-    let Some(last) = done.last().copied() else {
-        return Err(&problems::SWALLOWED);
-    };
     let around = Segment {
         from: last.to,
         to: moved.from,
         round: Some(Round {
-            centre: piece.from,
+            centre: at,
             positive: distance_left < 0.0,
         }),
     };
     // the control leaves out short arcs
-    if is_fine(&around, allowance.place) {
-        return Err(&problems::SHALLOW);
+    if is_outer(turn, distance_left) && !is_fine(&around, allowance.place) {
+        done.push(around);
+        done.push(moved);
+        return Ok(());
     }
-    done.push(around);
-    done.push(moved);
+    // of the two points at which they may meet the control was seen to take the far one
+    if last.is_arc() && moved.is_arc() {
+        return Err(&problems::ARC_CORNER);
+    }
+    let point = meeting(&last, &moved).ok_or(&problems::SWALLOWED)?;
+    join(done, moved, point);
     Ok(())
 }
 
-/// Cuts off the last pieces where the next one meets them. `false`: the next piece vanishes.
-fn inner(done: &mut Vec<Segment>, moved: Segment) -> Result<bool, &'static Problem> {
-    while let Some(last) = done.last().copied() {
-        // of the two points at which they may meet the control was seen to take the far one
-        if last.is_arc() && moved.is_arc() {
-            return Err(&problems::ARC_CORNER);
-        }
-        match meeting(&last, &moved) {
-            Meeting::At(point) => {
-                if let Some(end) = done.last_mut() {
-                    end.to = point;
-                }
-                done.push(moved.with_ends(point, moved.to));
-                return Ok(true);
-            }
-            Meeting::BeforeLast => {
-                done.pop();
-                // the control was seen to keep an arc whole, and to run the piece behind it backward
-                if done.last().is_some_and(Segment::is_arc) {
-                    return Err(&problems::SWALLOWED);
-                }
-            }
-            Meeting::BehindNext => return Ok(false),
-            Meeting::Unclear => return Err(&problems::SWALLOWED),
-        }
+/// The last piece ends at a point, and the next one begins there.
+fn join(done: &mut Vec<Segment>, moved: Segment, point: Point) {
+    if let Some(last) = done.last_mut() {
+        last.to = point;
     }
-    Err(&problems::SWALLOWED)
+    done.push(moved.with_ends(point, moved.to));
 }
 
-enum Meeting {
-    /// In both pieces, or beyond the end of the first and the start of the second.
-    At(Point),
-    /// The first piece is cut off whole.
-    BeforeLast,
-    /// The second piece is cut off whole.
-    BehindNext,
-    Unclear,
-}
-
-fn meeting(last: &Segment, next: &Segment) -> Meeting {
-    let mut best: Option<(f64, Point, f64, f64)> = None;
+/// Where two pieces meet: inside both of them, or beyond the end of the first and the start of the second; `None` where that is not clear.
+fn meeting(last: &Segment, next: &Segment) -> Option<Point> {
+    let mut best: Option<(f64, Point, bool)> = None;
     for point in last.meets(next).into_iter().flatten() {
         let (a, b) = (last.share(point), next.share(point));
         let gap = distance(point, last.to).min(distance(point, next.from));
         let inside = a > 0.0 && b < 1.0 && a <= 1.0 + 1e-6 && b >= -1e-6;
         let rank = if inside { gap } else { 1e9 + gap };
         if best.is_none_or(|(other, ..)| rank < other) {
-            best = Some((rank, point, a, b));
+            best = Some((rank, point, a > 0.0 && b < 1.0));
         }
     }
-    match best {
-        None => Meeting::Unclear,
-        Some((_, _, a, b)) if a <= 0.0 && b >= 1.0 => Meeting::Unclear,
-        Some((_, _, a, _)) if a <= 0.0 => Meeting::BeforeLast,
-        Some((_, _, _, b)) if b >= 1.0 => Meeting::BehindNext,
-        Some((_, point, ..)) => Meeting::At(point),
-    }
+    best.and_then(|(_, point, clear)| clear.then_some(point))
 }

@@ -132,8 +132,9 @@ pub(super) fn run(
     walk.go(start)
 }
 
+/// What an allowance made level up to rounding is level.
 fn falls(piece: &Segment) -> bool {
-    piece.to[1] < piece.from[1]
+    piece.to[1] < piece.from[1] - 1e-9
 }
 
 impl Walk<'_> {

@@ -49,6 +49,11 @@ impl Segment {
     pub(super) fn radius(&self) -> f64 {
         self.round.map_or(0.0, |round| distance(self.from, round.centre))
     }
+    /// How small it is: its chord, or the radius where that is less.
+    pub(super) fn size(&self) -> f64 {
+        let chord = distance(self.from, self.to);
+        self.round.map_or(chord, |_| chord.min(self.radius()))
+    }
     /// Direction of travel at a point of it, length 1.
     pub(super) fn direction(&self, at: Point) -> Point {
         match self.round {
@@ -126,6 +131,11 @@ impl Segment {
             (Some(round), None) => line_circle(other, round.centre, self.radius()),
             (Some(one), Some(two)) => circles(one.centre, self.radius(), two.centre, other.radius()),
         }
+    }
+    /// Whether it is an arc that goes there and back along a coordinate, to where it began.
+    pub(super) fn turns_back(&self, place: usize) -> bool {
+        let back = (self.to[place] - self.from[place]).abs() < NEAR;
+        back && self.is_arc() && self.direction(self.from)[place] * self.direction(self.to)[place] < 0.0
     }
     /// Whether it is an arc.
     pub(super) fn is_arc(&self) -> bool {

@@ -161,7 +161,8 @@ pub(crate) const EXPLAINED: &[Explanation] = &[
 ];
 
 /// Messages of what this interpreter does not model.
-const REFUSED: [&str; 13] = [
+const REFUSED: [&str; 14] = [
+    "turning contour that goes back by a trace along the cut: whether the control takes it is not known",
     "rounded or chamfered corner of a turning contour beside an arc, or that takes half of a line across the cut: how the control takes it is not known",
     "pockets of a turning contour with several arcs: where the control cuts them is not known",
     "M61 or G10 L0 with cutter radius compensation on: where the control goes on from is not known",

@@ -68,11 +68,12 @@ impl Contour {
         let incremental = state.distance == DistanceMode::Incremental;
         let mut to = self.at;
         let axes = [
-            (b'Z', b'W', &problems::BOTH_Z, 1.0),
-            (b'X', b'U', &problems::BOTH_X, radius),
+            (b'Z', b'W', [&problems::BOTH_Z, &problems::STEPS_W], 1.0),
+            (b'X', b'U', [&problems::BOTH_X, &problems::STEPS_U], radius),
         ];
-        for (place, (letter, step, both, scale)) in axes.into_iter().enumerate().rev() {
+        for (place, (letter, step, [both, steps], scale)) in axes.into_iter().enumerate().rev() {
             match (block.word(letter), block.word(step)) {
+                (_, Some(_)) if incremental => return Err(Error::new(steps, block.range_of(step))),
                 (Some(_), Some(_)) => return Err(Error::new(both, block.range_of(step))),
                 (Some(value), None) if incremental => to[place] += value * scale,
                 (Some(value), None) => to[place] = value * scale,

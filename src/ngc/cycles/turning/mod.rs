@@ -12,7 +12,7 @@ use super::Work;
 use crate::{At, Block, DistanceMode, Engine, Error, Plane, Pose, Problem, Side, Sink, State, exec};
 use contour::Contour;
 use rough::{Frame, Move, Pockets, Rough, Stopped};
-use segment::{Point, Segment, cross};
+use segment::{NEAR, Point, Segment, cross};
 use trunnion_syntax::TextRange;
 
 /// A turning cycle from its block to the end of its contour.
@@ -217,8 +217,18 @@ impl Turning {
     }
 }
 
-/// Whether a contour never turns back along a coordinate: 0 is Z, 1 is X.
-fn monotonic(contour: &[Segment], place: usize) -> Option<f64> {
+/// Whether a contour never turns back along a coordinate: 0 is Z, 1 is X; its sense then. Where it does so by a little, the control was seen
+/// to accept it.
+fn monotonic(contour: &[Segment], place: usize) -> Result<Option<f64>, &'static Problem> {
+    let exactly = goes_on(contour, place, [1e-9, 1e-6]);
+    if exactly.is_none() && goes_on(contour, place, [2.0 * NEAR, 0.05]).is_some() {
+        return Err(&problems::BACK);
+    }
+    Ok(exactly)
+}
+
+/// The same with so much allowed: a step back (program units), and the part of an arc's direction that leads back.
+fn goes_on(contour: &[Segment], place: usize, [step_back, lean]: [f64; 2]) -> Option<f64> {
     let (first, last) = (contour.first()?, contour.last()?);
     let sign = if last.to[place] > first.from[place] { 1.0 } else { -1.0 };
     let goes_on = |piece: &Segment| {
@@ -230,7 +240,7 @@ fn monotonic(contour: &[Segment], place: usize) -> Option<f64> {
                 0.0
             }
         });
-        step >= -1e-9 && ends[0] > -1e-6 && ends[1] > -1e-6
+        step >= -step_back && ends[0] > -lean && ends[1] > -lean
     };
     contour.iter().all(goes_on).then_some(sign)
 }
@@ -286,7 +296,10 @@ fn finishing(
     corners: bool,
     words: &Words,
 ) -> Result<(), Stopped> {
-    let along = (0..2).find_map(|place| monotonic(contour, place).map(|sign| (place, sign)));
+    let along = match monotonic(contour, 0)? {
+        Some(sign) => Some((0, sign)),
+        None => monotonic(contour, 1)?.map(|sign| (1, sign)),
+    };
     let Some((place, sign)) = along else {
         return Err((&problems::MONOTONIC).into());
     };
@@ -323,7 +336,7 @@ fn roughing(
 ) -> Result<(), Stopped> {
     let swapped = code >= 720;
     let place = usize::from(swapped);
-    let Some(sign) = monotonic(contour, place) else {
+    let Some(sign) = monotonic(contour, place)? else {
         return Err((&problems::MONOTONIC).into());
     };
     if words.i <= 0.0 {

@@ -43,18 +43,22 @@ impl Answer {
 
 /// Which calls are straight cuts to where the move before them has led, in the ZX plane of turning cycles.
 fn standstills(answer: &Answer) -> Vec<usize> {
-    // Z and X of the end; arcs begin with them, in this order
+    // Z, X, Y, A, B, C of the end: in this order arcs of the ZX plane tell it, too, around their centre and sense
     let end = |line: &str| {
         let (name, numbers) = line.split_once('(')?;
-        let numbers: Vec<&str> = numbers.split(", ").collect();
-        let [first, second] = if name.ends_with("ARC_FEED") {
-            [0, 1]
+        let numbers: Vec<&str> = numbers.trim_end_matches(')').split(", ").collect();
+        let places = if name.ends_with("ARC_FEED") {
+            [0, 1, 5, 6, 7, 8]
         } else if name.ends_with("STRAIGHT_FEED") || name.ends_with("STRAIGHT_TRAVERSE") {
-            [2, 0]
+            [2, 0, 1, 3, 4, 5]
         } else {
             return None;
         };
-        Some([(*numbers.get(first)?).to_owned(), (*numbers.get(second)?).to_owned()])
+        let numbers: Option<Vec<String>> = places
+            .iter()
+            .map(|&at| numbers.get(at).map(|number| (*number).to_owned()))
+            .collect();
+        numbers
     };
     let pairs = answer.calls.windows(2).zip(1..);
     pairs

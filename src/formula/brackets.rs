@@ -182,10 +182,7 @@ impl Compiler<'_, '_> {
         self.starts.pop();
         let start = self.starts.last().copied().unwrap_or_default();
         let range = TextRange::new(start, self.end);
-        self.steps.push(Step {
-            op: Op::Binary(binary),
-            range,
-        });
+        Step::push_binary(&mut self.steps, binary, range);
     }
 
     /// From the first to the second argument of a function: the bracket stays open.
@@ -216,10 +213,7 @@ impl Compiler<'_, '_> {
             }),
             Bracket::Second(binary) => {
                 self.starts.pop();
-                self.steps.push(Step {
-                    op: Op::Binary(binary),
-                    range,
-                });
+                Step::push_binary(&mut self.steps, binary, range);
             }
             Bracket::Index(name) => self.steps.push(Step {
                 op: Op::NamedAt(name),
@@ -240,7 +234,7 @@ impl Compiler<'_, '_> {
 
     /// Marks the end of a value in brackets where it may be infinite and something goes on behind it.
     fn check(&mut self, range: TextRange) {
-        if !self.open.is_empty() && matches!(self.steps.last(), Some(Step { op: Op::Binary(_), .. })) {
+        if !self.open.is_empty() && self.steps.last().is_some_and(Step::is_binary) {
             self.steps.push(Step {
                 op: Op::Unary(Unary::Check),
                 range,

@@ -94,6 +94,8 @@ pub(crate) enum Op {
     ExistsAt,
     Unary(Unary),
     Binary(Binary),
+    /// The same with a number as its second value: the commonest of all, in one step.
+    WithNumber(Binary, f64),
     /// The text is wrong from here on.
     Fail(Box<FormulaErrorKind>),
 }
@@ -104,6 +106,33 @@ pub(crate) enum Op {
 pub(crate) struct Step {
     pub(crate) op: Op,
     pub(crate) range: TextRange,
+}
+
+impl Step {
+    /// Appends an operation on the two values in front; a second value that is a plain number becomes part of the step.
+    #[inline]
+    pub(crate) fn push_binary(steps: &mut Vec<Self>, binary: Binary, range: TextRange) {
+        match steps.last_mut() {
+            Some(Self {
+                op: op @ Op::Number(_),
+                range: own,
+            }) => {
+                if let Op::Number(value) = *op {
+                    *op = Op::WithNumber(binary, value);
+                    *own = range;
+                }
+            }
+            _ => steps.push(Self {
+                op: Op::Binary(binary),
+                range,
+            }),
+        }
+    }
+    /// Whether it is an operation on two values.
+    #[inline]
+    pub(crate) fn is_binary(&self) -> bool {
+        matches!(self.op, Op::Binary(_) | Op::WithNumber(..))
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -26,8 +26,8 @@ impl Formula {
     fn run(&self, variables: &(impl Variables + ?Sized)) -> Result<f64, FormulaError> {
         let result = match &self.code {
             Code::Literal { value, .. } => return Ok(*value),
-            Code::Steps { steps, depth } if *depth <= SHALLOW => run(steps, variables, &mut [0.0; SHALLOW]),
-            Code::Steps { steps, depth } => run(steps, variables, &mut vec![0.0; *depth]),
+            Code::Steps { steps, depth } if *depth <= SHALLOW => run::<[f64; SHALLOW]>(steps, variables, *depth),
+            Code::Steps { steps, depth } => run::<Vec<f64>>(steps, variables, *depth),
         };
         result.map_err(|error| FormulaError {
             range: error.range.shifted(self.range.start),
@@ -36,72 +36,119 @@ impl Formula {
     }
 }
 
-/// Runs the code; `stack` is as long as the compiler counted. Errors are placed from the start of the formula, and are rare: they are
+/// Room for values that wait.
+trait Room {
+    fn of(depth: usize) -> Self;
+    fn at(&mut self, height: usize) -> &mut f64;
+}
+
+impl Room for [f64; SHALLOW] {
+    #[inline]
+    fn of(_: usize) -> Self {
+        [0.0; SHALLOW]
+    }
+    /// Heights are below the size, which the remainder says to the compiler.
+    #[inline]
+    fn at(&mut self, height: usize) -> &mut f64 {
+        &mut self[height % SHALLOW]
+    }
+}
+
+impl Room for Vec<f64> {
+    fn of(depth: usize) -> Self {
+        vec![0.0; depth]
+    }
+    #[inline]
+    fn at(&mut self, height: usize) -> &mut f64 {
+        &mut self[height]
+    }
+}
+
+/// The stack of values; the last one is at hand, what was in its place before the first one waits below all.
+struct Stack<R> {
+    waiting: R,
+    height: usize,
+    last: f64,
+}
+
+impl<R: Room> Stack<R> {
+    #[inline]
+    fn push(&mut self, value: f64) {
+        *self.waiting.at(self.height) = self.last;
+        self.height += 1;
+        self.last = value;
+    }
+    /// Takes the value in front of the last one.
+    #[inline]
+    fn before_last(&mut self) -> f64 {
+        self.height -= 1;
+        *self.waiting.at(self.height)
+    }
+}
+
+/// Runs the code; `depth`: how many values the compiler counted. Errors are placed from the start of the formula, and are rare: they are
 /// held elsewhere, so that a value is handed back in a register.
-fn run(steps: &[Step], variables: &(impl Variables + ?Sized), stack: &mut [f64]) -> Result<f64, Box<FormulaError>> {
-    let mut height = 0;
+fn run<R: Room>(
+    steps: &[Step],
+    variables: &(impl Variables + ?Sized),
+    depth: usize,
+) -> Result<f64, Box<FormulaError>> {
+    let mut stack = Stack {
+        waiting: R::of(depth),
+        height: 0,
+        last: f64::NAN,
+    };
     for step in steps {
-        let result = match &step.op {
+        let failed = |kind| {
+            let range = step.range;
+            Box::new(FormulaError { range, kind })
+        };
+        let (operation, first, second) = match &step.op {
+            Op::WithNumber(operation, number) => (*operation, stack.last, *number),
+            Op::Binary(operation) => (*operation, stack.before_last(), stack.last),
             Op::Number(value) => {
-                stack[height] = *value;
-                height += 1;
+                stack.push(*value);
                 continue;
             }
-            Op::Read(index) => match variables.numbered(*index) {
-                Ok(value) => {
-                    stack[height] = known(value);
-                    height += 1;
-                    continue;
-                }
-                error => of_number(*index, error),
-            },
-            Op::ReadNullable(index) => nullable(variables, *index),
-            Op::Named(name) => match variables.named_as(name) {
-                Ok(value) => {
-                    stack[height] = known(value);
-                    height += 1;
-                    continue;
-                }
-                error => value_of(name, error),
-            },
-            Op::ExistsNamed(name) => Ok(f64::from(u8::from(variables.exists(name)))),
-            Op::Fail(kind) => Err((**kind).clone()),
-            Op::Binary(operation) => {
-                height -= 2;
-                let (a, b) = (stack[height], stack[height + 1]);
-                let quick = of_numbers(*operation, a, b);
-                if !quick.is_nan() {
-                    stack[height] = quick;
-                    height += 1;
-                    continue;
-                }
-                // only Macro B's angles ask the control
-                binary(*operation, a, b, || variables.positive_angles())
+            Op::Read(index) => {
+                stack.push(of_number(*index, variables.numbered(*index)).map_err(failed)?);
+                continue;
+            }
+            Op::Named(name) => {
+                stack.push(value_of(name, variables.named_as(name)).map_err(failed)?);
+                continue;
             }
             Op::Unary(operation) => {
-                height -= 1;
-                unary(*operation, stack[height], || variables.positive_angles())
+                let value = unary(*operation, stack.last, || variables.positive_angles());
+                stack.last = value.map_err(failed)?;
+                continue;
             }
+            Op::ReadNullable(index) => {
+                stack.push(nullable(variables, *index).map_err(failed)?);
+                continue;
+            }
+            Op::ExistsNamed(name) => {
+                stack.push(f64::from(u8::from(variables.exists(name))));
+                continue;
+            }
+            Op::Fail(kind) => return Err(failed((**kind).clone())),
             on_index => {
-                height -= 1;
-                at_index(on_index, variables, stack[height])
+                stack.last = at_index(on_index, variables, stack.last).map_err(failed)?;
+                continue;
             }
         };
-        match result {
-            Ok(value) => stack[height] = value,
-            Err(kind) => {
-                return Err(Box::new(FormulaError {
-                    range: step.range,
-                    kind,
-                }));
-            }
-        }
-        height += 1;
+        let quick = of_numbers(operation, first, second);
+        stack.last = if quick.is_nan() {
+            // only Macro B's angles ask the control
+            binary(operation, first, second, || variables.positive_angles()).map_err(failed)?
+        } else {
+            quick
+        };
     }
-    let (Some(value), Some(last)) = (stack.first(), steps.last()) else {
+    let Some(last) = steps.last() else {
         return Ok(f64::NAN);
     };
-    checked(*value).map_err(|kind| {
+    checked(stack.last).map_err(|kind| {
         Box::new(FormulaError {
             range: last.range,
             kind,

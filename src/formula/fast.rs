@@ -213,7 +213,7 @@ impl Fast<'_, '_> {
         let range = range(start, self.end);
         // the end of a value that may be infinite is marked where something goes on behind it
         let unary = call.or_else(|| {
-            let infinite = matches!(self.steps.last(), Some(Step { op: Op::Binary(_), .. }));
+            let infinite = self.steps.last().is_some_and(Step::is_binary);
             (self.open > 0 && infinite).then_some(Unary::Check)
         });
         if let Some(unary) = unary {
@@ -264,10 +264,7 @@ impl Fast<'_, '_> {
             self.height = self.height.checked_sub(1)?;
             let start = *self.starts.get(self.height.checked_sub(1)?)?;
             let range = TextRange::new(start, self.end as u32);
-            self.steps.push(Step {
-                op: Op::Binary(self.waiting[self.waits].binary),
-                range,
-            });
+            Step::push_binary(self.steps, self.waiting[self.waits].binary, range);
         }
         Some(())
     }

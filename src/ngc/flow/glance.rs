@@ -16,27 +16,77 @@ pub(super) enum Look<'s> {
     Unclear,
 }
 
+/// Lines that were passed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Passed {
+    pub(super) lines: usize,
+    /// Their bytes.
+    pub(super) length: usize,
+    /// The line behind them is an O line with the label that is looked for.
+    pub(super) counts: bool,
+}
+
+/// Passes the lines at the start of a text that by their first signs count for nothing, `most` of them at most. What counts is an O line
+/// labelled `wanted` that takes part in calls and returns (`global`), or one that takes part in structures.
+pub(super) fn pass(text: &[u8], wanted: &[u8], global: bool, most: usize) -> Passed {
+    let mut passed = Passed::default();
+    let mut rest = text;
+    while passed.lines < most && !rest.is_empty() {
+        let (length, has_comment) = length(rest);
+        if length > LONGEST {
+            break;
+        }
+        match look(rest, has_comment) {
+            Look::Nothing => {}
+            Look::Label(name, is_global) => {
+                passed.counts = is_global == global && wanted.eq_ignore_ascii_case(name);
+                if passed.counts {
+                    break;
+                }
+            }
+            Look::Unclear => break,
+        }
+        passed.lines += 1;
+        passed.length += length;
+        rest = &rest[length..];
+    }
+    passed
+}
+
+/// How many blanks a text begins with.
+#[inline]
+fn blanks(text: &[u8]) -> usize {
+    if let Some(bytes) = text.first_chunk::<8>() {
+        let other = u64::from_le_bytes(*bytes) ^ u64::from_le_bytes([b' '; 8]);
+        let count = other.trailing_zeros() as usize / 8;
+        if count < 8 && bytes[count] != b'\t' {
+            return count;
+        }
+    }
+    text.iter().take_while(|byte| matches!(**byte, b' ' | b'\t')).count()
+}
+
 /// How long the first line of a text is, its line end counted, and whether there is a `(` in it.
 #[inline]
 pub(super) fn length(text: &[u8]) -> (usize, bool) {
     const ONES: u64 = u64::from_ne_bytes([1; 8]);
     const HIGH: u64 = u64::from_ne_bytes([0x80; 8]);
-    // where a byte is the one that is looked for, its highest bit is set; above the first one others may be, too
-    let marks = |word: u64, byte: u8| {
-        let other = word ^ u64::from_ne_bytes([byte; 8]);
-        other.wrapping_sub(ONES) & !other & HIGH
-    };
+    // with these bits set, line end and bracket are the same sign, and so are `*` and a control code
+    const APART: u64 = u64::from_ne_bytes([b'\n' ^ b'('; 8]);
+    const BOTH: u64 = u64::from_ne_bytes([b'\n' | b'('; 8]);
     let mut at = 0;
     // lines are short: words of eight bytes are faster than a call
-    for bytes in text.as_chunks::<8>().0 {
-        let word = u64::from_le_bytes(*bytes);
-        let (ends, brackets) = (marks(word, b'\n'), marks(word, b'('));
-        if ends | brackets != 0 {
-            let (end, bracket) = (ends.trailing_zeros(), brackets.trailing_zeros());
-            if end < bracket {
-                return (at + end as usize / 8 + 1, false);
+    'line: for bytes in text.as_chunks::<8>().0 {
+        let other = (u64::from_le_bytes(*bytes) | APART) ^ BOTH;
+        // where a byte is one of them, its highest bit is set; above the first one others may be, too
+        let mut marks = other.wrapping_sub(ONES) & !other & HIGH;
+        while marks != 0 {
+            let place = marks.trailing_zeros() as usize / 8;
+            match bytes[place] {
+                b'\n' => return (at + place + 1, false),
+                b'(' => break 'line,
+                _ => marks &= marks - 1,
             }
-            break;
         }
         at += 8;
     }
@@ -49,8 +99,7 @@ pub(super) fn length(text: &[u8]) -> (usize, bool) {
 /// Looks at the first line of a text; `bracket`: there is a `(` in it.
 #[inline]
 pub(super) fn look(text: &[u8], bracket: bool) -> Look<'_> {
-    let is_blank = |byte: &&u8| matches!(**byte, b' ' | b'\t');
-    let rest = &text[text.iter().take_while(is_blank).count()..];
+    let rest = &text[blanks(text)..];
     let Some(first) = rest.first() else {
         return Look::Nothing;
     };
@@ -240,7 +289,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 
         #[test]
-        fn a_line_is_as_long_as_it_is(text in "[a-z \\n(\u{29}\u{8}\u{b}\u{a9}]{0,40}") {
+        fn a_line_is_as_long_as_it_is(text in "[a-z \\n(\u{29}\u{8}\u{b}\u{a9}*]{0,40}") {
             let text = text.as_bytes();
             let length = text.iter().position(|byte| *byte == b'\n').map_or(text.len(), |end| end + 1);
             prop_assert_eq!(super::length(text), (length, text[..length].contains(&b'(')));

@@ -3,7 +3,7 @@
 //! The control looks at every line it skips: comments must be closed, N must be a number, O lines must have a known keyword. Only O
 //! lines with the label that is looked for count. Where a skip ended is kept with the line that began it, until a new label is known.
 use super::fetch::{self, Head};
-use super::glance::{self, Look};
+use super::glance;
 use super::labels::Place;
 use super::oline::{self, Keyword, OLine};
 use super::{Compiled, Goal, Kind, Seeking, problems};
@@ -127,38 +127,23 @@ impl Engine {
         };
         let wanted = self.flow.labels.name_bytes(wanted);
         let bytes = self.files[from.file.0 as usize].bytes();
-        let (mut line, mut offset) = (from.line, from.offset as usize);
-        let mut fuel = self.flow.fuel;
-        let mut counts = false;
-        while fuel > 0 {
-            let Some(rest) = bytes.get(offset..).filter(|rest| !rest.is_empty()) else {
-                break;
-            };
-            let (length, has_comment) = glance::length(rest);
-            if length > glance::LONGEST {
-                break;
-            }
-            match glance::look(rest, has_comment) {
-                Look::Nothing => {}
-                Look::Label(name, is_global) => {
-                    counts = is_global == global && wanted.eq_ignore_ascii_case(name);
-                }
-                Look::Unclear => break,
-            }
-            if counts {
-                break;
-            }
-            fuel -= u64::from(line < glanced);
-            line += 1;
-            offset += length;
-        }
-        self.flow.fuel = fuel;
+        // lines that were looked at before cost: they are the first ones
+        let known = glanced.saturating_sub(from.line);
+        let most = if self.flow.fuel < u64::from(known) {
+            self.flow.fuel as usize
+        } else {
+            usize::MAX
+        };
+        let rest = bytes.get(from.offset as usize..).unwrap_or_default();
+        let passed = glance::pass(rest, wanted, global, most);
+        let (line, counts) = (from.line + passed.lines as u32, passed.counts);
+        self.flow.fuel -= u64::from(known.min(passed.lines as u32));
         if line > from.line {
             self.flow.lines(from.file).glance(line - 1);
         }
         self.flow.here = Place {
             line,
-            offset: offset as u32,
+            offset: from.offset + passed.length as u32,
             ..from
         };
         counts

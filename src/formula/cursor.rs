@@ -109,11 +109,14 @@ impl<'s> Cursor<'s> {
     }
 
     /// Goes on to the byte at `offset` of the file, at most to the end of the range; never back.
+    #[inline]
     pub fn skip_to(&mut self, offset: u32) {
         if offset > self.at {
             self.at = offset.min(self.end);
             self.behind = self.at;
-            self.skip();
+            if self.rest().first().copied().is_some_and(is_blank) {
+                self.skip();
+            }
         }
     }
 }

@@ -88,11 +88,7 @@ impl<R: Room> Stack<R> {
 
 /// Runs the code; `depth`: how many values the compiler counted. Errors are placed from the start of the formula, and are rare: they are
 /// held elsewhere, so that a value is handed back in a register.
-fn run<R: Room>(
-    steps: &[Step],
-    variables: &(impl Variables + ?Sized),
-    depth: usize,
-) -> Result<f64, Box<FormulaError>> {
+fn run<R: Room>(steps: &[Step], variables: &(impl Variables + ?Sized), depth: usize) -> Result<f64, Box<FormulaError>> {
     let mut stack = Stack {
         waiting: R::of(depth),
         height: 0,

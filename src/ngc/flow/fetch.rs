@@ -99,17 +99,24 @@ impl Engine {
             let keep = self.flow.looping;
             return (self.read(place, keep), keep);
         }
-        let kept = lines.kept(place.line).map(|kept| *kept);
         self.flow.fuel = self.flow.fuel.saturating_sub(1);
-        let Some(Kept { slot, memo }) = kept else {
+        let Some(Kept { slot, memo }) = self.flow.lines[place.file.0 as usize].kept(place.line) else {
             return (self.read(place, true), true);
         };
-        let mut compiled = match self.flow.texts.again(slot, place) {
-            Some(compiled) => compiled,
-            None => self.read(place, true),
-        };
-        compiled.memo = memo;
-        (compiled, true)
+        match self.flow.texts.again(*slot, place) {
+            // nothing is found out about words: what is kept of them stays as it is
+            Some(compiled) if compiled.kind == Kind::Words => (compiled, false),
+            Some(mut compiled) => {
+                compiled.memo = *memo;
+                (compiled, true)
+            }
+            None => {
+                let memo = *memo;
+                let mut compiled = self.read(place, true);
+                compiled.memo = memo;
+                (compiled, true)
+            }
+        }
     }
     /// The line at a place in its read form. `keep`: it will run again.
     pub(super) fn read(&mut self, place: Place, keep: bool) -> Box<Compiled> {
@@ -125,6 +132,7 @@ impl Engine {
         }
     }
     /// The same, by its text.
+    #[inline(never)]
     fn look_up(&mut self, place: Place, keep: bool, skipped: bool) -> Box<Compiled> {
         let source = self.files[place.file.0 as usize].bytes();
         let range = self.range_at(place);
@@ -157,6 +165,7 @@ impl Engine {
             into.spare = Some(line);
         }
         into.kind = Kind::Blank;
+        into.only_sets = false;
         into.flaw = too_long(range);
         let bytes = &source[range.start as usize..range.end as usize];
         let nul = memchr::memchr(0, bytes);
@@ -181,6 +190,7 @@ impl Engine {
             _ => {
                 into.kind = Kind::Words;
                 Line::read(source, text, &mut into.line);
+                into.only_sets = into.cut.is_none() && into.line.only_sets();
             }
         }
     }
@@ -189,13 +199,13 @@ impl Engine {
     pub(super) fn put_back(&mut self, compiled: Box<Compiled>, keep: bool) {
         if keep {
             let place = compiled.place;
-            let slot = compiled.slot();
+            let (slot, memo) = (compiled.slot(), compiled.memo);
             let lines = self.flow.lines(place.file);
-            // nothing is found out about words
-            let same = |kept: &mut Kept| compiled.kind == Kind::Words && kept.slot == slot;
-            if !lines.kept(place.line).is_some_and(same) {
-                let memo = compiled.memo;
-                lines.keep(place.line, Kept { slot, memo });
+            match lines.kept(place.line) {
+                // nothing is found out about words
+                Some(kept) if kept.slot == slot && compiled.kind == Kind::Words => {}
+                Some(kept) => *kept = Kept { slot, memo },
+                None => lines.keep(place.line, Kept { slot, memo }),
             }
         }
         self.flow.texts.put_back(compiled);

@@ -81,11 +81,11 @@ fn plain_label(cursor: &mut Cursor<'_>) -> Option<u32> {
 pub(super) fn digits(text: &[u8]) -> Option<(u32, usize)> {
     let mut number = 0u32;
     let mut length = 0;
-    while let Some(digit) = text
-        .get(length)
-        .map(|byte| byte.wrapping_sub(b'0'))
-        .filter(|digit| *digit < 10)
-    {
+    for byte in text {
+        let digit = byte.wrapping_sub(b'0');
+        if digit >= 10 {
+            break;
+        }
         if length == 9 {
             return None;
         }

@@ -147,7 +147,7 @@ impl Labels {
         if number < SMALL {
             let place = number as usize;
             if place >= names.small.len() {
-                names.small.resize(place + 1, 0);
+                names.small.resize((place + 1).next_multiple_of(64), 0);
             }
             names.small[place] = id;
         } else {

@@ -93,6 +93,8 @@ pub(crate) struct Compiled {
     place: Place,
     next: Place,
     kind: Kind,
+    /// It is one assignment and nothing else.
+    only_sets: bool,
     o: Option<Box<OLine>>,
     /// An O line that it was before, kept for its storage.
     spare: Option<Box<OLine>>,

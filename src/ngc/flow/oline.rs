@@ -273,8 +273,10 @@ fn values(cursor: &mut Cursor<'_>, line: &mut OLine, pool: &mut Pool) {
 
 fn arguments(cursor: &mut Cursor<'_>, line: &mut OLine, pool: &mut Pool) {
     loop {
-        skip_comments(cursor);
-        if cursor.peek() != Some(b'[') {
+        if cursor.rest().first() != Some(&b'[') {
+            skip_comments(cursor);
+        }
+        if cursor.rest().first() != Some(&b'[') {
             return;
         }
         let start = cursor.at();
@@ -312,6 +314,7 @@ fn skip_comments(cursor: &mut Cursor<'_>) {
     }
 }
 
+#[inline(never)]
 fn skip_some_comments(cursor: &mut Cursor<'_>) {
     while let Some(byte) = cursor.peek() {
         match byte {

@@ -100,6 +100,7 @@ impl Engine {
         compiled.place = place;
         compiled.next = next;
         compiled.kind = Kind::Label;
+        compiled.only_sets = false;
         compiled.flaw = None;
         compiled.memo = super::Memo::default();
         compiled.o = Some(Box::new(line));

@@ -45,7 +45,26 @@ impl Engine {
             self.put_back(compiled, keep);
             return self.out_of_fuel();
         }
+        if compiled.only_sets && self.turning.is_none() {
+            self.goes_on_behind(&compiled);
+            // what is refused is evaluated again in the general way
+            if self.apply(&compiled.line).is_ok() {
+                self.put_back(compiled, keep);
+                return Step::Line;
+            }
+        }
         self.finish_line(compiled, None, keep, sink)
+    }
+    /// The line in hand runs: it is where the run is, and what comes next stands behind it.
+    #[inline]
+    fn goes_on_behind(&mut self, compiled: &Compiled) {
+        let place = compiled.place;
+        self.flow.at = At {
+            file: place.file,
+            line: place.line,
+            chain: self.flow.chain,
+        };
+        self.flow.here = compiled.next;
     }
     /// Runs to the end, to what cannot be decided, or to the bounds. With `stop`, it stops at the first refused line as the control does.
     pub fn run(&mut self, stop: bool, sink: &mut dyn Sink) -> Step {
@@ -77,13 +96,7 @@ impl Engine {
         keep: bool,
         sink: &mut dyn Sink,
     ) -> Step {
-        let place = compiled.place;
-        self.flow.at = At {
-            file: place.file,
-            line: place.line,
-            chain: self.flow.chain,
-        };
-        self.flow.here = compiled.next;
+        self.goes_on_behind(&compiled);
         if let Some(range) = compiled.cut.take() {
             sink.cut(range, self.flow.at);
         }
@@ -91,19 +104,32 @@ impl Engine {
             None => self.run_line(&mut compiled, sink),
             Some(seeking) => self.run_label(&mut compiled, Some(&seeking), sink),
         };
-        if matches!(result, Err(Halt::Refused(_) | Halt::Told)) {
+        match result {
+            Ok(After::Go) => {
+                self.put_back(compiled, keep);
+                Step::Line
+            }
+            Ok(After::Ended) => {
+                self.put_back(compiled, keep);
+                self.program_end(sink)
+            }
+            Err(halt) => self.halted(halt, compiled, keep, sink),
+        }
+    }
+    #[cold]
+    fn halted(&mut self, halt: Halt, compiled: Box<Compiled>, keep: bool, sink: &mut dyn Sink) -> Step {
+        let place = compiled.place;
+        if matches!(halt, Halt::Refused(_) | Halt::Told) {
             let source = self.files[place.file.0 as usize].bytes();
             let text = super::fetch::trimmed(source, self.range_at(place));
             self.flow.refused = Refused::of_line(&compiled, &source[text.as_usize()]);
         }
         self.put_back(compiled, keep);
-        match result {
-            Ok(After::Go) => Step::Line,
-            Ok(After::Ended) => self.program_end(sink),
-            Err(Halt::Refused(error)) => self.refuse(&error, sink),
-            Err(Halt::Told) => Step::Refused,
-            Err(Halt::Undecided(why)) => self.give_up(why),
-            Err(Halt::Endless(place)) => {
+        match halt {
+            Halt::Refused(error) => self.refuse(&error, sink),
+            Halt::Told => Step::Refused,
+            Halt::Undecided(why) => self.give_up(why),
+            Halt::Endless(place) => {
                 self.flow.ended = true;
                 let opens = At {
                     file: place.file,
@@ -174,9 +200,7 @@ impl Engine {
     fn run_block(&mut self, compiled: &Compiled, block: &mut crate::Block, sink: &mut dyn Sink) -> Result<After, Halt> {
         let line = &compiled.line;
         let at = self.flow.at;
-        if let ([read::Item::Assignment(_)], [], None) =
-            (&line.items[..], &line.errors[..], line.comment.or(line.remark))
-        {
+        if compiled.only_sets {
             // alone on its line there is nothing else to fail
             self.apply(line)?;
             return Ok(After::Go);
@@ -188,9 +212,15 @@ impl Engine {
             let all = read::errors(line, &self.values(), block);
             return Err(self.refuse_text(evaluated, &all, sink));
         }
+        let contour = self.in_contour();
+        if !contour && exec::choose_line(self, block) {
+            self.apply(line)?;
+            comment::run(self, line, at, sink)?;
+            return Ok(exec::line(self, block, at, sink)?);
+        }
         exec::check(self, block)?;
         self.apply(line)?;
-        if self.in_contour() {
+        if contour {
             return self.contour_block(block);
         }
         comment::run(self, line, at, sink)?;

@@ -35,9 +35,10 @@ impl Engine {
         sought: Option<&Seeking>,
         sink: &mut dyn Sink,
     ) -> Result<After, Halt> {
-        let name = match compiled.memo.name {
-            Some(name) => name,
-            None => self.name_of(line)?,
+        let name = match (compiled.memo.name, &line.label) {
+            (Some(name), _) => name,
+            (None, Label::Number(number)) => self.flow.labels.numbered(*number),
+            (None, _) => self.name_of(line)?,
         };
         if !matches!(line.label, Label::Computed(_)) {
             compiled.memo.name = Some(name);

@@ -190,7 +190,9 @@ fn int(value: f64, range: TextRange) -> Result<i32, Error> {
 
 #[inline]
 fn word(word: &WordText, line: &Line, values: &Values<'_>, block: &mut Block) -> Result<(), Error> {
-    if word.letter.is_ascii_uppercase() && values.missing_axes() & (1 << (word.letter - b'A')) != 0 {
+    let place = word.letter.wrapping_sub(b'A');
+    let bit = if place < 26 { 1 << place } else { 0 };
+    if values.missing_axes() & bit != 0 {
         return Err(super::line::no_word(word));
     }
     if matches!(word.letter, b'P' | b'Q') && block.word(word.letter).is_some_and(|before| before > -1.0) {
@@ -204,6 +206,11 @@ fn word(word: &WordText, line: &Line, values: &Values<'_>, block: &mut Block) ->
             .partition_point(|assignment| assignment.target_range.start < word.range.start);
         value(&word.value, &created(line, before as u32, values))?
     };
+    if bit & crate::block::AXES != 0 {
+        // any value will do
+        block.put(word.letter, value, word.range);
+        return Ok(());
+    }
     put(word.letter, value, word.range, values, block)
 }
 

@@ -79,6 +79,12 @@ impl Line {
         }
     }
 
+    /// Whether it is one assignment and nothing else, not even a comment.
+    pub(crate) fn only_sets(&self) -> bool {
+        let alone = matches!(self.items[..], [Item::Assignment(_)]);
+        alone && self.errors.is_empty() && self.comment.is_none() && self.remark.is_none()
+    }
+
     fn clear(&mut self, range: TextRange) {
         self.range = range;
         self.number = None;

@@ -12,6 +12,6 @@ pub(crate) use comments::flaw as comment_flaw;
 mod tests;
 
 pub(crate) use evaluate::{apply, errors, evaluate};
-pub(crate) use line::{Item, Line};
+pub(crate) use line::Line;
 pub(crate) use plain::plain;
 pub(crate) use problems::{G_UNKNOWN, UNDECIDED, formula as formula_error};

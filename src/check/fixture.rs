@@ -190,14 +190,22 @@ fn setup() -> Setup {
 }
 
 /// A built-in machine; `NAME+KEY` has `KEY = true` added to its first rotary axis, `NAME+A.KEY` to axis A, `NAME+A.KEY=5` with
-/// that value, `NAME+control.KEY=5` to the control; `NAME+undeclared` names no rule for postures.
+/// that value, `NAME+control.KEY=5` to the control; `NAME+undeclared` names no rule for postures. Several keys stand behind each other.
 pub(crate) fn machine(name: &str) -> Result<Machine, String> {
     let none = || format!("no machine {name}");
-    let Some((builtin, key)) = name.split_once('+') else {
+    let Some((builtin, keys)) = name.split_once('+') else {
         return trunnion_machine::builtin(name).cloned().ok_or_else(none);
     };
     let source = trunnion_machine::builtin_source(builtin).ok_or_else(none)?;
-    let more = match key.split_once('.') {
+    let more = keys
+        .split('+')
+        .fold(source.to_owned(), |source, key| with_key(&source, key));
+    trunnion_machine::load(builtin, &more).map_err(|error| error.message)
+}
+
+/// The text of a machine file with one key more.
+fn with_key(source: &str, key: &str) -> String {
+    match key.split_once('.') {
         _ if key == "undeclared" => source.replace("branch = { rule = \"generic\" }", "#"),
         Some(("control", key)) => source.replacen("[control]\n", &format!("[control]\n{key}\n"), 1),
         Some((letter, key)) => {
@@ -213,8 +221,7 @@ pub(crate) fn machine(name: &str) -> Result<Machine, String> {
             let kind = "kind = \"rotary\"";
             source.replacen(kind, &format!("{kind}\n{key} = true"), 1)
         }
-    };
-    trunnion_machine::load(builtin, &more).map_err(|error| error.message)
+    }
 }
 
 fn list(findings: &[Drawn]) -> String {

@@ -82,40 +82,8 @@ impl Clamps {
         }
     }
 
-    /// Whether the block has a code of any clamp.
-    #[inline]
-    pub(crate) fn any_here(&self) -> bool {
-        self.here != 0
-    }
-
-    /// Takes the text of a LinuxCNC line of which one code was heard: only the last code of the machine's own is called, so that of several
-    /// it is not known which run.
-    pub(crate) fn see_line(&mut self, codes: &AllClampCodes, line: &str) {
-        let (mut text, mut comment) = (String::new(), false);
-        for sign in line.chars().take_while(|sign| *sign != ';') {
-            comment = sign == '(' || comment && sign != ')';
-            if !comment && !sign.is_whitespace() {
-                text.push(sign.to_ascii_lowercase());
-            }
-        }
-        let is_clamp = |word: &&str| {
-            let digits = word.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(word.len());
-            // an expression may be any code
-            word[..digits].parse().map_or(true, |number: u32| names(codes, number))
-        };
-        if text.split('m').skip(1).filter(is_clamp).count() > 1 {
-            self.hear_unread(codes);
-        }
-    }
-
     /// What has run is not known.
     pub(crate) fn lose(&mut self) {
         self.clamps = [Clamp::Unknown; AXIS_LETTERS.len()];
     }
-}
-
-/// Whether a number is that of a clamp's code.
-fn names(codes: &AllClampCodes, number: u32) -> bool {
-    let mut codes = codes.iter().flatten();
-    codes.any(|codes| [codes.on, codes.off].map(u32::from).contains(&number))
 }

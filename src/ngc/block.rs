@@ -20,6 +20,17 @@ pub struct OwnCode {
     pub range: TextRange,
 }
 
+impl core::fmt::Display for OwnCode {
+    /// As it is written: `G68.2`, `M428`.
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "{}{}", char::from(self.letter), self.tenths / 10)?;
+        match self.tenths % 10 {
+            0 => Ok(()),
+            tenth => write!(f, ".{tenth}"),
+        }
+    }
+}
+
 /// One line, evaluated. Codes are ten times their number (G38.2 is 382; M codes are whole: M6 is 6).
 #[derive(Clone, Debug)]
 pub struct Block {
@@ -55,8 +66,8 @@ pub struct Block {
     pub spindle: Option<i32>,
     /// The sequence number N, if there is one.
     pub number: Option<f64>,
-    /// A code of the machine's own; the words of its block are its arguments.
-    pub own: Option<OwnCode>,
+    /// Codes of the machine's own as they stand in the text; the words of the block are their arguments.
+    pub own: Vec<OwnCode>,
 }
 
 impl Block {
@@ -78,7 +89,7 @@ impl Block {
             angle: None,
             spindle: None,
             number: None,
-            own: None,
+            own: Vec::new(),
         }
     }
     /// Makes it empty again; values of words stay where they are and count no more.
@@ -94,7 +105,7 @@ impl Block {
         self.angle = None;
         self.spindle = None;
         self.number = None;
-        self.own = None;
+        self.own.clear();
     }
     /// The value of a word, upper-case letter.
     #[inline]
@@ -164,7 +175,7 @@ impl Block {
     pub(crate) fn is_motion_only(&self) -> bool {
         let codes = self.g_groups & !MOTION == 0 && self.m_count == 0;
         let words = 1 << (b'S' - b'A') | 1 << (b'T' - b'A');
-        codes && self.given & words == 0 && self.spindle.is_none() && self.own.is_none()
+        codes && self.given & words == 0 && self.spindle.is_none() && self.own.is_empty()
     }
     /// Whether nothing but a motion code, axis words and F are there, no polar words.
     #[inline]

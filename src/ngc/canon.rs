@@ -227,8 +227,8 @@ pub enum Canon {
         /// Q, s.
         timeout: f64,
     },
-    /// A code of the machine's own was run; what it does is not known here.
-    OwnCode(crate::OwnCode),
+    /// The codes of the machine's own of one block were run, in which order is not known; what they do is not known here.
+    OwnCodes(Vec<crate::OwnCode>),
     /// M100-M199 with P and Q.
     UserCode(i32, f64, f64),
     /// Stops and end.

@@ -256,7 +256,11 @@ mod tests {
     }
 
     fn of_setup(dialect: &str, setup: Setup, text: &str) -> Vec<String> {
-        let machine = machine(CODES).expect("built in");
+        of_machine(CODES, dialect, setup, text)
+    }
+
+    fn of_machine(name: &str, dialect: &str, setup: Setup, text: &str) -> Vec<String> {
+        let machine = machine(name).expect("built in");
         let report = check_with(&machine, dialect, text, setup);
         let strange = |rule: &str| ["unknown-code", "rejected-block"].contains(&rule);
         assert!(
@@ -299,7 +303,7 @@ mod tests {
         );
         let skipped = "M11\nG0 X0 Y0 Z50 A20 C0\no1 if [0]\nM10\no1 endif\nG0 C9\nM2\n";
         assert_eq!(told("linuxcnc", None, skipped), [""; 0]);
-        // beside another code it is clear, of two only the last is called
+        // beside another code it is clear; of two codes of one clamp nobody knows which is the last
         let beside = "M11\nG0 X0 Y0 Z50 A20 C0\nM10 M8 (M11)\nG0 C9\nM2\n";
         assert_eq!(told("linuxcnc", None, beside), [TURNS]);
         let both = "M11\nG0 X0 Y0 Z50 A20 C0\nM10 m 1 1\nG0 C9\nM2\n";
@@ -307,6 +311,12 @@ mod tests {
             told("linuxcnc", None, both),
             ["C may be clamped: which code of its clamp ran last is not known"]
         );
+        // of two clamps each hears its own code, whichever stands last
+        for codes in ["M10 M13", "M13 M10"] {
+            let text = format!("M11\nM13\nG0 X0 Y0 Z50 A20 C0\n{codes}\nG0 C9\nG0 A29\nM2\n");
+            let two = format!("{CODES}+A.clamp_codes={{on=\"M12\",off=\"M13\"}}");
+            assert_eq!(of_machine(&two, "linuxcnc", Setup::default(), &text), [TURNS], "{codes}");
+        }
     }
 
     #[test]

@@ -275,9 +275,9 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
                 let tenths = number.unsigned_abs() * 10;
                 let range = self.code_range(at, b'M', |code| code == i64::from(tenths));
                 let letter = b'M';
-                self.own_code(OwnCode { letter, tenths, range }, at, state);
+                self.own_codes(&[OwnCode { letter, tenths, range }], at, state);
             }
-            Canon::OwnCode(own) => self.own_code(*own, at, state),
+            Canon::OwnCodes(codes) => self.own_codes(codes, at, state),
             _ => self.modal(call, at, state),
         }
     }

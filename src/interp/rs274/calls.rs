@@ -5,19 +5,38 @@ use super::frames::Shift;
 use super::setup::SYSTEMS;
 use crate::memory::Chosen;
 use crate::{Fault, FaultKind, Sink};
-use trunnion_dialect::{Action, Plane};
+use trunnion_dialect::{Action, Code, Dialect, Plane};
 use trunnion_ngc::{At, Canon, OwnCode, Pose, Side, SpindleTurn, State, Units};
 use trunnion_syntax::{Address, BlockId, TextRange, Value};
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
-    /// A code of the machine's own: what the dialect's table says of it, else nothing is known of the position behind it.
-    pub(super) fn own_code(&mut self, own: OwnCode, at: At, state: &State) {
+    /// The codes of the machine's own of one block. Which of them runs first is for the machine to say, so that of several that do more
+    /// than switch something it is not known what they leave behind.
+    pub(super) fn own_codes(&mut self, codes: &[OwnCode], at: At, state: &State) {
+        for own in codes {
+            self.own_code(*own, at, state);
+        }
         let dialect = self.interpreter.dialect;
-        let code = if own.letter == b'G' {
-            dialect.g(own.tenths)
-        } else {
-            dialect.m(own.tenths)
-        };
+        let moves = |own: &&OwnCode| table_entry(dialect, **own).is_some_and(|code| !is_harmless(code.action));
+        let moving: Vec<&OwnCode> = codes.iter().filter(moves).collect();
+        let [_, .., last] = moving[..] else { return };
+        let names: Vec<String> = moving.iter().map(ToString::to_string).collect();
+        let what = format!("{} in one block: their order is for the machine to say", names.join(" and "));
+        self.fault(at, last.range, FaultKind::NotModelled { what });
+        self.lose_kinematics();
+    }
+
+    /// Neither the kinematics nor the position is known from here on.
+    fn lose_kinematics(&mut self) {
+        self.told.kinematics_unknown = true;
+        self.told.lost = true;
+        self.told.lost_rotary = true;
+        self.interpreter.state.frame_unknown = true;
+    }
+
+    /// A code of the machine's own: what the dialect's table says of it, else nothing is known of the position behind it.
+    fn own_code(&mut self, own: OwnCode, at: At, state: &State) {
+        let code = table_entry(self.interpreter.dialect, own);
         let clamps_axis = self.clamp_code(own, state);
         let Some(code) = code else {
             if !clamps_axis {
@@ -34,8 +53,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 | Action::PathMode
                 | Action::ProgramStop
         );
-        let harmless = matches!(code.action, Action::NoMotion | Action::PathMode | Action::ProgramStop);
-        if state.side != Side::Off && !harmless {
+        if state.side != Side::Off && !is_harmless(code.action) {
             // motions before it in the text come behind it
             let what = format!("{} under compensation of the cutter radius", code.id);
             self.fault(at, own.range, FaultKind::NotModelled { what });
@@ -247,4 +265,18 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.sink.fault(Fault { block, range, kind });
         }
     }
+}
+
+/// What the dialect's table says of a code of the machine's own.
+fn table_entry(dialect: &Dialect, own: OwnCode) -> Option<&Code> {
+    if own.letter == b'G' {
+        dialect.g(own.tenths)
+    } else {
+        dialect.m(own.tenths)
+    }
+}
+
+/// Whether what a code does changes neither the position nor what words mean.
+fn is_harmless(action: Action) -> bool {
+    matches!(action, Action::NoMotion | Action::PathMode | Action::ProgramStop)
 }

@@ -135,11 +135,6 @@ impl Interpreter<'_> {
         let nothing_ran = step == Step::Ended;
         let block = bridge.block(at);
         let ran = step == Step::Line;
-        let state = &mut bridge.interpreter.state;
-        if state.clamps.any_here() {
-            let codes = &bridge.interpreter.setup.control.clamp_codes;
-            state.clamps.see_line(codes, &engine.text_of(at.file, at.line));
-        }
         let in_main = (at.file == FileId::MAIN).then_some(block);
         bridge.told.places.ran(at.chain, in_main);
         match step {

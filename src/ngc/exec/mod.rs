@@ -38,9 +38,9 @@ pub(crate) enum After {
 /// What must fit together before anything of a block is done; `block.motion` is filled in. The line's comment comes between this and
 /// [`execute`].
 pub(crate) fn check(engine: &Engine, block: &mut Block) -> Result<(), Error> {
-    if block.own.is_some() {
-        // what its words mean is the machine's own affair; a motion code beside an M code is in force behind it all the same
-        if block.own.is_some_and(|own| own.letter == b'M') {
+    if !block.own.is_empty() {
+        // what its words mean is the machine's own affair; a motion code beside M codes is in force behind them all the same
+        if block.own.iter().all(|own| own.letter == b'M') {
             return checks::choose_motion(block, &engine.state);
         }
         return Ok(());
@@ -55,13 +55,8 @@ pub(crate) fn check(engine: &Engine, block: &mut Block) -> Result<(), Error> {
 pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut dyn Sink) -> Result<After, Error> {
     engine.state.named_axes = named_axes(block);
     engine.state.machine_frame = matches!(block.g[0], 280 | 300 | 530);
-    if let Some(own) = block.own {
-        engine.emit(Canon::OwnCode(own), at, sink);
-        let motion = engine.setup.own_motions.binary_search(&own.tenths).is_ok();
-        // what a remap runs may leave a motion code in force
-        if own.letter == b'G' && (motion || engine.state.motion == 800) {
-            engine.state.unmodelled = Some(own.tenths);
-        }
+    if !block.own.is_empty() {
+        own_codes(engine, block, at, sink);
     }
     let only = block.is_motion_only();
     engine.state.motion_only = only && matches!(block.motion, 0 | 10) && engine.state.side == Side::Off;
@@ -92,6 +87,19 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
     };
     engine.refresh_parameters();
     Ok(after)
+}
+
+/// Codes of the machine's own: told, and what they may leave behind.
+#[cold]
+fn own_codes(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
+    engine.emit(Canon::OwnCodes(block.own.clone()), at, sink);
+    for own in &block.own {
+        let motion = engine.setup.own_motions.binary_search(&own.tenths).is_ok();
+        // what a remap runs may leave a motion code in force
+        if own.letter == b'G' && (motion || engine.state.motion == 800) {
+            engine.state.unmodelled = Some(own.tenths);
+        }
+    }
 }
 
 /// Whether a block is nothing but a line (G0, G1) and its F: then [`check`] finds nothing, and [`line()`] does what [`execute`] would.

@@ -317,7 +317,7 @@ fn m_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) 
 fn own(letter: u8, tenths: u32, range: TextRange, values: &Values<'_>, block: &mut Block) -> bool {
     let owns = values.owns(letter, tenths);
     if owns {
-        block.own = Some(crate::OwnCode { letter, tenths, range });
+        block.own.push(crate::OwnCode { letter, tenths, range });
     }
     owns
 }

@@ -213,6 +213,31 @@ fn what_m428_means_is_said_by_the_machine() {
     assert!(told[0].contains("M428: to which kinematics it switches"), "{told:?}");
 }
 
+#[test]
+fn several_codes_of_the_machine_in_one_block_are_all_run() {
+    let run = |codes: &str| {
+        let source = format!("G21 F100\nM429\nG0 X1 Y2 Z3 A4\n{codes}\nG0 X5\nM429\nG0 X1 Y1 Z1 A1\nM2\n");
+        let mut setup = trt();
+        setup.control.clamp_codes[2] = Some(trunnion_interp::ClampCodes { on: 10, off: 11 });
+        let log = run_bytes("linuxcnc", source.as_bytes(), &setup).1;
+        let faults: Vec<String> = log.faults.iter().map(|fault| format!("{fault:?}")).collect();
+        (log.motions.iter().map(line).collect::<Vec<_>>(), faults)
+    };
+    // one that switches a clamp hides no other
+    for codes in ["M428 M10", "M10 M428"] {
+        let (lines, faults) = run(codes);
+        assert_eq!(lines, ["R X1 Y2 Z3 A4", "R X5 A4 tcp", "R X1 Y1 Z1 A1"], "{codes}");
+        assert_eq!(faults, [""; 0], "{codes}");
+    }
+    // which of two switches of the kinematics is the last, nobody knows
+    for codes in ["M428 M430", "M429 M428"] {
+        let (lines, faults) = run(codes);
+        assert!(lines[1].starts_with('?') || !lines[1].contains('X'), "{codes}: {lines:?}");
+        assert_eq!(lines[2], "R X1 Y1 Z1 A1", "{codes}");
+        assert!(faults.iter().any(|fault| fault.contains("in one block: their order")), "{faults:?}");
+    }
+}
+
 /// `[TRAJ] COORDINATES`: W is a word of a machine that has such an axis, and of no other.
 #[test]
 fn letters_of_further_axes_are_words_where_the_machine_has_them() {

@@ -170,6 +170,18 @@ pub fn number_in_brackets(cursor: &mut Cursor<'_>) -> Option<Formula> {
     })
 }
 
+/// `[1.5]` at the start of a text, of few digits, without a sign and without blanks, and how many bytes it has; `at`: where the text
+/// stands in the file. `None` for all else.
+#[inline]
+pub fn literal_in_brackets(text: &[u8], at: u32) -> Option<(Formula, usize)> {
+    let (value, length) = short_in_brackets(text)?;
+    let formula = Formula {
+        range: TextRange::new(at, at + length),
+        code: Code::Literal { value, decimal: None },
+    };
+    Some((formula, length as usize))
+}
+
 /// `[1.5]` at the start of a text, of few digits and without a sign: the number, and one past the bracket that closes.
 #[inline]
 fn short_in_brackets(text: &[u8]) -> Option<(f64, u32)> {

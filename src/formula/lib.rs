@@ -17,7 +17,7 @@ mod pool;
 mod words;
 
 pub use code::Formula;
-pub use compile::{bracketed, number_in_brackets, target, value, value_or_error};
+pub use compile::{bracketed, literal_in_brackets, number_in_brackets, target, value, value_or_error};
 pub use cursor::{Bytes, Cursor};
 pub use error::{FormulaError, FormulaErrorKind};
 pub use name::Name;

@@ -315,7 +315,11 @@ mod tests {
         for codes in ["M10 M13", "M13 M10"] {
             let text = format!("M11\nM13\nG0 X0 Y0 Z50 A20 C0\n{codes}\nG0 C9\nG0 A29\nM2\n");
             let two = format!("{CODES}+A.clamp_codes={{on=\"M12\",off=\"M13\"}}");
-            assert_eq!(of_machine(&two, "linuxcnc", Setup::default(), &text), [TURNS], "{codes}");
+            assert_eq!(
+                of_machine(&two, "linuxcnc", Setup::default(), &text),
+                [TURNS],
+                "{codes}"
+            );
         }
     }
 

@@ -21,7 +21,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let moving: Vec<&OwnCode> = codes.iter().filter(moves).collect();
         let [_, .., last] = moving[..] else { return };
         let names: Vec<String> = moving.iter().map(ToString::to_string).collect();
-        let what = format!("{} in one block: their order is for the machine to say", names.join(" and "));
+        let what = format!(
+            "{} in one block: their order is for the machine to say",
+            names.join(" and ")
+        );
         self.fault(at, last.range, FaultKind::NotModelled { what });
         self.lose_kinematics();
     }

@@ -125,6 +125,9 @@ impl Engine {
     /// The same; `skipped`: lines were skipped in front of it.
     #[inline]
     pub(super) fn read_behind(&mut self, place: Place, keep: bool, skipped: bool) -> Box<Compiled> {
+        if !keep && let Some(compiled) = self.short_o_line(place) {
+            return compiled;
+        }
         let source = self.files[place.file.0 as usize].bytes();
         match self.flow.texts.guess(source, place, skipped) {
             Some(compiled) => compiled,

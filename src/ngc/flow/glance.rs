@@ -1,6 +1,7 @@
 //! A first look at a line that is skipped: most lines show by a few signs that they count for nothing.
 //!
 //! It settles only what the full look at a skipped line would settle in the same way (a test compares both).
+use super::oline::Keyword;
 
 /// Lines up to this length, their line end counted, are looked at here.
 pub(super) const LONGEST: usize = 253;
@@ -55,7 +56,7 @@ pub(super) fn pass(text: &[u8], wanted: &[u8], global: bool, most: usize) -> Pas
 
 /// How many blanks a text begins with.
 #[inline]
-fn blanks(text: &[u8]) -> usize {
+pub(super) fn blanks(text: &[u8]) -> usize {
     if let Some(bytes) = text.first_chunk::<8>() {
         let other = u64::from_le_bytes(*bytes) ^ u64::from_le_bytes([b' '; 8]);
         let count = other.trailing_zeros() as usize / 8;
@@ -191,19 +192,45 @@ fn keyword(text: &[u8]) -> Letters {
     Letters { word, len }
 }
 
+/// The keyword that a text begins with, where it needs no value and a letter behind it would belong to it; how many letters it has.
+#[inline]
+pub(super) fn plain_keyword(text: &[u8]) -> Option<(Keyword, usize)> {
+    let letters = keyword(text);
+    let found = PLAIN.iter().find(|(word, _)| *word == letters.word)?.1;
+    // `else if` is one word
+    let alone = found != Keyword::Else || !matches!(text.get(letters.len), Some(b' ' | b'\t' | b'\r'));
+    alone.then_some((found, letters.len))
+}
+
+/// A word of up to eight letters as one number, the first one lowest.
+const fn of(word: &[u8]) -> u64 {
+    let mut letters = 0;
+    let mut at = 0;
+    while at < word.len() {
+        letters |= (word[at] as u64) << (8 * at);
+        at += 1;
+    }
+    letters
+}
+
+/// Keywords that need no value.
+const PLAIN: [(u64, Keyword); 10] = [
+    (of(b"endwhile"), Keyword::EndWhile),
+    (of(b"endif"), Keyword::EndIf),
+    (of(b"else"), Keyword::Else),
+    (of(b"call"), Keyword::Call),
+    (of(b"sub"), Keyword::Sub),
+    (of(b"endsub"), Keyword::EndSub),
+    (of(b"return"), Keyword::Return),
+    (of(b"do"), Keyword::Do),
+    (of(b"break"), Keyword::Break),
+    (of(b"continue"), Keyword::Continue),
+];
+
 /// Whether a keyword, its letters as one number, takes part in calls and returns (true) or in structures; `None` for `sub`, and for a word
 /// that is none of them.
 #[inline]
 fn is_global(letters: u64) -> Option<bool> {
-    const fn of(word: &[u8]) -> u64 {
-        let mut letters = 0;
-        let mut at = 0;
-        while at < word.len() {
-            letters |= (word[at] as u64) << (8 * at);
-            at += 1;
-        }
-        letters
-    }
     const GLOBAL: [u64; 3] = [of(b"endsub"), of(b"call"), of(b"return")];
     const LOCAL: [u64; 10] = [
         of(b"if"),

@@ -21,6 +21,7 @@ mod problems;
 mod refused;
 mod rest;
 mod seek;
+mod short;
 mod step;
 mod structure;
 mod texts;

@@ -87,7 +87,7 @@ pub(crate) struct OLine {
 }
 
 /// Most arguments of a call: they become #1 to #30.
-const ARGUMENTS: usize = 30;
+pub(super) const ARGUMENTS: usize = 30;
 
 /// Reads an O line; the cursor stands before the O. `line` lends its storage.
 pub(crate) fn read(cursor: &mut Cursor<'_>, pool: &mut Pool, line: &mut OLine) {

@@ -232,9 +232,15 @@ fn several_codes_of_the_machine_in_one_block_are_all_run() {
     // which of two switches of the kinematics is the last, nobody knows
     for codes in ["M428 M430", "M429 M428"] {
         let (lines, faults) = run(codes);
-        assert!(lines[1].starts_with('?') || !lines[1].contains('X'), "{codes}: {lines:?}");
+        assert!(
+            lines[1].starts_with('?') || !lines[1].contains('X'),
+            "{codes}: {lines:?}"
+        );
         assert_eq!(lines[2], "R X1 Y1 Z1 A1", "{codes}");
-        assert!(faults.iter().any(|fault| fault.contains("in one block: their order")), "{faults:?}");
+        assert!(
+            faults.iter().any(|fault| fault.contains("in one block: their order")),
+            "{faults:?}"
+        );
     }
 }
 

@@ -107,9 +107,9 @@ fn logic(operation: Binary, a: f64, b: f64) -> f64 {
     }
 }
 
-/// An operation on one value; `positive` asks for angles of 0 to 360 degrees.
-#[inline]
-pub(crate) fn unary(operation: Unary, value: f64, positive: impl FnOnce() -> bool) -> Result<f64, Kind> {
+/// An operation on one value; `positive` asks for angles of 0 to 360 degrees. Not part of the loop of evaluation, which stays small.
+#[inline(never)]
+pub(crate) fn unary(operation: Unary, value: f64, positive: &dyn Fn() -> bool) -> Result<f64, Kind> {
     let x = filled(value);
     let result = match operation {
         Unary::Negate => -x,
@@ -156,7 +156,7 @@ fn to_int(x: f64) -> f64 {
 }
 
 /// A negative angle as the positive one of the same direction, where `positive` asks for it.
-fn turned(angle: f64, positive: impl FnOnce() -> bool) -> f64 {
+fn turned(angle: f64, positive: &dyn Fn() -> bool) -> f64 {
     if angle < 0.0 && positive() {
         angle + 360.0
     } else {
@@ -165,8 +165,8 @@ fn turned(angle: f64, positive: impl FnOnce() -> bool) -> f64 {
 }
 
 /// An operation on two values; `positive` asks for angles of 0 to 360 degrees. The result may be infinite or have no value.
-#[inline]
-pub(crate) fn binary(operation: Binary, left: f64, right: f64, positive: impl FnOnce() -> bool) -> Result<f64, Kind> {
+#[inline(never)]
+pub(crate) fn binary(operation: Binary, left: f64, right: f64, positive: &dyn Fn() -> bool) -> Result<f64, Kind> {
     let (a, b) = (filled(left), filled(right));
     let result = match operation {
         Binary::Power if a < 0.0 && b.floor() != b && !b.is_nan() => return Err(Kind::NegativePower),

@@ -95,10 +95,7 @@ fn run<R: Room>(steps: &[Step], variables: &(impl Variables + ?Sized), depth: us
         last: f64::NAN,
     };
     for step in steps {
-        let failed = |kind| {
-            let range = step.range;
-            Box::new(FormulaError { range, kind })
-        };
+        let failed = |kind| failure(step, kind);
         let (operation, first, second) = match &step.op {
             Op::WithNumber(operation, number) => (*operation, stack.last, *number),
             Op::Binary(operation) => (*operation, stack.before_last(), stack.last),
@@ -107,15 +104,21 @@ fn run<R: Room>(steps: &[Step], variables: &(impl Variables + ?Sized), depth: us
                 continue;
             }
             Op::Read(index) => {
-                stack.push(of_number(*index, variables.numbered(*index)).map_err(failed)?);
+                match variables.numbered(*index) {
+                    Ok(value) => stack.push(known(value)),
+                    Err(error) => return Err(failed(no_number(*index, error))),
+                }
                 continue;
             }
             Op::Named(name) => {
-                stack.push(value_of(name, variables.named_as(name)).map_err(failed)?);
+                match variables.named_as(name) {
+                    Ok(value) => stack.push(known(value)),
+                    Err(error) => return Err(failed(no_value(name, error))),
+                }
                 continue;
             }
             Op::Unary(operation) => {
-                let value = unary(*operation, stack.last, || variables.positive_angles());
+                let value = unary(*operation, stack.last, &|| variables.positive_angles());
                 stack.last = value.map_err(failed)?;
                 continue;
             }
@@ -136,7 +139,7 @@ fn run<R: Room>(steps: &[Step], variables: &(impl Variables + ?Sized), depth: us
         let quick = of_numbers(operation, first, second);
         stack.last = if quick.is_nan() {
             // only Macro B's angles ask the control
-            binary(operation, first, second, || variables.positive_angles()).map_err(failed)?
+            binary(operation, first, second, &|| variables.positive_angles()).map_err(failed)?
         } else {
             quick
         };
@@ -144,12 +147,15 @@ fn run<R: Room>(steps: &[Step], variables: &(impl Variables + ?Sized), depth: us
     let Some(last) = steps.last() else {
         return Ok(f64::NAN);
     };
-    checked(stack.last).map_err(|kind| {
-        Box::new(FormulaError {
-            range: last.range,
-            kind,
-        })
-    })
+    checked(stack.last).map_err(|kind| failure(last, kind))
+}
+
+/// The error of a step.
+#[cold]
+#[inline(never)]
+fn failure(step: &Step, kind: FormulaErrorKind) -> Box<FormulaError> {
+    let range = step.range;
+    Box::new(FormulaError { range, kind })
 }
 
 /// The commonest operations where both values are numbers and the result is one; NaN elsewhere: a number comes out of numbers alone.
@@ -174,18 +180,23 @@ fn known(value: f64) -> f64 {
 
 #[inline]
 fn numbered(variables: &(impl Variables + ?Sized), index: i64) -> Result<f64, FormulaErrorKind> {
-    of_number(index, variables.numbered(index))
-}
-
-#[inline]
-fn of_number(index: i64, value: Result<f64, ValueError>) -> Result<f64, FormulaErrorKind> {
-    match value {
+    match variables.numbered(index) {
         Ok(value) => Ok(known(value)),
-        Err(ValueError::NotReadable(reason)) => Err(FormulaErrorKind::NotReadable(reason)),
-        Err(ValueError::OutOfRange | ValueError::NotDefined) => Err(FormulaErrorKind::ParameterOutOfRange(index)),
+        Err(error) => Err(no_number(index, error)),
     }
 }
 
+/// Why a number has no variable to read.
+#[cold]
+#[inline(never)]
+fn no_number(index: i64, error: ValueError) -> FormulaErrorKind {
+    match error {
+        ValueError::NotReadable(reason) => FormulaErrorKind::NotReadable(reason),
+        ValueError::OutOfRange | ValueError::NotDefined => FormulaErrorKind::ParameterOutOfRange(index),
+    }
+}
+
+#[inline(never)]
 fn nullable(variables: &(impl Variables + ?Sized), index: i64) -> Result<f64, FormulaErrorKind> {
     if index == 0 || variables.null(index) {
         Ok(vacant())
@@ -194,16 +205,18 @@ fn nullable(variables: &(impl Variables + ?Sized), index: i64) -> Result<f64, Fo
     }
 }
 
-#[inline]
-fn value_of(name: &Name, value: Result<f64, ValueError>) -> Result<f64, FormulaErrorKind> {
-    match value {
-        Ok(value) => Ok(known(value)),
-        Err(ValueError::NotReadable(reason)) => Err(FormulaErrorKind::NotReadable(reason)),
-        Err(ValueError::OutOfRange | ValueError::NotDefined) => Err(FormulaErrorKind::NotDefined((&**name).into())),
+/// Why a name has no value.
+#[cold]
+#[inline(never)]
+fn no_value(name: &Name, error: ValueError) -> FormulaErrorKind {
+    match error {
+        ValueError::NotReadable(reason) => FormulaErrorKind::NotReadable(reason),
+        ValueError::OutOfRange | ValueError::NotDefined => FormulaErrorKind::NotDefined((&**name).into()),
     }
 }
 
 /// The steps that take the number of a variable from the stack. Of a number that is not known the variable is not known either.
+#[inline(never)]
 fn at_index(op: &Op, variables: &(impl Variables + ?Sized), index: f64) -> Result<f64, FormulaErrorKind> {
     let index = if is_vacant(index) { 0.0 } else { index };
     if checked(index)?.is_nan() {
@@ -218,7 +231,10 @@ fn at_index(op: &Op, variables: &(impl Variables + ?Sized), index: f64) -> Resul
     match op {
         Op::ReadAt => numbered(variables, index),
         Op::ReadNullableAt => nullable(variables, index),
-        Op::NamedAt(name) => value_of(name, variables.named_at(name, index)),
+        Op::NamedAt(name) => match variables.named_at(name, index) {
+            Ok(value) => Ok(known(value)),
+            Err(error) => Err(no_value(name, error)),
+        },
         _ => Ok(f64::from(u8::from(variables.exists_numbered(index)))),
     }
 }

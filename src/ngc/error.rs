@@ -91,6 +91,7 @@ pub struct Missing {
 
 impl Error {
     /// A refusal without details. The file is filled in by the engine.
+    #[cold]
     pub fn new(problem: &'static Problem, range: TextRange) -> Self {
         Self {
             problem,
@@ -103,6 +104,7 @@ impl Error {
         }
     }
     /// A refusal whose message has details: the whole text as the control prints it.
+    #[cold]
     pub fn with(problem: &'static Problem, range: TextRange, detail: String) -> Self {
         Self {
             detail: Some(detail),

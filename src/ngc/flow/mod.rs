@@ -52,6 +52,7 @@ pub(crate) enum Halt {
 }
 
 impl From<Error> for Halt {
+    #[cold]
     fn from(error: Error) -> Self {
         Self::Refused(error.into())
     }

@@ -178,6 +178,7 @@ impl Engine {
     }
     /// What a refused line would have left in force, so that the lines behind it are judged as they were meant: they are run in the
     /// mode of its motion code and not in the one before, and its F is a feed, of which nothing is known.
+    #[cold]
     pub(super) fn after_refusal(&mut self, motion: i16, not_modelled: bool, feed: bool) {
         match motion {
             0 | 10 | 20 | 30 | 52 | 800 => self.state.motion = motion,
@@ -264,6 +265,7 @@ impl Engine {
         Ok(value)
     }
     /// The words of a line are wrong: the error that the control gives comes first, then all others of the line.
+    #[cold]
     pub(super) fn refuse_text(&mut self, evaluated: Result<(), Error>, all: &[Error], sink: &mut dyn Sink) -> Halt {
         let first = match (evaluated, all.first()) {
             (Err(error), _) if error.problem == &read::UNDECIDED => return Halt::Undecided(error.message().to_owned()),
@@ -295,14 +297,17 @@ impl Engine {
     pub fn refused(&self) -> Refused {
         self.flow.refused
     }
+    #[cold]
     pub(super) fn refuse(&mut self, error: &Error, sink: &mut dyn Sink) -> Step {
         self.tell(error, sink);
         Step::Refused
     }
+    #[cold]
     fn give_up(&mut self, why: String) -> Step {
         self.flow.ended = true;
         Step::Undecided(why)
     }
+    #[cold]
     fn out_of_fuel(&mut self) -> Step {
         self.flow.ended = true;
         Step::OutOfFuel(self.endless())

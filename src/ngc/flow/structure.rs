@@ -243,6 +243,7 @@ impl Engine {
         }
         Ok(())
     }
+    #[inline(never)]
     fn repeat(
         &mut self,
         compiled: &mut Compiled,
@@ -272,6 +273,7 @@ impl Engine {
         Ok(())
     }
     /// `break`, `continue`; in a skip they have no effect.
+    #[inline(never)]
     fn leave(
         &mut self,
         compiled: &mut Compiled,
@@ -293,6 +295,7 @@ impl Engine {
     }
     /// After a refusal: structures count as opened and are gone through once, so that the lines inside are checked and their ends are
     /// no new errors.
+    #[cold]
     fn recover(&mut self, compiled: &mut Compiled, line: &OLine, sought: Option<&Seeking>) {
         let opener = match line.keyword {
             Keyword::If => Opener::If,
@@ -332,6 +335,7 @@ impl Engine {
         }
     }
 
+    #[cold]
     fn duplicate(&self, line: &OLine, known: &Structure) -> Error {
         let (number, text) = (self.line_number(), self.line_text());
         let first = known.place.line + 1;
@@ -342,6 +346,7 @@ impl Engine {
         };
         Error::with(&problems::DUPLICATE, line.label_range, detail)
     }
+    #[cold]
     fn mismatch(&self, line: &OLine, known: &Structure) -> Error {
         let (number, text) = (self.line_number(), self.line_text());
         let (word, first) = (known.opener.word(), known.place.line + 1);
@@ -357,6 +362,7 @@ impl Engine {
         };
         Error::with(&problems::MISMATCH, line.label_range.cover(line.keyword_range), detail)
     }
+    #[cold]
     fn no_loop(&self, line: &OLine, known: &Structure) -> Error {
         let (number, text) = (self.line_number(), self.line_text());
         let (word, first) = (known.opener.word(), known.place.line + 1);
@@ -384,6 +390,7 @@ impl Engine {
         String::from_utf8_lossy(source.bytes()[range.start as usize..range.end as usize].trim_ascii()).into_owned()
     }
     /// A refusal without details.
+    #[cold]
     pub(super) fn refusal(problem: &'static Problem, line: &OLine) -> Halt {
         Error::new(problem, line.label_range.cover(line.keyword_range)).into()
     }

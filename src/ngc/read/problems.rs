@@ -63,6 +63,7 @@ problems! {
 }
 
 /// What is wrong with an expression, as an error of the line.
+#[cold]
 pub(crate) fn formula(error: &FormulaError) -> Error {
     let problem = match &error.kind {
         Kind::MissingValue => &NO_VALUE,

@@ -153,6 +153,7 @@ fn run<R: Room>(steps: &[Step], variables: &(impl Variables + ?Sized), depth: us
 /// The error of a step.
 #[cold]
 #[inline(never)]
+#[expect(clippy::unnecessary_box_returns, reason = "a value is handed back in a register")]
 fn failure(step: &Step, kind: FormulaErrorKind) -> Box<FormulaError> {
     let range = step.range;
     Box::new(FormulaError { range, kind })

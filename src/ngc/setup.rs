@@ -101,6 +101,8 @@ impl ToolEntry {
 pub struct ToolTable {
     /// Rows in file order behind row 0.
     pub rows: Vec<ToolEntry>,
+    /// What row 0 holds as a run starts: the last row without P.
+    pub spindle: Option<ToolEntry>,
 }
 
 /// Numbered parameters by index: those that a parameter file declares.
@@ -196,7 +198,7 @@ impl Setup {
             pocket: -1,
             ..ToolEntry::default()
         };
-        let mut rows = vec![empty];
+        let mut rows = vec![self.tools.spindle.unwrap_or(empty)];
         rows.extend(self.tools.rows.iter().copied());
         Arc::new(rows)
     }

@@ -88,6 +88,7 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
         block_delete: setup.control.block_delete == Some(true),
         tools: ToolTable {
             rows: tools.map(row).collect(),
+            spindle: None,
         },
         parameters: Parameters { values },
         files: setup.library.0.clone(),

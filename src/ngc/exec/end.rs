@@ -11,6 +11,9 @@ pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
     engine.state.tools = engine.setup.tool_rows();
     engine.state.wrapped = engine.setup.wrapped_axes();
     engine.state.current_row = 1;
+    if engine.setup.tools.spindle.is_some() {
+        engine.state.spindle_pocket = 0;
+    }
     if !engine.setup.g92_persists() && engine.setup.start == Start::Zero {
         engine.store_pose(access::G92, &[0.0; 9]);
         engine.set_parameter(access::G92_ON, 0.0);

@@ -22,6 +22,7 @@ impl Engine {
         let is_it = |row: &ToolEntry| row.number == number && *row != ToolEntry::NOBODY;
         match rows.enumerate().find(|(_, row)| is_it(row)) {
             Some((place, _)) => Ok(place + 1),
+            None if self.state.tools.first().is_some_and(is_it) => Ok(0),
             None if self.setup.any_tool => {
                 let entry = ToolEntry {
                     number,

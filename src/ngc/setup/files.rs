@@ -44,9 +44,11 @@ impl Ini {
 impl ToolTable {
     /// Reads lines of words: T number, P pocket, X Y Z A B C U V W offsets, D diameter, I and J angles, Q orientation; `;` begins a
     /// comment. Lines that are no row are told beside the rows. Each P takes a row, also a second P of one line and those of a line that
-    /// is no row (so `rs274`): tools behind it move down.
+    /// is no row (so `rs274`): tools behind it move down. A row without P is that of the spindle, as a run starts, and takes no other; a
+    /// tool that stands there and in a later row has that row's values in both (observed).
     pub fn parse(bytes: &[u8]) -> (Self, Vec<BadLine>) {
         let mut rows = Vec::new();
+        let mut spindle: Option<ToolEntry> = None;
         let mut bad = Vec::new();
         for (line, text) in lines(bytes) {
             let words = text.split(';').next().unwrap_or("").trim();
@@ -55,7 +57,11 @@ impl ToolTable {
             }
             let pockets = pockets(words);
             match row(words) {
+                Ok(entry) if pockets == 0 => spindle = Some(ToolEntry { pocket: -1, ..entry }),
                 Ok(entry) => {
+                    if let Some(spindle) = spindle.as_mut().filter(|there| there.number == entry.number) {
+                        *spindle = entry;
+                    }
                     rows.extend((1..pockets).map(|_| ToolEntry::NOBODY));
                     rows.push(entry);
                 }
@@ -65,7 +71,7 @@ impl ToolTable {
                 }
             }
         }
-        (Self { rows }, bad)
+        (Self { rows, spindle }, bad)
     }
     /// The table `rs274` takes when none is given.
     pub fn sample() -> Self {
@@ -83,6 +89,7 @@ impl ToolTable {
                 row(3, 3, 1.273, 0.201),
                 row(99_999, 123, 0.1, 0.0),
             ],
+            spindle: None,
         }
     }
 }

@@ -47,6 +47,33 @@ fn each_pocket_word_of_a_tool_table_takes_a_row() {
     }
 }
 
+/// Answers of rs274 to the same tables: what stands in row 0 as a run starts, `#5400` and `#5403`, and `CHANGE_TOOL(row)` of a tool.
+#[test]
+fn a_row_without_a_pocket_is_in_the_spindle() {
+    for (text, first, tool, row) in [
+        ("T1 P1 Z0.5\nT5 Z1.5\nT7 Z2.5\nT2 P2\n", (7, 2.5), 7, Some(0)),
+        ("T1 P1 Z0.5\nT5 Z1.5\nT7 Z2.5\nT2 P2\n", (7, 2.5), 5, None),
+        ("T1 P1 Z0.5\nT5 Z1.5\nT7 Z2.5\nT2 P2\n", (7, 2.5), 2, Some(2)),
+        ("T5 Z1.5\nT5 P2 Z2\n", (5, 2.0), 5, Some(1)),
+        ("T5 P2 Z2\nT5 Z1.5\n", (5, 1.5), 5, Some(1)),
+        ("T1 P1 Z0.5\n", (0, 0.0), 1, Some(1)),
+    ] {
+        let setup = Setup {
+            tools: ToolTable::parse(text.as_bytes()).0,
+            ..Setup::default()
+        };
+        let source = format!("(debug,#5400 #5403)\nT{tool} M6\nM2\n");
+        let listed = crate::listing::list_with(&source, &setup);
+        let lines = listed.lines();
+        let has = |line: String| assert!(lines.contains(&line), "{text}{line}: {lines:?}");
+        has(format!("MESSAGE(\"{}.000000 {:.6}\")", first.0, first.1));
+        match row {
+            Some(row) => has(format!("CHANGE_TOOL({row})")),
+            None => assert_eq!(listed.errors, ["Requested tool 5 not found in the tool table"]),
+        }
+    }
+}
+
 #[test]
 fn a_parameter_file_is_in_order_and_in_range() {
     let parameters = Parameters::parse(b"5161\t1.5\nabc\n5220 2\n").unwrap();

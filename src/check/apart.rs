@@ -78,7 +78,7 @@ impl Sink for Batch {
         self.lines.push(Line {
             block: motion.block,
             chain: motion.chain,
-            rapid: motion.kind == MotionKind::Rapid,
+            rapid: matches!(motion.kind, MotionKind::Rapid),
             feed: motion.feed,
             end: motion.end,
         });
@@ -91,7 +91,7 @@ impl Sink for Batch {
 
 impl Batch {
     /// Shows the pass what was told; the batch is empty then and keeps its storage. `last`: the motion told last.
-    fn show(&mut self, pass: &mut Pass<'_>, last: &mut Option<(Motion, InForce)>) {
+    fn show(&mut self, pass: &mut Pass<'_>, last: &mut Option<Motion>) {
         let (mut motions, mut lines) = (self.motions.iter(), self.lines.iter());
         let mut faults = self.faults.drain(..);
         for told in self.order.drain(..) {
@@ -99,13 +99,13 @@ impl Batch {
                 Told::Motion => {
                     if let Some((motion, in_force)) = motions.next() {
                         pass.take_motion(motion, *in_force);
-                        *last = Some((*motion, *in_force));
+                        *last = Some(*motion);
                     }
                 }
                 Told::Line => {
-                    if let (Some(line), Some((motion, in_force))) = (lines.next(), last.as_mut()) {
+                    if let (Some(line), Some(motion)) = (lines.next(), last.as_mut()) {
                         line.follow(motion);
-                        pass.take_motion(motion, *in_force);
+                        pass.take_line(motion);
                     }
                 }
                 Told::Fault => faults.by_ref().take(1).for_each(|fault| pass.fault(fault)),

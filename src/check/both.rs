@@ -42,7 +42,7 @@ pub(crate) fn levels(program: &Program, dialect: &Dialect) -> (Vec<u8>, usize) {
 /// Whether the state of the switch matters and is not declared.
 pub(crate) fn is_open(program: &Program, settings: &Settings<'_>) -> bool {
     settings.setup.control.block_delete.is_none()
-        && program.source().contains(&b'/')
+        && memchr::memchr(b'/', program.source()).is_some()
         && levels(program, settings.dialect).1 > 0
 }
 

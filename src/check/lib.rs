@@ -10,6 +10,7 @@ mod diagnostic;
 pub mod fixture;
 pub mod header;
 mod needs;
+mod open;
 mod pass;
 mod place;
 mod porting;

@@ -20,6 +20,8 @@ pub(crate) struct Pass<'a> {
     whole: Vec<Active<ProgramRule>>,
     faults: Vec<Active<FaultRule>>,
     motions: Vec<Active<(Needs, MotionRule)>>,
+    /// What is in force with the last motion.
+    in_force: Option<InForce>,
     /// The tool of the last feed motion.
     last_cut: Option<u32>,
     legs: Vec<Active<(Needs, LegRule)>>,
@@ -65,6 +67,7 @@ impl<'a> Pass<'a> {
                 Level::Motion(needs, run) => Some((needs, run)),
                 _ => None,
             }),
+            in_force: None,
             last_cut: None,
             legs: active(levels, |level| match level {
                 Level::Leg(needs, run) => Some((needs, run)),
@@ -257,6 +260,19 @@ impl Sink for Pass<'_> {
         self.take_motion(motion, InForce::of(state));
     }
 
+    #[inline]
+    fn next_line(&mut self, motion: &Motion, state: &ModalState) {
+        debug_assert!(
+            self.in_force
+                .is_none_or(|own| format!("{own:?}") == format!("{:?}", InForce::of(state))),
+            "what is in force changed with a line"
+        );
+        if self.in_force.is_none() {
+            return self.motion(motion, state);
+        }
+        self.take_line(motion);
+    }
+
     fn fault(&mut self, fault: Fault) {
         if self.text_has_told(&fault) {
             return;
@@ -273,12 +289,26 @@ impl Sink for Pass<'_> {
 impl Pass<'_> {
     /// Judges a motion.
     pub(crate) fn take_motion(&mut self, motion: &Motion, in_force: InForce) {
+        self.in_force = Some(in_force);
+        self.judge(motion, &in_force, false);
+    }
+
+    /// Judges a line that differs from the motion before it in what [`Sink::next_line`] says and in nothing else.
+    pub(crate) fn take_line(&mut self, motion: &Motion) {
+        // there was a motion before it, and it told what is in force
+        if let Some(in_force) = self.in_force {
+            self.judge(motion, &in_force, true);
+        }
+    }
+
+    /// `next`: it is a line as [`Self::take_line`] wants it.
+    fn judge(&mut self, motion: &Motion, in_force: &InForce, next: bool) {
         self.summary.motions += 1;
         // cutter compensation tells a motion when the next block is known: that is no further pass of its block
         let late = motion.chain == ChainId::MAIN && self.last_ran == Some(motion.block);
         self.reporter
             .origin(self.visited.has(motion.block) && !late, motion.chain);
-        let holds = Needs::of_motion(motion, &in_force, self.last_cut);
+        let holds = Needs::of_motion(motion, in_force, self.last_cut);
         if motion.is_feed() {
             self.last_cut = motion.tool;
         }
@@ -288,7 +318,7 @@ impl Pass<'_> {
             // a debug build asks them all and sees that the others are silent
             if asked || cfg!(debug_assertions) {
                 self.reporter.enter(rule, Some(motion.block), self.summary.motions);
-                run(motion, in_force, &mut self.reporter);
+                run(motion, *in_force, &mut self.reporter);
                 debug_assert!(asked || self.reporter.is_silent(), "{} needs less", rule.name);
                 self.reporter.leave();
             }
@@ -296,7 +326,11 @@ impl Pass<'_> {
         if let Some(follower) = &mut self.follower {
             self.trail.clamps = in_force.clamps;
             let mut leg = self.leg.take();
-            follower.follow_into(motion, &mut leg);
+            if next {
+                follower.follow_line_into(motion, &mut leg);
+            } else {
+                follower.follow_into(motion, &mut leg);
+            }
             if let Some(leg) = &leg {
                 self.read_leg(leg);
             }

@@ -1,5 +1,6 @@
 //! Merging: the same finding in consecutive blocks becomes one diagnostic at the first of them, with the worst values.
 use crate::again::Passes;
+use crate::open::{Open, Place};
 use crate::place::code_range;
 use crate::trail::Trail;
 use crate::view::LegView;
@@ -76,13 +77,10 @@ pub(crate) struct Repeat {
     pub(crate) sequence: u64,
 }
 
-/// Rule, key, and whether it is unknown.
-type Place = (&'static str, u64, bool);
-
 /// Collects diagnostics and merges runs.
 #[derive(Default)]
 pub(crate) struct Log {
-    open: BTreeMap<Place, Run>,
+    open: Open<Run>,
     closed: Vec<Diagnostic>,
     ended: Vec<Unworded>,
     /// Per rule: how many are listed, and the rest.
@@ -197,14 +195,18 @@ impl Log {
         };
         if repeat.badness > *badness {
             *badness = repeat.badness;
-            let kept = Kept {
-                leg: view.leg.clone(),
-                posture_before: view.posture_before,
-                trail: *view.trail,
-            };
             match &mut run.unworded {
-                Some(old) => **old = kept,
-                None => run.unworded = Some(Box::new(kept)),
+                Some(kept) => {
+                    kept.leg.copy_from(view.leg);
+                    (kept.posture_before, kept.trail) = (view.posture_before, *view.trail);
+                }
+                None => {
+                    run.unworded = Some(Box::new(Kept {
+                        leg: view.leg.clone(),
+                        posture_before: view.posture_before,
+                        trail: *view.trail,
+                    }));
+                }
             }
         }
         whole.severity = whole.severity.max(repeat.severity);
@@ -232,7 +234,7 @@ impl Log {
 
     /// Ends all runs; those that wait for words are given away, to come back by [`Self::worded`].
     pub(crate) fn end(&mut self, program: &Program) -> Vec<Unworded> {
-        for (place, run) in core::mem::take(&mut self.open) {
+        for (place, run) in self.open.take() {
             self.close(place, run, program);
         }
         core::mem::take(&mut self.ended)

@@ -72,6 +72,8 @@ pub struct Constants {
     pub solved: [usize; 3],
     /// Whether linear axes lie in each segment of the chain.
     pub occupied: [bool; 3],
+    /// The segment in which all linear axes lie; `None` when they lie in different ones.
+    pub only_segment: Option<usize>,
     /// The segment shared by the three solved axes; `None` when they lie in different ones.
     pub shared_segment: Option<usize>,
     /// Inverse of the matrix whose columns are the motions of the three solved axes.
@@ -138,6 +140,8 @@ impl Constants {
         for axis in &linear[..linear_count] {
             occupied[axis.segment] = true;
         }
+        let mut inhabited = (0..3).filter(|&segment| occupied[segment]);
+        let only_segment = inhabited.next().filter(|_| inhabited.next().is_none());
         let cartesian = cartesian(&inverse_motion);
         Some(Self {
             rotary,
@@ -146,6 +150,7 @@ impl Constants {
             linear_count,
             solved,
             occupied,
+            only_segment,
             shared_segment,
             inverse_motion,
             cartesian,

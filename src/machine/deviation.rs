@@ -20,7 +20,7 @@ pub struct Deviation {
 /// A rapid whose axes run each at its own speed: where anything is between the ends is not known, nor is it programmed.
 #[inline]
 pub(crate) fn runs_dogleg(machine: &Machine, leg: &Leg) -> bool {
-    leg.motion.kind == MotionKind::Rapid && machine.control.rapid == RapidPath::Dogleg
+    matches!(leg.motion.kind, MotionKind::Rapid) && machine.control.rapid == RapidPath::Dogleg
 }
 
 /// Where sample and bound are this near, mm, more samples say nothing more.

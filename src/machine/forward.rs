@@ -73,6 +73,14 @@ impl Turn {
 #[inline]
 pub(crate) fn segment_shifts(constants: &Constants, joints: &Joints) -> [Vec3; 3] {
     let mut shifts = [Vec3::zeros(); 3];
+    if let Some(segment) = constants.only_segment {
+        let mut shift = Vec3::zeros();
+        for linear in constants.linear() {
+            shift += linear.motion * joints[linear.joint];
+        }
+        shifts[segment] = shift;
+        return shifts;
+    }
     for linear in constants.linear() {
         shifts[linear.segment] += linear.motion * joints[linear.joint];
     }

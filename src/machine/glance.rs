@@ -67,7 +67,7 @@ pub fn glance(machine: &Machine, allowances: &Allowances, leg: &Leg) -> Option<G
     let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
         return None;
     };
-    if leg.motion.kind != MotionKind::Linear || leg.start_given || leads_path(&leg.motion) {
+    if !matches!(leg.motion.kind, MotionKind::Linear) || leg.start_given || leads_path(&leg.motion) {
         return None;
     }
     let (mut inside, mut axes_s, mut way2) = (true, 0.0_f64, 0.0);

@@ -227,6 +227,7 @@ pub(crate) fn inverse_turned(
 }
 
 /// The tool point carried through the chain by known turns and shifts.
+#[inline]
 pub(crate) fn place(constants: &Constants, turns: &[Turn; 2], shifts: &[Vec3; 3], tool: &Vec3) -> Vec3 {
     let count = constants.rotary_count;
     let mut point = tool + shifts[count];

@@ -30,7 +30,13 @@ pub(crate) fn pole_angle(constants: &Constants, pair: &PairConstants, w: &Vec3, 
     if is_orthogonal(pair) {
         // e1, e2, k0 at right angles in pairs: the angle is tau itself, without any rounding at the pole
         let tau = constants.rotary[1].sign * q2 + pair.k_azimuth;
-        return (tau - PI * (tau / PI).round()).abs();
+        let halves = tau / PI;
+        // no half turn to take away is most of what there is
+        return if halves.abs() < 0.5 {
+            tau.abs()
+        } else {
+            (tau - PI * halves.round()).abs()
+        };
     }
     let x = constants.rotary[0].direction.dot(w);
     let across = pair.m.dot(w);
@@ -52,6 +58,10 @@ pub(crate) fn pole_angle_min(constants: &Constants, pair: &PairConstants, from: 
     }
     let tau = |q: f64| (constants.rotary[1].sign * q + pair.k_azimuth) / PI;
     let (a, b) = (tau(from.0), tau(to.0));
+    // the way of most blocks is between the same two multiples of pi, 0 and one beside it
+    if a.min(b) > 0.0 && a.max(b) < 1.0 || a.min(b) > -1.0 && a.max(b) < 0.0 {
+        return ends;
+    }
     let (first, last) = (a.min(b).ceil(), a.max(b).floor());
     if last < first {
         return ends;

@@ -187,3 +187,35 @@ pub struct Leg {
     /// coordinate that the program does not know at the start (first words after TCP was switched) counts with the way of its joint.
     pub length: f64,
 }
+
+impl Leg {
+    /// Becomes another, in its own storage.
+    pub fn copy_from(&mut self, other: &Self) {
+        // all of them, so that none is forgotten
+        let Self {
+            motion,
+            start,
+            start_given,
+            end,
+            open,
+            known_joints,
+            rotary_change,
+            pole_angle_min,
+            rotary_excess,
+            length,
+        } = other;
+        self.motion = *motion;
+        self.start = *start;
+        self.start_given = *start_given;
+        match (&mut self.end, end) {
+            (Ok(own), Ok(end)) => *own = *end,
+            (own, end) => own.clone_from(end),
+        }
+        self.open = *open;
+        self.known_joints = *known_joints;
+        self.rotary_change = *rotary_change;
+        self.pole_angle_min = *pole_angle_min;
+        self.rotary_excess = *rotary_excess;
+        self.length = *length;
+    }
+}

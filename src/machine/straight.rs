@@ -8,9 +8,28 @@ impl Follower<'_> {
     #[inline]
     pub fn follow_into(&mut self, motion: &Motion, leg: &mut Option<Box<Leg>>) {
         match leg {
-            Some(leg) if self.is_straight(motion) => self.straight(motion, leg),
+            Some(leg) if self.is_straight(motion) => {
+                leg.motion = *motion;
+                self.straight(leg);
+            }
             Some(leg) => **leg = self.general(motion),
             None => *leg = Some(Box::new(self.general(motion))),
+        }
+    }
+
+    /// [`Self::follow_into`] for a line that differs from the motion of the leg before in what [`trunnion_interp::Sink::next_line`] says and in
+    /// nothing else.
+    #[inline]
+    pub fn follow_line_into(&mut self, motion: &Motion, leg: &mut Option<Box<Leg>>) {
+        match leg {
+            Some(leg) if self.is_straight(motion) => {
+                let own = &mut leg.motion;
+                (own.block, own.chain, own.kind) = (motion.block, motion.chain, motion.kind);
+                (own.start, own.end, own.feed) = (motion.start, motion.end, motion.feed);
+                debug_assert_eq!(format!("{own:?}"), format!("{motion:?}"), "more than a line differs");
+                self.straight(leg);
+            }
+            _ => self.follow_into(motion, leg),
         }
     }
 
@@ -31,18 +50,20 @@ impl Follower<'_> {
             && self.words.foreign(motion).is_none()
     }
 
-    /// Follows a motion of which [`Self::is_straight`] holds, as the general way would (a test compares both).
+    /// Follows the motion in a leg's storage, of which [`Self::is_straight`] holds, as the general way would (a test compares both).
     #[inline]
-    pub(crate) fn straight(&mut self, motion: &Motion, leg: &mut Leg) {
+    fn straight(&mut self, leg: &mut Leg) {
         let all = self.words.all();
-        leg.motion = *motion;
         leg.start = self.state.stance;
         leg.start_given = false;
         leg.open = None;
         leg.rotary_excess = 0.0;
-        leg.known_joints = self.words.joints(motion, &motion.end, false);
-        let end = self.stand(motion, &leg.known_joints.0, leg.start.as_ref(), None);
-        leg.end = Ok(end);
+        leg.known_joints = (self.words.literal_joints(&leg.motion), all);
+        let end = self.stand(&leg.motion, &leg.known_joints.0, leg.start.as_ref(), None);
+        match &mut leg.end {
+            Ok(own) => *own = end,
+            own => *own = Ok(end),
+        }
         self.measure_straight(leg, &end);
         let state = &mut self.state;
         state.known_joints = leg.known_joints;
@@ -52,7 +73,7 @@ impl Follower<'_> {
             state.sign = end.branch;
         }
         state.aimed &= all;
-        state.named = motion.end.known;
+        state.named = leg.motion.end.known;
         state.tip_words = false;
         state.stance = Some(end);
     }
@@ -121,7 +142,9 @@ pub(crate) mod tests {
                     }
                 }
                 let kind = if rapid { MotionKind::Rapid } else { MotionKind::Linear };
-                let motion = motion(at, to, kind, offset);
+                let mut motion = motion(at, to, kind, offset);
+                motion.block = trunnion_syntax::BlockId(u32::from(held));
+                motion.feed = Feed::PerMinute(values[0]);
                 let mut general = short.clone();
                 let expected = general.general(&motion);
                 if let Some(leg) = &mut leg {
@@ -133,7 +156,15 @@ pub(crate) mod tests {
                     leg.start_given = true;
                     leg.open = Some(Open { cause: OpenCause::Tie, taken: [7.0; 2], other: [7.0; 2] });
                 }
+                // told by what differs where no more does
+                let next = leg.as_deref().is_some_and(|leg| leg.motion.end == at);
+                let mut told = (short.clone(), leg.clone());
                 short.follow_into(&motion, &mut leg);
+                if next {
+                    told.0.follow_line_into(&motion, &mut told.1);
+                    prop_assert_eq!(format!("{:?}", told.1), format!("{:?}", leg));
+                    prop_assert_eq!(format!("{:?}", told.0.state), format!("{:?}", short.state));
+                }
                 prop_assert_eq!(format!("{:?}", leg.as_deref()), format!("{:?}", Some(&expected)));
                 prop_assert_eq!(format!("{:?}", short.state), format!("{:?}", general.state));
                 at = to;

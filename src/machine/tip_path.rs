@@ -83,10 +83,20 @@ impl<'a> Run<'a> {
         let constants = &machine.constants;
         let tool = machine.gauge_point - machine.tool_axis * end.tool_length;
         let (mut shifts, mut ways) = ([Vec3::zeros(); 3], [Vec3::zeros(); 3]);
-        for linear in constants.linear() {
-            let (from, to) = (start.joints[linear.joint], end.joints[linear.joint]);
-            shifts[linear.segment] += linear.motion * from;
-            ways[linear.segment] += linear.motion * (to - from);
+        if let Some(segment) = constants.only_segment {
+            let (mut shift, mut way) = (Vec3::zeros(), Vec3::zeros());
+            for linear in constants.linear() {
+                let (from, to) = (start.joints[linear.joint], end.joints[linear.joint]);
+                shift += linear.motion * from;
+                way += linear.motion * (to - from);
+            }
+            (shifts[segment], ways[segment]) = (shift, way);
+        } else {
+            for linear in constants.linear() {
+                let (from, to) = (start.joints[linear.joint], end.joints[linear.joint]);
+                shifts[linear.segment] += linear.motion * from;
+                ways[linear.segment] += linear.motion * (to - from);
+            }
         }
         let (mut angles, mut change) = ([0.0; 2], [0.0; 2]);
         for (index, rotary) in constants.rotary().iter().enumerate() {

@@ -138,6 +138,20 @@ impl Words {
         (joints, known)
     }
 
+    /// [`Self::joints`] where words are literal, name all joints, and are no machine coordinates.
+    #[inline]
+    pub(crate) fn literal_joints(&self, motion: &Motion) -> Joints {
+        let mut joints = [0.0; MAX_AXES];
+        let length = motion.tool_length_mm;
+        for (joint, slot) in joints.iter_mut().enumerate().take(self.count) {
+            let letter = usize::from(self.letter[joint]).min(AXIS_LETTERS.len() - 1);
+            let word = motion.end.values[letter] * self.scale[joint];
+            let zero = motion.zero[letter] * self.zero_scale[joint];
+            *slot = word + zero + self.per_length[joint] * length;
+        }
+        joints
+    }
+
     /// The turns that a control adds to rotary words it does not take literally, from where the machine stands: the shortest way (M126), or
     /// the way that the word's sign says to the word's amount (LinuxCNC wrapped rotary axes). A word that stays as it was moves nothing.
     /// Half a turn either way is the same way: which one is taken is open.

@@ -125,6 +125,7 @@ impl Engine {
         String::from_utf8_lossy(bytes.trim_ascii()).into_owned()
     }
     /// Tells a canonical call. While cutter compensation holds moves back, calls wait behind them in order.
+    #[inline]
     pub(crate) fn emit(&mut self, call: Canon, at: At, sink: &mut dyn Sink) {
         if !self.queue.is_empty() && crate::comp::waits(&call) {
             self.queue.hold(call, at);

@@ -232,6 +232,7 @@ impl Told {
         }
     }
     /// Follows one call.
+    #[inline]
     pub(crate) fn follow(&mut self, call: &Canon) {
         match call {
             Canon::Traverse(pose) | Canon::Feed(pose) => self.reach(pose),
@@ -267,6 +268,7 @@ impl Told {
         }
     }
     /// A motion whose call does not hold the whole pose has ended.
+    #[inline]
     pub(crate) fn reach(&mut self, end: &Pose) {
         // the listing's machine has no U V W
         self.position[..6].copy_from_slice(&end[..6]);

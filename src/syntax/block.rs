@@ -108,14 +108,16 @@ impl<'p> Block<'p> {
         self.program.block_tokens(self.id)
     }
     /// Its bytes without the line end.
+    #[inline]
     pub fn range(&self) -> TextRange {
         let tokens = self.tokens();
         let table = &self.program.tokens;
-        let full = table.range(tokens.start).cover(table.range(tokens.end - 1));
-        match table.kind(tokens.end - 1) {
-            TokenKind::Newline => TextRange::new(full.start, table.range(tokens.end - 1).start),
-            _ => full,
-        }
+        let (start, last) = (table.starts[tokens.start as usize], tokens.end as usize - 1);
+        let end = match table.kinds[last] {
+            TokenKind::Newline => table.starts[last],
+            _ => table.range(last as TokenId).end,
+        };
+        TextRange::new(start, end)
     }
     /// Its items, ISO format. In APT format: comments, and every other token but blanks as [`Item::Other`].
     #[inline]

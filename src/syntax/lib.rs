@@ -5,6 +5,7 @@
 mod apt;
 mod block;
 mod builder;
+mod digits;
 mod edit;
 mod error;
 mod expression;
@@ -26,6 +27,7 @@ mod table;
 mod token;
 
 pub use block::{Address, Block, Call, Comment, Item, Value, Word};
+pub use digits::{not_digits, whole_number};
 pub use edit::{TextEdit, apply_edits};
 pub use error::{SyntaxError, SyntaxErrorKind};
 pub use items::Items;

@@ -3,6 +3,7 @@
 //!
 //! It takes only what the lexer's own rules would cut in the same way (a test compares both), and stops before all else.
 use crate::builder::{Builder, HELD};
+use crate::digits::not_digits;
 use crate::straight::{Course, Sign};
 use crate::{LexOptions, TokenKind};
 
@@ -91,9 +92,32 @@ fn digits(source: &[u8], mut at: usize) -> usize {
     at
 }
 
-/// The word at `at`, whose digits begin at `digits_at`: pushed, and what is behind it; `None` if there is no number.
+/// Behind the number at `first`, digits with perhaps a point and digits behind it, where all of it shows in eight bytes; `None` elsewhere.
+#[inline]
+fn short(source: &[u8], first: usize) -> Option<usize> {
+    let bytes = u64::from_le_bytes(*source.get(first..)?.first_chunk()?);
+    let other = not_digits(bytes);
+    if other == 0 {
+        return None;
+    }
+    // bits in front of the first byte that is no digit: 0, 8, .. 56
+    let whole = other.trailing_zeros() & 0x38;
+    if bytes >> whole & 0xff != u64::from(b'.') {
+        return (whole > 0).then_some(first + whole as usize / 8);
+    }
+    let behind = other & !(0xff << whole);
+    let end = behind.trailing_zeros() & 0x38;
+    // `X1.` is cut by the lexer's own rules
+    (behind != 0 && end > whole + 8).then_some(first + end as usize / 8)
+}
+
+/// The word at `at`, whose digits begin at `first`: pushed, and what is behind it; `None` if there is no number.
 #[inline]
 fn word(source: &[u8], at: usize, first: usize, cut: &mut Cut) -> Option<usize> {
+    if let Some(end) = short(source, first) {
+        cut.push(TokenKind::Word, Sign::Word, at);
+        return Some(end);
+    }
     let mut end = digits(source, first);
     let mut count = end - first;
     if source.get(end) == Some(&b'.') {

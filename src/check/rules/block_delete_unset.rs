@@ -32,7 +32,7 @@ pub(super) const RULE: Body = Body {
 
 fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     let declared = overview.settings.setup.control.block_delete.is_some();
-    if declared || !overview.program.source().contains(&b'/') {
+    if declared || memchr::memchr(b'/', overview.program.source()).is_none() {
         return;
     }
     let dialect = overview.settings.dialect;

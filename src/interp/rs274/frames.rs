@@ -16,6 +16,8 @@ fn is_rotary(axis: usize) -> bool {
 pub(super) struct Shift {
     /// mm per program unit.
     unit: f64,
+    /// The same axis by axis: degrees are degrees.
+    units: Pose,
     /// Cosine and sine of the rotation; `None` without one.
     rotation: Option<(f64, f64)>,
     /// G92 where there is a rotation, mm and deg.
@@ -51,6 +53,7 @@ impl Shift {
         }
         Self {
             unit,
+            units: std::array::from_fn(scale),
             rotation,
             inside,
             zero,
@@ -61,9 +64,9 @@ impl Shift {
     /// A pose of a canonical call as coordinates of a motion; what is not a number is unknown.
     #[inline]
     pub(super) fn coordinates(&self, pose: &Pose) -> Position {
-        let mut values = Self::metric(pose, self.unit);
-        for (value, inside) in values.iter_mut().zip(self.inside) {
-            *value += inside;
+        let mut values = *pose;
+        for ((value, unit), inside) in values.iter_mut().zip(&self.units).zip(&self.inside) {
+            *value = *value * unit + inside;
         }
         if let Some((cosine, sine)) = self.rotation {
             let [x, y, ..] = values;
@@ -142,10 +145,11 @@ impl Shift {
 /// All axes as a mask.
 const ALL: u16 = (1 << 9) - 1;
 
-/// Whether all values are finite: times zero each is zero then, and else none.
+/// Whether all values are surely finite: a sum that is finite has no other in it. One of huge values may not be.
 #[inline]
 fn all_finite(values: &Pose) -> bool {
-    values.iter().map(|value| value * 0.0).sum::<f64>() == 0.0
+    let [a, b, c, d, e, f, g, h, i] = values;
+    (((a + c) + (e + g)) + ((b + d) + (f + h)) + i).is_finite()
 }
 
 #[cfg(test)]
@@ -179,6 +183,27 @@ mod tests {
         pose[1] = f64::NAN;
         let at = shift.coordinates(&pose);
         assert_eq!((at.get(0), at.get(1)), (Some(1.0), None));
+    }
+
+    #[test]
+    fn only_what_is_finite_is_known_also_where_values_are_huge() {
+        let huge = [f64::MAX; 9];
+        assert!(!all_finite(&huge));
+        let shift = Shift::of(&State::new(false), &[0.0; 9]);
+        let at = shift.coordinates(&huge);
+        assert_eq!((at.values, at.known), (huge, ALL));
+        assert_eq!(shift.machine(&at).known, ALL);
+        for axis in 0..9 {
+            for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut pose = [-1.0; 9];
+                assert!(all_finite(&pose));
+                pose[axis] = odd;
+                assert!(!all_finite(&pose));
+                pose[(axis + 1) % 9] = -odd;
+                assert!(!all_finite(&pose));
+                assert_eq!(shift.coordinates(&pose).known, ALL & !(1 << axis) & !(1 << ((axis + 1) % 9)));
+            }
+        }
     }
 
     #[test]

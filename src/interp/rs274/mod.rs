@@ -132,9 +132,9 @@ impl Interpreter<'_> {
         let step = engine.step(&mut bridge);
         let at = engine.at();
         // behind the last line nothing runs, and nothing in a program without anything in it
-        let nothing_ran = step == Step::Ended;
+        let nothing_ran = matches!(step, Step::Ended);
         let block = bridge.block(at);
-        let ran = step == Step::Line;
+        let ran = matches!(step, Step::Line);
         let in_main = (at.file == FileId::MAIN).then_some(block);
         bridge.told.places.ran(at.chain, in_main);
         match step {

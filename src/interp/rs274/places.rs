@@ -26,6 +26,7 @@ pub(super) struct Places {
 
 impl Places {
     /// A line has run: `block` where it is one of the main program.
+    #[inline]
     pub(super) fn ran(&mut self, chain: ChainId, block: Option<BlockId>) {
         match block {
             Some(block) => self.last = block,
@@ -41,12 +42,18 @@ impl Places {
         self.table.callers.get(&chain).copied().unwrap_or(self.last)
     }
     /// The chain that a motion at a line is told with: in a called file it ends with the line itself.
+    #[inline]
     pub(super) fn chain(&mut self, at: At) -> crate::ChainId {
+        if at.file == FileId::MAIN && at.chain == ChainId::default() {
+            crate::ChainId::MAIN
+        } else {
+            self.called(at)
+        }
+    }
+    /// The same elsewhere than in the main program itself.
+    fn called(&mut self, at: At) -> crate::ChainId {
         let mut at = at;
         if at.file == FileId::MAIN {
-            if at.chain == ChainId::default() {
-                return crate::ChainId::MAIN;
-            }
             at.line = 0;
         }
         if let Some(known) = self.table.known.get(&at) {

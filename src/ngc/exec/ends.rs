@@ -39,13 +39,8 @@ pub(crate) fn cycle_end(state: &State, block: &Block) -> Result<Pose, Error> {
     }
     let mut end = state.current;
     let incremental = state.distance == DistanceMode::Incremental;
-    if !(incremental || state.lathe_diameter || state.wrapped != [false; 3] || block.is_polar()) {
-        let mut given = block.given & crate::block::AXES;
-        while given != 0 {
-            let letter = given.trailing_zeros() as usize;
-            end[PLACES[letter]] = block.words[letter];
-            given &= given - 1;
-        }
+    if takes_words(state, block) {
+        put_words(&mut end, block);
         return Ok(end);
     }
     for (place, letter) in AXES.into_iter().enumerate() {
@@ -62,6 +57,26 @@ pub(crate) fn cycle_end(state: &State, block: &Block) -> Result<Pose, Error> {
         (end[0], end[1]) = polar(state, block)?;
     }
     Ok(end)
+}
+
+/// Whether axis words, if not under G53, are coordinates of the end as they are.
+#[inline]
+pub(crate) fn takes_words(state: &State, block: &Block) -> bool {
+    state.distance == DistanceMode::Absolute
+        && !state.lathe_diameter
+        && state.wrapped == [false; 3]
+        && !block.is_polar()
+}
+
+/// Puts the axis words in their places of a pose.
+#[inline]
+pub(crate) fn put_words(pose: &mut Pose, block: &Block) {
+    let mut given = block.given & crate::block::AXES;
+    while given != 0 {
+        let letter = given.trailing_zeros() as usize;
+        pose[PLACES[letter]] = block.words[letter];
+        given &= given - 1;
+    }
 }
 
 /// Where an absolute word leads from `here`: on a wrapped rotary axis the way round that its sign says.

@@ -127,11 +127,15 @@ pub(crate) fn line(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Si
     engine.state.named_axes = named_axes(block);
     engine.state.machine_frame = false;
     engine.state.motion_only = true;
-    move_only(engine, block, at, sink)
+    modal::feed_rate(engine, block, at, sink);
+    // what `move_tool` does with a motion code and without G53
+    engine.state.last_motion = engine.state.motion;
+    motion::line(engine, block, at, sink)?;
+    engine.refresh_parameters();
+    Ok(After::Go)
 }
 
 /// A block without anything but a motion and its F: what the other steps look for is not there.
-#[inline]
 fn move_only(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<After, Error> {
     modal::feed_rate(engine, block, at, sink);
     move_tool(engine, block, at, sink)?;
@@ -140,6 +144,7 @@ fn move_only(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) ->
 }
 
 /// Axes with words: bit i is axis i of a pose. Polar words lead along X and Y.
+#[inline]
 fn named_axes(block: &Block) -> u16 {
     let polar = u16::from(block.radius.is_some() || block.angle.is_some()) * 0b11;
     let letters = |first: u8| (block.given >> (first - b'A') & 0b111) as u16;

@@ -60,6 +60,7 @@ pub(crate) fn inverse_time(engine: &mut Engine, block: &Block, length: f64, at: 
 }
 
 /// Whether feed is possible: F under G93 in the block, a rate otherwise, a turning spindle under G95.
+#[inline]
 pub(crate) fn check_feed(
     engine: &Engine,
     block: &Block,
@@ -83,6 +84,35 @@ pub(crate) fn check_feed(
 /// The motion code's bytes, or the line's where the code is modal.
 pub(crate) fn code_range(block: &Block) -> trunnion_syntax::TextRange {
     if block.g[1] >= 0 { block.g_range(1) } else { block.range }
+}
+
+/// [`straight`] of a block that `choose_line` has chosen: compensation is off.
+#[inline]
+pub(crate) fn line(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
+    let is_feed = block.motion == 10;
+    if is_feed {
+        check_feed(engine, block, &problems::INVERSE_G1, &problems::ZERO_FEED_G1)?;
+    }
+    engine.state.motion = block.motion;
+    if !ends::takes_words(&engine.state, block) {
+        let end = ends::end(&engine.state, block)?;
+        return if is_feed {
+            feed(engine, end, block, at, sink)
+        } else {
+            traverse(engine, end, block, at, sink)
+        };
+    }
+    if is_feed && engine.state.feed_mode == FeedMode::InverseTime {
+        let mut end = engine.state.current;
+        ends::put_words(&mut end, block);
+        inverse_time(engine, block, length(&engine.state.current, &end), at, sink);
+    }
+    engine.state.exit_pending = false;
+    ends::put_words(&mut engine.state.current, block);
+    let end = engine.state.current;
+    let call = if is_feed { Canon::Feed(end) } else { Canon::Traverse(end) };
+    engine.emit(call, at, sink);
+    Ok(())
 }
 
 /// G0, G1.

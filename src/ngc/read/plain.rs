@@ -5,7 +5,7 @@
 use super::evaluate::put;
 use crate::Block;
 use crate::parameters::Values;
-use trunnion_syntax::TextRange;
+use trunnion_syntax::{TextRange, not_digits, whole_number};
 
 /// Powers of ten that a double holds exactly.
 const POWERS: [f64; 19] = [
@@ -19,6 +19,8 @@ const LETTERS: u32 = 0x03ff_ffff & !bit(b'N') & !bit(b'O');
 const ANY_VALUE: u32 = crate::block::AXES;
 /// Letters that may stand in a line twice: they name codes.
 const CODES: u32 = bit(b'G') | bit(b'M');
+/// The modal group of motion codes.
+const MOTION: usize = 1;
 /// A line with more bytes is not plain.
 const LONGEST: usize = 250;
 
@@ -53,6 +55,8 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
         let range = TextRange::new(start + at as u32, start + end as u32);
         if ANY_VALUE >> place & 1 != 0 {
             block.put(letter, value, range);
+        } else if letter == b'G' && block.g[MOTION] < 0 && (value == 0.0 || value == 1.0) {
+            block.put_g(MOTION, if value == 0.0 { 0 } else { 10 }, range);
         } else {
             put(letter, value, range, values, block).ok()?;
         }
@@ -89,13 +93,48 @@ fn sequence_number(text: &[u8]) -> Option<(Option<f64>, usize)> {
 fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
     let sign = *text.get(at)?;
     let first = at + usize::from(sign == b'-' || sign == b'+');
-    let (mantissa, places, end) = match short(text, first) {
+    let (mantissa, places, end) = match few(text, first) {
         Some(found) => found,
-        None => long(text, first)?,
+        None => many(text, first)?,
     };
     // both operands are exact, so the one operation rounds correctly
     let value = mantissa as f64 / POWERS[places];
     Some((if sign == b'-' { -value } else { value }, end))
+}
+
+/// All digits as a whole number, how many stand behind the point, and where they end: of at most seven digits and a point, all at once;
+/// `None` elsewhere. A line's end is no digit, so that nothing behind it is taken.
+#[inline]
+fn few(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
+    let ninth = *wide.get(first + 8)?;
+    let word = u64::from_le_bytes(*wide.get(first..)?.first_chunk()?);
+    let other = not_digits(word);
+    // bits in front of the first byte that is no digit: 0, 8, .. 56
+    let whole = other.trailing_zeros() & 0x38;
+    if other == 0 {
+        return None;
+    }
+    if word >> whole & 0xff != u64::from(b'.') {
+        let found = (whole_number(word, whole), 0, first + (whole / 8) as usize);
+        return (whole > 0).then_some(found);
+    }
+    // the digits behind the point move up to those in front of it
+    let before = (1 << whole) - 1;
+    let joined = word & before | (word >> 8 | u64::from(ninth) << 56) & !before;
+    let other = not_digits(joined);
+    let digits = other.trailing_zeros() & 0x38;
+    if other == 0 || digits == 0 {
+        return None;
+    }
+    let places = (digits - whole) / 8;
+    let end = first + (digits / 8) as usize + 1;
+    Some((whole_number(joined, digits), places as usize, end))
+}
+
+/// The same of more digits.
+#[inline(never)]
+fn many(text: &[u8], first: usize) -> Option<(u64, usize, usize)> {
+    short(text, first).or_else(|| long(text, first))
 }
 
 /// Digits and point one by one: all digits as a whole number, how many stand behind the point, and where they end.
@@ -121,7 +160,7 @@ fn long(text: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     Some((mantissa, places, end))
 }
 
-/// The same eight bytes at a time, where at most seven digits stand on either side of the point; `None` elsewhere. A line's end is no digit,
+/// The same eight bytes at a time on either side of the point, where at most seven digits stand on each; `None` elsewhere. A line's end is no digit,
 /// so that nothing behind it is taken.
 #[inline]
 fn short(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
@@ -137,26 +176,14 @@ fn short(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
 /// Powers of ten.
 const SCALES: [u64; 8] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000];
 
-/// The upper halves of eight bytes.
-const HIGH: u64 = 0xf0f0_f0f0_f0f0_f0f0;
-
 /// The digits at `at` as a whole number, and how many they are, where they are fewer than eight.
 #[inline]
 fn eight(wide: &[u8], at: usize) -> Option<(u64, usize)> {
     let word = u64::from_le_bytes(*wide.get(at..)?.first_chunk()?);
-    // a digit is 3x, and stays below 40 when 6 is added; a sum that overflows spoils only what stands behind a byte that is no digit
-    let other = ((word & HIGH) | ((word.wrapping_add(0x0606_0606_0606_0606) & HIGH) >> 4)) ^ 0x3333_3333_3333_3333;
-    if other == 0 {
-        return None;
-    }
+    let other = not_digits(word);
     // bits in front of the first byte that is no digit: 0, 8, .. 56
     let bits = other.trailing_zeros() & 0x38;
-    // zeros in front, then pairs, fours and eight digits at once
-    let digits = (word & !HIGH) << 8 << (56 - bits);
-    let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
-    let low = (pairs & 0x0000_00ff_0000_00ff).wrapping_mul(0x000f_4240_0000_0064);
-    let high = (pairs >> 16 & 0x0000_00ff_0000_00ff).wrapping_mul(0x0000_2710_0000_0001);
-    Some((low.wrapping_add(high) >> 32, (bits / 8) as usize))
+    (other != 0).then(|| (whole_number(word, bits), (bits / 8) as usize))
 }
 
 #[cfg(test)]
@@ -222,6 +249,10 @@ mod tests {
             "N10 G1 X1\n",
             "n0010.50X1 Y2 \r\n",
             "G1 G90 M3 M8 X1\n",
+            "G1.X.5Y1234.567Z12345.67A123456.7\n",
+            "G-0 X1234567 Y.1234567 Z1234567.\n",
+            "G0 X12345678 Y1234.5678 Z.12345678 \n",
+            "G1 X0 Y9.9999999 Z-99.999999\r\n",
         ] {
             assert!(same(text), "{text:?}");
         }
@@ -244,6 +275,12 @@ mod tests {
             "X- 1\n",
             "X1 .5\n",
             "F-1\n",
+            "G0 G1 X1\n",
+            "G1 G1 X1\n",
+            "G80 G1 X.\n",
+            "G1.5 X1\n",
+            "X1.2.3\n",
+            "X1.-2 \n",
         ] {
             assert!(!same(text), "{text:?}");
         }

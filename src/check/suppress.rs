@@ -76,6 +76,9 @@ impl Suppressions {
 /// Whether a block has more than comments and the `%` that frames a tape.
 pub(crate) fn has_code(program: &Program, block: BlockId) -> bool {
     let view = program.block(block);
+    if view.first_byte().is_some_and(|byte| byte.is_ascii_alphabetic()) {
+        return true;
+    }
     let text = &program.source()[view.range().as_usize()];
     match text.iter().find(|byte| !byte.is_ascii_whitespace()) {
         None => return false,

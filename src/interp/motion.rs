@@ -32,10 +32,12 @@ pub struct Position {
 
 impl Position {
     /// Value of an axis, if known.
+    #[inline]
     pub fn get(&self, axis: usize) -> Option<f64> {
         (self.known & (1 << axis) != 0).then(|| self.values[axis])
     }
     /// Sets an axis to a known value.
+    #[inline]
     pub fn set(&mut self, axis: usize, value: f64) {
         self.values[axis] = value;
         self.known |= 1 << axis;

@@ -119,6 +119,12 @@ impl<'p> Block<'p> {
         };
         TextRange::new(start, end)
     }
+    /// Its first byte, which may be that of its line end.
+    #[inline]
+    pub fn first_byte(&self) -> Option<u8> {
+        let start = self.program.tokens.starts[self.program.blocks[self.id.0 as usize] as usize];
+        self.program.source.get(start as usize).copied()
+    }
     /// Its items, ISO format. In APT format: comments, and every other token but blanks as [`Item::Other`].
     #[inline]
     pub fn items(&self) -> Items<'p> {

@@ -1,22 +1,38 @@
 //! Digits eight bytes at a time.
 
-/// The upper halves of eight bytes.
-const HIGH: u64 = 0xf0f0_f0f0_f0f0_f0f0;
+/// Eight times the byte 0.
+const ZEROS: u64 = 0x3030_3030_3030_3030;
+/// The highest bit of each of eight bytes.
+const TOPS: u64 = 0x8080_8080_8080_8080;
 
-/// Of eight bytes, the first of them lowest: zero in each that is a digit. A byte above 0xF9 makes what it says of those behind it wrong.
+/// Eight bytes, the first of them lowest, in which a digit is its value: the others are told by [`not_digits`].
 #[inline]
 #[must_use]
-pub const fn not_digits(bytes: u64) -> u64 {
-    // a digit is 3x, and stays below 40 when 6 is added; a sum that overflows spoils only what stands behind
-    ((bytes & HIGH) | ((bytes.wrapping_add(0x0606_0606_0606_0606) & HIGH) >> 4)) ^ 0x3333_3333_3333_3333
+pub const fn digits(bytes: [u8; 8]) -> u64 {
+    u64::from_le_bytes(bytes) ^ ZEROS
 }
 
-/// The whole number of the first `bits / 8` of eight bytes, which are digits; at most seven of them.
+/// A byte as it is among [`digits`].
 #[inline]
 #[must_use]
-pub const fn whole_number(bytes: u64, bits: u32) -> u64 {
+pub const fn as_digit(byte: u8) -> u64 {
+    byte as u64 ^ 0x30
+}
+
+/// The highest bit of each byte of [`digits`] that is none. What it says of bytes behind one above `z` may be wrong.
+#[inline]
+#[must_use]
+pub const fn not_digits(digits: u64) -> u64 {
+    // 10 and more reach the highest bit; a sum that overflows, of a byte that has it already, spoils only what stands behind
+    (digits.wrapping_add(0x7676_7676_7676_7676) | digits) & TOPS
+}
+
+/// The whole number of the first `bits / 8` of eight [`digits`]; at most seven of them.
+#[inline]
+#[must_use]
+pub const fn whole_number(digits: u64, bits: u32) -> u64 {
     // zeros in front, then pairs, fours and eight digits at once
-    let digits = (bytes & !HIGH) << 8 << (56 - bits);
+    let digits = digits << 8 << (56 - bits);
     let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
     let low = (pairs & 0x0000_00ff_0000_00ff).wrapping_mul(0x000f_4240_0000_0064);
     let high = (pairs >> 16 & 0x0000_00ff_0000_00ff).wrapping_mul(0x0000_2710_0000_0001);
@@ -25,7 +41,7 @@ pub const fn whole_number(bytes: u64, bits: u32) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{not_digits, whole_number};
+    use super::{as_digit, digits, not_digits, whole_number};
 
     #[test]
     fn every_byte_is_a_digit_or_none_wherever_it_stands() {
@@ -33,11 +49,17 @@ mod tests {
             for place in 0..8 {
                 let mut bytes = *b"13579024";
                 bytes[place] = byte;
-                let other = not_digits(u64::from_le_bytes(bytes));
+                let other = not_digits(digits(bytes));
                 let expected = if byte.is_ascii_digit() { 8 } else { place };
                 assert_eq!(other.trailing_zeros() as usize / 8, expected, "{byte} {place}");
+                assert_eq!(digits(bytes) >> (8 * place) & 0xff, as_digit(byte));
+                // up to a letter it says nothing wrong of what stands behind it
+                let behind = other & other.wrapping_sub(1);
+                assert!(byte > b'z' || behind == 0, "{byte} {place}");
             }
         }
+        let both = not_digits(digits(*b"1.23 456"));
+        assert_eq!(both, 0x80_0000_8000);
     }
 
     #[test]
@@ -45,7 +67,7 @@ mod tests {
         let bytes = *b"9070605x";
         let mut value = 0;
         for count in 0..8_usize {
-            assert_eq!(whole_number(u64::from_le_bytes(bytes), 8 * count as u32), value);
+            assert_eq!(whole_number(digits(bytes), 8 * count as u32), value);
             value = value * 10 + u64::from(bytes[count].wrapping_sub(b'0'));
         }
     }

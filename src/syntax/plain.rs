@@ -3,7 +3,7 @@
 //!
 //! It takes only what the lexer's own rules would cut in the same way (a test compares both), and stops before all else.
 use crate::builder::{Builder, HELD};
-use crate::digits::not_digits;
+use crate::digits::{as_digit, not_digits};
 use crate::straight::{Course, Sign};
 use crate::{LexOptions, TokenKind};
 
@@ -95,17 +95,17 @@ fn digits(source: &[u8], mut at: usize) -> usize {
 /// Behind the number at `first`, digits with perhaps a point and digits behind it, where all of it shows in eight bytes; `None` elsewhere.
 #[inline]
 fn short(source: &[u8], first: usize) -> Option<usize> {
-    let bytes = u64::from_le_bytes(*source.get(first..)?.first_chunk()?);
+    let bytes = crate::digits::digits(*source.get(first..)?.first_chunk()?);
     let other = not_digits(bytes);
     if other == 0 {
         return None;
     }
     // bits in front of the first byte that is no digit: 0, 8, .. 56
     let whole = other.trailing_zeros() & 0x38;
-    if bytes >> whole & 0xff != u64::from(b'.') {
+    if bytes >> whole & 0xff != as_digit(b'.') {
         return (whole > 0).then_some(first + whole as usize / 8);
     }
-    let behind = other & !(0xff << whole);
+    let behind = other & (other - 1);
     let end = behind.trailing_zeros() & 0x38;
     // `X1.` is cut by the lexer's own rules
     (behind != 0 && end > whole + 8).then_some(first + end as usize / 8)

@@ -49,6 +49,10 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     }
     let mut last: Option<(u64, TextRange)> = None;
     for block in program.blocks() {
+        // what most blocks begin with begins no number and no program
+        if matches!(block.first_byte(), Some(b'G' | b'M' | b'X'..=b'Z')) {
+            continue;
+        }
         let range = block.range();
         match start(&program.source()[range.as_usize()], range.start) {
             Start::Number(value, range) => {

@@ -85,6 +85,31 @@ impl Shift {
         position
     }
 
+    /// Moves the named axes (bit per axis) of an end, and of the same in coordinates of the machine, to a pose, whose other axes lead to
+    /// where these two are already. `false` where that is no short way: then the two are of no use.
+    #[inline]
+    pub(super) fn reach(&self, pose: &Pose, named: u16, end: &mut Position, machine: &mut Position) -> bool {
+        if self.rotation.is_some() {
+            return false;
+        }
+        let mut named = named & ALL;
+        while named != 0 {
+            let axis = (named.trailing_zeros() as usize).min(8);
+            named &= named - 1;
+            let value = pose[axis] * self.units[axis] + self.inside[axis];
+            let mut there = value + self.zero[axis];
+            if axis == 2 {
+                there += self.length;
+            }
+            if !(value.is_finite() && there.is_finite()) {
+                return false;
+            }
+            end.set(axis, value);
+            machine.set(axis, there);
+        }
+        true
+    }
+
     /// mm and deg from program units.
     #[inline]
     pub(super) fn metric(pose: &Pose, unit: f64) -> Pose {

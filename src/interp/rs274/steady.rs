@@ -18,47 +18,52 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// A straight motion; `only`: its line is this motion and nothing else.
     #[inline]
     pub(super) fn line(&mut self, kind: MotionKind, pose: &Pose, only: bool, at: At, state: &State) {
-        let steady = self.told.steady.take();
-        let fresh;
-        let shift = if let Some(steady) = &steady {
-            &steady.shift
-        } else {
-            fresh = self.shift(state);
-            &fresh
-        };
+        if let Some(mut steady) = self.told.steady.take() {
+            let goes_on = self.next_line(&mut steady, kind, pose, at, state);
+            steady.settled = true;
+            // what comes next is told by what differs, unless an offset is not known
+            self.told.steady = Some(steady).filter(|_| goes_on);
+            return;
+        }
+        let shift = self.shift(state);
         let end = shift.coordinates(pose);
         let machine = shift.machine(&end);
-        let feed = if matches!(kind, MotionKind::Rapid) {
-            Feed::Rapid
-        } else {
-            self.feed(&machine, at, state)
-        };
-        let steady = if let Some(mut steady) = steady {
-            self.next_line(&mut steady.motion, kind, [end, machine], feed, at, state);
-            steady.settled = true;
-            Some(steady)
-        } else {
-            let motion = self.motion_to(kind, [end, machine], shift, feed, at, state);
-            only.then(|| {
-                let (shift, settled) = (*shift, true);
-                Box::new(Steady { shift, motion, settled })
+        let feed = self.line_feed(kind, &machine, at, state);
+        let motion = self.motion_to(kind, [end, machine], &shift, feed, at, state);
+        self.told.steady = (only && machine.known == end.known).then(|| {
+            Box::new(Steady {
+                shift,
+                motion,
+                settled: true,
             })
-        };
-        // what comes next is told by what differs, unless an offset is not known
-        self.told.steady = steady.filter(|_| machine.known == end.known);
+        });
     }
 
-    /// The same where the line before it, which made `motion`, was one too.
     #[inline]
-    fn next_line(
-        &mut self,
-        motion: &mut Motion,
-        kind: MotionKind,
-        [end, machine]: [Position; 2],
-        feed: Feed,
-        at: At,
-        state: &State,
-    ) {
+    fn line_feed(&mut self, kind: MotionKind, machine: &Position, at: At, state: &State) -> Feed {
+        if matches!(kind, MotionKind::Rapid) {
+            Feed::Rapid
+        } else {
+            self.feed(machine, at, state)
+        }
+    }
+
+    /// The same where the line before it was one too; whether the next may go on so.
+    #[inline]
+    fn next_line(&mut self, steady: &mut Steady, kind: MotionKind, pose: &Pose, at: At, state: &State) -> bool {
+        let Steady { shift, motion, .. } = steady;
+        let (mut end, mut machine) = (motion.end, self.told.machine);
+        // axes without a word stay where the line before it has led them
+        if !shift.reach(pose, state.named_axes, &mut end, &mut machine) {
+            end = shift.coordinates(pose);
+            machine = shift.machine(&end);
+        }
+        if cfg!(debug_assertions) {
+            let full = shift.coordinates(pose);
+            let full = format!("{:?}", (full, shift.machine(&full)));
+            debug_assert_eq!(format!("{:?}", (end, machine)), full, "an axis without a word has moved");
+        }
+        let feed = self.line_feed(kind, &machine, at, state);
         let block = self.block(at);
         let interpreter = &mut *self.interpreter;
         interpreter.state.position = end;
@@ -72,5 +77,6 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         motion.end = end;
         motion.feed = feed;
         self.sink.next_line(motion, &interpreter.state);
+        machine.known == end.known
     }
 }

@@ -5,7 +5,7 @@
 use super::evaluate::put;
 use crate::Block;
 use crate::parameters::Values;
-use trunnion_syntax::{TextRange, not_digits, whole_number};
+use trunnion_syntax::{TextRange, as_digit, digits, not_digits, whole_number};
 
 /// Powers of ten that a double holds exactly.
 const POWERS: [f64; 19] = [
@@ -41,8 +41,9 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
     if matches!(text.first(), Some(b'N' | b'n')) {
         (block.number, at) = sequence_number(text)?;
     }
+    let mut next = *text.get(at)?;
     loop {
-        let letter = *text.get(at)? & !0x20;
+        let letter = next & !0x20;
         let place = letter.wrapping_sub(b'A');
         if place >= 26 || open >> place & 1 == 0 {
             break;
@@ -63,8 +64,10 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
         open &= !(1 << place) | CODES;
         (at, stop) = (end, end);
         // what goes on behind blanks must be a word: a digit or a point there belongs to the number before them
-        while *text.get(at)? == b' ' {
+        next = *text.get(at)?;
+        while next == b' ' {
             at += 1;
+            next = *text.get(at)?;
         }
     }
     at += usize::from(text[at] == b'\r');
@@ -78,7 +81,8 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
 /// N at the line's start and the blanks behind its number: digits, perhaps with one point between them.
 fn sequence_number(text: &[u8]) -> Option<(Option<f64>, usize)> {
     text.get(1).filter(|byte| byte.is_ascii_digit())?;
-    let (value, mut end) = number(text, 1)?;
+    let (mantissa, places, mut end) = many(text, 1)?;
+    let value = quotient(mantissa, places);
     if text[end - 1] == b'.' {
         return None;
     }
@@ -97,9 +101,15 @@ fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
         Some(found) => found,
         None => many(text, first)?,
     };
-    // both operands are exact, so the one operation rounds correctly
-    let value = mantissa as f64 / POWERS[places];
+    let value = quotient(mantissa, places);
     Some((if sign == b'-' { -value } else { value }, end))
+}
+
+/// A number by its digits and how many of them stand behind the point.
+#[inline]
+fn quotient(mantissa: u64, places: usize) -> f64 {
+    // both operands are exact, so the one operation rounds correctly
+    mantissa as i64 as f64 / POWERS[places]
 }
 
 /// All digits as a whole number, how many stand behind the point, and where they end: of at most seven digits and a point, all at once;
@@ -107,28 +117,27 @@ fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
 #[inline]
 fn few(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     let ninth = *wide.get(first + 8)?;
-    let word = u64::from_le_bytes(*wide.get(first..)?.first_chunk()?);
+    let word = digits(*wide.get(first..)?.first_chunk()?);
     let other = not_digits(word);
-    // bits in front of the first byte that is no digit: 0, 8, .. 56
-    let whole = other.trailing_zeros() & 0x38;
     if other == 0 {
         return None;
     }
-    if word >> whole & 0xff != u64::from(b'.') {
+    // bits in front of the first byte that is no digit: 0, 8, .. 56
+    let whole = other.trailing_zeros() & 0x38;
+    if word >> whole & 0xff != as_digit(b'.') {
         let found = (whole_number(word, whole), 0, first + (whole / 8) as usize);
         return (whole > 0).then_some(found);
     }
     // the digits behind the point move up to those in front of it
     let before = (1 << whole) - 1;
-    let joined = word & before | (word >> 8 | u64::from(ninth) << 56) & !before;
+    let joined = word & before | (word >> 8 | as_digit(ninth) << 56) & !before;
     let other = not_digits(joined);
-    let digits = other.trailing_zeros() & 0x38;
-    if other == 0 || digits == 0 {
+    let count = other.trailing_zeros() & 0x38;
+    if other == 0 || count == 0 {
         return None;
     }
-    let places = (digits - whole) / 8;
-    let end = first + (digits / 8) as usize + 1;
-    Some((whole_number(joined, digits), places as usize, end))
+    let end = first + (count / 8) as usize + 1;
+    Some((whole_number(joined, count), ((count - whole) / 8) as usize, end))
 }
 
 /// The same of more digits.
@@ -179,7 +188,7 @@ const SCALES: [u64; 8] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_
 /// The digits at `at` as a whole number, and how many they are, where they are fewer than eight.
 #[inline]
 fn eight(wide: &[u8], at: usize) -> Option<(u64, usize)> {
-    let word = u64::from_le_bytes(*wide.get(at..)?.first_chunk()?);
+    let word = digits(*wide.get(at..)?.first_chunk()?);
     let other = not_digits(word);
     // bits in front of the first byte that is no digit: 0, 8, .. 56
     let bits = other.trailing_zeros() & 0x38;

@@ -16,7 +16,7 @@ fn decimals(value: f64) -> usize {
 /// A number with about four digits that matter and no trailing zeros.
 pub(crate) fn number(value: f64) -> String {
     let decimals = decimals(value);
-    let text = format!("{value:.decimals$}");
+    let text = fixed(value, decimals);
     let text = if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.')
     } else {
@@ -25,10 +25,44 @@ pub(crate) fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
+/// Powers of ten.
+const SCALES: [u32; 7] = [1, 10, 100, 1000, 10_000, 100_000, 1_000_000];
+
+/// A value with so many decimals, at most six, rounded as `format!` rounds it.
+fn fixed(value: f64, decimals: usize) -> String {
+    let scaled = value.abs() * f64::from(SCALES[decimals]);
+    let whole = scaled as u64;
+    // the product is off by less than a thousandth: only near the middle between two numbers may it lead to the wrong one
+    let rest = scaled - whole as f64;
+    if scaled.is_nan() || scaled >= 1e12 || (rest - 0.5).abs() < 0.001 {
+        return format!("{value:.decimals$}");
+    }
+    let mut rest = whole + u64::from(rest > 0.5);
+    // sign, 13 digits, point
+    let (mut text, mut at) = ([0; 16], 16);
+    for place in 0.. {
+        if place == decimals && place > 0 {
+            at -= 1;
+            text[at] = b'.';
+        }
+        if place > decimals && rest == 0 {
+            break;
+        }
+        at -= 1;
+        text[at] = b'0' + (rest % 10) as u8;
+        rest /= 10;
+    }
+    if value.is_sign_negative() {
+        at -= 1;
+        text[at] = b'-';
+    }
+    core::str::from_utf8(&text[at..]).unwrap_or_default().to_owned()
+}
+
 /// A feed or speed: fewer digits than [`number`], since nobody sets more.
 pub(crate) fn rate(value: f64) -> String {
     match value.abs() {
-        size if size >= 100.0 => format!("{value:.0}"),
+        size if size >= 100.0 => fixed(value, 0),
         size if size >= 10.0 => number((value * 10.0).round() / 10.0),
         _ => number(value),
     }
@@ -108,7 +142,62 @@ pub(crate) fn hash(text: &str) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::number;
+    use super::{fixed, number};
+    use proptest::prelude::*;
+
+    #[test]
+    fn digits_are_those_of_the_formatter_at_the_edges() {
+        let odd = [
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            -0.0,
+            0.0,
+            1e12,
+            999_999_999_999.7,
+            1e300,
+            5e-324,
+        ];
+        let middles = [
+            0.5,
+            1.5,
+            2.5,
+            -0.5,
+            0.125,
+            0.375,
+            0.0005,
+            1.005,
+            999.5,
+            99.95,
+            0.000_000_5,
+            -0.05,
+        ];
+        for value in odd.into_iter().chain(middles) {
+            for decimals in 0..=6 {
+                assert_eq!(
+                    fixed(value, decimals),
+                    format!("{value:.decimals$}"),
+                    "{value} {decimals}"
+                );
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn digits_are_those_of_the_formatter(
+            value in prop_oneof![-2.0..2.0, -2e3..2e3, -1e13..1e13, any::<f64>()],
+            steps in -2_000_000..2_000_000_i32,
+            decimals in 0..=6_usize,
+        ) {
+            prop_assert_eq!(fixed(value, decimals), format!("{value:.decimals$}"));
+            // at and beside the middle between two numbers
+            let middle = (f64::from(steps) + 0.5) / 1000.0;
+            for value in [middle, middle * (1.0 + 1e-15), middle * (1.0 - 1e-6), middle / 10.0] {
+                prop_assert_eq!(fixed(value, decimals), format!("{value:.decimals$}"));
+            }
+        }
+    }
 
     #[test]
     fn numbers_keep_the_digits_that_matter() {

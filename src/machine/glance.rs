@@ -75,8 +75,11 @@ pub fn glance(machine: &Machine, allowances: &Allowances, leg: &Leg) -> Option<G
         let value = end.joints[joint];
         let way = (value - start.joints[joint]).abs();
         inside &= value >= allowances.low[joint] && value <= allowances.high[joint];
-        // an axis that stands still needs no speed: then the product is not a number, which the larger one ignores
-        axes_s = axes_s.max(way * allowances.per_speed[joint]);
+        // an axis that stands still needs no speed: then the product is not a number, which is not larger
+        let seconds = way * allowances.per_speed[joint];
+        if seconds > axes_s {
+            axes_s = seconds;
+        }
         // where a value is not finite the sum is none either, also that of a rotary axis
         way2 += allowances.linear[joint] * way * way;
     }

@@ -35,6 +35,15 @@ pub struct At {
 pub trait Sink {
     /// A canonical call; `state` is what is in force after the part of the line that made it.
     fn call(&mut self, call: &Canon, at: At, state: &State);
+    /// [`Canon::Traverse`] (`rapid`) or [`Canon::Feed`] to a pose, which [`Self::call`] is told otherwise.
+    fn straight(&mut self, rapid: bool, end: &crate::Pose, at: At, state: &State) {
+        let call = if rapid {
+            Canon::Traverse(*end)
+        } else {
+            Canon::Feed(*end)
+        };
+        self.call(&call, at, state);
+    }
     /// A line was refused. `main`: the first error, where the control stops; further ones are of the same line.
     fn error(&mut self, error: &Error, at: At);
     /// A NUL stands in a line that runs: the control does not read the bytes from there to the end of the line.

@@ -116,6 +116,13 @@ fn short(source: &[u8], first: usize) -> Option<usize> {
 fn word(source: &[u8], at: usize, first: usize, cut: &mut Cut) -> Option<usize> {
     if let Some(end) = short(source, first) {
         cut.push(TokenKind::Word, Sign::Word, at);
+        // most often one blank stands between it and the next
+        if let Some(&[b' ', next, ..]) = source.get(end..)
+            && GOES_ON[usize::from(next)] & BLANK == 0
+        {
+            cut.push(TokenKind::Blank, Sign::Blank, end);
+            return Some(end + 1);
+        }
         return Some(end);
     }
     let mut end = digits(source, first);

@@ -231,16 +231,17 @@ struct ArcCall {
 }
 
 impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
+    fn straight(&mut self, rapid: bool, end: &Pose, at: At, state: &State) {
+        self.straight_motion(rapid, end, at, state);
+    }
+
     fn call(&mut self, call: &Canon, at: At, state: &State) {
-        let straight = matches!(call, Canon::Traverse(_) | Canon::Feed(_));
-        let told = &mut *self.told;
-        let only = straight && state.motion_only && !told.is_hidden();
-        if !(only || matches!(call, Canon::FeedRate(_))) {
-            told.steady = None;
+        if !matches!(call, Canon::Traverse(_) | Canon::Feed(_) | Canon::FeedRate(_)) {
+            self.told.steady = None;
         }
         match call {
-            Canon::Traverse(pose) => self.line(MotionKind::Rapid, pose, only, at, state),
-            Canon::Feed(pose) => self.line(MotionKind::Linear, pose, only, at, state),
+            Canon::Traverse(pose) => self.straight_motion(true, pose, at, state),
+            Canon::Feed(pose) => self.straight_motion(false, pose, at, state),
             &Canon::Arc {
                 end,
                 centre,
@@ -299,6 +300,16 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
 }
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
+    #[inline]
+    fn straight_motion(&mut self, rapid: bool, end: &Pose, at: At, state: &State) {
+        let only = state.motion_only && !self.told.is_hidden();
+        if !only {
+            self.told.steady = None;
+        }
+        let kind = if rapid { MotionKind::Rapid } else { MotionKind::Linear };
+        self.line(kind, end, only, at, state);
+    }
+
     fn arc_motion(&mut self, call: ArcCall, at: At, state: &State) {
         let shift = self.shift(state);
         let (arc, end) = self.arc(call, &shift, state);

@@ -226,7 +226,10 @@ mod tests {
                 assert!(!all_finite(&pose));
                 pose[(axis + 1) % 9] = -odd;
                 assert!(!all_finite(&pose));
-                assert_eq!(shift.coordinates(&pose).known, ALL & !(1 << axis) & !(1 << ((axis + 1) % 9)));
+                assert_eq!(
+                    shift.coordinates(&pose).known,
+                    ALL & !(1 << axis) & !(1 << ((axis + 1) % 9))
+                );
             }
         }
     }

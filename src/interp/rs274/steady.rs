@@ -61,7 +61,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if cfg!(debug_assertions) {
             let full = shift.coordinates(pose);
             let full = format!("{:?}", (full, shift.machine(&full)));
-            debug_assert_eq!(format!("{:?}", (end, machine)), full, "an axis without a word has moved");
+            debug_assert_eq!(
+                format!("{:?}", (end, machine)),
+                full,
+                "an axis without a word has moved"
+            );
         }
         let feed = self.line_feed(kind, &machine, at, state);
         let block = self.block(at);

@@ -110,7 +110,17 @@ pub(crate) fn line(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Si
     engine.state.exit_pending = false;
     ends::put_words(&mut engine.state.current, block);
     let end = engine.state.current;
-    let call = if is_feed { Canon::Feed(end) } else { Canon::Traverse(end) };
+    if engine.queue.is_empty() {
+        // what `emit` does
+        engine.state.told.reach(&end);
+        sink.straight(!is_feed, &end, at, &engine.state);
+        return Ok(());
+    }
+    let call = if is_feed {
+        Canon::Feed(end)
+    } else {
+        Canon::Traverse(end)
+    };
     engine.emit(call, at, sink);
     Ok(())
 }

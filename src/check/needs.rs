@@ -5,7 +5,7 @@ use crate::trail::Trail;
 use crate::view::{leads_tip, turns};
 use core::f64::consts::PI;
 use trunnion_interp::{Feed, Motion, Orientation};
-use trunnion_machine::{Allowances, Leg, Machine, glance};
+use trunnion_machine::{Allowances, Leg, Machine, Nearness, glance};
 
 /// Things that must hold of a motion or leg, all of them, before a rule is asked; without one of them the rule says nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,6 +97,7 @@ impl Needs {
 pub(crate) struct Facts<'m> {
     machine: &'m Machine,
     allowances: Allowances,
+    near: Nearness,
     /// What holds of all of them.
     always: u32,
     /// Seconds that the first rotary axis needs for a pass at 1 rad from the pole, per rad.
@@ -111,6 +112,7 @@ impl<'m> Facts<'m> {
         Self {
             machine,
             allowances: Allowances::of(machine),
+            near: Nearness::default(),
             always: Needs::CABLE.when(any(|axis| axis.extra.cable))
                 | Needs::CLAMP.when(any(|axis| axis.extra.clamp || axis.extra.clamp_codes.is_some()))
                 | Needs::UNCERTAIN.when(uncertain),
@@ -123,7 +125,7 @@ impl<'m> Facts<'m> {
 
     /// What holds of a leg. `posture_before` as in [`crate::LegView`].
     #[inline]
-    pub(crate) fn of_leg(&self, leg: &Leg, posture_before: i8, trail: &Trail) -> Needs {
+    pub(crate) fn of_leg(&mut self, leg: &Leg, posture_before: i8, trail: &Trail) -> Needs {
         let machine = self.machine;
         let motion = &leg.motion;
         let [first, second] = leg.rotary_change;
@@ -159,7 +161,7 @@ impl<'m> Facts<'m> {
 
     /// What a look at a line along which all joints run straight cannot rule out; of other legs everything.
     #[inline]
-    fn at_a_glance(&self, leg: &Leg, trail: &Trail) -> u32 {
+    fn at_a_glance(&mut self, leg: &Leg, trail: &Trail) -> u32 {
         const ALL: u32 = Needs::BEYOND.0
             | Needs::STRAYS.0
             | Needs::HURRIES.0
@@ -170,7 +172,7 @@ impl<'m> Facts<'m> {
         let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
             return ALL;
         };
-        let Some(seen) = glance(machine, &self.allowances, leg) else {
+        let Some(seen) = glance(machine, &self.allowances, &mut self.near, leg) else {
             return ALL;
         };
         let tolerances = &machine.tolerances;

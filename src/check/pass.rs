@@ -147,7 +147,7 @@ impl<'a> Pass<'a> {
     }
 
     fn read_leg(&mut self, leg: &Leg) {
-        let (Some(follower), Some(facts)) = (&self.follower, &self.facts) else {
+        let (Some(follower), Some(facts)) = (&self.follower, &mut self.facts) else {
             return;
         };
         self.trail.add(follower.machine(), leg);

@@ -1,8 +1,7 @@
 //! What a block in which all joints run straight does at most, in one look at its joints: enough to settle most blocks.
 use crate::follow::leads_path;
 use crate::limits::SLACK;
-use crate::tip_path::straight_stray;
-use crate::{AxisKind, Joints, Leg, Limits, MAX_AXES, Machine};
+use crate::{AxisKind, Joints, Leg, Limits, MAX_AXES, Machine, Nearness};
 use trunnion_interp::MotionKind;
 
 /// Room for rounding in a bound, relative.
@@ -56,14 +55,14 @@ pub struct Glance {
     pub axes_s: f64,
     /// Length of the way of the linear joints, mm ([`crate::linear_travel`]).
     pub linear_mm: f64,
-    /// How far the tip leaves its segment, mm ([`crate::tip_deviation`]).
+    /// How far the tip leaves its segment, mm ([`crate::tip_deviation`]); roughly where that is within the machine's tolerance.
     pub stray_mm: f64,
 }
 
-/// A look at a line along which all joints run straight; `None` for all other legs. `allowances` are those of the machine. Source: kinematics notes 3, as in the functions
+/// A look at a line along which all joints run straight; `None` for all other legs. `allowances` are those of the machine, `near` is kept from leg to leg. Source: kinematics notes 3, as in the functions
 /// that [`Glance`] names.
 #[inline]
-pub fn glance(machine: &Machine, allowances: &Allowances, leg: &Leg) -> Option<Glance> {
+pub fn glance(machine: &Machine, allowances: &Allowances, near: &mut Nearness, leg: &Leg) -> Option<Glance> {
     let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
         return None;
     };
@@ -86,22 +85,28 @@ pub fn glance(machine: &Machine, allowances: &Allowances, leg: &Leg) -> Option<G
     if !way2.is_finite() {
         return None;
     }
+    let linear_mm = way2.sqrt() * ROUNDED_UP;
     let stray_mm = if leg.rotary_change == [0.0; 2] {
         0.0
     } else {
-        straight_stray(machine, start, end)
+        near.stray(
+            machine,
+            [start, end],
+            (leg.rotary_change, linear_mm),
+            machine.tolerances.tip_mm,
+        )
     };
     Some(Glance {
         inside,
         axes_s: axes_s * ROUNDED_UP,
-        linear_mm: way2.sqrt() * ROUNDED_UP,
+        linear_mm,
         stray_mm,
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Allowances, glance};
+    use super::{Allowances, Nearness, glance};
     use crate::straight::tests::motion;
     use crate::{BUILTIN_MACHINES, Follower, builtin, limit_excess, linear_travel, tip_deviation};
     use proptest::prelude::*;
@@ -128,7 +133,7 @@ mod tests {
             let mut follower = Follower::new(machine);
             follower.follow(&motion(Position::default(), start, MotionKind::Rapid, 0.0));
             let leg = follower.follow(&motion(start, end, MotionKind::Linear, 0.0));
-            let Some(seen) = glance(machine, &Allowances::of(machine), &leg) else {
+            let Some(seen) = glance(machine, &Allowances::of(machine), &mut Nearness::default(), &leg) else {
                 // held axes are asked to stand elsewhere
                 prop_assert!(leg.end.is_err(), "{:?}", leg.motion);
                 return Ok(());

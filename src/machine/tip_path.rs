@@ -6,7 +6,7 @@ use trunnion_geometry::arc::Arc;
 use trunnion_geometry::math::sin_cos;
 
 /// Share of a coordinate that rounding may cost in a whole chain; the bound is padded by it.
-const ROUNDING: f64 = 1e-13;
+pub(crate) const ROUNDING: f64 = 1e-13;
 
 /// What the joints do between two stances while all of them run linearly.
 pub(crate) struct Run<'a> {

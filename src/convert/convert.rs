@@ -198,6 +198,7 @@ fn prove(
     setup.control.tcp_codes = setting.machine.and_then(|machine| machine.control.tcp_codes.clone());
     setup.control.clamp_codes = setting.machine.map(Machine::clamp_codes).unwrap_or_default();
     setup.control.further_axes = setting.machine.map(Machine::further_axes).unwrap_or_default();
+    setup.control.length_along = setting.machine.and_then(Machine::length_along);
     let after = read(&Run {
         text: text.as_bytes(),
         dialect: setting.dialect,

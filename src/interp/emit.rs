@@ -1,6 +1,7 @@
 //! The motion of an ISO block, from its words and what is in force.
 use crate::arc::{ArcSetting, arc};
 use crate::codes::BlockCodes;
+use crate::memory::Chosen;
 use crate::offsets::{LINEAR, ROTARY};
 use crate::run::{Interpreter, Report};
 use crate::travel::Travel;
@@ -68,8 +69,12 @@ impl Interpreter<'_> {
             motion.machine_coordinates = true;
             motion.tcp = false;
         }
+        motion.says_way = self.says_way(&words.axes, block.machine_coordinates);
         if self.memory.tcp_used {
             self.tcp_mistakes(&motion, words, report);
+        }
+        if motion.is_feed() && self.memory.in_spindle == Chosen::Nothing {
+            self.tool_never_changed(words, report);
         }
         if self.memory.travel != Travel::Continuous || words.posture.any() {
             self.travel(&mut motion, words, report);
@@ -80,13 +85,16 @@ impl Interpreter<'_> {
         motion
     }
 
-    /// Between programmed (sign -1) and machine coordinates (sign 1): the zero point and, along Z, the tool's length. Under tool
+    /// Between programmed (sign -1) and machine coordinates (sign 1): the zero point and, along the tool at home, its length. Under tool
     /// centre point control the linear axes of one are not known from the other.
     pub(crate) fn to_machine(&self, position: &mut Position, sign: f64) {
         for (value, zero) in position.values.iter_mut().zip(self.state.zero) {
             *value += sign * zero;
         }
-        position.values[2] += sign * self.state.tool_length_mm.unwrap_or(0.0);
+        let length = sign * self.state.tool_length_mm.unwrap_or(0.0);
+        for (value, along) in position.values.iter_mut().zip(self.setup.length_along()) {
+            *value += length * along;
+        }
         if self.state.tcp || self.state.frame_unknown || self.memory.frames.tilt.is_some() {
             position.known &= !LINEAR;
         }
@@ -139,6 +147,17 @@ impl Interpreter<'_> {
             }
         }
         end.known &= !axes.unread;
+    }
+
+    /// Letters whose words are no absolute place that a control may reach either way round.
+    fn says_way(&self, axes: &Places<9>, machine: bool) -> u16 {
+        let directed = axes.shortest | axes.positive | axes.negative;
+        let modal = if self.state.incremental && !machine {
+            axes.given & !axes.absolute
+        } else {
+            0
+        };
+        axes.incremental | directed | modal
     }
 
     fn arc(
@@ -242,6 +261,7 @@ impl Interpreter<'_> {
             kind,
             start,
             end,
+            says_way: 0,
             orientation,
             tcp: state.tcp,
             great_circle: state.great_circle,

@@ -175,6 +175,9 @@ pub struct Motion {
     pub start: Position,
     /// Programmed coordinates after, without work offset.
     pub end: Position,
+    /// Letters whose words say the way themselves, incremental ones or those with a direction (`ACP`): no control turns such a rotary word
+    /// another way round. Bits as in [`Position::known`].
+    pub says_way: u16,
     /// Words or vector.
     pub orientation: Orientation,
     /// Tool centre point control is active: X Y Z are the tip in the workpiece frame.
@@ -210,6 +213,7 @@ impl Motion {
             kind: MotionKind::Linear,
             start,
             end,
+            says_way: 0,
             orientation: Orientation::Words,
             tcp: false,
             great_circle: None,

@@ -11,8 +11,6 @@ use trunnion_syntax::TextRange;
 pub(crate) const LINEAR: u16 = 0b1_1100_0111;
 /// A, B, C.
 pub(crate) const ROTARY: u16 = 0b0_0011_1000;
-/// Z: controls with a plain length offset shift this axis.
-const Z: usize = 2;
 
 impl Interpreter<'_> {
     /// Nothing is known of the position any more.
@@ -131,6 +129,22 @@ impl Interpreter<'_> {
         }
     }
 
+    /// A feed motion while T has chosen the first tool and nothing has brought it: where T alone changes tools the length of the tool is in
+    /// force, elsewhere it is not (Sinumerik 840D sl basic functions, machine data 22550 TOOL_CHANGE_MODE).
+    pub(crate) fn tool_never_changed(&mut self, words: &Words, report: &mut Report<'_>) {
+        let waits = self.memory.in_spindle == Chosen::Nothing
+            && self.dialect.quirks.edge_at_tool_change
+            && self.waits_for_change()
+            && self.memory.edge != Some(0)
+            && self.state.tool_length_mm.is_none();
+        if waits && !self.memory.tool_never_changed {
+            self.memory.tool_never_changed = true;
+            let what = "the length of a tool that T chooses and no M6 brings (machine data 22550 says whether T alone changes tools)";
+            let kind = FaultKind::NotModelled { what: what.to_owned() };
+            report.fault(words.first.unwrap_or_default(), kind);
+        }
+    }
+
     /// A tool is chosen that is not the one in the spindle.
     fn waits_for_change(&self) -> bool {
         self.memory.prepared != Chosen::Nothing && self.memory.prepared != self.memory.in_spindle
@@ -158,8 +172,8 @@ impl Interpreter<'_> {
         self.set_length(Some(length.unwrap_or(0.0)));
     }
 
-    /// The machine stays where it is, so the programmed position moves: along Z while the axes are joints; anywhere under tool
-    /// centre point control.
+    /// The machine stays where it is, so the programmed position moves: along the tool at home while the axes are joints; anywhere
+    /// under tool centre point control.
     pub(crate) fn set_length(&mut self, length: Option<f64>) {
         let change = length.unwrap_or(0.0) - self.state.tool_length_mm.unwrap_or(0.0);
         self.state.tool_length_mm = length;
@@ -167,7 +181,10 @@ impl Interpreter<'_> {
             if self.state.tcp {
                 self.forget_linear();
             } else {
-                self.state.position.values[Z] -= change;
+                let along = self.setup.length_along();
+                for (value, along) in self.state.position.values.iter_mut().zip(along) {
+                    *value -= change * along;
+                }
             }
         }
     }

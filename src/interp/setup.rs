@@ -152,6 +152,9 @@ pub struct ControlData {
     pub clamp_codes: crate::AllClampCodes,
     /// Letters of axes that the machine has beside X Y Z A B C: on a LinuxCNC only they are words (`[TRAJ] COORDINATES`).
     pub further_axes: Vec<u8>,
+    /// By how much 1 mm of tool length shifts the words of X, Y and Z without tool centre point control: the tool axis at home, as the
+    /// machine says; `None`: Z by 1 mm. LinuxCNC takes it along Z whatever the machine is.
+    pub length_along: Option<[f64; 3]>,
     /// Reference points in machine coordinates, mm and degrees: G28 goes to the first, G30 P2 to the second.
     pub reference_points: Vec<crate::Position>,
 }
@@ -171,4 +174,11 @@ pub struct Setup {
     pub control: ControlData,
     /// Numbered variables that have a value before the program runs, sorted by number, each once; `None` is vacant. In program units.
     pub variables: Vec<(u32, Option<f64>)>,
+}
+
+impl Setup {
+    /// By how much 1 mm of tool length shifts the words of X, Y and Z while they are joints.
+    pub(crate) fn length_along(&self) -> [f64; 3] {
+        self.control.length_along.unwrap_or([0.0, 0.0, 1.0])
+    }
 }

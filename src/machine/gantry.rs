@@ -1,6 +1,6 @@
 //! Axes that mirror another one: the second motor of a gantry. A motion must suit both, so the leader's travel and highest speeds are
 //! what both allow.
-use crate::raw::Word;
+use crate::raw::{RawAxis, Word};
 use crate::validate::{Fault, letter};
 use crate::{Axis, Gantry, Limits};
 use core::ops::Range;
@@ -8,12 +8,24 @@ use core::ops::Range;
 /// The mirroring axes of a file.
 #[derive(Default)]
 pub(crate) struct Rails {
-    found: Vec<(Gantry, Axis, Range<usize>)>,
+    found: Vec<Rail>,
+}
+
+/// One axis that mirrors another one.
+struct Rail {
+    gantry: Gantry,
+    axis: Axis,
+    /// Where the file names the leader.
+    span: Range<usize>,
+    /// The file gives its sign; else it runs as its leader does.
+    signed: bool,
+    /// The file gives its direction.
+    directed: bool,
 }
 
 impl Rails {
     /// One more axis that follows `leader`.
-    pub(crate) fn add(&mut self, axis: Axis, leader: &Word) -> Result<(), Fault> {
+    pub(crate) fn add(&mut self, axis: Axis, written: &RawAxis, leader: &Word) -> Result<(), Fault> {
         let named = letter(leader)?;
         if named == axis.letter {
             let message = format!("axis {} cannot follow itself", char::from(named));
@@ -26,13 +38,20 @@ impl Rails {
             letter: axis.letter,
             leader: named,
         };
-        self.found.push((gantry, axis, leader.span()));
+        self.found.push(Rail {
+            gantry,
+            axis,
+            span: leader.span(),
+            signed: written.sign.is_some(),
+            directed: written.dir.is_some(),
+        });
         Ok(())
     }
 
     /// Gives each leader what both axes allow.
     pub(crate) fn bind(&self, axes: &mut [Axis]) -> Result<(), Fault> {
-        for (gantry, follower, span) in &self.found {
+        for rail in &self.found {
+            let (gantry, follower, span) = (&rail.gantry, &rail.axis, &rail.span);
             let fault = |text: String| {
                 let message = format!(
                     "axis {} follows {}, {text}",
@@ -50,7 +69,7 @@ impl Rails {
             if leader.kind != follower.kind {
                 return fault("but one of them is linear and the other rotary".to_owned());
             }
-            leader.limits = match (leader.limits, mirrored(follower)) {
+            leader.limits = match (leader.limits, rail.limits_for(leader)) {
                 (own, Limits::Unbounded) => own,
                 (Limits::Unbounded, range) => {
                     leader.extra.limits_declared = true;
@@ -69,15 +88,20 @@ impl Rails {
 
     /// The pairs.
     pub(crate) fn gantries(self) -> Vec<Gantry> {
-        self.found.into_iter().map(|(gantry, ..)| gantry).collect()
+        self.found.into_iter().map(|rail| rail.gantry).collect()
     }
 }
 
-/// The follower's limits in terms of its leader: with sign -1 it runs the other way.
-fn mirrored(follower: &Axis) -> Limits {
-    match follower.limits {
-        Limits::Range(min, max) if follower.sign < 0.0 => Limits::Range(-max, -min),
-        limits => limits,
+impl Rail {
+    /// The follower's limits in terms of its leader: both move one body, so where a positive value moves it the other way (sign times
+    /// direction), the follower has the leader's value with the opposite sign.
+    fn limits_for(&self, leader: &Axis) -> Limits {
+        let turned = self.signed && self.axis.sign * leader.sign < 0.0;
+        let opposite = self.directed && self.axis.direction.dot(&leader.direction) < 0.0;
+        match self.axis.limits {
+            Limits::Range(min, max) if turned != opposite => Limits::Range(-max, -min),
+            limits => limits,
+        }
     }
 }
 

@@ -5,6 +5,16 @@ use trunnion_geometry::math::hypot;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, MotionKind};
 
+/// A way below this is none, mm: what sums of increments, unit conversions and changes of the frame leave behind at coordinates of up to
+/// 100 m. No control resolves it, and a speed along it would be noise over noise.
+const NO_WAY: f64 = 1e-9;
+
+/// The length of a way, 0 where it is none.
+#[inline]
+pub(crate) fn way(length: f64) -> f64 {
+    if length < NO_WAY { 0.0 } else { length }
+}
+
 impl Follower<'_> {
     /// Length that F counts along, mm: [`Self::length`], or on a control that counts all axes together the root of mm2 + deg2.
     pub(crate) fn feed_length(&self, leg: &Leg) -> f64 {
@@ -26,10 +36,10 @@ impl Follower<'_> {
             MotionKind::Arc(Some(arc)) => arc.length(),
             MotionKind::Rapid | MotionKind::Linear => {
                 if let (true, Some(start), Ok(end)) = (has_tip_words(motion), &leg.start, &leg.end) {
-                    return (end.point - start.point_with(end.tool_length)).norm();
+                    return way((end.point - start.point_with(end.tool_length)).norm());
                 }
                 match (self.words.point(&motion.start), self.words.point(&motion.end)) {
-                    (Some(from), Some(to)) => (to - from).norm(),
+                    (Some(from), Some(to)) => way((to - from).norm()),
                     _ => self.joint_length(leg),
                 }
             }
@@ -48,6 +58,6 @@ impl Follower<'_> {
             }
             way[letter] = leg.known_joints.0[joint] - self.state.known_joints.0[joint];
         }
-        way.norm()
+        self::way(way.norm())
     }
 }

@@ -172,7 +172,7 @@ impl Chain {
             }
             letters.push(axis.letter);
             if let Some(leader) = &written.follow {
-                rails.add(axis, leader)?;
+                rails.add(axis, written, leader)?;
                 continue;
             }
             if axis.side == Side::Table && axes.iter().any(|other| other.side == Side::Head) {

@@ -105,6 +105,37 @@ fn every_shipped_file_loads_and_says_where_it_comes_from() {
     }
 }
 
+/// Both motors of a gantry move one body: where the follower's positive way is the leader's, so are its limits, else they are mirrored.
+#[test]
+fn the_limits_of_a_gantry_are_those_of_both() {
+    let limits = |leader: &str, follower: &str| {
+        let text = format!(
+            "schema = \"ncmachine/1\"\naxis = [{{letter=\"X\",{leader},limits=[-150,150]}},\
+             {{letter=\"U\",follow=\"X\",{follower}limits=[-100,130]}},{{letter=\"Y\",sign=1}},{{letter=\"Z\",sign=1}}]"
+        );
+        let machine = load("gantry", &text).unwrap_or_else(|error| panic!("{error}: {text}"));
+        machine.axes[0].limits
+    };
+    let (same, mirrored) = (Limits::Range(-100.0, 130.0), Limits::Range(-130.0, 100.0));
+    assert_eq!(limits("sign=1", ""), same);
+    assert_eq!(limits("sign=1", "sign=1,"), same);
+    assert_eq!(limits("sign=1", "sign=-1,"), mirrored);
+    assert_eq!(limits("sign=-1", ""), same);
+    assert_eq!(limits("sign=-1", "sign=-1,"), same);
+    assert_eq!(limits("sign=-1", "sign=1,"), mirrored);
+    assert_eq!(limits("sign=1", "dir=[-1,0,0],sign=1,"), mirrored);
+    assert_eq!(limits("sign=1", "dir=[-1,0,0],sign=-1,"), same);
+    assert_eq!(limits("sign=-1,dir=[-1,0,0]", ""), same);
+}
+
+/// The tool axis at home in terms of the words: diameters count twice.
+#[test]
+fn a_machine_says_along_what_a_length_lies() {
+    assert_eq!(builtin("mikron-ucp710").expect("embedded").length_along(), None);
+    let along = builtin("mill-turn-bc").expect("embedded").length_along();
+    assert_eq!(along, Some([2.0, 0.0, 0.0]));
+}
+
 #[test]
 fn every_key_is_read() {
     let machine = load("everything", EVERYTHING).expect("valid");

@@ -1,5 +1,6 @@
 //! The short way for what most programs are full of: a line in words of the joints, from one known stance to the next.
 use crate::choice::cheapest_in_posture;
+use crate::length::way;
 use crate::{Follower, Leg, Stance, pole};
 use trunnion_interp::{Motion, MotionKind, Orientation, Posture, Swivel};
 
@@ -87,7 +88,7 @@ impl Follower<'_> {
         let (from, to) = (start.rotary(self.machine), end.rotary(self.machine));
         leg.rotary_change = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
         if let (Some(from), Some(to)) = (leg.motion.start.xyz(), leg.motion.end.xyz()) {
-            leg.length = (to - from).norm();
+            leg.length = way((to - from).norm());
         }
         leg.length = self.feed_length(leg);
         let constants = &self.machine.constants;

@@ -153,7 +153,9 @@ impl Words {
     }
 
     /// The turns that a control adds to rotary words it does not take literally, from where the machine stands: the shortest way (M126), or
-    /// the way that the word's sign says to the word's amount (LinuxCNC wrapped rotary axes). A word that stays as it was moves nothing.
+    /// the way that the word's sign says to the word's amount (LinuxCNC wrapped rotary axes). A word that stays as it was moves nothing, and an
+    /// incremental one turns as far as it says: the shorter way is for absolute words (LinuxCNC user manual, WRAPPED_ROTARY; Fanuc Series 30i
+    /// connection manual, rotary axis roll-over).
     /// Half a turn either way is the same way: which one is taken is open.
     pub(crate) fn wrap(&self, machine: &Machine, motion: &Motion, from: &Joints, joints: &mut Joints) -> Option<Open> {
         let mut open = None;
@@ -166,8 +168,12 @@ impl Words {
                 continue;
             };
             let (before, target) = (from[joint], joints[joint]);
-            joints[joint] = if motion.start.get(letter) == Some(word) {
+            let start = motion.start.get(letter);
+            joints[joint] = if start == Some(word) {
                 before
+            } else if let (Some(start), true) = (start, self.names(motion.says_way, joint)) {
+                // the words may be whole turns off the joint
+                before + (word - start) * self.scale[joint]
             } else if wrap == Wrap::Shortest {
                 let turned = target + TAU * ((before - target) / TAU).round();
                 if ((turned - before).abs() - PI).abs() < HALF_TURN {
@@ -216,6 +222,17 @@ impl Words {
     pub(crate) fn names(&self, mask: u16, joint: usize) -> bool {
         let letter = self.letter[joint];
         letter < 16 && mask & (1 << letter) != 0
+    }
+
+    /// mm of X, Y and Z words per mm of tool length.
+    pub(crate) fn length_along(&self) -> [f64; 3] {
+        let mut along = [0.0; 3];
+        for joint in 0..self.count {
+            if let Some(slot) = along.get_mut(usize::from(self.letter[joint])) {
+                *slot = self.per_length[joint] / self.scale[joint];
+            }
+        }
+        along
     }
 
     /// Number of joints.

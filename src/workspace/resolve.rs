@@ -109,6 +109,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     }
     setup.control.clamp_codes = machine.as_ref().map(Machine::clamp_codes).unwrap_or_default();
     setup.control.further_axes = machine.as_ref().map(Machine::further_axes).unwrap_or_default();
+    setup.control.length_along = machine.as_ref().and_then(Machine::length_along);
     setup.library = library(path, &config, config_file.as_ref())?;
     let mut port_to = config.port_to.clone();
     for name in &overrides.port_to {

@@ -97,6 +97,7 @@ impl FileControl {
             }),
             clamp_codes: trunnion_interp::AllClampCodes::default(),
             further_axes: Vec::new(),
+            length_along: None,
             reference_points,
         })
     }

@@ -24,7 +24,7 @@
 //!
 //! # Guarantee
 //! Sound for blocks between known positions: the posture is the sign of e1 . (R1 e2 x u), the cheapest move without a swap is
-//! found among all windings inside the limits. Judges feed motions; a rapid that swaps is an info.
+//! found among all windings, limits aside: a swap that a limit forces is a swap all the same. Judges feed motions; a rapid that swaps is an info.
 //!
 //! # Thresholds
 //! `swap_excess`: rotary travel over the cheapest move of the same posture, 5 deg.

@@ -103,7 +103,9 @@ impl<'d> Interpreter<'d> {
         block.takes_coordinates = true;
         let known = words.axes.given & !self.state.position.known == 0;
         // under a length offset the coordinates are those of the point before it
-        let length = self.state.tool_length_mm.is_some_and(|length| length != 0.0) && words.axes.get(2).is_some();
+        let named = |(axis, along): (usize, f64)| along != 0.0 && words.axes.get(axis).is_some();
+        let length = self.state.tool_length_mm.is_some_and(|length| length != 0.0)
+            && self.setup.length_along().into_iter().enumerate().any(named);
         if !known || length || !self.shifts_plainly(words) || self.state.frame_unknown {
             self.frame_change(found, words, block, report);
             return;

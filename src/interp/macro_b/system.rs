@@ -114,7 +114,7 @@ impl Known<'_> {
         Some(self.state.position.get(axis)? / self.state.length_unit_mm)
     }
 
-    /// End point of the block before with the tool's length, which shifts Z alone while tool centre point control is off.
+    /// End point of the block before with the tool's length, which lies along the tool at home while tool centre point control is off.
     fn with_length(&self, axis: usize) -> Option<f64> {
         let length = self.length(axis)?;
         Some((self.state.position.get(axis)? + length) / self.state.length_unit_mm)
@@ -131,11 +131,8 @@ impl Known<'_> {
         if self.state.tcp || shifted {
             return None;
         }
-        Some(if axis == 2 {
-            self.state.tool_length_mm.unwrap_or(0.0)
-        } else {
-            0.0
-        })
+        let along = self.setup.length_along().get(axis).copied().unwrap_or(0.0);
+        Some(self.state.tool_length_mm.unwrap_or(0.0) * along)
     }
 
     /// Known where the setup declares the offset, or the program has written it.

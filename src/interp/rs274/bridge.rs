@@ -167,6 +167,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             kind,
             start,
             end,
+            says_way: if modal.incremental { crate::offsets::ROTARY } else { 0 },
             orientation: Orientation::Words,
             tcp: modal.tcp,
             great_circle: modal.great_circle,

@@ -61,6 +61,43 @@ fn a_change_of_length_moves_the_programmed_z() {
     assert_eq!(got, ["R X1 Y1 Z300", "R X2 Y1 Z200"]);
 }
 
+/// On a mill-turn centre the tool lies along X at home, and X words are diameters: 100 mm of length are 200 mm of X word.
+#[test]
+fn a_change_of_length_moves_the_words_along_the_tool() {
+    let mut setup = setup();
+    setup.control.length_along = Some([2.0, 0.0, 0.0]);
+    let program = b"G0 X300 Y1 Z5\nG43 H1\nG0 Z2\nG53 G0 Y2\nG91 X1\nG90 G49\nZ1\nM30\n";
+    let (_, log) = run_bytes("fanuc-30i", program, &setup);
+    let got: Vec<_> = log.motions.iter().map(line).collect();
+    let want = [
+        "R X300 Y1 Z5",
+        "R X100 Y1 Z2",
+        "R X300 Y2 Z2 machine",
+        "R X101 Y2 Z2",
+        "R X301 Y2 Z1",
+    ];
+    assert_eq!(got, want);
+}
+
+/// Whether T alone changes tools is machine data of a Sinumerik; where M6 does, its length is not in force.
+#[test]
+fn a_tool_that_nothing_brings_is_said() {
+    let said = |source: &str| faults("sinumerik-840d", source).concat().contains("that T chooses and no M6 brings");
+    assert!(said("T1 D1\nG0 X1 Y1 Z1\nG1 X2 F100\n"));
+    assert!(said("T1\nG1 X2 F100\n"));
+    assert_eq!(faults("sinumerik-840d", "T1 D1\nG1 X2 F100\nX3\nX4\n").len(), 1, "once");
+    for settled in [
+        "G1 X2 F100\n",
+        "T1 D1\nG0 X1\n",
+        "T=\"MILL\"\nM6\nG1 X2 F100\n",
+        "T1 D0\nG1 X2 F100\n",
+        "T1 M6\nT2\nG1 X2 F100\n",
+    ] {
+        assert!(!said(settled), "{settled}");
+    }
+    assert!(!faults("iso-6983", "T1\nG1 X2 F100\n").concat().contains("no M6"));
+}
+
 #[test]
 fn d_gives_the_length_of_the_tool_in_use() {
     let got = lengths(

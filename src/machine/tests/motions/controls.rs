@@ -58,6 +58,48 @@ fn turned(machine: &Machine, from: f64, to: f64) -> (f64, Option<OpenCause>) {
     (deg(end.joints[0]) - from, leg.open.map(|open| open.cause))
 }
 
+/// An incremental word turns as far as it says, also where the words are whole turns off the joint: the shorter way is for absolute ones.
+#[test]
+fn incremental_words_turn_as_far_as_they_say() {
+    for wrap in ["shortest", "modulo-sign"] {
+        let machine = plain(&format!("wrap = \"{wrap}\""), "");
+        let at = |c: f64| position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', 0.0), (b'A', 0.0), (b'C', c)]);
+        let mut follower = Follower::new(&machine);
+        let mut turn = |from: Option<f64>, to: f64, incremental: bool| {
+            let mut motion = words(from.map_or(position(&[]), at), at(to));
+            motion.says_way = if incremental { 0b11_1000 } else { 0 };
+            deg(follower.follow(&motion).end.expect("known").joints[0])
+        };
+        assert!((turn(None, 350.0, false) - 350.0).abs() < 1e-9);
+        // 20 deg on, not 340 deg back
+        assert!((turn(Some(350.0), 10.0, false) - 370.0).abs() < 1e-9, "{wrap}");
+        assert!((turn(Some(10.0), -180.0, true) - 180.0).abs() < 1e-9, "{wrap}");
+        assert!((turn(Some(-180.0), 40.0, true) - 400.0).abs() < 1e-9, "{wrap}");
+    }
+}
+
+/// Sums of increments and inches leave 1e-14 mm behind: no motion, no length, no speed along it.
+#[test]
+fn a_way_of_rounding_is_none() {
+    let machine = machine("dyn = { vmax = 10 }", "limits = [-120, 120]", "feed = \"xyz\"");
+    let at = |z: f64, c: f64| position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', z), (b'A', 20.0), (b'C', c)]);
+    let (z, again) = (-86.0527 - 0.4317, -86.4844);
+    assert!(z != again);
+    for tcp in [false, true] {
+        let mut follower = Follower::new(&machine);
+        let feed = |start, end| Motion {
+            feed: Feed::PerMinute(8000.0),
+            tcp,
+            ..words(start, end)
+        };
+        follower.follow(&feed(position(&[]), at(z, 5.0)));
+        let leg = follower.follow(&feed(at(z, 5.0), at(again, 5.0)));
+        assert_eq!((leg.length, feed_limit_tight(&machine, &leg)), (0.0, None));
+        let leg = follower.follow(&feed(at(again, 5.0), at(z, 40.0)));
+        assert_eq!((leg.length, feed_limit_tight(&machine, &leg)), (0.0, None), "C alone: tcp {tcp}");
+    }
+}
+
 /// TNC user's manual, M126: 350 to 10 is -340 without it and +20 with it, 10 to 340 is +330 and -30.
 #[test]
 fn rotary_words_take_the_way_that_the_axis_says() {

@@ -149,7 +149,7 @@ impl Interpreter<'_> {
         end.known &= !axes.unread;
     }
 
-    /// Letters whose words are no absolute place that a control may reach either way round.
+    /// Letters whose words are no plain places: [`Motion::says_way`].
     fn says_way(&self, axes: &Places<9>, machine: bool) -> u16 {
         let directed = axes.shortest | axes.positive | axes.negative;
         let modal = if self.state.incremental && !machine {
@@ -157,7 +157,7 @@ impl Interpreter<'_> {
         } else {
             0
         };
-        axes.incremental | directed | modal
+        axes.incremental | directed | modal | axes.unread
     }
 
     fn arc(

@@ -175,8 +175,9 @@ pub struct Motion {
     pub start: Position,
     /// Programmed coordinates after, without work offset.
     pub end: Position,
-    /// Letters whose words say the way themselves, incremental ones or those with a direction (`ACP`): no control turns such a rotary word
-    /// another way round. Bits as in [`Position::known`].
+    /// Letters whose words are no plain places. Incremental ones and those with a direction (`ACP`) say the way themselves: no control turns
+    /// such a rotary word another way round. Where such a letter, or one whose value is not known, has no known end, the block moved the
+    /// axis nobody knows where; other letters without a known end were not named. Bits as in [`Position::known`].
     pub says_way: u16,
     /// Words or vector.
     pub orientation: Orientation,

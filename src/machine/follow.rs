@@ -177,8 +177,9 @@ impl<'m> Follower<'m> {
         if into.1 != self.words.all() {
             self.keep(motion, start, into);
         }
-        if let (true, Some(start)) = (self.words.wraps, start) {
-            *open = self.words.wrap(self.machine, motion, &start.joints, &mut into.0);
+        if self.words.wraps {
+            let from = start.map(|start| &start.joints);
+            *open = self.words.wrap(self.machine, motion, from, &mut into.0);
         }
         self.asked_turns(motion, into, open);
         if let Some(letter) = self.words.foreign(motion) {
@@ -237,6 +238,8 @@ impl<'m> Follower<'m> {
         for letter in 0..3 {
             match (motion.end.get(letter), motion.start.get(letter)) {
                 (Some(value), _) => tip[letter] = value + zero[letter],
+                // an increment to a coordinate that the program does not know
+                (None, None) if motion.says_way & (1 << letter) != 0 => return None,
                 (None, None) => {}
                 (None, Some(_)) => return None,
             }
@@ -261,11 +264,13 @@ impl<'m> Follower<'m> {
         let keeps = self.keeps(motion);
         let swivels = motion.tilt.swivel == Swivel::AxesStay;
         let lost = (self.state.named | motion.start.known) & !motion.end.known;
+        let moved = motion.says_way & !motion.end.known;
         for (joint, value) in into.0.iter_mut().enumerate().take(self.words.count()) {
             let bit = 1 << joint;
             let is_lost = !swivels
-                && self.words.names(lost, joint)
-                && !(keeps && self.words.names(XYZ & !motion.start.known, joint));
+                && (self.words.names(moved, joint)
+                    || self.words.names(lost, joint)
+                        && !(keeps && self.words.names(XYZ & !motion.start.known, joint)));
             let solved = has_tip_words(motion) && self.solved() & bit != 0;
             if into.1 & bit == 0 && known & bit != 0 && !is_lost && !solved {
                 *value = self.state.known_joints.0[joint];

@@ -156,8 +156,15 @@ impl Words {
     /// the way that the word's sign says to the word's amount (LinuxCNC wrapped rotary axes). A word that stays as it was moves nothing, and an
     /// incremental one turns as far as it says: the shorter way is for absolute words (LinuxCNC user manual, WRAPPED_ROTARY; Fanuc Series 30i
     /// connection manual, rotary axis roll-over).
-    /// Half a turn either way is the same way: which one is taken is open.
-    pub(crate) fn wrap(&self, machine: &Machine, motion: &Motion, from: &Joints, joints: &mut Joints) -> Option<Open> {
+    /// Half a turn either way is the same way: which one is taken is open. `from`: where the joints stand, where that is known; how often
+    /// they have turned round is then open, and the first word tells the place.
+    pub(crate) fn wrap(
+        &self,
+        machine: &Machine,
+        motion: &Motion,
+        from: Option<&Joints>,
+        joints: &mut Joints,
+    ) -> Option<Open> {
         let mut open = None;
         for rotary in machine.constants.rotary() {
             let joint = rotary.joint;
@@ -167,7 +174,15 @@ impl Words {
             let (Some(word), false) = (word, wrap == Wrap::Literal) else {
                 continue;
             };
-            let (before, target) = (from[joint], joints[joint]);
+            let target = joints[joint];
+            // where the word's sign is the direction, its amount is the place
+            let amount = target + (word.abs() - word) * self.scale[joint];
+            let Some(before) = from.map(|from| from[joint]) else {
+                if wrap == Wrap::ModuloSign && !self.names(motion.says_way, joint) {
+                    joints[joint] = amount;
+                }
+                continue;
+            };
             let start = motion.start.get(letter);
             joints[joint] = if start == Some(word) {
                 before
@@ -180,13 +195,10 @@ impl Words {
                     open = Some((joint, 2.0 * before - turned));
                 }
                 turned
+            } else if word.is_sign_negative() {
+                before - (before - amount).rem_euclid(TAU)
             } else {
-                let amount = target + (word.abs() - word) * self.scale[joint];
-                if word.is_sign_negative() {
-                    before - (before - amount).rem_euclid(TAU)
-                } else {
-                    before + (amount - before).rem_euclid(TAU)
-                }
+                before + (amount - before).rem_euclid(TAU)
             };
         }
         let (joint, other) = open?;

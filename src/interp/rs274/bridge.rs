@@ -167,7 +167,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             kind,
             start,
             end,
-            says_way: if modal.incremental { crate::offsets::ROTARY } else { 0 },
+            // which letters the line names is not told: one that is not known may be among them
+            says_way: if modal.incremental { crate::offsets::ROTARY | !end.known } else { 0 },
             orientation: Orientation::Words,
             tcp: modal.tcp,
             great_circle: modal.great_circle,

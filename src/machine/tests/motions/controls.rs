@@ -78,6 +78,17 @@ fn incremental_words_turn_as_far_as_they_say() {
     }
 }
 
+/// The first word of a wrapped axis, before anybody knows where it stands: its sign is a direction, its amount the place.
+#[test]
+fn the_first_word_of_a_wrapped_axis_is_a_place() {
+    let at = |c: f64| position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', 0.0), (b'A', 0.0), (b'C', c)]);
+    for (wrap, word, place) in [("modulo-sign", -12.0, 12.0), ("modulo-sign", 12.0, 12.0), ("shortest", -12.0, -12.0)] {
+        let machine = plain(&format!("wrap = \"{wrap}\""), "");
+        let leg = Follower::new(&machine).follow(&words(position(&[]), at(word)));
+        assert!((deg(leg.end.expect("known").joints[0]) - place).abs() < 1e-9, "{wrap} {word}");
+    }
+}
+
 /// Sums of increments and inches leave 1e-14 mm behind: no motion, no length, no speed along it.
 #[test]
 fn a_way_of_rounding_is_none() {

@@ -233,3 +233,29 @@ fn the_boat_has_its_numbers() {
     assert_eq!((over, worst.1), ([0, 5, 13, 11, 0], 1397), "{worst:?}");
     assert!((worst.0 - 1.559).abs() < 0.001, "{worst:?}");
 }
+
+/// Which motions of a program end at a known place.
+fn known(machine: &Machine, dialect: &str, source: String) -> Vec<bool> {
+    let followed = text_followed(machine, dialect, source.into_bytes());
+    followed.legs.iter().map(|(_, leg)| leg.end.is_ok()).collect()
+}
+
+/// An increment to a coordinate that the program does not know moves the axis: it does not stay where the machine stands.
+#[test]
+fn increments_to_unknown_coordinates_are_not_passed_over() {
+    let machine = &plain("", "tcp_codes = { on = [\"M428\"], off = [\"M429\"] }");
+    let home = "G0 X10. Y20. Z30. A20. C10.\n";
+    for (dialect, on) in [("sinumerik-840d", "TRAORI"), ("fanuc-30i", "G43.4 H1"), ("linuxcnc", "M428")] {
+        let text = format!("{home}{on}\nG91 G0 X5.\nZ5.\nG90 G0 X0. Y0. Z0.\nG91 X1.\nM30\n");
+        assert_eq!(known(machine, dialect, text), [true, false, false, true, true], "{dialect}");
+        // axes that no word names stay where they are
+        let text = format!("{home}{on}\nG0 X5.\nM30\n");
+        assert_eq!(known(machine, dialect, text), [true, true], "{dialect}");
+    }
+    // behind a vector the program does not know the rotary axes
+    let vector = "TRAORI\nG0 X0 Y0 Z0 A3=0.1 B3=0.2 C3=0.97\n";
+    for (block, is_known) in [("G0 X1 C=IC(5)", false), ("G91 G0 C5", false), ("G0 X1 A10", true), ("G0 C=R7", false)] {
+        let text = format!("{home}{vector}{block}\nM30\n");
+        assert_eq!(known(machine, "sinumerik-840d", text), [true, true, is_known], "{block}");
+    }
+}

@@ -183,7 +183,7 @@ impl<'m> Facts<'m> {
             _ => f64::NAN,
         };
         let held_back = tolerances.feed_drop_warning > 1.0;
-        let travels = seen.linear_mm <= excess_linear_travel::allowed(machine, (end.tip - start.tip).norm());
+        let travels = seen.linear_mm <= excess_linear_travel::allowed(machine, start.tip_way_to(end));
         // what is not a number rules nothing out
         Needs::BEYOND.when(!seen.inside)
             | Needs::STRAYS.when(!at_most(seen.stray_mm, tolerances.tip_mm))

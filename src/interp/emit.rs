@@ -45,6 +45,7 @@ impl Interpreter<'_> {
         self.state.position = end;
         let orientation = self.orientation(words, report);
         if let Orientation::Vector(..) = orientation {
+            self.memory.led_by_vector = true;
             self.state.position.known &= !ROTARY;
             end.known &= !ROTARY;
         }
@@ -62,7 +63,7 @@ impl Interpreter<'_> {
             Feed::Unknown
         } else {
             let feed = self.feed_of(kind, words, report);
-            self.turning_feed(feed, words)
+            self.turning_feed(kind, feed, words)
         };
         let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
@@ -130,12 +131,15 @@ impl Interpreter<'_> {
                 1.0
             };
             let value = axes.values[axis] * scale;
-            let absolute = axes.absolute | axes.shortest | axes.positive | axes.negative;
+            let directed = axes.shortest | axes.positive | axes.negative;
+            let absolute = axes.absolute | directed;
             let incremental =
                 axes.incremental & bit != 0 || (self.state.incremental && !machine && absolute & bit == 0);
             let before = end.get(axis);
             let target = match (incremental, before) {
                 (true, before) => before.map(|before| before + value),
+                // a vector has turned the axis: nobody here knows from where it turns, and how far
+                (false, None) if directed & bit != 0 && self.memory.led_by_vector => None,
                 (false, Some(before)) if axes.shortest & bit != 0 => Some(before + turn_to(value - before)),
                 (false, Some(before)) if axes.positive & bit != 0 => Some(before + (value - before).rem_euclid(360.0)),
                 (false, Some(before)) if axes.negative & bit != 0 => Some(before - (before - value).rem_euclid(360.0)),
@@ -230,11 +234,12 @@ impl Interpreter<'_> {
         }
     }
 
-    /// F counts degrees, not inches, where only rotary axes are named and X Y Z are joints.
-    fn turning_feed(&self, feed: Feed, words: &Words) -> Feed {
+    /// F counts degrees, not inches, where only rotary axes are named and X Y Z are joints. A full circle names none of them and runs all
+    /// the same.
+    fn turning_feed(&self, kind: MotionKind, feed: Feed, words: &Words) -> Feed {
         let named = words.axes.given | words.axes.unread;
         let inch = self.state.feed_unit_mm;
-        if inch == 1.0 || self.state.tcp || words.vector.any() || named & LINEAR != 0 || named & ROTARY == 0 {
+        if inch == 1.0 || matches!(kind, MotionKind::Arc(_)) || self.state.tcp || words.vector.any() || named & LINEAR != 0 || named & ROTARY == 0 {
             return feed;
         }
         match feed {

@@ -59,6 +59,8 @@ pub(crate) struct Memory<'d> {
     pub(crate) compensation_said: bool,
     pub(crate) prepared: Chosen,
     pub(crate) in_spindle: Chosen,
+    /// A tool vector has turned the rotary axes.
+    pub(crate) led_by_vector: bool,
     /// It was told that no code brings the tool that T chose.
     pub(crate) tool_never_changed: bool,
     /// Cutting edge in force (D); `None` before the first.

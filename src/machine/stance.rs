@@ -48,6 +48,11 @@ impl Stance {
             self.point + self.axis * (self.tool_length - tool_length)
         }
     }
+    /// How far the tip stands from it in another stance, with that one's tool, mm: in the workpiece, whatever work offset each is told in.
+    #[inline]
+    pub fn tip_way_to(&self, end: &Self) -> f64 {
+        (end.point - self.point_with(end.tool_length)).norm()
+    }
     /// Rotary joints, workpiece side first, rad; 0 for missing ones.
     #[inline]
     pub(crate) fn rotary(&self, machine: &Machine) -> [f64; 2] {

@@ -68,7 +68,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let tip = if view.leads_tip() && !view.motion().machine_coordinates {
         view.leg.length
     } else {
-        (end.tip - start.tip).norm()
+        start.tip_way_to(end)
     };
     let ratio = view.machine.tolerances.linear_ratio;
     let allowed = allowed(view.machine, tip);
@@ -174,6 +174,20 @@ mod tests {
             let report = fixture.check().unwrap();
             let own = report.diagnostics.iter().filter(|d| d.rule == "excess-linear-travel");
             assert_eq!(own.count(), count, "X{x}: {:?}", report.diagnostics);
+        }
+    }
+
+    /// C turns by 90 deg and X and Y carry the tool along, so that the tip stands still on the part while they run 141 mm: a zero point that
+    /// changes between the blocks moves nothing.
+    #[test]
+    fn the_way_of_the_tip_is_that_on_the_part_whatever_the_zero_point() {
+        for (shift, x) in [("", -100), ("TRANS X500\n", -600)] {
+            let text = format!("G0 X0 Y-100 Z50 A0 C0\n{shift}G1 X{x} Y0 C90 F50\nM30\n");
+            let fixture = Fixture::parse("gcode sinumerik-840d mikron-ucp710", &text);
+            let report = fixture.check().unwrap();
+            let own = report.diagnostics.iter().find(|d| d.rule == "excess-linear-travel");
+            let said = own.map(|own| own.message.as_str());
+            assert_eq!(said, Some("the linear axes run 141.4 mm while the tip runs 0 mm"), "{shift}");
         }
     }
 

@@ -167,8 +167,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             kind,
             start,
             end,
-            // which letters the line names is not told: one that is not known may be among them
-            says_way: if modal.incremental { crate::offsets::ROTARY | !end.known } else { 0 },
+            // lines that are told by what differs may name other rotary axes
+            says_way: if modal.incremental { crate::offsets::ROTARY | state.named_axes } else { 0 },
             orientation: Orientation::Words,
             tcp: modal.tcp,
             great_circle: modal.great_circle,
@@ -315,14 +315,14 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     fn arc_motion(&mut self, call: ArcCall, at: At, state: &State) {
         let shift = self.shift(state);
         let (arc, end) = self.arc(call, &shift, state);
-        let feed = self.feed(&shift.machine(&end), at, state);
+        let feed = self.feed(&shift.machine(&end), true, at, state);
         self.motion(MotionKind::Arc(arc), end, &shift, feed, at, state);
     }
 
     fn spline(&mut self, order: u32, points: &[[f64; 3]], knots: &[f64], end: &Pose, at: At, state: &State) {
         let shift = self.shift(state);
         let target = shift.coordinates(end);
-        let feed = self.feed(&shift.machine(&target), at, state);
+        let feed = self.feed(&shift.machine(&target), true, at, state);
         let tolerance = SPLINE_TOLERANCE_MM / state.units.mm();
         let places = chords(order as usize, points, knots, tolerance);
         let judged = if places.is_some() {

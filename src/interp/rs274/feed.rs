@@ -50,8 +50,9 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
-    /// The feed of a feed motion to `end` (machine coordinates) as the control was told it.
-    pub(super) fn feed(&mut self, end: &Position, at: At, state: &State) -> Feed {
+    /// The feed of a feed motion to `end` (machine coordinates) as the control was told it; `curve`: along an arc or a spline, which runs
+    /// on also where it ends in the place where it began.
+    pub(super) fn feed(&mut self, end: &Position, curve: bool, at: At, state: &State) -> Feed {
         let rate = match (self.told.synced, self.told.rate) {
             (Some(pitch), _) => Some(pitch),
             (None, rate) => rate,
@@ -67,7 +68,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if rate.deg.is_nan() || rate.deg <= 0.0 {
             return Feed::Unknown;
         }
-        let moves = if state.units == Units::Millimetre {
+        let moves = if curve || state.units == Units::Millimetre {
             Moves::Linear
         } else {
             self.moves(end, state)

@@ -19,10 +19,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     #[inline]
     pub(super) fn line(&mut self, kind: MotionKind, pose: &Pose, only: bool, at: At, state: &State) {
         if let Some(mut steady) = self.told.steady.take() {
-            let goes_on = self.next_line(&mut steady, kind, pose, at, state);
+            let on = self.next_line(&mut steady, kind, pose, at, state);
             steady.settled = true;
             // what comes next is told by what differs, unless an offset is not known
-            self.told.steady = Some(steady).filter(|_| goes_on);
+            self.told.steady = Some(steady).filter(|_| on);
             return;
         }
         let shift = self.shift(state);
@@ -30,7 +30,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let machine = shift.machine(&end);
         let feed = self.line_feed(kind, &machine, at, state);
         let motion = self.motion_to(kind, [end, machine], &shift, feed, at, state);
-        self.told.steady = (only && machine.known == end.known).then(|| {
+        self.told.steady = (only && goes_on(&motion, &machine)).then(|| {
             Box::new(Steady {
                 shift,
                 motion,
@@ -44,7 +44,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if matches!(kind, MotionKind::Rapid) {
             Feed::Rapid
         } else {
-            self.feed(machine, at, state)
+            self.feed(machine, false, at, state)
         }
     }
 
@@ -81,6 +81,13 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         motion.end = end;
         motion.feed = feed;
         self.sink.next_line(motion, &interpreter.state);
-        machine.known == end.known
+        goes_on(motion, &machine)
     }
+}
+
+/// Whether a line behind a motion may be told by what differs: not where an offset is not known, nor where increments go from nobody
+/// knows where, since which letters a line names is told with whole motions only.
+#[inline]
+fn goes_on(motion: &Motion, machine: &Position) -> bool {
+    machine.known == motion.end.known && (motion.says_way == 0 || motion.end.xyz().is_some())
 }

@@ -131,6 +131,13 @@ fn an_inch_feed_of_rotary_axes_alone_is_degrees_per_minute() {
         let linear = Feed::PerMinute(254.0);
         assert_eq!(got, [Feed::PerMinute(100.0), linear, linear], "{dialect}");
     }
+    // a full circle runs along X Y although it names a rotary axis only
+    for dialect in ["linuxcnc", "fanuc-30i", "sinumerik-840d"] {
+        let inch = if dialect == "sinumerik-840d" { "G700" } else { "G20" };
+        let source = format!("{inch} G17 G90 G94\nG0 X0. Y0. Z0. A0.\nG2 A90. I1. J0. F10.\nM2\n");
+        let log = run_bytes(dialect, source.as_bytes(), &Setup::default()).1;
+        assert_eq!(log.motions[1].feed, Feed::PerMinute(254.0), "{dialect}");
+    }
     // whether X moves is not known
     let source = "G20 G91 G94\nG1 X1 A90 F100\nM2\n";
     let log = run_bytes("linuxcnc", source.as_bytes(), &Setup::default()).1;

@@ -252,9 +252,21 @@ fn increments_to_unknown_coordinates_are_not_passed_over() {
         let text = format!("{home}{on}\nG0 X5.\nM30\n");
         assert_eq!(known(machine, dialect, text), [true, true], "{dialect}");
     }
+    // also where a line before it turned an axis only
+    let text = format!("{home}M428\nG91 G0 A5.\nZ5.\nM30\n");
+    assert_eq!(known(machine, "linuxcnc", text), [true, true, false]);
     // behind a vector the program does not know the rotary axes
     let vector = "TRAORI\nG0 X0 Y0 Z0 A3=0.1 B3=0.2 C3=0.97\n";
-    for (block, is_known) in [("G0 X1 C=IC(5)", false), ("G91 G0 C5", false), ("G0 X1 A10", true), ("G0 C=R7", false)] {
+    for (block, is_known) in [
+        ("G0 X1 C=IC(5)", false),
+        ("G91 G0 C5", false),
+        ("G0 X1 A10", true),
+        ("G0 C=R7", false),
+        // which way, and how far, hangs on where the vector has left it
+        ("G0 C=ACP(5)", false),
+        ("G0 C=DC(5)", false),
+        ("G0 C5", true),
+    ] {
         let text = format!("{home}{vector}{block}\nM30\n");
         assert_eq!(known(machine, "sinumerik-840d", text), [true, true, is_known], "{block}");
     }

@@ -239,7 +239,13 @@ impl Interpreter<'_> {
     fn turning_feed(&self, kind: MotionKind, feed: Feed, words: &Words) -> Feed {
         let named = words.axes.given | words.axes.unread;
         let inch = self.state.feed_unit_mm;
-        if inch == 1.0 || matches!(kind, MotionKind::Arc(_)) || self.state.tcp || words.vector.any() || named & LINEAR != 0 || named & ROTARY == 0 {
+        if inch == 1.0
+            || matches!(kind, MotionKind::Arc(_))
+            || self.state.tcp
+            || words.vector.any()
+            || named & LINEAR != 0
+            || named & ROTARY == 0
+        {
             return feed;
         }
         match feed {

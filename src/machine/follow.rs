@@ -269,8 +269,7 @@ impl<'m> Follower<'m> {
             let bit = 1 << joint;
             let is_lost = !swivels
                 && (self.words.names(moved, joint)
-                    || self.words.names(lost, joint)
-                        && !(keeps && self.words.names(XYZ & !motion.start.known, joint)));
+                    || self.words.names(lost, joint) && !(keeps && self.words.names(XYZ & !motion.start.known, joint)));
             let solved = has_tip_words(motion) && self.solved() & bit != 0;
             if into.1 & bit == 0 && known & bit != 0 && !is_lost && !solved {
                 *value = self.state.known_joints.0[joint];

@@ -187,7 +187,11 @@ mod tests {
             let report = fixture.check().unwrap();
             let own = report.diagnostics.iter().find(|d| d.rule == "excess-linear-travel");
             let said = own.map(|own| own.message.as_str());
-            assert_eq!(said, Some("the linear axes run 141.4 mm while the tip runs 0 mm"), "{shift}");
+            assert_eq!(
+                said,
+                Some("the linear axes run 141.4 mm while the tip runs 0 mm"),
+                "{shift}"
+            );
         }
     }
 

@@ -168,7 +168,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             start,
             end,
             // lines that are told by what differs may name other rotary axes
-            says_way: if modal.incremental { crate::offsets::ROTARY | state.named_axes } else { 0 },
+            says_way: if modal.incremental {
+                crate::offsets::ROTARY | state.named_axes
+            } else {
+                0
+            },
             orientation: Orientation::Words,
             tcp: modal.tcp,
             great_circle: modal.great_circle,

@@ -82,7 +82,11 @@ fn a_change_of_length_moves_the_words_along_the_tool() {
 /// Whether T alone changes tools is machine data of a Sinumerik; where M6 does, its length is not in force.
 #[test]
 fn a_tool_that_nothing_brings_is_said() {
-    let said = |source: &str| faults("sinumerik-840d", source).concat().contains("that T chooses and no M6 brings");
+    let said = |source: &str| {
+        faults("sinumerik-840d", source)
+            .concat()
+            .contains("that T chooses and no M6 brings")
+    };
     assert!(said("T1 D1\nG0 X1 Y1 Z1\nG1 X2 F100\n"));
     assert!(said("T1\nG1 X2 F100\n"));
     assert_eq!(faults("sinumerik-840d", "T1 D1\nG1 X2 F100\nX3\nX4\n").len(), 1, "once");

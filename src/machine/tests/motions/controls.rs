@@ -82,10 +82,17 @@ fn incremental_words_turn_as_far_as_they_say() {
 #[test]
 fn the_first_word_of_a_wrapped_axis_is_a_place() {
     let at = |c: f64| position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', 0.0), (b'A', 0.0), (b'C', c)]);
-    for (wrap, word, place) in [("modulo-sign", -12.0, 12.0), ("modulo-sign", 12.0, 12.0), ("shortest", -12.0, -12.0)] {
+    for (wrap, word, place) in [
+        ("modulo-sign", -12.0, 12.0),
+        ("modulo-sign", 12.0, 12.0),
+        ("shortest", -12.0, -12.0),
+    ] {
         let machine = plain(&format!("wrap = \"{wrap}\""), "");
         let leg = Follower::new(&machine).follow(&words(position(&[]), at(word)));
-        assert!((deg(leg.end.expect("known").joints[0]) - place).abs() < 1e-9, "{wrap} {word}");
+        assert!(
+            (deg(leg.end.expect("known").joints[0]) - place).abs() < 1e-9,
+            "{wrap} {word}"
+        );
     }
 }
 
@@ -107,7 +114,11 @@ fn a_way_of_rounding_is_none() {
         let leg = follower.follow(&feed(at(z, 5.0), at(again, 5.0)));
         assert_eq!((leg.length, feed_limit_tight(&machine, &leg)), (0.0, None));
         let leg = follower.follow(&feed(at(again, 5.0), at(z, 40.0)));
-        assert_eq!((leg.length, feed_limit_tight(&machine, &leg)), (0.0, None), "C alone: tcp {tcp}");
+        assert_eq!(
+            (leg.length, feed_limit_tight(&machine, &leg)),
+            (0.0, None),
+            "C alone: tcp {tcp}"
+        );
     }
 }
 

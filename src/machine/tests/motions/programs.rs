@@ -245,9 +245,17 @@ fn known(machine: &Machine, dialect: &str, source: String) -> Vec<bool> {
 fn increments_to_unknown_coordinates_are_not_passed_over() {
     let machine = &plain("", "tcp_codes = { on = [\"M428\"], off = [\"M429\"] }");
     let home = "G0 X10. Y20. Z30. A20. C10.\n";
-    for (dialect, on) in [("sinumerik-840d", "TRAORI"), ("fanuc-30i", "G43.4 H1"), ("linuxcnc", "M428")] {
+    for (dialect, on) in [
+        ("sinumerik-840d", "TRAORI"),
+        ("fanuc-30i", "G43.4 H1"),
+        ("linuxcnc", "M428"),
+    ] {
         let text = format!("{home}{on}\nG91 G0 X5.\nZ5.\nG90 G0 X0. Y0. Z0.\nG91 X1.\nM30\n");
-        assert_eq!(known(machine, dialect, text), [true, false, false, true, true], "{dialect}");
+        assert_eq!(
+            known(machine, dialect, text),
+            [true, false, false, true, true],
+            "{dialect}"
+        );
         // axes that no word names stay where they are
         let text = format!("{home}{on}\nG0 X5.\nM30\n");
         assert_eq!(known(machine, dialect, text), [true, true], "{dialect}");
@@ -268,6 +276,10 @@ fn increments_to_unknown_coordinates_are_not_passed_over() {
         ("G0 C5", true),
     ] {
         let text = format!("{home}{vector}{block}\nM30\n");
-        assert_eq!(known(machine, "sinumerik-840d", text), [true, true, is_known], "{block}");
+        assert_eq!(
+            known(machine, "sinumerik-840d", text),
+            [true, true, is_known],
+            "{block}"
+        );
     }
 }

@@ -22,6 +22,7 @@ mod macro_programs;
 mod macro_values;
 mod motions;
 mod orientation;
+mod own_codes;
 mod properties;
 mod repeated;
 mod silent;

@@ -22,7 +22,10 @@ impl Engine {
         let is_it = |row: &ToolEntry| row.number == number && *row != ToolEntry::NOBODY;
         match rows.enumerate().find(|(_, row)| is_it(row)) {
             Some((place, _)) => Ok(place + 1),
-            None if self.state.tools.first().is_some_and(is_it) => Ok(0),
+            // a row without P is nowhere else
+            None if number > 0 && self.setup.tools.spindle.is_some() && self.state.tools.first().is_some_and(is_it) => {
+                Ok(0)
+            }
             None if self.setup.any_tool => {
                 let entry = ToolEntry {
                     number,

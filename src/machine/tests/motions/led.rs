@@ -72,17 +72,36 @@ pub(crate) fn feed(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints, 
         return false;
     };
     let step = 1e-5;
-    let mut truth = f64::INFINITY;
-    for i in 0..=SAMPLES {
-        let t = (i as f64 / SAMPLES as f64).clamp(step, 1.0 - step);
+    let allowed = |t: f64| {
+        let t = t.clamp(step, 1.0 - step);
         let (before, after) = (along(t - step), along(t + step));
+        let mut least = f64::INFINITY;
         for (joint, axis) in machine.axes.iter().enumerate() {
             let rate = (after[joint] - before[joint]).abs() / (2.0 * step);
             if let Some(limit) = axis.max_speed
                 && rate > 0.0
             {
-                truth = truth.min(60.0 * speed(t) * limit / rate);
+                least = least.min(60.0 * speed(t) * limit / rate);
             }
+        }
+        least
+    };
+    let moments: Vec<f64> = (0..=SAMPLES).map(|i| allowed(i as f64 / SAMPLES as f64)).collect();
+    let worst = (0..=SAMPLES)
+        .min_by(|a, b| moments[*a].total_cmp(&moments[*b]))
+        .expect("many");
+    // hard by a pole the peak is narrower than the way between two moments
+    let share = |i: usize| i.min(SAMPLES) as f64 / SAMPLES as f64;
+    let (mut low, mut high) = (share(worst.saturating_sub(1)), share(worst + 1));
+    let mut truth = moments[worst];
+    for _ in 0..25 {
+        let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        let (at_a, at_b) = (allowed(a), allowed(b));
+        truth = truth.min(at_a).min(at_b);
+        if at_a < at_b {
+            high = b;
+        } else {
+            low = a;
         }
     }
     let limit = found.feed_mm_min;

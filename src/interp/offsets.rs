@@ -130,7 +130,7 @@ impl Interpreter<'_> {
     }
 
     /// A feed motion while T has chosen the first tool and nothing has brought it: where T alone changes tools the length of the tool is in
-    /// force, elsewhere it is not (Sinumerik 840D sl basic functions, machine data 22550 TOOL_CHANGE_MODE).
+    /// force, elsewhere it is not (machine data 22550 TOOL_CHANGE_MODE of a Sinumerik 840D sl: trade knowledge, not read in a manual).
     pub(crate) fn tool_never_changed(&mut self, words: &Words, report: &mut Report<'_>) {
         let waits = self.memory.in_spindle == Chosen::Nothing
             && self.dialect.quirks.edge_at_tool_change

@@ -59,8 +59,8 @@ pub struct Glance {
     pub stray_mm: f64,
 }
 
-/// A look at a line along which all joints run straight; `None` for all other legs. `allowances` are those of the machine, `near` is kept from leg to leg. Source: kinematics notes 3, as in the functions
-/// that [`Glance`] names.
+/// A look at a line along which all joints run straight; `None` for all other legs. `allowances` are those of the machine, `near` is kept
+/// from leg to leg. Source: kinematics notes 3, as in the functions that [`Glance`] names.
 #[inline]
 pub fn glance(machine: &Machine, allowances: &Allowances, near: &mut Nearness, leg: &Leg) -> Option<Glance> {
     let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {

@@ -154,8 +154,8 @@ impl Words {
 
     /// The turns that a control adds to rotary words it does not take literally, from where the machine stands: the shortest way (M126), or
     /// the way that the word's sign says to the word's amount (LinuxCNC wrapped rotary axes). A word that stays as it was moves nothing, and an
-    /// incremental one turns as far as it says: the shorter way is for absolute words (LinuxCNC user manual, WRAPPED_ROTARY; Fanuc Series 30i
-    /// connection manual, rotary axis roll-over).
+    /// incremental one turns as far as it says: the shorter way is for absolute words (trade knowledge of WRAPPED_ROTARY and of Fanuc's
+    /// roll-over, not read in a manual).
     /// Half a turn either way is the same way: which one is taken is open. `from`: where the joints stand, where that is known; how often
     /// they have turned round is then open, and the first word tells the place.
     pub(crate) fn wrap(

@@ -195,10 +195,7 @@ fn prove(
     let machine = setting.mode.machine().or(setting.machine.filter(|_| setting.vectors));
     let mut setup = source.setup.clone();
     // codes of the builder of the machine that it is written for
-    setup.control.tcp_codes = setting.machine.and_then(|machine| machine.control.tcp_codes.clone());
-    setup.control.clamp_codes = setting.machine.map(Machine::clamp_codes).unwrap_or_default();
-    setup.control.further_axes = setting.machine.map(Machine::further_axes).unwrap_or_default();
-    setup.control.length_along = setting.machine.and_then(Machine::length_along);
+    Machine::tell(setting.machine, &mut setup.control);
     let after = read(&Run {
         text: text.as_bytes(),
         dialect: setting.dialect,

@@ -1,11 +1,14 @@
-//! Whether the program that is written stays inside the travel of its machine.
+//! Whether the program that is written stays inside the travel of its machine, and keeps axes still that must stand while cutting.
 use crate::job::{Event, Job};
 use crate::{Options, Refused};
 use trunnion_certify::conversion::{Part, Reading};
 use trunnion_geometry::deg;
 use trunnion_interp::Setup;
-use trunnion_machine::{AxisKind, Excess, Machine, limit_excess};
+use trunnion_machine::{AxisKind, Excess, Leg, Machine, limit_excess, rotary_turns};
 use trunnion_syntax::BlockId;
+
+/// Rotary motion that is rounding only, rad: as rule clamped-axis-moves has it.
+const NO_TURN: f64 = 1e-9;
 
 /// An axis that would leave its travel.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +44,8 @@ pub(crate) struct Travel {
     /// Each limit once, where it is broken first, with the worst value.
     beyond: Vec<(usize, Excess)>,
     undecided: Vec<usize>,
+    /// The first cut that turns an axis which must stand still while cutting: the motion, letter of the axis, by how much, rad.
+    turned: Option<(usize, char, f64)>,
 }
 
 /// Looks at every motion of the program after.
@@ -57,6 +62,9 @@ pub(crate) fn travel(after: &Reading, parts: &[Part], machine: Option<&Machine>)
         };
         for posed in &after.motions[is..is + count] {
             let Some(leg) = &posed.leg else { continue };
+            if travel.turned.is_none() && posed.motion.is_feed() {
+                travel.turned = held_axis_turns(machine, leg).map(|(axis, turn)| (was, axis, turn));
+            }
             found.clear();
             let decided = limit_excess(machine, leg, &mut found);
             if !decided && travel.undecided.last() != Some(&was) {
@@ -72,6 +80,16 @@ pub(crate) fn travel(after: &Reading, parts: &[Part], machine: Option<&Machine>)
     travel
 }
 
+/// An axis with `clamp = true` that the motion turns, as far as its way is known: its letter, and by how much, rad.
+fn held_axis_turns(machine: &Machine, leg: &Leg) -> Option<(char, f64)> {
+    let turns = rotary_turns(machine, leg).unwrap_or(leg.rotary_change);
+    let mut turns = machine.rotary.iter().zip(turns);
+    turns.find_map(|(&joint, turn)| {
+        let axis = &machine.axes[joint];
+        (axis.extra.clamp && turn > NO_TURN).then_some((char::from(axis.letter), turn))
+    })
+}
+
 impl Travel {
     fn add(&mut self, was: usize, excess: Excess) {
         let off = |one: &Excess| (one.value - one.limit).abs();
@@ -84,7 +102,7 @@ impl Travel {
     }
 
     /// The findings in words and numbers, and the lines where the travel is not decided. Where the zero points are declared, a program
-    /// that leaves the travel is refused: it could never run.
+    /// that leaves the travel is refused: it could never run. So is one that turns an axis in a cut which must stand still there.
     ///
     /// # Errors
     /// See above.
@@ -100,6 +118,15 @@ impl Travel {
             let motion = reading.motions.get(was).or(reading.motions.last());
             motion.map(|posed| posed.motion.block).unwrap_or_default()
         };
+        if let Some((was, axis, turn)) = self.turned {
+            let message = format!(
+                "this cut would turn {axis} by {:.3} deg, but the machine file of {} says clamp = true at {axis}: it must stand still \
+                 while cutting. Cut with a fixed tool axis, position {axis} in rapid motions, or take a machine whose axis is not clamped",
+                deg(turn),
+                machine.map_or("", |machine| machine.id.as_str())
+            );
+            return Err(Refused::at(&reading.program, block(was), message));
+        }
         let mut all = Vec::new();
         for (was, excess) in &self.beyond {
             let Some(axis) = machine.and_then(|machine| machine.axes.get(excess.axis)) else {

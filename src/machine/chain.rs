@@ -308,19 +308,6 @@ impl Machine {
         self.axes.iter().position(|axis| axis.letter == upper)
     }
 
-    /// Letters of its axes beside X Y Z A B C.
-    pub fn further_axes(&self) -> Vec<u8> {
-        let letters = self.axes.iter().map(|axis| axis.letter);
-        letters.filter(|letter| !b"XYZABC".contains(letter)).collect()
-    }
-
-    /// By how much 1 mm of tool length shifts the words of X, Y and Z (diameters by 2 mm) while they are joints: the tool axis at home.
-    /// `None` where that is Z alone.
-    pub fn length_along(&self) -> Option<[f64; 3]> {
-        let along = crate::words::Words::new(self).length_along();
-        (along != [0.0, 0.0, 1.0]).then_some(along)
-    }
-
     /// The codes of its clamps, as an interpreter wants them.
     pub fn clamp_codes(&self) -> trunnion_interp::AllClampCodes {
         let mut codes = trunnion_interp::AllClampCodes::default();

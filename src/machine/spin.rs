@@ -40,6 +40,8 @@ pub(crate) struct GreatCircle<'a> {
     /// Angle of the whole block, rad.
     angle: f64,
     branch: i8,
+    /// [`GreatCircle::lead`] at the start, rad.
+    lead: f64,
 }
 
 impl<'a> Spin<'a> {
@@ -62,23 +64,69 @@ impl<'a> Spin<'a> {
         if angle > PI - ARRIVAL || start.branch != end.branch {
             return None;
         }
-        let circle = GreatCircle {
-            machine,
-            pair,
-            start: start.axis,
-            side: side.normalize(),
-            angle,
-            branch: start.branch,
-        };
+        let circle = GreatCircle::new(machine, pair, [start.axis, side.normalize()], angle, start.branch);
+        if circle.azimuth_turned(&end.axis).abs() > PI - ARRIVAL {
+            // over the pole: to which side the first axis turns is not known
+            return None;
+        }
         let (from, to) = (start.rotary(machine), end.rotary(machine));
-        let arrives = circle.near(1.0, circle.joints(0.999_999_9, from)?)?;
+        let arrives = circle.joints(1.0, from)?;
         let off = (arrives[0] - to[0]).abs().max((arrives[1] - to[1]).abs());
-        // coming near the end by the shorter way must be coming to the end
-        (off < ARRIVAL && (to[0] - from[0]).abs() < PI).then_some(Self::GreatCircle(circle))
+        (off < ARRIVAL).then_some(Self::GreatCircle(circle))
     }
 }
 
-impl GreatCircle<'_> {
+/// How far the rotary axes get from where they start in a block, rad, workpiece side first: at its end, or half-way on a great circle,
+/// where an axis may leave a value that it comes back to. Never above the truth; zero only for an axis that stands still. `None` where a
+/// stance or the way between them is not known.
+pub fn rotary_turns(machine: &Machine, leg: &Leg) -> Option<[f64; 2]> {
+    let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
+    let mut turns = leg.rotary_change;
+    if let Spin::GreatCircle(circle) = Spin::new(machine, leg, start, end)? {
+        let from = start.rotary(machine);
+        let middle = circle.joints(0.5, from)?;
+        for (turn, (from, middle)) in turns.iter_mut().zip(from.iter().zip(middle)) {
+            *turn = turn.max((middle - from).abs());
+        }
+    }
+    Some(turns)
+}
+
+impl<'a> GreatCircle<'a> {
+    /// `axes`: tool axis at the start and the unit vector at right angles to it in the circle's plane.
+    fn new(machine: &'a Machine, pair: &'a PairConstants, axes: [Vec3; 2], angle: f64, branch: i8) -> Self {
+        let [start, side] = axes;
+        let mut circle = Self {
+            machine,
+            pair,
+            start,
+            side,
+            angle,
+            branch,
+            lead: 0.0,
+        };
+        circle.lead = circle.lead(&start);
+        circle
+    }
+
+    /// By how much the azimuth of `u` about e1 is greater than the start's, rad: between -pi and pi, what a great circle that keeps off the
+    /// pole turns by.
+    fn azimuth_turned(&self, u: &Vec3) -> f64 {
+        let e1 = self.machine.constants.rotary[0].direction;
+        let from = self.start - e1 * e1.dot(&self.start);
+        atan2(e1.dot(&from.cross(u)), from.dot(u))
+    }
+
+    /// By how much the azimuth of `u` about e1 leads that of the second axis in this posture, rad. S keeps its sign in a posture, so that it
+    /// stays between 0 and pi, or between -pi and 0: gamma of kinematics notes 2.3 with the posture's sign.
+    fn lead(&self, u: &Vec3) -> f64 {
+        let pair = self.pair;
+        let x = self.machine.constants.rotary[0].direction.dot(u);
+        let off = x - pair.c * pair.y;
+        let s = (pair.d * (1.0 - pair.y * pair.y) - off * off).max(0.0).sqrt();
+        f64::from(self.branch) * atan2(s, pair.y - pair.c * x)
+    }
+
     /// Tool axis and its rate.
     fn axis(&self, t: f64) -> (Vec3, Vec3) {
         let (sin, cos) = sin_cos(self.angle * t);
@@ -88,19 +136,18 @@ impl GreatCircle<'_> {
         )
     }
 
-    /// Rotary joints at t, on the turns nearest to `near`; `None` where there are none in this posture.
-    fn near(&self, t: f64, near: [f64; 2]) -> Option<[f64; 2]> {
-        let Orientations::Postures(postures) = orientations(self.machine, &self.axis(t).0) else {
+    /// Rotary joints at t for a block that starts at `from`, without jumps of whole turns; `None` where there are none in this posture. The
+    /// first axis turns by what the azimuth of the tool axis turns, less what it gains on the second axis: more than half a turn, at times.
+    pub(crate) fn joints(&self, t: f64, from: [f64; 2]) -> Option<[f64; 2]> {
+        let u = self.axis(t).0;
+        let Orientations::Postures(postures) = orientations(self.machine, &u) else {
             return None;
         };
         let found = postures.iter().find(|solution| solution.branch == self.branch)?;
+        let turned = self.azimuth_turned(&u) - (self.lead(&u) - self.lead);
+        let near = [from[0] + self.machine.constants.rotary[0].sign * turned, from[1]];
         let turn = |i: usize| found.q[i] + TAU * ((near[i] - found.q[i]) / TAU).round();
         Some([turn(0), turn(1)])
-    }
-
-    /// Rotary joints at t for a block that starts at `from`. The azimuth of a great circle turns by less than pi.
-    pub(crate) fn joints(&self, t: f64, from: [f64; 2]) -> Option<[f64; 2]> {
-        self.near(t, from)
     }
 
     /// Rates of the turns at t: with f = R1 e2, t1' = -(u'.f) / S and t2' = (u'.e1) / S. `f` is the second axis turned by the first.
@@ -144,9 +191,10 @@ impl GreatCircle<'_> {
 #[cfg(test)]
 mod tests {
     use super::{GreatCircle, Spin};
-    use crate::{BUILTIN_MACHINES, Follower, Machine, builtin};
+    use crate::{BUILTIN_MACHINES, Follower, Machine, Orientations, builtin, orientations};
+    use core::f64::consts::PI;
     use trunnion_geometry::Vec3;
-    use trunnion_geometry::math::rotate;
+    use trunnion_geometry::math::{angle_between, rotate};
     use trunnion_interp::{Feed, Motion, Orientation, Position};
 
     fn rates(machine: &Machine, circle: &GreatCircle<'_>, t: f64, from: [f64; 2]) -> [f64; 2] {
@@ -250,14 +298,14 @@ mod tests {
                 let (sin, cos) = trunnion_geometry::math::sin_cos(trunnion_geometry::rad(tilt));
                 pole * cos + across * sin
             };
-            let circle = GreatCircle {
+            let pair = machine.constants.pair.as_ref().expect("two rotary axes");
+            let circle = GreatCircle::new(
                 machine,
-                pair: machine.constants.pair.as_ref().expect("two rotary axes"),
-                start: at(tilt),
-                side: at(tilt + 90.0),
-                angle: trunnion_geometry::rad(turn),
-                branch: 1,
-            };
+                pair,
+                [at(tilt), at(tilt + 90.0)],
+                trunnion_geometry::rad(turn),
+                1,
+            );
             let found = circle.bounds(piece.0, piece.1);
             for i in 0..2 {
                 let near = |found: f64, wanted: f64| (found - wanted).abs() <= 1e-7 * wanted;
@@ -267,5 +315,51 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// Circles that pass close by the pole, in both postures: the joints run without jumps, by more than half a turn too.
+    #[test]
+    fn the_first_axis_turns_without_jumps_hard_by_the_pole() {
+        const STEPS: usize = 4000;
+        let mut more_than_half_a_turn = 0;
+        for name in BUILTIN_MACHINES {
+            let machine = builtin(name).expect("built in");
+            let Some(pair) = &machine.constants.pair else { continue };
+            let e1 = machine.constants.rotary[0].direction;
+            let across = if e1.x.abs() < 0.5 { Vec3::x() } else { Vec3::y() };
+            let tilted =
+                |azimuth: f64, tilt: f64| rotate(&e1, azimuth, &rotate(&e1.cross(&across).normalize(), tilt, &e1));
+            for (tilts, turn, branch) in [0.98, 0.995, -0.98, -0.995].iter().flat_map(|share| {
+                [(0.1, 0.5), (0.5, 0.1), (0.4, 0.4)]
+                    .into_iter()
+                    .flat_map(move |tilts| [1, -1].map(|branch| (tilts, share * PI, branch)))
+            }) {
+                let (from, to) = (tilted(0.3, tilts.0), tilted(0.3 + turn, tilts.1));
+                let side = (to - from * from.dot(&to)).normalize();
+                let circle = GreatCircle::new(machine, pair, [from, side], angle_between(&from, &to), branch);
+                let Orientations::Postures(postures) = orientations(machine, &from) else {
+                    continue;
+                };
+                let Some(posture) = postures.iter().find(|posture| posture.branch == branch) else {
+                    continue;
+                };
+                let mut last = posture.q;
+                for step in 1..=STEPS {
+                    let t = step as f64 / STEPS as f64;
+                    let Some(next) = circle.joints(t, posture.q) else {
+                        // out of reach
+                        break;
+                    };
+                    let moved = (next[0] - last[0]).abs().max((next[1] - last[1]).abs());
+                    assert!(
+                        moved < 0.3,
+                        "{name} {tilts:?} {turn} {branch} at {t}: {last:?} to {next:?}"
+                    );
+                    last = next;
+                }
+                more_than_half_a_turn += usize::from((last[0] - posture.q[0]).abs() > PI);
+            }
+        }
+        assert!(more_than_half_a_turn > 4, "{more_than_half_a_turn}");
     }
 }

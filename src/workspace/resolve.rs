@@ -101,15 +101,12 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
             .push(parse_tool_flag(flag).map_err(|error| LoadError::new(format!("--tool {flag}: {error}")))?);
     }
     setup.control.block_delete = overrides.block_delete.or(setup.control.block_delete);
-    if let (None, Some(machine)) = (&setup.control.tcp_codes, &machine) {
-        setup.control.tcp_codes.clone_from(&machine.control.tcp_codes);
-    }
     if let (None, Some(machine)) = (setup.control.units, &machine) {
         setup.control.units = machine.control.units;
     }
-    setup.control.clamp_codes = machine.as_ref().map(Machine::clamp_codes).unwrap_or_default();
-    setup.control.further_axes = machine.as_ref().map(Machine::further_axes).unwrap_or_default();
-    setup.control.length_along = machine.as_ref().and_then(Machine::length_along);
+    let declared = setup.control.tcp_codes.take();
+    Machine::tell(machine.as_ref(), &mut setup.control);
+    setup.control.tcp_codes = declared.or(setup.control.tcp_codes);
     setup.library = library(path, &config, config_file.as_ref())?;
     let mut port_to = config.port_to.clone();
     for name in &overrides.port_to {

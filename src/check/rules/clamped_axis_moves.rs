@@ -39,14 +39,15 @@
 //!
 //! # Guarantee
 //! Sound for motions between known positions. Where it is not known whether a motion turns a clamped axis, or its clamp is not yet named,
-//! named in the same block, or behind a code or call whose effect is not known, the finding is unknown. Codes of called files count.
+//! named in the same block, or behind a code or call whose effect is not known, the finding is unknown. Codes of called files count. On a
+//! great circle an axis that leaves its value and comes back to it has turned; over the pole, where its way is not known, it may have.
 //!
 //! # Sources
 //! Trunnion's kinematics notes, section 5 (LOCK-3P2).
 use crate::prelude::*;
 use crate::view::NO_TURN;
 use trunnion_interp::{AxisLetter, Clamp, MotionKind, Orientation};
-use trunnion_machine::AxisKind;
+use trunnion_machine::{AxisKind, rotary_turns};
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
@@ -67,13 +68,37 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
 
 /// Axes that must stand still while cutting.
 fn in_the_cut(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    for (&joint, turn) in view.machine.rotary.iter().zip(view.leg.rotary_change) {
+    if !view.machine.axes.iter().any(|axis| axis.extra.clamp) {
+        return;
+    }
+    let turns = rotary_turns(view.machine, view.leg);
+    let at_least = turns.unwrap_or(view.leg.rotary_change);
+    for (&joint, turn) in view.machine.rotary.iter().zip(at_least) {
         let axis = &view.machine.axes[joint];
         let key = u64::from(axis.letter);
-        if !axis.extra.clamp || turn <= NO_TURN || out.repeats(view, key, turn) {
+        if !axis.extra.clamp {
             continue;
         }
         let name = letter(axis.letter);
+        if turn <= NO_TURN && turns.is_none() {
+            let range = axis_word(out.program(), view.motion().block, axis.letter);
+            out.report(
+                range,
+                format!("whether {name} turns between the ends of this cut is not known"),
+            )
+            .note(format!(
+                "the machine file of {} says clamp = true at {name}",
+                view.machine.id
+            ))
+            .help("turn the other axis in smaller steps, or out of the cut")
+            .value_text("axis", name)
+            .unknown()
+            .merge_everywhere(key + 4096);
+            continue;
+        }
+        if turn <= NO_TURN || out.repeats(view, key, turn) {
+            continue;
+        }
         let range = axis_word(out.program(), view.motion().block, axis.letter);
         out.report(
             range,
@@ -106,7 +131,13 @@ fn turn(view: &LegView<'_>, axis: usize) -> Turn {
     let motion = view.motion();
     if let Some((start, end)) = view.stances() {
         let by = (end.joints[axis] - start.joints[axis]).abs();
-        return if by > NO_TURN { Turn::By(by) } else { Turn::No };
+        let index = view.machine.rotary.iter().position(|&joint| joint == axis);
+        return match (rotary_turns(view.machine, view.leg), index) {
+            (Some(turns), Some(index @ 0..2)) if by.max(turns[index]) > NO_TURN => Turn::By(by.max(turns[index])),
+            (None, _) if by <= NO_TURN => Turn::Perhaps,
+            _ if by > NO_TURN => Turn::By(by),
+            _ => Turn::No,
+        };
     }
     let word = AxisLetter::new(view.machine.axes[axis].letter).map(|letter| usize::from(letter.0));
     let [from, to] = [&motion.start, &motion.end].map(|at| word.and_then(|word| at.get(word)));
@@ -188,6 +219,34 @@ mod tests {
             "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 G1 X10 A21 F100\nN40 G1 X20 C1\n;          ^^ clamped-axis-moves: C turns by 2 deg\nN50 G1 X30 C3\nN60 M30\n",
         );
         assert_eq!(report.diagnostics[0].count, 2);
+    }
+
+    /// The tool leans by the same angle at both ends and C has turned by half a turn but a little: on the great circle A comes down towards
+    /// the pole and goes up again. Straight over the pole nobody knows.
+    #[test]
+    fn an_axis_that_comes_back_on_a_great_circle_has_turned() {
+        let program = |j: &str| {
+            format!(
+                "N10 TRAORI\nN15 ORIWKS ORIVECT\nN20 G0 X0 Y0 Z50 A3=0.6 B3=0 C3=0.8\nN30 G1 X10 A3=-0.6 B3={j} C3=0.8 F100\nN60 M30\n"
+            )
+        };
+        for j in ["0", "0.02"] {
+            let machine = "gcode sinumerik-840d mikron-ucp710+A.clamp";
+            let report = crate::fixture::Fixture::parse(machine, &program(j))
+                .check()
+                .expect("there");
+            let found = report
+                .diagnostics
+                .iter()
+                .filter(|found| found.rule == "clamped-axis-moves");
+            let said: Vec<&str> = found.map(|found| found.message.as_str()).collect();
+            let wanted = if j == "0" {
+                "whether A turns between"
+            } else {
+                "A turns by 3"
+            };
+            assert!(said.len() == 1 && said[0].starts_with(wanted), "{j}: {said:?}");
+        }
     }
 
     const CODES: &str = "mikron-ucp710+C.clamp_codes={on=\"M10\",off=\"M11\"}";

@@ -1,7 +1,7 @@
 //! Codes of clamps in what is written: `check` finds them right on the same machine.
 use trunnion_certify::conversion::Assume;
 use trunnion_check::{Settings, check};
-use trunnion_convert::{Converted, Options, OrientationWords, Source, Target, builtin_post, convert};
+use trunnion_convert::{Converted, Options, OrientationWords, Refused, Source, Target, builtin_post, convert};
 use trunnion_interp::Setup;
 use trunnion_machine::{Machine, builtin_source, load};
 
@@ -84,8 +84,7 @@ fn with_codes(name: &str, codes: [&str; 2]) -> Machine {
 
 fn setup_of(machine: &Machine) -> Setup {
     let mut setup = Setup::default();
-    setup.control.tcp_codes.clone_from(&machine.control.tcp_codes);
-    setup.control.clamp_codes = machine.clamp_codes();
+    Machine::tell(Some(machine), &mut setup.control);
     setup
 }
 
@@ -96,6 +95,16 @@ fn written(
     machine: &Machine,
     options: &Options,
 ) -> Converted {
+    tried(text, from, dialect, machine, options).unwrap_or_else(|refused| panic!("{refused}"))
+}
+
+fn tried(
+    text: &str,
+    from: (&str, Option<&Machine>),
+    dialect: &str,
+    machine: &Machine,
+    options: &Options,
+) -> Result<Converted, Refused> {
     let setup = from.1.map(setup_of).unwrap_or_default();
     let source = Source {
         text: text.as_bytes(),
@@ -108,7 +117,12 @@ fn written(
         post: builtin_post(dialect).expect("built in"),
         machine: Some(machine),
     };
-    convert(&source, &target, options).unwrap_or_else(|refused| panic!("{refused}"))
+    convert(&source, &target, options)
+}
+
+/// CL data as text for a Haas that leads the tip.
+fn haas(cl: &str, machine: &Machine) -> Converted {
+    written(cl, ("apt", None), "haas-ngc", machine, &options(true, false))
 }
 
 /// What `check` says about clamps.
@@ -177,13 +191,13 @@ fn what_is_written_passes_and_every_code_of_it_is_needed() {
 #[test]
 fn a_clamp_is_closed_for_the_cuts_in_which_its_axis_stands() {
     let machine = with_codes("trunnion-3plus2", CODES);
-    insta::assert_snapshot!(written(INDEXED, ("apt", None), "haas-ngc", &machine, &options(true, false)).text);
+    insta::assert_snapshot!(haas(INDEXED, &machine).text);
 }
 
 #[test]
 fn an_axis_that_turns_in_a_pass_is_open_through_all_of_it() {
     let machine = with_codes("mikron-ucp710", CODES);
-    let made = written(TURNED, ("apt", None), "haas-ngc", &machine, &options(true, false));
+    let made = haas(TURNED, &machine);
     let codes: Vec<&str> = made
         .text
         .lines()
@@ -212,13 +226,8 @@ fn codes_of_the_machine_before_are_written_anew() {
     );
     let first = written(INDEXED, ("apt", None), "haas-ngc", &old, &options(false, false));
     assert!(first.text.contains("M22"), "{}", first.text);
-    let second = written(
-        &first.text,
-        ("haas-ngc", Some(&old)),
-        "haas-ngc",
-        &new,
-        &options(false, false),
-    );
+    let from = ("haas-ngc", Some(&old));
+    let second = written(&first.text, from, "haas-ngc", &new, &options(false, false));
     let renamed = first.text.replace("M2", "M1");
     assert_eq!(second.text.replace("M30", ""), renamed.replace("M30", ""));
     assert_eq!(second.left_out, []);
@@ -241,7 +250,7 @@ fn codes_that_nobody_names_are_left_with_a_remark() {
         ),
     ];
     for (machine, why) in cases {
-        let made = written(INDEXED, ("apt", None), "haas-ngc", &machine, &options(true, false));
+        let made = haas(INDEXED, &machine);
         assert_eq!(made.clamps, ['C', 'A']);
         for letter in made.clamps {
             let remark = format!("({letter} HAS A CLAMP. IT IS NOT WRITTEN HERE: {})", why.to_uppercase());
@@ -250,6 +259,39 @@ fn codes_that_nobody_names_are_left_with_a_remark() {
         assert!(!made.text.contains("M8\n"), "{}", made.text);
     }
     let free = trunnion_machine::builtin("mikron-ucp710").expect("built in");
-    let made = written(INDEXED, ("apt", None), "haas-ngc", free, &options(true, false));
+    let made = haas(INDEXED, free);
     assert!(made.clamps.is_empty() && !made.text.contains("CLAMP"), "{}", made.text);
+}
+
+/// An axis that must stand still while cutting: a cut that would turn it is not written, in no form; a rapid may turn it.
+#[test]
+fn a_cut_that_turns_an_axis_which_must_stand_still_is_refused() {
+    let still = "clamp = true";
+    let with_clamp = format!("{still}\nclamp_codes = {}", CODES[0]);
+    for (cl, keys, tcp, vectors, line) in [
+        // A turns in the plunge, to no other orientation: line 10 turns C
+        (TURNED, ["", still], true, false, Some(10)),
+        (TURNED, ["", still], false, false, Some(10)),
+        (TURNED, ["", still], true, true, Some(10)),
+        (TURNED, [still, ""], true, false, Some(10)),
+        (TURNED, [&with_clamp, ""], true, false, Some(10)),
+        (TURNED, ["", ""], true, false, None),
+        (INDEXED, [still, still], true, false, None),
+        (INDEXED, [still, still], false, false, None),
+    ] {
+        let machine = with_keys("mikron-ucp710", keys);
+        let dialect = if vectors { "fanuc-30i" } else { "haas-ngc" };
+        let made = tried(cl, ("apt", None), dialect, &machine, &options(tcp, vectors));
+        let refused = made.as_ref().err();
+        assert_eq!(
+            refused.and_then(|refused| refused.place).map(|(line, _)| line),
+            line,
+            "{keys:?}: {refused:?}"
+        );
+        match (refused, made.as_ref().ok()) {
+            (Some(refused), _) => assert!(refused.message.contains("must stand still"), "{refused}"),
+            (_, Some(made)) if keys != ["", ""] => assert_eq!(findings(&made.text, dialect, &machine), [""; 0]),
+            _ => {}
+        }
+    }
 }

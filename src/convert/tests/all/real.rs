@@ -25,7 +25,7 @@ fn run(
     on: Option<&Machine>,
 ) -> Result<Converted, Refused> {
     let mut setup = Setup::default();
-    setup.control.tcp_codes = from.and_then(|machine| machine.control.tcp_codes.clone());
+    Machine::tell(from, &mut setup.control);
     let source = Source {
         text,
         dialect: trunnion_dialect::builtin(dialect).expect("built in"),

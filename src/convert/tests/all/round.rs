@@ -29,6 +29,11 @@ fn points(machine: &Machine, start: [f64; 2], steps: &[(f64, f64, [f64; 3])]) ->
     for (index, (first, second, way)) in steps.iter().enumerate() {
         for (slot, step) in [first, second].into_iter().enumerate() {
             let (low, high) = range(slot);
+            let joint = machine.rotary.get(slot);
+            if index > 0 && joint.is_some_and(|&joint| machine.axes[joint].extra.clamp) {
+                // it must stand still while cutting
+                continue;
+            }
             q[slot] = (q[slot] + rad(*step)).clamp(low, high);
         }
         tip += Vec3::from(*way);

@@ -25,10 +25,7 @@ pub(crate) fn assuming(
     options: &Options,
 ) -> Result<Converted, Refused> {
     let mut setup = Setup::default();
-    setup.control.tcp_codes = machine(source).and_then(|machine| machine.control.tcp_codes.clone());
-    setup.control.clamp_codes = machine(source).map(Machine::clamp_codes).unwrap_or_default();
-    setup.control.further_axes = machine(source).map(Machine::further_axes).unwrap_or_default();
-    setup.control.length_along = machine(source).and_then(Machine::length_along);
+    Machine::tell(machine(source), &mut setup.control);
     let source = Source {
         text: text.as_bytes(),
         dialect: trunnion_dialect::builtin(dialect).expect("built in"),

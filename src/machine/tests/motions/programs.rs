@@ -40,7 +40,7 @@ fn text_followed<'m>(machine: &'m Machine, dialect: &str, source: Vec<u8>) -> Fo
         legs: Vec::new(),
     };
     let mut setup = Setup::default();
-    setup.control.tcp_codes.clone_from(&machine.control.tcp_codes);
+    Machine::tell(Some(machine), &mut setup.control);
     run(&program, dialect, &setup, &mut followed);
     followed
 }

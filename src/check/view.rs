@@ -229,6 +229,7 @@ impl<'a> LegView<'a> {
                 value,
                 limit,
                 inside: false,
+                if_together: false,
             })
         })
     }

@@ -67,10 +67,11 @@ pub(crate) fn travel(after: &Reading, parts: &[Part], machine: Option<&Machine>)
             }
             found.clear();
             let decided = limit_excess(machine, leg, &mut found);
+            let decided = decided && !found.iter().any(|excess| excess.if_together);
             if !decided && travel.undecided.last() != Some(&was) {
                 travel.undecided.push(was);
             }
-            for excess in &found {
+            for excess in found.iter().filter(|excess| !excess.if_together) {
                 travel.add(was, *excess);
             }
         }

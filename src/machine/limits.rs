@@ -18,6 +18,8 @@ pub struct Excess {
     pub limit: f64,
     /// Whether it happens inside the block while both ends are legal on this axis.
     pub inside: bool,
+    /// Only if the axes of this rapid arrive together, of which the machine file says nothing.
+    pub if_together: bool,
 }
 
 /// How far a joint may lie beyond its limit and still count as on it, mm or rad: rounding.
@@ -47,8 +49,13 @@ pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) -> bool
     let Some(course) = Course::new(machine, leg) else {
         return false;
     };
-    inside(&course, out);
+    inside(&course, is_undeclared(machine, leg), out);
     true
+}
+
+/// Whether the axes of a rapid may arrive together or each for itself: what lies between the ends is then known for neither.
+fn is_undeclared(machine: &Machine, leg: &Leg) -> bool {
+    leg.motion.kind == MotionKind::Rapid && machine.control.rapid == RapidPath::Undeclared
 }
 
 /// Whether each axis runs at its own speed: between two legal ends each stays between them, however the tip gets there.
@@ -69,6 +76,7 @@ fn ends(machine: &Machine, joints: &Joints, known: u16, out: &mut Vec<Excess>) {
                     value: joints[axis],
                     limit,
                     inside: false,
+                    if_together: false,
                 },
             );
         }
@@ -130,8 +138,8 @@ fn broken(limits: Limits, value: f64) -> Option<f64> {
     }
 }
 
-/// Joints that are further outside their travel between the ends than at them.
-fn inside(course: &Course<'_>, out: &mut Vec<Excess>) {
+/// Joints that are further outside their travel between the ends than at them. `if_together`: only if the axes arrive together.
+fn inside(course: &Course<'_>, if_together: bool, out: &mut Vec<Excess>) {
     let constants = &course.machine.constants;
     let (_, whole) = course.bends(0.0, 1.0);
     let at_once = course.bends_at_once();
@@ -149,7 +157,7 @@ fn inside(course: &Course<'_>, out: &mut Vec<Excess>) {
             constants.linear[index].joint,
             |t| course.moment(t).solved[slot],
             over,
-            out,
+            (if_together, out),
         );
     }
     if let Spin::GreatCircle(circle) = &course.spin {
@@ -157,7 +165,7 @@ fn inside(course: &Course<'_>, out: &mut Vec<Excess>) {
         for (slot, rotary) in constants.rotary().iter().enumerate() {
             let value = |t: f64| circle.joints(t, from).map_or(f64::NAN, |joints| joints[slot]);
             let over = |piece: &Piece| piece.below_parabola(course.spin_bounds(piece.from, piece.to).bend[slot]);
-            judge(course, rotary.joint, value, over, out);
+            judge(course, rotary.joint, value, over, (if_together, out));
         }
     }
 }
@@ -168,7 +176,7 @@ fn judge(
     axis: usize,
     value: impl Fn(f64) -> f64,
     bound: impl Fn(&Piece) -> f64,
-    out: &mut Vec<Excess>,
+    (if_together, out): (bool, &mut Vec<Excess>),
 ) {
     let limits = course.machine.axes[axis].limits;
     let Limits::Range(low, high) = limits else { return };
@@ -186,7 +194,9 @@ fn judge(
         };
         // what the ends reach is told already, here or by the block before
         let told = over(from).max(over(to)).max(0.0) + SLACK;
-        if bound(&whole) <= told {
+        // where an end is beyond it, that much is certain
+        let certain = if_together && told > 2.0 * SLACK;
+        if certain || bound(&whole) <= told {
             continue;
         }
         let found = peak(
@@ -210,6 +220,7 @@ fn judge(
                     value: limit + sign * found.sampled,
                     limit,
                     inside: both_legal,
+                    if_together,
                 },
             );
         }

@@ -19,7 +19,8 @@
 //!
 //! # Guarantee
 //! Sound for axes whose position is known: inside a block by a bound on the joints' motion, not by samples.
-//! An axis that was never positioned is not judged.
+//! An axis that was never positioned is not judged. Where the machine file does not say whether the axes of a rapid motion arrive together,
+//! what an axis would reach between two legal ends is unknown.
 //!
 //! # Thresholds
 //! The limits of the machine file.
@@ -52,7 +53,8 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         let axis = &view.machine.axes[excess.axis];
         let beyond = (excess.value - excess.limit).abs();
         // the lower limit behind the upper one is another finding, however near the blocks
-        let key = u64::from(axis.letter) + 256 * u64::from(excess.value > excess.limit);
+        let key =
+            u64::from(axis.letter) + 256 * u64::from(excess.value > excess.limit) + 512 * u64::from(excess.if_together);
         if out.repeats(view, key, beyond) {
             continue;
         }
@@ -69,14 +71,24 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             joint(axis, excess.limit)
         );
         let range = axis_word(out.program(), view.motion().block, axis.letter);
+        let message = if excess.if_together {
+            format!("{message}, if the axes of this rapid arrive together")
+        } else {
+            message
+        };
         let draft = out.report(range, message);
         draft.note(format!(
             "values are those of the joint, work offset and tool length included, on {}",
             view.machine.id
         ));
-        draft
-            .help("move the part, choose another posture, or correct the program")
-            .value_text("axis", name);
+        if excess.if_together {
+            draft.unknown().help(
+                "say in the machine file whether they do ([control] rapid = \"synchronous\" or \"dogleg\"), or rise before the tool turns",
+            );
+        } else {
+            draft.help("move the part, choose another posture, or correct the program");
+        }
+        draft.value_text("axis", name);
         match axis.kind {
             AxisKind::Linear => {
                 draft
@@ -97,7 +109,9 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
 
 #[cfg(test)]
 mod tests {
+    use crate::Status;
     use crate::fixture::assert_drawn;
+    use trunnion_machine::RapidPath;
 
     #[test]
     fn a_run_of_blocks_is_told_once_with_the_worst() {
@@ -134,6 +148,27 @@ mod tests {
             "gcode sinumerik-840d mikron-ucp710",
             "TRAORI\nG0 X0 Y0 Z399 A-25 C0\nG1 X200 A40 F500\n;       ^^^ only-one-posture: \n;       ^^^ pole-crossing: \nM30\n",
         );
+    }
+
+    /// The same in a rapid: whether a Sinumerik moves its axes together then is a matter of G-code group 55 and machine data.
+    #[test]
+    fn a_limit_between_the_ends_of_a_rapid_is_a_matter_of_its_path() {
+        let text = "TRAORI\nG0 X0 Y0 Z410 A-25 C0\nG0 X200 A40\nM30\n";
+        let mut machine = crate::fixture::machine("mikron-ucp710").unwrap();
+        let dialect = trunnion_dialect::builtin("sinumerik-840d").unwrap();
+        for (rapid, wanted) in [
+            (RapidPath::Undeclared, vec![Status::Unknown]),
+            (RapidPath::Synchronous, vec![Status::Fail]),
+            (RapidPath::Dogleg, vec![]),
+        ] {
+            machine.control.rapid = rapid;
+            let program = trunnion_syntax::parse(text.into(), dialect.lex);
+            let setup = trunnion_interp::Setup::default();
+            let report = crate::check(&program, &crate::Settings::new(dialect, Some(&machine), setup));
+            let found = report.diagnostics.iter().filter(|found| found.rule == "axis-limit");
+            let found: Vec<Status> = found.map(|found| found.status).collect();
+            assert_eq!(found, wanted, "{rapid:?}");
+        }
     }
 
     #[test]

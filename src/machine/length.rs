@@ -1,6 +1,6 @@
 //! The length of a block's path, along which F counts.
 use crate::follow::has_tip_words;
-use crate::{FeedMeaning, Follower, Leg};
+use crate::{FeedMeaning, Follower, Leg, Machine};
 use trunnion_geometry::math::hypot;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, MotionKind};
@@ -15,17 +15,27 @@ pub(crate) fn way(length: f64) -> f64 {
     if length < NO_WAY { 0.0 } else { length }
 }
 
+/// What the rotary axes add to the way along which F counts, deg: nothing unless the control counts all axes together.
+pub(crate) fn rotary_part(machine: &Machine, leg: &Leg) -> f64 {
+    let motion = &leg.motion;
+    let combined = machine.control.feed == Some(FeedMeaning::Combined);
+    let by_way = matches!(motion.feed, Feed::PerMinute(_) | Feed::PerRevolution(_));
+    if !(combined && by_way && motion.is_feed()) || has_tip_words(motion) {
+        return 0.0;
+    }
+    let [first, second] = leg.rotary_change.map(deg);
+    hypot(first, second)
+}
+
 impl Follower<'_> {
     /// Length that F counts along, mm: [`Self::length`], or on a control that counts all axes together the root of mm2 + deg2.
     pub(crate) fn feed_length(&self, leg: &Leg) -> f64 {
-        let motion = &leg.motion;
-        let combined = self.machine.control.feed == Some(FeedMeaning::Combined);
-        let by_way = matches!(motion.feed, Feed::PerMinute(_) | Feed::PerRevolution(_));
-        if combined && by_way && motion.is_feed() && !has_tip_words(motion) && leg.length > 0.0 {
-            let [first, second] = leg.rotary_change.map(deg);
-            return hypot(leg.length, hypot(first, second));
+        let turned = rotary_part(self.machine, leg);
+        if turned > 0.0 && leg.length > 0.0 {
+            hypot(leg.length, turned)
+        } else {
+            leg.length
         }
-        leg.length
     }
 
     /// Length of the tip path (TCP) or of the programmed X Y Z path, mm; 0 where it is not known.

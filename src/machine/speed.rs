@@ -3,8 +3,10 @@ use crate::bends::rough_bends;
 use crate::bound::{Piece, peak};
 use crate::course::{Course, on_great_circle};
 use crate::follow::leads_path;
+use crate::length::rotary_part;
 use crate::spin::Spin;
 use crate::{AxisKind, Leg, Machine, Stance};
+use trunnion_geometry::math::hypot;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, MotionKind};
 
@@ -81,7 +83,7 @@ fn limit(machine: &Machine, leg: &Leg, enough_mm_min: f64) -> Option<FeedLimit> 
                 // rates are per block; the track's slowest moment carries the feed (a spiral's speed differs a little along it)
                 let (_, slowest_tip, _) = course.track.bounds();
                 if slowest_tip > 0.0 {
-                    slowest = slowest_tip;
+                    slowest = hypot(slowest_tip, rotary_part(machine, leg));
                 }
                 if let Some(load) = changing_load(&course, above, slowest * 60.0 / enough_mm_min)? {
                     worst = Some(load);

@@ -1,5 +1,7 @@
 //! What the control's description changes: ways of rotary words, meaning of F, rapids, tilted planes.
 use crate::common::{motion, position, words};
+use trunnion_geometry::arc::Arc;
+use trunnion_geometry::math::{cos, sin};
 use trunnion_geometry::{Vec3, deg, rad};
 use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Posture, Swivel, Tilt};
 use trunnion_machine::{
@@ -166,6 +168,41 @@ fn f_counts_along_what_the_control_says() {
             ..words(end, start)
         });
         assert!((block_duration_s(&machine, &timed).expect("known") - 30.0).abs() < 1e-9);
+    }
+}
+
+/// Along an arc of 30 mm the same.
+#[test]
+fn f_counts_along_arcs_too() {
+    let start = position(&[(b'X', 20.0), (b'Y', 0.0), (b'Z', 0.0), (b'A', 0.0), (b'C', 0.0)]);
+    let end = Vec3::new(20.0 * cos(1.5), 20.0 * sin(1.5), 0.0);
+    let arc = Arc {
+        start: Vec3::new(20.0, 0.0, 0.0),
+        end,
+        centre: Vec3::zeros(),
+        normal: Vec3::z(),
+        sweep: 1.5,
+        radius_start: 20.0,
+        radius_end: 20.0,
+    };
+    let stop = position(&[(b'X', end.x), (b'Y', end.y), (b'Z', 0.0), (b'A', 0.0), (b'C', 40.0)]);
+    for (control, length) in [("feed = \"xyz\"", 30.0), ("feed = \"combined\"", 50.0)] {
+        let machine = plain("dyn = { vmax = 80 }", control);
+        let mut follower = Follower::new(&machine);
+        follower.follow(&words(start, start));
+        let leg = follower.follow(&Motion {
+            kind: MotionKind::Arc(Some(arc)),
+            feed: Feed::PerMinute(600.0),
+            ..words(start, stop)
+        });
+        assert!((leg.length - length).abs() < 1e-9, "{control}: {}", leg.length);
+        let limit = feed_limit_tight(&machine, &leg).expect("limited");
+        assert!(
+            (limit.feed_mm_min - length * 120.0).abs() < 1e-6,
+            "{control}: {limit:?}"
+        );
+        let speed = limit.axis_speed.expect("a feed");
+        assert!((speed - rad(40.0) * 10.0 / length).abs() < 1e-9, "{control}: {limit:?}");
     }
 }
 

@@ -7,7 +7,7 @@ use crate::asked::Asked;
 use crate::legal::{Outside, excess, legal, no_winding, searched};
 use crate::posture_rule::{Branch, Candidate, Criterion, PostureRule, TIE, comparisons, precedence};
 use crate::windings::windings_in;
-use crate::{Limits, Machine, NoStance, Open, OpenCause, Orientations, Side, Solution, orientations};
+use crate::{Limits, Machine, NoStance, Open, OpenCause, Orientations, POLE_TOLERANCE, Side, Solution, orientations};
 use core::cmp::Ordering;
 use core::f64::consts::{PI, TAU};
 use trunnion_geometry::Vec3;
@@ -101,7 +101,8 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
     if open.is_none() && rule != Some(PostureRule::Generic) {
         open = chosen
             .open_turn(before)
-            .or_else(|| unfiltered(machine, &postures, before, chosen));
+            .or_else(|| unfiltered(machine, &postures, before, chosen))
+            .or_else(|| found.torn(taken, before));
     }
     Ok(Chosen {
         q: chosen.candidate.q,
@@ -214,6 +215,18 @@ impl Found {
         }
     }
 
+    /// On a great circle that keeps off the pole the posture stays; where the control's rule takes the other one, the documents of the
+    /// control do not say which of the two gives way.
+    fn torn(&self, taken: usize, before: &Before) -> Option<Open> {
+        let (chosen, other) = (self.items.get(taken)?, self.items.get(1 - taken.min(1))?);
+        let stays = before.continuous && before.known && before.sign != 0 && other.branch == before.sign;
+        (self.count > 1 && stays && chosen.branch != before.sign).then_some(Open {
+            cause: OpenCause::GreatCircle,
+            taken: chosen.candidate.q,
+            other: other.candidate.q,
+        })
+    }
+
     /// The index of the posture that is taken, and why another might be.
     fn decide(&self, machine: &Machine, before: &Before) -> (usize, Option<OpenCause>) {
         if self.count < 2 {
@@ -281,7 +294,8 @@ impl Found {
     /// Mitsubishi's passing types. Type 1 looks at the sign of the axis nearer the tool, which tilts; type 2 at the move of the other.
     fn passing(&self, machine: &Machine, branch: &Branch, before: &Before) -> (usize, Option<OpenCause>) {
         let cone = machine.control.pole_cone.unwrap_or(0.0);
-        let at_pole = before.sign == 0 || before.pole_angle < cone;
+        // at the pole itself no sign is left to be kept, whatever the one before was
+        let at_pole = before.sign == 0 || before.pole_angle < cone.max(POLE_TOLERANCE);
         let tilt = |index: usize| self.items[index].candidate.q[1];
         let signed = |negative: bool| {
             let fits = |index: &usize| (tilt(*index) < -TIE) == negative;

@@ -92,6 +92,8 @@ pub enum OpenCause {
     PoleHeld,
     /// Inside the cone about the pole the control stops with an alarm.
     PoleAlarm,
+    /// The tool axis runs on a great circle off the pole, on which the posture cannot change, and the control's rule takes another.
+    GreatCircle,
 }
 
 impl OpenCause {
@@ -108,6 +110,7 @@ impl OpenCause {
             Self::WordsNotDeclared => "words-not-declared",
             Self::PoleHeld => "pole-held",
             Self::PoleAlarm => "pole-alarm",
+            Self::GreatCircle => "great-circle",
         }
     }
 }

@@ -127,6 +127,12 @@ fn cause(open: &Open, family: &str) -> (String, &'static str) {
             text("inside its cone about the pole the control stops with an alarm, as the machine file says"),
             "keep the tool axis out of the cone",
         ),
+        OpenCause::GreatCircle => (
+            text(
+                "the control's rule takes the first one, but on a great circle off the pole the posture cannot change: which gives way is not documented",
+            ),
+            "lead the tool axis farther from the pole, or over the pole itself, or program the rotary axes",
+        ),
     }
 }
 

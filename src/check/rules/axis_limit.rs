@@ -45,8 +45,8 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             range,
             "the way of the axes between the ends of this block is not known: whether one leaves its travel is not proven",
         )
-        .note("the tool axis passes over the pole, where the first rotary axis jumps")
-        .help("keep the tool axis off the pole, or program the block in smaller steps")
+        .note("the great circle does not lead to the posture at the end: it passes over the pole, where the first rotary axis jumps, or past it to the other posture")
+        .help("lead the tool axis farther from the pole, or program the block in smaller steps")
         .unknown();
     }
     for excess in found {

@@ -205,6 +205,39 @@ fn mitsubishi_passes_the_pole_by_type() {
     let wide = A_TABLE.replace("[-120,120]", "[-45,120]");
     let wide = machine(C_TABLE, &wide, &control("passing_type = 1"));
     assert_near(chosen(&wide, near, [0.0, 0.0]).0, [5.0, 40.0]);
+    // a follower remembers the sign from before the stop at the pole: it is not the one to be kept
+    for sign in [-1, 1] {
+        let before = Before {
+            sign,
+            ..from(&first, [0.0, 0.0])
+        };
+        let found = choose(&first, &near.normalize(), &before).expect("reachable");
+        assert_near(found.q.map(deg), [-175.0, -40.0]);
+    }
+}
+
+/// A great circle past the pole from A 2 C 0 to where A 2 C 170 and A -2 C -10 point: nearer is the other posture, but on the great
+/// circle C turns by 170 deg.
+#[test]
+fn where_a_rule_and_the_great_circle_want_different_postures_both_are_named() {
+    for rule in ["fanuc", "mitsubishi"] {
+        let control = format!("branch = {{ rule = \"{rule}\", range = {{ A = [-90, 90] }} }}\npole = {{ passing_type = 2 }}");
+        let head = machine(C_HEAD, &A_TABLE.replace("table", "head"), &control);
+        let axis = crate::tool_axis_at(&head, [rad(170.0), rad(2.0)]);
+        let mut before = from(&head, [0.0, rad(2.0)]);
+        let even = choose(&head, &axis, &before).expect("reachable");
+        assert_near(even.q.map(deg), [-10.0, -2.0]);
+        assert_eq!(even.open, None, "{rule}");
+        before.continuous = true;
+        let found = choose(&head, &axis, &before).expect("reachable");
+        assert_near(found.q.map(deg), [-10.0, -2.0]);
+        let open = found.open.expect("open");
+        assert_eq!(open.cause, OpenCause::GreatCircle, "{rule}");
+        assert_near(open.other.map(deg), [170.0, 2.0]);
+        // far from the pole both agree
+        let near = crate::tool_axis_at(&head, [rad(20.0), rad(5.0)]);
+        assert_eq!(choose(&head, &near, &before).expect("reachable").open, None);
+    }
 }
 
 #[test]

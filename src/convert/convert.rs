@@ -12,7 +12,7 @@ use trunnion_certify::conversion::{
 };
 use trunnion_dialect::Dialect;
 use trunnion_interp::{AllClampCodes, Fault, FaultKind};
-use trunnion_machine::Machine;
+use trunnion_machine::{Machine, POLE_TOLERANCE, rotary_turns};
 use trunnion_syntax::{Format, LineIndex, Program};
 
 /// A program that is to be converted, with all it is read with.
@@ -93,7 +93,12 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     if let Some(&index) = turned.first().filter(|_| !options.allow_swap) {
         let block = reading.motions[index].motion.block;
         let message = format!(
-            "in this cut the control turns to the other posture for the vector ({} such places in all): retract there, or say --allow-swap",
+            "in this cut the control {} ({} such places in all): retract there, or say --allow-swap",
+            if setting.vectors {
+                "turns to the other posture for the vector"
+            } else {
+                "leads the tool axis on a great circle past the pole, on which the machine cannot turn to the posture at its end"
+            },
             turned.len()
         );
         return Err(Refused::at(&reading.program, block, message));
@@ -222,21 +227,27 @@ fn prove(
         };
         Refused::new(format!("the conversion could not be proved and was not written: {why}"))
     })?;
-    let turned = if setting.vectors {
-        control_swaps(&after, &parts, machine)
-    } else {
-        Vec::new()
-    };
+    let turned = control_swaps(&after, &parts, machine, setting.vectors);
     let travel = travel(&after, &parts, machine);
     Ok((proof, turned, travel))
 }
 
-/// Motions before whose cut makes a control that is given vectors turn to the other posture, as rule branch-swap counts it.
-fn control_swaps(after: &Reading, parts: &[Part], machine: Option<&Machine>) -> Vec<usize> {
+/// Motions before in whose cut a control that is given vectors turns to the other posture, as rule branch-swap counts it, or one that
+/// leads the tool axis on a great circle would have to, off the pole, which no machine can.
+fn control_swaps(after: &Reading, parts: &[Part], machine: Option<&Machine>, vectors: bool) -> Vec<usize> {
     let Some(machine) = machine else { return Vec::new() };
     let swaps_in = |posed: &Posed| {
-        let excess = posed.leg.as_ref().map_or(0.0, |leg| leg.rotary_excess);
-        posed.motion.is_feed() && excess > machine.tolerances.swap_excess
+        let Some(leg) = posed.leg.as_ref().filter(|_| posed.motion.is_feed()) else {
+            return false;
+        };
+        let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
+            return false;
+        };
+        let torn = start.branch * end.branch < 0
+            && leg.pole_angle_min > POLE_TOLERANCE
+            && posed.tip_words()
+            && rotary_turns(machine, leg).is_none();
+        torn || vectors && leg.rotary_excess > machine.tolerances.swap_excess
     };
     let (mut swaps, mut was, mut is) = (Vec::new(), 0, 0);
     for part in parts {

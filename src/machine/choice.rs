@@ -49,10 +49,10 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
         Orientations::Unreachable(off) => return Err(NoStance::Unreachable(off)),
         Orientations::Pole(q2) => {
             let asked = Asked::of(machine, before.wish);
-            let found = legal(machine, [before.q[0], q2], before.q, &asked).map_err(no_winding)?;
+            let q = legal(machine, [before.q[0], q2], before.q, &asked).map_err(no_winding)?.0.q;
             return Ok(Chosen {
-                q: found.0.q,
-                open: None,
+                q,
+                open: stays_unknown(machine, q, before),
             });
         }
         Orientations::Postures(postures) => postures,
@@ -107,6 +107,24 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
     Ok(Chosen {
         q: chosen.candidate.q,
         open,
+    })
+}
+
+/// At the pole the first rotary axis stays where it stands. Where nobody knows where that is, it may stand half a turn off as well.
+fn stays_unknown(machine: &Machine, q: [f64; 2], before: &Before) -> Option<Open> {
+    if before.known || machine.control.branch.rule == Some(PostureRule::Generic) {
+        return None;
+    }
+    let joint = machine.constants.rotary().first()?.joint;
+    let elsewhere = match machine.axes[joint].limits {
+        Limits::Range(low, high) if q[0] > 0.5 * (low + high) => low.max(q[0] - PI),
+        Limits::Range(_, high) => high.min(q[0] + PI),
+        Limits::Unbounded => q[0] + PI,
+    };
+    Some(Open {
+        cause: OpenCause::StartUnknown,
+        taken: q,
+        other: [elsewhere, q[1]],
     })
 }
 

@@ -106,7 +106,7 @@ fn cause(open: &Open, family: &str) -> (String, &'static str) {
             "declare the ranges in the machine file: [control] branch = { range = { A = [-30, 120] } }",
         ),
         OpenCause::StartUnknown => (
-            text("the control compares ways from the posture before, which is not known here"),
+            text("what the control does goes from the posture before, which is not known here"),
             "position the rotary axes before the first vector",
         ),
         OpenCause::Direction => (
@@ -172,6 +172,16 @@ mod tests {
             "gcode sinumerik-840d mikron-ucp710+control.posture_words={turn={A=3,C=4}}",
             &format!("{text}N50 M30\n"),
         );
+    }
+
+    /// C stays where it stands, and nobody said where.
+    #[test]
+    fn a_first_vector_along_the_pole_leaves_the_first_axis_unknown() {
+        let text = "N10 TRAORI\nN20 G0 X0 Y0 Z50 A3=0 B3=0 C3=1\n";
+        let told = ";                ^^^^^^^^^^^^^^ ambiguous-posture: for this tool vector the control may take C 0 deg and A 0 deg or C 180 deg and A 0 deg\n";
+        assert_drawn("gcode sinumerik-840d mikron-ucp710+undeclared", &format!("{text}{told}N30 M30\n"));
+        let known = "N5 G0 X0 Y0 Z50 A0 C0\n";
+        assert_drawn("gcode sinumerik-840d mikron-ucp710+undeclared", &format!("{known}{text}N30 M30\n"));
     }
 
     #[test]

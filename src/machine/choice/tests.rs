@@ -86,6 +86,26 @@ fn the_pole_keeps_the_first_axis() {
     assert_near(joints(Vec3::z(), [-1000.0, 3.0]), [-1000.0, 0.0]);
 }
 
+/// A first vector along the pole leaves the first axis where nobody knows; Trunnion's own rule takes it to stand at zero.
+#[test]
+fn the_pole_keeps_an_axis_where_it_was_only_if_that_is_known() {
+    for (control, is_open) in [
+        ("family = \"sinumerik-840d\"", true),
+        ("family = \"fanuc-30i\"", true),
+        ("family = \"generic\"", false),
+    ] {
+        let machine = machine(C_TABLE, A_TABLE, control);
+        let mut before = from(&machine, [0.0, 0.0]);
+        assert_eq!(choose(&machine, &Vec3::z(), &before).expect("reachable").open, None);
+        before.known = false;
+        let open = choose(&machine, &Vec3::z(), &before).expect("reachable").open;
+        assert_eq!(open.map(|open| open.cause), is_open.then_some(OpenCause::StartUnknown), "{control}");
+        if let Some(open) = open {
+            assert_near(open.other.map(deg), [180.0, 0.0]);
+        }
+    }
+}
+
 #[test]
 fn the_cheapest_move_of_a_posture_ignores_limits() {
     let axis = Vec3::new(0.0, 0.866_025, 0.5).normalize();

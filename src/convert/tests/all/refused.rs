@@ -213,3 +213,38 @@ fn a_head_without_tool_length_is_not_guessed() {
     let long = text.replace("LOADTL/3", "LOADTL/3,LENGTH,120");
     to((&long, "apt", ""), "linuxcnc", "ferrari-bc", &no_tcp).expect("proved");
 }
+
+/// Past the pole at 0.1 deg: the cheap way changes the posture, but on the great circle that the machine file declares C turns half round.
+#[test]
+fn a_posture_that_no_great_circle_leads_to_is_refused() {
+    let source = trunnion_machine::builtin_source("mikron-ucp710").expect("built in");
+    let even = source.split("[[check]]").next().expect("a machine");
+    let circle = even.replace("orientation = \"joint\"", "orientation = \"great-circle\"");
+    let text = "UNITS/MM\nLOADTL/1\nFEDRAT/500,MMPM\nRAPID\nGOTO/50,0,0,0,-0.052335956,0.998629535\n\
+        GOTO/40,0,0,0.0017453284,0.052306843,0.998629535\nFINI\n";
+    let setup = trunnion_interp::Setup::default();
+    let source = trunnion_convert::Source {
+        text: text.as_bytes(),
+        dialect: trunnion_dialect::builtin("apt").expect("built in"),
+        machine: None,
+        setup: &setup,
+        assume: trunnion_certify::conversion::Assume::default(),
+    };
+    let onto = |machine: &str, allow_swap: bool| {
+        let machine = trunnion_machine::load("test", machine).expect("valid");
+        let target = trunnion_convert::Target::Code {
+            post: trunnion_convert::builtin_post("sinumerik-840d").expect("built in"),
+            machine: Some(&machine),
+        };
+        let options = Options {
+            allow_swap,
+            ..Options::default()
+        };
+        trunnion_convert::convert(&source, &target, &options)
+    };
+    let refused = refusal(onto(&circle, false));
+    assert!(refused.message.contains("great circle"), "{refused}");
+    assert_eq!(refused.place.map(|(line, _)| line), Some(6));
+    assert_eq!(onto(&circle, true).expect("told").swaps, [6]);
+    assert_eq!(onto(even, false).expect("proved").swaps, [] as [u32; 0]);
+}

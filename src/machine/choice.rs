@@ -49,7 +49,10 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
         Orientations::Unreachable(off) => return Err(NoStance::Unreachable(off)),
         Orientations::Pole(q2) => {
             let asked = Asked::of(machine, before.wish);
-            let q = legal(machine, [before.q[0], q2], before.q, &asked).map_err(no_winding)?.0.q;
+            let q = legal(machine, [before.q[0], q2], before.q, &asked)
+                .map_err(no_winding)?
+                .0
+                .q;
             return Ok(Chosen {
                 q,
                 open: stays_unknown(machine, q, before),

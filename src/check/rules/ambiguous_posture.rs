@@ -179,9 +179,15 @@ mod tests {
     fn a_first_vector_along_the_pole_leaves_the_first_axis_unknown() {
         let text = "N10 TRAORI\nN20 G0 X0 Y0 Z50 A3=0 B3=0 C3=1\n";
         let told = ";                ^^^^^^^^^^^^^^ ambiguous-posture: for this tool vector the control may take C 0 deg and A 0 deg or C 180 deg and A 0 deg\n";
-        assert_drawn("gcode sinumerik-840d mikron-ucp710+undeclared", &format!("{text}{told}N30 M30\n"));
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710+undeclared",
+            &format!("{text}{told}N30 M30\n"),
+        );
         let known = "N5 G0 X0 Y0 Z50 A0 C0\n";
-        assert_drawn("gcode sinumerik-840d mikron-ucp710+undeclared", &format!("{known}{text}N30 M30\n"));
+        assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710+undeclared",
+            &format!("{known}{text}N30 M30\n"),
+        );
     }
 
     #[test]

@@ -99,7 +99,11 @@ fn the_pole_keeps_an_axis_where_it_was_only_if_that_is_known() {
         assert_eq!(choose(&machine, &Vec3::z(), &before).expect("reachable").open, None);
         before.known = false;
         let open = choose(&machine, &Vec3::z(), &before).expect("reachable").open;
-        assert_eq!(open.map(|open| open.cause), is_open.then_some(OpenCause::StartUnknown), "{control}");
+        assert_eq!(
+            open.map(|open| open.cause),
+            is_open.then_some(OpenCause::StartUnknown),
+            "{control}"
+        );
         if let Some(open) = open {
             assert_near(open.other.map(deg), [180.0, 0.0]);
         }
@@ -241,7 +245,8 @@ fn mitsubishi_passes_the_pole_by_type() {
 #[test]
 fn where_a_rule_and_the_great_circle_want_different_postures_both_are_named() {
     for rule in ["fanuc", "mitsubishi"] {
-        let control = format!("branch = {{ rule = \"{rule}\", range = {{ A = [-90, 90] }} }}\npole = {{ passing_type = 2 }}");
+        let control =
+            format!("branch = {{ rule = \"{rule}\", range = {{ A = [-90, 90] }} }}\npole = {{ passing_type = 2 }}");
         let head = machine(C_HEAD, &A_TABLE.replace("table", "head"), &control);
         let axis = crate::tool_axis_at(&head, [rad(170.0), rad(2.0)]);
         let mut before = from(&head, [0.0, rad(2.0)]);

@@ -140,6 +140,9 @@ pub struct ControlData {
     pub chip_break_retract_mm: Option<f64>,
     /// G83: how far above the last depth the rapid back into the hole ends, mm (Fanuc parameter 5115).
     pub peck_clearance_mm: Option<f64>,
+    /// G76, G87: along which axis of the plane (0 to 2: X Y Z), and which way (1 or -1), Q takes the stopped tool off the wall (Fanuc
+    /// parameter 5148, Haas setting 27); `None`: not declared, X Y are not known while it is off the wall.
+    pub bore_shift: Option<(usize, f64)>,
     /// Way of cutter compensation around outer corners.
     pub outer_corner: OuterCorner,
     /// Whether the switch for block delete (`/`) is on, so that such blocks are skipped; `None`: not known, they are run.

@@ -55,6 +55,7 @@ pub(super) struct FileControl {
     implicit_decimals: Option<Decimals>,
     chip_break_retract: Option<Spanned<f64>>,
     peck_clearance: Option<Spanned<f64>>,
+    bore_shift: Option<Spanned<String>>,
     outer_corner: Option<Corner>,
     block_delete: Option<bool>,
     roll_pitch_yaw: Option<Angles>,
@@ -81,6 +82,7 @@ impl FileControl {
             }),
             chip_break_retract_mm: length("chip_break_retract", self.chip_break_retract.as_ref())?,
             peck_clearance_mm: length("peck_clearance", self.peck_clearance.as_ref())?,
+            bore_shift: self.bore_shift.as_ref().map(bore_shift).transpose()?,
             outer_corner: match self.outer_corner {
                 Some(Corner::Arc) => OuterCorner::Arc,
                 Some(Corner::Lines) | None => OuterCorner::Lines,
@@ -120,6 +122,18 @@ fn length(key: &str, value: Option<&Spanned<f64>>) -> Result<Option<f64>, Config
     }
 }
 
+/// `+X`: axis and sense.
+fn bore_shift(way: &Spanned<String>) -> Result<(usize, f64), ConfigError> {
+    let sense = |sign: char| if sign == '-' { -1.0 } else { 1.0 };
+    match way.get_ref().as_bytes() {
+        [sign @ (b'+' | b'-'), axis @ b'X'..=b'Z'] => Ok((usize::from(axis - b'X'), sense(char::from(*sign)))),
+        _ => {
+            let message = format!("`bore_shift` is one of +X -X +Y -Y +Z -Z, not {:?}", way.get_ref());
+            Err(at(way, message))
+        }
+    }
+}
+
 fn position(point: &BTreeMap<Spanned<String>, Spanned<f64>>) -> Result<Position, ConfigError> {
     let mut position = Position::default();
     for (letter, value) in point {
@@ -148,13 +162,14 @@ mod tests {
 
     #[test]
     fn a_whole_section_is_read() {
-        let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\n\
+        let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\n\
                     outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.units, Some(LengthUnit::Inch));
         assert_eq!(control.implicit_decimals, Some(ImplicitDecimals::LeastIncrement));
         assert_eq!(control.chip_break_retract_mm, Some(0.5));
         assert_eq!(control.peck_clearance_mm, Some(1.0));
+        assert_eq!(control.bore_shift, Some((1, -1.0)));
         assert_eq!(control.outer_corner, OuterCorner::Arc);
         assert_eq!(control.block_delete, Some(true));
         assert_eq!(control.roll_pitch_yaw, Some(trunnion_interp::RollPitchYaw::Fixed));
@@ -174,6 +189,7 @@ mod tests {
             ("[control]\nimplicit_decimals = \"maybe\"", "\"maybe\""),
             ("[control]\nunits = \"cm\"", "\"cm\""),
             ("[control]\npeck_clearance = -1", "-1"),
+            ("[control]\nbore_shift = \"X\"", "\"X\""),
             ("[control]\nreference_points = [{ Q = 1 }]", "Q"),
             ("[control]\nreference_points = [{ X = inf }]", "inf"),
             ("[control]\nretract = 1", "retract"),

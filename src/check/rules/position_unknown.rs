@@ -1,4 +1,4 @@
-//! A feed motion ends at a position that is not known.
+//! A feed motion, or a rapid by an increment, ends at a position that is not known.
 //!
 //! # Why
 //! Some axis was never positioned, or its position was lost where something is not modelled. Nobody can say where the joints
@@ -19,12 +19,12 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; told once for each set of axes. Rapid moves before everything is positioned are normal and not reported.
+//! Sound; told once for each set of axes. Rapid moves to places before everything is positioned are normal and not reported.
 //!
 //! # Sources
 //! Trunnion's interface: the position before the first motion is unknown, and nothing is checked from it.
 use crate::prelude::*;
-use trunnion_interp::AXIS_LETTERS;
+use trunnion_interp::{AXIS_LETTERS, MotionKind};
 use trunnion_machine::NoStance;
 
 pub(super) const RULE: Body = Body {
@@ -40,8 +40,8 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         Err(NoStance::HeldElsewhere { axis, value, held }) => return held_elsewhere(*axis, [*value, *held], view, out),
         _ => return,
     };
-    let cause = hash(letters);
-    if !view.motion().is_feed() || out.repeats_unknown(view, cause, 0.0) {
+    let cause = hash(letters) ^ u64::from(view.motion().is_feed());
+    if !(view.motion().is_feed() || leads_nowhere(view)) || out.repeats_unknown(view, cause, 0.0) {
         return;
     }
     let names: Vec<String> = AXIS_LETTERS
@@ -55,15 +55,35 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         [most @ .., last] => format!("{} and {last}", most.join(", ")),
     };
     let range = code_range(out.program(), view.motion().block);
-    out.report(range, format!("the position of {names} is not known"))
-        .note(format!(
-            "it was never given, or lost where something is not modelled: the joints of {} are unknown here",
-            view.machine.id
-        ))
+    let rapid = !view.motion().is_feed();
+    let (message, why, help) = if rapid {
+        (
+            format!("this rapid leads nobody knows where: the position of {names} is not known behind it"),
+            "it depends on a value that only the machine knows, on a reference point that is not declared, or on a place that was lost before",
+            format!(
+                "position {names} by numbers, or declare what is missing ([control] reference_points, [variables])"
+            ),
+        )
+    } else {
+        (
+            format!("the position of {names} is not known"),
+            "it was never given, or lost where something is not modelled",
+            format!("position {names} before the first feed motion"),
+        )
+    };
+    out.report(range, message)
+        .note(format!("{why}: the joints of {} are unknown here", view.machine.id))
         .note("limits, postures, speeds and the tip's path are not checked until every axis has a position")
-        .help(format!("position {names} before the first feed motion"))
+        .help(help)
         .unknown()
         .merge_everywhere(cause);
+}
+
+/// A rapid from a known place to one that is not known, or by an increment from one that is not known. One that names places before
+/// everything is positioned is how programs begin.
+fn leads_nowhere(view: &LegView<'_>) -> bool {
+    let motion = view.motion();
+    motion.kind == MotionKind::Rapid && (view.leg.start.is_some() || motion.says_way & !motion.end.known != 0)
 }
 
 /// A work offset turns the workpiece frame: told once for each axis.
@@ -162,6 +182,33 @@ mod tests {
         );
         assert_eq!(report.diagnostics[0].status, crate::Status::Unknown);
         assert_eq!(report.diagnostics[0].count, 3);
+    }
+
+    /// Behind a switch of tool centre point control nobody knows from where an increment counts, in a rapid either.
+    #[test]
+    fn a_rapid_by_an_increment_from_nowhere_is_told() {
+        let report = assert_drawn(
+            "gcode fanuc-30i mikron-ucp710",
+            "N1 G90 G21 G0 X0. Y0. Z50. A0. C0.\nN2 G43.4 H1\n;  ^^^^^ tool-length-unset: \nN3 G91 G0 X5000.\n;  ^^^^^^^^^^^^^ position-unknown: this rapid leads nobody knows where\nN4 G90 G0 X0. Y0. Z60.\nN5 M30\n",
+        );
+        assert_eq!(report.diagnostics[1].status, crate::Status::Unknown);
+    }
+
+    /// What only the machine knows: where a probe touched, where its reference point lies.
+    #[test]
+    fn a_rapid_to_what_only_the_machine_knows_is_told() {
+        for line in ["G0 X#5061", "G0 X[1 + #5161]", "G28 Z60", "#1 = #5063\nG0 Z#1"] {
+            let text = format!("G21 G90 G0 X1 Y2 Z50 A0 C0\n{line}\nG0 X1 Y2 Z50 A0 C0\nM2\n");
+            let report = crate::fixture::Fixture::parse("gcode linuxcnc mikron-ucp710", &text)
+                .check()
+                .unwrap();
+            let said: Vec<_> = report
+                .diagnostics
+                .iter()
+                .map(|found| (found.rule, found.status))
+                .collect();
+            assert_eq!(said, [("position-unknown", crate::Status::Unknown)], "{line}");
+        }
     }
 
     #[test]

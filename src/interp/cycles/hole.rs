@@ -87,7 +87,15 @@ impl Interpreter<'_> {
             return None;
         }
         let r = hole.r.from(hole.initial);
-        let bottom = hole.bottom.from(r)?;
+        let Some(bottom) = hole.bottom.from(r) else {
+            let letter = char::from(crate::AXIS_LETTERS[axis]);
+            let what = format!(
+                "{}: its levels count from {letter}, whose position is not known here",
+                self.memory.cycle.id
+            );
+            report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
+            return None;
+        };
         let feed = self.feed_of(MotionKind::Linear, words, report);
         let always_initial = self.state.motion == Some(Action::BackBoreCycle);
         let back = if self.memory.cycle.to_r && !always_initial {
@@ -216,14 +224,15 @@ impl Interpreter<'_> {
             }),
             Action::BoreManualCycle => {
                 self.wait(dwell, report);
-                // by hand up to R
+                let what = format!("{}: the way out of the hole, by hand", self.memory.cycle.id);
+                report.fault(report.whole(), FaultKind::NotModelled { what });
                 self.with_spindle_off(|interpreter| interpreter.down(plan, MotionKind::Unknown, plan.r, report));
                 self.down(plan, MotionKind::Rapid, plan.back, report);
             }
             Action::FineBoreCycle => {
                 self.wait(dwell, report);
+                let aside = self.aside(report);
                 self.with_spindle_off(|interpreter| {
-                    let aside = interpreter.aside();
                     interpreter.shift(aside, 1.0, report);
                     interpreter.down(plan, MotionKind::Rapid, plan.back, report);
                     interpreter.shift(aside, -1.0, report);
@@ -239,13 +248,29 @@ impl Interpreter<'_> {
         self.state.spindle_on = before;
     }
 
-    /// By how much the tool goes off the wall, first and second axis of the plane; `None`: a parameter of the control says which way.
-    fn aside(&self) -> Option<[f64; 2]> {
+    /// By how much the tool goes off the wall, first and second axis of the plane; `None`: a parameter of the control says which way, and
+    /// it is not declared, or turned by a frame.
+    fn aside(&self, report: &mut Report<'_>) -> Option<[f64; 2]> {
         let hole = &self.memory.cycle.hole;
-        match hole.ijk {
-            [None, None, _] => None,
-            [i, j, _] => Some([i.unwrap_or(0.0), j.unwrap_or(0.0)]),
+        if let [i, j, _] = hole.ijk
+            && (i.is_some() || j.is_some())
+        {
+            return Some([i.unwrap_or(0.0), j.unwrap_or(0.0)]);
         }
+        let [a, b, _] = plane_axes(self.state.plane);
+        let declared = self.setup.control.bore_shift.filter(|_| !self.memory.frames.active);
+        if let Some(((axis, sense), q)) = declared
+            .filter(|(axis, _)| [a, b].contains(axis))
+            .zip(hole.q.map(f64::abs))
+        {
+            return Some([a, b].map(|other| if other == axis { sense * q } else { 0.0 }));
+        }
+        let what = format!(
+            "{}: which way Q takes the tool off the wall ([control] bore_shift says it)",
+            self.memory.cycle.id
+        );
+        report.fault(report.whole(), FaultKind::NotModelled { what });
+        None
     }
 
     /// Moves the tool off the wall (1) or back (-1).
@@ -280,7 +305,7 @@ impl Interpreter<'_> {
 
     /// G87: shifted and stopped to R below, back to the axis of the hole, feed up, shifted and stopped to the initial level.
     fn back_bore(&mut self, plan: &Plan, report: &mut Report<'_>) {
-        let aside = self.aside();
+        let aside = self.aside(report);
         let dwell = self.memory.cycle.hole.dwell;
         self.with_spindle_off(|interpreter| {
             interpreter.shift(aside, 1.0, report);

@@ -5,6 +5,8 @@ use trunnion_ngc::{Ini, Parameters, Setup as Told, Start, ToolEntry, ToolTable, 
 
 /// First parameter of the coordinate systems: X of G54; 20 further on that of G55 (LinuxCNC documentation, Parameters).
 const FIRST_SYSTEM: u32 = 5221;
+/// X of the points that G28 and G30 go to.
+const FIRST_HOMES: [u32; 2] = [5161, 5181];
 /// Names of the coordinate systems in the order of their parameters.
 pub(super) const SYSTEMS: [&str; 9] = ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"];
 
@@ -19,15 +21,23 @@ fn numbered(code: &Code) -> Option<(u8, u32)> {
     Some((letter, (number * 10.0).round() as u32))
 }
 
-fn row(tool: &Tool) -> ToolEntry {
+/// mm and degrees as the control keeps them: lengths in its unit.
+fn in_units(mut values: [f64; 9], units: Units) -> [f64; 9] {
+    for axis in super::bridge::LINEAR_AXES {
+        values[axis] /= units.mm();
+    }
+    values
+}
+
+fn row(tool: &Tool, units: Units) -> ToolEntry {
     let mut offset = [0.0; 9];
-    offset[2] = tool.length_mm.unwrap_or(0.0);
+    offset[2] = tool.length_mm.unwrap_or(0.0) / units.mm();
     let number = i32::try_from(tool.number).unwrap_or(i32::MAX);
     ToolEntry {
         number,
         pocket: number,
         offset,
-        diameter: tool.diameter_mm.unwrap_or(0.0),
+        diameter: tool.diameter_mm.unwrap_or(0.0) / units.mm(),
         ..ToolEntry::default()
     }
 }
@@ -35,13 +45,17 @@ fn row(tool: &Tool) -> ToolEntry {
 /// The setup of the interpreter: declared offsets as parameters, declared tools as its table, further codes of the dialect's table as
 /// codes of the machine's own. Offsets that are not declared are zero.
 pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told {
+    let units = match setup.control.units {
+        Some(LengthUnit::Inch) => Units::Inch,
+        Some(LengthUnit::Millimetre) | None => Units::Millimetre,
+    };
     let mut values = Vec::new();
     for (index, name) in SYSTEMS.iter().enumerate() {
         let offset = setup
             .work_offsets
             .iter()
             .find(|offset| offset.name.eq_ignore_ascii_case(name));
-        let offset = offset.map_or([0.0; 9], |offset| offset.values);
+        let offset = offset.map_or([0.0; 9], |offset| in_units(offset.values, units));
         let first = FIRST_SYSTEM + 20 * index as u32;
         values.extend((first..).zip(offset));
         // its rotation about Z
@@ -49,6 +63,12 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
     }
     // G92 is off
     values.extend((5210..=5219).map(|number| (number, 0.0)));
+    // where G28 and G30 go
+    for (first, point) in FIRST_HOMES.iter().zip(&setup.control.reference_points) {
+        let places = in_units(point.values, units);
+        let known = (0..9).filter(|&axis| point.get(axis).is_some());
+        values.extend(known.map(|axis| (first + axis as u32, places[axis])));
+    }
     // what the settings say of a variable comes before what is made of offsets
     values.retain(|(number, _)| setup.variables.iter().all(|(known, _)| known != number));
     values.extend(
@@ -77,17 +97,14 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
     Told {
         start: Start::Unknown,
         ini,
-        machine_units: match setup.control.units {
-            Some(LengthUnit::Inch) => Units::Inch,
-            Some(LengthUnit::Millimetre) | None => Units::Millimetre,
-        },
+        machine_units: units,
         own_codes: own.into(),
         own_motions: motions.into(),
         any_tool: true,
         user_codes: true,
         block_delete: setup.control.block_delete == Some(true),
         tools: ToolTable {
-            rows: tools.map(row).collect(),
+            rows: tools.map(|tool| row(tool, units)).collect(),
             spindle: None,
         },
         parameters: Parameters { values },

@@ -189,6 +189,15 @@ fn bores_that_stop_the_spindle() {
     );
     let manual = heights("fanuc-30i", "G0 X1. Y2. Z9.\nG98 G88 Z-3. R1. P100 F100.\n");
     assert_eq!(manual, ["R Z9", "R Z1", "L Z-3 F100", "D0.1 Z-3", "U Z1", "R Z9"]);
+    let said = faults("fanuc-30i", "G0 X1. Y2. Z9.\nG98 G88 Z-3. R1. P100 F100.\n");
+    assert!(said.len() == 1 && said[0].contains("by hand"), "{said:?}");
+}
+
+/// Increments of a cycle whose start is not known lead nowhere, and that is said.
+#[test]
+fn levels_that_count_from_an_unknown_place_are_told() {
+    let said = faults("fanuc-30i", "G0 X1. Y2.\nG91 G81 X5. Z-3. R-1. F100.\nG80\nM30\n");
+    assert!(said.len() == 1 && said[0].contains("levels count from Z"), "{said:?}");
 }
 
 #[test]
@@ -206,6 +215,18 @@ fn fine_boring_shifts_off_the_wall() {
             "R X1 Y2 Z9"
         ]
     );
+    let source = "G0 X1. Y2. Z9.\nG98 G76 Z-3. R1. Q0.5 F100.\nG80\nM30\n";
+    let said = faults("fanuc-30i", source);
+    assert!(said.len() == 1 && said[0].contains("off the wall"), "{said:?}");
+    let declared = |way| ControlData {
+        bore_shift: Some(way),
+        ..ControlData::default()
+    };
+    let left = pecking("fanuc-30i", source, declared((0, -1.0)));
+    assert_eq!(left[3..5], ["R X0.5 Y2 Z-3", "R X0.5 Y2 Z9"]);
+    // along the hole there is no wall
+    let along = pecking("fanuc-30i", source, declared((2, 1.0)));
+    assert_eq!(along[3], "R Z-3");
     // Haas: I and J say it
     let haas = lines("haas-ngc", "G0 X1. Y2. Z9.\nG99 G76 Z-3. R1. I0.5 J-0.25 F100.\n");
     assert_eq!(haas[3..], ["R X1.5 Y1.75 Z-3", "R X1.5 Y1.75 Z1", "R X1 Y2 Z1"]);

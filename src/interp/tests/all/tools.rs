@@ -1,6 +1,6 @@
 //! Tools: T and M6, lengths by H and D, and what is declared about the tool in use.
 use crate::support::{faults, line, run_bytes, run_text};
-use trunnion_interp::{Setup, Tool, ToolShape};
+use trunnion_interp::{LengthUnit, Position, Setup, Tool, ToolShape};
 
 fn tool(number: u32, shape: Option<ToolShape>, diameter_mm: Option<f64>, length_mm: Option<f64>) -> Tool {
     Tool {
@@ -59,6 +59,45 @@ fn a_change_of_length_moves_the_programmed_z() {
     let (_, log) = run_bytes("fanuc-30i", b"G0 X1 Y1 Z300\nG43 H1\nX2\nM30\n", &setup());
     let got: Vec<_> = log.motions.iter().map(line).collect();
     assert_eq!(got, ["R X1 Y1 Z300", "R X2 Y1 Z200"]);
+}
+
+/// What is declared is declared in mm, also of a LinuxCNC that keeps its tables in inches; G28 and G30 go to the declared points.
+#[test]
+fn declared_lengths_are_mm_on_a_machine_that_keeps_inches() {
+    for units in [LengthUnit::Millimetre, LengthUnit::Inch] {
+        let mut setup = setup();
+        setup.control.units = Some(units);
+        setup.work_offsets.push(trunnion_interp::WorkOffset {
+            name: "G54".into(),
+            values: [50.8, 0.0, 25.4, 0.0, 0.0, 30.0, 0.0, 0.0, 0.0],
+        });
+        let mut points = [Position::default(), Position::default()];
+        points[0].set(0, 254.0);
+        points[0].set(2, 508.0);
+        points[1].set(2, 127.0);
+        setup.control.reference_points = points.to_vec();
+        for unit in ["G21", "G20"] {
+            let program = format!("{unit} T1 M6 G43\nG0 X0 Y0 Z0 C0\nG28 X0 Z0\nG30 Z0\nM2\n");
+            let (_, log) = run_bytes("linuxcnc", program.as_bytes(), &setup);
+            let got: Vec<_> = log.motions.iter().map(line).collect();
+            let (zero, length) = (log.motions[0].zero, log.motions[0].tool_length_mm);
+            assert!(
+                (zero[0] - 50.8).abs() < 1e-9 && (zero[5] - 30.0).abs() < 1e-9,
+                "{zero:?}"
+            );
+            assert!((length - 100.0).abs() < 1e-9, "{units:?} {unit}: {length}");
+            let home = log
+                .motions
+                .iter()
+                .rfind(|motion| motion.end.get(2).is_some_and(|z| z > 300.0));
+            let home = home.unwrap_or_else(|| panic!("{got:?}")).end;
+            // 254 - 50.8, 508 - 25.4 - 100
+            assert!((home.get(0).expect("declared") - 203.2).abs() < 1e-9, "{got:?}");
+            assert!((home.get(2).expect("declared") - 382.6).abs() < 1e-9, "{got:?}");
+            let second = log.motions.last().expect("some").end.get(2).expect("declared");
+            assert!((second - 1.6).abs() < 1e-9, "{got:?}");
+        }
+    }
 }
 
 /// On a mill-turn centre the tool lies along X at home, and X words are diameters: 100 mm of length are 200 mm of X word.

@@ -1,0 +1,182 @@
+//! What the interpreter or the kinematics does not know is never passed over: a motion of which nobody knows the way, or that leads from a
+//! known place to nowhere, comes with a finding. Random programs of the codes that move something, on all dialects of controls.
+//!
+//! `TRUNNION_SILENCE_CASES` sets the number of programs.
+use proptest::prelude::*;
+use trunnion_check::{Settings, Severity, Status, check};
+use trunnion_interp::{Fault, Limits, ModalState, Motion, MotionKind, Setup, Sink, run};
+use trunnion_machine::{Follower, builtin};
+
+const DIALECTS: [&str; 6] = [
+    "fanuc-30i",
+    "haas-ngc",
+    "sinumerik-840d",
+    "linuxcnc",
+    "iso-6983",
+    "fanuc-30i-lathe-a",
+];
+
+const CODES: [&str; 76] = [
+    "G0",
+    "G1",
+    "G2",
+    "G3",
+    "G4 P1.",
+    "G5",
+    "G7.1",
+    "G10 L2 P1",
+    "G12",
+    "G13",
+    "G15",
+    "G16",
+    "G17",
+    "G18",
+    "G19",
+    "G28",
+    "G30",
+    "G31",
+    "G33",
+    "G38.2",
+    "G40",
+    "G41 D1",
+    "G42 D1",
+    "G43 H1",
+    "G43.4 H1",
+    "G43.5 H1",
+    "G49",
+    "G50",
+    "G50.1",
+    "G51",
+    "G52",
+    "G53",
+    "G53.1",
+    "G54",
+    "G61",
+    "G64",
+    "G65 P1",
+    "G68",
+    "G68.2",
+    "G69",
+    "G70",
+    "G71",
+    "G73",
+    "G74",
+    "G76",
+    "G77",
+    "G80",
+    "G81",
+    "G82",
+    "G83",
+    "G84",
+    "G85",
+    "G86",
+    "G87",
+    "G88",
+    "G89",
+    "G90",
+    "G91",
+    "G92",
+    "G93",
+    "G94",
+    "G95",
+    "G98",
+    "G99",
+    "G150",
+    "M3 S100",
+    "M6 T1",
+    "M98 P1",
+    "TRAORI",
+    "TRAFOOF",
+    "TRANS",
+    "ROT RPL=30",
+    "CYCLE81(5,0,2,-3)",
+    "CYCLE83(5,0,2,-9,,-3,,1,,,1)",
+    "MCALL",
+    "CYCLE800()",
+];
+
+/// A word with a number, or nothing.
+fn word() -> impl Strategy<Value = String> {
+    let letter = prop::sample::select(b"XYZABCIJKRQFPLUWHDE".to_vec());
+    (letter, -20..20_i32, 0..4_u8).prop_map(|(letter, value, kind)| match kind {
+        0 => String::new(),
+        1 => format!(" {}{}.5", char::from(letter), value),
+        _ => format!(" {}{}.", char::from(letter), value),
+    })
+}
+
+/// A word that most codes read, with a number or a variable.
+fn tame_word() -> impl Strategy<Value = String> {
+    let letter = prop::sample::select(b"XYZACRQIJKFP".to_vec());
+    let value = prop::sample::select(vec![
+        "1.",
+        "-3.5",
+        "2.",
+        "7.",
+        "0.",
+        "#1",
+        "#5061",
+        "#5041",
+        "#101",
+        "[#102+1.]",
+    ]);
+    (letter, value).prop_map(|(letter, value)| format!(" {}{value}", char::from(letter)))
+}
+
+/// One code and few words: often without a mistake.
+fn tame_line() -> impl Strategy<Value = String> {
+    let code = prop::sample::select(CODES.to_vec());
+    (code, prop::collection::vec(tame_word(), 0..6)).prop_map(|(code, words)| format!("{code}{}\n", words.concat()))
+}
+
+fn line() -> impl Strategy<Value = String> {
+    let codes = prop::collection::vec(prop::sample::select(CODES.to_vec()), 0..3);
+    (codes, prop::collection::vec(word(), 0..5)).prop_map(|(codes, words)| codes.join(" ") + &words.concat() + "\n")
+}
+
+/// Looks for motions that must not go by in silence.
+struct Silent<'m> {
+    follower: Follower<'m>,
+    found: Option<String>,
+}
+
+impl Sink for Silent<'_> {
+    fn motion(&mut self, motion: &Motion, _: &ModalState) {
+        let leg = self.follower.follow(motion);
+        let nowhere = leg.start.is_some() && leg.end.is_err();
+        if (motion.kind == MotionKind::Unknown || nowhere) && self.found.is_none() {
+            self.found = Some(format!("{motion:?} {:?}", leg.end.err()));
+        }
+    }
+
+    fn fault(&mut self, _: Fault) {}
+}
+
+fn cases() -> u32 {
+    let asked = std::env::var("TRUNNION_SILENCE_CASES").ok();
+    asked.and_then(|count| count.parse().ok()).unwrap_or(400)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(cases()) })]
+
+    #[test]
+    fn nothing_unknown_is_passed_over(
+        wild in prop::collection::vec(line(), 0..4),
+        tame in prop::collection::vec(tame_line(), 1..3),
+        wildly in any::<bool>(),
+        dialect in prop::sample::select(DIALECTS.to_vec()),
+    ) {
+        let dialect = trunnion_dialect::builtin(dialect).expect("built in");
+        let machine = builtin("mikron-ucp710").expect("built in");
+        let lines = if wildly { [wild, tame].concat() } else { tame };
+        let text = format!("G21 G90 G94 G0 X1. Y2. Z50. A0. C0. F100\n{}M30\n", lines.concat());
+        let setup = Setup { limits: Limits { blocks: 10_000, ..Limits::default() }, ..Setup::default() };
+        let program = trunnion_syntax::parse(text.clone().into_bytes(), dialect.lex);
+        let mut silent = Silent { follower: Follower::new(machine), found: None };
+        run(&program, dialect, &setup, &mut silent);
+        let report = check(&program, &Settings::new(dialect, Some(machine), setup));
+        let told = report.diagnostics.iter().any(|found| found.status == Status::Unknown || found.severity != Severity::Info);
+        prop_assert!(told || silent.found.is_none(), "{}:\n{text}{}", dialect.name, silent.found.unwrap_or_default());
+    }
+}

@@ -100,6 +100,8 @@ pub(crate) struct Facts<'m> {
     near: Nearness,
     /// What holds of all of them.
     always: u32,
+    /// What the words of the last leg are.
+    words: u32,
     /// Seconds that the first rotary axis needs for a pass at 1 rad from the pole, per rad.
     pole_pass: f64,
 }
@@ -113,6 +115,7 @@ impl<'m> Facts<'m> {
             machine,
             allowances: Allowances::of(machine),
             near: Nearness::default(),
+            words: 0,
             always: Needs::CABLE.when(any(|axis| axis.extra.cable))
                 | Needs::CLAMP.when(any(|axis| axis.extra.clamp || axis.extra.clamp_codes.is_some()))
                 | Needs::UNCERTAIN.when(uncertain),
@@ -123,11 +126,16 @@ impl<'m> Facts<'m> {
         }
     }
 
-    /// What holds of a leg. `posture_before` as in [`crate::LegView`].
+    /// What holds of a leg; `next`: its motion differs from that of the leg before as a next line does. `chord`: see [`Trail::add`],
+    /// `posture_before` as in [`crate::LegView`].
     #[inline]
-    pub(crate) fn of_leg(&mut self, leg: &Leg, posture_before: i8, trail: &Trail) -> Needs {
+    pub(crate) fn of_leg(&mut self, leg: &Leg, next: bool, posture_before: i8, trail: &Trail, chord: f64) -> Needs {
         let machine = self.machine;
         let motion = &leg.motion;
+        if !next {
+            self.words = Needs::LEADS_TIP.when(leads_tip(motion))
+                | Needs::VECTORS.when(matches!(motion.orientation, Orientation::Vector(..)));
+        }
         let [first, second] = leg.rotary_change;
         let (mut lost, mut crosses) = (true, false);
         if let Ok(end) = &leg.end {
@@ -147,21 +155,20 @@ impl<'m> Facts<'m> {
                 | Needs::FEED.when(motion.is_feed())
                 | Needs::TURNS.when(turns(leg))
                 | Needs::TURNS_FAR.when(first > PI || second > PI)
-                | Needs::LEADS_TIP.when(leads_tip(motion))
-                | Needs::VECTORS.when(matches!(motion.orientation, Orientation::Vector(..)))
+                | self.words
                 | Needs::LOST.when(lost)
                 | Needs::OPEN.when(leg.open.is_some())
                 | Needs::EXCESS.when(leg.rotary_excess > 0.0)
                 | Needs::NEAR_POLE.when(near_pole)
                 | Needs::CROSSES.when(crosses)
                 | Needs::ARRIVES.when(trail.rapids().is_some())
-                | self.at_a_glance(leg, trail),
+                | self.at_a_glance(leg, trail, chord),
         )
     }
 
     /// What a look at a line along which all joints run straight cannot rule out; of other legs everything.
     #[inline]
-    fn at_a_glance(&mut self, leg: &Leg, trail: &Trail) -> u32 {
+    fn at_a_glance(&mut self, leg: &Leg, trail: &Trail, chord: f64) -> u32 {
         const ALL: u32 = Needs::BEYOND.0
             | Needs::STRAYS.0
             | Needs::HURRIES.0
@@ -169,9 +176,6 @@ impl<'m> Facts<'m> {
             | Needs::WINDS.0
             | Needs::POLE_HURRIES.0;
         let machine = self.machine;
-        let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
-            return ALL;
-        };
         let Some(seen) = glance(machine, &self.allowances, &mut self.near, leg) else {
             return ALL;
         };
@@ -183,14 +187,14 @@ impl<'m> Facts<'m> {
             _ => f64::NAN,
         };
         let held_back = tolerances.feed_drop_warning > 1.0;
-        let travels = seen.linear_mm <= excess_linear_travel::allowed(machine, start.tip_way_to(end));
+        let travels = seen.linear_mm <= excess_linear_travel::allowed(machine, seen.tip_mm);
         // what is not a number rules nothing out
         Needs::BEYOND.when(!seen.inside)
             | Needs::STRAYS.when(!at_most(seen.stray_mm, tolerances.tip_mm))
             | Needs::HURRIES.when(held_back || !at_most(seen.axes_s, seconds))
             | Needs::TRAVELS.when(!travels)
             | Needs::WINDS.when(excess_rotary_travel::winds(machine, trail))
-            | Needs::POLE_HURRIES.when(fast_pole::may_hurry(leg, (start, end), self.pole_pass, seconds))
+            | Needs::POLE_HURRIES.when(fast_pole::may_hurry(leg, chord, self.pole_pass, seconds))
     }
 }
 

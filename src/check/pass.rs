@@ -5,7 +5,7 @@ use crate::rule::{EndRule, Ending, FaultRule, InForce, LegRule, MotionRule, Prog
 use crate::sink::{Active, Reporter, active};
 use crate::suppress::Suppressions;
 use crate::time::CycleTime;
-use crate::trail::Trail;
+use crate::trail::{Trail, axes_chord};
 use crate::view::{LegView, Overview};
 use crate::visited::Visited;
 use crate::{Level, Report, Settings};
@@ -20,6 +20,8 @@ pub(crate) struct Pass<'a> {
     whole: Vec<Active<ProgramRule>>,
     faults: Vec<Active<FaultRule>>,
     motions: Vec<Active<(Needs, MotionRule)>>,
+    /// What held of the last motion, where it gave none of them anything to look at.
+    silent: Option<Needs>,
     /// What is in force with the last motion.
     in_force: Option<InForce>,
     /// The tool of the last feed motion.
@@ -67,6 +69,7 @@ impl<'a> Pass<'a> {
                 Level::Motion(needs, run) => Some((needs, run)),
                 _ => None,
             }),
+            silent: None,
             in_force: None,
             last_cut: None,
             legs: active(levels, |level| match level {
@@ -146,13 +149,16 @@ impl<'a> Pass<'a> {
         }
     }
 
-    fn read_leg(&mut self, leg: &Leg) {
+    /// `next`: see [`Self::take_line`].
+    #[inline]
+    fn read_leg(&mut self, leg: &Leg, next: bool) {
         let (Some(follower), Some(facts)) = (&self.follower, &mut self.facts) else {
             return;
         };
-        self.trail.add(follower.machine(), leg);
-        let view = LegView::new(follower.machine(), leg, self.posture, &self.trail);
-        let holds = facts.of_leg(leg, self.posture, &self.trail);
+        let machine = follower.machine();
+        let chord = axes_chord(leg);
+        self.trail.add(machine, leg, chord);
+        let holds = facts.of_leg(leg, next, self.posture, &self.trail, chord);
         if self.asked.0 != Some(holds) {
             // one leg is like the other in most programs
             let (of, asked) = &mut self.asked;
@@ -161,15 +167,19 @@ impl<'a> Pass<'a> {
             let met = self.legs.iter().filter(|rule| rule.run.0.are_met(holds));
             asked.extend(met.map(|rule| rule.with(rule.run.1)));
         }
-        for rule in &self.asked.1 {
-            self.reporter.enter(rule, Some(leg.motion.block), self.summary.motions);
-            (rule.run)(&view, &mut self.reporter);
-            self.reporter.leave();
+        // most blocks give nobody anything to look at
+        if !self.asked.1.is_empty() || self.time.is_known() || cfg!(debug_assertions) {
+            let view = LegView::new(machine, leg, self.posture, &self.trail);
+            for rule in &self.asked.1 {
+                self.reporter.enter(rule, Some(leg.motion.block), self.summary.motions);
+                (rule.run)(&view, &mut self.reporter);
+                self.reporter.leave();
+            }
+            if cfg!(debug_assertions) {
+                see_silent(&self.legs, &mut self.reporter, &view, (holds, self.summary.motions));
+            }
+            self.time.add(&view, self.reporter.dialect());
         }
-        if cfg!(debug_assertions) {
-            see_silent(&self.legs, &mut self.reporter, &view, (holds, self.summary.motions));
-        }
-        self.time.add(&view, self.reporter.dialect());
         match &leg.end {
             Ok(end) if end.branch != 0 => self.posture = end.branch,
             Ok(_) => {}
@@ -312,16 +322,8 @@ impl Pass<'_> {
         if motion.is_feed() {
             self.last_cut = motion.tool;
         }
-        for rule in &self.motions {
-            let (needs, run) = rule.run;
-            let asked = needs.are_met(holds);
-            // a debug build asks them all and sees that the others are silent
-            if asked || cfg!(debug_assertions) {
-                self.reporter.enter(rule, Some(motion.block), self.summary.motions);
-                run(motion, *in_force, &mut self.reporter);
-                debug_assert!(asked || self.reporter.is_silent(), "{} needs less", rule.name);
-                self.reporter.leave();
-            }
+        if self.silent != Some(holds) || cfg!(debug_assertions) {
+            self.read_motion(motion, in_force, holds);
         }
         if let Some(follower) = &mut self.follower {
             self.trail.clamps = in_force.clamps;
@@ -332,9 +334,28 @@ impl Pass<'_> {
                 follower.follow_into(motion, &mut leg);
             }
             if let Some(leg) = &leg {
-                self.read_leg(leg);
+                self.read_leg(leg, next);
             }
             self.leg = leg;
+        }
+    }
+
+    /// Shows a motion to the rules that have something to look at; `holds`: what holds of it.
+    fn read_motion(&mut self, motion: &Motion, in_force: &InForce, holds: Needs) {
+        self.silent = Some(holds);
+        for rule in &self.motions {
+            let (needs, run) = rule.run;
+            let asked = needs.are_met(holds);
+            if asked {
+                self.silent = None;
+            }
+            // a debug build asks them all and sees that the others are silent
+            if asked || cfg!(debug_assertions) {
+                self.reporter.enter(rule, Some(motion.block), self.summary.motions);
+                run(motion, *in_force, &mut self.reporter);
+                debug_assert!(asked || self.reporter.is_silent(), "{} needs less", rule.name);
+                self.reporter.leave();
+            }
         }
     }
 }

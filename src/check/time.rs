@@ -51,6 +51,11 @@ impl CycleTime {
         }
     }
 
+    /// Whether the time is known so far.
+    pub(crate) fn is_known(&self) -> bool {
+        self.known
+    }
+
     /// Lowest and highest time, s.
     pub(crate) fn interval(&self) -> Option<[f64; 2]> {
         (self.known && self.low.is_finite() && self.high.is_finite()).then_some([self.low, self.high])

@@ -41,14 +41,25 @@ struct Window {
     chord: [f64; WINDOW],
     next: usize,
     count: usize,
+    /// So many of the last ones each turned no more than `ratio` times their chord.
+    calm: usize,
+    ratio: f64,
 }
 
 impl Window {
-    fn push(&mut self, turned: f64, chord: f64) {
-        self.turned[self.next] = turned;
-        self.chord[self.next] = chord;
-        self.next = (self.next + 1) % WINDOW;
+    #[inline]
+    fn push(&mut self, turned: f64, chord: f64, ratio: f64) {
+        let next = self.next.min(WINDOW - 1);
+        self.turned[next] = turned;
+        self.chord[next] = chord;
+        self.next = if next + 1 == WINDOW { 0 } else { next + 1 };
         self.count = (self.count + 1).min(WINDOW);
+        if turned * ROUNDED_UP <= ratio * chord && self.ratio == ratio {
+            self.calm += 1;
+        } else {
+            self.calm = 0;
+            self.ratio = ratio;
+        }
     }
 }
 
@@ -73,8 +84,9 @@ pub(crate) struct Rapids {
 }
 
 impl Trail {
-    /// Takes the next leg; then the rules look at it.
-    pub(crate) fn add(&mut self, machine: &Machine, leg: &Leg) {
+    /// Takes the next leg, and the chord between the tool axes at both its ends where a rotary axis turns; then the rules look at it.
+    #[inline]
+    pub(crate) fn add(&mut self, machine: &Machine, leg: &Leg, chord: f64) {
         let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
             *self = Self {
                 clamps: self.clamps,
@@ -91,26 +103,24 @@ impl Trail {
                     State::Other
                 };
                 if machine.constants.pair.is_some() {
-                    self.feed(leg, start, end);
+                    self.feed(leg, chord, machine.tolerances.rotary_ratio);
                 }
             }
             MotionKind::Dwell(_) | MotionKind::Unknown => self.state = State::Other,
         }
     }
 
-    fn feed(&mut self, leg: &Leg, start: &Stance, end: &Stance) {
+    #[inline]
+    fn feed(&mut self, leg: &Leg, chord: f64, ratio: f64) {
         let turned = leg.rotary_change[0] + leg.rotary_change[1];
-        if turned == 0.0 {
-            return self.window.push(0.0, 0.0);
+        // without TCP a table that turns about the tool feeds the part under it
+        if turned == 0.0 || chord < 1e-9 && !leads_tip(&leg.motion) {
+            return self.window.push(0.0, 0.0, ratio);
         }
-        let chord = (end.axis - start.axis).norm();
-        if !leads_tip(&leg.motion) && chord < 1e-9 {
-            // without TCP a table that turns about the tool feeds the part under it
-            return self.window.push(0.0, 0.0);
-        }
-        self.window.push(turned, chord);
+        self.window.push(turned, chord, ratio);
     }
 
+    #[cold]
     fn rapid(&mut self, machine: &Machine, leg: &Leg, start: &Stance, end: &Stance) {
         if self.state != State::Rapid || self.rapids.tool != leg.motion.tool {
             self.rapids = Rapids {
@@ -158,12 +168,25 @@ impl Trail {
     #[inline]
     pub(crate) fn may_exceed(&self, ratio: f64, least: f64) -> bool {
         let window = &self.window;
+        // what holds of each holds of their sums
+        if window.calm >= WINDOW && window.ratio == ratio {
+            return false;
+        }
         window.count >= WINDOW && any_sum(&window.turned) * ROUNDED_UP > ratio * any_sum(&window.chord).max(least)
     }
 
     /// The rapid motions that led to the feed motion in hand.
     pub(crate) fn rapids(&self) -> Option<&Rapids> {
         (self.state == State::Arrived).then_some(&self.rapids)
+    }
+}
+
+/// The chord between the tool axes at both ends of a leg, 0 where no rotary axis turns or one is not known.
+#[inline]
+pub(crate) fn axes_chord(leg: &Leg) -> f64 {
+    match (&leg.start, &leg.end) {
+        (Some(start), Ok(end)) if leg.rotary_change[0] + leg.rotary_change[1] != 0.0 => (end.axis - start.axis).norm(),
+        _ => 0.0,
     }
 }
 
@@ -196,4 +219,37 @@ fn tool_in_machine(machine: &Machine, stance: &Stance) -> Vec3 {
         tool = rotate(&rotary.direction, rotary.sign * stance.joints[rotary.joint], &tool);
     }
     tool
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{WINDOW, Window};
+    use crate::trail::Trail;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Where the sums in full are too large a look says so, whatever led there.
+        #[test]
+        fn a_look_at_each_block_rules_out_no_more_than_the_sums(
+            blocks in proptest::collection::vec((0.0..2.0, prop_oneof![Just(0.0), 0.05..1.0], any::<bool>()), 0..60),
+            least in 0.0..0.1,
+        ) {
+            let mut trail = Trail::default();
+            let ratio = 20.0;
+            for (size, chord, calm) in blocks {
+                // most are calm, a few just so
+                let turned = if calm { chord * ratio * (size * 0.5) } else { chord * ratio * (0.9 + 0.1 * size) + size };
+                trail.window.push(turned, chord, ratio);
+                prop_assert!(trail.may_exceed(ratio, least) || trail.excess_turn(ratio, least).is_none());
+                let window = &trail.window;
+                let turned: f64 = window.turned.iter().sum();
+                let chords: f64 = window.chord.iter().sum();
+                prop_assert!(trail.may_exceed(ratio, least) || window.count < WINDOW || turned <= ratio * chords.max(least));
+                prop_assert_eq!(trail.may_exceed(2.0 * ratio, least), {
+                    let other = Trail { window: Window { calm: 0, ..*window }, ..trail };
+                    other.may_exceed(2.0 * ratio, least)
+                });
+            }
+        }
+    }
 }

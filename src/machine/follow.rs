@@ -3,6 +3,7 @@ use crate::choice::cheapest_in_posture;
 use crate::forward::{Turn, segment_shifts};
 use crate::held::settle_held;
 use crate::inverse::{inverse_turned, place};
+use crate::lines::Lines;
 use crate::pole;
 use crate::words::{Words, XYZ, zero_point};
 use crate::{Joints, Leg, MAX_AXES, Machine, NoStance, Open, Stance};
@@ -39,6 +40,8 @@ pub struct Follower<'m> {
     pub(crate) machine: &'m Machine,
     pub(crate) state: State,
     pub(crate) words: Words,
+    /// Where the last motion was a straight one: what it has in common with the next.
+    pub(crate) lines: Option<Lines>,
 }
 
 impl<'m> Follower<'m> {
@@ -62,6 +65,7 @@ impl<'m> Follower<'m> {
             machine,
             state: *state,
             words: Words::new(machine),
+            lines: None,
         }
     }
     /// The machine.
@@ -76,6 +80,7 @@ impl<'m> Follower<'m> {
 
     /// [`Self::follow`] for any motion.
     pub(crate) fn general(&mut self, motion: &Motion) -> Leg {
+        self.lines = None;
         let given = self.state.stance.is_none() && self.begin(motion);
         self.step(motion, given)
     }

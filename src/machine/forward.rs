@@ -49,23 +49,57 @@ impl Turn {
     pub(crate) fn undo(&self, v: &Vec3) -> Vec3 {
         self.by(-self.sin, v)
     }
-    /// By the angle with this sine. Most axes lie along a coordinate, which a turn about them leaves as it is.
+    /// By the angle with this sine.
     #[inline]
     fn by(&self, sin: f64, v: &Vec3) -> Vec3 {
-        let (e, cos) = (&self.axis, self.cos);
+        let [turned] = Along::of(&self.axis).turn(&self.axis, (sin, self.cos), [v]);
+        turned
+    }
+}
+
+/// How the axis of a turn lies: most lie along a coordinate, which a turn about them leaves as it is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Along {
+    /// Its direction along X, 1 or -1.
+    X(f64),
+    Y(f64),
+    Z(f64),
+    Askew,
+}
+
+impl Along {
+    /// Of a unit vector.
+    #[inline]
+    pub(crate) fn of(e: &Vec3) -> Self {
         if e.x == 0.0 && e.y == 0.0 {
-            let sin = sin * e.z;
-            return Vec3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z);
+            Self::Z(e.z)
+        } else if e.y == 0.0 && e.z == 0.0 {
+            Self::X(e.x)
+        } else if e.x == 0.0 && e.z == 0.0 {
+            Self::Y(e.y)
+        } else {
+            Self::Askew
         }
-        if e.y == 0.0 && e.z == 0.0 {
-            let sin = sin * e.x;
-            return Vec3::new(v.x, v.y * cos - v.z * sin, v.y * sin + v.z * cos);
+    }
+
+    /// Vectors turned about the axis `e`, of which this is told, by the angle with this sine and cosine (Rodrigues' formula).
+    #[inline]
+    pub(crate) fn turn<const N: usize>(self, e: &Vec3, (sin, cos): (f64, f64), vectors: [&Vec3; N]) -> [Vec3; N] {
+        match self {
+            Self::Z(direction) => {
+                let sin = sin * direction;
+                vectors.map(|v| Vec3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z))
+            }
+            Self::X(direction) => {
+                let sin = sin * direction;
+                vectors.map(|v| Vec3::new(v.x, v.y * cos - v.z * sin, v.y * sin + v.z * cos))
+            }
+            Self::Y(direction) => {
+                let sin = sin * direction;
+                vectors.map(|v| Vec3::new(v.x * cos + v.z * sin, v.y, v.z * cos - v.x * sin))
+            }
+            Self::Askew => vectors.map(|v| v * cos + e.cross(v) * sin + e * (e.dot(v) * (1.0 - cos))),
         }
-        if e.x == 0.0 && e.z == 0.0 {
-            let sin = sin * e.y;
-            return Vec3::new(v.x * cos + v.z * sin, v.y, v.z * cos - v.x * sin);
-        }
-        v * cos + e.cross(v) * sin + e * (e.dot(v) * (1.0 - cos))
     }
 }
 

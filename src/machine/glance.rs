@@ -55,6 +55,8 @@ pub struct Glance {
     pub axes_s: f64,
     /// Length of the way of the linear joints, mm ([`crate::linear_travel`]).
     pub linear_mm: f64,
+    /// Way of the tip from end to end, mm ([`crate::Stance::tip_way_to`]): no bound.
+    pub tip_mm: f64,
     /// How far the tip leaves its segment, mm ([`crate::tip_deviation`]); roughly where that is within the machine's tolerance.
     pub stray_mm: f64,
 }
@@ -73,7 +75,9 @@ pub fn glance(machine: &Machine, allowances: &Allowances, near: &mut Nearness, l
     for joint in 0..allowances.count.min(MAX_AXES) {
         let value = end.joints[joint];
         let way = (value - start.joints[joint]).abs();
-        inside &= value >= allowances.low[joint] && value <= allowances.high[joint];
+        if !(value >= allowances.low[joint] && value <= allowances.high[joint]) {
+            inside = false;
+        }
         // an axis that stands still needs no speed: then the product is not a number, which is not larger
         let seconds = way * allowances.per_speed[joint];
         if seconds > axes_s {
@@ -86,20 +90,19 @@ pub fn glance(machine: &Machine, allowances: &Allowances, near: &mut Nearness, l
         return None;
     }
     let linear_mm = way2.sqrt() * ROUNDED_UP;
-    let stray_mm = if leg.rotary_change == [0.0; 2] {
+    let tip_mm = start.tip_way_to(end);
+    let [first, second] = leg.rotary_change;
+    let stray_mm = if first == 0.0 && second == 0.0 {
         0.0
     } else {
-        near.stray(
-            machine,
-            [start, end],
-            (leg.rotary_change, linear_mm),
-            machine.tolerances.tip_mm,
-        )
+        let went = (leg.rotary_change, tip_mm, linear_mm);
+        near.stray(machine, [start, end], went, machine.tolerances.tip_mm)
     };
     Some(Glance {
         inside,
         axes_s: axes_s * ROUNDED_UP,
         linear_mm,
+        tip_mm,
         stray_mm,
     })
 }

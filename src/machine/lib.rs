@@ -27,6 +27,7 @@ mod inverse;
 mod legal;
 mod length;
 mod limits;
+mod lines;
 mod memory;
 mod nearness;
 mod not_used;

@@ -34,8 +34,8 @@ fn is_table(constants: &Constants) -> bool {
 
 #[inline]
 fn linear(constants: &Constants, stance: &Stance) -> [f64; 3] {
-    let [a, b, c, ..] = &constants.linear;
-    [a, b, c].map(|axis| stance.joints[axis.joint])
+    let joint = |axis: usize| stance.joints[constants.linear[axis].joint];
+    [joint(0), joint(1), joint(2)]
 }
 
 impl Near {
@@ -64,40 +64,45 @@ impl Near {
         })
     }
 
-    /// The same behind a block from here whose linear joints go `way` mm; `None` where it begins elsewhere.
+    /// Whether a block with this tool begins here.
     #[inline]
-    fn go(&self, constants: &Constants, [start, end]: [&Stance; 2], way: f64) -> Option<(Self, f64)> {
-        let same_length = start.tool_length == self.tool_length && end.tool_length == self.tool_length;
-        if !same_length || start.point != self.point || linear(constants, start) != self.linear {
-            return None;
-        }
-        let chord = (end.point - start.point).norm() * ROUNDED_UP;
+    fn begins(&self, constants: &Constants, start: &Stance, tool_length: f64) -> bool {
+        let same_length = start.tool_length == self.tool_length && tool_length == self.tool_length;
+        let (a, b) = (linear(constants, start), &self.linear);
+        same_length && start.point == self.point && a[0] == b[0] && a[1] == b[1] && a[2] == b[2]
+    }
+
+    /// Goes along a block that begins here, whose tip goes `tip` mm and whose linear joints go `way` mm.
+    #[inline]
+    fn go(&mut self, constants: &Constants, end: &Stance, tip: f64, way: f64) {
+        let chord = tip * ROUNDED_UP;
         let [first, second] = self.radius;
-        let there = Self {
-            point: end.point,
-            linear: linear(constants, end),
-            tool_length: self.tool_length,
-            radius: [(first + chord) * ROUNDED_SUM, (second + way) * ROUNDED_SUM],
-            // a sum of coordinates grows by less than twice a way through space, and both ways count twice in the size of a run
-            rounding: (self.rounding + 4.0 * ROUNDING * (way + chord)) * ROUNDED_SUM,
-        };
-        Some((there, chord))
+        self.point = end.point;
+        self.linear = linear(constants, end);
+        self.radius = [(first + chord) * ROUNDED_SUM, (second + way) * ROUNDED_SUM];
+        // a sum of coordinates grows by less than twice a way through space, and both ways count twice in the size of a run
+        self.rounding = (self.rounding + 4.0 * ROUNDING * (way + chord)) * ROUNDED_SUM;
     }
 }
 
 impl Nearness {
     /// A bound of the distance between the tip's path and its chord while all joints run straight from one stance to the other, mm.
-    /// It may be loose where it proves `enough`. `turned`: by how much both rotary joints turn, rad; `way`: how far the linear joints go at
-    /// most, mm. Source: kinematics notes 3; the distances from the axes are those at an earlier block and what the tool went since.
+    /// It may be loose where it proves `enough`. `turned`: by how much both rotary joints turn, rad; `tip`: how far the tip goes, mm; `way`: how
+    /// far the linear joints go at most, mm. Source: kinematics notes 3; the distances from the axes are those at an earlier block and what the tool went since.
     #[inline]
     pub(crate) fn stray(
         &mut self,
         machine: &Machine,
         ends: [&Stance; 2],
-        (turned, way): ([f64; 2], f64),
+        (turned, tip, way): ([f64; 2], f64, f64),
         enough: f64,
     ) -> f64 {
-        if let Some((near, _)) = self.0.and_then(|near| near.go(&machine.constants, ends, way)) {
+        let constants = &machine.constants;
+        if let Some(near) = &mut self.0
+            && near.begins(constants, ends[0], ends[1].tool_length)
+        {
+            // where it is of no use, the next begins in full
+            near.go(constants, ends[1], tip, way);
             // as in the bound in full: axis by axis from the tool to the workpiece
             let [first, second] = turned;
             let mut bend = 2.0 * second * way + second * second * near.radius[1];
@@ -105,7 +110,6 @@ impl Nearness {
             bend += 2.0 * first * rate + first * first * (near.radius[0] + bend * 0.125);
             let stray = bend * 0.125 * ROUNDED_UP + near.rounding;
             if stray <= enough {
-                self.0 = Some(near);
                 return stray;
             }
         }
@@ -153,7 +157,7 @@ mod tests {
                     continue;
                 }
                 let way2: f64 = machine.constants.linear().iter().map(|axis| (end.joints[axis.joint] - start.joints[axis.joint]).powi(2)).sum();
-                let went = (leg.rotary_change, way2.sqrt() * (1.0 + 1e-9));
+                let went = (leg.rotary_change, start.tip_way_to(end), way2.sqrt() * (1.0 + 1e-9));
                 let full = straight_stray(machine, start, end);
                 let found = loose.stray(machine, [start, end], went, f64::INFINITY);
                 prop_assert!(found >= full, "{found} {full}");
@@ -190,7 +194,12 @@ mod tests {
                 panic!("followed")
             };
             let exact = straight_stray(machine, start, end);
-            let found = near.stray(machine, [start, end], (leg.rotary_change, 0.05 * (1.0 + 1e-9)), 1e-3);
+            let found = near.stray(
+                machine,
+                [start, end],
+                (leg.rotary_change, start.tip_way_to(end), 0.05 * (1.0 + 1e-9)),
+                1e-3,
+            );
             full += usize::from(found == exact);
             most = most.max(found / exact);
         }

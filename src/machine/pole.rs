@@ -49,6 +49,13 @@ fn is_orthogonal(pair: &PairConstants) -> bool {
     pair.c == 0.0 && pair.y == 0.0
 }
 
+/// Whether an angle is surely between two multiples of pi, 0 and one beside it.
+#[inline]
+fn inside(tau: f64) -> bool {
+    let size = tau.abs();
+    size > 1e-9 && size < 3.0
+}
+
 /// Smallest pole angle, rad, while q2 runs straight from `from.0` to `to.0`; the pole angles at the ends are `from.1` and `to.1`.
 #[inline]
 pub(crate) fn pole_angle_min(constants: &Constants, pair: &PairConstants, from: (f64, f64), to: (f64, f64)) -> f64 {
@@ -56,8 +63,13 @@ pub(crate) fn pole_angle_min(constants: &Constants, pair: &PairConstants, from: 
     if from.0 == to.0 {
         return ends;
     }
-    let tau = |q: f64| (constants.rotary[1].sign * q + pair.k_azimuth) / PI;
+    let tau = |q: f64| constants.rotary[1].sign * q + pair.k_azimuth;
     let (a, b) = (tau(from.0), tau(to.0));
+    // well inside, the quotients need not be known
+    if inside(a) && inside(b) && (a > 0.0) == (b > 0.0) {
+        return ends;
+    }
+    let (a, b) = (a / PI, b / PI);
     // the way of most blocks is between the same two multiples of pi, 0 and one beside it
     if a.min(b) > 0.0 && a.max(b) < 1.0 || a.min(b) > -1.0 && a.max(b) < 0.0 {
         return ends;

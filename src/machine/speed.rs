@@ -156,27 +156,30 @@ fn constant_load(machine: &Machine, (start, end): (&Stance, &Stance), changes: C
             .iter()
             .any(|&index| constants.linear[index].joint == joint)
     };
-    let (mut worst, mut most): (Option<Load>, f64) = (None, 0.0);
+    let is_constant = |joint: usize, kind: AxisKind| match (changes, kind) {
+        (Changes::Nothing, _) | (Changes::Solved, AxisKind::Rotary) => true,
+        (Changes::All, AxisKind::Rotary) => false,
+        (_, AxisKind::Linear) => !is_solved(joint),
+    };
+    let way = |joint: usize| (end.joints[joint] - start.joints[joint]).abs();
+    let (mut worst, mut most): (Option<(usize, f64)>, f64) = (None, 0.0);
     for (joint, axis) in machine.axes.iter().enumerate() {
-        let constant = match (changes, axis.kind) {
-            (Changes::Nothing, _) | (Changes::Solved, AxisKind::Rotary) => true,
-            (Changes::All, AxisKind::Rotary) => false,
-            (_, AxisKind::Linear) => !is_solved(joint),
-        };
-        let rate = (end.joints[joint] - start.joints[joint]).abs();
-        if let (true, Some(limit)) = (constant && rate > 0.0, axis.max_speed) {
-            let load = Load {
-                axis: joint,
-                limit,
-                rate,
-            };
-            let share = load.share();
+        let rate = way(joint);
+        if rate > 0.0
+            && let Some(limit) = axis.max_speed
+            && (changes == Changes::Nothing || is_constant(joint, axis.kind))
+        {
+            let share = rate / limit;
             if worst.is_none() || share > most {
-                (worst, most) = (Some(load), share);
+                (worst, most) = (Some((joint, limit)), share);
             }
         }
     }
-    worst
+    worst.map(|(axis, limit)| Load {
+        axis,
+        limit,
+        rate: way(axis),
+    })
 }
 
 /// The joints whose rates change within the block: the three solved linear ones and, on a great circle, the two rotary ones.

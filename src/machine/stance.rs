@@ -62,11 +62,12 @@ impl Stance {
 
 #[inline]
 fn rotary_joints(machine: &Machine, joints: &Joints) -> [f64; 2] {
-    let mut q = [0.0; 2];
-    for (slot, rotary) in q.iter_mut().zip(machine.constants.rotary()) {
-        *slot = joints[rotary.joint];
+    let [first, second] = &machine.constants.rotary;
+    match machine.constants.rotary_count {
+        0 => [0.0; 2],
+        1 => [joints[first.joint], 0.0],
+        _ => [joints[first.joint], joints[second.joint]],
     }
-    q
 }
 
 /// Why the posture at the end of a motion is not settled by what is documented and declared.

@@ -1,7 +1,8 @@
 //! The short way for what most programs are full of: a line in words of the joints, from one known stance to the next.
 use crate::choice::cheapest_in_posture;
 use crate::length::way;
-use crate::{Follower, Leg, Stance, pole};
+use crate::lines::Lines;
+use crate::{Follower, Leg, pole};
 use trunnion_interp::{Motion, MotionKind, Orientation, Posture, Swivel};
 
 impl Follower<'_> {
@@ -10,6 +11,9 @@ impl Follower<'_> {
     pub fn follow_into(&mut self, motion: &Motion, leg: &mut Option<Box<Leg>>) {
         match leg {
             Some(leg) if self.is_straight(motion) => {
+                if !self.lines.as_ref().is_some_and(|lines| lines.hold(motion)) {
+                    self.lines = Some(Lines::of(self.machine, &self.words, motion));
+                }
                 leg.motion = *motion;
                 self.straight(leg);
             }
@@ -23,10 +27,15 @@ impl Follower<'_> {
     #[inline]
     pub fn follow_line_into(&mut self, motion: &Motion, leg: &mut Option<Box<Leg>>) {
         match leg {
-            Some(leg) if self.is_straight(motion) => {
+            Some(leg) if self.lines.is_some() && self.goes_on(motion) => {
+                debug_assert!(
+                    self.is_straight(motion),
+                    "a line that is not straight behind one that is"
+                );
                 let own = &mut leg.motion;
-                (own.block, own.chain, own.kind) = (motion.block, motion.chain, motion.kind);
-                (own.start, own.end, own.feed) = (motion.start, motion.end, motion.feed);
+                (own.block, own.chain, own.kind, own.feed) = (motion.block, motion.chain, motion.kind, motion.feed);
+                own.start = own.end;
+                own.end = motion.end;
                 debug_assert_eq!(format!("{own:?}"), format!("{motion:?}"), "more than a line differs");
                 self.straight(leg);
             }
@@ -40,18 +49,26 @@ impl Follower<'_> {
         let tilt = &motion.tilt;
         self.words.literal
             && self.state.stance.is_some()
-            && matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear)
             && !(motion.tcp || motion.machine_coordinates)
             && matches!(motion.orientation, Orientation::Words)
             && tilt.normal.is_none()
             && tilt.swivel == Swivel::No
             && tilt.posture == Posture::ByRule
+            && self.goes_on(motion)
+    }
+
+    /// What of [`Self::is_straight`] hangs on where a motion leads and on its kind: the rest is as it was where the motion before was straight
+    /// and no more differs.
+    #[inline]
+    fn goes_on(&self, motion: &Motion) -> bool {
+        matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear)
             && motion.start.xyz().is_some()
             && self.words.names_all(&motion.end)
             && self.words.foreign(motion).is_none()
     }
 
     /// Follows the motion in a leg's storage, of which [`Self::is_straight`] holds, as the general way would (a test compares both).
+    /// [`Self::lines`] are those of the motion.
     #[inline]
     fn straight(&mut self, leg: &mut Leg) {
         let all = self.words.all();
@@ -59,13 +76,20 @@ impl Follower<'_> {
         leg.start_given = false;
         leg.open = None;
         leg.rotary_excess = 0.0;
-        leg.known_joints = (self.words.literal_joints(&leg.motion), all);
-        let end = self.stand(&leg.motion, &leg.known_joints.0, leg.start.as_ref(), None);
-        match &mut leg.end {
-            Ok(own) => *own = end,
-            own => *own = Ok(end),
+        if let (Some(start), Err(_)) = (&leg.start, &leg.end) {
+            leg.end = Ok(*start);
         }
-        self.measure_straight(leg, &end);
+        let (Some(start), Ok(end), Some(lines)) = (&leg.start, &mut leg.end, &self.lines) else {
+            return;
+        };
+        let joints = self.words.literal_joints(&leg.motion.end, &lines.added);
+        end.joints = joints;
+        if !lines.stand(self.machine, start, end) {
+            *end = self.stand(&leg.motion, &joints, Some(start), None);
+        }
+        leg.known_joints = (joints, all);
+        self.measure_straight(leg);
+        let Ok(end) = &leg.end else { return };
         let state = &mut self.state;
         state.known_joints = leg.known_joints;
         state.rotary = end.rotary(self.machine);
@@ -76,21 +100,25 @@ impl Follower<'_> {
         state.aimed &= all;
         state.named = leg.motion.end.known;
         state.tip_words = false;
-        state.stance = Some(end);
+        state.stance = Some(*end);
     }
 
     #[inline]
-    fn measure_straight(&self, leg: &mut Leg, end: &Stance) {
+    fn measure_straight(&self, leg: &mut Leg) {
         leg.rotary_change = [0.0; 2];
         leg.length = 0.0;
+        let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
+            return;
+        };
         leg.pole_angle_min = end.pole_angle;
-        let Some(start) = &leg.start else { return };
         let (from, to) = (start.rotary(self.machine), end.rotary(self.machine));
         leg.rotary_change = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
         if let (Some(from), Some(to)) = (leg.motion.start.xyz(), leg.motion.end.xyz()) {
             leg.length = way((to - from).norm());
         }
-        leg.length = self.feed_length(leg);
+        if self.machine.control.feed.is_some() {
+            leg.length = self.feed_length(leg);
+        }
         let constants = &self.machine.constants;
         let Some(pair) = &constants.pair else { return };
         leg.pole_angle_min =
@@ -129,12 +157,15 @@ pub(crate) mod tests {
         fn the_short_way_is_the_general_way(
             machine in 0..BUILTIN_MACHINES.len(),
             offset in prop_oneof![Just(0.0), -50.0..50.0],
-            places in proptest::collection::vec((proptest::array::uniform9(-120.0..120.0), 0..12_u8, any::<bool>()), 2..8),
+            places in proptest::collection::vec((proptest::array::uniform9(-120.0..120.0), 0..12_u8, any::<(bool, bool)>()), 2..8),
         ) {
             let machine = builtin(BUILTIN_MACHINES[machine]).expect("built in");
             let mut short = Follower::new(machine);
             let (mut at, mut leg): (_, Option<Box<Leg>>) = (Position::default(), None);
-            for (values, held, rapid) in places {
+            // told line by line from its first motion on
+            let (mut lines, mut line, mut before) = (short.clone(), None, f64::NAN);
+            for (values, held, (rapid, shifted)) in places {
+                let offset = if shifted && held == 0 { 3.0 - offset } else { offset };
                 let mut to = at;
                 for (axis, value) in values.into_iter().enumerate() {
                     // an axis that the machine lacks, and one that stands still
@@ -158,7 +189,15 @@ pub(crate) mod tests {
                     leg.open = Some(Open { cause: OpenCause::Tie, taken: [7.0; 2], other: [7.0; 2] });
                 }
                 // told by what differs where no more does
-                let next = leg.as_deref().is_some_and(|leg| leg.motion.end == at);
+                let next = leg.as_deref().is_some_and(|leg| leg.motion.end == at) && offset == before;
+                before = offset;
+                if next {
+                    lines.follow_line_into(&motion, &mut line);
+                } else {
+                    lines.follow_into(&motion, &mut line);
+                }
+                prop_assert_eq!(format!("{:?}", line.as_deref()), format!("{:?}", Some(&expected)));
+                prop_assert_eq!(format!("{:?}", lines.state), format!("{:?}", general.state));
                 let mut told = (short.clone(), leg.clone());
                 short.follow_into(&motion, &mut leg);
                 if next {

@@ -37,6 +37,13 @@ pub(crate) struct Words {
     letters: u16,
 }
 
+/// What the work offset and the length of the tool add to each joint, mm or rad.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Added {
+    zero: Joints,
+    length: Joints,
+}
+
 impl Words {
     pub(crate) fn new(machine: &Machine) -> Self {
         let mut words = Self {
@@ -138,18 +145,29 @@ impl Words {
         (joints, known)
     }
 
-    /// [`Self::joints`] where words are literal, name all joints, and are no machine coordinates.
+    /// [`Self::joints`] where words are literal, name all joints, and are no machine coordinates; `added` is that of their motion.
     #[inline]
-    pub(crate) fn literal_joints(&self, motion: &Motion) -> Joints {
+    pub(crate) fn literal_joints(&self, end: &Position, added: &Added) -> Joints {
         let mut joints = [0.0; MAX_AXES];
-        let length = motion.tool_length_mm;
-        for (joint, slot) in joints.iter_mut().enumerate().take(self.count) {
+        for joint in 0..self.count.min(MAX_AXES) {
             let letter = usize::from(self.letter[joint]).min(AXIS_LETTERS.len() - 1);
-            let word = motion.end.values[letter] * self.scale[joint];
-            let zero = motion.zero[letter] * self.zero_scale[joint];
-            *slot = word + zero + self.per_length[joint] * length;
+            joints[joint] = end.values[letter] * self.scale[joint] + added.zero[joint] + added.length[joint];
         }
         joints
+    }
+
+    /// What a motion adds to its words.
+    pub(crate) fn added(&self, motion: &Motion) -> Added {
+        let mut added = Added {
+            zero: [0.0; MAX_AXES],
+            length: [0.0; MAX_AXES],
+        };
+        for joint in 0..self.count.min(MAX_AXES) {
+            let letter = usize::from(self.letter[joint]).min(AXIS_LETTERS.len() - 1);
+            added.zero[joint] = motion.zero[letter] * self.zero_scale[joint];
+            added.length[joint] = self.per_length[joint] * motion.tool_length_mm;
+        }
+        added
     }
 
     /// The turns that a control adds to rotary words it does not take literally, from where the machine stands: the shortest way (M126), or

@@ -278,10 +278,15 @@ impl Told {
 impl State {
     /// Where the tool is, program coordinates: on the contour, or on its compensated way once compensation has led it there.
     pub fn position(&self) -> Pose {
+        *self.place()
+    }
+    /// The same where it is kept.
+    #[inline]
+    pub(crate) fn place(&self) -> &Pose {
         if self.side == Side::Off || self.first_compensated {
-            self.current
+            &self.current
         } else {
-            self.compensated
+            &self.compensated
         }
     }
     /// As `rs274` starts: millimetres, XY plane, everything zero; `unknown`: the position is NaN instead.

@@ -11,6 +11,7 @@ mod error;
 mod expression;
 mod iso;
 mod items;
+mod length;
 mod lines;
 mod names;
 mod number;

@@ -3,7 +3,7 @@
 //!
 //! It takes only what the lexer's own rules would cut in the same way (a test compares both), and stops before all else.
 use crate::builder::{Builder, HELD};
-use crate::digits::{as_digit, not_digits};
+use crate::length::{WHOLE, short, whole};
 use crate::straight::{Course, Sign};
 use crate::{LexOptions, TokenKind};
 
@@ -92,23 +92,34 @@ fn digits(source: &[u8], mut at: usize) -> usize {
     at
 }
 
-/// Behind the number at `first`, digits with perhaps a point and digits behind it, where all of it shows in eight bytes; `None` elsewhere.
+/// Words with plain numbers and one blank between them from `at` on, and the ends of their lines: most of every program. Between two items
+/// they leave the course where it is.
 #[inline]
-fn short(source: &[u8], first: usize) -> Option<usize> {
-    let bytes = crate::digits::digits(*source.get(first..)?.first_chunk()?);
-    let other = not_digits(bytes);
-    if other == 0 {
-        return None;
+fn words(source: &[u8], mut at: usize, options: LexOptions, cut: &mut Cut) -> usize {
+    while let Some(word) = source.get(at..).and_then(<[u8]>::first_chunk::<WHOLE>) {
+        // a step adds three tokens at most
+        if cut.count > HELD - 3 {
+            cut.release();
+        }
+        let Some(length) = whole(word) else { break };
+        cut.hold(TokenKind::Word, at);
+        let end = at + length;
+        match word[length] {
+            b' ' => {
+                if GOES_ON[usize::from(word[length + 1])] & BLANK != 0 {
+                    return end;
+                }
+                cut.hold(TokenKind::Blank, end);
+                at = end + 1;
+            }
+            b'\n' => {
+                at = end + 1;
+                cut.line_end(source, options, end, at);
+            }
+            _ => return end,
+        }
     }
-    // bits in front of the first byte that is no digit: 0, 8, .. 56
-    let whole = other.trailing_zeros() & 0x38;
-    if bytes >> whole & 0xff != as_digit(b'.') {
-        return (whole > 0).then_some(first + whole as usize / 8);
-    }
-    let behind = other & (other - 1);
-    let end = behind.trailing_zeros() & 0x38;
-    // `X1.` is cut by the lexer's own rules
-    (behind != 0 && end > whole + 8).then_some(first + end as usize / 8)
+    at
 }
 
 /// The word at `at`, whose digits begin at `first`: pushed, and what is behind it; `None` if there is no number.
@@ -226,6 +237,12 @@ fn lex_into(source: &[u8], mut at: usize, options: LexOptions, cut: &mut Cut) ->
         let start = at;
         match CLASSES[usize::from(byte)] {
             Class::Letter => {
+                if cut.course.is_between() {
+                    at = words(source, at, options, cut);
+                    if at > start {
+                        continue;
+                    }
+                }
                 let Some(end) = lettered(source, at, cut) else {
                     return at;
                 };

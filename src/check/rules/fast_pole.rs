@@ -36,9 +36,10 @@
 //! Trunnion's kinematics notes, sections 2.4 and 5 (POLE-DYN).
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
+use crate::trail::axes_chord;
 use trunnion_geometry::math::angle_between;
 use trunnion_interp::Feed;
-use trunnion_machine::{Axis, Leg, Stance};
+use trunnion_machine::{Axis, Leg};
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Warning,
@@ -65,13 +66,12 @@ pub(crate) fn pass(axis: &Axis) -> f64 {
 /// Whether the pole may be too near, by the chord between the tool axes instead of the angle; `pass` is that of the first rotary axis.
 /// Also where the block's time is not a number.
 #[inline]
-pub(crate) fn may_hurry(leg: &Leg, (start, end): (&Stance, &Stance), pass: f64, seconds: f64) -> bool {
+pub(crate) fn may_hurry(leg: &Leg, chord: f64, pass: f64, seconds: f64) -> bool {
     let turn = leg.rotary_change[0];
     if turn == 0.0 {
         return false;
     }
     // an arc is at least its chord, at most pi / 2 times as long, and at most 1.0472 times where the chord is no longer than 1
-    let chord = (end.axis - start.axis).norm();
     let longest = if chord <= 1.0 {
         1.05
     } else {
@@ -92,7 +92,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let pass = pass(axis);
     let cone = |angle: f64| pass * angle / seconds;
     let passes = view.leg.pole_angle_min;
-    if !may_hurry(view.leg, (start, end), pass, seconds) {
+    if !may_hurry(view.leg, axes_chord(view.leg), pass, seconds) {
         return;
     }
     let angle = angle_between(&start.axis, &end.axis);

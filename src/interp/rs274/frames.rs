@@ -92,21 +92,25 @@ impl Shift {
         if self.rotation.is_some() {
             return false;
         }
-        let mut named = named & ALL;
-        while named != 0 {
-            let axis = (named.trailing_zeros() as usize).min(8);
-            named &= named - 1;
+        let named = named & ALL;
+        let mut left = named;
+        while left != 0 {
+            let axis = (left.trailing_zeros() as usize).min(8);
+            left &= left - 1;
             let value = pose[axis] * self.units[axis] + self.inside[axis];
             let mut there = value + self.zero[axis];
             if axis == 2 {
                 there += self.length;
             }
-            if !(value.is_finite() && there.is_finite()) {
+            // no value is either where the place is finite
+            if !there.is_finite() {
                 return false;
             }
-            end.set(axis, value);
-            machine.set(axis, there);
+            end.values[axis] = value;
+            machine.values[axis] = there;
         }
+        end.known |= named;
+        machine.known |= named;
         true
     }
 

@@ -37,6 +37,7 @@ pub(super) fn refresh(modal: &mut ModalState, state: &State, shift: &Shift) {
 }
 
 /// The same after a line of a motion and its F only.
+#[inline]
 pub(super) fn refresh_motion(modal: &mut ModalState, state: &State) {
     modal.motion = motion(state.motion);
     refresh_feed(modal, state);

@@ -52,17 +52,18 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     #[inline]
     fn next_line(&mut self, steady: &mut Steady, kind: MotionKind, pose: &Pose, at: At, state: &State) -> bool {
         let Steady { shift, motion, .. } = steady;
-        let (mut end, mut machine) = (motion.end, self.told.machine);
+        let mut machine = self.told.machine;
+        motion.start = motion.end;
         // axes without a word stay where the line before it has led them
-        if !shift.reach(pose, state.named_axes, &mut end, &mut machine) {
-            end = shift.coordinates(pose);
-            machine = shift.machine(&end);
+        if !shift.reach(pose, state.named_axes, &mut motion.end, &mut machine) {
+            motion.end = shift.coordinates(pose);
+            machine = shift.machine(&motion.end);
         }
         if cfg!(debug_assertions) {
             let full = shift.coordinates(pose);
             let full = format!("{:?}", (full, shift.machine(&full)));
             debug_assert_eq!(
-                format!("{:?}", (end, machine)),
+                format!("{:?}", (motion.end, machine)),
                 full,
                 "an axis without a word has moved"
             );
@@ -70,15 +71,13 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let feed = self.line_feed(kind, &machine, at, state);
         let block = self.block(at);
         let interpreter = &mut *self.interpreter;
-        interpreter.state.position = end;
+        interpreter.state.position = motion.end;
         interpreter.chain = self.told.places.chain(at);
         modal::refresh_motion(&mut interpreter.state, state);
         self.told.machine = machine;
         motion.block = block;
         motion.chain = interpreter.chain;
         motion.kind = kind;
-        motion.start = motion.end;
-        motion.end = end;
         motion.feed = feed;
         self.sink.next_line(motion, &interpreter.state);
         goes_on(motion, &machine)

@@ -62,8 +62,7 @@ impl Engine {
     }
     /// Parameters that follow the state: position (5420-5428, program units) and the tool in the spindle (5400-5413, units of the table).
     pub(crate) fn refresh_parameters(&mut self) {
-        let current = self.state.position();
-        self.store.set_numbers(5420, &current);
+        self.store.set_numbers(5420, self.state.place());
     }
 }
 

@@ -109,13 +109,14 @@ pub(crate) fn line(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Si
     }
     engine.state.exit_pending = false;
     ends::put_words(&mut engine.state.current, block);
-    let end = engine.state.current;
     if engine.queue.is_empty() {
         // what `emit` does
-        engine.state.told.reach(&end);
-        sink.straight(!is_feed, &end, at, &engine.state);
+        let state = &mut engine.state;
+        state.told.reach(&state.current);
+        sink.straight(!is_feed, &state.current, at, state);
         return Ok(());
     }
+    let end = engine.state.current;
     let call = if is_feed {
         Canon::Feed(end)
     } else {

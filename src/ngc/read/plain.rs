@@ -48,7 +48,11 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
         if place >= 26 || open >> place & 1 == 0 {
             break;
         }
-        let (value, end) = number(text, at + 1)?;
+        let near = text.get(at..).and_then(|rest| rest.first_chunk()).and_then(close);
+        let (value, end) = match near {
+            Some((value, length)) => (value, at + length),
+            None => number(text, at + 1)?,
+        };
         // M98 and M99 are calls and returns
         if letter == b'M' && value >= 98.0 {
             return None;
@@ -81,7 +85,7 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
 /// N at the line's start and the blanks behind its number: digits, perhaps with one point between them.
 fn sequence_number(text: &[u8]) -> Option<(Option<f64>, usize)> {
     text.get(1).filter(|byte| byte.is_ascii_digit())?;
-    let (mantissa, places, mut end) = many(text, 1)?;
+    let (mantissa, places, mut end) = short(text, 1).or_else(|| long(text, 1))?;
     let value = quotient(mantissa, places);
     if text[end - 1] == b'.' {
         return None;
@@ -93,16 +97,37 @@ fn sequence_number(text: &[u8]) -> Option<(Option<f64>, usize)> {
 }
 
 /// Sign, digits and point at `at`, and what stands behind them.
-#[inline]
+#[inline(never)]
 fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
     let sign = *text.get(at)?;
     let first = at + usize::from(sign == b'-' || sign == b'+');
-    let (mantissa, places, end) = match few(text, first) {
-        Some(found) => found,
-        None => many(text, first)?,
-    };
+    let (mantissa, places, end) = short(text, first).or_else(|| long(text, first))?;
     let value = quotient(mantissa, places);
     Some((if sign == b'-' { -value } else { value }, end))
+}
+
+/// The longest word of at most seven digits and a point: letter, sign, and the byte behind it.
+const CLOSE: usize = 11;
+
+/// The number of a word, and how long the word is, all at once: of at most seven digits and a point; `None` elsewhere. A line's end is no digit,
+/// so that nothing behind it is taken.
+#[inline]
+fn close(word: &[u8; CLOSE]) -> Option<(f64, usize)> {
+    let [_, sign, ..] = *word;
+    let signed = sign == b'-' || sign == b'+';
+    let (bytes, ninth) = if signed {
+        let [_, _, bytes @ .., ninth] = *word;
+        (bytes, ninth)
+    } else {
+        let [_, bytes @ .., ninth, _] = *word;
+        (bytes, ninth)
+    };
+    let (mantissa, places, count) = few(bytes, ninth)?;
+    let value = quotient(mantissa, places);
+    Some((
+        if sign == b'-' { -value } else { value },
+        1 + usize::from(signed) + count,
+    ))
 }
 
 /// A number by its digits and how many of them stand behind the point.
@@ -112,12 +137,10 @@ fn quotient(mantissa: u64, places: usize) -> f64 {
     mantissa as i64 as f64 / POWERS[places]
 }
 
-/// All digits as a whole number, how many stand behind the point, and where they end: of at most seven digits and a point, all at once;
-/// `None` elsewhere. A line's end is no digit, so that nothing behind it is taken.
+/// All digits as a whole number, how many stand behind the point, and how many bytes they are with it: of at most seven digits and a point.
 #[inline]
-fn few(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
-    let ninth = *wide.get(first + 8)?;
-    let word = digits(*wide.get(first..)?.first_chunk()?);
+fn few(bytes: [u8; 8], ninth: u8) -> Option<(u64, usize, usize)> {
+    let word = digits(bytes);
     let other = not_digits(word);
     if other == 0 {
         return None;
@@ -125,7 +148,7 @@ fn few(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     // bits in front of the first byte that is no digit: 0, 8, .. 56
     let whole = other.trailing_zeros() & 0x38;
     if word >> whole & 0xff != as_digit(b'.') {
-        let found = (whole_number(word, whole), 0, first + (whole / 8) as usize);
+        let found = (whole_number(word, whole), 0, (whole / 8) as usize);
         return (whole > 0).then_some(found);
     }
     // the digits behind the point move up to those in front of it
@@ -136,14 +159,8 @@ fn few(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     if other == 0 || count == 0 {
         return None;
     }
-    let end = first + (count / 8) as usize + 1;
-    Some((whole_number(joined, count), ((count - whole) / 8) as usize, end))
-}
-
-/// The same of more digits.
-#[inline(never)]
-fn many(text: &[u8], first: usize) -> Option<(u64, usize, usize)> {
-    short(text, first).or_else(|| long(text, first))
+    let places = ((count - whole) / 8) as usize;
+    Some((whole_number(joined, count), places, (count / 8) as usize + 1))
 }
 
 /// Digits and point one by one: all digits as a whole number, how many stand behind the point, and where they end.
@@ -169,7 +186,7 @@ fn long(text: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     Some((mantissa, places, end))
 }
 
-/// The same eight bytes at a time on either side of the point, where at most seven digits stand on each; `None` elsewhere. A line's end is no digit,
+/// Digits and point eight bytes at a time on either side of the point, where at most seven digits stand on each; `None` elsewhere. A line's end is no digit,
 /// so that nothing behind it is taken.
 #[inline]
 fn short(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {

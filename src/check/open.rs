@@ -15,6 +15,8 @@ pub(crate) struct Open<R> {
     recent: [usize; RECENT],
     /// Which of them is forgotten next.
     oldest: usize,
+    /// Which of them is tried first: the one behind the last that was found, since blocks ask in the same order.
+    next: usize,
 }
 
 impl<R> Default for Open<R> {
@@ -24,6 +26,7 @@ impl<R> Default for Open<R> {
             runs: Vec::new(),
             recent: [0; RECENT],
             oldest: 0,
+            next: 0,
         }
     }
 }
@@ -41,8 +44,13 @@ impl<R> Open<R> {
         // names of rules are static: most that are equal lie in the same place
         let same = |known: &Place| core::ptr::eq(known.0, place.0) && known.1 == place.1 && known.2 == place.2;
         let is_it = |slot: &usize| self.runs.get(*slot).is_some_and(|(known, _)| same(known));
-        if let Some(&slot) = self.recent.iter().find(|slot| is_it(slot)) {
-            return Some(slot);
+        for step in 0..RECENT {
+            let at = (self.next + step) % RECENT;
+            let slot = self.recent[at];
+            if is_it(&slot) {
+                self.next = (at + 1) % RECENT;
+                return Some(slot);
+            }
         }
         let slot = *self.slots.get(place)?;
         self.recent[self.oldest] = slot;

@@ -48,7 +48,13 @@ impl Suppressions {
     }
 
     /// Whether findings of `rule` in `block` are allowed; whoever asks has one.
+    #[inline]
     pub(crate) fn allows(&self, rule: &str, block: BlockId) -> bool {
+        let none = self.in_block.is_empty() && self.everywhere.is_empty();
+        !none && self.some_allows(rule, block)
+    }
+
+    fn some_allows(&self, rule: &str, block: BlockId) -> bool {
         let from = self.in_block.partition_point(|(at, _)| *at < block);
         let here = self.in_block[from..].iter().take_while(|(at, _)| *at == block);
         let mut allowed = false;
@@ -74,11 +80,15 @@ impl Suppressions {
 }
 
 /// Whether a block has more than comments and the `%` that frames a tape.
+#[inline]
 pub(crate) fn has_code(program: &Program, block: BlockId) -> bool {
+    let first = program.block(block).first_byte();
+    first.is_some_and(|byte| byte.is_ascii_alphabetic()) || has_code_inside(program, block)
+}
+
+#[inline(never)]
+fn has_code_inside(program: &Program, block: BlockId) -> bool {
     let view = program.block(block);
-    if view.first_byte().is_some_and(|byte| byte.is_ascii_alphabetic()) {
-        return true;
-    }
     let text = &program.source()[view.range().as_usize()];
     match text.iter().find(|byte| !byte.is_ascii_whitespace()) {
         None => return false,

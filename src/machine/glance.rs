@@ -1,7 +1,7 @@
 //! What a block in which all joints run straight does at most, in one look at its joints: enough to settle most blocks.
 use crate::follow::leads_path;
 use crate::limits::SLACK;
-use crate::{AxisKind, Joints, Leg, Limits, MAX_AXES, Machine, Nearness};
+use crate::{AxisKind, Leg, Limits, MAX_AXES, Machine, Nearness};
 use trunnion_interp::MotionKind;
 
 /// Room for rounding in a bound, relative.
@@ -10,36 +10,44 @@ const ROUNDED_UP: f64 = 1.0 + 1e-9;
 /// What the axes of a machine allow, axis by axis, so that a loop over them needs no look at what is declared and what is not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Allowances {
-    /// Travel, mm or rad, with the room for rounding; infinite without one.
-    low: Joints,
-    high: Joints,
-    /// Seconds per mm or rad at the highest speed; infinite where none is declared.
-    per_speed: Joints,
-    /// One for linear axes, zero for rotary ones.
-    linear: Joints,
+    axes: [Allowance; MAX_AXES],
     count: usize,
+}
+
+/// What one axis allows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Allowance {
+    /// Travel, mm or rad, with the room for rounding; infinite without one.
+    low: f64,
+    high: f64,
+    /// Seconds per mm or rad at the highest speed; infinite where none is declared.
+    per_speed: f64,
+    /// One for linear axes, zero for rotary ones.
+    linear: f64,
 }
 
 impl Allowances {
     /// Of a machine.
     pub fn of(machine: &Machine) -> Self {
-        let axes = &machine.axes;
-        let mut allowances = Self {
-            low: [f64::NEG_INFINITY; MAX_AXES],
-            high: [f64::INFINITY; MAX_AXES],
-            per_speed: [f64::INFINITY; MAX_AXES],
-            linear: [0.0; MAX_AXES],
-            count: axes.len().min(MAX_AXES),
+        let free = Allowance {
+            low: f64::NEG_INFINITY,
+            high: f64::INFINITY,
+            per_speed: f64::INFINITY,
+            linear: 0.0,
         };
-        for (joint, axis) in axes.iter().enumerate().take(MAX_AXES) {
+        let mut allowances = Self {
+            axes: [free; MAX_AXES],
+            count: machine.axes.len().min(MAX_AXES),
+        };
+        for (own, axis) in allowances.axes.iter_mut().zip(&machine.axes) {
             if let Limits::Range(low, high) = axis.limits {
-                (allowances.low[joint], allowances.high[joint]) = (low - SLACK, high + SLACK);
+                (own.low, own.high) = (low - SLACK, high + SLACK);
             }
             if let Some(speed) = axis.max_speed {
-                allowances.per_speed[joint] = 1.0 / speed;
+                own.per_speed = 1.0 / speed;
             }
             if axis.kind == AxisKind::Linear {
-                allowances.linear[joint] = 1.0;
+                own.linear = 1.0;
             }
         }
         allowances
@@ -72,19 +80,19 @@ pub fn glance(machine: &Machine, allowances: &Allowances, near: &mut Nearness, l
         return None;
     }
     let (mut inside, mut axes_s, mut way2) = (true, 0.0_f64, 0.0);
-    for joint in 0..allowances.count.min(MAX_AXES) {
-        let value = end.joints[joint];
-        let way = (value - start.joints[joint]).abs();
-        if !(value >= allowances.low[joint] && value <= allowances.high[joint]) {
+    let joints = end.joints.iter().zip(&start.joints);
+    for (own, (&value, before)) in allowances.axes[..allowances.count.min(MAX_AXES)].iter().zip(joints) {
+        let way = (value - before).abs();
+        if !(value >= own.low && value <= own.high) {
             inside = false;
         }
         // an axis that stands still needs no speed: then the product is not a number, which is not larger
-        let seconds = way * allowances.per_speed[joint];
+        let seconds = way * own.per_speed;
         if seconds > axes_s {
             axes_s = seconds;
         }
         // where a value is not finite the sum is none either, also that of a rotary axis
-        way2 += allowances.linear[joint] * way * way;
+        way2 += own.linear * way * way;
     }
     if !way2.is_finite() {
         return None;

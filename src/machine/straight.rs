@@ -33,7 +33,13 @@ impl Follower<'_> {
                     "a line that is not straight behind one that is"
                 );
                 let own = &mut leg.motion;
-                (own.block, own.chain, own.kind, own.feed) = (motion.block, motion.chain, motion.kind, motion.feed);
+                (own.block, own.chain, own.feed) = (motion.block, motion.chain, motion.feed);
+                // the larger kinds need not be written
+                if matches!(motion.kind, MotionKind::Rapid) {
+                    own.kind = MotionKind::Rapid;
+                } else {
+                    own.kind = MotionKind::Linear;
+                }
                 own.start = own.end;
                 own.end = motion.end;
                 debug_assert_eq!(format!("{own:?}"), format!("{motion:?}"), "more than a line differs");

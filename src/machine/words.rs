@@ -149,9 +149,9 @@ impl Words {
     #[inline]
     pub(crate) fn literal_joints(&self, end: &Position, added: &Added) -> Joints {
         let mut joints = [0.0; MAX_AXES];
-        for joint in 0..self.count.min(MAX_AXES) {
+        for (joint, slot) in joints.iter_mut().enumerate().take(self.count) {
             let letter = usize::from(self.letter[joint]).min(AXIS_LETTERS.len() - 1);
-            joints[joint] = end.values[letter] * self.scale[joint] + added.zero[joint] + added.length[joint];
+            *slot = end.values[letter] * self.scale[joint] + added.zero[joint] + added.length[joint];
         }
         joints
     }
@@ -162,10 +162,11 @@ impl Words {
             zero: [0.0; MAX_AXES],
             length: [0.0; MAX_AXES],
         };
-        for joint in 0..self.count.min(MAX_AXES) {
+        let parts = added.zero.iter_mut().zip(&mut added.length).enumerate();
+        for (joint, (zero, length)) in parts.take(self.count) {
             let letter = usize::from(self.letter[joint]).min(AXIS_LETTERS.len() - 1);
-            added.zero[joint] = motion.zero[letter] * self.zero_scale[joint];
-            added.length[joint] = self.per_length[joint] * motion.tool_length_mm;
+            *zero = motion.zero[letter] * self.zero_scale[joint];
+            *length = self.per_length[joint] * motion.tool_length_mm;
         }
         added
     }

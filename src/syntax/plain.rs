@@ -94,31 +94,37 @@ fn digits(source: &[u8], mut at: usize) -> usize {
 
 /// Words with plain numbers and one blank between them from `at` on, and the ends of their lines: most of every program. Between two items
 /// they leave the course where it is.
-#[inline]
+#[inline(never)]
 fn words(source: &[u8], mut at: usize, options: LexOptions, cut: &mut Cut) -> usize {
+    let mut count = cut.count;
     while let Some(word) = source.get(at..).and_then(<[u8]>::first_chunk::<WHOLE>) {
         // a step adds three tokens at most
-        if cut.count > HELD - 3 {
+        if count > HELD - 3 {
+            cut.count = count;
             cut.release();
+            count = 0;
         }
         let Some(length) = whole(word) else { break };
-        cut.hold(TokenKind::Word, at);
-        let end = at + length;
+        cut.out.hold(count, TokenKind::Word, at as u32);
+        count += 1;
+        at += length;
         match word[length] {
-            b' ' => {
-                if GOES_ON[usize::from(word[length + 1])] & BLANK != 0 {
-                    return end;
-                }
-                cut.hold(TokenKind::Blank, end);
-                at = end + 1;
+            b' ' if GOES_ON[usize::from(word[length + 1])] & BLANK == 0 => {
+                cut.out.hold(count, TokenKind::Blank, at as u32);
+                count += 1;
+                at += 1;
             }
             b'\n' => {
-                at = end + 1;
-                cut.line_end(source, options, end, at);
+                let start = at;
+                at += 1;
+                cut.count = count;
+                cut.line_end(source, options, start, at);
+                count = cut.count;
             }
-            _ => return end,
+            _ => break,
         }
     }
+    cut.count = count;
     at
 }
 

@@ -312,8 +312,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if !only {
             self.told.steady = None;
         }
-        let kind = if rapid { MotionKind::Rapid } else { MotionKind::Linear };
-        self.line(kind, end, only, at, state);
+        self.line(rapid, end, only, at, state);
     }
 
     fn arc_motion(&mut self, call: ArcCall, at: At, state: &State) {

@@ -30,11 +30,14 @@ impl Places {
     pub(super) fn ran(&mut self, chain: ChainId, block: Option<BlockId>) {
         match block {
             Some(block) => self.last = block,
-            None if self.table.callers.contains_key(&chain) => {}
-            None => {
-                let last = self.last;
-                Arc::make_mut(&mut self.table).callers.insert(chain, last);
-            }
+            None => self.ran_elsewhere(chain),
+        }
+    }
+    #[inline(never)]
+    fn ran_elsewhere(&mut self, chain: ChainId) {
+        if !self.table.callers.contains_key(&chain) {
+            let last = self.last;
+            Arc::make_mut(&mut self.table).callers.insert(chain, last);
         }
     }
     /// The block of the main program from which the chain of calls goes out: of a chain that is new, the one that ran last.

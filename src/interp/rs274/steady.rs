@@ -17,9 +17,9 @@ pub(super) struct Steady {
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// A straight motion; `only`: its line is this motion and nothing else.
     #[inline]
-    pub(super) fn line(&mut self, kind: MotionKind, pose: &Pose, only: bool, at: At, state: &State) {
+    pub(super) fn line(&mut self, rapid: bool, pose: &Pose, only: bool, at: At, state: &State) {
         if let Some(mut steady) = self.told.steady.take() {
-            let on = self.next_line(&mut steady, kind, pose, at, state);
+            let on = self.next_line(&mut steady, rapid, pose, at, state);
             steady.settled = true;
             // what comes next is told by what differs, unless an offset is not known
             self.told.steady = Some(steady).filter(|_| on);
@@ -28,7 +28,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let shift = self.shift(state);
         let end = shift.coordinates(pose);
         let machine = shift.machine(&end);
-        let feed = self.line_feed(kind, &machine, at, state);
+        let feed = self.line_feed(rapid, &machine, at, state);
+        let kind = if rapid { MotionKind::Rapid } else { MotionKind::Linear };
         let motion = self.motion_to(kind, [end, machine], &shift, feed, at, state);
         self.told.steady = (only && goes_on(&motion, &machine)).then(|| {
             Box::new(Steady {
@@ -40,8 +41,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     }
 
     #[inline]
-    fn line_feed(&mut self, kind: MotionKind, machine: &Position, at: At, state: &State) -> Feed {
-        if matches!(kind, MotionKind::Rapid) {
+    fn line_feed(&mut self, rapid: bool, machine: &Position, at: At, state: &State) -> Feed {
+        if rapid {
             Feed::Rapid
         } else {
             self.feed(machine, false, at, state)
@@ -50,7 +51,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// The same where the line before it was one too; whether the next may go on so.
     #[inline]
-    fn next_line(&mut self, steady: &mut Steady, kind: MotionKind, pose: &Pose, at: At, state: &State) -> bool {
+    fn next_line(&mut self, steady: &mut Steady, rapid: bool, pose: &Pose, at: At, state: &State) -> bool {
         let Steady { shift, motion, .. } = steady;
         let mut machine = self.told.machine;
         motion.start = motion.end;
@@ -68,7 +69,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 "an axis without a word has moved"
             );
         }
-        let feed = self.line_feed(kind, &machine, at, state);
+        let feed = self.line_feed(rapid, &machine, at, state);
         let block = self.block(at);
         let interpreter = &mut *self.interpreter;
         interpreter.state.position = motion.end;
@@ -77,7 +78,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.told.machine = machine;
         motion.block = block;
         motion.chain = interpreter.chain;
-        motion.kind = kind;
+        // the larger kinds need not be written
+        if rapid {
+            motion.kind = MotionKind::Rapid;
+        } else {
+            motion.kind = MotionKind::Linear;
+        }
         motion.feed = feed;
         self.sink.next_line(motion, &interpreter.state);
         goes_on(motion, &machine)

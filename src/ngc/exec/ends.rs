@@ -73,8 +73,8 @@ pub(crate) fn takes_words(state: &State, block: &Block) -> bool {
 pub(crate) fn put_words(pose: &mut Pose, block: &Block) {
     let mut given = block.given & crate::block::AXES;
     while given != 0 {
-        let letter = (given.trailing_zeros() as usize).min(25);
-        pose[PLACES[letter].min(8)] = block.words[letter];
+        let letter = given.trailing_zeros() as usize;
+        pose[PLACES[letter]] = block.words[letter];
         given &= given - 1;
     }
 }

@@ -30,7 +30,7 @@ const fn bit(letter: u8) -> u32 {
 
 /// Reads the line that begins at byte `start` into `block`; one past its line end. `None` where it is not plain: then the block holds
 /// nothing of use.
-#[inline]
+#[inline(never)]
 pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut Block) -> Option<u32> {
     let from = start as usize;
     let text = &source[from..source.len().min(from + LONGEST)];
@@ -41,7 +41,18 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
     if matches!(text.first(), Some(b'N' | b'n')) {
         (block.number, at) = sequence_number(text)?;
     }
-    let mut next = *text.get(at)?;
+    if let Some(&[b'G', code @ (b'0' | b'1'), b' ']) = text.get(at..)?.first_chunk() {
+        // what most lines begin with
+        stop = at + 2;
+        let range = TextRange::new(start + at as u32, start + stop as u32);
+        block.put_g(MOTION, i16::from(code - b'0') * 10, range);
+        at = stop;
+    }
+    let mut next = if stop == 0 {
+        *text.get(at)?
+    } else {
+        behind_blanks(text, &mut at)?
+    };
     loop {
         let letter = next & !0x20;
         let place = letter.wrapping_sub(b'A');
@@ -68,11 +79,7 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
         open &= !(1 << place) | CODES;
         (at, stop) = (end, end);
         // what goes on behind blanks must be a word: a digit or a point there belongs to the number before them
-        next = *text.get(at)?;
-        while next == b' ' {
-            at += 1;
-            next = *text.get(at)?;
-        }
+        next = behind_blanks(text, &mut at)?;
     }
     at += usize::from(text[at] == b'\r');
     if stop == 0 || *text.get(at)? != b'\n' {
@@ -80,6 +87,17 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
     }
     block.range = TextRange::new(start, start + stop as u32);
     Some(start + at as u32 + 1)
+}
+
+/// The byte behind the blanks at `at`, which goes there.
+#[inline]
+fn behind_blanks(text: &[u8], at: &mut usize) -> Option<u8> {
+    let mut next = *text.get(*at)?;
+    while next == b' ' {
+        *at += 1;
+        next = *text.get(*at)?;
+    }
+    Some(next)
 }
 
 /// N at the line's start and the blanks behind its number: digits, perhaps with one point between them.
@@ -278,6 +296,9 @@ mod tests {
             "G1.X.5Y1234.567Z12345.67A123456.7\n",
             "G-0 X1234567 Y.1234567 Z1234567.\n",
             "G0 X12345678 Y1234.5678 Z.12345678 \n",
+            "G1 \n",
+            "N7 G0  X1 G90\n",
+            "G1 X1 Y2 Z3 A4 C5 F1\r\n",
             "G1 X0 Y9.9999999 Z-99.999999\r\n",
         ] {
             assert!(same(text), "{text:?}");
@@ -304,6 +325,12 @@ mod tests {
             "G0 G1 X1\n",
             "G1 G1 X1\n",
             "G80 G1 X.\n",
+            " X1\n",
+            " G1 X1\n",
+            "G1 5 X1\n",
+            "G1 .5 X1\n",
+            "G1 X1 G0\n",
+            "G1 (a) X1\n",
             "G1.5 X1\n",
             "X1.2.3\n",
             "X1.-2 \n",

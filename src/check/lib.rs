@@ -5,6 +5,8 @@ mod again;
 mod analysis;
 mod apart;
 mod both;
+#[cfg(test)]
+mod clamp_tests;
 pub mod config;
 mod diagnostic;
 pub mod fixture;

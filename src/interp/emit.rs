@@ -1,6 +1,7 @@
 //! The motion of an ISO block, from its words and what is in force.
 use crate::arc::{ArcSetting, arc};
 use crate::codes::BlockCodes;
+use crate::frames::XYZ;
 use crate::memory::Chosen;
 use crate::offsets::{LINEAR, ROTARY};
 use crate::run::{Interpreter, Report};
@@ -32,6 +33,7 @@ impl Interpreter<'_> {
         if block.machine_coordinates {
             self.suppressed_length(words, &mut end, report);
         }
+        self.turned_by_hand(words, &mut end, block.machine_coordinates);
         let mut kind = match self.state.motion {
             Some(Action::Rapid) => MotionKind::Rapid,
             Some(Action::ArcClockwise) => self.arc(words, from, end, Turning::Clockwise, report),
@@ -151,6 +153,14 @@ impl Interpreter<'_> {
             }
         }
         end.known &= !axes.unread;
+    }
+
+    /// In a tilted plane, without the tip being led, rotary words alone turn the tool away from where it was in the plane.
+    fn turned_by_hand(&self, words: &Words, end: &mut Position, machine: bool) {
+        let named = words.axes.given | words.axes.unread;
+        if self.memory.frames.tilt.is_some() && !self.state.tcp && !machine && named & ROTARY != 0 && named & XYZ == 0 {
+            end.known &= !XYZ;
+        }
     }
 
     /// Letters whose words are no plain places: [`Motion::says_way`].

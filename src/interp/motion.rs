@@ -123,6 +123,10 @@ pub struct Tilt {
     pub swivel: Swivel,
     /// The posture that is asked for.
     pub posture: Posture,
+    /// Coordinates of the plane that the program does not know at the end, bits as in [`Position::known`]: there the tool stays where the
+    /// machine has it. All of X Y Z: a block that names none; the linear axes stay, `normal` is `None`. Z, or X and Y (of the plane): X Y Z
+    /// of `end` hold, unmarked, the point in the workpiece frame that has zero there.
+    pub free: u16,
 }
 
 /// What kind of motion.

@@ -1,6 +1,7 @@
-//! Rotary axes that a vector sets: the control's choice between postures, and turns onto a tilted plane.
+//! Rotary axes that a vector sets: the control's choice between postures, and turns onto a tilted plane and places in it.
 use crate::choice::{Before, choose};
 use crate::course::on_great_circle;
+use crate::words::{XYZ, zero_point};
 use crate::{Follower, Joints, Leg, NoStance, Open, OpenCause, POLE_TOLERANCE, PoleAction, Stance, pole};
 use core::f64::consts::FRAC_PI_2;
 use trunnion_geometry::Vec3;
@@ -63,6 +64,26 @@ impl Follower<'_> {
             return Err(self.unknown(into.1));
         }
         Ok(self.stand(motion, &into.0, start, None))
+    }
+
+    /// The tip in a tilted plane of which the program knows the height alone, or all but the height: the rest stays.
+    pub(crate) fn tip_in_plane(&self, motion: &Motion, start: Option<&Stance>) -> Option<Vec3> {
+        let (stance, normal) = (start.filter(|_| self.knows_turns(motion))?, motion.tilt.normal?);
+        let mut end = motion.end;
+        end.known |= XYZ;
+        let named = self.words.point(&end)? + zero_point(motion);
+        let now = stance.point_with(motion.tool_length_mm);
+        let height = normal * normal.dot(&(now - named));
+        Some(if motion.tilt.free & (1 << 2) != 0 {
+            named + height
+        } else {
+            now - height
+        })
+    }
+
+    /// Whether the program still knows the rotary coordinates that it named.
+    pub(crate) fn knows_turns(&self, motion: &Motion) -> bool {
+        self.state.named & !motion.start.known & !XYZ == 0
     }
 
     /// A control that holds the first rotary axis near the pole, or stops there with an alarm: where a vector leads through its cone,

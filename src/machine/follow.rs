@@ -234,6 +234,9 @@ impl<'m> Follower<'m> {
         if let Some(point) = self.words.point(&motion.end) {
             return Some(point + zero_point(motion));
         }
+        if motion.tilt.free != 0 {
+            return self.tip_in_plane(motion, start);
+        }
         if motion.tilt.swivel == Swivel::TipStays {
             return start.map(|stance| stance.point_with(motion.tool_length_mm));
         }
@@ -267,7 +270,8 @@ impl<'m> Follower<'m> {
             Some(_) => self.state.known_joints.1,
         };
         let keeps = self.keeps(motion);
-        let swivels = motion.tilt.swivel == Swivel::AxesStay;
+        let stays = motion.tilt.free == XYZ && self.knows_turns(motion);
+        let swivels = motion.tilt.swivel == Swivel::AxesStay || stays;
         let lost = (self.state.named | motion.start.known) & !motion.end.known;
         let moved = motion.says_way & !motion.end.known;
         for (joint, value) in into.0.iter_mut().enumerate().take(self.words.count()) {

@@ -1,5 +1,5 @@
 //! Codes of tilted working planes: G68.2, G68.4, G53.1, G53.6 of a Fanuc; CYCLE800 of a Sinumerik.
-use super::Tilted;
+use super::{Tilted, XYZ};
 use crate::codes::{BlockCodes, Found};
 use crate::offsets::{LINEAR, ROTARY};
 use crate::run::{Interpreter, Report};
@@ -34,6 +34,11 @@ impl<'d> Interpreter<'d> {
             position = new.to_plane(&position);
         }
         self.memory.frames.tilt = tilt;
+        if !self.state.tcp {
+            // words without tool centre point control are no places of the tip where a rotary axis is turned, or the tool hangs off the
+            // zero of the axes; where the tip is, the machine knows
+            position.known &= !XYZ;
+        }
         self.state.position = position;
         self.state.orientation = Orientation::Words;
         self.memory.frames.refresh(&position);

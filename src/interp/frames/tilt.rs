@@ -3,9 +3,12 @@
 //! are put out.
 use super::XYZ;
 use super::shape::sin_cos_degrees;
-use crate::{Motion, MotionKind, Orientation, Position, Swivel};
+use crate::{AXIS_LETTERS, Motion, MotionKind, Orientation, Position, Swivel};
 use trunnion_geometry::arc::Arc;
 use trunnion_geometry::{Mat3, Vec3};
+
+/// Z in [`crate::AXIS_LETTERS`].
+const Z: u16 = 0b100;
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,8 +61,8 @@ impl Tilted {
         carry(position, |known| (back * (known - self.origin), back))
     }
     /// A motion of the plane in the workpiece frame.
-    pub(crate) fn motion_to_work(&self, motion: &Motion) -> Motion {
-        let mut motion = *motion;
+    pub(crate) fn motion_to_work(&self, in_plane: &Motion) -> Motion {
+        let mut motion = *in_plane;
         motion.start = self.to_work(&motion.start);
         motion.end = self.to_work(&motion.end);
         if let MotionKind::Arc(Some(arc)) = &mut motion.kind {
@@ -70,8 +73,31 @@ impl Tilted {
         }
         if !motion.tcp && motion.tilt.swivel == Swivel::No {
             motion.tilt.normal = Some(self.normal());
+            self.leave_free(&mut motion, in_plane);
         }
         motion
+    }
+    /// Coordinates of the plane that the program does not know: where the machine has the tool, the floor that knows the machine finds
+    /// from the normal. Where it cannot, nothing is known of the end.
+    fn leave_free(self, motion: &mut Motion, in_plane: &Motion) {
+        let free = XYZ & !in_plane.end.known;
+        let turns = (3..AXIS_LETTERS.len()).any(|axis| in_plane.start.get(axis) != in_plane.end.get(axis));
+        let is_line = matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear);
+        if free == 0 {
+            return;
+        }
+        let unread = motion.says_way & free != 0;
+        if free == XYZ && !unread {
+            (motion.tilt.normal, motion.tilt.free) = (None, free);
+        } else if is_line && !unread && !turns && (free == Z || free == XYZ & !Z) {
+            let known = Vec3::from_fn(|axis, _| in_plane.end.get(axis).unwrap_or(0.0));
+            let point = self.turn * known + self.origin;
+            motion.end.values[..3].copy_from_slice(point.as_slice());
+            motion.end.known &= !XYZ;
+            motion.tilt.free = free;
+        } else {
+            motion.says_way |= XYZ & !motion.end.known;
+        }
     }
     fn arc_to_work(&self, arc: &Arc) -> Arc {
         let place = |point: Vec3| self.turn * point + self.origin;

@@ -283,3 +283,49 @@ fn increments_to_unknown_coordinates_are_not_passed_over() {
         );
     }
 }
+
+/// Joints X Y Z at the end of each motion, mm; `None` where they are not known.
+fn linear_joints(machine: &Machine, source: String) -> Vec<Option<[f64; 3]>> {
+    let followed = text_followed(machine, "fanuc-30i", source.into_bytes());
+    let joints = *b"XYZ";
+    let at = |leg: &Leg| {
+        let end = leg.end.as_ref().ok()?;
+        Some(joints.map(|letter| end.joints[machine.joint(letter).expect("an axis")]))
+    };
+    followed.legs.iter().map(|(_, leg)| at(leg)).collect()
+}
+
+/// The plane leans by -30 deg about X, the tool stands on it at A -30: on this machine, whose axes meet in its zero, the plane's X Y Z are
+/// the joints then. What a block does not name stays where the machine has it, not where words of another frame seem to put it.
+#[test]
+fn in_a_tilted_plane_what_is_not_named_stays() {
+    let machine = trunnion_machine::builtin("mikron-ucp710").expect("built in");
+    let plane = "G68.2 X0. Y0. Z0. I0. J-30. K0.";
+    let start = "G21 G90 G54\nG0 X10. Y20. Z50.";
+    let joints = |text: String| linear_joints(machine, text);
+    let near = |found: Option<[f64; 3]>, wanted: [f64; 3]| {
+        let found = found.unwrap_or([f64::NAN; 3]);
+        let off = found.iter().zip(wanted).fold(0.0f64, |off, (a, b)| off + (a - b).abs());
+        assert!(off < 1e-9, "{found:?}, not {wanted:?}");
+    };
+    // turned by the control, by hand inside the plane, by hand before it
+    for (before, turn) in [
+        ("A0. C0.", "G53.1\n"),
+        ("A0. C0.", "G0 A-30. C0.\n"),
+        ("A-30. C0.", ""),
+    ] {
+        let head = format!("{start} {before}\n{plane}\n{turn}");
+        let last = |tail: &str| *joints(format!("{head}{tail}")).last().expect("a motion");
+        near(last("G1 Z5. F500.\n"), [10.0, 20.0, 5.0]);
+        near(last("G0 X12. Y5.\n"), [12.0, 5.0, 50.0]);
+        near(last("G0 X12. Y5.\nG0 Z30.\nG1 X14.\n"), [14.0, 5.0, 30.0]);
+        near(last("G0 X12. Y5. Z30.\nG69\nG0 Z100.\n"), [12.0, 5.0, 100.0]);
+        // the side of the plane along which it goes is not told by the normal
+        assert_eq!(last("G1 X14. F500.\n"), None);
+        // a value that is not known is not a word that is missing
+        assert_eq!(last("G1 X12. Y5. Z#500 F500.\n"), None);
+        if !turn.is_empty() {
+            near(last(""), [10.0, 20.0, 50.0]);
+        }
+    }
+}

@@ -292,6 +292,7 @@ impl Interpreter<'_> {
             zero: state.zero,
             tool_length_mm: state.tool_length_mm.unwrap_or(0.0),
             machine_coordinates: false,
+            radii: self.dialect.quirks.diameter,
             tool: state.tool,
             tilt: crate::Tilt::default(),
         }

@@ -202,6 +202,9 @@ pub struct Motion {
     pub tool_length_mm: f64,
     /// Programmed under G53: machine coordinates.
     pub machine_coordinates: bool,
+    /// The control takes words of X for diameters itself, or was told that they are none (turning dialects, G7 of LinuxCNC): coordinates are
+    /// radii, whatever the machine file says of words.
+    pub radii: bool,
     /// Number of the tool in use, if known.
     pub tool: Option<u32>,
     /// Tilted working plane.
@@ -228,6 +231,7 @@ impl Motion {
             zero: [0.0; 9],
             tool_length_mm: 0.0,
             machine_coordinates: false,
+            radii: false,
             tool: None,
             tilt: Tilt::default(),
         }

@@ -71,7 +71,7 @@ impl Follower<'_> {
         let (stance, normal) = (start.filter(|_| self.knows_turns(motion))?, motion.tilt.normal?);
         let mut end = motion.end;
         end.known |= XYZ;
-        let named = self.words.point(&end)? + zero_point(motion);
+        let named = self.words.point(motion, &end)? + zero_point(motion);
         let now = stance.point_with(motion.tool_length_mm);
         let height = normal * normal.dot(&(now - named));
         Some(if motion.tilt.free & (1 << 2) != 0 {

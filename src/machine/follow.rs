@@ -126,7 +126,7 @@ impl<'m> Follower<'m> {
         match motion.kind {
             MotionKind::Dwell(_) => leg.end = leg.start.ok_or_else(|| self.unknown(leg.known_joints.1)),
             MotionKind::Unknown => leg.known_joints.1 = 0,
-            MotionKind::Arc(_) if self.words.diameters => leg.known_joints.1 = 0,
+            MotionKind::Arc(_) if self.words.diameters && !motion.radii => leg.known_joints.1 = 0,
             MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(_) => {
                 leg.end = self.arrive(motion, leg.start.as_ref(), &mut leg.known_joints, &mut leg.open);
             }
@@ -231,7 +231,7 @@ impl<'m> Follower<'m> {
     /// The tip that tip words name, workpiece frame with the work offset, mm. Where the program never named it but the machine
     /// stands somewhere (TCP was just switched), it stays there.
     fn tip(&self, motion: &Motion, start: Option<&Stance>) -> Option<Vec3> {
-        if let Some(point) = self.words.point(&motion.end) {
+        if let Some(point) = self.words.point(motion, &motion.end) {
             return Some(point + zero_point(motion));
         }
         if motion.tilt.free != 0 {

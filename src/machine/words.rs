@@ -17,7 +17,7 @@ pub(crate) struct Words {
     letter: [u8; MAX_AXES],
     /// mm (rad) of joint per mm (degree) of word.
     scale: [f64; MAX_AXES],
-    /// The same for work offsets, which are never diameters.
+    /// The same for work offsets, which are never diameters, and for coordinates that the control tells as radii.
     zero_scale: [f64; MAX_AXES],
     /// mm of joint per mm of tool length: the tool axis at home in terms of the linear joints.
     per_length: Joints,
@@ -137,7 +137,8 @@ impl Words {
             {
                 continue;
             }
-            let word = position.values[letter] * self.scale[joint];
+            let scale = if motion.radii { self.zero_scale[joint] } else { self.scale[joint] };
+            let word = position.values[letter] * scale;
             let zero = motion.zero[letter] * self.zero_scale[joint] * offset;
             *slot = word + zero + self.per_length[joint] * length;
             known |= 1 << joint;
@@ -237,11 +238,11 @@ impl Words {
         Some(found)
     }
 
-    /// X, Y, Z of a position in mm, if all three are known.
+    /// X, Y, Z of a position of the motion in mm, if all three are known.
     #[inline]
-    pub(crate) fn point(&self, position: &Position) -> Option<Vec3> {
+    pub(crate) fn point(&self, motion: &Motion, position: &Position) -> Option<Vec3> {
         let point = position.xyz()?;
-        Some(if self.diameters {
+        Some(if self.diameters && !motion.radii {
             point.component_mul(&self.point_scale)
         } else {
             point

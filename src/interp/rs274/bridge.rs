@@ -182,6 +182,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             zero: shift.zero,
             tool_length_mm: shift.length,
             machine_coordinates: false,
+            radii: state.lathe_diameter,
             tool: modal.tool,
             tilt: crate::Tilt::default(),
         };

@@ -329,3 +329,29 @@ fn in_a_tilted_plane_what_is_not_named_stays() {
         }
     }
 }
+
+/// X of a turning dialect is halved once, by the control, also where the machine file says that words are diameters; other dialects leave it
+/// to the machine file.
+#[test]
+fn a_diameter_is_halved_once() {
+    let machine = trunnion_machine::builtin("mill-turn-bc").expect("built in");
+    let x = machine.joint(b'X').expect("X");
+    let last = |dialect: &str, text: &str| {
+        let text = format!("G21 G40\nG0 X40. Y0. Z5. B0. C0.\n{text}\n");
+        let followed = text_followed(machine, dialect, text.into_bytes());
+        let (_, leg) = followed.legs.last().expect("a motion");
+        leg.end.as_ref().ok().map(|end| end.joints[x])
+    };
+    for (dialect, text, wanted) in [
+        ("fanuc-30i-lathe-a", "G1 X30. F0.1", Some(15.0)),
+        ("fanuc-30i-lathe-a", "G1 U-10. F0.1", Some(15.0)),
+        ("fanuc-30i-lathe-b", "G91 G1 X-10. F0.1", Some(15.0)),
+        ("fanuc-30i-lathe-b", "G3 X30. Z0. I-5. K0. F0.1", Some(15.0)),
+        ("fanuc-30i", "G1 X30. F100.", Some(15.0)),
+        // an arc in diameters is not modelled where the control does not say what they are
+        ("fanuc-30i", "G18 G3 X30. Z0. I-5. K0. F100.", None),
+        ("linuxcnc", "G7\nG1 X30. F100.", Some(15.0)),
+    ] {
+        assert_eq!(last(dialect, text), wanted, "{dialect} {text}");
+    }
+}

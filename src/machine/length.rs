@@ -48,7 +48,10 @@ impl Follower<'_> {
                 if let (true, Some(start), Ok(end)) = (has_tip_words(motion), &leg.start, &leg.end) {
                     return way((end.point - start.point_with(end.tool_length)).norm());
                 }
-                match (self.words.point(motion, &motion.start), self.words.point(motion, &motion.end)) {
+                match (
+                    self.words.point(motion, &motion.start),
+                    self.words.point(motion, &motion.end),
+                ) {
                     (Some(from), Some(to)) => way((to - from).norm()),
                     _ => self.joint_length(leg),
                 }

@@ -137,7 +137,11 @@ impl Words {
             {
                 continue;
             }
-            let scale = if motion.radii { self.zero_scale[joint] } else { self.scale[joint] };
+            let scale = if motion.radii {
+                self.zero_scale[joint]
+            } else {
+                self.scale[joint]
+            };
             let word = position.values[letter] * scale;
             let zero = motion.zero[letter] * self.zero_scale[joint] * offset;
             *slot = word + zero + self.per_length[joint] * length;

@@ -309,11 +309,7 @@ fn in_a_tilted_plane_what_is_not_named_stays() {
         assert!(off < 1e-9, "{found:?}, not {wanted:?}");
     };
     // turned by the control, by hand inside the plane, by hand before it
-    for (before, turn) in [
-        ("A0. C0.", "G53.1\n"),
-        ("A0. C0.", "G0 A-30. C0.\n"),
-        ("A-30. C0.", ""),
-    ] {
+    for (before, turn) in [("A0. C0.", "G53.1\n"), ("A0. C0.", "G0 A-30. C0.\n"), ("A-30. C0.", "")] {
         let head = format!("{start} {before}\n{plane}\n{turn}");
         let last = |tail: &str| *joints(format!("{head}{tail}")).last().expect("a motion");
         near(last("G1 Z5. F500.\n"), [10.0, 20.0, 5.0]);

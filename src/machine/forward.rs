@@ -52,8 +52,7 @@ impl Turn {
     /// By the angle with this sine.
     #[inline]
     fn by(&self, sin: f64, v: &Vec3) -> Vec3 {
-        let [turned] = Along::of(&self.axis).turn(&self.axis, (sin, self.cos), [v]);
-        turned
+        Along::of(&self.axis).turn(&self.axis, (sin, self.cos), v)
     }
 }
 
@@ -82,25 +81,56 @@ impl Along {
         }
     }
 
-    /// Vectors turned about the axis `e`, of which this is told, by the angle with this sine and cosine (Rodrigues' formula).
+    /// A vector turned about the axis `e`, of which this is told, by the angle with this sine and cosine (Rodrigues' formula).
     #[inline]
-    pub(crate) fn turn<const N: usize>(self, e: &Vec3, (sin, cos): (f64, f64), vectors: [&Vec3; N]) -> [Vec3; N] {
+    pub(crate) fn turn(self, e: &Vec3, (sin, cos): (f64, f64), v: &Vec3) -> Vec3 {
         match self {
-            Self::Z(direction) => {
-                let sin = sin * direction;
-                vectors.map(|v| Vec3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z))
-            }
-            Self::X(direction) => {
-                let sin = sin * direction;
-                vectors.map(|v| Vec3::new(v.x, v.y * cos - v.z * sin, v.y * sin + v.z * cos))
-            }
-            Self::Y(direction) => {
-                let sin = sin * direction;
-                vectors.map(|v| Vec3::new(v.x * cos + v.z * sin, v.y, v.z * cos - v.x * sin))
-            }
-            Self::Askew => vectors.map(|v| v * cos + e.cross(v) * sin + e * (e.dot(v) * (1.0 - cos))),
+            Self::Z(direction) => about_z((sin * direction, cos), v),
+            Self::X(direction) => about_x((sin * direction, cos), v),
+            Self::Y(direction) => about_y((sin * direction, cos), v),
+            Self::Askew => askew(e, (sin, cos), v),
         }
     }
+
+    /// The same of two vectors.
+    #[inline]
+    pub(crate) fn turn_both(self, e: &Vec3, (sin, cos): (f64, f64), a: &Vec3, b: &Vec3) -> (Vec3, Vec3) {
+        match self {
+            Self::Z(direction) => {
+                let turn = (sin * direction, cos);
+                (about_z(turn, a), about_z(turn, b))
+            }
+            Self::X(direction) => {
+                let turn = (sin * direction, cos);
+                (about_x(turn, a), about_x(turn, b))
+            }
+            Self::Y(direction) => {
+                let turn = (sin * direction, cos);
+                (about_y(turn, a), about_y(turn, b))
+            }
+            Self::Askew => (askew(e, (sin, cos), a), askew(e, (sin, cos), b)),
+        }
+    }
+}
+
+#[inline]
+fn about_x((sin, cos): (f64, f64), v: &Vec3) -> Vec3 {
+    Vec3::new(v.x, v.y * cos - v.z * sin, v.y * sin + v.z * cos)
+}
+
+#[inline]
+fn about_y((sin, cos): (f64, f64), v: &Vec3) -> Vec3 {
+    Vec3::new(v.x * cos + v.z * sin, v.y, v.z * cos - v.x * sin)
+}
+
+#[inline]
+fn about_z((sin, cos): (f64, f64), v: &Vec3) -> Vec3 {
+    Vec3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z)
+}
+
+#[inline(never)]
+fn askew(e: &Vec3, (sin, cos): (f64, f64), v: &Vec3) -> Vec3 {
+    v * cos + e.cross(v) * sin + e * (e.dot(v) * (1.0 - cos))
 }
 
 /// Sum of the linear motions in each of the three segments of the chain: before, between and after the rotary axes.

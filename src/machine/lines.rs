@@ -86,9 +86,9 @@ impl Lines {
         }
         let [outer, inner] = end.turns;
         let arm = self.tool + shifts[2] - second.point;
-        let [w, arm] = along[1].turn(&second.direction, inner, [&machine.tool_axis, &arm]);
+        let (w, arm) = along[1].turn_both(&second.direction, inner, &machine.tool_axis, &arm);
         let arm = arm + second.point + shifts[1] - first.point;
-        let [axis, arm] = along[0].turn(&first.direction, outer, [&w, &arm]);
+        let (axis, arm) = along[0].turn_both(&first.direction, outer, &w, &arm);
         let point = arm + first.point + shifts[0];
         let (s, branch) = pole::posture(pair, &w);
         end.axis = axis;

@@ -88,17 +88,19 @@ impl Follower<'_> {
         let (Some(start), Ok(end), Some(lines)) = (&leg.start, &mut leg.end, &self.lines) else {
             return;
         };
-        let joints = self.words.literal_joints(&leg.motion.end, &lines.added);
-        end.joints = joints;
+        self.words
+            .put_literal_joints(&leg.motion.end, &lines.added, &mut end.joints);
         if !lines.stand(self.machine, start, end) {
+            let joints = end.joints;
             *end = self.stand(&leg.motion, &joints, Some(start), None);
         }
-        leg.known_joints = (joints, all);
-        self.measure_straight(leg);
+        leg.known_joints = (end.joints, all);
+        let rotary = end.rotary(self.machine);
+        self.measure_straight(leg, rotary);
         let Ok(end) = &leg.end else { return };
         let state = &mut self.state;
         state.known_joints = leg.known_joints;
-        state.rotary = end.rotary(self.machine);
+        state.rotary = rotary;
         state.rotary_known = true;
         if end.branch != 0 {
             state.sign = end.branch;
@@ -109,15 +111,17 @@ impl Follower<'_> {
         state.stance = Some(*end);
     }
 
+    /// `to`: the rotary joints at the end.
     #[inline]
-    fn measure_straight(&self, leg: &mut Leg) {
+    fn measure_straight(&self, leg: &mut Leg, to: [f64; 2]) {
         leg.rotary_change = [0.0; 2];
         leg.length = 0.0;
         let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
             return;
         };
         leg.pole_angle_min = end.pole_angle;
-        let (from, to) = (start.rotary(self.machine), end.rotary(self.machine));
+        let from = self.state.rotary;
+        debug_assert_eq!(from, start.rotary(self.machine), "the machine stands elsewhere");
         leg.rotary_change = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
         if let (Some(from), Some(to)) = (leg.motion.start.xyz(), leg.motion.end.xyz()) {
             leg.length = way((to - from).norm());

@@ -150,15 +150,14 @@ impl Words {
         (joints, known)
     }
 
-    /// [`Self::joints`] where words are literal, name all joints, and are no machine coordinates; `added` is that of their motion.
+    /// [`Self::joints`] where words are literal, name all joints, and are no machine coordinates; `added` is that of their motion. What is
+    /// behind the last joint stays.
     #[inline]
-    pub(crate) fn literal_joints(&self, end: &Position, added: &Added) -> Joints {
-        let mut joints = [0.0; MAX_AXES];
+    pub(crate) fn put_literal_joints(&self, end: &Position, added: &Added, joints: &mut Joints) {
         for (joint, slot) in joints.iter_mut().enumerate().take(self.count) {
             let letter = usize::from(self.letter[joint]).min(AXIS_LETTERS.len() - 1);
             *slot = end.values[letter] * self.scale[joint] + added.zero[joint] + added.length[joint];
         }
-        joints
     }
 
     /// What a motion adds to its words.

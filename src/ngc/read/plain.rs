@@ -64,13 +64,12 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
             Some((value, length)) => (value, at + length),
             None => number(text, at + 1)?,
         };
-        // M98 and M99 are calls and returns
-        if letter == b'M' && value >= 98.0 {
-            return None;
-        }
         let range = TextRange::new(start + at as u32, start + end as u32);
         if ANY_VALUE >> place & 1 != 0 {
             block.put(letter, value, range);
+        } else if letter == b'M' && value >= 98.0 {
+            // calls and returns
+            return None;
         } else if letter == b'G' && block.g[MOTION] < 0 && (value == 0.0 || value == 1.0) {
             block.put_g(MOTION, if value == 0.0 { 0 } else { 10 }, range);
         } else {
@@ -169,14 +168,17 @@ fn few(bytes: [u8; 8], ninth: u8) -> Option<(u64, usize, usize)> {
         let found = (whole_number(word, whole), 0, (whole / 8) as usize);
         return (whole > 0).then_some(found);
     }
+    // the next that is no digit ends it
+    let behind = other & (other - 1);
+    let count = match (behind.trailing_zeros() & 0x38).checked_sub(8) {
+        Some(0) => return None,
+        Some(count) => count,
+        None if ninth.is_ascii_digit() => return None,
+        None => 56,
+    };
     // the digits behind the point move up to those in front of it
     let before = (1 << whole) - 1;
-    let joined = word & before | (word >> 8 | as_digit(ninth) << 56) & !before;
-    let other = not_digits(joined);
-    let count = other.trailing_zeros() & 0x38;
-    if other == 0 || count == 0 {
-        return None;
-    }
+    let joined = word & before | word >> 8 & !before;
     let places = ((count - whole) / 8) as usize;
     Some((whole_number(joined, count), places, (count / 8) as usize + 1))
 }

@@ -342,11 +342,14 @@ impl Pass<'_> {
 
     /// Shows a motion to the rules that have something to look at; `holds`: what holds of it.
     fn read_motion(&mut self, motion: &Motion, in_force: &InForce, holds: Needs) {
+        // only a debug build comes here then
+        let silent = self.silent == Some(holds);
         self.silent = Some(holds);
         for rule in &self.motions {
             let (needs, run) = rule.run;
             let asked = needs.are_met(holds);
             if asked {
+                debug_assert!(!silent, "{} would not be asked", rule.name);
                 self.silent = None;
             }
             // a debug build asks them all and sees that the others are silent

@@ -145,7 +145,7 @@ impl Follower<'_> {
 pub(crate) mod tests {
     use crate::{BUILTIN_MACHINES, Follower, Leg, Machine, Open, OpenCause, builtin};
     use proptest::prelude::*;
-    use trunnion_interp::{Feed, Motion, MotionKind, Position};
+    use trunnion_interp::{AXIS_LETTERS, Feed, Motion, MotionKind, Position};
 
     /// The built-in machines, and one with its axes off the origin and turned about, whose linear axes lie in each piece of the chain.
     fn machines() -> Vec<Machine> {
@@ -217,11 +217,12 @@ pub(crate) mod tests {
             // told line by line from its first motion on
             let (mut lines, mut line, mut before) = (short.clone(), None, f64::NAN);
             for (values, held, (rapid, shifted)) in places {
-                let offset = if shifted && held == 0 { 3.0 - offset } else { offset };
+                let offset = if shifted && held < 5 { 3.0 - offset } else { offset };
                 let mut to = at;
                 for (axis, value) in values.into_iter().enumerate() {
-                    // an axis that the machine lacks, and one that stands still
-                    if at.known & (1 << axis) == 0 || (axis < 6 && axis != usize::from(held)) {
+                    // seldom an axis that the machine lacks, and one that stands still
+                    let own = machine.axes.iter().any(|own| own.letter == AXIS_LETTERS[axis]);
+                    if at.known & (1 << axis) == 0 || ((own || held == 11) && axis != usize::from(held)) {
                         to.set(axis, value);
                     }
                 }

@@ -40,8 +40,12 @@ impl Interpreter<'_> {
         };
         match (delta, self.state.position.xyz()) {
             (Some(delta), Some(from)) => self.go(from + delta, None, args.range, report),
-            // from nowhere to nowhere: nothing is wrong with the record
-            (Some(_), None) => self.unknown_goto(self.held_orientation(), report),
+            // from nowhere to nowhere: nothing is wrong with the record, but nobody knows what it does
+            (Some(_), None) => {
+                let what = "GODLTA from a place that is not known".to_owned();
+                report.fault(report.whole(), FaultKind::NotModelled { what });
+                self.unknown_goto(self.held_orientation(), report)
+            }
             (None, _) => self.unreadable_goto(report),
         }
     }

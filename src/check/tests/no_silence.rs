@@ -3,7 +3,7 @@
 //!
 //! `TRUNNION_SILENCE_CASES` sets the number of programs.
 use proptest::prelude::*;
-use trunnion_check::{Settings, Severity, Status, check};
+use trunnion_check::{Diagnostic, Settings, Severity, Status, check};
 use trunnion_interp::{Fault, Limits, ModalState, Motion, MotionKind, Setup, Sink, run};
 use trunnion_machine::{Follower, builtin};
 
@@ -134,6 +134,44 @@ fn line() -> impl Strategy<Value = String> {
     (codes, prop::collection::vec(word(), 0..5)).prop_map(|(codes, words)| codes.join(" ") + &words.concat() + "\n")
 }
 
+/// Records that move the tool, or change what moves it.
+const RECORDS: [&str; 34] = [
+    "GOTO/1,2,3,0,0,1",
+    "GOTO/4,2,3",
+    "GOTO/4,2,3,0.6,0,0.8",
+    "GOTO/1,1",
+    "GOTO/P1",
+    "GOTO/1,2,3,X",
+    "GODLTA/1,2,3",
+    "GODLTA/1",
+    "GODLTA/P1",
+    "FROM/0,0,50",
+    "GOHOME",
+    "GO/TO,L1",
+    "GOFWD/L1,TO,L2",
+    "INDIRV/1,0,0",
+    "TLAXIS/1,0,0",
+    "RAPID",
+    "FEDRAT/100",
+    "FEDRAT/0.1,MMPR",
+    "CYCLE/DRILL,5,MMPM,2",
+    "CYCLE/OFF",
+    "TRACUT/1,0,0,5,0,1,0,0,0,0,1,0",
+    "TRACUT/NOMORE",
+    "COPY/1,TRANSL,5,0,0,2",
+    "INDEX/1",
+    "CALL/M1",
+    "LOADTL/1",
+    "MULTAX/OFF",
+    "MULTAX/ON",
+    "ROTABL/45,AAXIS",
+    "ROTHED/30",
+    "CIRCLE/0,0,0,0,0,1,5",
+    "MOVARC/0,0,50,0,0,1,5,ANGLE,90",
+    "CUTCOM/LEFT",
+    "STOP",
+];
+
 /// Looks for motions that must not go by in silence.
 struct Silent<'m> {
     follower: Follower<'m>,
@@ -157,6 +195,31 @@ fn cases() -> u32 {
     asked.and_then(|count| count.parse().ok()).unwrap_or(400)
 }
 
+fn judge(dialect: &str, text: String) -> Result<(), TestCaseError> {
+    let dialect = trunnion_dialect::builtin(dialect).expect("built in");
+    let machine = builtin("mikron-ucp710").expect("built in");
+    let limits = Limits {
+        blocks: 10_000,
+        ..Limits::default()
+    };
+    let setup = Setup {
+        limits,
+        ..Setup::default()
+    };
+    let program = trunnion_syntax::parse(text.clone().into_bytes(), dialect.lex);
+    let mut silent = Silent {
+        follower: Follower::new(machine),
+        found: None,
+    };
+    run(&program, dialect, &setup, &mut silent);
+    let report = check(&program, &Settings::new(dialect, Some(machine), setup));
+    let open = |found: &Diagnostic| found.status == Status::Unknown || found.severity != Severity::Info;
+    let told = report.diagnostics.iter().any(open);
+    let silent = silent.found.filter(|_| !told);
+    prop_assert!(silent.is_none(), "{}:\n{text}{silent:?}", dialect.name);
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(cases()) })]
 
@@ -167,16 +230,13 @@ proptest! {
         wildly in any::<bool>(),
         dialect in prop::sample::select(DIALECTS.to_vec()),
     ) {
-        let dialect = trunnion_dialect::builtin(dialect).expect("built in");
-        let machine = builtin("mikron-ucp710").expect("built in");
         let lines = if wildly { [wild, tame].concat() } else { tame };
-        let text = format!("G21 G90 G94 G0 X1. Y2. Z50. A0. C0. F100\n{}M30\n", lines.concat());
-        let setup = Setup { limits: Limits { blocks: 10_000, ..Limits::default() }, ..Setup::default() };
-        let program = trunnion_syntax::parse(text.clone().into_bytes(), dialect.lex);
-        let mut silent = Silent { follower: Follower::new(machine), found: None };
-        run(&program, dialect, &setup, &mut silent);
-        let report = check(&program, &Settings::new(dialect, Some(machine), setup));
-        let told = report.diagnostics.iter().any(|found| found.status == Status::Unknown || found.severity != Severity::Info);
-        prop_assert!(told || silent.found.is_none(), "{}:\n{text}{}", dialect.name, silent.found.unwrap_or_default());
+        judge(dialect, format!("G21 G90 G94 G0 X1. Y2. Z50. A0. C0. F100\n{}M30\n", lines.concat()))?;
+    }
+
+    #[test]
+    fn nothing_unknown_in_cl_data_is_passed_over(records in prop::collection::vec(prop::sample::select(RECORDS.to_vec()), 1..5)) {
+        let head = "UNITS/MM\nMULTAX/ON\nCUTTER/10\nSPINDL/ON\nRAPID\nGOTO/1,2,50,0,0,1\nFEDRAT/100,MMPM\n";
+        judge("apt", format!("{head}{}\nFINI\n", records.join("\n")))?;
     }
 }

@@ -7,7 +7,7 @@ N10 G17 G20 G21 G40 G54 G90 G94
 N20 T1 M6
 N30 S5000 M3
 N40 G0 G43 H1 Z10
-(expect decimal-comma)
+(expect decimal-comma position-unknown)
 N50 X1,5 Y0
 (expect bad-number position-unknown)
 N60 G1 Z-1.2.5 F300

@@ -125,13 +125,11 @@ fn length(key: &str, value: Option<&Spanned<f64>>) -> Result<Option<f64>, Config
 /// `+X`: axis and sense.
 fn bore_shift(way: &Spanned<String>) -> Result<(usize, f64), ConfigError> {
     let sense = |sign: char| if sign == '-' { -1.0 } else { 1.0 };
-    match way.get_ref().as_bytes() {
-        [sign @ (b'+' | b'-'), axis @ b'X'..=b'Z'] => Ok((usize::from(axis - b'X'), sense(char::from(*sign)))),
-        _ => {
-            let message = format!("`bore_shift` is one of +X -X +Y -Y +Z -Z, not {:?}", way.get_ref());
-            Err(at(way, message))
-        }
+    if let [sign @ (b'+' | b'-'), axis @ b'X'..=b'Z'] = way.get_ref().as_bytes() {
+        return Ok((usize::from(axis - b'X'), sense(char::from(*sign))));
     }
+    let message = format!("`bore_shift` is one of +X -X +Y -Y +Z -Z, not {:?}", way.get_ref());
+    Err(at(way, message))
 }
 
 fn position(point: &BTreeMap<Spanned<String>, Spanned<f64>>) -> Result<Position, ConfigError> {

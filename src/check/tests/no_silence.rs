@@ -195,7 +195,7 @@ fn cases() -> u32 {
     asked.and_then(|count| count.parse().ok()).unwrap_or(400)
 }
 
-fn judge(dialect: &str, text: String) -> Result<(), TestCaseError> {
+fn judge(dialect: &str, text: &str) -> Result<(), TestCaseError> {
     let dialect = trunnion_dialect::builtin(dialect).expect("built in");
     let machine = builtin("mikron-ucp710").expect("built in");
     let limits = Limits {
@@ -206,7 +206,7 @@ fn judge(dialect: &str, text: String) -> Result<(), TestCaseError> {
         limits,
         ..Setup::default()
     };
-    let program = trunnion_syntax::parse(text.clone().into_bytes(), dialect.lex);
+    let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
     let mut silent = Silent {
         follower: Follower::new(machine),
         found: None,
@@ -231,12 +231,12 @@ proptest! {
         dialect in prop::sample::select(DIALECTS.to_vec()),
     ) {
         let lines = if wildly { [wild, tame].concat() } else { tame };
-        judge(dialect, format!("G21 G90 G94 G0 X1. Y2. Z50. A0. C0. F100\n{}M30\n", lines.concat()))?;
+        judge(dialect, &format!("G21 G90 G94 G0 X1. Y2. Z50. A0. C0. F100\n{}M30\n", lines.concat()))?;
     }
 
     #[test]
     fn nothing_unknown_in_cl_data_is_passed_over(records in prop::collection::vec(prop::sample::select(RECORDS.to_vec()), 1..5)) {
         let head = "UNITS/MM\nMULTAX/ON\nCUTTER/10\nSPINDL/ON\nRAPID\nGOTO/1,2,50,0,0,1\nFEDRAT/100,MMPM\n";
-        judge("apt", format!("{head}{}\nFINI\n", records.join("\n")))?;
+        judge("apt", &format!("{head}{}\nFINI\n", records.join("\n")))?;
     }
 }

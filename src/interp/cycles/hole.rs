@@ -9,6 +9,9 @@ use trunnion_dialect::Action;
 /// Holes of one block.
 const MOST_REPEATS: u32 = 10_000;
 
+/// Motions of one block that are worked out: they are held until the block is done.
+const MOST_MOTIONS: usize = 200_000;
+
 /// One hole with its numbers, all as coordinates of the words.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
@@ -55,6 +58,9 @@ impl Interpreter<'_> {
         places.given &= !(1 << axis);
         places.unread &= !(1 << axis);
         for _ in 0..repeats {
+            if self.is_full() {
+                return self.too_many(words, axis, report);
+            }
             let position = self.state.position;
             let mut place = self.memory.frames.programmed(&position);
             let before = place;
@@ -68,6 +74,16 @@ impl Interpreter<'_> {
             }
             self.hole(&plan, report);
         }
+    }
+
+    /// Whether the block in hand has made more motions than are worked out.
+    pub(super) fn is_full(&self) -> bool {
+        self.memory.out.len() > MOST_MOTIONS
+    }
+
+    pub(super) fn too_many(&mut self, words: &Words, axis: usize, report: &mut Report<'_>) {
+        let why = format!("more than {MOST_MOTIONS} motions in one block");
+        self.lost(words, axis, &why, report);
     }
 
     /// Numbers of the hole; says what is missing.

@@ -70,6 +70,10 @@ impl Interpreter<'_> {
         };
         let incremental = std::mem::replace(&mut self.state.incremental, false);
         for hole in 0..count {
+            if self.is_full() {
+                self.too_many(words, plane_axes(self.state.plane)[2], report);
+                break;
+            }
             let number = f64::from(hole);
             let (along, degrees) = match pattern {
                 Pattern::Line => (size * number, first),

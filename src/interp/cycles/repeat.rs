@@ -142,6 +142,10 @@ impl Interpreter<'_> {
         };
         let feed = self.feed_of(MotionKind::Linear, words, report);
         for run in 0..runs {
+            if self.is_full() {
+                let what = format!("{} with so many motions", self.memory.cycle.id);
+                return self.somehow_back(&what, start, report);
+            }
             let left = 1.0 - f64::from(run) / f64::from(runs - 1);
             let by = [allowance[0] + x * left, allowance[1] + z * left];
             let mut from = start;

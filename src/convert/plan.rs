@@ -7,7 +7,7 @@ use trunnion_certify::conversion::{Posed, Reading, Track, rotary};
 use trunnion_dialect::Dialect;
 use trunnion_geometry::{Vec3, arc::Arc, deg};
 use trunnion_interp::{Feed, MotionKind, Orientation, Setup};
-use trunnion_machine::Machine;
+use trunnion_machine::{Joints, Machine};
 
 /// What X Y Z are in the program that is written.
 #[derive(Clone, Copy)]
@@ -318,7 +318,18 @@ impl Planner<'_> {
     ) -> Result<Vec<Move>, Refused> {
         let feed = self.plain_feed(posed)?;
         let turns = matches!(self.mode, Mode::Joints(_)) && ends.iter().any(|end| end.q != start);
-        let by_path = posed.tip_words() || posed.leg.as_ref().is_none_or(|leg| leg.rotary_change == [0.0; 2]);
+        let standing = posed.leg.as_ref().filter(|leg| leg.rotary_change == [0.0; 2]);
+        let by_path = posed.feeds_the_tip() || standing.is_some();
+        // along what F counts now, where it is not the tip's way: a share of it for each part
+        let counted = standing.filter(|_| !posed.feeds_the_tip());
+        let counted = counted.map(|leg| leg.length / ends.len() as f64);
+        // X Y Z run as far as the tip does, or not: F counts along them
+        let mut before = match self.mode {
+            Mode::Joints(machine) if !turns => {
+                joints(machine, start, &track.at(0.0).tip, frame).map(|joints| (machine, joints))
+            }
+            _ => None,
+        };
         let mut from = track.at(0.0).tip;
         let mut moves = Vec::with_capacity(ends.len());
         for end in ends {
@@ -327,8 +338,16 @@ impl Planner<'_> {
                 .ok_or_else(|| self.refuse(posed, "X Y Z of the machine do not reach it".to_owned()))?;
             let way = (end.tip - from).norm();
             from = end.tip;
+            let runs = before.as_mut().map_or(way, |(machine, last)| {
+                let next = end.joints.or_else(|| joints(machine, end.q, &end.tip, frame));
+                next.map_or(way, |next| xyz_way(machine, &std::mem::replace(last, next), &next))
+            });
+            let stretch =
+                Some(runs / counted.unwrap_or(way)).filter(|ratio| (ratio - 1.0).abs() > 1e-6 && ratio.is_finite());
+            let stretch = stretch.filter(|ratio| *ratio > 0.0).unwrap_or(1.0);
             let feed = match feed {
-                Feed::PerMinute(_) | Feed::PerRevolution(_) if by_path && !turns => feed,
+                Feed::PerMinute(feed) if by_path && !turns => Feed::PerMinute(feed * stretch),
+                Feed::PerRevolution(feed) if by_path && !turns => Feed::PerRevolution(feed * stretch),
                 Feed::Rapid | Feed::Unknown => feed,
                 _ => self.timed(posed, way, ends.len(), end)?,
             };
@@ -342,4 +361,11 @@ impl Planner<'_> {
         }
         Ok(moves)
     }
+}
+
+/// How far the axes X Y Z run between two stances, mm.
+fn xyz_way(machine: &Machine, from: &Joints, to: &Joints) -> f64 {
+    let linear = machine.joint_of_letter.iter().take(3).flatten();
+    let ways = linear.map(|&joint| to[usize::from(joint)] - from[usize::from(joint)]);
+    ways.map(|way| way * way).sum::<f64>().sqrt()
 }

@@ -304,7 +304,7 @@ impl Proof<'_> {
     /// Feeds in the same unit are compared as numbers, others by the time that the motion takes.
     fn feed(&mut self, old: &Posed, new: &[Posed], is: usize) -> Result<(), Outcome> {
         let per_minute = |posed: &Posed| match posed.motion.feed {
-            Feed::PerMinute(feed) if posed.tip_words() || !turns(posed) => Some(feed),
+            Feed::PerMinute(feed) if posed.feeds_the_tip() => Some(feed),
             _ => None,
         };
         if let Some(was) = per_minute(old) {
@@ -318,8 +318,10 @@ impl Proof<'_> {
                 return Ok(());
             }
         }
-        if let (Feed::PerRevolution(was), [Posed { motion, .. }]) = (old.motion.feed, new)
-            && let Feed::PerRevolution(now) = motion.feed
+        if let (Feed::PerRevolution(was), [only]) = (old.motion.feed, new)
+            && let Feed::PerRevolution(now) = only.motion.feed
+            && old.feeds_the_tip()
+            && only.feeds_the_tip()
         {
             let off = (was - now).abs();
             if above(off, self.claim.feed_mm_min) {
@@ -342,11 +344,6 @@ impl Proof<'_> {
         }
         Ok(())
     }
-}
-
-/// Whether a rotary axis moves.
-fn turns(posed: &Posed) -> bool {
-    posed.leg.as_ref().is_some_and(|leg| leg.rotary_change != [0.0; 2])
 }
 
 fn share(index: usize, count: usize) -> f64 {

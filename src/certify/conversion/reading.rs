@@ -285,6 +285,24 @@ impl Posed {
         self.leg.is_none() || words && !motion.machine_coordinates && stays
     }
 
+    /// Whether F counts along the tip's way: as tip words, or where no rotary axis turns and X Y Z run as far as the tip does. Where linear
+    /// axes stand askew, or a rotary axis between them does, they run farther or less far.
+    pub fn feeds_the_tip(&self) -> bool {
+        let (false, Some(leg)) = (self.tip_words(), &self.leg) else {
+            return true;
+        };
+        if leg.rotary_change != [0.0; 2] {
+            return false;
+        }
+        match (&self.motion.kind, &self.start, &self.end) {
+            (MotionKind::Rapid | MotionKind::Linear, Some(start), Ok(end)) => {
+                let way = (end.tip - start.tip).norm();
+                (leg.length - way).abs() <= 1e-6 * way + 1e-9
+            }
+            _ => true,
+        }
+    }
+
     /// How long the motion takes at the programmed feed, without regard to what axes can do, s; `None`: not known, or a rapid. Feeds
     /// count along the tip's path (tip words) or that of X Y Z.
     pub fn duration_s(&self) -> Option<f64> {

@@ -141,3 +141,61 @@ fn a_travel_that_is_left_inside_a_block_is_told() {
     .expect("told");
     assert!(made.beyond.iter().any(|one| one.axis == 'X'), "{:?}", made.beyond);
 }
+
+/// Y leans by atan(3/4) towards Z: 8 mm of the tip along Y are 10 mm of Y and -6 mm of Z, which F counts. The way along X is what it is.
+#[test]
+fn f_counts_along_axes_that_stand_askew() {
+    let source = trunnion_machine::builtin_source("mill-3axis").expect("built in");
+    let source = source.split("[[check]]").next().expect("a first part");
+    let source = source.replacen("dir = [0, 1, 0]", "dir = [0, 0.8, 0.6]", 1);
+    let askew = trunnion_machine::load("askew", &source).unwrap_or_else(|error| panic!("{}", error.message));
+    let cl = "UNITS/MM\nRAPID\nGOTO/0,0,5\nFEDRAT/600,MMPM\nGOTO/0,0,0\nGOTO/20,0,0\nGOTO/20,8,0\nGOTO/20,0,0\nFINI\n";
+    let options = Options {
+        tcp: false,
+        ..Options::default()
+    };
+    let run = |text: &str, from: (&str, Option<&trunnion_machine::Machine>), target: &Target<'_>| {
+        let source = Source {
+            text: text.as_bytes(),
+            dialect: trunnion_dialect::builtin(from.0).expect("built in"),
+            machine: from.1,
+            setup: &Setup::default(),
+            assume: Assume::default(),
+        };
+        convert(&source, target, &options).unwrap_or_else(|refused| panic!("{refused}"))
+    };
+    let to_askew = Target::Code {
+        post: builtin_post("fanuc-30i").expect("built in"),
+        machine: Some(&askew),
+    };
+    let feeds = |text: &str| -> Vec<f64> {
+        let words = text.split_ascii_whitespace().filter_map(|word| word.strip_prefix('F'));
+        words.filter_map(|word| word.parse().ok()).collect()
+    };
+    let made = run(cl, ("apt", None), &to_askew);
+    // root(10^2 + 6^2) / 8 of 600
+    let stretched = 600.0 * 136f64.sqrt() / 8.0;
+    let found = feeds(&made.text);
+    assert!(
+        found.len() == 2 && found[0] == 600.0 && (found[1] - stretched).abs() < 0.01,
+        "{found:?}\n{}",
+        made.text
+    );
+    // the same machine again: the same numbers; CL data again: what the tip does
+    let again = run(&made.text, ("fanuc-30i", Some(&askew)), &to_askew);
+    let same = feeds(&again.text);
+    assert!(
+        same.len() == 2 && (same[1] - found[1]).abs() < 0.01,
+        "{same:?}\n{}",
+        again.text
+    );
+    let back = run(&made.text, ("fanuc-30i", Some(&askew)), &Target::Apt).text;
+    let back: Vec<f64> = back
+        .lines()
+        .filter_map(|line| line.strip_prefix("FEDRAT/")?.split(',').next()?.parse().ok())
+        .collect();
+    assert!(
+        !back.is_empty() && back.iter().all(|feed| (feed - 600.0).abs() < 0.05),
+        "{back:?}"
+    );
+}

@@ -158,8 +158,9 @@ impl<'a> GreatCircle<'a> {
         [-rate.dot(f) / s, rate.dot(&e1) / s]
     }
 
-    /// Bounds over a piece. The angle between u and e1 changes by at most `angle` per block, S^2 = D (1 - y^2) - (e1.u - c y)^2; second
-    /// derivatives from u'' = -angle^2 u, multiplied by f and by e1.
+    /// Bounds over a piece. The angle between u and e1 changes by at most `angle` per block, S^2 = D (1 - y^2) - (x - c y)^2 with x = e1.u, so
+    /// that S S' = -(x - c y) x'. From u'' = -angle^2 u, multiplied by f and by e1:
+    /// S t1'' = angle^2 y - 2 t1' S' - t1'^2 (y - c x) and S t2'' = -angle^2 x - t2' S'. Where the pole can be reached y - c x vanishes there.
     pub(crate) fn bounds(&self, from: f64, to: f64) -> SpinBounds {
         let pair = self.pair;
         let e1 = self.machine.constants.rotary[0].direction;
@@ -179,8 +180,20 @@ impl<'a> GreatCircle<'a> {
         };
         let first = w / s;
         let second = w * sine / s;
-        let bend1 = (w * w * pair.y.abs() + first * first * (pair.c.abs() + pair.y.abs()) + 2.0 * first * second) / s;
-        let bend2 = (w * w + second * second * (1.0 + (pair.c * pair.y).abs())) / s;
+        // both are linear in x
+        let most = |at: &dyn Fn(f64) -> f64| at(cos(low)).abs().max(at(cos(high)).abs()) * (1.0 + 1e-9) + 1e-15;
+        let (gap, off) = (
+            most(&|x| {
+                if x > 0.0 {
+                    pair.y_minus_c + pair.c * (1.0 - x)
+                } else {
+                    pair.y_plus_c - pair.c * (1.0 + x)
+                }
+            }),
+            most(&|x| x - pair.c * pair.y),
+        );
+        let bend1 = (w * w * pair.y.abs() + first * first * gap + 2.0 * first * second * off) / s;
+        let bend2 = (w * w * most(&|x| x) + second * second * off) / s;
         SpinBounds {
             rate: [first, second],
             bend: [bend1, bend2],
@@ -272,7 +285,7 @@ mod tests {
                 30.0,
                 (0.25, 0.5),
                 [1.171_307_298_968_873_5, 0.828_239_333_954_189_1],
-                [8.680_195_306_606_201, 2.781_898_579_167_786_6],
+                [2.622_154_993_650_175, 1.069_964_842_856_605],
             ),
             (
                 b50,
@@ -280,7 +293,7 @@ mod tests {
                 12.0,
                 (0.0, 1.0),
                 [0.868_983_117_466_426_4, 0.868_983_117_466_426_4],
-                [10.411_049_866_414_457, 4.609_632_539_885_379],
+                [5.729_055_062_071_052, 1.698_534_861_815_903_3],
             ),
             (
                 "ferrari-bc",
@@ -288,7 +301,7 @@ mod tests {
                 10.0,
                 (0.0, 1.0),
                 [0.349_065_850_398_865_95, 0.224_375_203_601_086_18],
-                [0.313_286_885_013_727_4, 0.161_611_947_939_399_48],
+                [0.271_314_401_094_382_3, 0.139_960_052_470_608_14],
             ),
         ] {
             let machine = builtin(name).expect("built in");

@@ -57,6 +57,8 @@ impl Interpreter<'_> {
                 self.memory.cycle.id
             );
             self.refuse(words, Refusal::CannedCycle, message, None, report);
+            // no number of steps of 0 comes to an end
+            return self.nowhere(start, report);
         }
         let feed = self.feed_of(MotionKind::Linear, words, report);
         let known = axes

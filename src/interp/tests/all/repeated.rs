@@ -1,5 +1,5 @@
 //! Turning cycles of many cuts, with lists of motions made by hand. X is a diameter in the programs and a radius in the lists.
-use crate::support::{faults, line, lines, run_bytes};
+use crate::support::{fault_line, faults, line, lines, run_bytes};
 use trunnion_interp::{MotionKind, Setup};
 
 const A: &str = "fanuc-30i-lathe-a";
@@ -186,4 +186,15 @@ fn a_spindle_limit_is_no_speed() {
     let state = log.state.expect("blocks ran");
     assert_eq!((state.surface_speed, state.spindle_limit_rpm), (true, Some(2000.0)));
     assert_eq!(line(&log.motions[1]), "L X5 Z-5 F0.1/rev");
+}
+
+/// No number of steps of 0 reaches the end.
+#[test]
+fn a_groove_in_steps_of_nothing_is_refused() {
+    for source in ["G0 X10. Z2.\nG74 Z-1. Q0.\nM30\n", "G0 X10. Z2.\nG75 X4. P0.\nM30\n"] {
+        let (program, log) = run_bytes(A, source.as_bytes(), &Setup::default());
+        let said: Vec<_> = log.faults.iter().map(|fault| fault_line(&program, fault)).collect();
+        assert!(said.iter().any(|said| said.contains("a step of 0")), "{said:?}");
+        assert!(log.motions.len() < 4, "{}", log.motions.len());
+    }
 }

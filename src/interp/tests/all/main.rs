@@ -10,6 +10,7 @@ mod canonical;
 mod compensation;
 mod corners;
 mod cycles;
+mod cycles_given_up;
 mod cycles_steps;
 mod directives;
 mod faults;

@@ -1,0 +1,33 @@
+//! Cycles that are not worked out, and say so.
+use crate::support::{fault_line, faults, run_bytes};
+use trunnion_interp::{MotionKind, Setup};
+
+/// A step that is a thousand times too small, or a count that is too large, must not fill the memory.
+#[test]
+fn a_block_of_very_many_motions_is_given_up() {
+    for source in [
+        "G0 X1. Y2. Z9.\nG91 G83 X1. Z-10. R-1. Q0.001 F100. K9999\nG80\nM30\n",
+        "G0 X1. Y2. Z9.\nG98 G83 Z-10. R1. Q0.002 F100. L0\nG70 I50. J0. L9999\nG80\nM30\n",
+    ] {
+        let dialect = if source.contains("G70") {
+            "haas-ngc"
+        } else {
+            "fanuc-30i"
+        };
+        let (program, log) = run_bytes(dialect, source.as_bytes(), &Setup::default());
+        assert!(log.motions.len() < 300_000, "{}", log.motions.len());
+        let said: Vec<_> = log.faults.iter().map(|fault| fault_line(&program, fault)).collect();
+        assert!(
+            said.iter().any(|said| said.contains("motions in one block")),
+            "{said:?}"
+        );
+        assert_eq!(log.motions.last().expect("some").kind, MotionKind::Unknown);
+    }
+}
+
+/// Increments of a cycle whose start is not known lead nowhere, and that is said.
+#[test]
+fn levels_that_count_from_an_unknown_place_are_told() {
+    let said = faults("fanuc-30i", "G0 X1. Y2.\nG91 G81 X5. Z-3. R-1. F100.\nG80\nM30\n");
+    assert!(said.len() == 1 && said[0].contains("levels count from Z"), "{said:?}");
+}

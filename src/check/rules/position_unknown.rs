@@ -1,4 +1,4 @@
-//! A feed motion, or a rapid by an increment, ends at a position that is not known.
+//! A feed motion, or a rapid from a known place or by an increment, ends at a position that is not known.
 //!
 //! # Why
 //! Some axis was never positioned, or its position was lost where something is not modelled. Nobody can say where the joints
@@ -41,7 +41,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         _ => return,
     };
     let cause = hash(letters) ^ u64::from(view.motion().is_feed());
-    if !(view.motion().is_feed() || leads_nowhere(view)) || out.repeats_unknown(view, cause, 0.0) {
+    if !is_told(view) || out.repeats_unknown(view, cause, 0.0) {
         return;
     }
     let names: Vec<String> = AXIS_LETTERS
@@ -79,17 +79,18 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .merge_everywhere(cause);
 }
 
-/// A rapid from a known place to one that is not known, or by an increment from one that is not known. One that names places before
-/// everything is positioned is how programs begin.
-fn leads_nowhere(view: &LegView<'_>) -> bool {
+/// Feed motions, rapids from a known place to one that is not known, and rapids by an increment from one that is not known. A rapid that
+/// names places before everything is positioned is how programs begin.
+fn is_told(view: &LegView<'_>) -> bool {
     let motion = view.motion();
-    motion.kind == MotionKind::Rapid && (view.leg.start.is_some() || motion.says_way & !motion.end.known != 0)
+    let nowhere = || view.leg.start.is_some() || motion.says_way & !motion.end.known != 0;
+    motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()
 }
 
 /// A work offset turns the workpiece frame: told once for each axis.
 fn rotary_offset(axis: u8, view: &LegView<'_>, out: &mut Reporter<'_>) {
     let cause = u64::from(axis);
-    if !view.motion().is_feed() || out.repeats_unknown(view, cause, 0.0) {
+    if !is_told(view) || out.repeats_unknown(view, cause, 0.0) {
         return;
     }
     let name = letter(axis);
@@ -108,7 +109,7 @@ fn rotary_offset(axis: u8, view: &LegView<'_>, out: &mut Reporter<'_>) {
 /// The program moves an axis that the machine file holds: told once for each axis and place.
 fn held_elsewhere(axis: u8, [value, held]: [f64; 2], view: &LegView<'_>, out: &mut Reporter<'_>) {
     let cause = hash(&format!("{} {value}", char::from(axis)));
-    if !view.motion().is_feed() || out.repeats_unknown(view, cause, 0.0) {
+    if !is_told(view) || out.repeats_unknown(view, cause, 0.0) {
         return;
     }
     let name = letter(axis);
@@ -172,6 +173,15 @@ mod tests {
         );
         assert_eq!(report.diagnostics[0].status, crate::Status::Unknown);
         assert_eq!(report.diagnostics[0].count, 2);
+    }
+
+    #[test]
+    fn a_rapid_that_moves_a_held_axis_is_told_too() {
+        let report = assert_drawn(
+            "gcode linuxcnc-xyzacb-trsrn",
+            "N1 G0 X0 Y0 Z50 A0 B0 C0\nN2 G0 A30\n;  ^^^^^^ position-unknown: the position of X, Y and Z is not known: A stands at 30 deg\nN3 M2\n",
+        );
+        assert_eq!(report.diagnostics[0].status, crate::Status::Unknown);
     }
 
     #[test]

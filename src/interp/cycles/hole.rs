@@ -10,7 +10,7 @@ use trunnion_dialect::Action;
 const MOST_REPEATS: u32 = 10_000;
 
 /// Motions of one block that are worked out: they are held until the block is done.
-const MOST_MOTIONS: usize = 200_000;
+pub(super) const MOST_MOTIONS: usize = 200_000;
 
 /// One hole with its numbers, all as coordinates of the words.
 #[derive(Clone, Copy, Debug)]

@@ -5,6 +5,7 @@
 //! contour and returns to its start in rapid. G73 runs along the contour as often as R says, each time nearer to it, and goes to the start
 //! of the next run in rapid. Of G71, G72 and G76 these sources agree on where they end, and not on the levels and lifts between: their path is unknown.
 use super::contour::{Contour, shifted};
+use super::hole::MOST_MOTIONS;
 use crate::codes::Found;
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
@@ -143,7 +144,10 @@ impl Interpreter<'_> {
         let feed = self.feed_of(MotionKind::Linear, words, report);
         for run in 0..runs {
             if self.is_full() {
-                let what = format!("{} with so many motions", self.memory.cycle.id);
+                let what = format!(
+                    "{}: more than {MOST_MOTIONS} motions in one block",
+                    self.memory.cycle.id
+                );
                 return self.somehow_back(&what, start, report);
             }
             let left = 1.0 - f64::from(run) / f64::from(runs - 1);

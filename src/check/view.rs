@@ -12,7 +12,7 @@ use trunnion_machine::{
 use trunnion_syntax::{Program, TextRange};
 
 /// Joint motion that is rounding only, rad or mm.
-pub(crate) const NO_TURN: f64 = 1e-9;
+pub(crate) const NO_TURN: f64 = trunnion_machine::NO_TURN;
 
 /// The program as a whole.
 pub struct Overview<'a> {

@@ -4,11 +4,8 @@ use crate::{Options, Refused};
 use trunnion_certify::conversion::{Part, Reading};
 use trunnion_geometry::deg;
 use trunnion_interp::Setup;
-use trunnion_machine::{AxisKind, Excess, Leg, Machine, limit_excess, rotary_turns};
+use trunnion_machine::{AxisKind, Excess, Leg, Machine, NO_TURN, limit_excess, rotary_turns};
 use trunnion_syntax::BlockId;
-
-/// Rotary motion that is rounding only, rad: as rule clamped-axis-moves has it.
-const NO_TURN: f64 = 1e-9;
 
 /// An axis that would leave its travel.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,8 +41,9 @@ pub(crate) struct Travel {
     /// Each limit once, where it is broken first, with the worst value.
     beyond: Vec<(usize, Excess)>,
     undecided: Vec<usize>,
-    /// The first cut that turns an axis which must stand still while cutting: the motion, letter of the axis, by how much, rad.
-    turned: Option<(usize, char, f64)>,
+    /// The first cut that turns an axis which must stand still while cutting: the motion, letter of the axis, by how much, rad; `None`:
+    /// whether it does is not known.
+    turned: Option<(usize, char, Option<f64>)>,
 }
 
 /// Looks at every motion of the program after.
@@ -81,13 +79,16 @@ pub(crate) fn travel(after: &Reading, parts: &[Part], machine: Option<&Machine>)
     travel
 }
 
-/// An axis with `clamp = true` that the motion turns, as far as its way is known: its letter, and by how much, rad.
-fn held_axis_turns(machine: &Machine, leg: &Leg) -> Option<(char, f64)> {
-    let turns = rotary_turns(machine, leg).unwrap_or(leg.rotary_change);
-    let mut turns = machine.rotary.iter().zip(turns);
-    turns.find_map(|(&joint, turn)| {
+/// An axis with `clamp = true` that the motion turns: its letter, and by how much, rad; `None` where it leads nobody knows how from one
+/// known place to another.
+fn held_axis_turns(machine: &Machine, leg: &Leg) -> Option<(char, Option<f64>)> {
+    let turns = rotary_turns(machine, leg);
+    let lost = turns.is_none() && leg.start.is_some() && leg.end.is_ok();
+    let mut at_least = machine.rotary.iter().zip(turns.unwrap_or(leg.rotary_change));
+    at_least.find_map(|(&joint, turn)| {
         let axis = &machine.axes[joint];
-        (axis.extra.clamp && turn > NO_TURN).then_some((char::from(axis.letter), turn))
+        let turn = (turn > NO_TURN).then_some(turn);
+        (axis.extra.clamp && (lost || turn.is_some())).then_some((char::from(axis.letter), turn))
     })
 }
 
@@ -120,10 +121,13 @@ impl Travel {
             motion.map(|posed| posed.motion.block).unwrap_or_default()
         };
         if let Some((was, axis, turn)) = self.turned {
+            let what = turn.map_or_else(
+                || format!("nobody knows how this cut would turn {axis} on its way"),
+                |turn| format!("this cut would turn {axis} by {:.3} deg", deg(turn)),
+            );
             let message = format!(
-                "this cut would turn {axis} by {:.3} deg, but the machine file of {} says clamp = true at {axis}: it must stand still \
-                 while cutting. Cut with a fixed tool axis, position {axis} in rapid motions, or take a machine whose axis is not clamped",
-                deg(turn),
+                "{what}, but the machine file of {} says clamp = true at {axis}: it must stand still while cutting. Cut with a fixed tool \
+                 axis, position {axis} in rapid motions, or take a machine whose axis is not clamped",
                 machine.map_or("", |machine| machine.id.as_str())
             );
             return Err(Refused::at(&reading.program, block(was), message));

@@ -1,14 +1,12 @@
 //! Rotary axes that a vector sets: the control's choice between postures, and turns onto a tilted plane and places in it.
 use crate::choice::{Before, choose};
 use crate::course::on_great_circle;
+use crate::spin::NO_TURN;
 use crate::words::{XYZ, zero_point};
 use crate::{Follower, Joints, Leg, NoStance, Open, OpenCause, POLE_TOLERANCE, PoleAction, Stance, pole};
 use core::f64::consts::FRAC_PI_2;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{Motion, Orientation, Swivel};
-
-/// Rotary motion that is rounding only, rad.
-const NO_TURN: f64 = 1e-9;
 
 impl Follower<'_> {
     /// Sets the rotary joints for the unit tool axis `axis`; tells what is open about it.

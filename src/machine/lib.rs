@@ -98,7 +98,7 @@ pub use row::{Row, row};
 pub use selftest::{SelfTest, self_test};
 pub use spec::{MachineError, load};
 pub use speed::{FeedLimit, block_duration_s, feed_limit, feed_limit_tight};
-pub use spin::rotary_turns;
+pub use spin::{NO_TURN, rotary_turns};
 pub use stance::{Leg, NoStance, Open, OpenCause, Stance};
 pub use swept::swept_deviation;
 pub use travel::{Excursion, LinearTravel, excursions, linear_travel};

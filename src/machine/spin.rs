@@ -10,6 +10,9 @@ use trunnion_geometry::math::{angle_between, atan2, cos, sin_cos};
 /// Tool axes nearer than this are one: nothing runs on a great circle, rad.
 const SAME_AXIS: f64 = 1e-12;
 
+/// A turn of a rotary axis up to this is rounding, rad.
+pub const NO_TURN: f64 = 1e-9;
+
 /// How near the great circle's end must come to the block's end, rad.
 const ARRIVAL: f64 = 1e-6;
 

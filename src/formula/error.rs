@@ -176,7 +176,8 @@ impl FormulaErrorKind {
             Self::NegativePower => "Attempt to raise negative to non integer power",
             Self::Infinite => "Calculation resulted in 'infinity'",
             Self::Undefined => "Calculation resulted in 'not a number'",
-            Self::MissingComma | Self::TooDeep { .. } | Self::NotReadable(_) | Self::NotDecimalCoded => return None,
+            Self::NotReadable(reason) => return Some(reason.to_string().into()),
+            Self::MissingComma | Self::TooDeep { .. } | Self::NotDecimalCoded => return None,
         }))
     }
 }

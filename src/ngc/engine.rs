@@ -121,7 +121,7 @@ impl Engine {
                 let plain = inside.strip_suffix('>')?.split_whitespace().collect::<String>();
                 values.named(&plain.to_ascii_lowercase()).ok()
             }
-            None => values.numbered(name.trim().parse().ok()?).ok(),
+            None => values.told(name.trim().parse().ok()?),
         }
     }
     /// The text of a line (from 0) without the blanks around it; empty where there is no such line.

@@ -2,12 +2,14 @@
 mod names;
 mod system;
 
-use crate::{Engine, Ini, Setup, Start, State};
+use crate::{Engine, Ini, Setup, Side, Start, State};
 use names::Names;
 use trunnion_formula::{Name, ValueError, Variables};
 
 /// Highest number that exists (observed: `#5601` is zero, `#5602` is refused).
 const LAST: usize = 5601;
+/// Why the control does not give the position (5420-5428) to a program under compensation.
+const HELD_BACK: &str = "Cannot read current position with cutter radius compensation on";
 /// Numbers a call has for itself: its arguments.
 const LOCAL: usize = 30;
 
@@ -252,10 +254,19 @@ impl<'a> Values<'a> {
     }
 }
 
+impl Values<'_> {
+    /// A numbered parameter as comments tell it: the position of compensation, too.
+    pub(crate) fn told(&self, index: i64) -> Option<f64> {
+        let place = usize::try_from(index).ok().filter(|place| (1..=LAST).contains(place))?;
+        Some(self.store.numbers[place])
+    }
+}
+
 impl Variables for Values<'_> {
     #[inline]
     fn numbered(&self, index: i64) -> Result<f64, ValueError> {
         match usize::try_from(index) {
+            Ok(5420..=5428) if self.state.side != Side::Off => Err(ValueError::NotReadable(HELD_BACK.into())),
             Ok(place @ 1..=LAST) => Ok(self.store.numbers[place]),
             _ => Err(ValueError::OutOfRange),
         }

@@ -165,7 +165,10 @@ pub(crate) const EXPLAINED: &[Explanation] = &[
 ];
 
 /// Messages of what this interpreter does not model.
-const REFUSED: [&str; 14] = [
+const REFUSED: [&str; 17] = [
+    "G53 with a spline (G5.2): where the control puts the control point is not known",
+    "a spline (G5.2) with cutter radius compensation on: where the control goes on from is not known",
+    "G17.1, G18.1 or G19.1 with cutter radius compensation on: what the control does with the contour is not known",
     "turning contour that goes back by a trace along the cut: whether the control takes it is not known",
     "rounded or chamfered corner of a turning contour beside an arc, or that takes half of a line across the cut: how the control takes it is not known",
     "pockets of a turning contour with several arcs: where the control cuts them is not known",

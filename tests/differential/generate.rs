@@ -39,10 +39,14 @@ pub(crate) fn program(seed: u64) -> Case {
         depth: 0,
     };
     program.settings();
-    program.head();
-    let parts = 2 + program.random.below(7);
-    for _ in 0..parts {
-        program.part();
+    if program.random.one_in(4) {
+        program.codes();
+    } else {
+        program.head();
+        let parts = 2 + program.random.below(7);
+        for _ in 0..parts {
+            program.part();
+        }
     }
     if program.random.one_in(12) {
         program.mistake();

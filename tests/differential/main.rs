@@ -8,6 +8,7 @@
 )]
 #![expect(clippy::print_stdout, reason = "a skipped test says so")]
 mod calls;
+mod codes;
 mod explained;
 mod fill;
 mod flow;

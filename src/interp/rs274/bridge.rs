@@ -276,7 +276,9 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
             Canon::Dwell(seconds) => {
                 let shift = self.shift(state);
                 let end = shift.programmed(&self.told.machine);
-                let kind = MotionKind::Dwell(seconds.is_finite().then_some(*seconds));
+                // what a machine makes of a negative time, which the interpreter takes, nobody says
+                let is_time = seconds.is_finite() && *seconds >= 0.0;
+                let kind = MotionKind::Dwell(is_time.then_some(*seconds));
                 self.motion(kind, end, &shift, Feed::Unknown, at, state);
             }
             Canon::UserCode(number, ..) => {

@@ -25,7 +25,7 @@ pub(super) fn fill(text: &[u8], engine: &Engine) -> Vec<u8> {
                         Name::Text(name) => values.named(&name).ok(),
                         // a number that nothing else reads
                         Name::Number(Some(0)) => Some(0.0),
-                        Name::Number(index) => index.and_then(|index| values.numbered(index).ok()),
+                        Name::Number(index) => index.and_then(|index| values.told(index)),
                     };
                     at += length;
                     put(value, decimals + engine.setup.more_decimals, &mut out);

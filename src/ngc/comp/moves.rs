@@ -11,7 +11,7 @@ pub(crate) enum Kind {
     Rapid,
     /// G1.
     Feed,
-    /// G33, which cannot go around an outside corner.
+    /// G33, G33.1, G76: the control moves along the contour.
     Thread,
 }
 
@@ -103,9 +103,11 @@ pub(crate) fn along(
         if plane::length(way) <= here.radius {
             return Err(Error::new(&problems::ENTRY_LENGTH, block.range));
         }
+        refuse_thread(kind, block)?;
         engine.queue.start(here.contour);
         along = [0.0; 2];
     } else if way == [0.0; 2] {
+        refuse_thread(kind, block)?;
         // nothing in the plane: the centre stays, and this move ends at the corner together with the one before
         centre = here.centre;
     } else {
@@ -130,6 +132,14 @@ pub(crate) fn along(
     queue::line(engine, line, at);
     arrive(engine, end, centre, sink);
     Ok(())
+}
+
+/// The control knows no thread that begins compensation, that does not move in the plane, or that goes around an outside corner.
+fn refuse_thread(kind: Kind, block: &Block) -> Result<(), Error> {
+    match kind {
+        Kind::Thread => Err(Error::new(&problems::NOT_G0_G1, block.range)),
+        Kind::Rapid | Kind::Feed => Ok(()),
+    }
 }
 
 /// One arc while compensation is on.
@@ -333,7 +343,7 @@ fn turn(
                     };
                     queue::bow(engine, bow, at);
                 }
-                Kind::Thread => return Err(Error::new(&problems::NOT_G0_G1, block.range)),
+                Kind::Thread => return refuse_thread(kind, block),
             }
             queue::release(engine, sink);
         }

@@ -98,6 +98,22 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
 /// What is refused before anything happens, in the control's order.
 fn check(work: &Work<'_>, code: i16, before: i16, axes: Axes) -> Result<(), Error> {
     let block = work.block;
+    let state = &work.engine.state;
+    if state.feed_rate == 0.0 {
+        return Err(work.refuse(&problems::ZERO_FEED));
+    }
+    if state.feed_mode == FeedMode::InverseTime {
+        return Err(work.refuse(&problems::INVERSE_TIME));
+    }
+    if state.side != Side::Off {
+        return Err(work.refuse(&problems::COMPENSATED));
+    }
+    if code != before && !block.has(b'R') {
+        return Err(work.refuse(&problems::NO_R));
+    }
+    if block.word(b'L') == Some(0.0) {
+        return Err(Error::new(&problems::ZERO_REPEATS, block.range_of(b'L')));
+    }
     let foreign = if axes.places[0] < 3 { b"UVW" } else { b"XYZ" };
     for &letter in foreign {
         if block.has(letter) {
@@ -113,22 +129,6 @@ fn check(work: &Work<'_>, code: i16, before: i16, axes: Axes) -> Result<(), Erro
                 .replacen("{}", &plane, 1);
             return Err(Error::with(&problems::FOREIGN, block.range_of(letter), text));
         }
-    }
-    let state = &work.engine.state;
-    if state.feed_rate == 0.0 && state.feed_mode != FeedMode::InverseTime {
-        return Err(work.refuse(&problems::ZERO_FEED));
-    }
-    if state.feed_mode == FeedMode::InverseTime {
-        return Err(work.refuse(&problems::INVERSE_TIME));
-    }
-    if state.side != Side::Off {
-        return Err(work.refuse(&problems::COMPENSATED));
-    }
-    if code != before && !block.has(b'R') {
-        return Err(work.refuse(&problems::NO_R));
-    }
-    if block.word(b'L') == Some(0.0) {
-        return Err(Error::new(&problems::ZERO_REPEATS, block.range_of(b'L')));
     }
     Ok(())
 }

@@ -55,6 +55,22 @@ impl Work<'_> {
     }
 }
 
+/// Before anything of a block is done: G5.3 stands beside no other motion.
+pub(crate) fn check_between(block: &Block) -> Result<(), Error> {
+    if matches!(block.g[0], 53 | 63) && block.g[1] >= 0 && block.g[1] != 52 {
+        return Err(Error::new(&problems::NURBS_BETWEEN, block.g_range(1)));
+    }
+    Ok(())
+}
+
+/// Before anything of a block is done: the words that G76 cannot do without.
+pub(crate) fn check_thread(block: &Block) -> Result<(), Error> {
+    if block.motion == 760 {
+        threading::check(block)?;
+    }
+    Ok(())
+}
+
 /// Runs a block whose motion code is a cycle or a special motion. `code` is ten times its number.
 pub(crate) fn run(engine: &mut Engine, code: i16, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let mut work = Work {

@@ -25,12 +25,11 @@ fn check(work: &mut Work<'_>) -> Result<(), Error> {
     if state.side != Side::Off {
         return Err(work.refuse(&problems::SPLINE_COMPENSATED));
     }
-    if state.feed_mode == FeedMode::InverseTime {
-        if !block.has(b'F') {
-            return Err(work.refuse(&problems::SPLINE_INVERSE));
-        }
-    } else if state.feed_rate == 0.0 {
-        return Err(work.refuse(&problems::SPLINE_FEED));
+    match state.feed_mode {
+        FeedMode::InverseTime if !block.has(b'F') => return Err(work.refuse(&problems::SPLINE_INVERSE)),
+        FeedMode::PerMinute if state.feed_rate == 0.0 => return Err(work.refuse(&problems::SPLINE_FEED)),
+        // observed: under G95 no rate is asked for
+        _ => {}
     }
     if state.plane != crate::Plane::Xy {
         return Err(work.refuse(&problems::SPLINE_PLANE));
@@ -64,6 +63,9 @@ fn bezier(work: &mut Work<'_>, points: &[[f64; 2]], end: Pose) -> Result<(), Err
 pub(super) fn cubic(work: &mut Work<'_>) -> Result<(), Error> {
     check(work)?;
     let block = work.block;
+    if block.has(b'I') != block.has(b'J') {
+        return Err(work.refuse(&problems::IJ_BOTH_G5));
+    }
     let (Some(p), Some(q)) = (block.word(b'P'), block.word(b'Q')) else {
         return Err(work.refuse(&problems::PQ_G5));
     };
@@ -71,8 +73,7 @@ pub(super) fn cubic(work: &mut Work<'_>) -> Result<(), Error> {
     let tail = work.engine.spline.tail.filter(|(end, _)| *end == start);
     let [i, j] = match (block.word(b'I'), block.word(b'J')) {
         (Some(i), Some(j)) => [i, j],
-        (None, None) => tail.map_or([0.0; 2], |(_, tangent)| tangent),
-        _ => return Err(work.refuse(&problems::IJ_BOTH_G5)),
+        _ => tail.map_or([0.0; 2], |(_, tangent)| tangent),
     };
     let end = exec::end_of(&work.engine.state, block)?;
     let points = [
@@ -107,9 +108,6 @@ pub(super) fn point(work: &mut Work<'_>) -> Result<(), Error> {
 
 fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
     let block = work.block;
-    if work.engine.state.feed_rate == 0.0 {
-        return Err(work.refuse(&problems::NURBS_FEED));
-    }
     let continued = work.engine.state.motion == 52;
     if !continued {
         work.engine.spline.points.clear();
@@ -127,9 +125,18 @@ fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
     if one {
         return Err(work.refuse(&problems::NURBS_POINT));
     }
-    // the first line may leave P out
-    let weight = block.word(b'P').unwrap_or(if continued { -1.0 } else { 1.0 });
-    if weight <= 0.0 {
+    // observed: under G93 and G95 none is asked for
+    let state = &work.engine.state;
+    if state.feed_mode == FeedMode::PerMinute && state.feed_rate == 0.0 {
+        return Err(work.refuse(&problems::NURBS_FEED));
+    }
+    // the first line may leave P out (the control marks that by -1), and takes any other one
+    let absent = if continued { -1.0 } else { 1.0 };
+    let weight = block
+        .word(b'P')
+        .filter(|&weight| continued || weight != -1.0)
+        .unwrap_or(absent);
+    if continued && weight <= 0.0 {
         let range = if block.has(b'P') {
             block.range_of(b'P')
         } else {
@@ -141,7 +148,7 @@ fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
         return Err(work.refuse(&problems::NURBS_FIRST));
     }
     if work.engine.state.side != Side::Off {
-        return Err(work.refuse(&problems::SPLINE_COMPENSATED));
+        return Err(work.refuse(&problems::NURBS_COMPENSATED));
     }
     let start = work.engine.state.current;
     if !continued {
@@ -159,9 +166,6 @@ fn add_point(work: &mut Work<'_>) -> Result<(), Error> {
 
 /// G5.3: the curve is complete.
 pub(super) fn finish(work: &mut Work<'_>) -> Result<(), Error> {
-    if work.block.g[1] >= 0 && work.block.g[1] != 52 {
-        return Err(work.refuse(&problems::NURBS_BETWEEN));
-    }
     if work.engine.state.motion != 52 {
         return Err(work.refuse(&problems::NURBS_START));
     }

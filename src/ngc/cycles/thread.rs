@@ -1,6 +1,6 @@
 //! G33 and G33.1: motion coupled to the spindle.
 use super::{Work, problems};
-use crate::{Canon, Error, Problem, Side, SyncedFeed, comp, exec};
+use crate::{Canon, Error, Pose, Problem, Side, SyncedFeed, comp, exec};
 
 /// Feed of so much per revolution of the spindle.
 pub(super) fn coupled(per_revolution: f64) -> Canon {
@@ -30,13 +30,23 @@ fn turns(work: &Work<'_>, still: &'static Problem) -> Result<(), Error> {
     }
 }
 
+/// Whether compensation leads the tool beside the contour.
+pub(super) fn is_held(work: &Work<'_>) -> bool {
+    work.engine.state.side != Side::Off && work.engine.state.radius != 0.0
+}
+
+/// A thread under compensation: the control takes G33, G33.1 and G76 as a line along the contour, and refuses it at outside corners.
+pub(super) fn along_contour(work: &mut Work<'_>, code: i16, end: Pose) -> Result<(), Error> {
+    work.engine.state.motion = code;
+    comp::along(work.engine, comp::Kind::Thread, end, work.block, work.at, work.sink)
+}
+
 /// G33: one straight motion. Under compensation of the cutter radius the control moves without coupling the feed.
 pub(super) fn synchronized(work: &mut Work<'_>) -> Result<(), Error> {
     let pitch = pitch(work)?;
     let end = exec::end_of(&work.engine.state, work.block)?;
-    if work.engine.state.side != Side::Off {
-        work.engine.state.motion = 330;
-        return comp::along(work.engine, comp::Kind::Thread, end, work.block, work.at, work.sink);
+    if is_held(work) {
+        return along_contour(work, 330, end);
     }
     work.choose_spindle(&problems::SPINDLE_G33)?;
     turns(work, &problems::STILL_G33)?;
@@ -52,8 +62,9 @@ pub(super) fn synchronized(work: &mut Work<'_>) -> Result<(), Error> {
 /// G33.1: down and back with the spindle reversed; I is how much faster it turns on the way back. The tool ends where it began in X Y Z.
 pub(super) fn rigid(work: &mut Work<'_>) -> Result<(), Error> {
     let pitch = pitch(work)?;
-    if work.engine.state.side != Side::Off {
-        return Err(work.refuse(&problems::NOT_G0_G1));
+    if is_held(work) {
+        let end = exec::end_of(&work.engine.state, work.block)?;
+        return along_contour(work, 331, end);
     }
     work.choose_spindle(&problems::SPINDLE_G33_1)?;
     turns(work, &problems::STILL_G33_1)?;

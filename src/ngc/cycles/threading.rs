@@ -1,6 +1,6 @@
 //! G76: a thread cut in many passes.
 use super::{Work, problems, thread};
-use crate::{Canon, Error, Pose, Side, Switch, exec};
+use crate::{Block, Canon, Error, Pose, Side, Switch, exec};
 use trunnion_geometry::math;
 
 /// The words of a thread, program units, radii.
@@ -25,6 +25,10 @@ struct Thread {
 
 /// G76.
 pub(super) fn run(work: &mut Work<'_>) -> Result<(), Error> {
+    if thread::is_held(work) {
+        let end = exec::end_of(&work.engine.state, work.block)?;
+        return thread::along_contour(work, 760, end);
+    }
     let thread = words(work)?;
     work.engine.state.motion = 760;
     // the control counts depths from the drive line, which decides by its rounding whether one more pass is left to do
@@ -46,27 +50,42 @@ pub(super) fn run(work: &mut Work<'_>) -> Result<(), Error> {
     Ok(())
 }
 
+/// The words without which nothing of the block is done: pitch (the control marks an absent one by -1), peak, first and full depth.
+fn needed(block: &Block) -> Result<[f64; 4], Error> {
+    let refuse = |problem| Error::new(problem, exec::code_range(block));
+    let Some(pitch) = block.word(b'P').filter(|&pitch| pitch != -1.0) else {
+        return Err(refuse(&problems::NO_P_G76));
+    };
+    match (block.word(b'I'), block.word(b'J'), block.word(b'K')) {
+        (Some(i), Some(j), Some(k)) => Ok([pitch, i, j, k]),
+        _ => Err(refuse(&problems::NO_IJK_G76)),
+    }
+}
+
+/// What is refused before anything of the block is done.
+pub(super) fn check(block: &Block) -> Result<(), Error> {
+    needed(block).map(|_| ())
+}
+
 /// Reads and checks the words, in the control's order.
 fn words(work: &mut Work<'_>) -> Result<Thread, Error> {
     let block = work.block;
-    let Some(pitch) = block.word(b'P').filter(|&pitch| pitch != -1.0) else {
-        return Err(work.refuse(&problems::NO_P_G76));
-    };
-    let (Some(i), Some(j), Some(k)) = (block.word(b'I'), block.word(b'J'), block.word(b'K')) else {
-        return Err(work.refuse(&problems::NO_IJK_G76));
-    };
-    if work.engine.state.side != Side::Off {
-        return Err(work.refuse(&problems::NOT_G0_G1));
-    }
-    if let Some(&letter) = b"ABC".iter().find(|&&letter| block.has(letter)) {
-        return Err(Error::new(&problems::ROTARY_G76, block.range_of(letter)));
-    }
+    let [pitch, i, j, k] = needed(block)?;
     work.choose_spindle(&problems::SPINDLE_G76)?;
     let state = &work.engine.state;
     let (spindle, turning) = work.turning();
     if turning == 0 {
         let text = problems::STILL_G76.message.replace("{}", &spindle.to_string());
         return Err(Error::with(&problems::STILL_G76, work.code_range(), text));
+    }
+    let end = exec::end_of(state, block)?;
+    // observed: a rotary word that leads nowhere is none
+    let moved = (3..6).find(|&axis| end[axis] != state.current[axis]);
+    if let Some(&letter) = moved.and_then(|axis| b"ABC".get(axis - 3)) {
+        return Err(Error::new(&problems::ROTARY_G76, block.range_of(letter)));
+    }
+    if state.side != Side::Off {
+        return Err(work.refuse(&problems::COMPENSATED_G76));
     }
     if i == 0.0 {
         return Err(Error::new(&problems::ZERO_I_G76, block.range_of(b'I')));
@@ -95,7 +114,7 @@ fn words(work: &mut Work<'_>) -> Result<Thread, Error> {
         taper_in: matches!(tapers, 1 | 3) && taper > 0.0,
         taper_out: matches!(tapers, 2 | 3) && taper > 0.0,
         start: state.current,
-        end: exec::end_of(state, block)?,
+        end,
     })
 }
 

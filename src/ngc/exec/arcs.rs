@@ -87,7 +87,6 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     let Some(axes) = axes(engine.state.plane) else {
         return Err(Error::new(&OTHER_PLANE, range));
     };
-    motion::check_feed(engine, block, &problems::INVERSE_ARC, &problems::ZERO_FEED_ARC)?;
     let by_radius = block.has(b'R');
     let centre_word = [b'I', b'J', b'K'].into_iter().find(|&letter| block.has(letter));
     match (by_radius, centre_word) {
@@ -95,6 +94,7 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
         (true, Some(letter)) => return Err(Error::new(&MIXED, block.range_of(letter))),
         _ => {}
     }
+    motion::check_feed(engine, block, &problems::INVERSE_ARC, &problems::ZERO_FEED_ARC)?;
     if block.has(axes.foreign) {
         return Err(Error::new(axes.foreign_problem, block.range_of(axes.foreign)));
     }

@@ -1,7 +1,7 @@
 //! What must fit together in a block before anything of it is done.
 use super::{motion, problems, unused};
 use crate::block::M_GROUPS;
-use crate::{Block, DistanceMode, Error, Plane, State};
+use crate::{Block, DistanceMode, Error, Plane, State, cycles};
 
 /// A line holds at most so many M codes.
 const M_CODES: u8 = 4;
@@ -33,18 +33,21 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
     let axes = block.has_axes();
     let setting = matches!(block.g[0], 100 | 280 | 300 | 520 | 920);
     let tool_offset = matches!(block.g[8], 431 | 432);
-    if polar && (setting || tool_offset) && block.g[0] != 520 {
+    let no_axes = matches!(block.g[0], 520 | 920) && block.given & crate::block::AXES == 0;
+    let polar_setting = polar && (setting || block.g[8] == 431);
+    if polar_setting && !(block.g[0] == 520 && no_axes) {
         return Err(Error::new(&problems::POLAR_NO_MOTION, block.range));
-    }
-    if matches!(block.g[0], 520 | 920) && block.given & crate::block::AXES == 0 {
-        return Err(Error::new(&problems::AXES_MISSING_G92, block.g_range(0)));
     }
     block.motion = block.g[1];
     let given = block.g[1] >= 0;
-    if given && block.g[1] != 800 {
-        if setting {
-            return Err(Error::new(&problems::TWO_AXIS_CODES, block.g_range(1)));
-        }
+    let moves = given && block.g[1] != 800;
+    if moves && setting {
+        return Err(Error::new(&problems::TWO_AXIS_CODES, block.g_range(1)));
+    }
+    if no_axes {
+        return Err(Error::new(&problems::AXES_MISSING_G92, block.g_range(0)));
+    }
+    if moves {
         if !axes && matches!(block.g[1], 50 | 51 | 330 | 331 | 382..=385 | 730..=790 | 810..=890) {
             return Err(Error::new(&problems::ALL_AXES_MISSING, block.g_range(1)));
         }
@@ -52,6 +55,9 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
         if axes && !setting {
             return Err(Error::new(&problems::AXES_WITH_G80, block.range));
         }
+    } else if polar && tool_offset {
+        // the axis words are the offset's, polar words lead in the mode in force
+        block.motion = state.motion;
     } else if setting || tool_offset {
         // the axis words are theirs
     } else if axes {
@@ -93,13 +99,18 @@ fn first_axis(block: &Block) -> trunnion_syntax::TextRange {
 
 /// Combinations of G codes, M codes and words.
 pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
+    cycles::check_between(block)?;
     match block.g[0] {
-        40 if !block.word(b'P').is_some_and(|p| p >= 0.0 || p.is_nan()) => {
+        // the control marks an absent P by -1, and takes all other numbers
+        40 if block.word(b'P').is_none_or(|p| p == -1.0) => {
             return Err(Error::new(&problems::G4_NO_P, block.g_range(0)));
         }
         40 if matches!(block.g[1], 20 | 30) => return Err(Error::new(&problems::G4_ARC, block.g_range(0))),
         100 => check_g10(block)?,
         530 => {
+            if block.g[1] == 52 {
+                return Err(Error::new(&problems::G53_SPLINE, block.g_range(0)));
+            }
             if !matches!(block.motion, 0 | 10) {
                 return Err(Error::new(&problems::G53_MOTION, block.g_range(0)));
             }
@@ -115,7 +126,6 @@ pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
         _ => {}
     }
     unused::check(block)?;
-    check_p(block)?;
     if block.g[14] == 960 && !block.has(b'S') {
         return Err(Error::new(&problems::G96_NO_S, block.g_range(14)));
     }
@@ -127,31 +137,28 @@ pub(crate) fn check(block: &Block, state: &State) -> Result<(), Error> {
             return Err(Error::new(&problems::G33_F, block.range_of(b'F')));
         }
     }
-    Ok(())
+    cycles::check_thread(block)
 }
 
-/// P of arcs and of M19 counts.
-fn check_p(block: &Block) -> Result<(), Error> {
-    let Some(p) = block.word(b'P') else { return Ok(()) };
-    let arc = matches!(block.motion, 20 | 30);
-    if (arc || block.m[7] == 19) && (p - p.round()).abs() > 0.001 {
-        return Err(Error::new(&problems::P_NOT_INTEGER, block.range_of(b'P')));
-    }
-    if arc && p.round() < 1.0 {
-        return Err(Error::new(&problems::P_TURNS, block.range_of(b'P')));
-    }
-    Ok(())
-}
+/// A value counts as whole so near a whole number (observed: within 0.0001 it does, at 0.0005 no more).
+pub(super) const WHOLE: f64 = 0.0002;
 
 fn check_g10(block: &Block) -> Result<(), Error> {
-    let p = block.word(b'P').map(f64::trunc);
+    let written = block.word(b'P');
+    let p = written.map(f64::round);
     let p_range = if block.has(b'P') {
         block.range_of(b'P')
     } else {
         block.g_range(0)
     };
     let at_least = |least: f64| p.is_some_and(|p| p.is_nan() || p >= least);
-    match block.word(b'L').map_or(-1, |l| l as i32) {
+    let code = block.word(b'L').map_or(-1, |l| l as i32);
+    // observed: what lies below a whole number is taken, what lies above it is not
+    let above = written.zip(p).is_some_and(|(written, whole)| written - whole > WHOLE);
+    if above && matches!(code, 0 | 1 | 2 | 10 | 11 | 20) {
+        return Err(Error::new(&problems::G10_P, p_range));
+    }
+    match code {
         2 if !at_least(0.0) || p.is_some_and(|p| p > 9.0) => return Err(Error::new(&problems::G10_L2_P, p_range)),
         20 if !at_least(0.0) || p.is_some_and(|p| p > 9.0) => return Err(Error::new(&problems::G10_L20_P, p_range)),
         0 | 2 | 20 => {}

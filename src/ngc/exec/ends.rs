@@ -181,9 +181,10 @@ fn polar(state: &State, block: &Block) -> Result<(f64, f64), Error> {
     let given_angle = block.angle.map(f64::to_radians);
     let (radius, angle) = if state.distance == DistanceMode::Incremental {
         if at_origin {
+            let cycle = matches!(block.motion, 730 | 740 | 810..=890);
             let problem = match block.radius {
-                Some(_) => &problems::POLAR_INCREMENTAL,
-                None => &problems::POLAR_INCREMENTAL_ANGLE,
+                None if !cycle => &problems::POLAR_INCREMENTAL_ANGLE,
+                _ => &problems::POLAR_INCREMENTAL,
             };
             return Err(Error::new(problem, block.range));
         }

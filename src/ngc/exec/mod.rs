@@ -24,7 +24,7 @@ pub(crate) use end::start;
 pub(crate) use ends::{cycle_end, end as end_of, word as axis_word};
 pub(crate) use frame::to_machine;
 pub(crate) use made::{made_arc, made_straight};
-pub(crate) use motion::{inverse_time, length, traverse};
+pub(crate) use motion::{code_range, inverse_time, length, traverse};
 
 /// How a block ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

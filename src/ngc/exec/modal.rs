@@ -58,7 +58,11 @@ pub(crate) fn plane(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
         181 => Plane::Uw,
         _ => Plane::Vw,
     };
-    if engine.state.side != Side::Off && plane != engine.state.plane {
+    let other = engine.state.side != Side::Off && plane != engine.state.plane;
+    if other && matches!(plane, Plane::Uv | Plane::Uw | Plane::Vw) {
+        return Err(Error::new(&problems::UVW_COMPENSATION, block.g_range(2)));
+    }
+    if other {
         return Err(Error::new(&problems::PLANE_COMPENSATION, block.g_range(2)));
     }
     engine.state.plane = plane;

@@ -1,17 +1,18 @@
 //! G10 L2 and L20, G92 to G92.3, G52: where zero is.
-use super::{access, frame, modal, problems};
+use super::{access, checks::WHOLE, frame, modal, problems};
 use crate::{At, Block, Canon, Engine, Error, Pose, Side, Sink};
 
 /// G10 L2, L20: offset and rotation of a coordinate system.
 pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
-    let number = block.word(b'P').unwrap_or(0.0) as i32;
+    // observed: 2.9999 is 3, 2.8 is 2
+    let number = (block.word(b'P').unwrap_or(0.0) + WHOLE) as i32;
     let active = engine.state.origin_index;
     let index = if number == 0 { active } else { number };
-    if engine.state.side != Side::Off && index == active {
-        return Err(Error::new(&problems::G10_COMPENSATION, block.g_range(0)));
-    }
     if let Some(letter) = [b'I', b'J'].into_iter().find(|&letter| block.has(letter)) {
         return Err(Error::new(&problems::G10_IJ, block.range_of(letter)));
+    }
+    if engine.state.side != Side::Off && index == active {
+        return Err(Error::new(&problems::G10_COMPENSATION, block.g_range(0)));
     }
     if let (Some(20.0), true) = (block.word(b'L'), block.has(b'R')) {
         return Err(Error::new(&problems::G10_L20_R, block.range_of(b'R')));

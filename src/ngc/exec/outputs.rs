@@ -28,7 +28,7 @@ pub(crate) fn signals(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn
     }
     match code {
         62..=65 => {
-            let index = block.word(b'P').unwrap_or(0.0).round() as i32;
+            let index = block.word(b'P').unwrap_or(0.0).round_ties_even() as i32;
             let call = Canon::DigitalOutput {
                 index,
                 on: code == 62 || code == 64,
@@ -39,7 +39,7 @@ pub(crate) fn signals(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn
         66 => wait(engine, block, at, sink)?,
         67 | 68 => {
             let problem = if code == 67 { &problems::M67_E } else { &problems::M68_E };
-            let index = block.word(b'E').map_or(-1, |e| e.round() as i32);
+            let index = block.word(b'E').map_or(-1, |e| e.round_ties_even() as i32);
             if index < 0 {
                 return Err(Error::new(problem, block.m_range(5)));
             }
@@ -58,21 +58,18 @@ pub(crate) fn signals(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn
 /// M66: what is read is put into parameter 5399; it is known to the machine only.
 fn wait(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let range = block.m_range(5);
-    if engine.state.side != Side::Off {
-        return Err(Error::new(&problems::M66_COMPENSATION, range));
-    }
-    let digital = block.word(b'P').map(f64::round);
-    let analog = block.word(b'E').map(f64::round);
+    let digital = block.word(b'P').map(f64::round_ties_even);
+    let analog = block.word(b'E').map(f64::round_ties_even);
     if digital.is_some() && analog.is_some() {
         return Err(Error::new(&problems::M66_BOTH, range));
     }
     let until = block.word(b'L').map_or(0, |l| l as i32);
     let timeout = block.word(b'Q').unwrap_or(-1.0);
-    if analog.is_some() && until != 0 {
-        return Err(Error::new(&problems::M66_ANALOG, range));
-    }
     if until > 0 && timeout <= 0.0 {
         return Err(Error::new(&problems::M66_TIMEOUT, range));
+    }
+    if analog.is_some() && until != 0 {
+        return Err(Error::new(&problems::M66_ANALOG, range));
     }
     let (Some(index), analog) = (
         digital.or(analog).filter(|&index| index.is_nan() || index >= 0.0),
@@ -80,6 +77,9 @@ fn wait(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Resu
     ) else {
         return Err(Error::new(&problems::M66_NONE, range));
     };
+    if engine.state.side != Side::Off {
+        return Err(Error::new(&problems::M66_COMPENSATION, range));
+    }
     let call = Canon::WaitInput {
         index: index as i32,
         analog,

@@ -79,13 +79,7 @@ fn turn_to(
 
 fn orient(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     let angle = block.word(b'R').unwrap_or(0.0);
-    if !(0.0..=360.0).contains(&angle) && !angle.is_nan() {
-        return Err(Error::new(&problems::M19_R, block.range_of(b'R')));
-    }
     let mode = block.word(b'P').unwrap_or(0.0).round();
-    if !(0.0..=2.0).contains(&mode) && !mode.is_nan() {
-        return Err(Error::new(&problems::M19_P, block.range_of(b'P')));
-    }
     // all of them at once (-1) it does not turn
     let number = block.spindle.unwrap_or(0);
     let exists = usize::try_from(number).is_ok_and(|spindle| spindle < engine.setup.spindles());

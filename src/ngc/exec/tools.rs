@@ -1,5 +1,5 @@
 //! T, M6, M61, tool offsets (G43, G43.1, G43.2, G49) and the tool table (G10 L0, L1, L10, L11).
-use super::{access, frame, problems};
+use super::{access, checks::WHOLE, frame, problems};
 use crate::{At, Block, Canon, Engine, Error, Pose, Side, Sink, SpindleTurn, Start, ToolEntry};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
@@ -122,10 +122,12 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
             forget_place(engine);
         }
         61 => {
-            if !block.word(b'Q').is_some_and(|q| q >= 0.0 || q.is_nan()) {
+            // rounded as the control rounds: half to even
+            let number = block.word(b'Q').map(f64::round_ties_even);
+            let Some(number) = number.filter(|&number| number >= 0.0 || number.is_nan()) else {
                 return Err(Error::new(&problems::M61_Q, range));
-            }
-            let tool = block.word(b'Q').unwrap_or(0.0).round() as i32;
+            };
+            let tool = number as i32;
             // rs274 goes on from the place that it has told last, which is not where compensation is
             if engine.state.side != Side::Off {
                 return Err(Error::new(&problems::TOOL_NUMBER_COMPENSATION, range));
@@ -285,8 +287,12 @@ pub(crate) fn table(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
     }
     entry.front_angle = block.word(b'I').unwrap_or(entry.front_angle);
     entry.back_angle = block.word(b'J').unwrap_or(entry.back_angle);
-    if let Some(orientation) = block.word(b'Q') {
+    // the control marks an absent Q by -1
+    if let Some(orientation) = block.word(b'Q').filter(|&q| q != -1.0) {
         let whole = orientation.round();
+        if orientation < 0.0 || (orientation - whole).abs() > WHOLE {
+            return Err(Error::new(&problems::G10_Q, block.range_of(b'Q')));
+        }
         if !(0.0..=9.0).contains(&whole) {
             return Err(Error::new(&problems::G10_ORIENTATION, block.range_of(b'Q')));
         }

@@ -1,4 +1,5 @@
 //! Words that nothing in the block uses.
+use super::problems;
 use crate::{Block, Class, Error, Problem};
 
 macro_rules! unused {
@@ -100,7 +101,7 @@ fn check_each(block: &Block) -> Result<(), Error> {
     let codes = Codes(block);
     let used = |letter: u8| match letter {
         b'D' => codes.g(7, &[410, 411, 420, 421]) || codes.g(14, &[960]) || codes.turning(),
-        b'E' => codes.motion(&[700, 760]) || codes.m(5, &[66, 67, 68]),
+        b'E' => codes.motion(&[330, 331, 700, 760]) || codes.m(5, &[66, 67, 68]),
         b'H' => codes.g(8, &[430, 432]) || codes.motion(&[760]),
         b'I' => codes.arc() || codes.motion(&[50, 51, 331, 760, 870]) || codes.roughing() || codes.g10(),
         b'J' => codes.arc() || codes.motion(&[50, 51, 760, 870]) || codes.g10(),
@@ -148,20 +149,19 @@ fn check_each(block: &Block) -> Result<(), Error> {
         }
         _ => true,
     };
-    let spindle_used = codes.m(7, &[3, 4, 5, 19])
-        || codes.m(9, &[51])
-        || codes.motion(&[330, 331, 760])
-        || codes.g(14, &[960, 970])
-        || block.has(b'S');
+    let spindle_used =
+        codes.m(7, &[3, 4, 5, 19]) || codes.m(9, &[51]) || codes.motion(&[330, 331, 760]) || block.has(b'S');
     // the control looks at these before anything of the block is done, and before all other words
     for (letter, problem) in [(b'A', &AXIS_A), (b'B', &AXIS_B), (b'C', &AXIS_C)] {
         if block.has(letter) && codes.cycle() {
             return Err(Error::new(problem, block.range_of(letter)));
         }
     }
-    if block.spindle.is_some() && !spindle_used {
-        return Err(Error::new(&DOLLAR, block.range));
-    }
+    // the control marks an absent Q by -1
+    let given = |letter: u8| match letter {
+        b'Q' => block.word(letter).is_some_and(|q| q != -1.0),
+        _ => block.has(letter),
+    };
     for (letter, problem) in [
         (b'D', &D),
         (b'E', &E),
@@ -174,9 +174,41 @@ fn check_each(block: &Block) -> Result<(), Error> {
         (b'Q', &Q),
         (b'R', &R),
     ] {
-        if block.has(letter) && !used(letter) {
+        if given(letter) && !used(letter) {
             return Err(Error::new(problem, block.range_of(letter)));
+        }
+        match letter {
+            b'D' if block.spindle.is_some() && !spindle_used => return Err(Error::new(&DOLLAR, block.range)),
+            b'P' => check_p(block)?,
+            b'R' => check_angle(block)?,
+            _ => {}
         }
     }
     Ok(())
+}
+
+/// P of arcs and of M19 counts.
+fn check_p(block: &Block) -> Result<(), Error> {
+    let Some(p) = block.word(b'P') else { return Ok(()) };
+    let (arc, orient) = (matches!(block.motion, 20 | 30), block.m[7] == 19);
+    let problem = if (arc || orient) && (p - p.round()).abs() > 0.001 {
+        &problems::P_NOT_INTEGER
+    } else if orient && !(0.0..=2.0).contains(&p.round()) && !p.is_nan() {
+        &problems::M19_P
+    } else if arc && p.round() < 1.0 {
+        &problems::P_TURNS
+    } else {
+        return Ok(());
+    };
+    Err(Error::new(problem, block.range_of(b'P')))
+}
+
+/// R of M19 is an angle.
+fn check_angle(block: &Block) -> Result<(), Error> {
+    match block.word(b'R') {
+        Some(angle) if block.m[7] == 19 && !(0.0..=360.0).contains(&angle) && !angle.is_nan() => {
+            Err(Error::new(&problems::M19_R, block.range_of(b'R')))
+        }
+        _ => Ok(()),
+    }
 }

@@ -121,11 +121,12 @@ fn modes(now: &State, saved: &State, g92: [bool; 2], range: TextRange) -> Option
     }
     if saved.motion_mode != now.motion_mode || saved.naive_tolerance.to_bits() != now.naive_tolerance.to_bits() {
         block.put_g(13, path_code(saved.motion_mode), range);
-        if let MotionMode::Continuous(tolerance) = saved.motion_mode
-            && tolerance != 0.0
-        {
-            put(&mut block, b'P', tolerance, range);
-            put(&mut block, b'Q', saved.naive_tolerance, range);
+        if let MotionMode::Continuous(tolerance) = saved.motion_mode {
+            for (letter, value) in [(b'P', tolerance), (b'Q', saved.naive_tolerance)] {
+                if value != 0.0 {
+                    put(&mut block, letter, value, range);
+                }
+            }
         }
         any = true;
     }

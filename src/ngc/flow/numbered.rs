@@ -109,6 +109,10 @@ impl Engine {
         let (Some(line), Some(call)) = (&compiled.o, self.flow.calls.last_mut()) else {
             return Ok(After::Go);
         };
+        if let Some(flaw) = line.tail {
+            self.abandon_call();
+            return Err(Error::new(flaw.problem, flaw.range).into());
+        }
         let problem = match (self.flow.no_fanuc, self.flow.style) {
             (true, _) => Some(&problems::FANUC_RETURN_OFF),
             (_, Style::Sub) => Some(&problems::END_WITH_ENDSUB),
@@ -117,10 +121,6 @@ impl Engine {
         if let Some(problem) = problem {
             self.abandon_call();
             return Err(Self::refusal(problem, line));
-        }
-        if let Some(flaw) = line.tail {
-            self.abandon_call();
-            return Err(Error::new(flaw.problem, flaw.range).into());
         }
         call.rounds -= 1;
         let (rounds, body) = (call.rounds, call.body);

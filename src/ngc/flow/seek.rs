@@ -7,7 +7,7 @@ use super::glance;
 use super::labels::Place;
 use super::oline::{self, Keyword, OLine};
 use super::{Compiled, Goal, Kind, Seeking, problems};
-use crate::{Class, Engine, Error};
+use crate::{Engine, Error, read};
 use trunnion_formula::Pool;
 use trunnion_syntax::TextRange;
 
@@ -197,15 +197,23 @@ impl Engine {
         if matches!(line.label, super::label::Label::Computed(_)) {
             seeking.fixed = false;
         }
+        let definition = matches!(seeking.goal, Goal::Definition(_));
+        let opens = matches!(line.keyword, Keyword::Sub | Keyword::Bare);
+        let nested = || Error::new(&problems::NESTED_SUB, line.label_range.cover(line.keyword_range));
         let name = match self.name_of(&line) {
             Ok(name) => name,
-            // a label that has no value yet is none that is looked for
-            Err(super::Halt::Refused(error)) if error.problem.class == Class::Variable => return Glance::Nothing,
+            // observed: in a definition that is passed over a name may have no value
+            Err(super::Halt::Refused(error)) if definition && read::is_not_defined(&error) => {
+                return if opens {
+                    Glance::Refused(nested())
+                } else {
+                    Glance::Nothing
+                };
+            }
             Err(super::Halt::Refused(error)) => return Glance::Refused(*error),
             Err(super::Halt::Undecided(why)) => return Glance::Undecided(why),
             Err(super::Halt::Told | super::Halt::Endless(_)) => return Glance::Nothing,
         };
-        let definition = matches!(seeking.goal, Goal::Definition(_));
         if let Some(flaw) = line.flaw
             && flaw.problem == &problems::UNKNOWN_KEYWORD
         {
@@ -221,11 +229,8 @@ impl Engine {
         let counts = match seeking.goal {
             Goal::Label(_, wanted) => !is_global && name == wanted,
             Goal::Definition(wanted) => {
-                if matches!(line.keyword, Keyword::Sub | Keyword::Bare) {
-                    return Glance::Refused(Error::new(
-                        &problems::NESTED_SUB,
-                        line.label_range.cover(line.keyword_range),
-                    ));
+                if opens {
+                    return Glance::Refused(nested());
                 }
                 is_global && name == wanted
             }

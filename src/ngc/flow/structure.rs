@@ -382,12 +382,12 @@ impl Engine {
     pub(super) fn line_number(&self) -> u32 {
         self.flow.at.line + 1
     }
-    /// The line that runs, as written, without blanks at its ends.
+    /// The line that runs, as written, without blanks at its end.
     pub(super) fn line_text(&self) -> String {
         let at = self.flow.at;
         let source = &self.files[at.file.0 as usize];
         let range = source.line(at.line).unwrap_or_default();
-        String::from_utf8_lossy(source.bytes()[range.start as usize..range.end as usize].trim_ascii()).into_owned()
+        String::from_utf8_lossy(source.bytes()[range.start as usize..range.end as usize].trim_ascii_end()).into_owned()
     }
     /// A refusal without details.
     #[cold]

@@ -14,4 +14,4 @@ mod tests;
 pub(crate) use evaluate::{apply, errors, evaluate};
 pub(crate) use line::Line;
 pub(crate) use plain::plain;
-pub(crate) use problems::{G_UNKNOWN, UNDECIDED, formula as formula_error};
+pub(crate) use problems::{G_UNKNOWN, UNDECIDED, formula as formula_error, is_not_defined};

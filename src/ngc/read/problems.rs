@@ -59,7 +59,13 @@ problems! {
     INFINITE Expression "Calculation resulted in 'infinity'" "The result is larger than any number."
     NO_RESULT Expression "Calculation resulted in 'not a number'" "The operation has no result (`0 MOD 0`)."
     UNREADABLE Variable "" "The value is known to the machine only."
+    NOT_READABLE Variable "" "Read it before compensation is switched on, or write G40 first."
     UNDECIDED Other "" "The code is the value of something unknown: which one it is cannot be said."
+}
+
+/// Whether a name had no value.
+pub(crate) fn is_not_defined(error: &Error) -> bool {
+    error.problem == &NOT_DEFINED
 }
 
 /// What is wrong with an expression, as an error of the line.
@@ -89,8 +95,10 @@ pub(crate) fn formula(error: &FormulaError) -> Error {
         Kind::NegativePower => &POWER,
         Kind::Infinite => &INFINITE,
         Kind::Undefined => &NO_RESULT,
-        // Macro B's own, and variables that have a reason
-        Kind::MissingComma | Kind::TooDeep { .. } | Kind::NotReadable(_) | Kind::NotDecimalCoded => &UNREADABLE,
+        // the position under compensation: nothing else has a reason here
+        Kind::NotReadable(_) => &NOT_READABLE,
+        // Macro B's own
+        Kind::MissingComma | Kind::TooDeep { .. } | Kind::NotDecimalCoded => &UNREADABLE,
     };
     let text = error
         .kind

@@ -54,3 +54,8 @@ fn blocks_do_what_the_control_does() {
 fn random_blocks_do_what_the_control_does() {
     compare("random_blocks.txt", 80);
 }
+
+#[test]
+fn words_and_codes_belong_together_as_the_control_says() {
+    compare("words.txt", 100);
+}

@@ -11,6 +11,9 @@ use crate::{FaultKind, Feed, FeedMode, Motion, MotionKind, Orientation, Position
 use trunnion_dialect::Action;
 use trunnion_geometry::arc::Turning;
 
+/// A coordinate that differs by no more than this has not moved, mm: sums of offsets round.
+const STANDS_MM: f64 = 1e-9;
+
 impl Interpreter<'_> {
     pub(crate) fn modelled_motion(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Motion {
         let frame_hides = self.state.frame_unknown && !block.machine_coordinates;
@@ -65,7 +68,7 @@ impl Interpreter<'_> {
             Feed::Unknown
         } else {
             let feed = self.feed_of(kind, words, report);
-            self.turning_feed(kind, feed, words)
+            self.turning_feed(kind, feed, words, [&start, &end])
         };
         let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
@@ -244,16 +247,20 @@ impl Interpreter<'_> {
         }
     }
 
-    /// F counts degrees, not inches, where only rotary axes are named and X Y Z are joints. A full circle names none of them and runs all
-    /// the same.
-    fn turning_feed(&self, kind: MotionKind, feed: Feed, words: &Words) -> Feed {
+    /// F counts degrees, not inches, where only rotary axes move and X Y Z are joints; a linear axis that is named where it stands does
+    /// not move. A full circle names none of them and runs all the same.
+    fn turning_feed(&self, kind: MotionKind, feed: Feed, words: &Words, [start, end]: [&Position; 2]) -> Feed {
         let named = words.axes.given | words.axes.unread;
         let inch = self.state.feed_unit_mm;
+        let stands = |axis: usize| {
+            matches!((start.get(axis), end.get(axis)), (Some(from), Some(to)) if (from - to).abs() < STANDS_MM)
+        };
+        let moves = |axis: &usize| named & LINEAR & (1 << axis) != 0 && !stands(*axis);
         if inch == 1.0
             || matches!(kind, MotionKind::Arc(_))
             || self.state.tcp
             || words.vector.any()
-            || named & LINEAR != 0
+            || (0..start.values.len()).any(|axis| moves(&axis))
             || named & ROTARY == 0
         {
             return feed;

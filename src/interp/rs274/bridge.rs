@@ -29,6 +29,8 @@ pub(super) struct Told {
     pub(super) surface_speed: bool,
     /// G92, mm and deg.
     pub(super) g92: Pose,
+    /// The tool offset, mm and deg: the interpreter's own keeps its number when the unit changes, the machine's its length.
+    pub(super) tool_offset: Pose,
     /// The block in which each line begins, where that is not its number.
     pub(super) blocks: Option<std::sync::Arc<[u32]>>,
     /// Where lines stand and from where the main program called them.
@@ -86,7 +88,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// The offsets that the machine knows.
     pub(super) fn shift(&self, state: &State) -> Shift {
-        Shift::of(state, &self.told.g92)
+        Shift::of(state, &self.told.g92, &self.told.tool_offset)
     }
 
     pub(super) fn fault(&mut self, at: At, range: TextRange, kind: FaultKind) {

@@ -222,7 +222,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     fn tool_offset(&mut self, offset: &Pose, at: At, state: &State) {
         let on = offset.iter().any(|value| *value != 0.0) || state.tool != 0;
-        let length = offset[2] * state.units.mm();
+        self.told.tool_offset = Shift::metric(offset, state.units.mm());
+        let length = self.told.tool_offset[2];
         self.interpreter.state.tool_length_mm = (on && length.is_finite()).then_some(length);
         let declared = self.interpreter.tool().and_then(|tool| tool.length_mm).is_some();
         if on && length == 0.0 && !declared {

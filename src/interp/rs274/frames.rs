@@ -29,9 +29,9 @@ pub(super) struct Shift {
 }
 
 impl Shift {
-    /// `g92`: the shift that the machine was told last, mm and deg. Under compensation of the cutter radius the interpreter changes its own
-    /// without telling the machine.
-    pub(super) fn of(state: &State, g92: &Pose) -> Self {
+    /// `g92`, `tool`: the shift and the tool offset that the machine was told last, mm and deg. Under compensation of the cutter radius,
+    /// and when the unit changes, the interpreter changes its own without telling the machine.
+    pub(super) fn of(state: &State, g92: &Pose, tool: &Pose) -> Self {
         let unit = state.units.mm();
         let scale = |axis: usize| if is_rotary(axis) { 1.0 } else { unit };
         let rotation = (state.rotation_xy != 0.0).then(|| {
@@ -43,7 +43,7 @@ impl Shift {
         for axis in 0..9 {
             zero[axis] = state.origin_offset[axis] * scale(axis);
             if axis != 2 {
-                zero[axis] += state.tool_offset[axis] * scale(axis);
+                zero[axis] += tool[axis];
             }
             if rotation.is_some() {
                 inside[axis] = g92[axis];
@@ -57,7 +57,7 @@ impl Shift {
             rotation,
             inside,
             zero,
-            length: state.tool_offset[2] * unit,
+            length: tool[2],
         }
     }
 
@@ -190,10 +190,11 @@ mod tests {
         let mut state = State::new(false);
         state.rotation_xy = 90.0;
         state.origin_offset[0] = 100.0;
-        state.tool_offset[2] = 50.0;
+        let mut tool = [0.0; 9];
+        tool[2] = 50.0;
         let mut g92 = [0.0; 9];
         g92[1] = 5.0;
-        let shift = Shift::of(&state, &g92);
+        let shift = Shift::of(&state, &g92, &tool);
         let at = shift.coordinates(&[10.0, 0.0, 1.0, 7.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         let machine = shift.machine(&at);
         // (10, 0) + (0, 5) turned by 90 deg is (-5, 10)
@@ -207,7 +208,7 @@ mod tests {
 
     #[test]
     fn what_is_not_a_number_is_unknown() {
-        let shift = Shift::of(&State::new(false), &[0.0; 9]);
+        let shift = Shift::of(&State::new(false), &[0.0; 9], &[0.0; 9]);
         let mut pose = [1.0; 9];
         pose[1] = f64::NAN;
         let at = shift.coordinates(&pose);
@@ -218,7 +219,7 @@ mod tests {
     fn only_what_is_finite_is_known_also_where_values_are_huge() {
         let huge = [f64::MAX; 9];
         assert!(!all_finite(&huge));
-        let shift = Shift::of(&State::new(false), &[0.0; 9]);
+        let shift = Shift::of(&State::new(false), &[0.0; 9], &[0.0; 9]);
         let at = shift.coordinates(&huge);
         assert_eq!((at.values, at.known), (huge, ALL));
         assert_eq!(shift.machine(&at).known, ALL);
@@ -242,7 +243,7 @@ mod tests {
     fn inches_become_millimetres_and_degrees_stay() {
         let mut state = State::new(false);
         state.units = trunnion_ngc::Units::Inch;
-        let at = Shift::of(&state, &[0.0; 9]).coordinates(&[1.0; 9]);
+        let at = Shift::of(&state, &[0.0; 9], &[0.0; 9]).coordinates(&[1.0; 9]);
         assert_eq!((at.get(0), at.get(3), at.get(6)), (Some(25.4), Some(1.0), Some(25.4)));
     }
 }

@@ -183,7 +183,7 @@ impl Interpreter<'_> {
             forget(engine, told, &[3, 4, 5]);
             self.state.clamps.lose();
         }
-        let shift = Shift::of(&engine.state, &told.g92);
+        let shift = Shift::of(&engine.state, &told.g92, &told.tool_offset);
         modal::refresh(&mut self.state, &engine.state, &shift);
         self.state.position = shift.coordinates(&engine.state.current);
         (!nothing_ran).then_some(block)

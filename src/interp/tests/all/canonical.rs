@@ -1,7 +1,7 @@
 //! LinuxCNC's canonical calls as motions: what compensation of the cutter radius holds back keeps what was in force with it.
 use crate::support::{faults, line, lines, run_bytes};
 use std::sync::Arc;
-use trunnion_interp::{FaultKind, Feed, Files, Library, Loaded, ModalState, Setup};
+use trunnion_interp::{FaultKind, Feed, Files, Library, Loaded, ModalState, Setup, Tool};
 
 /// One file under any name.
 struct OneFile(&'static str);
@@ -123,6 +123,26 @@ fn g92_under_compensation_does_not_reach_the_machine() {
 }
 
 #[test]
+fn a_tool_offset_keeps_its_length_when_the_unit_changes() {
+    let setup = Setup {
+        tools: vec![Tool {
+            number: 1,
+            length_mm: Some(80.0),
+            ..Tool::default()
+        }],
+        ..Setup::default()
+    };
+    for (source, lengths) in [
+        ("G21 G90\nT1 M6\nG43 H1\nG0 Z0\nG20\nG0 Z1\nM2\n", [80.0, 80.0]),
+        ("G20 G90\nT1 M6\nG43 H1\nG0 Z0\nG21\nG0 Z1\nM2\n", [80.0, 80.0]),
+    ] {
+        let log = run_bytes("linuxcnc", source.as_bytes(), &setup).1;
+        let told: Vec<f64> = log.motions.iter().map(|motion| motion.tool_length_mm).collect();
+        assert!(told.iter().zip(lengths).all(|(a, b)| (a - b).abs() < 1e-9), "{told:?}");
+    }
+}
+
+#[test]
 fn an_inch_feed_of_rotary_axes_alone_is_degrees_per_minute() {
     for dialect in ["linuxcnc", "fanuc-30i", "iso-6983"] {
         let source = "G20 G90 G94\nG0 X0. Y0. Z0. A0. C0.\nG1 A90. F100.\nG1 X1. F10.\nG1 X2. A0.\nM2\n";
@@ -130,6 +150,13 @@ fn an_inch_feed_of_rotary_axes_alone_is_degrees_per_minute() {
         let got: Vec<_> = log.motions[1..].iter().map(|motion| motion.feed).collect();
         let linear = Feed::PerMinute(254.0);
         assert_eq!(got, [Feed::PerMinute(100.0), linear, linear], "{dialect}");
+    }
+    // a linear axis that is named where it stands does not move
+    for (dialect, inch) in [("linuxcnc", "G20"), ("fanuc-30i", "G20"), ("sinumerik-840d", "G700")] {
+        let source = format!("{inch} G90 G94\nG0 X1. Y0. Z0. A0.\nG1 X1. A90. F100.\nG91 G1 Y0. A5.\nM2\n");
+        let log = run_bytes(dialect, source.as_bytes(), &Setup::default()).1;
+        let got: Vec<_> = log.motions[1..].iter().map(|motion| motion.feed).collect();
+        assert_eq!(got, [Feed::PerMinute(100.0); 2], "{dialect}");
     }
     // a full circle runs along X Y although it names a rotary axis only
     for dialect in ["linuxcnc", "fanuc-30i", "sinumerik-840d"] {

@@ -1,0 +1,124 @@
+"""Random machines and programs from a seed: python3 run.py BINARY [--seed N] [--count N] [--theme NAME] [--keep]."""
+
+import argparse
+import random
+import sys
+
+import lines
+from compare import Findings, compare
+from follow import Follower
+from machine import random_machine
+from reader import Reader, Unread
+from trunnion import Broken, Trunnion
+
+THEMES = {
+    "plain": {"tcp"},
+    "offsets": {"tcp", "offsets", "shifts", "g91"},
+    "lengths": {"tcp", "lengths", "g91", "offsets"},
+    "feeds": {"tcp", "feeds", "inch", "g91"},
+    "all": {"tcp", "offsets", "shifts", "lengths", "g91", "inch", "feeds"},
+}
+TCP = '{ path = "tip-linear", orientation = "joint", feed = "tip" }'
+
+
+def control(rng, dialect):
+    out = {"units": '"mm"', "family": f'"{dialect}"', "tcp": TCP, "rapid": rng.choice(['"synchronous"', '"dogleg"'])}
+    if dialect == "linuxcnc":
+        out["tcp_codes"] = '{ on = ["M428"], off = ["M429"] }'
+    return out
+
+
+def offsets(rng, machine, rotary):
+    out = {}
+    for name in ("G54", "G55", "G56", "G57"):
+        out[name] = {a: round(rng.uniform(-30, 30), 3) for a in "XYZ"}
+        if rotary and rng.random() < 0.3:
+            out[name][rng.choice(machine.rotaries).letter] = round(rng.uniform(-20, 20), 2)
+    return out
+
+
+def case(seed, theme):
+    rng = random.Random(f"{theme}-{seed}")
+    dialect = rng.choice(list(lines.WORDS))
+    # a length without tool centre point control is added to the word of the tool's axis: plain only where that axis stands along Z
+    machine = random_machine(rng, control(rng, dialect), askew=rng.choice([0.0, 0.5]) if theme == "plain" else 0.0)
+    tools = {n: round(rng.uniform(0, 150), 2) for n in (1, 2, 3)}
+    zero = offsets(rng, machine, rotary=theme in ("offsets", "all") and rng.random() < 0.5)
+    text = lines.program(rng, machine, dialect, rng.randint(4, 14), THEMES[theme])
+    return machine, dialect, tools, zero, text
+
+
+def legs_of(text, machine, dialect, tools, zero):
+    follower = Follower(machine)
+    reader = Reader(dialect, tools, zero, follower.position)
+    return [follower.step(m) for m in reader.run(text)]
+
+
+def judge(trunnion, machine, dialect, tools, zero, text):
+    findings = Findings()
+    body = "\n".join(text) + "\n"
+    try:
+        legs = legs_of(body, machine, dialect, tools, zero)
+    except (Unread, ValueError):
+        return findings
+    trunnion.settings(machine, tools, zero)
+    try:
+        rows, report = trunnion.trace(body, dialect), trunnion.check(body, dialect)
+    except Broken as broken:
+        findings.append(str(broken))
+        return findings
+    compare(legs, rows, report, machine, findings)
+    return findings
+
+
+def shrink(trunnion, machine, dialect, tools, zero, text):
+    """Leaves out lines as long as something still differs."""
+    step = max(1, len(text) // 2)
+    while step:
+        at = 0
+        while at < len(text):
+            shorter = text[:at] + text[at + step:]
+            if shorter and judge(trunnion, machine, dialect, tools, zero, shorter):
+                text = shorter
+            else:
+                at += step
+        step //= 2
+    return text
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("binary")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--count", type=int, default=20)
+    parser.add_argument("--theme", action="append")
+    parser.add_argument("--stop", type=int, default=3, help="stop after so many seeds that differ")
+    options = parser.parse_args()
+    trunnion = Trunnion(options.binary)
+    bad = motions = unknown = 0
+    for theme in options.theme or THEMES:
+        for seed in range(options.seed, options.seed + options.count):
+            parts = case(seed, theme)
+            found = judge(trunnion, *parts)
+            motions, unknown = motions + found.motions, unknown + found.unknown
+            if not found:
+                continue
+            bad += 1
+            text = shrink(trunnion, *parts)
+            found = judge(trunnion, *parts[:4], text)
+            print(f"theme {theme} seed {seed} {parts[1]}")
+            print("\n".join("  " + x for x in found[:6]))
+            print("\n".join(f"    {i + 1}: {line}" for i, line in enumerate(text)))
+            print("    tools", parts[2], "offsets", parts[3])
+            trunnion.settings(*parts[:1], parts[2], parts[3])
+            print(parts[0].toml() if options.stop == 1 else "    " + " ".join(parts[0].letters))
+            if bad >= options.stop:
+                break
+        if bad >= options.stop:
+            break
+    print(f"{motions} motions compared, {unknown} unknown to trunnion only, {bad} programs differ; {trunnion.folder}")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,6 +1,6 @@
 //! What a motion or leg must be like for a rule to have anything to say of it: most rules are not asked about most of them.
 use crate::rule::InForce;
-use crate::rules::{excess_linear_travel, excess_rotary_travel, fast_pole};
+use crate::rules::{excess_linear_travel, excess_rotary_travel, fast_pole, position_unknown};
 use crate::trail::Trail;
 use crate::view::{leads_tip, turns};
 use core::f64::consts::PI;
@@ -24,7 +24,7 @@ impl Needs {
     pub const LEADS_TIP: Self = Self(1 << 3);
     /// Tool vectors instead of rotary words.
     pub const VECTORS: Self = Self(1 << 4);
-    /// No stance at the end.
+    /// No stance at the end, or an arc from where nobody knows.
     pub const LOST: Self = Self(1 << 5);
     /// A posture that is open.
     pub const OPEN: Self = Self(1 << 6);
@@ -139,7 +139,7 @@ impl<'m> Facts<'m> {
         let [first, second] = leg.rotary_change;
         let (mut lost, mut crosses) = (true, false);
         if let Ok(end) = &leg.end {
-            lost = false;
+            lost = position_unknown::is_arc_from_nowhere(motion);
             crosses = leg.start.as_ref().is_some_and(|start| {
                 let before = if start.branch == 0 {
                     posture_before

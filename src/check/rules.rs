@@ -45,7 +45,7 @@ mod pivot_uncertainty;
 mod pole_crossing;
 mod pole_flip;
 mod porting;
-mod position_unknown;
+pub(crate) mod position_unknown;
 mod program_alarm;
 mod rejected_block;
 mod repeated_word;

@@ -47,6 +47,8 @@ class Arc:
             self.centre = (start[a] + motion.arc.get(i, 0.0), start[b] + motion.arc.get(j, 0.0))
         self.from_angle = math.atan2(start[b] - self.centre[1], start[a] - self.centre[0])
         self.radii = [math.hypot(p[a] - self.centre[0], p[b] - self.centre[1]) for p in (start, end)]
+        if abs(self.radii[0] - self.radii[1]) > 0.004 or min(self.radii) < 0.5:
+            raise ValueError("radii of the arc")
         sweep = math.atan2(end[b] - self.centre[1], end[a] - self.centre[0]) - self.from_angle
         if motion.kind == "ccw":
             sweep = sweep % (2 * math.pi) or 2 * math.pi

@@ -1,5 +1,9 @@
 """Random programs of lines, arcs, offsets, lengths, units and feed modes, with and without tool centre point control."""
 
+import math
+
+from follow import PLANES
+
 WORDS = {
     "fanuc-30i": dict(start=["G21 G17 G90 G94 G49"], on="G43.4 H{t}", off="G49", length="G43 H{t}", end=["M30"], inch="G20", mm="G21"),
     "sinumerik-840d": dict(start=["G71 G17 G90 G94"], on="TRAORI", off="TRAFOOF", length=None, end=["M30"], inch="G700", mm="G710"),
@@ -74,6 +78,9 @@ def block(rng, machine, dialect, w, state, themes):
     if "tcp" in themes and r < 0.20:
         state["tcp"] = not state["tcp"]
         switch = [w["on" if state["tcp"] else "off"].format(t=rng.choice([1, 2]))]
+        if state.get("motion") == "arc":
+            switch.append("G1 Z10.")
+            state["motion"] = "G1"
         return switch + [f"G0 X{value(rng, -40, 40)} Y{value(rng, -40, 40)} Z{value(rng, 0, 60)}"] if rng.random() < 0.8 else switch
     if "lengths" in themes and r < 0.25 and w["length"]:
         code = "G43.4" if state["tcp"] and dialect == "fanuc-30i" else "G43"
@@ -90,10 +97,12 @@ def block(rng, machine, dialect, w, state, themes):
         state["feed"] = rng.choice(["G93", "G94", "G95"])
         f = {"G93": rng.choice(["20.", "2.", "0.5"]), "G94": rng.choice(["300.", "1500."]), "G95": rng.choice(["0.1", "0.02"])}[state["feed"]]
         return [f"{state['feed']} G1 F{f} " + " ".join(random_words(rng, machine, state, state["inch"]))]
+    if "arcs" in themes and r < 0.75:
+        return arc(rng, machine, dialect, state)
     words = random_words(rng, machine, state, state["inch"])
     if not words:
         words = [f"X{value(rng, -1, 1)}"]
-    code = rng.choices(["", "G1", "G0"], [4, 4, 1])[0]
+    code = rng.choices(["" if state.get("motion") != "arc" else "G1", "G1", "G0"], [4, 4, 1])[0]
     if code == "G0" or state.get("motion") == "G0" and code == "":
         code = code or "G1"
     state["motion"] = code or state.get("motion")
@@ -109,3 +118,42 @@ def shift(rng, machine, dialect, state):
     if dialect == "sinumerik-840d":
         return [rng.choice([f"TRANS {axis}{v}", f"ATRANS {axis}{v}", "TRANS"])]
     return [rng.choice([f"G52 {axis}{v}", f"G52 {axis}0.", f"G52 X0. Y0. Z0. {r[0]}0. {r[1]}0.", f"G92 {axis}{v}"])]
+
+
+def arc(rng, machine, dialect, state):
+    """A line to a point of a circle and the arc or helix from there; told by centre or radius, with rotary words or without."""
+    plane = rng.choice(["G17", "G17", "G18", "G19"])
+    a, b, c, i, j = PLANES[plane]
+    k = 1 / 25.4 if state["inch"] else 1.0
+    radius, w0 = rng.uniform(2, 30) * k, rng.uniform(0, 2 * math.pi)
+    sweep = rng.choice([-1, 1]) * rng.uniform(0.2, 6.1)
+    if rng.random() < 0.15:
+        sweep = math.copysign(2 * math.pi, sweep)
+    centre = rng.uniform(-20, 20) * k, rng.uniform(-20, 20) * k
+    places = 5 if state["inch"] else 4
+
+    def point(w):
+        return round(centre[0] + radius * math.cos(w), places), round(centre[1] + radius * math.sin(w), places)
+
+    (x0, y0), (x1, y1) = point(w0), point(w0 + sweep)
+    full = abs(sweep) > 6.2
+    lines = [f"{'G90 ' if not state['absolute'] else ''}{plane} G1 {a}{x0:.{places}f} {b}{y0:.{places}f}"]
+    words = [] if full else [f"{a}{x1:.{places}f}", f"{b}{y1:.{places}f}"]
+    if rng.random() < 0.4:
+        words.append(c + value(rng, -20 * k, 20 * k, places))
+    for r in (x.letter for x in machine.rotaries):
+        if rng.random() < 0.4:
+            lo, hi = rotary_ranges(machine)[r]
+            v = min(hi, max(lo, state["rotary"].get(r, 0.0) + rng.uniform(-30, 30)))
+            state["rotary"][r] = v
+            words.append(r + value(rng, v, v))
+    state["absolute"], state["motion"] = True, "arc"
+    if full or rng.random() < 0.7 or math.hypot(x1 - x0, y1 - y0) < 0.3 * radius or abs(abs(sweep) - math.pi) < 0.2:
+        words += [f"{i}{centre[0] - x0:.{places + 1}f}", f"{j}{centre[1] - y0:.{places + 1}f}"]
+    else:
+        name = "CR=" if dialect == "sinumerik-840d" else "R"
+        words.append(f"{name}{math.copysign(radius, math.pi - abs(sweep)):.{places}f}")
+    if state["feed"] == "G93":
+        words.append("F" + rng.choice(["20.", "2."]))
+        lines[0] += " F2."
+    return lines + [f"{'G3' if sweep > 0 else 'G2'} {' '.join(words)}"]

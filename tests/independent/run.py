@@ -16,7 +16,8 @@ THEMES = {
     "offsets": {"tcp", "offsets", "shifts", "g91"},
     "lengths": {"tcp", "lengths", "g91", "offsets"},
     "feeds": {"tcp", "feeds", "inch", "g91"},
-    "all": {"tcp", "offsets", "shifts", "lengths", "g91", "inch", "feeds"},
+    "arcs": {"tcp", "arcs", "inch", "feeds"},
+    "all": {"arcs", "tcp", "offsets", "shifts", "lengths", "g91", "inch", "feeds"},
 }
 TCP = '{ path = "tip-linear", orientation = "joint", feed = "tip" }'
 

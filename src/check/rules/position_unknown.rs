@@ -1,4 +1,4 @@
-//! A feed motion, or a rapid from a known place or by an increment, ends at a position that is not known.
+//! A feed motion, or a rapid from a known place or by an increment, ends at a position that is not known, or is an arc that begins there.
 //!
 //! # Why
 //! Some axis was never positioned, or its position was lost where something is not modelled. Nobody can say where the joints
@@ -24,7 +24,7 @@
 //! # Sources
 //! Trunnion's interface: the position before the first motion is unknown, and nothing is checked from it.
 use crate::prelude::*;
-use trunnion_interp::{AXIS_LETTERS, MotionKind};
+use trunnion_interp::{AXIS_LETTERS, Motion, MotionKind};
 use trunnion_machine::NoStance;
 
 pub(super) const RULE: Body = Body {
@@ -38,6 +38,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         Err(NoStance::PositionUnknown(letters)) => letters,
         Err(NoStance::RotaryOffset(axis)) => return rotary_offset(*axis, view, out),
         Err(NoStance::HeldElsewhere { axis, value, held }) => return held_elsewhere(*axis, [*value, *held], view, out),
+        Ok(_) if is_arc_from_nowhere(view.motion()) => return arc_from_nowhere(view, out),
         _ => return,
     };
     let cause = hash(letters) ^ u64::from(view.motion().is_feed());
@@ -77,6 +78,25 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .help(help)
         .unknown()
         .merge_everywhere(cause);
+}
+
+/// Whether it is an arc that nobody can draw because X, Y or Z of its start is not known, as behind a switch of tool centre point control.
+pub(crate) fn is_arc_from_nowhere(motion: &Motion) -> bool {
+    motion.kind == MotionKind::Arc(None) && motion.start.xyz().is_none()
+}
+
+/// Its end is known, its way is not: told once.
+fn arc_from_nowhere(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    const CAUSE: u64 = u64::MAX;
+    if out.repeats_unknown(view, CAUSE, 0.0) {
+        return;
+    }
+    let range = code_range(out.program(), view.motion().block);
+    out.report(range, "the way of this arc is not known: where X, Y and Z stand at its start was never given, or is lost")
+        .note("limits, speeds and the tip's path are not checked in this block")
+        .help("program X, Y and Z in a straight motion before the arc: behind a switch of tool centre point control they count from elsewhere")
+        .unknown()
+        .merge_everywhere(CAUSE);
 }
 
 /// Feed motions, rapids from a known place to one that is not known, and rapids by an increment from one that is not known. A rapid that
@@ -218,6 +238,21 @@ mod tests {
                 .map(|found| (found.rule, found.status))
                 .collect();
             assert_eq!(said, [("position-unknown", crate::Status::Unknown)], "{line}");
+        }
+    }
+
+    /// Where the centre of an arc lies that is told from its start, nobody knows behind a switch of tool centre point control.
+    #[test]
+    fn an_arc_behind_a_switch_of_tool_centre_point_control_is_told() {
+        for arc in ["G2 I-5. J18.", "G2 X10. Y10. R20.", "G3 Z5. C5. I5.", "G2 X0. Y0. Z0. I5."] {
+            for [from, to] in [["G43.4 H1", "G49"], ["G49", "G43.4 H1"]] {
+                let text = format!("G21 G90 {from}\nG0 X1. Y2. Z50. A50. C0.\n{to}\n{arc} F500\nM30\n");
+                let report = crate::fixture::Fixture::parse("gcode fanuc-30i mikron-ucp710", &text)
+                    .check()
+                    .unwrap();
+                let said = |found: &&crate::Diagnostic| found.rule == "position-unknown";
+                assert_eq!(report.diagnostics.iter().filter(said).count(), 1, "{arc} {to}");
+            }
         }
     }
 

@@ -252,9 +252,7 @@ impl Interpreter<'_> {
     fn turning_feed(&self, kind: MotionKind, feed: Feed, words: &Words, [start, end]: [&Position; 2]) -> Feed {
         let named = words.axes.given | words.axes.unread;
         let inch = self.state.feed_unit_mm;
-        let stands = |axis: usize| {
-            matches!((start.get(axis), end.get(axis)), (Some(from), Some(to)) if (from - to).abs() < STANDS_MM)
-        };
+        let stands = |axis: usize| matches!((start.get(axis), end.get(axis)), (Some(from), Some(to)) if (from - to).abs() < STANDS_MM);
         let moves = |axis: &usize| named & LINEAR & (1 << axis) != 0 && !stands(*axis);
         if inch == 1.0
             || matches!(kind, MotionKind::Arc(_))

@@ -90,11 +90,19 @@ class Told:
             if d["rule"] == rule and d["line"] <= line <= max(d.get("last_line") or 0, d["line"]) and status in (None, d["status"])
         ]
 
+    def excused(self, line):
+        """An unknown verdict with its reason is an answer; these are told once for a whole run of blocks, wherever they stand."""
+        everywhere = ("position-unknown", "path-deviation")
+        return any(d["status"] == "unknown" and (d["line"] == line or d["rule"] in everywhere) for d in self.diagnostics)
+
     def any(self, rule, status="unknown"):
         return [d for d in self.diagnostics if d["rule"] == rule and d["status"] == status]
 
 
 def between(leg, row, line, machine, findings, told):
+    if told.excused(line):
+        findings.reasons.setdefault("told as unknown", []).append(line)
+        return
     m = leg.motion
     path_limits(leg, line, machine, findings, told)
     deviation = number(row, "tip_deviation_mm")
@@ -109,9 +117,8 @@ def between(leg, row, line, machine, findings, told):
             findings.say(line, f"silent pass: the tip strays by {truth:.4f} mm")
         if m.kind != "rapid" and truth < TOLERANCE * 0.8 and told.at("path-deviation", line, "fail"):
             findings.say(line, f"false path-deviation: the tip strays by {truth:.6f} mm only")
-    elif not told.at("path-deviation", line, "unknown") and not told.any("position-unknown"):
-        if m.kind != "rapid":
-            findings.say(line, "silent pass: no deviation is told, and no finding says why")
+    elif m.kind != "rapid":
+        findings.say(line, "silent pass: no deviation is told, and no finding says why")
     if m.kind == "rapid":
         return
     speeds(leg, row, line, machine, findings, told)

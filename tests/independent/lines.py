@@ -54,11 +54,12 @@ def program(rng, machine, dialect, blocks, themes):
     lines.append(n + "S5000 M3")
     if dialect == "sinumerik-840d":
         lines.append("D1")
-    if "tcp" in themes and rng.random() < 0.7:
+    led, long = "tcp" in themes and rng.random() < 0.7, "own-length" in themes or rng.random() < 0.7
+    if w["length"] and long and not (led and dialect == "fanuc-30i"):
+        lines.append(w["length"].format(t=1))
+    if led:
         lines.append(w["on"].format(t=1))
         state["tcp"] = True
-    elif w["length"] and rng.random() < 0.7:
-        lines.append(w["length"].format(t=1))
     r1, r2 = (a.letter for a in machine.rotaries)
     first = {r: rng.uniform(max(lo, -60), min(hi, 60)) for r, (lo, hi) in rotary_ranges(machine).items()}
     state["rotary"].update(first)
@@ -86,6 +87,8 @@ def block(rng, machine, dialect, w, state, themes):
         code = "G43.4" if state["tcp"] and dialect == "fanuc-30i" else "G43"
         if state["tcp"] and dialect == "linuxcnc":
             return [f"{code} H{rng.choice([1, 2, 3])} X{value(rng, -40, 40)} Y{value(rng, -40, 40)} Z{value(rng, 0, 60)}"]
+        if state.get("motion") == "arc":
+            return []
         return [f"{code} H{rng.choice([1, 2, 3])}" + rng.choice(["", f" Z{value(rng, 0, 50)}"])]
     if "g91" in themes and r < 0.32:
         state["absolute"] = not state["absolute"]

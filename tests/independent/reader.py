@@ -45,7 +45,7 @@ class Reader:
         self.plane, self.feed_mode, self.feed, self.speed = "G17", "G94", None, None
         self.tcp, self.vectors, self.length, self.tool, self.great_circle = False, False, 0.0, None, None
         self.zero, self.local, self.set = ({} if self.sinumerik else dict(offsets.get("G54", {}))), {}, {}
-        self.codes, self.led = {}, 0.0
+        self.codes, self.led, self.length_scale = {}, 0.0, 1.0
 
     def shift(self):
         """What has to be added to words; None along an axis where G92 was said at a place that nobody knows."""
@@ -72,6 +72,7 @@ class Reader:
 
     def block(self, number, words):
         axes, arc, one, vector = {}, {}, None, {}
+        before = self.length
         self.line_motion = any(n == "G" and v in (0, 1, 2, 3) for n, _, v in words)
         pending_h = None
         for name, kind, value in words:  # the codes of a block count for all of its words, wherever they stand
@@ -103,10 +104,16 @@ class Reader:
                 pass
             else:
                 raise Unread(name)
+        if self.dialect == "linuxcnc" and before and any(n == "G" and v in (43, 49) for n, _, v in words) and self.scale != self.length_scale:
+            raise Unread("a length that is changed in another unit: the control keeps the number of the old one")
+        self.length_scale = self.scale if pending_h is not None else self.length_scale
         if self.sinumerik and pending_h is not None:
             self.length = self.tools.get(self.tool, 0.0) if pending_h else 0.0
         elif pending_h is not None and (self.codes.get("length") or one == "H"):
             self.length = self.tools.get(pending_h, 0.0)
+        if one == "local" and self.dialect == "linuxcnc":  # one register for both
+            self.set = self.set | {a: v for a, (v, _) in axes.items()}
+            return None
         if one == "local":
             self.local = self.local | {a: v for a, (v, _) in axes.items()}
             return None
@@ -128,6 +135,8 @@ class Reader:
             return None
         if self.dialect == "linuxcnc" and self.feed_mode == "G95" and not self.speed:
             raise Unread("a feed per revolution of a spindle that stands")
+        if self.motion in ("cw", "ccw") and not arc:
+            raise Unread("an arc without a centre")
         if self.feed_mode == "G93" and self.motion != "rapid" and not any(n == "F" for n, _, _ in words):
             raise Unread("inverse time without F in the block")
         if self.motion is None or (self.motion != "rapid" and self.feed is None):
@@ -180,7 +189,7 @@ class Reader:
                 self.tcp, self.vectors = False, False
         elif code in ("M428", "M429"):
             self.tcp = code == "M428"
-        elif code in ("G40", "G64", "G80", "M3", "M4", "M5", "M6", "M8", "M9", "M30", "M2"):
+        elif code in ("G40", "G64", "G80", "G641", "G642", "M3", "M4", "M5", "M6", "M8", "M9", "M30", "M2"):
             if self.sinumerik and code == "M6":
                 self.length = self.tools.get(self.tool, 0.0)
         else:

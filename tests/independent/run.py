@@ -1,9 +1,11 @@
-"""Random machines and programs from a seed: python3 run.py BINARY [--seed N] [--count N] [--theme NAME] [--keep]."""
+"""Random machines and programs from a seed: python3 run.py BINARY [--seed N] [--count N] [--theme NAME]."""
 
 import argparse
 import random
+import shutil
 import sys
 
+import conversions
 import lines
 from compare import Findings, compare
 from follow import Follower
@@ -38,7 +40,7 @@ def offsets(rng, machine, rotary):
     return out
 
 
-def case(seed, theme):
+def case_run(seed, theme):
     rng = random.Random(f"{theme}-{seed}")
     dialect = rng.choice(list(lines.WORDS))
     # a length without tool centre point control is added to the word of the tool's axis: plain only where that axis stands along Z
@@ -55,7 +57,7 @@ def legs_of(text, machine, dialect, tools, zero):
     return [follower.step(m) for m in reader.run(text)]
 
 
-def judge(trunnion, machine, dialect, tools, zero, text):
+def judge_run(trunnion, machine, dialect, tools, zero, text):
     findings = Findings()
     body = "\n".join(text) + "\n"
     try:
@@ -72,14 +74,14 @@ def judge(trunnion, machine, dialect, tools, zero, text):
     return findings
 
 
-def shrink(trunnion, machine, dialect, tools, zero, text):
+def shrink(judge, trunnion, machine, dialect, tools, zero, text, *more):
     """Leaves out lines as long as something still differs."""
     step = max(1, len(text) // 2)
     while step:
         at = 0
         while at < len(text):
             shorter = text[:at] + text[at + step:]
-            if shorter and judge(trunnion, machine, dialect, tools, zero, shorter):
+            if shorter and judge(trunnion, machine, dialect, tools, zero, shorter, *more):
                 text = shorter
             else:
                 at += step
@@ -92,32 +94,38 @@ def main():
     parser.add_argument("binary")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=20)
-    parser.add_argument("--theme", action="append")
+    parser.add_argument("--theme", action="append", choices=[*THEMES, "convert"])
     parser.add_argument("--stop", type=int, default=3, help="stop after so many seeds that differ")
     options = parser.parse_args()
     trunnion = Trunnion(options.binary)
     bad = motions = unknown = 0
-    for theme in options.theme or THEMES:
+    reasons = {}
+    for theme in options.theme or [*THEMES, "convert"]:
+        judge, case = (conversions.judge, conversions.case) if theme == "convert" else (judge_run, case_run)
         for seed in range(options.seed, options.seed + options.count):
             parts = case(seed, theme)
             found = judge(trunnion, *parts)
             motions, unknown = motions + found.motions, unknown + found.unknown
+            for reason, count in found.reasons.items():
+                reasons[reason] = reasons.get(reason, 0) + (count if isinstance(count, int) else len(count))
             if not found:
                 continue
             bad += 1
-            text = shrink(trunnion, *parts)
-            found = judge(trunnion, *parts[:4], text)
-            print(f"theme {theme} seed {seed} {parts[1]}")
+            text = shrink(judge, trunnion, *parts)
+            found = judge(trunnion, *parts[:4], text, *parts[5:])
+            print(f"theme {theme} seed {seed} {parts[1]}", *[x for x in parts[7:]])
             print("\n".join("  " + x for x in found[:6]))
             print("\n".join(f"    {i + 1}: {line}" for i, line in enumerate(text)))
             print("    tools", parts[2], "offsets", parts[3])
-            trunnion.settings(*parts[:1], parts[2], parts[3])
             print(parts[0].toml() if options.stop == 1 else "    " + " ".join(parts[0].letters))
             if bad >= options.stop:
                 break
         if bad >= options.stop:
             break
-    print(f"{motions} motions compared, {unknown} unknown to trunnion only, {bad} programs differ; {trunnion.folder}")
+    for reason, count in sorted(reasons.items(), key=lambda item: -item[1]):
+        print(f"  unknown: {count} {reason}")
+    print(f"{bad} programs differ; motions and conversions unknown to trunnion alone: {unknown}; compared: {motions - unknown}")
+    shutil.rmtree(trunnion.folder)
     return 1 if bad else 0
 
 

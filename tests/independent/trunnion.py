@@ -22,9 +22,9 @@ class Trunnion:
             file.write(text)
         return path
 
-    def call(self, *arguments):
+    def call(self, *arguments, quiet=True):
         self.runs += 1
-        done = subprocess.run([self.binary, *arguments, "-q"], capture_output=True, text=True, cwd=self.folder, timeout=60)
+        done = subprocess.run([self.binary, *arguments, *(["-q"] if quiet else [])], capture_output=True, text=True, cwd=self.folder, timeout=60)
         if done.returncode not in (0, 1, 2) or "panicked" in done.stderr:
             raise Broken(f"exit {done.returncode}: {done.stderr[-400:]}")
         return done

@@ -10,6 +10,9 @@ use trunnion_syntax::{BlockId, LineIndex, Program};
 /// Most moments at which two ways are compared.
 const MOST_SAMPLES: f64 = 4096.0;
 
+/// Tool lengths that differ by less are one, mm.
+const LENGTH_MM: f64 = 1e-6;
+
 struct Proof<'a> {
     before: (&'a Reading, Option<&'a Machine>),
     after: (&'a Reading, Option<&'a Machine>),
@@ -215,6 +218,15 @@ impl Proof<'_> {
         let by_hand = !self.after.0.changes_tools && new.motion.tool.is_none();
         if old.motion.tool != new.motion.tool && !by_hand {
             return self.refute(is, "the tool differs".to_owned());
+        }
+        // a length that is not in force, or that of another number, puts the tip elsewhere on the machine, whatever X Y Z say
+        let told = !by_hand && self.before.0.tells_lengths && self.after.0.tells_lengths;
+        if told && new.motion.is_feed() && (old.tool_length - new.tool_length).abs() > LENGTH_MM {
+            let why = format!(
+                "{:.4} mm of tool length are in force where it was {:.4} mm: switch on the length of the tool that cuts",
+                new.tool_length, old.tool_length
+            );
+            return self.refute(is, why);
         }
         Ok(())
     }

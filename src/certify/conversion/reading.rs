@@ -7,7 +7,7 @@ use trunnion_interp::{
     ChainId, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, Orientation, Refusal, Setup, Sink,
     Swivel, Tilt, Tool,
 };
-use trunnion_machine::{Follower, Leg, Machine, NoStance, Pose, forward};
+use trunnion_machine::{Follower, Joints, Leg, Machine, NoStance, Pose, forward};
 use trunnion_syntax::{BlockId, Format, Program, parse};
 
 /// What holds at the start of a program that does not say it: an excerpt.
@@ -49,6 +49,8 @@ pub struct Posed {
     pub leg: Option<Box<Leg>>,
     /// Length of the tool that the poses are told for, mm.
     pub tool_length: f64,
+    /// Whether the tip runs as far as X Y Z do, whichever way they run: they stand square to each other, and so does what turns them.
+    pub square: bool,
 }
 
 /// A block that ran.
@@ -86,6 +88,8 @@ pub struct Reading {
     pub elsewhere: Option<BlockId>,
     /// The control changes tools itself; where it does not, nobody knows which one is in the spindle.
     pub changes_tools: bool,
+    /// The control adds the length of its tools itself; where it does not, the operator sets it.
+    pub tells_lengths: bool,
 }
 
 /// Runs a program.
@@ -128,6 +132,7 @@ pub fn read(run: &Run<'_>) -> Reading {
         blocks,
         faults,
         elsewhere,
+        tells_lengths: is_apt || run.dialect.quirks.edge_at_tool_change || run.dialect.g(430).is_some(),
         changes_tools: is_apt || run.dialect.quirks.tool_word_changes || run.dialect.m(60).is_some(),
     }
 }
@@ -171,12 +176,20 @@ impl Sink for Collector<'_> {
             self.last = end.as_ref().ok().copied();
             (start, end, None)
         };
+        let square = match (&posed.2, self.machine, &motion.kind) {
+            (Some(leg), Some(machine), MotionKind::Arc(Some(_))) => leg
+                .end
+                .as_ref()
+                .is_ok_and(|stance| keeps_lengths(machine, &stance.joints)),
+            _ => true,
+        };
         self.motions.push(Posed {
             motion: *motion,
             start: posed.0,
             end: posed.1,
             leg: posed.2,
             tool_length: self.length.1,
+            square,
         });
     }
 
@@ -299,6 +312,7 @@ impl Posed {
                 let way = (end.tip - start.tip).norm();
                 (leg.length - way).abs() <= 1e-6 * way + 1e-9
             }
+            (MotionKind::Arc(_), ..) => self.square,
             _ => true,
         }
     }
@@ -327,6 +341,25 @@ impl Posed {
             _ => None,
         }
     }
+}
+
+/// Whether X, Y and Z move the tip by as much as themselves, at right angles to each other.
+fn keeps_lengths(machine: &Machine, joints: &Joints) -> bool {
+    let at = |joints: &Joints| forward(machine, joints, 0.0).tip;
+    let here = at(joints);
+    let ways: Vec<Vec3> = machine
+        .joint_of_letter
+        .iter()
+        .take(3)
+        .flatten()
+        .map(|&joint| {
+            let mut moved = *joints;
+            moved[usize::from(joint)] += 1.0;
+            at(&moved) - here
+        })
+        .collect();
+    let is_square = |i: usize, j: usize| (ways[i].dot(&ways[j]) - f64::from(u8::from(i == j))).abs() < 1e-9;
+    (0..ways.len()).all(|i| (i..ways.len()).all(|j| is_square(i, j)))
 }
 
 /// What of a fault makes it unsafe to tell what the program does; `None` where poses do not depend on it.

@@ -244,7 +244,12 @@ mod tests {
     /// Where the centre of an arc lies that is told from its start, nobody knows behind a switch of tool centre point control.
     #[test]
     fn an_arc_behind_a_switch_of_tool_centre_point_control_is_told() {
-        for arc in ["G2 I-5. J18.", "G2 X10. Y10. R20.", "G3 Z5. C5. I5.", "G2 X0. Y0. Z0. I5."] {
+        for arc in [
+            "G2 I-5. J18.",
+            "G2 X10. Y10. R20.",
+            "G3 Z5. C5. I5.",
+            "G2 X0. Y0. Z0. I5.",
+        ] {
             for [from, to] in [["G43.4 H1", "G49"], ["G49", "G43.4 H1"]] {
                 let text = format!("G21 G90 {from}\nG0 X1. Y2. Z50. A50. C0.\n{to}\n{arc} F500\nM30\n");
                 let report = crate::fixture::Fixture::parse("gcode fanuc-30i mikron-ucp710", &text)

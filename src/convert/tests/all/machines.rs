@@ -199,3 +199,45 @@ fn f_counts_along_axes_that_stand_askew() {
         "{back:?}"
     );
 }
+
+/// Half a circle of X and Y of radius 10 at F600 takes 3.14159 s, whatever the tip runs meanwhile on axes that stand askew.
+#[test]
+fn an_arc_of_axes_that_stand_askew_takes_as_long_as_it_did() {
+    let source = trunnion_machine::builtin_source("mill-3axis").expect("built in");
+    let source = source.split("[[check]]").next().expect("a first part");
+    let source = source.replacen("dir = [0, 1, 0]", "dir = [0, 0.8, 0.6]", 1);
+    let askew = trunnion_machine::load("askew", &source).unwrap_or_else(|error| panic!("{}", error.message));
+    let source = Source {
+        text: b"G21 G17 G90 G94\nG0 X0. Y0. Z0.\nG2 X0. Y20. J10. F600.\nM30\n",
+        dialect: trunnion_dialect::builtin("fanuc-30i").expect("built in"),
+        machine: Some(&askew),
+        setup: &Setup::default(),
+        assume: Assume::default(),
+    };
+    let made = convert(&source, &Target::Apt, &Options::default()).unwrap_or_else(|refused| panic!("{refused}"));
+    let (mut feed, mut seconds, mut before) = (f64::NAN, 0.0, None::<Vec<f64>>);
+    for line in made.text.lines() {
+        let numbers = |rest: &str| -> Vec<f64> { rest.split(',').filter_map(|number| number.parse().ok()).collect() };
+        if let Some(rest) = line.strip_prefix("FEDRAT/") {
+            feed = numbers(rest)[0];
+        } else if let Some(rest) = line.strip_prefix("GOTO/") {
+            let here = numbers(rest);
+            if let Some(before) = before.filter(|_| feed.is_finite()) {
+                let way = here
+                    .iter()
+                    .zip(&before)
+                    .take(3)
+                    .map(|(a, b)| (a - b) * (a - b))
+                    .sum::<f64>()
+                    .sqrt();
+                seconds += way / feed * 60.0;
+            }
+            before = Some(here);
+        }
+    }
+    assert!(
+        (seconds / core::f64::consts::PI - 1.0).abs() < 1e-3,
+        "{seconds}\n{}",
+        made.text
+    );
+}

@@ -248,3 +248,29 @@ fn a_posture_that_no_great_circle_leads_to_is_refused() {
     assert_eq!(onto(&circle, true).expect("told").swaps, [6]);
     assert_eq!(onto(even, false).expect("proved").swaps, [] as [u32; 0]);
 }
+
+/// A cut without the length of its tool, or with that of another one: to write it with the length of its own would lift the spindle by it.
+#[test]
+fn a_length_that_was_not_in_force_is_not_switched_on() {
+    let options = Options::default();
+    for (code, is_refused) in [("", true), ("G43 H5", true), ("G43 H1", false)] {
+        let text = format!(
+            "(trunnion: tool 1 ball diameter 10 length 80)\n(trunnion: tool 5 ball diameter 10 length 90)\nG21 G90 G94\nT1 M6\nS5000 M3\n{code}\n\
+             G0 X1. Y4. Z41. A0. C0.\nG1 X26.9 F2000.\nM30\n"
+        );
+        let made = to(
+            (&text, "fanuc-30i", "mikron-ucp710"),
+            "fanuc-30i",
+            "mikron-ucp710",
+            &options,
+        );
+        match made {
+            Ok(_) => assert!(!is_refused, "{code}"),
+            Err(refused) => assert!(
+                is_refused && refused.message.contains("tool length"),
+                "{code}: {}",
+                refused.message
+            ),
+        }
+    }
+}

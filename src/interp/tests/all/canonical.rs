@@ -127,8 +127,9 @@ fn a_tool_offset_keeps_its_length_when_the_unit_changes() {
     let setup = Setup {
         tools: vec![Tool {
             number: 1,
+            shape: None,
+            diameter_mm: None,
             length_mm: Some(80.0),
-            ..Tool::default()
         }],
         ..Setup::default()
     };

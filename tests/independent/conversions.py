@@ -8,33 +8,14 @@ import re
 
 import lines
 from compare import Findings
-from follow import Follower, minutes
-from machine import random_machine, wrap
+from follow import Follower, minutes, nearest
+from machine import random_machine
 from reader import Reader, Unread
 from space import angle, sub, to_segment
 from trunnion import ENDINGS, Broken
 
 WINDOW = 0.01  # of the time that the cut takes
 CLAIM = re.compile(r"the tip is proved within ([\d.]+) mm \(allowed ([\d.]+) mm\) and the tool axis within ([\d.]+) deg")
-
-
-def nearest(machine):
-    """The posture for a tool vector that lies nearest to where the rotary axes stand."""
-
-    def choose(u, start, motion):
-        first, second = machine.rotaries
-        best = None
-        for one, two in machine.postures(u):
-            near = []
-            for axis, q in ((first, one), (second, two)):
-                have = start[axis.letter] or 0.0
-                near.append(have if q is None else have + wrap(q - have))
-            cost = max(abs(n - (start[a.letter] or 0.0)) / a.vmax for n, a in zip(near, (first, second)))
-            if best is None or cost < best[0]:
-                best = (cost, near)
-        return best and dict(zip((first.letter, second.letter), best[1]))
-
-    return choose
 
 
 class Cuts:
@@ -76,8 +57,11 @@ class Cuts:
         return out
 
 
-def follow(text, machine, dialect, tools, zero, assume=None):
-    follower = Follower(machine, posture=nearest(machine))
+def follow(text, machine, dialect, tools, zero):
+    def posture(u, start, motion):
+        return nearest(machine, u, [start[a.letter] or 0.0 for a in machine.rotaries])
+
+    follower = Follower(machine, posture)
     reader = Reader(dialect, tools, zero, follower.position)
     return [follower.step(m) for m in reader.run(text)]
 
@@ -122,6 +106,9 @@ def judge(trunnion, machine, dialect, tools, zero, text, same, other, to, option
         findings.append(str(broken))
         return findings
     findings.motions += 1
+    if done.returncode != 0 and "the tip ends" in done.stderr:
+        findings.append(f"its own proof refutes what it wrote: {done.stderr.strip()[-200:]}")
+        return findings
     if done.returncode != 0:
         findings.unknown += 1
         reason = re.sub(r"[-\d.]+", "#", done.stderr.strip().splitlines()[-1].split(": ", 1)[-1])[:90] if done.stderr.strip() else "?"

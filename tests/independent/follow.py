@@ -161,12 +161,28 @@ class Follower:
                 return tuple(path.at(t)[a] for a in "XYZ") if path else mix(p0, p1, t)
 
             u0, u1 = machine.direction(leg.start), machine.direction(leg.end)
-            circle = m.vector and (self.great_circle if m.great_circle is None else m.great_circle)
+            circle = self.great_circle if m.great_circle is None else m.great_circle
+            leg.circle = circle
+
+            way = [tuple(leg.start[r] for r in rotary)]
+            if circle and angle(u0, u1) > 3.1:
+                leg.why = "opposite tool axes"
+                return
+            if circle:  # followed without jumps
+                for i in range(1, NODES + 1):
+                    near = nearest(machine, great_circle(u0, u1, i / NODES), way[-1])
+                    if near is None:
+                        leg.why = "out of reach on the way"
+                        return
+                    way.append(tuple(near.values()))
+                if max(abs(leg.end[r] - q) for r, q in zip(rotary, way[-1])) > 1e-3:
+                    leg.why = "the great circle leads to another posture"
+                    return
 
             def joints(t):
                 rot = {r: leg.start[r] + (leg.end[r] - leg.start[r]) * t for r in rotary}
                 if circle:
-                    rot = self.near(great_circle(u0, u1, t), rot)
+                    rot = nearest(machine, great_circle(u0, u1, t), way[round(t * NODES)])
                 return rot | machine.linears_for(rot, tip(t), m.length)
 
             leg.joints, leg.programmed = joints, tip
@@ -184,19 +200,16 @@ class Follower:
             gap = sub(machine.tip(leg.end, m.length), machine.tip(dict(leg.end) | held, m.length))
             leg.programmed = lambda t: add(machine.tip(dict(joints(t)) | held, m.length), scale(gap, t))
 
-    def near(self, u, rot):
-        """The posture for u that lies nearest to the given joints."""
-        first, second = self.machine.rotaries
-        best = None
-        for one, two in self.machine.postures(u):
-            near = []
-            for axis, q in ((first, one), (second, two)):
-                have = rot[axis.letter]
-                near.append(have if q is None else q + 360 * round((have - q) / 360))
-            cost = abs(near[0] - rot[first.letter]) + abs(near[1] - rot[second.letter])
-            if best is None or cost < best[0]:
-                best = (cost, near)
-        return dict(zip((first.letter, second.letter), best[1]))
+
+def nearest(machine, u, have):
+    """The posture for the tool axis u, by axis, with the windings that lie nearest to the two given angles; None where there is none."""
+    best = None
+    for pair in machine.postures(u):
+        near = [h if q is None else q + 360 * round((h - q) / 360) for q, h in zip(pair, have)]
+        cost = max(abs(n - h) for n, h in zip(near, have))
+        if best is None or cost < best[0]:
+            best = (cost, near)
+    return best and dict(zip((a.letter for a in machine.rotaries), best[1]))
 
 
 def minutes(leg, machine):

@@ -47,6 +47,8 @@ def random_words(rng, machine, state, inch):
 def program(rng, machine, dialect, blocks, themes):
     """`themes`: which of offsets, shifts, lengths, g91, inch, feeds, arcs, tcp occur beside plain lines."""
     w = WORDS[dialect]
+    if "vectors" in themes and dialect == "fanuc-30i":
+        w = w | {"on": "G43.5 H{t}"}
     state = {"absolute": True, "rotary": {}, "tcp": False, "inch": False, "feed": "G94", "tool": 1}
     n = "N10 " if rng.random() < 0.3 else ""
     lines = (["%", "O1"] if dialect == "fanuc-30i" else []) + list(w["start"]) + ["G54"]
@@ -63,6 +65,8 @@ def program(rng, machine, dialect, blocks, themes):
     r1, r2 = (a.letter for a in machine.rotaries)
     first = {r: rng.uniform(max(lo, -60), min(hi, 60)) for r, (lo, hi) in rotary_ranges(machine).items()}
     state["rotary"].update(first)
+    if "vectors" in themes and rng.random() < 0.5:
+        lines.append(rng.choice(["ORIVECT", "ORIAXES"]) if dialect == "sinumerik-840d" else "G90")
     lines.append(f"G0 X{value(rng, -40, 40)} Y{value(rng, -40, 40)} Z{value(rng, 0, 60)} {r1}{value(rng, *[first[r1]] * 2)} {r2}{value(rng, *[first[r2]] * 2)}")
     lines.append(f"F{rng.choice([100, 500, 2000, 8000])}.")
     for _ in range(blocks):
@@ -102,6 +106,8 @@ def block(rng, machine, dialect, w, state, themes):
         return [f"{state['feed']} G1 F{f} " + " ".join(random_words(rng, machine, state, state["inch"]))]
     if "arcs" in themes and r < 0.75:
         return arc(rng, machine, dialect, state)
+    if "vectors" in themes and state["tcp"] and r < 0.9:
+        return vector(rng, machine, dialect, state)
     words = random_words(rng, machine, state, state["inch"])
     if not words:
         words = [f"X{value(rng, -1, 1)}"]
@@ -160,3 +166,17 @@ def arc(rng, machine, dialect, state):
         words.append("F" + rng.choice(["20.", "2."]))
         lines[0] += " F2."
     return lines + [f"{'G3' if sweep > 0 else 'G2'} {' '.join(words)}"]
+
+
+def vector(rng, machine, dialect, state):
+    """A line, now and then a rapid, to a tool vector that the machine can reach: near the last one, or anywhere."""
+    rotary = [a.letter for a in machine.rotaries]
+    ranges = rotary_ranges(machine)
+    far = rng.choice([2.0, 10.0, 40.0, 120.0])
+    for r in rotary:
+        lo, hi = ranges[r]
+        state["rotary"][r] = min(hi, max(lo, state["rotary"].get(r, 0.0) + rng.uniform(-far, far)))
+    u = machine.direction({a: 0.0 for a in machine.letters} | state["rotary"])
+    names = ("A3=", "B3=", "C3=") if dialect == "sinumerik-840d" else ("I", "J", "K")
+    words = [a + value(rng, -60, 60) for a in "XYZ" if rng.random() < 0.6] + [f"{n}{x:.6f}" for n, x in zip(names, u)]
+    return [" ".join([rng.choices(["G1", "G0"], [6, 1])[0], *words])]

@@ -149,6 +149,8 @@ class Reader:
             found = tuple(vector.get(n, 0.0) for n in ("A3", "B3", "C3"))
         elif self.vectors and self.motion in ("rapid", "linear") and any(n in arc for n in "IJK"):
             found, arc = tuple(arc.get(n, 0.0) for n in "IJK"), {}
+        elif arc and self.motion in ("rapid", "linear"):
+            raise Unread("a centre without an arc")
         scale = self.scale
         return Motion(
             number, self.motion, axes, self.tcp, self.length, self.shift(), self.feed, self.feed_mode, one == "machine", found, self.plane,

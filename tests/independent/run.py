@@ -7,8 +7,8 @@ import sys
 
 import conversions
 import lines
-from compare import Findings, compare
-from follow import Follower
+from compare import Findings, compare, number
+from follow import Follower, nearest
 from machine import random_machine
 from reader import Reader, Unread
 from trunnion import Broken, Trunnion
@@ -19,6 +19,7 @@ THEMES = {
     "lengths": {"tcp", "lengths", "g91", "offsets"},
     "feeds": {"tcp", "feeds", "inch", "g91"},
     "arcs": {"tcp", "arcs", "inch", "feeds"},
+    "vectors": {"tcp", "vectors"},
     "all": {"arcs", "tcp", "offsets", "shifts", "lengths", "g91", "inch", "feeds"},
 }
 TCP = '{ path = "tip-linear", orientation = "joint", feed = "tip" }'
@@ -42,31 +43,44 @@ def offsets(rng, machine, rotary):
 
 def case_run(seed, theme):
     rng = random.Random(f"{theme}-{seed}")
-    dialect = rng.choice(list(lines.WORDS))
+    dialect = rng.choice([name for name in lines.WORDS if theme != "vectors" or name != "linuxcnc"])
     # a length without tool centre point control is added to the word of the tool's axis: plain only where that axis stands along Z
     machine = random_machine(rng, control(rng, dialect), askew=rng.choice([0.0, 0.5]) if theme == "plain" else 0.0)
+    if theme == "vectors":
+        machine.control["tcp"] = TCP.replace("joint", rng.choice(["joint", "great-circle"]))
+        machine.control["branch"] = '{ rule = "generic" }'
     tools = {n: round(rng.uniform(0, 150), 2) for n in (1, 2, 3)}
     zero = offsets(rng, machine, rotary=theme in ("offsets", "all") and rng.random() < 0.5)
     text = lines.program(rng, machine, dialect, rng.randint(4, 14), THEMES[theme])
     return machine, dialect, tools, zero, text
 
 
-def legs_of(text, machine, dialect, tools, zero):
-    follower = Follower(machine)
+def legs_of(text, machine, dialect, tools, zero, rows):
+    """Which of the postures for a vector the control takes is not judged here: the one is taken that the table comes nearest to."""
+    legs = []
+
+    def posture(u, start, motion):
+        row = rows[len(legs)] if len(legs) < len(rows) else {}
+        told = [number(row, "joint_" + a.letter.lower()) for a in machine.rotaries]
+        return None if None in told else nearest(machine, u, told)
+
+    follower = Follower(machine, posture, "great-circle" in machine.control["tcp"])
     reader = Reader(dialect, tools, zero, follower.position)
-    return [follower.step(m) for m in reader.run(text)]
+    for motion in reader.run(text):
+        legs.append(follower.step(motion))
+    return legs
 
 
 def judge_run(trunnion, machine, dialect, tools, zero, text):
     findings = Findings()
     body = "\n".join(text) + "\n"
-    try:
-        legs = legs_of(body, machine, dialect, tools, zero)
-    except (Unread, ValueError):
-        return findings
     trunnion.settings(machine, tools, zero)
     try:
-        rows, report = trunnion.trace(body, dialect), trunnion.check(body, dialect)
+        rows = trunnion.trace(body, dialect)
+        legs = legs_of(body, machine, dialect, tools, zero, rows)
+        report = trunnion.check(body, dialect)
+    except (Unread, ValueError):
+        return findings
     except Broken as broken:
         findings.append(str(broken))
         return findings

@@ -26,6 +26,9 @@ fn trunnion_and_the_independent_implementation_agree() {
     let errors = String::from_utf8_lossy(&run.stderr);
     assert!(run.status.success(), "{said}\n{errors}");
     // a comparison of nothing would agree too
-    let compared = said.split_ascii_whitespace().next_back().and_then(|word| word.parse().ok());
+    let compared = said
+        .split_ascii_whitespace()
+        .next_back()
+        .and_then(|word| word.parse().ok());
     assert!(compared.is_some_and(|known: u32| known >= 300), "{said}");
 }

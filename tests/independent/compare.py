@@ -34,10 +34,10 @@ def compare(legs, rows, report, machine, findings, lines=None):
     if len(legs) != len(rows):
         findings.say(0, f"{len(rows)} motions, expected {len(legs)}")
         return
-    told = Told(report)
+    told = Told(report, rows)
     before_known = False
     for index, (leg, row) in enumerate(zip(legs, rows)):
-        line = lines[index] if lines else leg.motion.line
+        line = (lines[index] or int(row["line"])) if lines else leg.motion.line
         if int(row["line"]) != line:
             findings.say(line, f"motion told at line {row['line']}")
             return
@@ -81,19 +81,31 @@ def ends(leg, row, line, machine, findings):
 class Told:
     """The findings of a report by rule and line."""
 
-    def __init__(self, report):
+    def __init__(self, report, rows):
         self.diagnostics = report["diagnostics"]
+        lines = [row["line"] for row in rows]
+        self.repeated = {int(line) for line in lines if lines.count(line) > 1}
 
     def at(self, rule, line, status=None):
         return [
             d for d in self.diagnostics
-            if d["rule"] == rule and d["line"] <= line <= max(d.get("last_line") or 0, d["line"]) and status in (None, d["status"])
+            if d["rule"] == rule and self.covers(d, line) and status in (None, d["status"])
         ]
 
     def excused(self, line):
         """An unknown verdict with its reason is an answer; these are told once for a whole run of blocks, wherever they stand."""
         everywhere = ("position-unknown", "path-deviation")
         return any(d["status"] == "unknown" and (d["line"] == line or d["rule"] in everywhere) for d in self.diagnostics)
+
+    def covers(self, d, line):
+        """Whether a finding is of that block; of a run of blocks only its ends are told, and where the program jumps it may be any."""
+        many = d.get("count", 1) > 1
+        return d["line"] <= line <= max(d.get("last_line") or 0, d["line"]) or many and bool(self.repeated)
+
+    def fails(self, rule, line):
+        """Firm findings of a block; none for one that runs several times, of which the finding may be of another pass."""
+        told = [d for d in self.at(rule, line, "fail") if d["line"] == line and (d.get("count", 1) == 1 or not self.repeated)]
+        return [] if line in self.repeated else told
 
     def any(self, rule, status="unknown"):
         return [d for d in self.diagnostics if d["rule"] == rule and d["status"] == status]
@@ -115,7 +127,7 @@ def between(leg, row, line, machine, findings, told):
             findings.say(line, f"deviation {deviation} is more than 1.2 times the truth {truth:.6f}")
         if m.kind != "rapid" and truth > TOLERANCE * 1.01 and not told.at("path-deviation", line):
             findings.say(line, f"silent pass: the tip strays by {truth:.4f} mm")
-        if m.kind != "rapid" and truth < TOLERANCE * 0.8 and told.at("path-deviation", line, "fail"):
+        if m.kind != "rapid" and truth < TOLERANCE * 0.8 and told.fails("path-deviation", line):
             findings.say(line, f"false path-deviation: the tip strays by {truth:.6f} mm only")
     elif m.kind != "rapid":
         findings.say(line, "silent pass: no deviation is told, and no finding says why")
@@ -135,7 +147,7 @@ def orientation(leg, line, machine, findings, told):
     off = max(abs(math.degrees(math.asin(dot(normal, machine.direction(leg.joints(i / 100)))))) for i in range(101))
     if off > 0.101 and not told.at("orientation-deviation", line) and not told.any("orientation-deviation"):
         findings.say(line, f"silent pass: the tool axis leaves its plane by {off:.4f} deg")
-    if off < 0.001 and angle(u0, u1) < 1.5 and told.at("orientation-deviation", line, "fail"):
+    if off < 0.001 and angle(u0, u1) < 1.5 and told.fails("orientation-deviation", line):
         findings.say(line, f"false orientation-deviation: {off:.6f} deg")
 
 
@@ -149,7 +161,7 @@ def path_limits(leg, line, machine, findings, told):
         at = max(range(101), key=over.__getitem__)
         if over[at] > max(0.0, over[0]) + 1e-4 and not told.at("axis-limit", line):
             findings.say(line, f"silent pass: {a.letter} is {over[at]:.4f} beyond its travel at {at} %")
-        failed = [d for d in told.at("axis-limit", line, "fail") if d["values"].get("axis") == a.letter and not d.get("last_line")]
+        failed = [d for d in told.fails("axis-limit", line) if d["values"].get("axis") == a.letter and not d.get("last_line")]
         if over[at] < -1e-3 and failed:
             findings.say(line, f"false axis-limit of {a.letter}: at most {over[at]:.4f}")
 
@@ -174,7 +186,7 @@ def speeds(leg, row, line, machine, findings, told):
             findings.say(line, f"feed limit {limit:.3f} at F{feed}: ratio {says:.5f}, expected {ratio:.5f} ({who})")
     if ratio > 1.01 and not told.at("axis-overspeed", line) and not told.any("axis-overspeed"):
         findings.say(line, f"silent pass: {who} runs {ratio:.3f} times as fast as it can")
-    if ratio < 0.95 and told.at("axis-overspeed", line, "fail"):
+    if ratio < 0.95 and told.fails("axis-overspeed", line):
         findings.say(line, f"false axis-overspeed: {ratio:.3f} ({who})")
     if ratio > 1 / 0.78 and not told.at("feed-drop", line) and not told.any("feed-drop") and not told.any("axis-overspeed"):
         findings.say(line, f"silent pass: feed drops to {1 / ratio:.3f}")

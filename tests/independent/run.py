@@ -7,6 +7,7 @@ import sys
 
 import conversions
 import lines
+import macros
 from compare import Findings, compare, number
 from follow import Follower, nearest
 from machine import random_machine
@@ -22,6 +23,7 @@ THEMES = {
     "vectors": {"tcp", "vectors"},
     "all": {"arcs", "tcp", "offsets", "shifts", "lengths", "g91", "inch", "feeds"},
 }
+OTHERS = {"convert": (conversions.judge, conversions.case), "macros": (macros.judge, macros.case)}
 TCP = '{ path = "tip-linear", orientation = "joint", feed = "tip" }'
 
 
@@ -108,14 +110,14 @@ def main():
     parser.add_argument("binary")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=20)
-    parser.add_argument("--theme", action="append", choices=[*THEMES, "convert"])
+    parser.add_argument("--theme", action="append", choices=[*THEMES, *OTHERS])
     parser.add_argument("--stop", type=int, default=3, help="stop after so many seeds that differ")
     options = parser.parse_args()
     trunnion = Trunnion(options.binary)
     bad = motions = unknown = 0
     reasons = {}
-    for theme in options.theme or [*THEMES, "convert"]:
-        judge, case = (conversions.judge, conversions.case) if theme == "convert" else (judge_run, case_run)
+    for theme in options.theme or [*THEMES, *OTHERS]:
+        judge, case = OTHERS.get(theme, (judge_run, case_run))
         for seed in range(options.seed, options.seed + options.count):
             parts = case(seed, theme)
             found = judge(trunnion, *parts)
@@ -125,7 +127,7 @@ def main():
             if not found:
                 continue
             bad += 1
-            text = shrink(judge, trunnion, *parts)
+            text = parts[4] if theme == "macros" else shrink(judge, trunnion, *parts)
             found = judge(trunnion, *parts[:4], text, *parts[5:])
             print(f"theme {theme} seed {seed} {parts[1]}", *[x for x in parts[7:]])
             print("\n".join("  " + x for x in found[:6]))

@@ -24,7 +24,11 @@ class Trunnion:
 
     def call(self, *arguments, quiet=True):
         self.runs += 1
-        done = subprocess.run([self.binary, *arguments, *(["-q"] if quiet else [])], capture_output=True, text=True, cwd=self.folder, timeout=60)
+        command = [self.binary, *arguments, *(["-q"] if quiet else [])]
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, cwd=self.folder, timeout=300)
+        except subprocess.TimeoutExpired as slow:
+            raise Broken(f"no end after 300 s: {' '.join(arguments)}") from slow
         if done.returncode not in (0, 1, 2) or "panicked" in done.stderr:
             raise Broken(f"exit {done.returncode}: {done.stderr[-400:]}")
         return done

@@ -44,6 +44,11 @@ pub(crate) struct Pair<'a> {
     pub after: &'a Step,
 }
 
+/// Whether the zero of an axis is another one. One that nobody knows in either leaves the place of its axis unknown, where there is such an axis.
+fn another_zero((old, new): (&f64, &f64)) -> bool {
+    old != new && !(old.is_nan() && new.is_nan())
+}
+
 /// The stances of both programs at the same moment.
 type Both<'s> = (&'s Stance, &'s Stance);
 
@@ -124,7 +129,8 @@ impl Pair<'_> {
         let dwells = matches!(old.kind, MotionKind::Dwell(_)) && old.kind != new.kind;
         let differs = if core::mem::discriminant(&old.kind) != core::mem::discriminant(&new.kind) || dwells {
             "the kind of motion (rapid, line, arc, dwell and its time)"
-        } else if old.zero != new.zero || old.machine_coordinates != new.machine_coordinates {
+        } else if old.zero.iter().zip(&new.zero).any(another_zero) || old.machine_coordinates != new.machine_coordinates
+        {
             "the zero point"
         } else if self.before.work_offset != self.after.work_offset {
             "the work offset"

@@ -5,6 +5,7 @@ import random
 import shutil
 import sys
 
+import certificates
 import conversions
 import lines
 import macros
@@ -23,7 +24,7 @@ THEMES = {
     "vectors": {"tcp", "vectors"},
     "all": {"arcs", "tcp", "offsets", "shifts", "lengths", "g91", "inch", "feeds"},
 }
-OTHERS = {"convert": (conversions.judge, conversions.case), "macros": (macros.judge, macros.case)}
+OTHERS = {name: (module.judge, module.case) for name, module in (("convert", conversions), ("macros", macros), ("certify", certificates))}
 TCP = '{ path = "tip-linear", orientation = "joint", feed = "tip" }'
 
 
@@ -127,7 +128,7 @@ def main():
             if not found:
                 continue
             bad += 1
-            text = parts[4] if theme == "macros" else shrink(judge, trunnion, *parts)
+            text = parts[4] if theme in ("macros", "certify") else shrink(judge, trunnion, *parts)
             found = judge(trunnion, *parts[:4], text, *parts[5:])
             print(f"theme {theme} seed {seed} {parts[1]}", *[x for x in parts[7:]])
             print("\n".join("  " + x for x in found[:6]))

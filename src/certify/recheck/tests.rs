@@ -199,6 +199,15 @@ fn fanuc(before: &str, after: &str, setup: &Setup) -> Outcome {
     on("fanuc-30i", &one, &two, &PATH, setup)
 }
 
+/// Behind G92 nobody knows the zero of B, which was never positioned, and which the machine does not have.
+#[test]
+fn an_unknown_zero_of_an_axis_that_is_not_there_refutes_nothing() {
+    let text = |line: &str| format!("G21 G90\nG0 X0 Y4 Z11 A24 C9\nG92 Y-12\n{line}\nM2\n");
+    let compare = |after: &str| on("linuxcnc", &text("G1 X-4 F100"), &text(after), &PATH, &Setup::default());
+    proved(compare("G1 X-4.0 F100"));
+    assert!(matches!(compare("G1 X-4.1 F100"), Outcome::Refuted(_)));
+}
+
 /// Texts may differ in anything, but not in what decides where the tool is or how long it waits.
 #[test]
 fn another_zero_tool_length_or_dwell_is_another_path() {

@@ -27,9 +27,8 @@ pub(super) struct Told {
     pub(super) synced: Option<Rate>,
     /// S is a cutting speed (G96).
     pub(super) surface_speed: bool,
-    /// G92, mm and deg.
+    /// G92 and the tool offset, mm and deg: that of the interpreter keeps its number when the unit changes, that of the machine its length.
     pub(super) g92: Pose,
-    /// The tool offset, mm and deg: the interpreter's own keeps its number when the unit changes, the machine's its length.
     pub(super) tool_offset: Pose,
     /// The block in which each line begins, where that is not its number.
     pub(super) blocks: Option<std::sync::Arc<[u32]>>,

@@ -12,7 +12,7 @@ use trunnion::{
     dialect::builtin,
     interp::{Fault, ModalState, Motion, Setup, Sink, run},
     machine::{self, Follower, Machine},
-    syntax::{Program, parse},
+    syntax::{Program, parse, parse_on},
 };
 
 #[path = "support/cpu.rs"]
@@ -93,9 +93,12 @@ fn main() {
 /// The time that passes with one thread and with two, and whether both find the same.
 fn threads(text: &[u8], settings: &Settings<'_>, report: &str) {
     let lex = settings.dialect.lex;
-    let [one, two] =
-        [1, 2].map(|threads| cpu::passed(RUNS, || check_on(&parse(text.to_vec(), lex), settings, threads)));
-    let same = report == format!("{:?}", check_on(&parse(text.to_vec(), lex), settings, 2));
+    let [one, two] = [1, 2].map(|threads| {
+        cpu::passed(RUNS, || {
+            check_on(&parse_on(text.to_vec(), lex, threads), settings, threads)
+        })
+    });
+    let same = report == format!("{:?}", check_on(&parse_on(text.to_vec(), lex, 2), settings, 2));
     println!(
         "\ntime that passes: one thread {:.3} us/block, two threads {:.3} ({:.0} blocks/s, {:.2} x); the reports are {}",
         one / BLOCKS as f64 * 1e6,
@@ -113,7 +116,7 @@ fn memory_child(path: &std::ffi::OsStr) {
     let dialect = builtin("linuxcnc").expect("built in");
     let machine = machine::builtin("mikron-ucp710").expect("built in");
     let settings = Settings::new(dialect, Some(machine), Setup::default());
-    black_box(check_on(&parse(text, dialect.lex), &settings, 2));
+    black_box(check_on(&parse_on(text, dialect.lex, 2), &settings, 2));
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = status
         .lines()

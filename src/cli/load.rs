@@ -129,7 +129,8 @@ pub(crate) fn load(global: &Global, path: &Path) -> Result<Loaded, Failure> {
     let source = read_program(global, path)?;
     let stdin = is_stdin(path);
     let resolved = resolve((!stdin).then_some(path), &source, &overrides(global))?;
-    let program = trunnion_syntax::parse(source, resolved.dialect.lex);
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let program = trunnion_syntax::parse_on(source, resolved.dialect.lex, threads);
     let name = if stdin {
         "<stdin>".to_owned()
     } else {

@@ -94,6 +94,11 @@ impl Builder {
             self.end_block(source, options, end);
         }
         self.table.end = end;
+        self.sort_errors();
+    }
+
+    /// Sorts the problems by place; those of one place stay as they were found.
+    pub(crate) fn sort_errors(&mut self) {
         self.errors.sort_by_key(|error| (error.range.start, error.range.end));
     }
 

@@ -38,13 +38,7 @@ fn parse_up_to(source: Vec<u8>, options: LexOptions, limit: u32) -> Program {
             range,
         });
     }
-    Program {
-        source: Arc::new(source),
-        options,
-        tokens: out.table,
-        blocks: out.blocks,
-        errors: out.errors,
-    }
+    Program::of(source, options, out)
 }
 
 /// So many bytes of a longer file say how much room its tokens need.
@@ -52,7 +46,7 @@ const SAMPLE: usize = 1 << 14;
 
 /// Tables with room for the tokens of `source`, as many per byte as in a piece from its middle: growing them would copy them, and
 /// fresh memory costs more than lexing.
-fn room(source: &[u8], options: LexOptions) -> Builder {
+pub(crate) fn room(source: &[u8], options: LexOptions) -> Builder {
     if source.len() < 4 * SAMPLE {
         return Builder::with_room(source.len() / 4 + 16, source.len() / 32 + 16);
     }
@@ -74,6 +68,16 @@ pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut 
 }
 
 impl Program {
+    /// A text with what it was lexed into.
+    pub(crate) fn of(source: Vec<u8>, options: LexOptions, lexed: Builder) -> Self {
+        Self {
+            source: Arc::new(source),
+            options,
+            tokens: lexed.table,
+            blocks: lexed.blocks,
+            errors: lexed.errors,
+        }
+    }
     /// The bytes as they lie on disk.
     pub fn source(&self) -> &[u8] {
         &self.source

@@ -55,8 +55,8 @@ pub fn check_on(program: &Program, settings: &Settings<'_>, threads: usize) -> R
 /// The program runs on a thread of its own.
 fn check_apart(program: &Program, settings: &Settings<'_>) -> Report {
     let whole = with_both(program, settings, |settings| {
-        analyse(program, settings, |interpreter, pass| {
-            Some(apart::run(program, interpreter, pass))
+        analyse(program, settings, |interpreter, read, pass| {
+            Some(apart::run(program, settings.machine, interpreter, read, pass))
         })
     });
     whole.unwrap_or_default()
@@ -67,9 +67,12 @@ fn check_apart(program: &Program, settings: &Settings<'_>) -> Report {
 pub(crate) fn judge(program: &Program, settings: &Settings<'_>, watch: &mut impl Watch) -> Option<Report> {
     let mut first = Some(watch);
     with_both(program, settings, |settings| {
-        analyse(program, settings, |interpreter, pass| match first.take() {
-            Some(watch) => run(program, interpreter, pass, watch),
-            None => run(program, interpreter, pass, &mut Nobody),
+        analyse(program, settings, |interpreter, read, pass| {
+            read(pass);
+            match first.take() {
+                Some(watch) => run(program, interpreter, pass, watch),
+                None => run(program, interpreter, pass, &mut Nobody),
+            }
         })
     })
 }
@@ -108,34 +111,37 @@ fn run(
     Some(interpreter)
 }
 
-/// Checks a parsed program; `run` shows the pass a run of it, or breaks off.
+/// What is read of a program before it runs.
+pub(crate) type Read<'r> = &'r dyn Fn(&mut Pass<'_>);
+
+/// Checks a parsed program; `run` lets the pass read what comes before a run and shows it the run, or breaks off.
 fn analyse(
     program: &Program,
     settings: &Settings<'_>,
-    run: impl FnOnce(Interpreter<'static>, &mut Pass<'_>) -> Option<Interpreter<'static>>,
+    run: impl FnOnce(Interpreter<'static>, Read<'_>, &mut Pass<'_>) -> Option<Interpreter<'static>>,
 ) -> Option<Report> {
     let directives = directives(program);
     let suppressions = Suppressions::new(program, &directives);
     let mut pass = Pass::new(program, settings, &suppressions);
-    let unreadable = crate::rules::is_utf16(program.source());
-    let told = unreadable && pass.tell_utf16();
-    if !unreadable {
-        pass.read_text(program);
-    }
-    if !told {
-        pass.read_whole(&Overview {
-            program,
-            settings,
-            directives: &directives,
-        });
-    }
+    let overview = Overview {
+        program,
+        settings,
+        directives: &directives,
+    };
     let interpreter = settings.interpreter();
-    if unreadable {
+    if crate::rules::is_utf16(program.source()) {
+        if !pass.tell_utf16() {
+            pass.read_whole(&overview);
+        }
         return Some(pass.finish(&interpreter));
     }
-    let blocks = (0..program.block_count() as u32).map(BlockId);
-    pass.count_blocks(blocks.filter(|&id| has_code(program, id)).count() as u64);
-    let interpreter = run(interpreter, &mut pass)?;
+    let read = |pass: &mut Pass<'_>| {
+        pass.read_text(program);
+        pass.read_whole(&overview);
+        let blocks = (0..program.block_count() as u32).map(BlockId);
+        pass.count_blocks(blocks.filter(|&id| has_code(program, id)).count() as u64);
+    };
+    let interpreter = run(interpreter, &read, &mut pass)?;
     Some(pass.finish(&interpreter))
 }
 

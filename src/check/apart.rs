@@ -1,46 +1,66 @@
 //! A check on two threads: one runs the program, the other follows the machine and judges.
 //!
 //! The second is shown the same motions, faults and blocks in the same order as on one thread, so that it finds the same to the letter.
+use crate::analysis::Read;
 use crate::pass::Pass;
 use crate::rule::InForce;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use trunnion_interp::{ChainId, Fault, Feed, Interpreter, ModalState, Motion, MotionKind, Position, Sink};
+use trunnion_interp::{AXIS_LETTERS, ChainId, Fault, Feed, Interpreter, ModalState, Motion, MotionKind, Sink};
+use trunnion_machine::{Foresight, Machine, Sine};
 use trunnion_syntax::{BlockId, Program};
 
 /// Programs of fewer blocks are not worth a second thread.
 pub(crate) const WORTH: usize = 1 << 14;
 
-/// So many steps are handed over at once: they fit into the cache of a core.
-const BATCH: usize = 512;
+/// So many steps are handed over at once.
+const BATCH: usize = 2048;
 
-/// So many batches are under way at most.
-const BATCHES: usize = 4;
+/// So many batches are under way at most. Together they are more than the second cache of a core holds: writing where the other core has just
+/// read costs more than fetching from memory that both have left.
+const BATCHES: usize = 16;
 
 /// What a run told, in order.
 enum Told {
     /// The next of [`Batch::motions`].
     Motion,
-    /// The next of [`Batch::lines`].
-    Line,
+    /// The next of [`Batch::courses`] is that of the line behind it.
+    Course,
+    /// A line: see [`Sink::next_line`].
+    Line {
+        block: BlockId,
+        /// Axes, as in [`trunnion_interp::Position`], whose places differ from those before: they are the next of [`Batch::places`].
+        moved: u16,
+        /// Rotary axes of which something was foreseen: it is the next of [`Batch::sines`].
+        foreseen: u8,
+        /// Behind it the block has run.
+        last: bool,
+    },
     /// The next of [`Batch::faults`].
     Fault,
     /// A block has run.
     Ran(BlockId),
 }
 
-/// What a line tells that the motion before it does not tell: see [`Sink::next_line`].
-struct Line {
-    block: BlockId,
+/// What a line says beside block and places: mostly the same as the motion before it.
+#[derive(Clone, Copy, PartialEq)]
+struct Course {
     chain: ChainId,
     rapid: bool,
     feed: Feed,
-    end: Position,
+    known: u16,
 }
 
-impl Line {
-    /// The motion that follows another.
-    fn follow(&self, motion: &mut Motion) {
-        motion.block = self.block;
+impl Course {
+    fn of(motion: &Motion) -> Self {
+        Self {
+            chain: motion.chain,
+            rapid: matches!(motion.kind, MotionKind::Rapid),
+            feed: motion.feed,
+            known: motion.end.known,
+        }
+    }
+    /// Gives a motion that leads on from another all but its places and block.
+    fn set(&self, motion: &mut Motion) {
         motion.chain = self.chain;
         motion.kind = if self.rapid {
             MotionKind::Rapid
@@ -48,52 +68,108 @@ impl Line {
             MotionKind::Linear
         };
         motion.feed = self.feed;
-        motion.start = motion.end;
-        motion.end = self.end;
+        motion.end.known = self.known;
     }
 }
 
-/// A piece of a run. Lines are most of it, and what goes from core to core costs more than what is worked out again.
+/// The bits of a mask, lowest first.
+#[inline]
+fn bits(mut mask: u16) -> impl Iterator<Item = usize> {
+    core::iter::from_fn(move || {
+        let bit = mask.trailing_zeros() as usize;
+        let is_set = mask != 0;
+        mask &= mask.wrapping_sub(1);
+        is_set.then_some(bit)
+    })
+}
+
+/// A piece of a run. Lines are most of it, and are handed over by what differs: what goes from core to core costs more than what is worked
+/// out again.
 #[derive(Default)]
 struct Batch {
     order: Vec<Told>,
     motions: Vec<(Motion, InForce)>,
-    lines: Vec<Line>,
+    courses: Vec<Course>,
+    places: Vec<f64>,
+    sines: Vec<Sine>,
     faults: Vec<Fault>,
-    /// A motion was told, in this batch or before it.
-    begun: bool,
 }
 
-impl Sink for Batch {
-    fn motion(&mut self, motion: &Motion, state: &ModalState) {
-        self.order.push(Told::Motion);
-        self.motions.push((*motion, InForce::of(state)));
-        self.begun = true;
-    }
-    fn next_line(&mut self, motion: &Motion, state: &ModalState) {
-        if !self.begun {
-            return self.motion(motion, state);
+/// Takes down what a run tells.
+struct Teller<'m> {
+    batch: Batch,
+    /// Where the motion told last leads, in this batch or before it, and the course told last.
+    last: Option<([f64; AXIS_LETTERS.len()], Option<Course>)>,
+    foresight: Option<Foresight<'m>>,
+}
+
+impl Teller<'_> {
+    /// A block has run.
+    #[inline]
+    fn ran(&mut self, ran: BlockId) {
+        match self.batch.order.last_mut() {
+            Some(Told::Line { block, last, .. }) if *block == ran && !*last => *last = true,
+            _ => self.batch.order.push(Told::Ran(ran)),
         }
-        self.order.push(Told::Line);
-        self.lines.push(Line {
+    }
+}
+
+impl Sink for Teller<'_> {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        self.batch.order.push(Told::Motion);
+        self.batch.motions.push((*motion, InForce::of(state)));
+        self.last = Some((motion.end.values, None));
+        if let Some(foresight) = &mut self.foresight {
+            foresight.motion(motion);
+        }
+    }
+    #[inline]
+    fn next_line(&mut self, motion: &Motion, state: &ModalState) {
+        let Some((places, course)) = &mut self.last else {
+            return self.motion(motion, state);
+        };
+        let batch = &mut self.batch;
+        let own = Course::of(motion);
+        if *course != Some(own) {
+            *course = Some(own);
+            batch.order.push(Told::Course);
+            batch.courses.push(own);
+        }
+        let mut moved = 0;
+        for (axis, (before, place)) in places.iter_mut().zip(&motion.end.values).enumerate() {
+            if before.to_bits() != place.to_bits() {
+                *before = *place;
+                moved |= 1 << axis;
+                batch.places.push(*place);
+            }
+        }
+        let mut foreseen = 0;
+        if let Some(foresight) = &mut self.foresight {
+            foresight.line(&motion.end, |index, sine| {
+                foreseen |= 1 << index;
+                batch.sines.push(sine);
+            });
+        }
+        batch.order.push(Told::Line {
             block: motion.block,
-            chain: motion.chain,
-            rapid: matches!(motion.kind, MotionKind::Rapid),
-            feed: motion.feed,
-            end: motion.end,
+            moved,
+            foreseen,
+            last: false,
         });
     }
     fn fault(&mut self, fault: Fault) {
-        self.order.push(Told::Fault);
-        self.faults.push(fault);
+        self.batch.order.push(Told::Fault);
+        self.batch.faults.push(fault);
     }
 }
 
 impl Batch {
     /// Shows the pass what was told; the batch is empty then and keeps its storage. `last`: the motion told last.
     fn show(&mut self, pass: &mut Pass<'_>, last: &mut Option<Motion>) {
-        let (mut motions, mut lines) = (self.motions.iter(), self.lines.iter());
+        let (mut motions, mut courses) = (self.motions.iter(), self.courses.iter());
+        let (mut places, mut sines) = (self.places.iter(), self.sines.iter());
         let mut faults = self.faults.drain(..);
+        let mut course = None;
         for told in self.order.drain(..) {
             match told {
                 Told::Motion => {
@@ -102,10 +178,28 @@ impl Batch {
                         *last = Some(*motion);
                     }
                 }
-                Told::Line => {
-                    if let (Some(line), Some(motion)) = (lines.next(), last.as_mut()) {
-                        line.follow(motion);
-                        pass.take_line(motion);
+                Told::Course => course = courses.next(),
+                Told::Line {
+                    block,
+                    moved,
+                    foreseen,
+                    last: ends,
+                } => {
+                    let Some(motion) = last.as_mut() else { continue };
+                    motion.block = block;
+                    motion.start = motion.end;
+                    if let Some(course) = course.take() {
+                        course.set(motion);
+                    }
+                    for (axis, place) in bits(moved).zip(&mut places) {
+                        motion.end.values[axis] = *place;
+                    }
+                    for (index, sine) in bits(foreseen.into()).zip(&mut sines) {
+                        pass.foresee(index, *sine);
+                    }
+                    pass.take_line(motion);
+                    if ends {
+                        pass.ran(block);
                     }
                 }
                 Told::Fault => faults.by_ref().take(1).for_each(|fault| pass.fault(fault)),
@@ -114,14 +208,18 @@ impl Batch {
         }
         drop(faults);
         self.motions.clear();
-        self.lines.clear();
+        self.courses.clear();
+        self.places.clear();
+        self.sines.clear();
     }
 }
 
-/// Runs a program on a thread of its own and shows the pass what it tells; the interpreter as it is at the end.
+/// Runs a program on a thread of its own, lets the pass `read` meanwhile and shows it what is told; the interpreter as it is at the end.
 pub(crate) fn run(
     program: &Program,
+    machine: Option<&Machine>,
     mut interpreter: Interpreter<'static>,
+    read: Read<'_>,
     pass: &mut Pass<'_>,
 ) -> Interpreter<'static> {
     let (full, filled) = sync_channel(BATCHES);
@@ -130,11 +228,14 @@ pub(crate) fn run(
         // there is room for all of them
         _ = empty.send(Batch::default());
     }
-    std::thread::scope(|scope| {
+    // both ends go with a panic, so that nobody waits for them
+    std::thread::scope(move |scope| {
         let runner = scope.spawn(move || {
-            tell(program, &mut interpreter, &full, &emptied);
+            let foresight = machine.and_then(Foresight::new);
+            tell(program, &mut interpreter, foresight, &full, &emptied);
             interpreter
         });
+        read(pass);
         let mut last = None;
         for mut batch in filled {
             batch.show(pass, &mut last);
@@ -152,24 +253,27 @@ pub(crate) fn run(
 fn tell(
     program: &Program,
     interpreter: &mut Interpreter<'static>,
+    foresight: Option<Foresight<'_>>,
     full: &SyncSender<Batch>,
     emptied: &Receiver<Batch>,
 ) {
-    let mut batch = Batch::default();
+    let mut teller = Teller {
+        batch: Batch::default(),
+        last: None,
+        foresight,
+    };
     loop {
-        let ran = interpreter.advance(program, &mut batch);
+        let ran = interpreter.advance(program, &mut teller);
         if let Some(block) = ran {
-            batch.order.push(Told::Ran(block));
-            if batch.order.len() < BATCH {
+            teller.ran(block);
+            if teller.batch.order.len() < BATCH {
                 continue;
             }
         }
-        let begun = batch.begun;
-        if full.send(batch).is_err() || ran.is_none() {
+        if full.send(teller.batch).is_err() || ran.is_none() {
             return;
         }
         let Ok(next) = emptied.recv() else { return };
-        batch = next;
-        batch.begun = begun;
+        teller.batch = next;
     }
 }

@@ -10,7 +10,7 @@ use crate::view::{LegView, Overview};
 use crate::visited::Visited;
 use crate::{Level, Report, Settings};
 use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, Refusal, Sink};
-use trunnion_machine::{Follower, Leg};
+use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
 
 /// One pass over a program.
@@ -308,6 +308,14 @@ impl Pass<'_> {
         // there was a motion before it, and it told what is in force
         if let Some(in_force) = self.in_force {
             self.judge(motion, &in_force, true);
+        }
+    }
+
+    /// What is foreseen of a rotary axis.
+    #[inline]
+    pub(crate) fn foresee(&mut self, index: usize, sine: Sine) {
+        if let Some(follower) = &mut self.follower {
+            follower.foresee(index, sine);
         }
     }
 

@@ -6,7 +6,7 @@ use crate::inverse::{inverse_turned, place};
 use crate::lines::Lines;
 use crate::pole;
 use crate::words::{Words, XYZ, zero_point};
-use crate::{Joints, Leg, MAX_AXES, Machine, NoStance, Open, Stance};
+use crate::{Joints, Leg, MAX_AXES, Machine, NoStance, Open, Sine, Stance};
 use core::f64::consts::FRAC_PI_2;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::angle_between;
@@ -42,6 +42,8 @@ pub struct Follower<'m> {
     pub(crate) words: Words,
     /// Where the last motion was a straight one: what it has in common with the next.
     pub(crate) lines: Option<Lines>,
+    /// What is foreseen of the rotary axes.
+    pub(crate) sines: [Sine; 2],
 }
 
 impl<'m> Follower<'m> {
@@ -66,6 +68,7 @@ impl<'m> Follower<'m> {
             state: *state,
             words: Words::new(machine),
             lines: None,
+            sines: [Sine::UNKNOWN; 2],
         }
     }
     /// The machine.

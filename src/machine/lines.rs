@@ -1,9 +1,8 @@
 //! Lines one after the other that differ in where they lead, in kind and feed alone: what they have in common is worked out once.
 use crate::forward::Along;
 use crate::words::{Added, Words};
-use crate::{MAX_AXES, Machine, Stance, pole};
+use crate::{MAX_AXES, Machine, Sine, Stance, pole};
 use trunnion_geometry::Vec3;
-use trunnion_geometry::math::sin_cos;
 use trunnion_interp::Motion;
 
 /// What straight motions with the same offsets have in common.
@@ -60,7 +59,7 @@ impl Lines {
     /// Fills in all but the joints of a stance as the general way does (a test compares both), on a machine with two rotary axes whose linear
     /// ones lie along X, Y and Z in one piece; `false` where this is not so, or a joint is out of all reason.
     #[inline]
-    pub(crate) fn stand(&self, machine: &Machine, start: &Stance, end: &mut Stance) -> bool {
+    pub(crate) fn stand(&self, machine: &Machine, sines: &[Sine; 2], start: &Stance, end: &mut Stance) -> bool {
         let constants = &machine.constants;
         let (Some(along), Some(pair)) = (&self.rotary, &constants.pair) else {
             return false;
@@ -75,13 +74,14 @@ impl Lines {
         let mut shifts = [Vec3::zeros(); 3];
         shifts[self.segment] = Vec3::new(x, y, z);
         let [first, second] = &constants.rotary;
-        for (turn, (before, rotary)) in end.turns.iter_mut().zip(start.turns.iter().zip([first, second])) {
+        let turns = end.turns.iter_mut().zip(start.turns.iter().zip([first, second]));
+        for ((turn, (before, rotary)), seen) in turns.zip(sines) {
             let q = end.joints[rotary.joint];
             // a rotary axis that stands still needs no sine
             *turn = if q == start.joints[rotary.joint] {
                 *before
             } else {
-                sin_cos(rotary.sign * q)
+                seen.of(rotary.sign * q)
             };
         }
         let [outer, inner] = end.turns;

@@ -2,7 +2,7 @@
 use crate::choice::cheapest_in_posture;
 use crate::length::way;
 use crate::lines::Lines;
-use crate::{Follower, Leg, pole};
+use crate::{Follower, Leg, Sine, pole};
 use trunnion_interp::{Motion, MotionKind, Orientation, Posture, Swivel};
 
 impl Follower<'_> {
@@ -49,6 +49,14 @@ impl Follower<'_> {
         }
     }
 
+    /// What is foreseen of a rotary axis, 0 being that nearest the workpiece.
+    #[inline]
+    pub fn foresee(&mut self, index: usize, sine: Sine) {
+        if let Some(own) = self.sines.get_mut(index) {
+            *own = sine;
+        }
+    }
+
     /// Whether [`Self::straight`] does for a motion: the words name all joints, and nothing stands between words and joints but offsets.
     #[inline]
     pub(crate) fn is_straight(&self, motion: &Motion) -> bool {
@@ -90,7 +98,7 @@ impl Follower<'_> {
         };
         self.words
             .put_literal_joints(&leg.motion.end, &lines.added, &mut end.joints);
-        if !lines.stand(self.machine, start, end) {
+        if !lines.stand(self.machine, &self.sines, start, end) {
             let joints = end.joints;
             *end = self.stand(&leg.motion, &joints, Some(start), None);
         }
@@ -148,7 +156,7 @@ pub(crate) mod tests {
     use trunnion_interp::{AXIS_LETTERS, Feed, Motion, MotionKind, Position};
 
     /// The built-in machines, and one with its axes off the origin and turned about, whose linear axes lie in each piece of the chain.
-    fn machines() -> Vec<Machine> {
+    pub(crate) fn machines() -> Vec<Machine> {
         let own = BUILTIN_MACHINES
             .iter()
             .map(|name| builtin(name).expect("built in").clone());

@@ -155,9 +155,15 @@ impl Words {
     #[inline]
     pub(crate) fn put_literal_joints(&self, end: &Position, added: &Added, joints: &mut Joints) {
         for (joint, slot) in joints.iter_mut().enumerate().take(self.count) {
-            let letter = usize::from(self.letter[joint]).min(AXIS_LETTERS.len() - 1);
-            *slot = end.values[letter] * self.scale[joint] + added.zero[joint] + added.length[joint];
+            *slot = self.literal_joint(joint, end, added);
         }
+    }
+
+    /// One of them.
+    #[inline]
+    pub(crate) fn literal_joint(&self, joint: usize, end: &Position, added: &Added) -> f64 {
+        let letter = usize::from(self.letter[joint]).min(AXIS_LETTERS.len() - 1);
+        end.values[letter] * self.scale[joint] + added.zero[joint] + added.length[joint]
     }
 
     /// What a motion adds to its words.

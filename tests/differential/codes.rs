@@ -68,7 +68,7 @@ impl Program {
             let before = self.random.pick(&BEFORE);
             self.line(before);
         }
-        for _ in 0..1 + self.random.below(2) {
+        for _ in 0..=self.random.below(2) {
             let line = self.words_of_a_line();
             self.line(&line);
         }

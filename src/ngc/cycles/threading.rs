@@ -79,9 +79,9 @@ fn words(work: &mut Work<'_>) -> Result<Thread, Error> {
         return Err(Error::with(&problems::STILL_G76, work.code_range(), text));
     }
     let end = exec::end_of(state, block)?;
-    // observed: a rotary word that leads nowhere is none
-    let moved = (3..6).find(|&axis| end[axis] != state.current[axis]);
-    if let Some(&letter) = moved.and_then(|axis| b"ABC".get(axis - 3)) {
+    // observed: a rotary word that leads nowhere is none; whether one leads from a place that nobody knows is not known either
+    let moves = |axis: usize| (end[axis] - state.current[axis]).abs() > 0.0;
+    if let Some((&letter, _)) = b"ABC".iter().zip(3..).find(|&(_, axis)| moves(axis)) {
         return Err(Error::new(&problems::ROTARY_G76, block.range_of(letter)));
     }
     if state.side != Side::Off {

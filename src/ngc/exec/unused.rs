@@ -73,6 +73,63 @@ impl Codes<'_> {
     fn user(&self) -> bool {
         self.0.m[10] >= 0
     }
+    /// Whether something uses the word of a letter.
+    fn uses(&self, letter: u8) -> bool {
+        match letter {
+            b'D' => self.g(7, &[410, 411, 420, 421]) || self.g(14, &[960]) || self.turning(),
+            b'E' => self.motion(&[330, 331, 700, 760]) || self.m(5, &[66, 67, 68]),
+            b'H' => self.g(8, &[430, 432]) || self.motion(&[760]),
+            b'I' => self.arc() || self.motion(&[50, 51, 331, 760, 870]) || self.roughing() || self.g10(),
+            b'J' => self.arc() || self.motion(&[50, 51, 760, 870]) || self.g10(),
+            b'K' => self.arc() || self.motion(&[330, 331, 760, 870, 61, 62]),
+            b'L' => {
+                (self.cycle() && !self.motion(&[740]))
+                    || self.g10()
+                    || self.g(7, &[410, 411, 420, 421])
+                    || self.motion(&[52, 53, 62, 63, 760])
+                    || self.m(5, &[66])
+                    || self.0.m.contains(&98)
+            }
+            b'P' => {
+                self.arc()
+                    || self.g10()
+                    || self.g(0, &[40])
+                    || self.g(13, &[640])
+                    || self.motion(&[50, 52, 61, 62, 740, 760, 820, 840, 860, 880, 890])
+                    || self.motion(&[700])
+                    || self.m(9, &[50, 51, 52, 53])
+                    || self.m(5, &[62, 63, 64, 65, 66])
+                    || self.m(7, &[19])
+                    || self.0.m.contains(&98)
+                    || self.user()
+            }
+            b'Q' => {
+                self.g10()
+                    || self.g(13, &[640])
+                    || self.motion(&[50, 730, 760, 830, 61, 62])
+                    || self.turning()
+                    || self.m(5, &[66, 67, 68])
+                    || self.m(6, &[61])
+                    || self.m(7, &[19])
+                    || self.user()
+            }
+            b'R' => {
+                // G41.1 and G42.1 take an R that means nothing
+                self.arc()
+                    || self.cycle()
+                    || self.motion(&[760])
+                    || self.roughing()
+                    || self.g10()
+                    || self.m(7, &[19])
+                    || self.g(7, &[411, 421])
+            }
+            _ => true,
+        }
+    }
+    /// Whether something uses `$`.
+    fn uses_spindle(&self) -> bool {
+        self.m(7, &[3, 4, 5, 19]) || self.m(9, &[51]) || self.motion(&[330, 331, 760]) || self.0.has(b'S')
+    }
 }
 
 /// The first word that nothing in the block uses, in the order in which the control looks.
@@ -99,58 +156,6 @@ const ASKED: u32 = {
 
 fn check_each(block: &Block) -> Result<(), Error> {
     let codes = Codes(block);
-    let used = |letter: u8| match letter {
-        b'D' => codes.g(7, &[410, 411, 420, 421]) || codes.g(14, &[960]) || codes.turning(),
-        b'E' => codes.motion(&[330, 331, 700, 760]) || codes.m(5, &[66, 67, 68]),
-        b'H' => codes.g(8, &[430, 432]) || codes.motion(&[760]),
-        b'I' => codes.arc() || codes.motion(&[50, 51, 331, 760, 870]) || codes.roughing() || codes.g10(),
-        b'J' => codes.arc() || codes.motion(&[50, 51, 760, 870]) || codes.g10(),
-        b'K' => codes.arc() || codes.motion(&[330, 331, 760, 870, 61, 62]),
-        b'L' => {
-            (codes.cycle() && !codes.motion(&[740]))
-                || codes.g10()
-                || codes.g(7, &[410, 411, 420, 421])
-                || codes.motion(&[52, 53, 62, 63, 760])
-                || codes.m(5, &[66])
-                || block.m.contains(&98)
-        }
-        b'P' => {
-            codes.arc()
-                || codes.g10()
-                || codes.g(0, &[40])
-                || codes.g(13, &[640])
-                || codes.motion(&[50, 52, 61, 62, 740, 760, 820, 840, 860, 880, 890])
-                || codes.motion(&[700])
-                || codes.m(9, &[50, 51, 52, 53])
-                || codes.m(5, &[62, 63, 64, 65, 66])
-                || codes.m(7, &[19])
-                || block.m.contains(&98)
-                || codes.user()
-        }
-        b'Q' => {
-            codes.g10()
-                || codes.g(13, &[640])
-                || codes.motion(&[50, 730, 760, 830, 61, 62])
-                || codes.turning()
-                || codes.m(5, &[66, 67, 68])
-                || codes.m(6, &[61])
-                || codes.m(7, &[19])
-                || codes.user()
-        }
-        b'R' => {
-            // G41.1 and G42.1 take an R that means nothing
-            codes.arc()
-                || codes.cycle()
-                || codes.motion(&[760])
-                || codes.roughing()
-                || codes.g10()
-                || codes.m(7, &[19])
-                || codes.g(7, &[411, 421])
-        }
-        _ => true,
-    };
-    let spindle_used =
-        codes.m(7, &[3, 4, 5, 19]) || codes.m(9, &[51]) || codes.motion(&[330, 331, 760]) || block.has(b'S');
     // the control looks at these before anything of the block is done, and before all other words
     for (letter, problem) in [(b'A', &AXIS_A), (b'B', &AXIS_B), (b'C', &AXIS_C)] {
         if block.has(letter) && codes.cycle() {
@@ -174,11 +179,11 @@ fn check_each(block: &Block) -> Result<(), Error> {
         (b'Q', &Q),
         (b'R', &R),
     ] {
-        if given(letter) && !used(letter) {
+        if given(letter) && !codes.uses(letter) {
             return Err(Error::new(problem, block.range_of(letter)));
         }
         match letter {
-            b'D' if block.spindle.is_some() && !spindle_used => return Err(Error::new(&DOLLAR, block.range)),
+            b'D' if block.spindle.is_some() && !codes.uses_spindle() => return Err(Error::new(&DOLLAR, block.range)),
             b'P' => check_p(block)?,
             b'R' => check_angle(block)?,
             _ => {}

@@ -34,15 +34,15 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
     let setting = matches!(block.g[0], 100 | 280 | 300 | 520 | 920);
     let tool_offset = matches!(block.g[8], 431 | 432);
     let no_axes = matches!(block.g[0], 520 | 920) && block.given & crate::block::AXES == 0;
-    let polar_setting = polar && (setting || block.g[8] == 431);
-    if polar_setting && !(block.g[0] == 520 && no_axes) {
-        return Err(Error::new(&problems::POLAR_NO_MOTION, block.range));
-    }
     block.motion = block.g[1];
     let given = block.g[1] >= 0;
     let moves = given && block.g[1] != 800;
     if moves && setting {
         return Err(Error::new(&problems::TWO_AXIS_CODES, block.g_range(1)));
+    }
+    let polar_setting = polar && (setting || block.g[8] == 431 && !given);
+    if polar_setting && !(block.g[0] == 520 && no_axes) {
+        return Err(Error::new(&problems::POLAR_NO_MOTION, block.range));
     }
     if no_axes {
         return Err(Error::new(&problems::AXES_MISSING_G92, block.g_range(0)));
@@ -55,8 +55,8 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
         if axes && !setting {
             return Err(Error::new(&problems::AXES_WITH_G80, block.range));
         }
-    } else if polar && tool_offset {
-        // the axis words are the offset's, polar words lead in the mode in force
+    } else if axes && block.g[8] == 432 && !setting {
+        // observed: polar words lead in the mode in force, which uses the other words, too; axis words are refused later
         block.motion = state.motion;
     } else if setting || tool_offset {
         // the axis words are theirs

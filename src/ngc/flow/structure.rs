@@ -43,11 +43,11 @@ impl Engine {
         if !matches!(line.label, Label::Computed(_)) {
             compiled.memo.name = Some(name);
         }
-        if line.keyword == Keyword::Bare && self.flow.no_fanuc {
-            return Err(Error::new(&problems::FANUC_HEAD_OFF, line.label_range).into());
-        }
         if let Some(flaw) = line.flaw {
             return Err(Error::new(flaw.problem, flaw.range).into());
+        }
+        if line.keyword == Keyword::Bare && self.flow.no_fanuc {
+            return Err(Error::new(&problems::FANUC_HEAD_OFF, line.label_range).into());
         }
         match line.keyword {
             Keyword::Call => self.call(compiled, line, name, sought),

@@ -36,21 +36,37 @@ pub(crate) fn stays_near(along: &dyn Fn(f64) -> Joints) -> bool {
     (0..=SAMPLES).all(|i| along(i as f64 / SAMPLES as f64).iter().all(|q| q.abs() <= 1e5))
 }
 
+/// Length of the polygon of the linear axes through many moments. Hard by a pole they run far from one to the next: there the polygon
+/// cuts the corners of a curve, so that it is made finer until it grows no more.
+fn polygon(machine: &Machine, along: &dyn Fn(f64) -> Joints) -> f64 {
+    let step = |from: &Joints, to: &Joints| {
+        let squares = machine.linear.iter().map(|&joint| (to[joint] - from[joint]).powi(2));
+        squares.sum::<f64>().sqrt()
+    };
+    let all: Vec<Joints> = (0..=SAMPLES).map(|i| along(i as f64 / SAMPLES as f64)).collect();
+    let coarse: f64 = all.windows(2).map(|two| step(&two[0], &two[1])).sum();
+    let mut length = 0.0;
+    for (i, two) in all.windows(2).enumerate() {
+        let chord = step(&two[0], &two[1]);
+        if chord < coarse * 0.01 {
+            length += chord;
+            continue;
+        }
+        let inner: Vec<Joints> = (0..=64)
+            .map(|j| along((i as f64 + f64::from(j) / 64.0) / SAMPLES as f64))
+            .collect();
+        length += inner.windows(2).map(|two| step(&two[0], &two[1])).sum::<f64>();
+    }
+    length
+}
+
 /// Way of the linear axes against the polygon through many moments; false where it has no bound. `even`: far from pole and
 /// edge of the reach, where the upper bound must be near too; else it is the lower one alone that is closed in.
 pub(crate) fn travel(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints, even: bool) -> bool {
     let Some(found) = linear_travel(machine, leg, 1.0) else {
         return false;
     };
-    let all: Vec<Joints> = (0..=SAMPLES).map(|i| along(i as f64 / SAMPLES as f64)).collect();
-    let step = |two: &[Joints]| {
-        let squares = machine
-            .linear
-            .iter()
-            .map(|&joint| (two[1][joint] - two[0][joint]).powi(2));
-        squares.sum::<f64>().sqrt()
-    };
-    let polygon: f64 = all.windows(2).map(step).sum();
+    let polygon = polygon(machine, along);
     assert!(
         found.most_mm >= polygon * (1.0 - 1e-9) - 1e-9,
         "{found:?} polygon {polygon}"

@@ -296,9 +296,11 @@ fn finishing(
     corners: bool,
     words: &Words,
 ) -> Result<(), Stopped> {
-    let along = match monotonic(contour, 0)? {
-        Some(sign) => Some((0, sign)),
-        None => monotonic(contour, 1)?.map(|sign| (1, sign)),
+    let along = match (contour, monotonic(contour, 0)?) {
+        // observed: a contour of one block against Z counts along X alone
+        ([only], Some(sign)) if sign > 0.0 && only.round.is_some() => None,
+        (_, Some(sign)) if sign < 0.0 || contour.len() > 1 => Some((0, sign)),
+        _ => monotonic(contour, 1)?.map(|sign| (1, sign)),
     };
     let Some((place, sign)) = along else {
         return Err((&problems::MONOTONIC).into());

@@ -148,8 +148,7 @@ fn judge(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
         return;
     }
     seen[usize::from(is_arc)] += usize::from(travel(machine, &leg, &along, path.least_s > 0.3));
-    // hard by the pole a peak is too narrow for the bound to come nearer
-    seen[2] += usize::from(feed(machine, &leg, &along, &speed, 1.2));
+    seen[2] += usize::from(feed(machine, &leg, &along, &speed));
     seen[3] += beyond(machine, &leg, &along);
 }
 

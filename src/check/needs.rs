@@ -1,6 +1,6 @@
 //! What a motion or leg must be like for a rule to have anything to say of it: most rules are not asked about most of them.
 use crate::rule::InForce;
-use crate::rules::{excess_linear_travel, excess_rotary_travel, fast_pole, position_unknown};
+use crate::rules::{excess_linear_travel, excess_rotary_travel, fast_pole, other_tool_length, position_unknown};
 use crate::trail::Trail;
 use crate::view::{leads_tip, turns};
 use core::f64::consts::PI;
@@ -64,6 +64,8 @@ impl Needs {
     pub const SURFACE_SPEED: Self = Self(1 << 22);
     /// A feed motion with another tool than the feed motion before it.
     pub const FIRST_CUT: Self = Self(1 << 23);
+    /// A tool of another length than the control reckons with.
+    pub const OTHER_LENGTH: Self = Self(1 << 24);
 
     /// This and that.
     pub const fn and(self, other: Self) -> Self {
@@ -134,7 +136,8 @@ impl<'m> Facts<'m> {
         let motion = &leg.motion;
         if !next {
             self.words = Needs::LEADS_TIP.when(leads_tip(motion))
-                | Needs::VECTORS.when(matches!(motion.orientation, Orientation::Vector(..)));
+                | Needs::VECTORS.when(matches!(motion.orientation, Orientation::Vector(..)))
+                | Needs::OTHER_LENGTH.when(other_tool_length::of(motion, trail.own_length_mm).is_some());
         }
         let [first, second] = leg.rotary_change;
         let (mut lost, mut crosses) = (true, false);

@@ -335,6 +335,7 @@ impl Pass<'_> {
         }
         if let Some(follower) = &mut self.follower {
             self.trail.clamps = in_force.clamps;
+            self.trail.own_length_mm = in_force.own_length_mm;
             let mut leg = self.leg.take();
             if next {
                 follower.follow_line_into(motion, &mut leg);

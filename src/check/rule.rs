@@ -12,6 +12,8 @@ pub type ProgramRule = fn(&Overview<'_>, &mut Reporter<'_>);
 pub struct InForce {
     /// Compensated tool length, mm; `None`: off.
     pub tool_length_mm: Option<f64>,
+    /// Declared length of the tool in use, mm.
+    pub own_length_mm: Option<f64>,
     /// Coordinates are in a frame that is not modelled.
     pub frame_unknown: bool,
     /// S is a cutting speed (G96).
@@ -30,6 +32,7 @@ impl InForce {
     pub(crate) fn of(state: &ModalState) -> Self {
         Self {
             tool_length_mm: state.tool_length_mm,
+            own_length_mm: state.tool_data.and_then(|tool| tool.length_mm),
             frame_unknown: state.frame_unknown,
             surface_speed: state.surface_speed,
             spindle_limit_rpm: state.spindle_limit_rpm,

@@ -40,6 +40,7 @@ mod not_decided;
 mod not_modelled;
 mod only_one_posture;
 mod orientation_deviation;
+pub(crate) mod other_tool_length;
 mod path_deviation;
 mod pivot_uncertainty;
 mod pole_crossing;
@@ -136,6 +137,7 @@ static RULES: &[&Rule] = table![
     not_modelled,
     only_one_posture,
     orientation_deviation,
+    other_tool_length,
     path_deviation,
     pivot_uncertainty,
     pole_crossing,

@@ -18,6 +18,8 @@ pub(crate) struct Trail {
     state: State,
     /// Clamps of the rotary axes with the leg in hand.
     pub(crate) clamps: Clamps,
+    /// Declared length of the tool in use with the leg in hand, mm.
+    pub(crate) own_length_mm: Option<f64>,
 }
 
 /// What the last leg was.
@@ -90,6 +92,7 @@ impl Trail {
         let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
             *self = Self {
                 clamps: self.clamps,
+                own_length_mm: self.own_length_mm,
                 ..Self::default()
             };
             return;

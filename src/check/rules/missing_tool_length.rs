@@ -1,4 +1,4 @@
-//! A tool cuts before its length is compensated.
+//! A tool cuts before its length is compensated, or with the length of another one.
 //!
 //! # Why
 //! Without G43 the control moves the spindle's nose, not the tip: the tool goes in too deep by its whole length, or does not reach
@@ -32,6 +32,7 @@
 //! Trunnion's interface, section 7.
 use crate::InForce;
 use crate::prelude::*;
+use crate::rules::other_tool_length;
 use trunnion_interp::Motion;
 
 pub(super) const RULE: Body = Body {
@@ -45,10 +46,29 @@ fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
     if !motion.is_feed() || !by_code(out.dialect()) || !out.once(u64::from(tool)) {
         return;
     }
-    if state.tool_length_mm.is_some() || motion.tcp || motion.machine_coordinates || state.frame_unknown {
+    if motion.tcp || motion.machine_coordinates || state.frame_unknown {
         return;
     }
     let range = code_range(out.program(), motion.block);
+    if let (Some(in_force), Some(own)) = (state.tool_length_mm, other_tool_length::of(motion, state.own_length_mm)) {
+        out.report(
+            range,
+            format!(
+                "T{tool} is {} long, but cuts with a length of {}",
+                mm(own),
+                mm(in_force)
+            ),
+        )
+        .help(format!(
+            "write G43 H{tool} with the first move of Z after the tool change"
+        ))
+        .value("tool_length_mm", own)
+        .value("length_in_force_mm", in_force);
+        return;
+    }
+    if state.tool_length_mm.is_some() {
+        return;
+    }
     out.report(
         range,
         format!("T{tool} cuts without its length: no tool length compensation is in force"),
@@ -87,6 +107,14 @@ mod tests {
         assert_drawn(
             "gcode sinumerik-840d",
             "T1\nM6\n;^ tool-length-unset: \nG1 X1 F100\nM30\n",
+        );
+    }
+
+    #[test]
+    fn the_length_of_another_tool_is_told() {
+        assert_drawn(
+            "gcode fanuc-30i",
+            "(trunnion: tool 1 length 120)\n(trunnion: tool 5 length 80.5)\nT1 M6\nS1 M3\nG0 G43 H5 X0. Y0. Z9.\nG1 X1. F100.\n;^^^^^^^^^^^ missing-tool-length: T1 is 120 mm long, but cuts with a length of 80.5 mm\nX2.\nM30\n",
         );
     }
 }

@@ -1,0 +1,112 @@
+//! Rotary axes turn in a cut while the control reckons with another length than that of the tool in use.
+//!
+//! # Why
+//! The control leads the point that lies the compensated length below the spindle's gauge point. Where that is not the tool's tip (no G43,
+//! or the H of another tool), the tip is carried round that point by every turn of the tool against the workpiece: what is true of the
+//! one's path is not true of the other's.
+//!
+//! # Example
+//! ```gcode fanuc-30i mikron-ucp710
+//! (trunnion: tool 1 length 120)
+//! N10 T1 M6
+//! N20 M3 S5000
+//! N30 G0 X0. Y0. Z150. A0. C0.
+//! N40 G1 A20. F200.
+//! ;   ^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long
+//! N50 M30
+//! ```
+//!
+//! # Use instead
+//! ```gcode fanuc-30i mikron-ucp710
+//! (trunnion: tool 1 length 120)
+//! N10 T1 M6
+//! N20 M3 S5000
+//! N30 G0 G43 H1 X0. Y0. Z150. A0. C0.
+//! N40 G1 A20. F200.
+//! N50 M30
+//! ```
+//!
+//! # Guarantee
+//! Sound for tools of declared length: where the tip's way rests on a length that is not the tool's, the verdict is unknown, once for each
+//! tool and length. Findings of other rules hold for the point that the control leads. Where nothing turns the tip runs beside that point,
+//! by the same way, and `missing-tool-length` judges.
+//!
+//! # Sources
+//! Trunnion's kinematics notes, section 2.1: the tip is the gauge point less the length times the tool axis.
+use crate::prelude::*;
+use trunnion_interp::Motion;
+
+pub(super) const RULE: Body = Body {
+    severity: Severity::Info,
+    guarantee: Guarantee::Sound,
+    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::OTHER_LENGTH), check),
+};
+
+/// Lengths that differ by no more are the same, mm: what changes of the unit leave behind.
+const SAME_MM: f64 = 1e-6;
+
+/// The tool's own length, mm, where the control reckons with another one.
+pub(crate) fn of(motion: &Motion, own: Option<f64>) -> Option<f64> {
+    let own = own?;
+    ((own - motion.tool_length_mm).abs() > SAME_MM).then_some(own)
+}
+
+fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+    let motion = view.motion();
+    let Some(own) = of(motion, view.trail.own_length_mm) else {
+        return;
+    };
+    if !motion.is_feed() || !view.rotary_turns() {
+        return;
+    }
+    let key = u64::from(motion.tool.unwrap_or_default()) ^ motion.tool_length_mm.to_bits();
+    if out.repeats_unknown(view, key, 0.0) {
+        return;
+    }
+    let tool = motion
+        .tool
+        .map_or_else(|| "the tool".to_owned(), |tool| format!("T{tool}"));
+    let range = code_range(out.program(), motion.block);
+    out.report(
+        range,
+        format!(
+            "{tool} is {} long, but {} are in force: where its tip goes while rotary axes turn is not judged",
+            mm(own),
+            mm(motion.tool_length_mm)
+        ),
+    )
+    .help("switch the tool's own length on (G43 H), or declare the length that is meant")
+    .value("tool_length_mm", own)
+    .value("length_in_force_mm", motion.tool_length_mm)
+    .unknown()
+    .merge_everywhere(key);
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fixture::assert_drawn;
+
+    const TOOLS: &str = "(trunnion: tool 1 length 120)\n(trunnion: tool 5 length 80.5)\n";
+
+    /// 120 mm long tools of which nothing says so, and turns out of the cut, are nobody's business here.
+    #[test]
+    fn told_once_for_each_length_in_force() {
+        assert_drawn(
+            "gcode linuxcnc mikron-ucp710",
+            &format!(
+                "{TOOLS}T1 M6 S100 M3\nG43 H5 G0 X0 Y0 Z200 A0 C0\nA1\nG93 G1 A1.1 F100\n;^^^^^^^^^^^^^^^ missing-tool-length: T1 is 120 mm long\n;^^^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long, but 80.5 mm are in force\nA1.2 F100\nG43 H1\nA1.3 F100\nG49\nA1.4 F100\n;^^^^^^^^ other-tool-length: T1 is 120 mm long, but 0 mm are in force\nM2\n"
+            ),
+        );
+    }
+
+    #[test]
+    fn a_led_tip_is_led_by_the_length_in_force() {
+        let report = assert_drawn(
+            "gcode fanuc-30i mikron-ucp710",
+            &format!(
+                "{TOOLS}T1 M6\nM3 S100\nG43.4 H5\nG0 X0. Y0. Z200. A0. C0.\nG1 X40. A10. F100.\n;^^^^^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long, but 80.5 mm are in force\nM30\n"
+            ),
+        );
+        assert_eq!(report.verdict(crate::Severity::Error), crate::Verdict::Unknown);
+    }
+}

@@ -138,6 +138,8 @@ impl Pair<'_> {
             "the side of the cutter radius compensation"
         } else if old.tool != new.tool || old.tool_length_mm != new.tool_length_mm {
             "the tool or its length"
+        } else if old.tool_length_mm == 0.0 && self.before.length_of != self.after.length_of {
+            "whose tool length is in force (none is declared)"
         } else if !self.claim.is_rewrite() {
             return Ok(());
         } else if old.tcp != new.tcp || old.great_circle != new.great_circle {

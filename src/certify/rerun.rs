@@ -2,7 +2,7 @@
 use crate::side::{Side, Told, of_fault, text};
 use std::collections::VecDeque;
 use trunnion_dialect::Dialect;
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Setup, Sink, ToolShape};
+use trunnion_interp::{Fault, Interpreter, LengthOf, ModalState, Motion, Setup, Sink, ToolShape};
 use trunnion_machine::{Follower, Leg, Machine};
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
@@ -30,6 +30,8 @@ pub(crate) struct Step {
     pub ball_radius: Option<f64>,
     /// Side of the cutter radius compensation: 0 off, 41, 42.
     pub compensation: u8,
+    /// Whose length is in force.
+    pub length_of: LengthOf,
     /// Name of the active work offset.
     pub work_offset: Option<std::sync::Arc<str>>,
 }
@@ -58,6 +60,7 @@ impl Sink for Legs<'_> {
             leg,
             ball_radius,
             compensation: state.compensation,
+            length_of: state.length_of,
             work_offset: state.work_offset.clone(),
         });
     }

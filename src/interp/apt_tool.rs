@@ -2,7 +2,7 @@
 use crate::apt::Args;
 use crate::memory::Chosen;
 use crate::run::{Interpreter, Report};
-use crate::{FaultKind, Tool, ToolShape};
+use crate::{FaultKind, LengthOf, Tool, ToolShape};
 use trunnion_syntax::TextRange;
 
 /// Two lengths of a tool that are written with this difference are the same, mm.
@@ -66,6 +66,7 @@ impl Interpreter<'_> {
         self.forget_linear();
         self.memory.in_spindle = number.map_or(Chosen::Unread, Chosen::Number);
         self.state.tool = number;
+        self.state.length_of = LengthOf::Tool(number);
         self.merge_tool();
         if let Some(length) = args.after(report.program, "LENGTH") {
             let length = length * self.state.length_unit_mm;

@@ -5,7 +5,7 @@ use crate::run::{Interpreter, Report};
 use crate::tcp::tcp_variant;
 use crate::travel::Travel;
 use crate::words::{Said, Words};
-use crate::{FaultKind, FeedMode};
+use crate::{FaultKind, FeedMode, LengthOf};
 use trunnion_dialect::{Action, Code, CodeKind, Plane};
 use trunnion_syntax::TextRange;
 
@@ -177,7 +177,7 @@ impl<'d> Interpreter<'d> {
             }
             Action::ToolLengthOff => {
                 self.end_tcp_of_group(found.code);
-                self.set_length(None);
+                self.set_length(None, LengthOf::Nothing);
             }
             Action::TcpOn | Action::TcpVectorOn => {
                 let unread = tcp_variant(found, words, report);

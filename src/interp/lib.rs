@@ -41,7 +41,7 @@ mod words;
 pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
 pub use directive::{Directive, directives};
 pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
-pub use modal::{FeedMode, ModalState};
+pub use modal::{FeedMode, LengthOf, ModalState};
 pub use motion::{
     AXIS_LETTERS, AxisLetter, ChainId, Feed, Frame, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt,
 };

@@ -15,6 +15,29 @@ pub enum FeedMode {
     InverseTime,
 }
 
+/// Whose length is compensated. It tells lengths apart that nobody declared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub enum LengthOf {
+    /// None is in force.
+    #[default]
+    Nothing,
+    /// That of the tool with this number; `None`: of a tool in use whose number is not known.
+    Tool(Option<u32>),
+    /// One that is no tool's own (another edge than the first, a sum of several), or whose number could not be read.
+    Other,
+}
+
+impl core::fmt::Display for LengthOf {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Nothing => f.write_str("none"),
+            Self::Tool(Some(number)) => write!(f, "that of tool {number}"),
+            Self::Tool(None) => f.write_str("that of the tool in use"),
+            Self::Other => f.write_str("one that is no tool's own"),
+        }
+    }
+}
+
 /// What is in force between blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalState {
@@ -56,6 +79,8 @@ pub struct ModalState {
     pub tool_data: Option<Tool>,
     /// Compensated tool length, mm; `None` = off.
     pub tool_length_mm: Option<f64>,
+    /// Whose that is.
+    pub length_of: LengthOf,
     /// TCP on.
     pub tcp: bool,
     /// Orientation on great circle.
@@ -107,6 +132,7 @@ impl ModalState {
             tool_prepared: None,
             tool_data: None,
             tool_length_mm: None,
+            length_of: LengthOf::Nothing,
             // CL data say where the tool's tip is
             tcp: dialect.lex.format == Format::Apt,
             great_circle: None,

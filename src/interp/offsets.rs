@@ -3,7 +3,7 @@ use crate::codes::Found;
 use crate::memory::Chosen;
 use crate::run::{Interpreter, Report};
 use crate::words::{Said, Words};
-use crate::{FaultKind, Tool};
+use crate::{FaultKind, LengthOf, Tool};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
@@ -78,18 +78,19 @@ impl Interpreter<'_> {
         if let Some(number) = offset.index() {
             self.memory.length_offset = Some(number);
         }
-        let (tool, key) = match (offset, self.memory.length_offset) {
-            (Said::Nothing, None) => (self.state.tool_data, self.tool_name()),
-            (Said::Nothing | Said::Number(_), Some(0)) => return self.set_length(Some(0.0)),
+        let (tool, key, of) = match (offset, self.memory.length_offset) {
+            (Said::Nothing, None) => (self.state.tool_data, self.tool_name(), LengthOf::Tool(self.state.tool)),
+            (Said::Nothing | Said::Number(_), Some(0)) => return self.set_length(Some(0.0), LengthOf::Nothing),
             (Said::Nothing | Said::Number(_), Some(number)) => {
+                let of = LengthOf::Tool(Some(number));
                 if let Some(length) = self.written_length(number) {
-                    return self.set_length(Some(length));
+                    return self.set_length(Some(length), of);
                 }
-                (self.tool_of(Some(number)), format!("H{number}"))
+                (self.tool_of(Some(number)), format!("H{number}"), of)
             }
-            _ => (None, "H".to_owned()),
+            _ => (None, "H".to_owned(), LengthOf::Other),
         };
-        self.take_length(tool, &key, range, report);
+        self.take_length(tool, (&key, of), range, report);
     }
 
     /// H without a code that reads it: the number changes while the compensation is on, and else waits for it (Fanuc Series 30i
@@ -122,7 +123,7 @@ impl Interpreter<'_> {
         let range = edge.number().map_or(TextRange::default(), |number| number.range);
         self.memory.edge = edge.index();
         match edge.index() {
-            Some(0) => self.set_length(None),
+            Some(0) => self.set_length(None, LengthOf::Nothing),
             // the tool is chosen, but not yet in the spindle: its length comes with it
             _ if self.waits_for_change() => {}
             edge => self.edge_length(edge, range, report),
@@ -156,25 +157,35 @@ impl Interpreter<'_> {
             _ => self.tool_name(),
         };
         match edge {
-            Some(0) => self.set_length(None),
-            Some(1) => self.take_length(self.state.tool_data, &name, range, report),
-            Some(edge) => self.take_length(None, &format!("{name} D{edge}"), range, report),
-            None => self.take_length(None, &format!("{name} D"), range, report),
+            Some(0) => self.set_length(None, LengthOf::Nothing),
+            Some(1) => {
+                let of = LengthOf::Tool(self.state.tool);
+                self.take_length(self.state.tool_data, (&name, of), range, report);
+            }
+            Some(edge) => self.take_length(None, (&format!("{name} D{edge}"), LengthOf::Other), range, report),
+            None => self.take_length(None, (&format!("{name} D"), LengthOf::Other), range, report),
         }
     }
 
-    /// Makes a tool's length active; where it is not declared, zero, said once.
-    fn take_length(&mut self, tool: Option<Tool>, key: &str, range: TextRange, report: &mut Report<'_>) {
+    /// Makes a tool's length active, with its name and whose it is; where it is not declared, zero, said once.
+    fn take_length(
+        &mut self,
+        tool: Option<Tool>,
+        (key, of): (&str, LengthOf),
+        range: TextRange,
+        report: &mut Report<'_>,
+    ) {
         let length = tool.and_then(|tool| tool.length_mm);
         if length.is_none() && self.memory.length_is_news(key) {
             report.fault(range, FaultKind::ToolLengthUnset { tool: key.to_owned() });
         }
-        self.set_length(Some(length.unwrap_or(0.0)));
+        self.set_length(Some(length.unwrap_or(0.0)), of);
     }
 
     /// The machine stays where it is, so the programmed position moves: along the tool at home while the axes are joints; anywhere
     /// under tool centre point control.
-    pub(crate) fn set_length(&mut self, length: Option<f64>) {
+    pub(crate) fn set_length(&mut self, length: Option<f64>, of: LengthOf) {
+        self.state.length_of = of;
         let change = length.unwrap_or(0.0) - self.state.tool_length_mm.unwrap_or(0.0);
         self.state.tool_length_mm = length;
         if change != 0.0 {

@@ -2,7 +2,7 @@
 use crate::memory::Chosen;
 use crate::run::{Interpreter, Report};
 use crate::words::{Said, Words};
-use crate::{Setup, Tool};
+use crate::{LengthOf, Setup, Tool};
 use trunnion_syntax::Program;
 
 /// Lays `over` on `under`: what it declares counts.
@@ -145,7 +145,7 @@ impl Interpreter<'_> {
         // an empty spindle has no length
         match (edge, &self.memory.in_spindle) {
             (None, _) => {}
-            (Some(_), Chosen::Number(0)) => self.set_length(None),
+            (Some(_), Chosen::Number(0)) => self.set_length(None, LengthOf::Nothing),
             (edge, _) => self.edge_length(edge, report.whole(), report),
         }
     }

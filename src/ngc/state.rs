@@ -113,6 +113,8 @@ pub struct State {
     pub rotation_xy: f64,
     /// Tool offset in force.
     pub tool_offset: Pose,
+    /// Whose it is: H of G43, 0 for the tool in the spindle; -1: not one tool's alone (G43.1, G43.2); `None`: G49.
+    pub length_of: Option<i32>,
     /// G98 / G99.
     pub retract: RetractMode,
     /// Modal words of canned cycles.
@@ -310,6 +312,7 @@ impl State {
             origin_index: 1,
             rotation_xy: 0.0,
             tool_offset: [0.0; 9],
+            length_of: None,
             retract: RetractMode::RPlane,
             cycle: CycleWords::default(),
             side: Side::Off,

@@ -35,6 +35,17 @@ fn text_alone_is_no_difference() {
     );
 }
 
+/// Neither length is declared: that another one is in force is seen by its number.
+#[test]
+fn the_length_of_another_tool_is_a_difference() {
+    let folder = TempDir::new().expect("works");
+    let with = |number: u32| BEFORE.replace("N10 G0", &format!("N10 G43 H{number} G0"));
+    let (code, shown) = differ(&folder, &with(1), &with(5), &[]);
+    assert_eq!(code, 1);
+    let told = "tool length in force that of tool 1 -> that of tool 5";
+    assert!(shown.contains(told), "{shown}");
+}
+
 #[test]
 fn each_sort_of_difference_is_told() {
     let folder = TempDir::new().expect("works");

@@ -228,6 +228,16 @@ impl Proof<'_> {
             );
             return self.refute(is, why);
         }
+        // of lengths that nobody declared, and of words that no machine places, all that is known is whose they are
+        let blind = new.tool_length.abs() <= LENGTH_MM || new.leg.is_none();
+        if told && blind && new.motion.is_feed() && old.length_of != new.length_of {
+            let why = format!(
+                "the tool length in force is {} where it was {}: switch on the length of the tool that cuts, or declare the lengths and \
+                 name the machine",
+                new.length_of, old.length_of
+            );
+            return self.refute(is, why);
+        }
         Ok(())
     }
 

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use trunnion_dialect::Dialect;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{
-    ChainId, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, Orientation, Refusal, Setup, Sink,
-    Swivel, Tilt, Tool,
+    ChainId, Fault, FaultKind, Feed, Interpreter, LengthOf, ModalState, Motion, MotionKind, Orientation, Refusal,
+    Setup, Sink, Swivel, Tilt, Tool,
 };
 use trunnion_machine::{Follower, Joints, Leg, Machine, NoStance, Pose, forward};
 use trunnion_syntax::{BlockId, Format, Program, parse};
@@ -49,6 +49,8 @@ pub struct Posed {
     pub leg: Option<Box<Leg>>,
     /// Length of the tool that the poses are told for, mm.
     pub tool_length: f64,
+    /// Whose length is in force.
+    pub length_of: LengthOf,
     /// Whether the tip runs as far as X Y Z do, whichever way they run: they stand square to each other, and so does what turns them.
     pub square: bool,
 }
@@ -154,7 +156,7 @@ struct Collector<'m> {
 }
 
 impl Sink for Collector<'_> {
-    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
         if self.length.0 != motion.tool || motion.tool_length_mm != 0.0 {
             self.length = (motion.tool, motion.tool_length_mm);
         }
@@ -189,6 +191,7 @@ impl Sink for Collector<'_> {
             end: posed.1,
             leg: posed.2,
             tool_length: self.length.1,
+            length_of: state.length_of,
             square,
         });
     }

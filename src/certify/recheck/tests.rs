@@ -244,6 +244,11 @@ fn another_zero_tool_length_or_dwell_is_another_path() {
             "G43 H3 G0 X1. Y1. Z1.",
             "the tool or its length",
         ),
+        (
+            "#1=7\nG43 H#1 G0 X1. Y1. Z1.",
+            "#1=8\nG43 H#1 G0 X1. Y1. Z1.",
+            "whose tool length",
+        ),
         ("G4 X1.", "G4 X2.", "dwell and its time"),
         ("G0 X1.", "G1 X1. F100.", "the kind of motion"),
     ] {

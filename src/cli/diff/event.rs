@@ -2,7 +2,7 @@
 use super::point::Point;
 use std::sync::Arc;
 use trunnion_dialect::{Action, Dialect, Role};
-use trunnion_interp::{FaultKind, Feed, ModalState, Motion};
+use trunnion_interp::{FaultKind, Feed, LengthOf, ModalState, Motion};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Value};
 
 /// One thing that happens.
@@ -31,6 +31,7 @@ pub(super) struct Tech {
     spindle: Option<bool>,
     tool: Option<u32>,
     length: u64,
+    length_of: LengthOf,
     offset: Option<Arc<str>>,
     zero: [u64; 9],
     compensation: u8,
@@ -56,6 +57,7 @@ impl Tech {
             spindle: motion.spindle_on,
             tool: motion.tool,
             length: (motion.tool_length_mm + 0.0).to_bits(),
+            length_of: state.length_of,
             offset: state.work_offset.clone(),
             zero: motion.zero.map(|value| (value + 0.0).to_bits()),
             compensation: state.compensation,
@@ -92,6 +94,11 @@ impl Tech {
         pair("tool", tool(self), tool(other));
         let mm = |bits| format!("{} mm", f64::from_bits(bits));
         pair("tool length", mm(self.length), mm(other.length));
+        pair(
+            "tool length in force",
+            self.length_of.to_string(),
+            other.length_of.to_string(),
+        );
         let offset = |tech: &Self| tech.offset.as_deref().unwrap_or("none").to_owned();
         pair("work offset", offset(self), offset(other));
         if self.zero != other.zero && self.offset == other.offset {

@@ -4,7 +4,7 @@ use super::feed::Rate;
 use super::frames::Shift;
 use super::setup::SYSTEMS;
 use crate::memory::Chosen;
-use crate::{Fault, FaultKind, Sink};
+use crate::{Fault, FaultKind, LengthOf, Sink};
 use trunnion_dialect::{Action, Code, Dialect, Plane};
 use trunnion_ngc::{At, Canon, OwnCode, Pose, Side, SpindleTurn, State, Units};
 use trunnion_syntax::{Address, BlockId, TextRange, Value};
@@ -225,6 +225,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.told.tool_offset = Shift::metric(offset, state.units.mm());
         let length = self.told.tool_offset[2];
         self.interpreter.state.tool_length_mm = (on && length.is_finite()).then_some(length);
+        self.interpreter.state.length_of = match state.length_of {
+            Some(0) => LengthOf::Tool(self.interpreter.state.tool),
+            Some(number) => u32::try_from(number).map_or(LengthOf::Other, |number| LengthOf::Tool(Some(number))),
+            None => LengthOf::Nothing,
+        };
         let declared = self.interpreter.tool().and_then(|tool| tool.length_mm).is_some();
         if on && length == 0.0 && !declared {
             let tool = self.interpreter.tool_name();

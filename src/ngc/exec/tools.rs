@@ -198,6 +198,11 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
     let h = block.word(b'H').map(|h| h.round() as i32);
     let given = block.given & crate::block::AXES != 0;
     let changes = matches!(block.m[6], 6 | 61);
+    engine.state.length_of = match code {
+        490 => None,
+        430 => Some(h.unwrap_or(0)),
+        _ => Some(-1),
+    };
     let offset = match code {
         490 => [0.0; 9],
         430 => {

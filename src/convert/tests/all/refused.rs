@@ -253,9 +253,18 @@ fn a_posture_that_no_great_circle_leads_to_is_refused() {
 #[test]
 fn a_length_that_was_not_in_force_is_not_switched_on() {
     let options = Options::default();
-    for (code, is_refused) in [("", true), ("G43 H5", true), ("G43 H1", false)] {
+    let declared = "(trunnion: tool 1 ball diameter 10 length 80)\n(trunnion: tool 5 ball diameter 10 length 90)\n";
+    // of undeclared lengths it is known whose they are
+    for (head, code, is_refused) in [
+        (declared, "", true),
+        (declared, "G43 H5", true),
+        (declared, "G43 H1", false),
+        ("", "", true),
+        ("", "G43 H5", true),
+        ("", "G43 H1", false),
+    ] {
         let text = format!(
-            "(trunnion: tool 1 ball diameter 10 length 80)\n(trunnion: tool 5 ball diameter 10 length 90)\nG21 G90 G94\nT1 M6\nS5000 M3\n{code}\n\
+            "{head}G21 G90 G94\nT1 M6\nS5000 M3\n{code}\n\
              G0 X1. Y4. Z41. A0. C0.\nG1 X26.9 F2000.\nM30\n"
         );
         let made = to(

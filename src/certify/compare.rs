@@ -322,6 +322,11 @@ pub(crate) fn forward_residual(machine: &Machine, at: Place, leg: &Leg) -> Resul
     );
     if above(mm, FORWARD_TOLERANCE) || above(degrees, FORWARD_TOLERANCE) {
         let line = at.line;
+        if zero.iter().any(|value| !value.is_finite()) {
+            return Err(Outcome::unknown(format!(
+                "line {line}: the zero point is not known, so that nobody knows where the machine stands"
+            )));
+        }
         return Err(Outcome::unknown(format!(
             "line {line}: forward kinematics misses the pose by {mm:e} mm, {degrees:e} deg"
         )));

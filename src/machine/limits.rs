@@ -43,7 +43,7 @@ pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) -> bool
     let (joints, known) = (&leg.known_joints.0, leg.known_joints.1);
     ends(machine, joints, known, out);
     // an arc that does not exist has no way between its ends: it is a fault of the program, told as one
-    if leg.motion.kind == MotionKind::Arc(None) || !may_bend(machine, leg) || is_dogleg(machine, leg) {
+    if leg.motion.kind == MotionKind::Arc(None) || !may_bend(machine, leg) {
         return true;
     }
     let Some(course) = Course::new(machine, leg) else {
@@ -53,14 +53,10 @@ pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) -> bool
     true
 }
 
-/// Whether the axes of a rapid may arrive together or each for itself: what lies between the ends is then known for neither.
+/// Whether the axes of a rapid may arrive together or each for itself: what lies between the ends is then known for neither. Of a control
+/// whose axes run each for itself nobody says whether they still do while it leads the tip.
 fn is_undeclared(machine: &Machine, leg: &Leg) -> bool {
-    leg.motion.kind == MotionKind::Rapid && machine.control.rapid == RapidPath::Undeclared
-}
-
-/// Whether each axis runs at its own speed: between two legal ends each stays between them, however the tip gets there.
-fn is_dogleg(machine: &Machine, leg: &Leg) -> bool {
-    leg.motion.kind == MotionKind::Rapid && machine.control.rapid == RapidPath::Dogleg
+    leg.motion.kind == MotionKind::Rapid && machine.control.rapid != RapidPath::Synchronous
 }
 
 /// The joints of a mask that stand outside their travel.

@@ -208,6 +208,15 @@ fn an_unknown_zero_of_an_axis_that_is_not_there_refutes_nothing() {
     assert!(matches!(compare("G1 X-4.1 F100"), Outcome::Refuted(_)));
 }
 
+#[test]
+fn a_zero_that_nobody_knows_is_named() {
+    let text = "G21 G90\nG92 X#5061\nG0 X0 Y4 Z11 A24 C9\nM2\n";
+    let Outcome::Unknown(gap) = on("linuxcnc", text, text, &PATH, &Setup::default()) else {
+        panic!("is known");
+    };
+    assert!(gap.message.contains("line 3: the zero point is not known"), "{gap}");
+}
+
 /// Texts may differ in anything, but not in what decides where the tool is or how long it waits.
 #[test]
 fn another_zero_tool_length_or_dwell_is_another_path() {

@@ -20,7 +20,7 @@
 //! # Guarantee
 //! Sound for axes whose position is known: inside a block by a bound on the joints' motion, not by samples.
 //! An axis that was never positioned is not judged. Where the machine file does not say whether the axes of a rapid motion arrive together,
-//! what an axis would reach between two legal ends is unknown.
+//! and where it says that they do not but the control leads the tip, what an axis would reach between two legal ends is unknown.
 //!
 //! # Thresholds
 //! The limits of the machine file.
@@ -28,7 +28,7 @@
 //! # Sources
 //! Trunnion's kinematics notes, sections 3 and 5 (LIM-END, LIM-MID).
 use crate::prelude::*;
-use trunnion_machine::{AxisKind, Excess, limit_excess};
+use trunnion_machine::{AxisKind, Excess, RapidPath, limit_excess};
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Error,
@@ -82,9 +82,12 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             view.machine.id
         ));
         if excess.if_together {
-            draft.unknown().help(
-                "say in the machine file whether they do ([control] rapid = \"synchronous\" or \"dogleg\"), or rise before the tool turns",
-            );
+            let dogleg = view.machine.control.rapid == RapidPath::Dogleg;
+            draft.unknown().help(if dogleg {
+                "rise before the tool turns: nobody says that each axis runs for itself (rapid = \"dogleg\") while the control leads the tip"
+            } else {
+                "say in the machine file whether they do ([control] rapid = \"synchronous\" or \"dogleg\"), or rise before the tool turns"
+            });
         } else {
             draft.help("move the part, choose another posture, or correct the program");
         }
@@ -159,7 +162,8 @@ mod tests {
         for (rapid, wanted) in [
             (RapidPath::Undeclared, vec![Status::Unknown]),
             (RapidPath::Synchronous, vec![Status::Fail]),
-            (RapidPath::Dogleg, vec![]),
+            // nobody says that it holds while the tip is led
+            (RapidPath::Dogleg, vec![Status::Unknown]),
         ] {
             machine.control.rapid = rapid;
             let program = trunnion_syntax::parse(text.into(), dialect.lex);

@@ -228,7 +228,10 @@ fn rapids_of_single_axes_are_not_proven_while_the_tip_is_led() {
         let mut found = Vec::new();
         assert!(limit_excess(&narrow, &leg, &mut found));
         assert_eq!(found.len(), 1, "{control}: {found:?}");
-        assert!(found[0].inside && found[0].if_together != together, "{control}: {found:?}");
+        assert!(
+            found[0].inside && found[0].if_together != together,
+            "{control}: {found:?}"
+        );
         assert_eq!(tip_deviation(&narrow, &leg, 0.01).is_some(), together, "{control}");
     }
 }

@@ -140,7 +140,11 @@ pub(crate) fn feed(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints, 
     let even = (speed(0.0) - speed(1.0)).abs() < 1e-9 * speed(0.0);
     if machine.constants.shared_segment.is_some() && even {
         // between two moments an axis may be a little faster than at both
-        assert!(limit >= truth.min(fine) * 0.97, "limit {limit} truth {truth} {fine}");
+        assert!(
+            limit >= truth.min(fine) * 0.97,
+            "limit {limit} truth {truth} {fine}, {}: {leg:?}",
+            machine.id
+        );
     }
     true
 }

@@ -155,7 +155,8 @@ def path_limits(leg, line, machine, findings, told):
     """An axis that stands beyond its travel at the start was told where it got there."""
     dogleg = leg.motion.kind == "rapid" and "dogleg" in machine.control.get("rapid", "")
     for a in machine.axes:
-        if not a.limits or dogleg:
+        # nobody says that each axis runs for itself while the control leads the tip
+        if not a.limits or dogleg and not leg.motion.tcp:
             continue
         over = [max(a.limits[0] - q, q - a.limits[1]) for q in (leg.joints(i / 100)[a.letter] for i in range(101))]
         at = max(range(101), key=over.__getitem__)

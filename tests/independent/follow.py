@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+import planes
 from space import add, angle, cross, dot, great_circle, mix, norm, scale, solve3, sub, to_segment, unit
 
 PLANES = {"G17": ("X", "Y", "Z", "I", "J"), "G18": ("Z", "X", "Y", "K", "I"), "G19": ("Y", "Z", "X", "J", "K")}
@@ -115,10 +116,56 @@ class Follower:
                 into[axis] = value + m.shift[axis] + (shift[axis] if axis in "XYZ" and not m.tcp else 0.0)
         return out, tip
 
+    def swivel(self, m, start, known):
+        """The rotary axes turn onto the plane, the linear ones stay."""
+        chosen = self.posture(m.tilt[1][2], start, m) if self.posture else None
+        if chosen is None:
+            return self.lost(m, start, "posture")
+        self.joints = start | chosen
+        leg = Leg(m, start if known else None, dict(self.joints) if known else None, why="" if known else "position")
+        if known:
+            self.between(leg)
+        return leg
+
+    def in_plane(self, m, start, known):
+        """X Y Z of the tip in a tilted plane; the rotary axes stand."""
+        rotary = [a.letter for a in self.machine.rotaries]
+        rot = {r: start[r] for r in rotary}
+        if any(v is None for v in rot.values()) or any(m.shift[r] for r in rotary):
+            return self.lost(m, start, "a plane from there")
+        if angle(self.machine.direction({a: 0.0 for a in self.machine.letters} | rot), m.tilt[1][2]) > 1e-7:
+            return self.lost(m, start, "the tool does not stand along the plane's normal")
+        zero = tuple(m.shift[a] for a in "XYZ")
+        here = self.tip_here(m.length)
+        point = dict(zip("XYZ", planes.to_plane(m.tilt, sub(tuple(here[a] for a in "XYZ"), zero)))) if here else {a: None for a in "XYZ"}
+        begin = dict(point)
+        for axis, (value, increment) in m.words.items():
+            point[axis] = value if not increment else None if point[axis] is None else point[axis] + value
+
+        def joints_at(p):
+            return rot | self.machine.linears_for(rot, add(zero, planes.to_work(m.tilt, tuple(p[a] for a in "XYZ"))), m.length)
+
+        if any(v is None for v in point.values()):
+            self.joints = rot | {a: None for a in self.machine.letters if a not in rot}
+            return Leg(m, None, None, why="position")
+        self.joints = joints_at(point)
+        leg = Leg(m, start if known else None, dict(self.joints))
+        if known:
+            leg.path = Arc(m, begin, point) if m.kind in ("cw", "ccw") else None
+
+            def at(t):
+                return leg.path.at(t) if leg.path else {a: begin[a] + (point[a] - begin[a]) * t for a in "XYZ"}
+
+            leg.joints = lambda t: joints_at(at(t))
+            leg.programmed = lambda t: add(zero, planes.to_work(m.tilt, tuple(at(t)[a] for a in "XYZ")))
+        return leg
+
     def step(self, m):
         rotary = [a.letter for a in self.machine.rotaries]
         start = dict(self.joints)
         known = all(v is not None for v in start.values())
+        if m.tilt:
+            return self.swivel(m, start, known) if m.swivel else self.in_plane(m, start, known)
         out, tip = self.targets(m)
         if m.tcp and any(m.shift[r] for r in rotary):
             return self.lost(m, start, "a rotary offset under tool centre point control")
@@ -224,7 +271,7 @@ def minutes(leg, machine):
     turns = [abs(leg.end[r] - leg.start[r]) for r in rotary]
     if m.kind in ("cw", "ccw"):
         way = leg.path.length()
-    elif m.tcp:
+    elif m.tcp or m.tilt:
         way = norm(sub(machine.tip(leg.end, m.length), machine.tip(leg.start, m.length)))
     else:
         way = math.sqrt(sum((leg.end[a] - leg.start[a]) ** 2 for a in "XYZ"))

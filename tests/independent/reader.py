@@ -4,6 +4,8 @@ know it refuses (Unread), so that nothing is compared with a guess. Lengths in m
 import re
 from dataclasses import dataclass, field
 
+import planes
+
 LINEAR, ROTARY = "XYZ", "ABC"
 WORD = re.compile(r"([A-Z]{2,}\d*|[A-Z]\d+(?==)|[A-Z])\s*=?\s*((?:IC|AC|DC)\()?\s*([+-]?(?:\d+\.?\d*|\.\d+))?(?:\))?")
 OFFSETS = {"G54", "G55", "G56", "G57", "G58", "G59"}
@@ -32,6 +34,8 @@ class Motion:
     speed: float | None = None
     inch: bool = False
     great_circle: bool | None = None
+    tilt: tuple | None = None  # the tilted plane in which X Y Z are told, in the frame of the offset
+    swivel: bool = False  # only the rotary axes turn, onto the plane
 
 
 class Reader:
@@ -46,6 +50,7 @@ class Reader:
         self.tcp, self.vectors, self.length, self.tool, self.great_circle = False, False, 0.0, None, None
         self.zero, self.local, self.set = ({} if self.sinumerik else dict(offsets.get("G54", {}))), {}, {}
         self.codes, self.led, self.length_scale = {}, 0.0, 1.0
+        self.tilt = None
 
     def shift(self):
         """What has to be added to words; None along an axis where G92 was said at a place that nobody knows."""
@@ -57,6 +62,9 @@ class Reader:
             line = re.sub(r"\(.*?\)", "", line) if not self.sinumerik else line
             line = re.sub(r";.*", "", line).strip()
             if not line or line.startswith("%") or re.match(r"O\d+\s*$", line):
+                continue
+            if cycle := re.match(r"CYCLE800\((.*)\)$", line):
+                yield number, cycle[1]
                 continue
             words = []
             for name, kind, value in WORD.findall(re.sub(r"^N\d+\s*", "", line)):
@@ -70,7 +78,24 @@ class Reader:
             if motion:
                 yield motion
 
+    def swivel(self, number):
+        return Motion(number, "rapid", {}, self.tcp, self.length, self.shift(), None, tilt=self.tilt, swivel=True)
+
+    def cycle800(self, number, arguments):
+        if not arguments:
+            self.tilt = None
+            return None
+        told = [float(x) if x and '"' not in x else 0.0 for x in arguments.split(",")]
+        retract, _, more, mode, *rest, way = told
+        found = planes.cycle800(int(mode), rest[3:6], tuple(rest[:3]), tuple(rest[6:9]))
+        if retract or more or self.tcp or found is None:
+            raise Unread("CYCLE800")
+        self.tilt = found
+        return self.swivel(number) if way else None
+
     def block(self, number, words):
+        if isinstance(words, str):
+            return self.cycle800(number, words)
         axes, arc, one, vector = {}, {}, None, {}
         before = self.length
         self.line_motion = any(n == "G" and v in (0, 1, 2, 3) for n, _, v in words)
@@ -111,6 +136,18 @@ class Reader:
             self.length = self.tools.get(self.tool, 0.0) if pending_h else 0.0
         elif pending_h is not None and (self.codes.get("length") or one == "H"):
             self.length = self.tools.get(pending_h, 0.0)
+        if one in ("plane", "plane in plane"):
+            if self.tcp or not self.absolute or one == "plane in plane" and not self.tilt:
+                raise Unread("a plane from there")
+            said = planes.euler(tuple(axes.get(a, (0.0,))[0] for a in LINEAR), *(arc.get(n, 0.0) for n in "IJK"))
+            self.tilt = planes.within(self.tilt, said) if one == "plane in plane" else said
+            return None
+        if one == "swivel":
+            if not self.tilt:
+                raise Unread("G53.1 without a plane")
+            return self.swivel(number)
+        if self.tilt and (one or vector or self.tcp or any(a in axes for a in ROTARY)):
+            raise Unread("this in a tilted plane")
         if one == "local" and self.dialect == "linuxcnc":  # one register for both
             self.set = self.set | {a: v for a, (v, _) in axes.items()}
             return None
@@ -154,7 +191,7 @@ class Reader:
         scale = self.scale
         return Motion(
             number, self.motion, axes, self.tcp, self.length, self.shift(), self.feed, self.feed_mode, one == "machine", found, self.plane,
-            {n: v * scale for n, v in arc.items()}, self.speed, scale != 1.0, self.great_circle,
+            {n: v * scale for n, v in arc.items()}, self.speed, scale != 1.0, self.great_circle, self.tilt,
         )
 
     def code(self, code):
@@ -181,6 +218,12 @@ class Reader:
             return "machine"
         elif code == "G4":
             return "dwell"
+        elif code in ("G68.2", "G68.4"):
+            return "plane" if code == "G68.2" else "plane in plane"
+        elif code == "G53.1":
+            return "swivel"
+        elif code == "G69":
+            self.tilt = None
         elif code in ("G43", "G43.4", "G43.5", "G234"):
             self.codes["length"] = True
             if self.dialect != "linuxcnc":

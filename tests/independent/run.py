@@ -9,6 +9,7 @@ import certificates
 import conversions
 import lines
 import macros
+import tilted
 from compare import Findings, compare, number
 from follow import Follower, nearest
 from machine import random_machine
@@ -16,6 +17,7 @@ from reader import Reader, Unread
 from trunnion import Broken, Trunnion
 
 THEMES = {
+    "tilted": set(),
     "plain": {"tcp"},
     "offsets": {"tcp", "offsets", "shifts", "g91"},
     "lengths": {"tcp", "lengths", "g91", "offsets"},
@@ -46,7 +48,7 @@ def offsets(rng, machine, rotary):
 
 def case_run(seed, theme):
     rng = random.Random(f"{theme}-{seed}")
-    dialect = rng.choice([name for name in lines.WORDS if theme != "vectors" or name != "linuxcnc"])
+    dialect = rng.choice([name for name in lines.WORDS if theme not in ("vectors", "tilted") or name != "linuxcnc"])
     # a length without tool centre point control is added to the word of the tool's axis: plain only where that axis stands along Z
     machine = random_machine(rng, control(rng, dialect), askew=rng.choice([0.0, 0.5]) if theme == "plain" else 0.0)
     if theme == "vectors":
@@ -54,6 +56,9 @@ def case_run(seed, theme):
         machine.control["branch"] = '{ rule = "generic" }'
     tools = {n: round(rng.uniform(0, 150), 2) for n in (1, 2, 3)}
     zero = offsets(rng, machine, rotary=theme in ("offsets", "all") and rng.random() < 0.5)
+    if theme == "tilted":
+        machine.control["branch"] = '{ rule = "generic" }'
+        return machine, dialect, tools, zero, tilted.program(rng, machine, dialect, lines.rotary_ranges(machine), lines.WORDS[dialect])
     text = lines.program(rng, machine, dialect, rng.randint(4, 14), THEMES[theme])
     return machine, dialect, tools, zero, text
 
@@ -65,7 +70,12 @@ def legs_of(text, machine, dialect, tools, zero, rows):
     def posture(u, start, motion):
         row = rows[len(legs)] if len(legs) < len(rows) else {}
         told = [number(row, "joint_" + a.letter.lower()) for a in machine.rotaries]
-        return None if None in told else nearest(machine, u, told)
+        if None in told:
+            return None
+        found = nearest(machine, u, told)
+        # out of reach the table keeps where the axes stood
+        stays = motion.swivel and None in [number(row, "joint_" + a.lower()) for a in "xyz"]
+        return None if stays and found and max(abs(q - t) for q, t in zip(found.values(), told)) > 1e-3 else found
 
     follower = Follower(machine, posture, "great-circle" in machine.control["tcp"])
     reader = Reader(dialect, tools, zero, follower.position)

@@ -53,7 +53,8 @@ def compare(legs, rows, report, machine, findings, lines=None):
 def ends(leg, row, line, machine, findings):
     joints = {a: number(row, "joint_" + a.lower()) for a in machine.letters}
     if leg.end is None:
-        if leg.why != "position" and all(v is not None for v in joints.values()):
+        told = all(v is not None for v in joints.values()) and (number(row, "x_mm") is not None or not leg.motion.swivel)
+        if leg.why != "position" and told:
             findings.say(line, f"told as known: {leg.why}")
         return
     if any(v is None for v in joints.values()):

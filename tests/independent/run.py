@@ -70,12 +70,8 @@ def legs_of(text, machine, dialect, tools, zero, rows):
     def posture(u, start, motion):
         row = rows[len(legs)] if len(legs) < len(rows) else {}
         told = [number(row, "joint_" + a.letter.lower()) for a in machine.rotaries]
-        if None in told:
-            return None
-        found = nearest(machine, u, told)
-        # out of reach the table keeps where the axes stood
-        stays = motion.swivel and None in [number(row, "joint_" + a.lower()) for a in "xyz"]
-        return None if stays and found and max(abs(q - t) for q, t in zip(found.values(), told)) > 1e-3 else found
+        # a row without a tip tells where the axes stood
+        return None if None in told or number(row, "x_mm") is None and motion.swivel else nearest(machine, u, told)
 
     follower = Follower(machine, posture, "great-circle" in machine.control["tcp"])
     reader = Reader(dialect, tools, zero, follower.position)

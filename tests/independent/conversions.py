@@ -49,6 +49,9 @@ class Cuts:
         out = []
         for i, leg in enumerate(legs):
             fine = 300 if leg.motion.kind in ("cw", "ccw") else max(2, min(200, 1200 // len(legs)))
+            # the tip runs on a curve where an axis turns: five places a degree
+            turn = max((abs(leg.end[x.letter] - leg.start[x.letter]) for x in self.machine.rotaries), default=0.0)
+            fine = max(fine, min(2000, int(5 * turn)))
             zero = tuple(leg.motion.shift[a] for a in "XYZ")
             for k in range(fine + 1 if i == len(legs) - 1 else fine):
                 q = leg.joints(k / fine)

@@ -1,6 +1,6 @@
 //! What a motion or leg must be like for a rule to have anything to say of it: most rules are not asked about most of them.
 use crate::rule::InForce;
-use crate::rules::{excess_linear_travel, excess_rotary_travel, fast_pole, other_tool_length, position_unknown};
+use crate::rules::{excess_linear_travel, excess_rotary_travel, fast_pole, position_unknown};
 use crate::trail::Trail;
 use crate::view::{leads_tip, turns};
 use core::f64::consts::PI;
@@ -137,7 +137,7 @@ impl<'m> Facts<'m> {
         if !next {
             self.words = Needs::LEADS_TIP.when(leads_tip(motion))
                 | Needs::VECTORS.when(matches!(motion.orientation, Orientation::Vector(..)))
-                | Needs::OTHER_LENGTH.when(other_tool_length::of(motion, trail.own_length_mm).is_some());
+                | Needs::OTHER_LENGTH.when(motion.other_length(trail.own_length_mm).is_some());
         }
         let [first, second] = leg.rotary_change;
         let (mut lost, mut crosses) = (true, false);

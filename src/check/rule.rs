@@ -32,7 +32,7 @@ impl InForce {
     pub(crate) fn of(state: &ModalState) -> Self {
         Self {
             tool_length_mm: state.tool_length_mm,
-            own_length_mm: state.tool_data.and_then(|tool| tool.length_mm),
+            own_length_mm: state.own_length_mm(),
             frame_unknown: state.frame_unknown,
             surface_speed: state.surface_speed,
             spindle_limit_rpm: state.spindle_limit_rpm,

@@ -40,7 +40,7 @@ mod not_decided;
 mod not_modelled;
 mod only_one_posture;
 mod orientation_deviation;
-pub(crate) mod other_tool_length;
+mod other_tool_length;
 mod path_deviation;
 mod pivot_uncertainty;
 mod pole_crossing;

@@ -4,13 +4,13 @@ use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
 use trunnion_machine::{Follower, Leg, Machine};
 use trunnion_syntax::{BlockId, LineIndex};
 
-/// Calls `take` for each motion of the blocks between two lines (from 1, both included; `None`: of all), in the order of execution.
+/// Calls `take`, with the line and what is in force, for each motion of the blocks between two lines (from 1, both included; `None`: of all), in the order of execution.
 pub(super) fn each_leg(
     loaded: &Loaded,
     machine: &Machine,
     index: &LineIndex,
     lines: Option<(u32, u32)>,
-    take: impl FnMut(&Leg, u32),
+    take: impl FnMut(&Leg, u32, &ModalState),
 ) {
     let mut legs = Legs {
         loaded,
@@ -31,14 +31,14 @@ struct Legs<'a, F> {
     take: F,
 }
 
-impl<F: FnMut(&Leg, u32)> Sink for Legs<'_, F> {
-    fn motion(&mut self, motion: &Motion, _state: &ModalState) {
+impl<F: FnMut(&Leg, u32, &ModalState)> Sink for Legs<'_, F> {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
         let leg = self.follower.follow(motion);
         let program = &self.loaded.program;
         let start = program.block(motion.block).range().start;
         let line = self.index.line_column(program.source(), start).0;
         if self.lines.is_none_or(|(from, to)| (from..=to).contains(&line)) {
-            (self.take)(&leg, line);
+            (self.take)(&leg, line, state);
         }
     }
     fn fault(&mut self, _fault: Fault) {}

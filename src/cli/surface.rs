@@ -170,7 +170,9 @@ fn judge(
     };
     let lines = command.lines.as_deref().map(plot::span).transpose()?;
     let mut judge = Judge::new(surface, machine, options);
-    each_leg(loaded, machine, index, lines, |leg, _| judge.leg(leg));
+    each_leg(loaded, machine, index, lines, |leg, _, state| {
+        judge.leg(leg, leg.motion.other_length(state.own_length_mm()).is_none());
+    });
     Ok(judge.finish())
 }
 

@@ -151,6 +151,10 @@ impl ModalState {
         (self.length_unit_mm, self.feed_unit_mm) = (length_mm, feed_mm);
         self.units_said = true;
     }
+    /// Declared length of the tool in use, mm.
+    pub fn own_length_mm(&self) -> Option<f64> {
+        self.tool_data?.length_mm
+    }
     /// Declared shape of the tool in use, with its diameter in mm; `None` where either is not declared.
     pub fn tool_shape(&self) -> Option<(ToolShape, f64)> {
         let tool = self.tool_data?;

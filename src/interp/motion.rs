@@ -21,6 +21,9 @@ impl AxisLetter {
     }
 }
 
+/// Lengths of a tool that differ by no more are one, mm: what changes of the unit leave behind.
+const SAME_LENGTH_MM: f64 = 1e-6;
+
 /// Programmed coordinates of all axes: X Y Z U V W in mm, A B C in degrees, each known or unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Position {
@@ -239,6 +242,11 @@ impl Motion {
     /// Whether it is a feed motion (line or arc).
     pub fn is_feed(&self) -> bool {
         matches!(self.kind, MotionKind::Linear | MotionKind::Arc(_))
+    }
+    /// Declared length of the tool in use, mm, where the control reckons with another one: then the tip is elsewhere than X Y Z say.
+    #[inline]
+    pub fn other_length(&self, declared_mm: Option<f64>) -> Option<f64> {
+        declared_mm.filter(|own| (own - self.tool_length_mm).abs() > SAME_LENGTH_MM)
     }
     /// Engaged, until stock is known: a feed motion with the spindle on.
     pub fn is_engaged(&self) -> bool {

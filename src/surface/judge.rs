@@ -97,12 +97,12 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Judges a leg; rapids and dwells cut nothing and are passed over.
-    pub fn leg(&mut self, leg: &Leg) {
+    /// Judges a leg; rapids and dwells cut nothing and are passed over. `is_tip`: the point that the control leads is the tool's tip.
+    pub fn leg(&mut self, leg: &Leg, is_tip: bool) {
         if !leg.motion.is_feed() {
             return;
         }
-        let Some(way) = Way::new(self.machine, leg) else {
+        let Some(way) = Way::new(self.machine, leg).filter(|_| is_tip) else {
             self.errors.not_judged += 1;
             self.errors.first_not_judged.get_or_insert(leg.motion.block);
             return;

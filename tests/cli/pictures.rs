@@ -138,6 +138,33 @@ fn an_stl_is_a_surface_too() {
     assert!(errors["same_place"].is_null());
 }
 
+/// The tip of a tool whose length is not in force is elsewhere than X Y Z say: nothing is judged from them.
+#[test]
+fn a_tool_of_another_length_is_not_held_against_a_surface() {
+    let folder = TempDir::new().expect("works");
+    let stl = "solid plane\nfacet normal 0 0 1\nouter loop\nvertex -100 -100 -1\nvertex 300 -100 -1\nvertex -100 300 -1\nendloop\nendfacet\nendsolid plane\n";
+    let part = write(&folder, "plane.stl", stl);
+    let judged = |length: &str| {
+        let body = format!(
+            "(trunnion: tool 1 length 80)\nG21 G90 G17 G94\nT1 M6\nS1 M3\n{length}G0 X0 Y0 Z-1\nG1 X20 F100\nM30\n"
+        );
+        let file = write(&folder, "a.nc", &body);
+        let of = [
+            "surface",
+            str(&file),
+            "--required",
+            str(&part),
+            "--machine",
+            "mill-3axis",
+        ];
+        let output = trunnion(&[&of[..], &["--dialect", "fanuc-30i"]].concat());
+        (text(&output.stdout), text(&output.stderr))
+    };
+    assert!(judged("G43 H1 ").0.contains("1 feed blocks judged, 0 not known"));
+    let (_, refused) = judged("");
+    assert!(refused.contains("no feed motion's path is known"), "{refused}");
+}
+
 #[test]
 fn pictures_are_whole_and_labelled() {
     let folder = TempDir::new().expect("works");

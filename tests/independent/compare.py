@@ -65,7 +65,8 @@ def ends(leg, row, line, machine, findings):
                 findings.say(line, f"joint {a} {v}, expected {leg.end[a]:.6f}")
         return
     for a, v in joints.items():
-        if abs(v - leg.end[a]) > TIGHT * 10:
+        # a vector may ask for a limit plus rounding: the axis stands at the limit then
+        if abs(v - leg.end[a]) > TIGHT * (50 if leg.motion.vector else 10):
             findings.say(line, f"joint {a} {v}, expected {leg.end[a]:.6f}")
     m = leg.motion
     tip = [number(row, a) for a in ("x_mm", "y_mm", "z_mm")]

@@ -36,10 +36,13 @@ pub(super) const RULE: Body = Body {
     level: Level::Leg(Needs::BEYOND, check),
 };
 
+/// Key of the way that is not known; those of findings are letters and more.
+const UNSETTLED: u64 = 0;
+
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let mut found: Vec<Excess> = Vec::new();
     let settled = limit_excess(view.machine, view.leg, &mut found);
-    if !settled && found.is_empty() && out.once(0) {
+    if !settled && found.is_empty() && !out.repeats_unknown(view, UNSETTLED, 0.0) {
         let range = orientation_range(out.program(), view.motion().block);
         out.report(
             range,
@@ -47,7 +50,8 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         )
         .note("the great circle does not lead to the posture at the end: it passes over the pole, where the first rotary axis jumps, or past it to the other posture")
         .help("lead the tool axis farther from the pole, or program the block in smaller steps")
-        .unknown();
+        .unknown()
+        .merge_everywhere(UNSETTLED);
     }
     for excess in found {
         let axis = &view.machine.axes[excess.axis];

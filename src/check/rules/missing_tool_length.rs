@@ -32,7 +32,6 @@
 //! Trunnion's interface, section 7.
 use crate::InForce;
 use crate::prelude::*;
-use crate::rules::other_tool_length;
 use trunnion_interp::Motion;
 
 pub(super) const RULE: Body = Body {
@@ -50,7 +49,7 @@ fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
         return;
     }
     let range = code_range(out.program(), motion.block);
-    if let (Some(in_force), Some(own)) = (state.tool_length_mm, other_tool_length::of(motion, state.own_length_mm)) {
+    if let (Some(in_force), Some(own)) = (state.tool_length_mm, motion.other_length(state.own_length_mm)) {
         out.report(
             range,
             format!(

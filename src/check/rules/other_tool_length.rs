@@ -10,10 +10,12 @@
 //! (trunnion: tool 1 length 120)
 //! N10 T1 M6
 //! N20 M3 S5000
-//! N30 G0 X0. Y0. Z150. A0. C0.
-//! N40 G1 A20. F200.
-//! ;   ^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long
-//! N50 M30
+//! N30 G0 G43 H1 X0. Y0. Z150. A0. C0.
+//! N40 G1 Z149. F200.
+//! N50 G49
+//! N60 G1 A0.05
+//! ;   ^^^^^^^^ other-tool-length: T1 is 120 mm long, but 0 mm are in force
+//! N70 M30
 //! ```
 //!
 //! # Use instead
@@ -22,8 +24,9 @@
 //! N10 T1 M6
 //! N20 M3 S5000
 //! N30 G0 G43 H1 X0. Y0. Z150. A0. C0.
-//! N40 G1 A20. F200.
-//! N50 M30
+//! N40 G1 Z149. F200.
+//! N60 G1 A0.05
+//! N70 M30
 //! ```
 //!
 //! # Guarantee
@@ -34,7 +37,6 @@
 //! # Sources
 //! Trunnion's kinematics notes, section 2.1: the tip is the gauge point less the length times the tool axis.
 use crate::prelude::*;
-use trunnion_interp::Motion;
 
 pub(super) const RULE: Body = Body {
     severity: Severity::Info,
@@ -42,18 +44,9 @@ pub(super) const RULE: Body = Body {
     level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::OTHER_LENGTH), check),
 };
 
-/// Lengths that differ by no more are the same, mm: what changes of the unit leave behind.
-const SAME_MM: f64 = 1e-6;
-
-/// The tool's own length, mm, where the control reckons with another one.
-pub(crate) fn of(motion: &Motion, own: Option<f64>) -> Option<f64> {
-    let own = own?;
-    ((own - motion.tool_length_mm).abs() > SAME_MM).then_some(own)
-}
-
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let motion = view.motion();
-    let Some(own) = of(motion, view.trail.own_length_mm) else {
+    let Some(own) = motion.other_length(view.trail.own_length_mm) else {
         return;
     };
     if !motion.is_feed() || !view.rotary_turns() {

@@ -10,7 +10,7 @@ use trunnion_syntax::LineIndex;
 pub(crate) fn gather(loaded: &Loaded, machine: &Machine, lines: Option<(u32, u32)>) -> Record {
     let index = LineIndex::new(loaded.program.source());
     let mut recorder = Recorder::new(machine);
-    each_leg(loaded, machine, &index, lines, |leg, line| recorder.leg(leg, line));
+    each_leg(loaded, machine, &index, lines, |leg, line, _| recorder.leg(leg, line));
     recorder.finish()
 }
 

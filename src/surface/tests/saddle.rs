@@ -61,7 +61,7 @@ fn judge(machine: &Machine, required: &Required, legs: &[Leg], close: f64) -> Er
     };
     let mut judge = Judge::new(required, machine, options);
     for leg in legs {
-        judge.leg(leg);
+        judge.leg(leg, true);
     }
     judge.finish()
 }
@@ -191,7 +191,7 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
                 ..Motion::line(start, end)
             });
             start = end;
-            judge.leg(&leg);
+            judge.leg(&leg, true);
         }
         let found = judge.finish().from_surface.expect("known");
         // the tip runs on chords of the lower edge: beside the wall by at most their error, and by nearly that somewhere

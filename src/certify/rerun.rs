@@ -2,7 +2,7 @@
 use crate::side::{Side, Told, of_fault, text};
 use std::collections::VecDeque;
 use trunnion_dialect::Dialect;
-use trunnion_interp::{Fault, Interpreter, LengthOf, ModalState, Motion, Setup, Sink, ToolShape};
+use trunnion_interp::{Fault, Interpreter, LengthOf, ModalState, Motion, MotionKind, Setup, Sink, ToolShape};
 use trunnion_machine::{Follower, Leg, Machine};
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
@@ -54,8 +54,9 @@ impl Sink for Legs<'_> {
             Some((ToolShape::Ball, diameter)) => Some(0.5 * diameter),
             _ => None,
         };
-        // where the posture is not settled, the same text is all that can be said
-        self.whole |= leg.end.is_err() || leg.open.is_some();
+        // where the posture is not settled, or the way between known ends is not known, the same text is all that can be said
+        let no_way = matches!(motion.kind, MotionKind::Arc(None) | MotionKind::Unknown);
+        self.whole |= leg.end.is_err() || leg.open.is_some() || no_way;
         self.waiting.push_back(Step {
             leg,
             ball_radius,

@@ -5,6 +5,7 @@ mod event;
 mod point;
 mod run;
 mod show;
+mod unread;
 
 use super::{
     Done,

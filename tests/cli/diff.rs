@@ -46,6 +46,53 @@ fn the_length_of_another_tool_is_a_difference() {
     assert!(shown.contains(told), "{shown}");
 }
 
+/// What is not known of a motion is compared by its words: where a probe met, an arc from a place that nobody knows.
+#[test]
+fn what_is_not_known_is_compared_by_its_words() {
+    let folder = TempDir::new().expect("works");
+    let differs = |dialect: &str, before: &str, after: &str| {
+        let (a, b) = (write(&folder, "a.nc", before), write(&folder, "b.nc", after));
+        let output = trunnion(&["diff", str(&a), str(&b), "--dialect", dialect]);
+        text(&output.stdout).contains("DIFFERENT")
+    };
+    for (dialect, text, [one, other]) in [
+        ("linuxcnc", "G21 G90\nG1 X#? F100\nM2\n", ["5061", "5062"]),
+        ("linuxcnc", "G21 G90\n#1=#[5060+?]\nG1 X#1 F100\nM2\n", ["1", "2"]),
+        (
+            "linuxcnc",
+            "G21 G90\no100 sub\nG1 X#1 F100\no100 endsub\no100 call [#?]\nM2\n",
+            ["5061", "5062"],
+        ),
+        ("fanuc-30i", "G21 G90\n#1=#?\nG1 X#1 F100\nM30\n", ["5061", "5062"]),
+        (
+            "fanuc-30i",
+            "G21 G90\nG1 X5. F100\nG2 X9. Y? I2. J0.\nM30\n",
+            ["0.", "1."],
+        ),
+        (
+            "sinumerik-840d",
+            "G71 G90 G54\nTRAORI\nG1 Z10 F100\nG18 G2 Z2 X-20 Y8 K? I-4\nM30\n",
+            ["3", "4"],
+        ),
+    ] {
+        assert!(
+            differs(dialect, &text.replace('?', one), &text.replace('?', other)),
+            "{text}"
+        );
+        assert!(
+            !differs(dialect, &text.replace('?', one), &text.replace('?', one)),
+            "{text}"
+        );
+    }
+    // known values are compared as such, however they are written
+    let known = "G21 G90\n#1=?\nG1 X#1 F100\nM2\n";
+    assert!(!differs(
+        "linuxcnc",
+        &known.replace('?', "[2+3]"),
+        &known.replace('?', "5")
+    ));
+}
+
 #[test]
 fn each_sort_of_difference_is_told() {
     let folder = TempDir::new().expect("works");

@@ -208,6 +208,28 @@ fn an_unknown_zero_of_an_axis_that_is_not_there_refutes_nothing() {
     assert!(matches!(compare("G1 X-4.1 F100"), Outcome::Refuted(_)));
 }
 
+/// Behind TRAORI nobody knows Y, and so not the arc: that both ends are the same is no proof.
+#[test]
+fn arcs_that_are_not_known_are_compared_by_their_words() {
+    let text = |k: &str| {
+        format!(
+            "G71 G90 G94 G54\nT1 D1 M6\nG0 X0 Y8.3 Z0 A10 C12\nF100\nTRAORI\nG1 Z10\nG18 G1 Z-4.1859 X-13.9877\n\
+             G2 Z2.9841 X-20.7882 Y8.3 C20 K{k} I-4.01308\nM30\n"
+        )
+    };
+    let compare = |after: &str| {
+        on(
+            "sinumerik-840d",
+            &text("3.00379"),
+            &text(after),
+            &PATH,
+            &Setup::default(),
+        )
+    };
+    proved(compare("3.00379"));
+    assert!(matches!(compare("3.00579"), Outcome::Unknown(_)));
+}
+
 #[test]
 fn a_zero_that_nobody_knows_is_named() {
     let text = "G21 G90\nG92 X#5061\nG0 X0 Y4 Z11 A24 C9\nM2\n";

@@ -1,10 +1,11 @@
 //! A program as a stream of events: nothing is kept but the events of the block in hand.
 use super::event::{Body, Coolant, Event, Tech, coolant, says_more, statement};
 use super::point::Point;
+use super::unread::reads_unknown;
 use crate::cli::{load::Loaded, stop::Stop, stop::Stops};
 use std::collections::VecDeque;
 use trunnion_dialect::Dialect;
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
+use trunnion_interp::{Fault, Interpreter, ModalState, Motion, MotionKind, Sink};
 use trunnion_machine::{Follower, Machine};
 
 /// Runs a program event by event.
@@ -62,7 +63,8 @@ impl<'a> Events<'a> {
         // M9 works at the end of its block, M7 and M8 at its start
         let during = self.coolant | now;
         self.coolant = now;
-        let whole = std::mem::take(&mut self.block.whole);
+        let motions = self.block.motions.iter().map(|(motion, ..)| motion);
+        let whole = std::mem::take(&mut self.block.whole) || reads_unknown(&block, &self.interpreter, motions);
         if let Some(text) = statement(&block, self.loaded.resolved.dialect, whole) {
             self.ready.push_back(Event {
                 block: id,
@@ -99,6 +101,8 @@ impl Sink for Block<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
         let leg = self.follower.as_mut().map(|follower| follower.follow(motion));
         let point = Point::new(motion, self.machine.zip(leg.as_ref()));
+        // what is not known of a way stands in the words alone
+        self.whole |= matches!(motion.kind, MotionKind::Arc(None) | MotionKind::Unknown);
         self.motions.push((*motion, point, Tech::new(motion, state)));
     }
     fn fault(&mut self, fault: Fault) {

@@ -4,11 +4,14 @@ mod contour;
 mod data;
 mod groove;
 mod hole;
+mod levels;
 mod pass;
 mod pattern;
 mod pocket;
 mod repeat;
+mod rough;
 mod steps;
+mod thread;
 
 pub(crate) use called::HoleCall;
 pub(crate) use data::{Hole, Stored};

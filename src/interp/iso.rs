@@ -211,7 +211,7 @@ impl<'d> Interpreter<'d> {
         let is_arc = matches!(modal, Some(Action::ArcClockwise | Action::ArcCounterClockwise));
         let circle = is_arc && (words.centre.any() || words.radius.is_said()) && block.motion.is_some();
         if let Some(repeated) = block.repeated {
-            if self.dialect.quirks.whole_numbers_ambiguous && repeated.has_coordinates() {
+            if self.dialect.quirks.whole_numbers_ambiguous && repeated.has_coordinates(words) {
                 self.whole_numbers(words, report);
             }
             self.repeated_cycle(repeated, words, report);
@@ -307,7 +307,7 @@ impl<'d> Interpreter<'d> {
                 return false;
             };
             let sized = match role {
-                Some(Role::Axis | Role::ArcRadius) => true,
+                Some(Role::Axis | Role::Increment | Role::ArcRadius) => true,
                 // under G43.5 I J K are a direction; K of a cycle counts
                 Some(Role::ArcCentre) => !self.state.vector_mode && (!cycle || letter != b'K'),
                 Some(Role::Parameter) => cycle && letter == b'Q',

@@ -47,6 +47,6 @@ pub use motion::{
 };
 pub use run::{Interpreter, Sink, run};
 pub use setup::{
-    ControlData, Files, ImplicitDecimals, LengthUnit, Library, Limits, Loaded, OuterCorner, RollPitchYaw, Setup,
-    TcpCodes, Tool, ToolShape, WorkOffset,
+    ControlData, Files, ImplicitDecimals, LengthUnit, Library, Limits, Loaded, OuterCorner, RollPitchYaw,
+    RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
 };

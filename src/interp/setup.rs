@@ -87,6 +87,15 @@ impl LengthUnit {
     }
 }
 
+/// How a turning tool leaves the cuts of a roughing cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RoughingEscape {
+    /// At the feed of the cuts.
+    Feed,
+    /// In rapid.
+    Rapid,
+}
+
 /// How cutter compensation goes around an outer corner (Fanuc parameter 19607.2).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OuterCorner {
@@ -143,6 +152,8 @@ pub struct ControlData {
     /// G76, G87: along which axis of the plane (0 to 2: X Y Z), and which way (1 or -1), Q takes the stopped tool off the wall (Fanuc
     /// parameter 5148, Haas setting 27); `None`: not declared, X Y are not known while it is off the wall.
     pub bore_shift: Option<(usize, f64)>,
+    /// G71 and G72 of a lathe: how the tool leaves its cuts; `None`: not declared, that short way is not known.
+    pub roughing_escape: Option<RoughingEscape>,
     /// Way of cutter compensation around outer corners.
     pub outer_corner: OuterCorner,
     /// Whether the switch for block delete (`/`) is on, so that such blocks are skipped; `None`: not known, they are run.

@@ -4,7 +4,8 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
 use trunnion_interp::{
-    AxisLetter, ControlData, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, TcpCodes,
+    AxisLetter, ControlData, ImplicitDecimals, LengthUnit, OuterCorner, Position, RollPitchYaw, RoughingEscape,
+    TcpCodes,
 };
 
 #[derive(Clone, Copy, Deserialize)]
@@ -35,6 +36,13 @@ enum Angles {
     Turned,
 }
 
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Escape {
+    Feed,
+    Rapid,
+}
+
 /// `tcp_codes = { on = ["M428"], off = ["M429"] }`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -56,6 +64,7 @@ pub(super) struct FileControl {
     chip_break_retract: Option<Spanned<f64>>,
     peck_clearance: Option<Spanned<f64>>,
     bore_shift: Option<Spanned<String>>,
+    roughing_escape: Option<Escape>,
     outer_corner: Option<Corner>,
     block_delete: Option<bool>,
     roll_pitch_yaw: Option<Angles>,
@@ -83,6 +92,10 @@ impl FileControl {
             chip_break_retract_mm: length("chip_break_retract", self.chip_break_retract.as_ref())?,
             peck_clearance_mm: length("peck_clearance", self.peck_clearance.as_ref())?,
             bore_shift: self.bore_shift.as_ref().map(bore_shift).transpose()?,
+            roughing_escape: self.roughing_escape.map(|escape| match escape {
+                Escape::Feed => RoughingEscape::Feed,
+                Escape::Rapid => RoughingEscape::Rapid,
+            }),
             outer_corner: match self.outer_corner {
                 Some(Corner::Arc) => OuterCorner::Arc,
                 Some(Corner::Lines) | None => OuterCorner::Lines,
@@ -156,11 +169,11 @@ fn position(point: &BTreeMap<Spanned<String>, Spanned<f64>>) -> Result<Position,
 #[cfg(test)]
 mod tests {
     use crate::Config;
-    use trunnion_interp::{ImplicitDecimals, LengthUnit, OuterCorner};
+    use trunnion_interp::{ImplicitDecimals, LengthUnit, OuterCorner, RoughingEscape};
 
     #[test]
     fn a_whole_section_is_read() {
-        let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\n\
+        let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\nroughing_escape = \"rapid\"\n\
                     outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.units, Some(LengthUnit::Inch));
@@ -168,6 +181,7 @@ mod tests {
         assert_eq!(control.chip_break_retract_mm, Some(0.5));
         assert_eq!(control.peck_clearance_mm, Some(1.0));
         assert_eq!(control.bore_shift, Some((1, -1.0)));
+        assert_eq!(control.roughing_escape, Some(RoughingEscape::Rapid));
         assert_eq!(control.outer_corner, OuterCorner::Arc);
         assert_eq!(control.block_delete, Some(true));
         assert_eq!(control.roll_pitch_yaw, Some(trunnion_interp::RollPitchYaw::Fixed));
@@ -188,6 +202,7 @@ mod tests {
             ("[control]\nunits = \"cm\"", "\"cm\""),
             ("[control]\npeck_clearance = -1", "-1"),
             ("[control]\nbore_shift = \"X\"", "\"X\""),
+            ("[control]\nroughing_escape = \"slow\"", "\"slow\""),
             ("[control]\nreference_points = [{ Q = 1 }]", "Q"),
             ("[control]\nreference_points = [{ X = inf }]", "inf"),
             ("[control]\nretract = 1", "retract"),

@@ -134,6 +134,40 @@ fn line() -> impl Strategy<Value = String> {
     (codes, prop::collection::vec(word(), 0..5)).prop_map(|(codes, words)| codes.join(" ") + &words.concat() + "\n")
 }
 
+/// A number of a turning cycle, often a plain one.
+fn amount() -> impl Strategy<Value = &'static str> {
+    prop::sample::select(vec![
+        "2.", "1.", "0.", "-.5", "300", "010000", "020060", "011060", "30.", "#1", "#500",
+    ])
+}
+
+/// A roughing, repeating or threading cycle of a lathe in two blocks, and a contour.
+fn turning() -> impl Strategy<Value = String> {
+    let code = prop::sample::select(vec!["G71", "G72", "G73", "G76"]);
+    let word = |letters: &'static [u8]| {
+        (prop::sample::select(letters.to_vec()), amount())
+            .prop_map(|(letter, amount)| format!(" {}{amount}", char::from(letter)))
+    };
+    let first = prop::collection::vec(word(b"UWRRPQ"), 0..4);
+    let second = prop::collection::vec(word(b"UWRXZPQFK"), 0..5);
+    let corners = prop::collection::vec((-30..40_i32, -30..10_i32, 0..4_u8), 0..5);
+    (code, first, second, corners, any::<bool>()).prop_map(|(code, first, second, corners, thread)| {
+        let contour = if thread { "" } else { " P1 Q2" };
+        let line = |(x, z, kind): (i32, i32, u8)| match kind {
+            0 => format!("G1 X{x}.\n"),
+            1 => format!("G1 Z{z}.\n"),
+            2 => format!("G2 X{x}. Z{z}. R9.\n"),
+            _ => format!("G1 X{x}. Z{z}.\n"),
+        };
+        let between = corners.into_iter().map(line).collect::<Vec<_>>().concat();
+        format!(
+            "{code}{}\n{code}{contour}{}\nN1 G0 X10.\n{between}N2 G1 X60. Z-31.\n",
+            first.concat(),
+            second.concat()
+        )
+    })
+}
+
 /// Records that move the tool, or change what moves it.
 const RECORDS: [&str; 34] = [
     "GOTO/1,2,3,0,0,1",
@@ -232,6 +266,12 @@ proptest! {
     ) {
         let lines = if wildly { [wild, tame].concat() } else { tame };
         judge(dialect, &format!("G21 G90 G94 G0 X1. Y2. Z50. A0. C0. F100\n{}M30\n", lines.concat()))?;
+    }
+
+    #[test]
+    fn nothing_unknown_of_turning_cycles_is_passed_over(cycle in turning(), y in any::<bool>()) {
+        let y = if y { " Y2." } else { "" };
+        judge("fanuc-30i-lathe-a", &format!("G21 G99 G0 X60. Z5. A0. C0.{y} F.1\n{cycle}G0 X70.\nM30\n"))?;
     }
 
     #[test]

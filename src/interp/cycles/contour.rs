@@ -1,8 +1,13 @@
 //! The contour of a turning cycle: the blocks between two sequence numbers, run on a copy of the interpreter.
+//!
+//! An arc of a lathe that has no Y lies in the plane of X and Z all the same: a second run takes Y as 0, and counts only where nothing names
+//! or reads Y.
 use crate::run::{Interpreter, Report, Sink};
 use crate::words::{Said, Words};
 use crate::{Fault, FaultKind, ModalState, Motion, MotionKind, Refusal};
 use trunnion_syntax::{BlockId, Item, Program};
+
+const Y: usize = 1;
 
 /// Motions of a contour, or of a cut along it.
 const MOST_MOTIONS: usize = 100_000;
@@ -10,21 +15,29 @@ const MOST_MOTIONS: usize = 100_000;
 /// A contour as its blocks tell it, from where the cycle begins.
 pub(super) struct Contour {
     pub(super) motions: Vec<Motion>,
-    /// Its last block, and whether it begins right behind the cycle's own block.
+    /// Its first and last block, and whether it begins right behind the cycle's own block.
+    pub(super) first: u32,
     pub(super) last: u32,
     pub(super) follows: bool,
     /// F in force behind it.
     pub(super) feed: Option<f64>,
+    /// Cutter compensation is on somewhere in it.
+    pub(super) compensated: bool,
 }
 
 #[derive(Default)]
 struct Collected {
     motions: Vec<Motion>,
     faults: Vec<Fault>,
+    compensated: bool,
+    /// The program ends inside.
+    ended: bool,
+    feed: Option<f64>,
 }
 
 impl Sink for Collected {
-    fn motion(&mut self, motion: &Motion, _: &ModalState) {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        self.compensated |= state.compensation != 0;
         if self.motions.len() <= MOST_MOTIONS {
             self.motions.push(*motion);
         }
@@ -41,24 +54,10 @@ impl Interpreter<'_> {
         let (first, last) = self.contour_blocks(program, words, report)?;
         let here = report.block.0;
         let follows = is_next(program, here, first);
-        let mut ghost = self.clone();
-        ghost.flow.follows = false;
-        ghost.memory.passed_over = None;
-        ghost.memory.in_contour = true;
-        ghost.memory.out.clear();
-        ghost.memory.corners = crate::corner::Corners::default();
-        let mut found = Collected::default();
-        for block in first..=last {
-            ghost.step_iso(&program.block(BlockId(block)), &mut found);
-            if ghost.state.ended {
-                break;
-            }
-        }
-        let ended = ghost.state.ended;
-        ghost.put_out_rest(&program.block(BlockId(last)), &mut found);
+        let mut found = self.run_blocks(program, first, last, None);
         if !self.memory.contours_told.contains(&first) {
             self.memory.contours_told.push(first);
-            for fault in found.faults {
+            for fault in std::mem::take(&mut found.faults) {
                 (report.faults)(fault);
             }
         }
@@ -72,7 +71,7 @@ impl Interpreter<'_> {
         found
             .motions
             .retain(|motion| !matches!(motion.kind, MotionKind::Dwell(_)));
-        let why = if ended {
+        let why = if found.ended {
             "the program ends inside it"
         } else if found.motions.is_empty() || found.motions.len() > MOST_MOTIONS {
             "it has no motions, or more than 100000"
@@ -83,9 +82,11 @@ impl Interpreter<'_> {
         } else {
             return Some(Contour {
                 motions: found.motions,
+                first,
                 last,
                 follows,
-                feed: ghost.state.feed,
+                feed: found.feed,
+                compensated: found.compensated,
             });
         };
         if follows {
@@ -94,6 +95,48 @@ impl Interpreter<'_> {
         let what = format!("{}: its contour: {why}", self.memory.cycle.id);
         report.fault(report.whole(), FaultKind::NotModelled { what });
         None
+    }
+
+    /// The motions of a contour in the plane of X and Z: arcs of a lathe that has no Y are known there.
+    pub(super) fn in_plane(&self, contour: &Contour, program: &Program) -> Vec<Motion> {
+        let reads = |block: u32| program.bytes(program.block(BlockId(block)).range()).contains(&b'#');
+        if self.state.position.get(Y).is_some() || (contour.first..=contour.last).any(reads) {
+            return contour.motions.clone();
+        }
+        let mut found = self.run_blocks(program, contour.first, contour.last, Some(0.0));
+        found
+            .motions
+            .retain(|motion| !matches!(motion.kind, MotionKind::Dwell(_)));
+        let stays = |motion: &Motion| motion.start.get(Y) == Some(0.0) && motion.end.get(Y) == Some(0.0);
+        if found.motions.len() == contour.motions.len() && found.motions.iter().all(stays) {
+            found.motions
+        } else {
+            contour.motions.clone()
+        }
+    }
+
+    /// Runs blocks on a copy of the interpreter, which may be told where Y stands.
+    fn run_blocks(&self, program: &Program, first: u32, last: u32, y: Option<f64>) -> Collected {
+        let mut ghost = self.clone();
+        ghost.flow.follows = false;
+        ghost.memory.passed_over = None;
+        ghost.memory.in_contour = true;
+        ghost.memory.out.clear();
+        ghost.memory.corners = crate::corner::Corners::default();
+        if let Some(y) = y {
+            ghost.state.position.set(Y, y);
+        }
+        let mut found = Collected::default();
+        for block in first..=last {
+            ghost.step_iso(&program.block(BlockId(block)), &mut found);
+            if ghost.state.ended {
+                break;
+            }
+        }
+        found.ended = ghost.state.ended;
+        found.feed = ghost.state.feed;
+        ghost.put_out_rest(&program.block(BlockId(last)), &mut found);
+        found
     }
 
     /// First and last block of the contour.

@@ -31,8 +31,8 @@ impl Interpreter<'_> {
     /// G74 and G75: the first of two blocks says the lift, the second the rest.
     pub(super) fn peck_groove(&mut self, action: Action, words: &Words, report: &mut Report<'_>) {
         if !words.axes.any() {
-            if let Some(number) = words.radius.number() {
-                self.memory.cycle.kept.lift = Some((number.value * self.state.length_unit_mm).abs());
+            if words.radius.is_said() {
+                self.memory.cycle.kept.lift = self.length_word(words, b'R').map(f64::abs);
             }
             return;
         }
@@ -152,7 +152,7 @@ impl Interpreter<'_> {
     }
 
     /// P or Q of these cycles, mm: least increments (0.001 mm, 0.0001 inch) where it has no decimal point.
-    fn increment_word(&self, words: &Words, letter: u8) -> Option<f64> {
+    pub(super) fn increment_word(&self, words: &Words, letter: u8) -> Option<f64> {
         let number = words.letter(letter).number()?;
         let unit = self.state.length_unit_mm;
         let least = if unit == 1.0 { 0.001 } else { 0.0001 };

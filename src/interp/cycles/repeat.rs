@@ -1,15 +1,17 @@
 //! Turning cycles of many cuts: G70 to G73 and G76 of systems A and B, G72 to G75 and G78 of system C.
 //!
 //! Sources: Fanuc Series 30i operator's manual, lathe system, multiple repetitive cycles; Adtech CNC4620 programming manual, sections 3.6.1
-//! to 3.6.6 (the same cycles, with the order of their motions); Robur concise guide to Fanuc lathe cycles, G71 and G72. G70 runs along the
-//! contour and returns to its start in rapid. G73 runs along the contour as often as R says, each time nearer to it, and goes to the start
-//! of the next run in rapid. Of G71, G72 and G76 these sources agree on where they end, and not on the levels and lifts between: their path is unknown.
+//! to 3.6.6 (the same cycles, with the order of their motions). G70 runs along the contour and returns to its start in rapid. G73 runs along
+//! the contour as often as R says, each time nearer to it, and goes to the start of the next run in rapid. G71 and G72: `rough.rs`; G74 and
+//! G75: `groove.rs`; G76: `thread.rs`.
 use super::contour::{Contour, shifted};
 use super::hole::MOST_MOTIONS;
+use super::rough::Roughing;
+use super::thread::Thread;
 use crate::codes::Found;
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
-use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
+use crate::{FaultKind, Feed, Motion, MotionKind, Position};
 use trunnion_dialect::Action;
 
 const X: usize = 0;
@@ -26,6 +28,10 @@ pub(crate) struct Kept {
     runs: Option<u32>,
     /// G74, G75: how far the tool goes back after each step.
     pub(super) lift: Option<f64>,
+    /// G71, G72.
+    pub(super) roughing: Roughing,
+    /// G76.
+    pub(super) thread: Thread,
 }
 
 /// A cycle in the block in hand.
@@ -35,12 +41,13 @@ pub(crate) struct Repeated {
 }
 
 impl Repeated {
-    /// Whether X, Z and R of the cycle are lengths (R of G73 counts).
-    pub(crate) fn has_coordinates(self) -> bool {
-        matches!(
-            self.action,
-            Action::FacePeckCycle | Action::GroovePeckCycle | Action::ThreadRepeatCycle
-        )
+    /// Whether all of X, Z, U, W and R in a block of the cycle are lengths (R of the first block of G73 counts).
+    pub(crate) fn has_coordinates(self, words: &Words) -> bool {
+        match self.action {
+            Action::PatternRepeatCycle => words.p.is_said(),
+            Action::FinishCycle => false,
+            _ => true,
+        }
     }
 }
 
@@ -65,18 +72,20 @@ impl Interpreter<'_> {
             Action::FacePeckCycle | Action::GroovePeckCycle => self.peck_groove(repeated.action, words, report),
             Action::ThreadRepeatCycle => self.thread_repeat(words, report),
             Action::FinishCycle => self.along_contour(repeated.action, words, report),
-            _ if !words.p.is_said() && !words.letter(b'Q').is_said() => self.keep_repeat(words),
+            _ if !words.p.is_said() && !words.letter(b'Q').is_said() => self.keep_repeat(repeated.action, words),
             _ => self.along_contour(repeated.action, words, report),
         }
     }
 
     /// The first block of G71, G72, G73.
-    fn keep_repeat(&mut self, words: &Words) {
-        let length = |letter| self.length_word(words, letter).unwrap_or(0.0);
-        let relief = [length(b'U'), length(b'W')];
+    fn keep_repeat(&mut self, action: Action, words: &Words) {
+        if action != Action::PatternRepeatCycle {
+            return self.keep_roughing(action, words);
+        }
+        let relief = self.lengths(words);
         let runs = words.letter(b'R').number().map(|number| number.value);
         let kept = &mut self.memory.cycle.kept;
-        kept.relief = Some(relief);
+        kept.relief = relief;
         kept.runs = runs
             .filter(|runs| runs.fract() == 0.0 && (1.0..=f64::from(MOST_RUNS)).contains(runs))
             .map(|runs| runs as u32);
@@ -103,15 +112,7 @@ impl Interpreter<'_> {
         match action {
             Action::FinishCycle => self.finish_contour(contour, start, report),
             Action::PatternRepeatCycle => self.pattern_repeat(&contour, start, words, report),
-            _ => {
-                self.roughing_mistakes(action, &contour, words, report);
-                self.feed_of(MotionKind::Linear, words, report);
-                let what = format!(
-                    "{}: levels and lifts of its cuts; it ends where it began",
-                    self.memory.cycle.id
-                );
-                self.somehow_back(&what, start, report);
-            }
+            _ => self.rough(action, &contour, start, words, report),
         }
     }
 
@@ -132,13 +133,16 @@ impl Interpreter<'_> {
 
     /// G73: along the contour, each run nearer by the same step.
     fn pattern_repeat(&mut self, contour: &Contour, start: Position, words: &Words, report: &mut Report<'_>) {
-        let allowance = self.allowance(words);
         let kept = self.memory.cycle.kept;
         let (Some([x, z]), Some(runs @ 2..)) = (kept.relief, kept.runs) else {
             let what = format!(
-                "{} without two runs or more (R of its first block)",
+                "{} without U, W and two runs or more (R of its first block)",
                 self.memory.cycle.id
             );
+            return self.somehow_back(&what, start, report);
+        };
+        let Some(allowance) = self.allowance(words) else {
+            let what = format!("{} with an allowance that is not known", self.memory.cycle.id);
             return self.somehow_back(&what, start, report);
         };
         let feed = self.feed_of(MotionKind::Linear, words, report);
@@ -156,65 +160,48 @@ impl Interpreter<'_> {
             from.values[X] += by[0];
             from.values[Z] += by[1];
             self.rapid_straight(from, report);
-            for motion in &contour.motions {
-                let mut motion = shifted(motion, by[0], by[1]);
-                motion.block = self.flow.main_block(report.block);
-                if motion.kind != MotionKind::Rapid {
-                    motion.feed = feed;
-                }
-                self.state.position = motion.end;
-                self.memory.out.push(motion);
-            }
+            self.along(&contour.motions, by, feed, report);
         }
         self.rapid_straight(start, report);
     }
 
-    /// U (a diameter) and W of the block with P and Q: what is left for finishing, mm in X (radius) and Z.
-    fn allowance(&self, words: &Words) -> [f64; 2] {
-        let length = |letter| self.length_word(words, letter).unwrap_or(0.0);
-        let diameter = self.memory.diameter.unwrap_or(self.dialect.quirks.diameter);
-        [length(b'U') * if diameter { 0.5 } else { 1.0 }, length(b'W')]
-    }
-
-    /// What a control refuses: a first block that is no straight motion (Fanuc alarm PS0065).
-    fn roughing_mistakes(&mut self, action: Action, contour: &Contour, words: &Words, report: &mut Report<'_>) {
-        let straight = contour.motions.first().is_some_and(|motion| {
-            let moves = |axis: usize| motion.start.get(axis) != motion.end.get(axis);
-            let level = if action == Action::RoughFaceCycle { Z } else { X };
-            matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear) && moves(level)
-        });
-        if !straight {
-            let message = format!(
-                "the first block of the contour of {} must go to its first level by G0 or G1",
-                self.memory.cycle.id
-            );
-            self.refuse(
-                words,
-                Refusal::CannedCycle,
-                message,
-                Some("contour-first-block"),
-                report,
-            );
-        }
-    }
-
-    /// G76: many passes of a thread; the first of two blocks has no coordinates.
-    fn thread_repeat(&mut self, words: &Words, report: &mut Report<'_>) {
-        if words.axes.any() {
-            let start = self.state.position;
-            if words.feed.is_said() || self.state.feed.is_none() {
-                self.lead(words, report);
+    /// Along a contour that is moved by X and Z, mm: F, S and M of its blocks do not count, those of the cycle do.
+    pub(super) fn along(&mut self, motions: &[Motion], by: [f64; 2], feed: Feed, report: &Report<'_>) {
+        for motion in motions {
+            let mut motion = shifted(motion, by[0], by[1]);
+            motion.block = self.flow.main_block(report.block);
+            (motion.spindle_on, motion.spindle_rpm) = (self.state.spindle_on, self.state.spindle_rpm);
+            if motion.kind != MotionKind::Rapid {
+                motion.feed = feed;
             }
-            let what = format!("{}: depths of its passes; it ends where it began", self.memory.cycle.id);
-            self.somehow_back(&what, start, report);
+            self.state.position = motion.end;
+            self.memory.out.push(motion);
         }
+    }
+
+    /// U (a diameter) and W of the block with P and Q: what is left for finishing, mm in X (radius) and Z; `None`: not known.
+    pub(super) fn allowance(&self, words: &Words) -> Option<[f64; 2]> {
+        let diameter = self.memory.diameter.unwrap_or(self.dialect.quirks.diameter);
+        let [x, z] = self.lengths(words)?;
+        Some([x * if diameter { 0.5 } else { 1.0 }, z])
+    }
+
+    /// U and W, mm; 0 where they are not said, `None` where one of them is not known.
+    fn lengths(&self, words: &Words) -> Option<[f64; 2]> {
+        let length = |letter| match self.length_word(words, letter) {
+            None if words.letter(letter).is_said() => None,
+            length => Some(length.unwrap_or(0.0)),
+        };
+        Some([length(b'U')?, length(b'W')?])
     }
 
     /// The way of a cycle is not known; it ends where it began.
     pub(super) fn somehow_back(&mut self, what: &str, start: Position, report: &mut Report<'_>) {
         report.fault(report.whole(), FaultKind::NotModelled { what: what.to_owned() });
         let orientation = self.held_orientation();
-        let mut motion = self.new_motion(MotionKind::Unknown, start, start, orientation, Feed::Unknown, report);
+        // a cycle that is given up half way has moved the tool already
+        let from = std::mem::replace(&mut self.state.position, start);
+        let mut motion = self.new_motion(MotionKind::Unknown, from, start, orientation, Feed::Unknown, report);
         if self.state.frame_unknown {
             self.hide(&mut motion);
         }

@@ -25,6 +25,23 @@ fn a_block_of_very_many_motions_is_given_up() {
     }
 }
 
+/// A cycle that is given up half way ends where it says, and the next motion begins there.
+#[test]
+fn a_pattern_that_is_given_up_joins_on() {
+    let contour = "G1 W-.01\n".repeat(40);
+    let source =
+        format!("G0 X50. Z2.\nG73 U4. W2. R9999\nG73 P1 Q2 F.3\nN1 G0 X20.\n{contour}N2 G1 X30.\nG0 X60.\nM30\n");
+    let (program, log) = run_bytes("fanuc-30i-lathe-a", source.as_bytes(), &Setup::default());
+    let said: Vec<_> = log.faults.iter().map(|fault| fault_line(&program, fault)).collect();
+    assert!(
+        said.iter().any(|said| said.contains("motions in one block")),
+        "{said:?}"
+    );
+    for pair in log.motions.windows(2) {
+        assert_eq!(pair[0].end, pair[1].start);
+    }
+}
+
 /// Increments of a cycle whose start is not known lead nowhere, and that is said.
 #[test]
 fn levels_that_count_from_an_unknown_place_are_told() {

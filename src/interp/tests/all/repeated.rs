@@ -24,27 +24,22 @@ fn finishing_runs_along_the_contour_and_returns() {
 }
 
 #[test]
-fn roughing_ends_where_it_began_behind_its_contour() {
-    let source = format!("G0 X50. Z2.\nG71 U2. R1.\nG71 P10 Q20 U.4 W.1 F.3\n{CONTOUR}G70 P10 Q20\nG0 X60.\nM30\n");
-    assert_eq!(
-        lines(A, &source),
-        [
-            "R X25 Z2",
-            "U X25 Z2",
-            "R X10 Z2",
-            "L X10 Z-10 F0.1/rev",
-            "L X20 Z-10 F0.1/rev",
-            "R X25 Z2",
-            "R X30 Z2",
-        ]
-    );
-    let told = faults(A, &source);
-    assert!(told.len() == 1 && told[0].contains("G71: levels and lifts"), "{told:?}");
-    // the same in system C, and in one block
-    let source = format!("G90 G0 X50. Z2.\nG73 P10 Q20 U.4 W.1 D2000 F.3\n{CONTOUR}G0 X60.\nM30\n");
-    assert_eq!(
-        lines("fanuc-30i-lathe-c", &source),
-        ["R X25 Z2", "U X25 Z2", "R X30 Z2"]
+fn roughing_in_one_block_ends_where_it_began_behind_its_contour() {
+    let source = format!("G90 G0 X50. Z2.\nG73 P10 Q20 U.4 W.1 D2000 F.3\n{CONTOUR}G72 P10 Q20\nG0 X60.\nM30\n");
+    let want = [
+        "R X25 Z2",
+        "U X25 Z2",
+        "R X10 Z2",
+        "L X10 Z-10 F0.1/rev",
+        "L X20 Z-10 F0.1/rev",
+        "R X25 Z2",
+        "R X30 Z2",
+    ];
+    assert_eq!(lines("fanuc-30i-lathe-c", &source), want);
+    let told = faults("fanuc-30i-lathe-c", &source);
+    assert!(
+        told.len() == 1 && told[0].contains("G73: its cuts: the format in one block"),
+        "{told:?}"
     );
 }
 
@@ -136,17 +131,6 @@ fn faces_are_pecked() {
 }
 
 #[test]
-fn threads_of_many_passes_end_where_they_began() {
-    let source = "G0 X35. Z5.\nG76 P020060 Q100 R.1\nG76 X30. Z-20. P1000 Q300 F1.5\nG0 X40.\nM30\n";
-    assert_eq!(lines(A, source), ["R X17.5 Z5", "U X17.5 Z5", "R X20 Z5"]);
-    let told = faults(A, source);
-    assert!(
-        told.len() == 1 && told[0].contains("G76: depths of its passes"),
-        "{told:?}"
-    );
-}
-
-#[test]
 fn threads_whose_lead_changes() {
     let got = lines(A, "G0 X30. Z5.\nG34 Z-20. F2. K.1\nG0 X40.\n");
     assert_eq!(got, ["R X15 Z5", "L X15 Z-20", "R X20 Z-20"]);
@@ -186,6 +170,65 @@ fn a_spindle_limit_is_no_speed() {
     let state = log.state.expect("blocks ran");
     assert_eq!((state.surface_speed, state.spindle_limit_rpm), (true, Some(2000.0)));
     assert_eq!(line(&log.motions[1]), "L X5 Z-5 F0.1/rev");
+}
+
+/// F and S of the contour are those of finishing.
+#[test]
+fn patterns_and_cuts_run_at_the_speed_of_the_cycle() {
+    for cycle in ["G73 U4. W2. R2\nG73", "G71 U2. R0.\nG71"] {
+        let source =
+            format!("G97 S500 M3\nG0 X50. Z2.\n{cycle} P10 Q20 F.3\nN10 G0 X20. S900\nG1 Z-10. F.1\nN20 X50.\nM30\n");
+        let (_, log) = run_bytes(A, source.as_bytes(), &Setup::default());
+        assert!(log.motions.len() > 5 && log.motions.iter().all(|motion| motion.spindle_rpm == Some(500.0)));
+        assert!(
+            log.motions.iter().all(|motion| !line(motion).contains("F0.1")),
+            "{cycle}"
+        );
+    }
+}
+
+/// An allowance or a relief that nobody knows is not 0.
+#[test]
+fn patterns_with_unknown_lengths_are_unknown() {
+    for (first, second) in [
+        ("U#500 W2.", "U1. W.5"),
+        ("U4. W2.", "U#500 W.5"),
+        ("U4. W2.", "U1. W#500"),
+    ] {
+        let source = format!("G0 X50. Z2.\nG73 {first} R3\nG73 P10 Q20 {second} F.3\n{CONTOUR}M30\n");
+        assert_eq!(lines(A, &source), ["R X25 Z2", "U X25 Z2"], "{first} {second}");
+        let told = faults(A, &source);
+        assert!(
+            told.iter()
+                .any(|told| told.contains("NotModelled") && told.contains("G73")),
+            "{told:?}"
+        );
+    }
+}
+
+/// A lift that is said and not known is not the one before; R500 is half a millimetre where numbers without a point count increments.
+#[test]
+fn the_lift_of_a_groove() {
+    let control = trunnion_interp::ControlData {
+        implicit_decimals: Some(trunnion_interp::ImplicitDecimals::LeastIncrement),
+        ..Default::default()
+    };
+    let setup = Setup {
+        control,
+        ..Setup::default()
+    };
+    for (first, want) in [("R500", "R X0 Z-1.5"), ("R.5\nG74 R#500", "R X0")] {
+        let source = format!("G0 X0. Z2.\nG74 {first}\nG74 Z-7. Q4000 F.1\nM30\n");
+        let (_, log) = run_bytes(A, source.as_bytes(), &setup);
+        assert_eq!(line(&log.motions[2]), want);
+    }
+}
+
+/// U and W are coordinates too.
+#[test]
+fn increments_without_a_point_are_told() {
+    let told = faults(A, "G0 X10. Z0.\nG1 U10 F.1\nM30\n");
+    assert!(told.len() == 1 && told[0].contains("AmbiguousDecimal"), "{told:?}");
 }
 
 /// No number of steps of 0 reaches the end.

@@ -1,0 +1,321 @@
+//! Roughing on a lathe, type I in two blocks: G71 with cuts along Z, G72 with cuts along X (G73 and G74 of system C).
+//!
+//! From the start point in rapid by the finishing allowance; in by the depth of cut as the first block of the contour says (G0 or G1); along the
+//! axis at the feed up to the contour, which is moved by the allowance; off at 45 degrees by the escape; back in rapid to the start line; in by
+//! depth and escape; and where the first point of the contour is reached or would be passed, in to that point and along the whole contour, then
+//! back to the start point in rapid. Depth and escape stay until they are said again (parameters 5132 and 5133), for both cycles.
+//!
+//! Sources: Fanuc Series 30i operator's manual, lathe system, stock removal in turning and facing; Robur concise guide to Fanuc lathe cycles, page
+//! 48; GSK988T user manual, G71, page 69 (the same cycle, with the order of its motions); Rockwell 9/Series lathe manual, page 24-9. They
+//! differ in whether the tool leaves its cuts at the feed or in rapid, and say nothing of cuts that miss the contour, run along a part of it, or are
+//! shorter than the escape: there the way is unknown, and what comes behind is known again.
+use super::contour::Contour;
+use super::hole::MOST_MOTIONS;
+use super::levels::{Frame, Path};
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+use crate::{FaultKind, Feed, Motion, MotionKind, Position, Refusal, RoughingEscape};
+use trunnion_dialect::{Action, Plane};
+use trunnion_syntax::{Address, BlockId, Value};
+
+const X: usize = 0;
+const Z: usize = 2;
+/// Cuts of one cycle.
+const MOST: f64 = 10_000.0;
+/// What positions may be off, mm.
+const OFF: f64 = 1e-6;
+
+/// What the first block of G71 and G72 keeps, mm; `None`: not said, or not known.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Roughing {
+    depth: Option<f64>,
+    escape: Option<f64>,
+}
+
+/// A cycle that can be worked out.
+struct Plan {
+    frame: Frame,
+    path: Path,
+    /// Where the cuts begin: the start point moved by the allowance.
+    begin: Position,
+    allowance: [f64; 2],
+    depth: f64,
+    escape: f64,
+    /// Depth of the contour's first point.
+    full: f64,
+    /// How the tool goes in.
+    infeed: MotionKind,
+    feed: Feed,
+}
+
+impl Interpreter<'_> {
+    /// The first block: U or W the depth of cut, R the escape, both radii.
+    pub(super) fn keep_roughing(&mut self, action: Action, words: &Words) {
+        let depth = if action == Action::RoughFaceCycle { b'W' } else { b'U' };
+        for (letter, escape) in [(depth, false), (b'R', true)] {
+            if words.letter(letter).is_said() {
+                let value = self.length_word(words, letter);
+                let roughing = &mut self.memory.cycle.kept.roughing;
+                if escape {
+                    roughing.escape = value.filter(|value| *value >= 0.0);
+                } else {
+                    roughing.depth = value.filter(|value| *value > 0.0);
+                }
+            }
+        }
+    }
+
+    /// The second block.
+    pub(super) fn rough(
+        &mut self,
+        action: Action,
+        contour: &Contour,
+        start: Position,
+        words: &Words,
+        report: &mut Report<'_>,
+    ) {
+        self.roughing_mistakes(action, contour, words, report);
+        let feed = self.feed_of(MotionKind::Linear, words, report);
+        match self.plan_roughing(action, contour, start, feed, words, report) {
+            Ok(plan) => self.cuts(&plan, contour, start, report),
+            Err(why) => {
+                let what = format!("{}: its cuts: {why}; it ends where it began", self.memory.cycle.id);
+                self.somehow_back(&what, start, report);
+            }
+        }
+    }
+
+    /// What a control refuses: a first block that is no straight motion (Fanuc alarm PS0065).
+    fn roughing_mistakes(&mut self, action: Action, contour: &Contour, words: &Words, report: &mut Report<'_>) {
+        let straight = contour.motions.first().is_some_and(|motion| {
+            let moves = |axis: usize| motion.start.get(axis) != motion.end.get(axis);
+            let level = if action == Action::RoughFaceCycle { Z } else { X };
+            matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear) && moves(level)
+        });
+        if !straight {
+            let message = format!(
+                "the first block of the contour of {} must go to its first level by G0 or G1",
+                self.memory.cycle.id
+            );
+            self.refuse(
+                words,
+                Refusal::CannedCycle,
+                message,
+                Some("contour-first-block"),
+                report,
+            );
+        }
+    }
+
+    /// The cycle, or why it cannot be worked out.
+    fn plan_roughing(
+        &self,
+        action: Action,
+        contour: &Contour,
+        start: Position,
+        feed: Feed,
+        words: &Words,
+        report: &Report<'_>,
+    ) -> Result<Plan, &'static str> {
+        let axes = if action == Action::RoughFaceCycle {
+            [Z, X]
+        } else {
+            [X, Z]
+        };
+        if [b'D', b'I', b'K', b'R']
+            .iter()
+            .any(|&letter| words.letter(letter).is_said())
+        {
+            return Err("the format in one block");
+        }
+        let Roughing { depth, escape } = self.memory.cycle.kept.roughing;
+        let depth = depth.ok_or("without a depth of cut above 0 in its first block (parameter 5132)")?;
+        let escape = escape.ok_or("without an escape in its first block (parameter 5133)")?;
+        let allowance = self.allowance(words).ok_or("its finishing allowance is not known")?;
+        if self.state.plane != Plane::Zx {
+            return Err("another plane than that of X and Z");
+        }
+        let motions = self.outline(contour, axes, start, report)?;
+        let (first, rest) = motions.split_first().ok_or("its contour has no motions")?;
+        let last = rest.last().ok_or("its contour is one block")?;
+        let ways = [
+            first.end.values[axes[0]] - start.values[axes[0]],
+            last.end.values[axes[1]] - first.end.values[axes[1]],
+        ];
+        if ways.iter().any(|way| way.abs() < OFF) || (first.end.values[axes[1]] - start.values[axes[1]]).abs() > OFF {
+            return Err("its contour does not begin along one axis and go on along the other");
+        }
+        let signs = ways.map(f64::signum);
+        let moved = axes.map(|axis| allowance[usize::from(axis == Z)]);
+        if (0..2).any(|i| moved[i] * signs[i] > 0.0) {
+            return Err("its finishing allowance lies beyond the contour");
+        }
+        let full = ways[0].abs();
+        if full / depth > MOST {
+            return Err("more than 10000 cuts");
+        }
+        // depths and places along the contour are the same before and behind its move
+        let frame = Frame {
+            axes,
+            signs,
+            origin: axes.map(|axis| start.values[axis]),
+        };
+        let path = Path::new(rest, frame)?;
+        let mut begin = start;
+        begin.values[X] += allowance[0];
+        begin.values[Z] += allowance[1];
+        Ok(Plan {
+            frame: Frame {
+                origin: axes.map(|axis| begin.values[axis]),
+                ..frame
+            },
+            path,
+            begin,
+            allowance,
+            depth,
+            escape,
+            full,
+            infeed: first.kind,
+            feed,
+        })
+    }
+
+    /// The motions of a contour down to which type I can be worked out.
+    fn outline(
+        &self,
+        contour: &Contour,
+        axes: [usize; 2],
+        start: Position,
+        report: &Report<'_>,
+    ) -> Result<Vec<Motion>, &'static str> {
+        if contour.compensated || self.state.compensation != 0 {
+            return Err("tool nose radius compensation");
+        }
+        says_type_one(contour.first, axes, report)?;
+        let stays = |place: &Position| {
+            (0..place.values.len()).all(|axis| axes.contains(&axis) || place.get(axis) == start.get(axis))
+        };
+        if !contour
+            .motions
+            .iter()
+            .all(|motion| stays(&motion.start) && stays(&motion.end))
+        {
+            return Err("its contour moves other axes");
+        }
+        let motions = self.in_plane(contour, report.program);
+        let same = |motion: &Motion| {
+            (motion.tool, motion.zero, motion.tool_length_mm)
+                == (
+                    self.state.tool,
+                    self.state.zero,
+                    self.state.tool_length_mm.unwrap_or(0.0),
+                )
+        };
+        if !motions.iter().all(same) {
+            return Err("its contour changes the tool or the work offset");
+        }
+        if !motions
+            .first()
+            .is_some_and(|first| matches!(first.kind, MotionKind::Rapid | MotionKind::Linear))
+        {
+            return Err("its first block is no straight motion");
+        }
+        if motions.iter().skip(1).any(|motion| motion.kind == MotionKind::Rapid) {
+            return Err("a rapid motion inside its contour");
+        }
+        Ok(motions)
+    }
+
+    fn cuts(&mut self, plan: &Plan, contour: &Contour, start: Position, report: &mut Report<'_>) {
+        let lift = match self.setup.control.roughing_escape {
+            Some(RoughingEscape::Feed) => MotionKind::Linear,
+            Some(RoughingEscape::Rapid) => MotionKind::Rapid,
+            None => MotionKind::Unknown,
+        };
+        self.rapid_straight(plan.begin, report);
+        let (mut missed, mut lifted, mut lost) = (false, false, false);
+        let mut cut = 1.0;
+        while cut * plan.depth < plan.full - 1e-4 {
+            if self.is_full() {
+                let what = format!(
+                    "{}: more than {MOST_MOTIONS} motions in one block",
+                    self.memory.cycle.id
+                );
+                return self.somehow_back(&what, start, report);
+            }
+            let depth = cut * plan.depth;
+            cut += 1.0;
+            let Some(along) = plan
+                .path
+                .meet(depth)
+                .filter(|along| *along > (plan.escape - 1e-9).max(OFF))
+            else {
+                (missed, lost) = (true, true);
+                continue;
+            };
+            let infeed = if lost { MotionKind::Unknown } else { plan.infeed };
+            lost = false;
+            self.cut_to(plan, infeed, depth, 0.0, report);
+            self.cut_to(plan, MotionKind::Linear, depth, along, report);
+            if plan.escape > 0.0 {
+                lifted = true;
+                self.cut_to(plan, lift, depth - plan.escape, along - plan.escape, report);
+            }
+            self.cut_to(plan, MotionKind::Rapid, depth - plan.escape, 0.0, report);
+        }
+        let infeed = if lost { MotionKind::Unknown } else { plan.infeed };
+        self.cut_to(plan, infeed, plan.full, 0.0, report);
+        self.along(&contour.motions[1..], plan.allowance, plan.feed, report);
+        self.rapid_straight(start, report);
+        if missed {
+            let why = "cuts that miss its contour, run along a part of it, or are shorter than the escape";
+            self.not_worked_out(why, report);
+        }
+        if lifted && lift == MotionKind::Unknown {
+            let why = "whether the tool leaves its cuts at the feed or in rapid ([control] roughing_escape says it)";
+            self.not_worked_out(why, report);
+        }
+    }
+
+    /// A motion in the plane of the cuts.
+    fn cut_to(&mut self, plan: &Plan, kind: MotionKind, depth: f64, along: f64, report: &Report<'_>) {
+        let mut place = self.state.position;
+        let coordinates = plan.frame.coordinates(depth, along);
+        for (axis, value) in plan.frame.axes.into_iter().zip(coordinates) {
+            place.set(axis, value);
+        }
+        let feed = match kind {
+            MotionKind::Rapid => Feed::Rapid,
+            MotionKind::Unknown => Feed::Unknown,
+            _ => plan.feed,
+        };
+        self.goes(kind, place, feed, report);
+    }
+
+    /// Says what of a cycle is not known.
+    pub(super) fn not_worked_out(&self, why: &str, report: &mut Report<'_>) {
+        let what = format!("{}: {why}", self.memory.cycle.id);
+        report.fault(report.whole(), FaultKind::NotModelled { what });
+    }
+}
+
+/// Type I: the first block of the contour says G0 or G1 and one axis.
+fn says_type_one(first: u32, axes: [usize; 2], report: &Report<'_>) -> Result<(), &'static str> {
+    let (mut straight, mut infeed, mut both) = (false, false, false);
+    let letters = |axis: usize| if axis == X { [b'X', b'U'] } else { [b'Z', b'W'] };
+    for word in report.program.block(BlockId(first)).words() {
+        match (word.address, word.value) {
+            (Address::Letter(b'G'), Value::Number(code)) => straight |= matches!(code.to_f64(), 0.0 | 1.0),
+            (Address::Letter(letter), _) => {
+                infeed |= letters(axes[0]).contains(&letter);
+                both |= letters(axes[1]).contains(&letter);
+            }
+            _ => {}
+        }
+    }
+    match (straight && infeed, both) {
+        (_, true) => Err("the first block of its contour names both axes (type II)"),
+        (false, _) => Err("the first block of its contour does not say G0 or G1 with its level"),
+        _ => Ok(()),
+    }
+}

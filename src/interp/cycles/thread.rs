@@ -1,0 +1,211 @@
+//! Threads in many passes, in two blocks: G76 (G78 of system C).
+//!
+//! First block: P is six digits, two each for the number of finishing passes, the pull-out in tenths of the lead, and the angle of the tool; Q the
+//! least depth of a cut, R the finishing allowance (parameters 5142, 5130, 5143, 5140, 5141). Second block: X and Z the root of the thread at its
+//! end, R the radius at its beginning less that at its end, P the height, Q the depth of the first cut, F the lead. P and Q are radii in
+//! least increments. The nth cut lies Q times the root of n below the crest, and at least the least depth below the one before; at the height less the
+//! allowance the finishing passes follow at the whole height. In in rapid, along the thread by the lead, out and back in rapid.
+//!
+//! Sources: Fanuc Series 30i operator's manual, lathe system, multiple threading cycle; HUST H6D-T manual, pages 3-59 and 3-60 (the same cycle:
+//! the least depth, and rapids everywhere but along the thread). Where in Z a cut begins that goes in along the flank (angle above 0), and
+//! the shape of the pull-out (parameter 5131), are told by pictures alone: unknown.
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+use crate::{Feed, MotionKind, Position};
+
+const X: usize = 0;
+const Z: usize = 2;
+/// Cuts of one thread.
+const MOST: usize = 10_000;
+/// Angles of the tool that a control takes, degrees.
+const ANGLES: [u32; 6] = [0, 29, 30, 55, 60, 80];
+
+/// What the first block keeps; `None`: not said, or not known.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Thread {
+    /// Finishing passes, pull-out in tenths of the lead, angle in degrees.
+    digits: Option<[u32; 3]>,
+    /// mm.
+    least: Option<f64>,
+    /// mm.
+    allowance: Option<f64>,
+}
+
+/// A thread that can be worked out, mm.
+struct Plan {
+    start: Position,
+    /// Root of the thread at its end.
+    root: [f64; 2],
+    /// Which way X leads out of the work: 1 or -1.
+    out: f64,
+    taper: f64,
+    height: f64,
+    /// Depths of all passes.
+    depths: Vec<f64>,
+    /// Length of the pull-out along Z.
+    pull_out: f64,
+    /// Whether the tool goes in along the flank.
+    flank: bool,
+    lead: Feed,
+}
+
+impl Interpreter<'_> {
+    /// G76: the first of two blocks has no coordinates.
+    pub(super) fn thread_repeat(&mut self, words: &Words, report: &mut Report<'_>) {
+        if !words.axes.any() {
+            return self.keep_thread(words);
+        }
+        let start = self.state.position;
+        let lead = self.lead(words, report);
+        match self.plan_thread(start, lead, words) {
+            Ok(plan) => self.thread(&plan, report),
+            Err(why) => {
+                let what = format!("{}: its passes: {why}; it ends where it began", self.memory.cycle.id);
+                self.somehow_back(&what, start, report);
+            }
+        }
+    }
+
+    fn keep_thread(&mut self, words: &Words) {
+        if words.p.is_said() {
+            let digits = words
+                .p
+                .number()
+                .filter(|number| !number.has_point)
+                .map(|number| number.value);
+            let digits = digits.filter(|value| value.fract() == 0.0 && (0.0..1e6).contains(value));
+            self.memory.cycle.kept.thread.digits = digits.map(|value| {
+                let value = value as u32;
+                [value / 10_000, value / 100 % 100, value % 100]
+            });
+        }
+        if words.letter(b'Q').is_said() {
+            self.memory.cycle.kept.thread.least = self.increment_word(words, b'Q');
+        }
+        if words.radius.is_said() {
+            self.memory.cycle.kept.thread.allowance = self.length_word(words, b'R').filter(|value| *value >= 0.0);
+        }
+    }
+
+    /// The thread, or why it cannot be worked out.
+    fn plan_thread(&self, start: Position, lead: Feed, words: &Words) -> Result<Plan, &'static str> {
+        if [b'A', b'D', b'I', b'K']
+            .iter()
+            .any(|&letter| words.letter(letter).is_said())
+        {
+            return Err("the format in one block");
+        }
+        let Thread {
+            digits,
+            least,
+            allowance,
+        } = self.memory.cycle.kept.thread;
+        let [finishing, tenths, angle] = digits.ok_or("without P in its first block (parameters 5142, 5130, 5143)")?;
+        let least = least.ok_or("without Q in its first block (parameter 5140)")?;
+        let allowance = allowance.ok_or("without R in its first block (parameter 5141)")?;
+        if finishing == 0 || !ANGLES.contains(&angle) {
+            return Err("no finishing pass, or an angle that is none of 0, 29, 30, 55, 60 and 80");
+        }
+        let mut end = start;
+        self.targets(&words.axes, false, &mut end);
+        let known = [start, end]
+            .iter()
+            .all(|place| place.get(X).is_some() && place.get(Z).is_some());
+        if !known || self.memory.frames.active || self.state.frame_unknown {
+            return Err("from or to a place that is not known");
+        }
+        let taper = match self.length_word(words, b'R') {
+            None if words.radius.is_said() => return Err("its taper (R) is not known"),
+            taper => taper.unwrap_or(0.0),
+        };
+        let size = |letter| self.increment_word(words, letter).filter(|size| *size > 0.0);
+        let (Some(height), Some(first)) = (size(b'P'), size(b'Q')) else {
+            return Err("without its height (P) and the depth of its first cut (Q), both above 0");
+        };
+        let Feed::PerRevolution(pitch) = lead else {
+            return Err("without its lead (F)");
+        };
+        let root = [end.values[X], end.values[Z]];
+        let (rise, way) = (start.values[X] - root[X], root[1] - start.values[Z]);
+        let out = rise.signum();
+        // the start lies outside of the thread at both ends
+        if rise * out < height - 1e-9 || (rise - taper) * out < height - 1e-9 || way == 0.0 {
+            return Err("it starts inside its thread, or has no length");
+        }
+        let pull_out = pitch * f64::from(tenths) / 10.0;
+        if pull_out >= way.abs() {
+            return Err("its pull-out is as long as the thread");
+        }
+        let mut depths = cuts(first, least, height - allowance)
+            .ok_or("a finishing allowance as large as its height, or more than 10000 cuts")?;
+        depths.extend(core::iter::repeat_n(height, finishing as usize));
+        Ok(Plan {
+            start,
+            root,
+            out,
+            taper,
+            height,
+            depths,
+            pull_out,
+            flank: angle > 0,
+            lead,
+        })
+    }
+
+    fn thread(&mut self, plan: &Plan, report: &mut Report<'_>) {
+        let [x, z] = plan.root;
+        let way = z - plan.start.values[Z];
+        for depth in &plan.depths {
+            let level = x + plan.out * (plan.height - depth);
+            let mut place = plan.start;
+            place.set(X, level + plan.taper);
+            if plan.flank {
+                place.forget(Z);
+                if plan.taper != 0.0 {
+                    place.forget(X);
+                }
+            }
+            self.goes(MotionKind::Rapid, place, Feed::Rapid, report);
+            let mut place = plan.start;
+            place.set(X, level + plan.taper * plan.pull_out / way.abs());
+            place.set(Z, z - way.signum() * plan.pull_out);
+            if plan.flank && plan.taper != 0.0 && plan.pull_out > 0.0 {
+                place.forget(X);
+            }
+            self.goes(MotionKind::Linear, place, plan.lead, report);
+            if plan.pull_out > 0.0 {
+                self.goes(MotionKind::Unknown, plan.start, Feed::Unknown, report);
+            } else {
+                place.set(X, plan.start.values[X]);
+                self.goes(MotionKind::Rapid, place, Feed::Rapid, report);
+                self.goes(MotionKind::Rapid, plan.start, Feed::Rapid, report);
+            }
+        }
+        if plan.flank {
+            self.not_worked_out(
+                "where in Z its cuts begin, which go in along the flank (angle of the tool above 0)",
+                report,
+            );
+        }
+        if plan.pull_out > 0.0 {
+            self.not_worked_out(
+                "the shape of its pull-out (parameter 5131), and the way back behind it",
+                report,
+            );
+        }
+    }
+}
+
+/// Depths of the cuts down to `depth`, mm; `None` where there are none, or too many.
+fn cuts(first: f64, least: f64, depth: f64) -> Option<Vec<f64>> {
+    let mut cuts = Vec::new();
+    let mut done = 0.0_f64;
+    while done < depth - 1e-9 && cuts.len() < MOST {
+        let count = cuts.len() as f64 + 1.0;
+        done = (first * count.sqrt())
+            .max(if count > 1.0 { done + least } else { first })
+            .min(depth);
+        cuts.push(done);
+    }
+    (depth > 0.0 && done >= depth - 1e-9).then_some(cuts)
+}

@@ -1,4 +1,4 @@
-"""`certify` and `fix`: what is proved to be the same tool path must be the same here, and what is the same must not be refuted."""
+"""`certify` and `diff`: what is proved or told to be the same tool path must be the same here, and what is the same must not be refuted."""
 
 import math
 import random
@@ -76,6 +76,10 @@ def judge(trunnion, machine, dialect, tools, zero, text, other):
         findings.append(str(broken))
         return findings
     off = apart(before, after, machine) if len(before) == len(after) else (math.inf, math.inf)
+    compared = trunnion.call("diff", *names, "--machine", "m.toml", "--dialect", dialect)
+    # ends and centres within the tolerance: a way may be a few times that off
+    if compared.stdout.splitlines()[-1].startswith("SAME") and off and (off[0] > 5 * MM or off[1] > 5 * DEGREES):
+        findings.append(f"diff: {compared.stdout.strip()[:200]}: {off[0]:.6f} mm, {off[1]:.6f} deg apart")
     findings.motions += 1
     said = done.stdout.split(" ")[0]
     if said not in ("PROVED", "REFUTED") or off is None:

@@ -66,9 +66,12 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
     modes(engine, block, at, sink)?;
     switches(engine, block, at, sink)?;
     if flow::context::run(engine, block, at, sink)? {
-        // the rest of the block is gone
+        // the rest of the block is gone, its dwell too
         engine.refresh_parameters();
         return Ok(After::Go);
+    }
+    if block.g[0] == 40 {
+        engine.emit(Canon::Dwell(block.word(b'P').unwrap_or(0.0)), at, sink);
     }
     geometry(engine, block, at, sink)?;
     setting(engine, block, at, sink)?;
@@ -160,7 +163,7 @@ fn modes(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Res
     tools::select(engine, block, at, sink)
 }
 
-/// M codes but the stops, and the dwell.
+/// M codes but the stops.
 fn switches(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     if block.m_count > 0 {
         outputs::signals(engine, block, at, sink)?;
@@ -169,9 +172,6 @@ fn switches(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> 
         outputs::coolant(engine, block, at, sink);
         outputs::overrides(engine, block, at, sink)?;
         outputs::user(engine, block, at, sink)?;
-    }
-    if block.g[0] == 40 {
-        engine.emit(Canon::Dwell(block.word(b'P').unwrap_or(0.0)), at, sink);
     }
     Ok(())
 }

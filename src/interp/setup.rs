@@ -154,6 +154,8 @@ pub struct ControlData {
     pub bore_shift: Option<(usize, f64)>,
     /// G71 and G72 of a lathe: how the tool leaves its cuts; `None`: not declared, that short way is not known.
     pub roughing_escape: Option<RoughingEscape>,
+    /// How many leads before its end the tool leaves a thread of one pass (Fanuc parameter 5130); 0: at its end. `None`: not known.
+    pub thread_pull_out: Option<f64>,
     /// Way of cutter compensation around outer corners.
     pub outer_corner: OuterCorner,
     /// Whether the switch for block delete (`/`) is on, so that such blocks are skipped; `None`: not known, they are run.

@@ -65,6 +65,7 @@ pub(super) struct FileControl {
     peck_clearance: Option<Spanned<f64>>,
     bore_shift: Option<Spanned<String>>,
     roughing_escape: Option<Escape>,
+    thread_pull_out: Option<Spanned<f64>>,
     outer_corner: Option<Corner>,
     block_delete: Option<bool>,
     roll_pitch_yaw: Option<Angles>,
@@ -96,6 +97,7 @@ impl FileControl {
                 Escape::Feed => RoughingEscape::Feed,
                 Escape::Rapid => RoughingEscape::Rapid,
             }),
+            thread_pull_out: leads(self.thread_pull_out.as_ref())?,
             outer_corner: match self.outer_corner {
                 Some(Corner::Arc) => OuterCorner::Arc,
                 Some(Corner::Lines) | None => OuterCorner::Lines,
@@ -129,6 +131,18 @@ fn length(key: &str, value: Option<&Spanned<f64>>) -> Result<Option<f64>, Config
     match value {
         Some(value) if !(0.0..=1000.0).contains(value.get_ref()) => {
             let message = format!("`{key}` must be from 0 to 1000 mm, not {}", value.get_ref());
+            Err(at(value, message))
+        }
+        value => Ok(value.map(|value| *value.get_ref())),
+    }
+}
+
+/// Leads of a thread.
+fn leads(value: Option<&Spanned<f64>>) -> Result<Option<f64>, ConfigError> {
+    match value {
+        // two digits, in tenths
+        Some(value) if !(0.0..10.0).contains(value.get_ref()) => {
+            let message = format!("`thread_pull_out` must be from 0 to 9.9 leads, not {}", value.get_ref());
             Err(at(value, message))
         }
         value => Ok(value.map(|value| *value.get_ref())),
@@ -173,7 +187,7 @@ mod tests {
 
     #[test]
     fn a_whole_section_is_read() {
-        let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\nroughing_escape = \"rapid\"\n\
+        let text = "[control]\nunits = \"inch\"\nimplicit_decimals = \"least-increment\"\nchip_break_retract = 0.5\npeck_clearance = 1\nbore_shift = \"-Y\"\nroughing_escape = \"rapid\"\nthread_pull_out = 1.2\n\
                     outer_corner = \"arc\"\nroll_pitch_yaw = \"fixed\"\nblock_delete = true\ntcp_codes = { on = [\"M429\"] }\nreference_points = [{ X = 0, Z = 400 }, { Z = 300 }]\n";
         let control = Config::parse(text).expect("read").setup.control;
         assert_eq!(control.units, Some(LengthUnit::Inch));
@@ -182,6 +196,7 @@ mod tests {
         assert_eq!(control.peck_clearance_mm, Some(1.0));
         assert_eq!(control.bore_shift, Some((1, -1.0)));
         assert_eq!(control.roughing_escape, Some(RoughingEscape::Rapid));
+        assert_eq!(control.thread_pull_out, Some(1.2));
         assert_eq!(control.outer_corner, OuterCorner::Arc);
         assert_eq!(control.block_delete, Some(true));
         assert_eq!(control.roll_pitch_yaw, Some(trunnion_interp::RollPitchYaw::Fixed));
@@ -203,6 +218,7 @@ mod tests {
             ("[control]\npeck_clearance = -1", "-1"),
             ("[control]\nbore_shift = \"X\"", "\"X\""),
             ("[control]\nroughing_escape = \"slow\"", "\"slow\""),
+            ("[control]\nthread_pull_out = -0.1", "-0.1"),
             ("[control]\nreference_points = [{ Q = 1 }]", "Q"),
             ("[control]\nreference_points = [{ X = inf }]", "inf"),
             ("[control]\nretract = 1", "retract"),

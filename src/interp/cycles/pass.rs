@@ -1,4 +1,7 @@
 //! Turning cycles of one pass (G90, G94 and G92 of system A): in, cut, out, back to the start.
+//!
+//! A thread may be left before its end: parameter 5130 says how many leads before (Fanuc Series 30i operator's manual, lathe system, threading
+//! cycle), and how the tool goes out there is told by pictures alone.
 use super::Stored;
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
@@ -73,12 +76,15 @@ impl Interpreter<'_> {
         } else {
             MotionKind::Linear
         };
-        let corners = [
+        let mut corners = vec![
             (before, MotionKind::Rapid),
             ((x, z), MotionKind::Linear),
             (after, out),
             ((x_start, z_start), MotionKind::Rapid),
         ];
+        if threading {
+            self.pull_out(&mut corners, feed, report);
+        }
         for (to, kind) in corners {
             let position = self.state.position;
             let mut place = self.memory.frames.programmed(&position);
@@ -87,10 +93,38 @@ impl Interpreter<'_> {
             self.goes(
                 kind,
                 place,
-                if kind == MotionKind::Rapid { Feed::Rapid } else { feed },
+                match kind {
+                    MotionKind::Rapid => Feed::Rapid,
+                    MotionKind::Unknown => Feed::Unknown,
+                    _ => feed,
+                },
                 report,
             );
         }
+    }
+
+    /// What becomes of the corners of a thread that is left before its end. Where nobody says whether it is, they stay, and it is told.
+    fn pull_out(&self, corners: &mut Vec<((f64, f64), MotionKind)>, lead: Feed, report: &mut Report<'_>) {
+        let (Some(leads), Feed::PerRevolution(lead)) = (self.setup.control.thread_pull_out, lead) else {
+            let why = "whether the tool leaves its thread before the end ([control] thread_pull_out says it, in leads)";
+            return self.not_worked_out(why, report);
+        };
+        let [((x0, z0), _), ((x, z), _), _, (start, _)] = corners[..] else {
+            return;
+        };
+        if leads == 0.0 {
+            return;
+        }
+        let share = (leads * lead / (z - z0).abs()).min(1.0);
+        *corners = vec![
+            corners[0],
+            ((x + (x0 - x) * share, z + (z0 - z) * share), MotionKind::Linear),
+            (start, MotionKind::Unknown),
+        ];
+        self.not_worked_out(
+            "the shape of its pull-out (parameter 5131), and the way back behind it",
+            report,
+        );
     }
 
     /// The lead of a thread: F of the block or the one before, mm per turn.

@@ -183,3 +183,35 @@ fn hostile_numbers_come_to_an_end() {
         }
     }
 }
+
+/// One pass (G92) on a taper, left 1.2 leads of 1.5 mm before its end, after 23.2 of 25 mm; or told that nobody knows where.
+#[test]
+fn a_thread_of_one_pass_may_be_left_before_its_end() {
+    use trunnion_interp::ControlData;
+    let source = "G0 X30. Z5.\nG92 X24. Z-20. R-2.5 F1.5\nM30\n";
+    let run = |thread_pull_out| {
+        let control = ControlData {
+            thread_pull_out,
+            ..ControlData::default()
+        };
+        let setup = Setup {
+            control,
+            ..Setup::default()
+        };
+        let (_, log) = run_bytes(A, source.as_bytes(), &setup);
+        let lines: Vec<String> = log.motions.iter().map(line).collect();
+        (lines, format!("{:?}", log.faults))
+    };
+    let (lines, told) = run(Some(1.2));
+    assert_eq!(lines, ["R X15 Z5", "R X9.5 Z5", "L X11.82 Z-18.2 F1.5/rev", "U X15 Z5"]);
+    assert!(told.contains("G92: the shape of its pull-out"), "{told}");
+    let (whole, told) = run(Some(0.0));
+    assert_eq!(whole[2..], ["L X12 Z-20 F1.5/rev", "R X15 Z-20", "R X15 Z5"]);
+    assert_eq!(told, "[]");
+    let (unsaid, told) = run(None);
+    assert_eq!(unsaid, whole);
+    assert!(
+        told.contains("G92: whether the tool leaves its thread before the end"),
+        "{told}"
+    );
+}

@@ -64,6 +64,7 @@ fn what_is_not_known_is_compared_by_its_words() {
             ["5061", "5062"],
         ),
         ("fanuc-30i", "G21 G90\n#1=#?\nG1 X#1 F100\nM30\n", ["5061", "5062"]),
+        ("fanuc-30i", "G21 G91\nG1 X? F100\nM30\n", ["5.", "6."]),
         (
             "fanuc-30i",
             "G21 G90\nG1 X5. F100\nG2 X9. Y? I2. J0.\nM30\n",

@@ -1,9 +1,9 @@
 //! Blocks whose values nobody knows: what they say stands in their words alone.
 use trunnion_interp::{AxisLetter, Interpreter, Motion};
-use trunnion_syntax::{Address, Block, Item, Value};
+use trunnion_syntax::{Address, Block, Item};
 
-/// Whether a block that has just run reads or sets a variable whose value is not known, moves an axis by such a value, or hands
-/// variables on to a call, where they go by other names.
+/// Whether a block that has just run names an axis whose end is not known (an increment from where nobody knows, a variable without
+/// value), reads or sets a variable whose value is not known, or hands variables on to a call, where they go by other names.
 pub(super) fn reads_unknown<'m>(
     block: &Block<'_>,
     interpreter: &Interpreter<'_>,
@@ -19,12 +19,9 @@ pub(super) fn reads_unknown<'m>(
     for item in block.items() {
         let range = match item {
             Item::Word(word) => {
-                let axis = match word.address {
-                    Address::Letter(letter) => AxisLetter::new(letter),
-                    _ => None,
-                };
-                let is_read = !matches!(word.value, Value::Number(_) | Value::Text(_));
-                if is_read && axis.is_some_and(|axis| unknown_axes & (1 << axis.0) != 0) {
+                if let Address::Letter(letter) = word.address
+                    && unknown_axes & axes(letter) != 0
+                {
                     return true;
                 }
                 hands_on |= matches!(word.address, Address::Letter(b'P'));
@@ -47,6 +44,19 @@ pub(super) fn reads_unknown<'m>(
         }
     }
     hands_on && has_variables
+}
+
+/// The axes that a letter may name, bits as in `Position::known`: U, V, W, H are increments of X, Y, Z, C on a lathe.
+fn axes(letter: u8) -> u16 {
+    let bit = |letter| AxisLetter::new(letter).map_or(0, |axis| 1 << axis.0);
+    let of = match letter {
+        b'U' => b'X',
+        b'V' => b'Y',
+        b'W' => b'Z',
+        b'H' => b'C',
+        _ => letter,
+    };
+    bit(letter) | bit(of)
 }
 
 /// The variables that a text names: `#1`, `#<name>`; of a computed number (`#[#1+2]`) what it is computed from.

@@ -85,7 +85,7 @@ fn compare(name: &str, text: &str, executed: u64) {
         peer = peer.min(visited / times as f64);
     }
     let program = parse(bytes.clone(), dialect.lex);
-    let memory = program.tokens().len() * 5 + program.block_count() * 4;
+    let memory = program.tokens().bytes() + program.block_count() * 4;
     let source: Arc<[u8]> = bytes.into();
     let path = std::env::temp_dir().join(format!("trunnion-peer-{}.ngc", std::process::id()));
     let written = std::fs::write(&path, text).is_ok();

@@ -112,17 +112,17 @@ impl<'p> Block<'p> {
     pub fn range(&self) -> TextRange {
         let tokens = self.tokens();
         let table = &self.program.tokens;
-        let (start, last) = (table.starts[tokens.start as usize], tokens.end as usize - 1);
-        let end = match table.kinds[last] {
-            TokenKind::Newline => table.starts[last],
-            _ => table.range(last as TokenId).end,
+        let (start, last) = (table.start(tokens.start), tokens.end - 1);
+        let end = match table.kind(last) {
+            TokenKind::Newline => table.start(last),
+            _ => table.range(last).end,
         };
         TextRange::new(start, end)
     }
     /// Its first byte, which may be that of its line end.
     #[inline]
     pub fn first_byte(&self) -> Option<u8> {
-        let start = self.program.tokens.starts[self.program.blocks[self.id.0 as usize] as usize];
+        let start = self.program.tokens.start(self.program.blocks[self.id.0 as usize]);
         self.program.source.get(start as usize).copied()
     }
     /// Its items, ISO format. In APT format: comments, and every other token but blanks as [`Item::Other`].

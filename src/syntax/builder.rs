@@ -38,11 +38,11 @@ pub(crate) struct Builder {
 impl Builder {
     /// Room for so many tokens and blocks.
     pub(crate) fn with_room(tokens: usize, blocks: usize) -> Self {
-        let mut out = Self::default();
-        out.table.kinds.reserve(tokens);
-        out.table.starts.reserve(tokens);
-        out.blocks.reserve(blocks);
-        out
+        Self {
+            table: TokenTable::with_room(tokens),
+            blocks: Vec::with_capacity(blocks),
+            ..Self::default()
+        }
     }
 
     /// Adds a token that starts at byte `start`.
@@ -68,7 +68,7 @@ impl Builder {
     /// Adds the first `count` tokens that are held.
     pub(crate) fn release(&mut self, count: usize) {
         self.table.kinds.extend_from_slice(&self.held.kinds[..count]);
-        self.table.starts.extend_from_slice(&self.held.starts[..count]);
+        self.table.starts.extend(&self.held.starts[..count]);
     }
 
     /// Whether the block at work has nothing but blanks so far.

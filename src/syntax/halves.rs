@@ -53,7 +53,7 @@ fn join(out: &mut Builder, behind: &Builder, cut: u32) {
     let first = out.table.kinds.len() as u32;
     let (kinds, starts) = (&mut out.table.kinds, &mut out.table.starts);
     std::thread::scope(|scope| {
-        scope.spawn(|| starts.extend(behind.table.starts.iter().map(|start| start + cut)));
+        scope.spawn(|| starts.extend_moved(&behind.table.starts, 0, behind.table.len(), cut));
         kinds.extend_from_slice(&behind.table.kinds);
         out.blocks.extend(behind.blocks.iter().map(|token| token + first));
     });

@@ -23,6 +23,7 @@ mod record;
 mod relex;
 mod scan;
 mod sink;
+mod starts;
 mod straight;
 mod stray;
 mod table;

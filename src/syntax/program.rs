@@ -118,7 +118,7 @@ impl Program {
         }
         let behind = self
             .blocks
-            .partition_point(|&first| self.tokens.starts[first as usize] <= offset);
+            .partition_point(|&first| self.tokens.start(first) <= offset);
         behind.checked_sub(1).map(|index| BlockId(index as u32))
     }
     /// The text of a range, where it is UTF-8; else with replacement characters.

@@ -5,7 +5,7 @@
 //! them ends with a line end as before.
 use crate::builder::Builder;
 use crate::program::lex;
-use crate::{BlockId, Program, SyntaxError, TextEdit, TextRange, TokenKind, apply_edits, parse};
+use crate::{BlockId, Program, SyntaxError, TextEdit, TextRange, TokenKind, TokenTable, apply_edits, parse};
 
 impl Program {
     /// The program after `edits`, equal to a parse of the edited text. The edits must be sorted by start and must not
@@ -37,11 +37,11 @@ impl Program {
 
     /// Bytes from the start of block `from` to the start of block `next` (or the end), before and after the edit.
     fn region(&self, source: &[u8], from: BlockId, next: usize) -> (TextRange, TextRange) {
-        let start = self.tokens.starts[self.blocks[from.0 as usize] as usize];
+        let start = self.tokens.start(self.blocks[from.0 as usize]);
         let end = self
             .blocks
             .get(next)
-            .map_or(self.tokens.end, |&token| self.tokens.starts[token as usize]);
+            .map_or(self.tokens.end, |&token| self.tokens.start(token));
         let behind = self.tokens.end - end;
         (
             TextRange::new(start, end),
@@ -67,15 +67,13 @@ impl Program {
         let first = self.blocks[from.0 as usize] as usize;
         let behind = self.blocks.get(next).map_or(self.tokens.len(), |&token| token as usize);
 
-        let mut tokens = self.tokens.clone();
-        tokens.kinds.splice(first..behind, out.table.kinds.iter().copied());
+        let length = self.tokens.len();
+        let room = first + out.table.len() + length - behind;
+        let mut tokens = TokenTable::with_room(room);
         let moved = |start: u32| start - old.end + new.end;
-        for start in &mut tokens.starts[behind..] {
-            *start = moved(*start);
-        }
-        tokens
-            .starts
-            .splice(first..behind, out.table.starts.iter().map(|start| start + new.start));
+        tokens.extend(&self.tokens, 0..first, 0);
+        tokens.extend(&out.table, 0..out.table.len(), new.start);
+        tokens.extend(&self.tokens, behind..length, new.end.wrapping_sub(old.end));
         tokens.end = source.len() as u32;
 
         let mut blocks = self.blocks[..from.0 as usize].to_vec();

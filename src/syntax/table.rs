@@ -1,5 +1,7 @@
-//! The token table: kinds and starts side by side, five bytes a token.
+//! The token table: kinds and starts side by side, two and a quarter bytes a token.
 use crate::TokenKind;
+use crate::starts::Starts;
+use core::ops::Range;
 
 /// A half-open range of bytes in the source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
@@ -16,7 +18,7 @@ impl TextRange {
         Self { start, end }
     }
     /// As indices into the source.
-    pub fn as_usize(self) -> core::ops::Range<usize> {
+    pub fn as_usize(self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
     /// The smallest range that holds both.
@@ -48,11 +50,23 @@ pub type TokenId = u32;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TokenTable {
     pub(crate) kinds: Vec<TokenKind>,
-    pub(crate) starts: Vec<u32>,
+    pub(crate) starts: Starts,
     pub(crate) end: u32,
 }
 
 impl TokenTable {
+    /// Room for so many tokens.
+    pub(crate) fn with_room(tokens: usize) -> Self {
+        let mut out = Self::default();
+        out.kinds.reserve(tokens);
+        out.starts.reserve(tokens);
+        out
+    }
+    /// Adds some tokens of another table, each moved by so many bytes (wrapping).
+    pub(crate) fn extend(&mut self, other: &Self, tokens: Range<usize>, by: u32) {
+        self.kinds.extend_from_slice(&other.kinds[tokens.clone()]);
+        self.starts.extend_moved(&other.starts, tokens.start, tokens.end, by);
+    }
     /// Number of tokens.
     pub fn len(&self) -> usize {
         self.kinds.len()
@@ -66,8 +80,23 @@ impl TokenTable {
         self.kinds[id as usize]
     }
     /// Bytes of token `id`.
+    #[inline]
     pub fn range(&self, id: TokenId) -> TextRange {
-        let end = self.starts.get(id as usize + 1).copied().unwrap_or(self.end);
-        TextRange::new(self.starts[id as usize], end)
+        let next = id as usize + 1;
+        let end = if next < self.kinds.len() {
+            self.starts.get(next)
+        } else {
+            self.end
+        };
+        TextRange::new(self.start(id), end)
+    }
+    /// First byte of token `id`.
+    #[inline]
+    pub(crate) fn start(&self, id: TokenId) -> u32 {
+        self.starts.get(id as usize)
+    }
+    /// Memory that the tokens take, bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.kinds) + self.starts.bytes()
     }
 }

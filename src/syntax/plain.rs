@@ -95,37 +95,29 @@ fn digits(source: &[u8], mut at: usize) -> usize {
 /// Words with plain numbers and one blank between them from `at` on, and the ends of their lines: most of every program. Between two items
 /// they leave the course where it is.
 #[inline(never)]
-fn words(source: &[u8], mut at: usize, options: LexOptions, cut: &mut Cut) -> usize {
-    let mut count = cut.count;
+fn words<'o>(source: &[u8], mut at: usize, options: LexOptions, mut cut: Cut<'o>) -> (usize, Cut<'o>) {
     while let Some(word) = source.get(at..).and_then(<[u8]>::first_chunk::<WHOLE>) {
         // a step adds three tokens at most
-        if count > HELD - 3 {
-            cut.count = count;
+        if cut.count > HELD - 3 {
             cut.release();
-            count = 0;
         }
         let Some(length) = whole(word) else { break };
-        cut.out.hold(count, TokenKind::Word, at as u32);
-        count += 1;
+        cut.hold(TokenKind::Word, at);
         at += length;
         match word[length] {
             b' ' if GOES_ON[usize::from(word[length + 1])] & BLANK == 0 => {
-                cut.out.hold(count, TokenKind::Blank, at as u32);
-                count += 1;
+                cut.hold(TokenKind::Blank, at);
                 at += 1;
             }
             b'\n' => {
                 let start = at;
                 at += 1;
-                cut.count = count;
                 cut.line_end(source, options, start, at);
-                count = cut.count;
             }
             _ => break,
         }
     }
-    cut.count = count;
-    at
+    (at, cut)
 }
 
 /// The word at `at`, whose digits begin at `first`: pushed, and what is behind it; `None` if there is no number.
@@ -133,14 +125,7 @@ fn words(source: &[u8], mut at: usize, options: LexOptions, cut: &mut Cut) -> us
 fn word(source: &[u8], at: usize, first: usize, cut: &mut Cut) -> Option<usize> {
     if let Some(end) = short(source, first) {
         cut.push(TokenKind::Word, Sign::Word, at);
-        // most often one blank stands between it and the next
-        if let Some(&[b' ', next, ..]) = source.get(end..)
-            && GOES_ON[usize::from(next)] & BLANK == 0
-        {
-            cut.push(TokenKind::Blank, Sign::Blank, end);
-            return Some(end + 1);
-        }
-        return Some(end);
+        return Some(cut.blank(source, end));
     }
     let mut end = digits(source, first);
     let mut count = end - first;
@@ -160,7 +145,8 @@ fn word(source: &[u8], at: usize, first: usize, cut: &mut Cut) -> Option<usize> 
     Some(end)
 }
 
-/// The tokens that are cut and not in the table yet.
+/// The tokens that are cut and not in the table yet. It goes from hand to hand by value, so that it stays in registers: each token's step of
+/// the course waits for the one before.
 struct Cut<'o> {
     out: &'o mut Builder,
     /// So many are held.
@@ -183,6 +169,18 @@ impl Cut<'_> {
         self.count += 1;
     }
 
+    /// The blank at `at`, if one alone stands there, as most often behind a token; where it ends.
+    #[inline]
+    fn blank(&mut self, source: &[u8], at: usize) -> usize {
+        match source.get(at..) {
+            Some(&[b' ', next, ..]) if GOES_ON[usize::from(next)] & BLANK == 0 => {
+                self.push(TokenKind::Blank, Sign::Blank, at);
+                at + 1
+            }
+            _ => at,
+        }
+    }
+
     /// Whether a number here may belong to the word, letter or number in front of it.
     #[inline]
     fn may_go_on(&self) -> bool {
@@ -201,6 +199,7 @@ impl Cut<'_> {
     }
 
     /// Gives what is held to the table.
+    #[inline]
     fn release(&mut self) {
         self.out.release(self.count);
         self.count = 0;
@@ -222,35 +221,35 @@ impl Cut<'_> {
 
 /// Lexes from `at` as far as tokens are plain; behind the last of them.
 pub(crate) fn lex(source: &[u8], at: usize, options: LexOptions, out: &mut Builder) -> usize {
-    let mut cut = Cut {
+    let cut = Cut {
         course: out.course,
         out,
         count: 0,
     };
-    let end = lex_into(source, at, options, &mut cut);
+    let (end, mut cut) = lex_into(source, at, options, cut);
     cut.out.course = cut.course;
     cut.release();
     end
 }
 
 #[inline]
-fn lex_into(source: &[u8], mut at: usize, options: LexOptions, cut: &mut Cut) -> usize {
+fn lex_into<'o>(source: &[u8], mut at: usize, options: LexOptions, mut cut: Cut<'o>) -> (usize, Cut<'o>) {
     while let Some(&byte) = source.get(at) {
-        // a step adds two tokens at most
-        if cut.count > HELD - 2 {
+        // a step adds four tokens at most
+        if cut.count > HELD - 4 {
             cut.release();
         }
         let start = at;
         match CLASSES[usize::from(byte)] {
             Class::Letter => {
                 if cut.course.is_between() {
-                    at = words(source, at, options, cut);
+                    (at, cut) = words(source, at, options, cut);
                     if at > start {
                         continue;
                     }
                 }
-                let Some(end) = lettered(source, at, cut) else {
-                    return at;
+                let Some(end) = lettered(source, at, &mut cut) else {
+                    break;
                 };
                 at = end;
             }
@@ -269,30 +268,31 @@ fn lex_into(source: &[u8], mut at: usize, options: LexOptions, cut: &mut Cut) ->
             Class::Sign => {
                 let (kind, sign) = SIGNS[usize::from(byte)];
                 cut.push(kind, sign, start);
-                at += 1;
+                at = cut.blank(source, at + 1);
             }
             Class::Digit => {
                 // where it goes on with what stands in front of it, the lexer's own rules are asked
                 if cut.may_go_on() {
-                    return at;
+                    break;
                 }
                 at = digits(source, at + 1);
                 if source.get(at) == Some(&b'.') {
                     at = digits(source, at + 1);
                 }
                 cut.push(TokenKind::Number, Sign::number(at - start), start);
+                at = cut.blank(source, at);
             }
             Class::Mark => {
                 let Some((kind, sign, end)) = marked(source, at, options) else {
-                    return at;
+                    break;
                 };
                 cut.push(kind, sign, start);
-                at = end;
+                at = cut.blank(source, end);
             }
-            Class::Other => return at,
+            Class::Other => break,
         }
     }
-    at
+    (at, cut)
 }
 
 /// Kind and end of the token that begins with the `#`, `/`, `(` or `;` at `at`.
@@ -334,7 +334,7 @@ fn lettered(source: &[u8], at: usize, cut: &mut Cut) -> Option<usize> {
             let end = name(source, at)?;
             cut.course.name(&source[at..end]);
             cut.hold(TokenKind::Name, at);
-            return Some(end);
+            return Some(cut.blank(source, end));
         }
     }
     cut.push(TokenKind::Letter, Sign::Letter, at);

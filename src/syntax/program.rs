@@ -116,9 +116,7 @@ impl Program {
         if offset > self.tokens.end {
             return None;
         }
-        let behind = self
-            .blocks
-            .partition_point(|&first| self.tokens.start(first) <= offset);
+        let behind = self.blocks.partition_point(|&first| self.tokens.start(first) <= offset);
         behind.checked_sub(1).map(|index| BlockId(index as u32))
     }
     /// The text of a range, where it is UTF-8; else with replacement characters.

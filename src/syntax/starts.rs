@@ -257,7 +257,10 @@ mod tests {
         let short = (0..1600).map(|at| at * 15).collect::<Vec<_>>();
         assert_eq!(compact(&short).bytes(), 1600 + 4 * 1600 / GROUP);
         // one token too long makes one group wide
-        let long = short.iter().map(|&at| if at < 60 { at } else { at + 40 }).collect::<Vec<_>>();
+        let long = short
+            .iter()
+            .map(|&at| if at < 60 { at } else { at + 40 })
+            .collect::<Vec<_>>();
         assert_eq!(compact(&long).bytes(), 1600 + 4 * 1600 / GROUP + 4 * GROUP);
         assert_eq!(all(&compact(&long)), long);
     }

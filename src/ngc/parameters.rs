@@ -32,8 +32,8 @@ impl Slot {
 /// What a call puts aside of its caller.
 #[derive(Clone, Debug)]
 struct Aside {
-    /// `None`: the call shares them (M98).
-    numbers: Option<[f64; LOCAL]>,
+    /// `#1` to `#30`, too, which are the last ones put aside; a call with M98 shares them.
+    numbers: bool,
     names: Names,
 }
 
@@ -48,6 +48,8 @@ pub(crate) struct Store {
     locals: Names,
     /// Callers, outermost first.
     aside: Vec<Aside>,
+    /// Their numbers.
+    numbers_aside: Vec<f64>,
     /// Names of calls that ended, kept for their storage.
     spare: Vec<Names>,
     /// `#<_value>`: what the last subprogram returned.
@@ -80,6 +82,7 @@ impl Store {
             globals: Names::default(),
             locals: Names::default(),
             aside: Vec::new(),
+            numbers_aside: Vec::new(),
             spare: Vec::new(),
             value: 0.0,
             returned: false,
@@ -137,22 +140,18 @@ impl Store {
     /// A subprogram is called: `#1` to `#30` become its arguments and zeros, its names are its own.
     pub(crate) fn enter(&mut self, arguments: &[f64]) {
         let own = &mut self.numbers[1..=LOCAL];
-        let mut numbers = [0.0; LOCAL];
-        numbers.copy_from_slice(own);
+        self.numbers_aside.extend_from_slice(own);
         own.fill(0.0);
         for (place, argument) in own.iter_mut().zip(arguments) {
             *place = *argument;
         }
         let names = self.fresh_names();
-        self.aside.push(Aside {
-            numbers: Some(numbers),
-            names,
-        });
+        self.aside.push(Aside { numbers: true, names });
     }
     /// A Fanuc-style subprogram is called: its names are its own, `#1` to `#30` are the caller's.
     pub(crate) fn enter_sharing(&mut self) {
         let names = self.fresh_names();
-        self.aside.push(Aside { numbers: None, names });
+        self.aside.push(Aside { numbers: false, names });
     }
     /// Begins with no names; the ones there were.
     fn fresh_names(&mut self) -> Names {
@@ -162,8 +161,10 @@ impl Store {
     /// A subprogram is left: `#1` to `#30` and the names of the caller come back.
     pub(crate) fn leave(&mut self) {
         if let Some(aside) = self.aside.pop() {
-            if let Some(numbers) = aside.numbers {
-                self.numbers[1..=LOCAL].copy_from_slice(&numbers);
+            if aside.numbers {
+                let from = self.numbers_aside.len() - LOCAL;
+                self.numbers[1..=LOCAL].copy_from_slice(&self.numbers_aside[from..]);
+                self.numbers_aside.truncate(from);
             }
             let mut left = core::mem::replace(&mut self.locals, aside.names);
             left.clear();

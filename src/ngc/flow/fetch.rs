@@ -119,24 +119,20 @@ impl Engine {
         }
     }
     /// The line at a place in its read form. `keep`: it will run again.
-    pub(super) fn read(&mut self, place: Place, keep: bool) -> Box<Compiled> {
-        self.read_behind(place, keep, false)
-    }
-    /// The same; `skipped`: lines were skipped in front of it.
     #[inline]
-    pub(super) fn read_behind(&mut self, place: Place, keep: bool, skipped: bool) -> Box<Compiled> {
+    pub(super) fn read(&mut self, place: Place, keep: bool) -> Box<Compiled> {
         if !keep && let Some(compiled) = self.short_o_line(place) {
             return compiled;
         }
         let source = self.files[place.file.0 as usize].bytes();
-        match self.flow.texts.guess(source, place, skipped) {
+        match self.flow.texts.guess(source, place) {
             Some(compiled) => compiled,
-            None => self.look_up(place, keep, skipped),
+            None => self.look_up(place, keep),
         }
     }
     /// The same, by its text.
     #[inline(never)]
-    fn look_up(&mut self, place: Place, keep: bool, skipped: bool) -> Box<Compiled> {
+    fn look_up(&mut self, place: Place, keep: bool) -> Box<Compiled> {
         let source = self.files[place.file.0 as usize].bytes();
         let range = self.range_at(place);
         let Some(key) = Key::of(source, range) else {
@@ -151,7 +147,7 @@ impl Engine {
             self.compile_range(place, range, &mut compiled);
             compiled.comes_from(&key, place.file);
         }
-        self.flow.texts.follows(compiled.slot(), skipped);
+        self.flow.texts.follows(compiled.slot());
         compiled
     }
     /// Reads the line at a place. What is wrong with it is in what was read.
@@ -201,17 +197,22 @@ impl Engine {
     #[inline]
     pub(super) fn put_back(&mut self, compiled: Box<Compiled>, keep: bool) {
         if keep {
-            let place = compiled.place;
-            let (slot, memo) = (compiled.slot(), compiled.memo);
-            let lines = self.flow.lines(place.file);
-            match lines.kept(place.line) {
-                // nothing is found out about words
-                Some(kept) if kept.slot == slot && compiled.kind == Kind::Words => {}
-                Some(kept) => *kept = Kept { slot, memo },
-                None => lines.keep(place.line, Kept { slot, memo }),
-            }
+            self.keep(&compiled);
         }
         self.flow.texts.put_back(compiled);
+    }
+    /// Keeps what was found out about a line.
+    #[inline(never)]
+    fn keep(&mut self, compiled: &Compiled) {
+        let place = compiled.place;
+        let (slot, memo) = (compiled.slot(), compiled.memo);
+        let lines = self.flow.lines(place.file);
+        match lines.kept(place.line) {
+            // nothing is found out about words
+            Some(kept) if kept.slot == slot && compiled.kind == Kind::Words => {}
+            Some(kept) => *kept = Kept { slot, memo },
+            None => lines.keep(place.line, Kept { slot, memo }),
+        }
     }
 }
 

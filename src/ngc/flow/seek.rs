@@ -57,6 +57,7 @@ impl Engine {
                 return Sought::OutOfFuel;
             }
             self.flow.seeking = None;
+            self.flow.texts.skip();
             let (compiled, keep) = self.fetch();
             return Sought::Landed(compiled, seeking, keep);
         }
@@ -76,8 +77,8 @@ impl Engine {
             let range = self.range_at(place);
             let next = Self::behind(place, range);
             if counts {
-                let compiled = self.read_behind(place, false, true);
                 self.landed(place, &seeking);
+                let compiled = self.read(place, false);
                 return Sought::Landed(compiled, seeking, false);
             }
             match self.glance(place, range, &mut seeking) {
@@ -116,6 +117,7 @@ impl Engine {
             }
         }
         self.flow.seeking = None;
+        self.flow.texts.skip();
         self.flow.lines(place.file).run(place.line);
     }
     /// Passes lines that by their first signs count for nothing; whether the line behind them counts by its first signs.

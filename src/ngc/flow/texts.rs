@@ -121,7 +121,7 @@ struct Slot {
     hash: u64,
     /// It was met twice, or runs in a loop.
     read: Option<Box<Compiled>>,
-    /// Slots of the texts that were read behind it the last time: where the run went on, and where it skipped lines.
+    /// Slots of the texts that were read behind it the last time: where no line was skipped in between, and where some were.
     after: [u32; 2],
 }
 
@@ -134,6 +134,8 @@ pub(crate) struct Texts {
     spare: Vec<Box<Compiled>>,
     /// Slot of the text that was read last.
     last: u32,
+    /// Lines were skipped since then.
+    skipped: bool,
 }
 
 /// A copy reads its lines again: check-points must not copy what can be had anew.
@@ -152,11 +154,15 @@ impl Texts {
             .read
             .take_if(|read| read.place == place)
     }
-    /// The line at a place, if it says what stood the last time behind the line that was read before it (`skipped`: where lines were
-    /// skipped in between): then its text need not be looked for.
+    /// Lines are skipped: what is read next does not stand behind what was read last.
     #[inline]
-    pub(super) fn guess(&mut self, source: &[u8], place: Place, skipped: bool) -> Option<Box<Compiled>> {
-        let at = self.slots.get(self.last as usize)?.after[usize::from(skipped)];
+    pub(super) fn skip(&mut self) {
+        self.skipped = true;
+    }
+    /// The line at a place, if it says what stood the last time behind the line that was read before it: then its text need not be looked for.
+    #[inline]
+    pub(super) fn guess(&mut self, source: &[u8], place: Place) -> Option<Box<Compiled>> {
+        let at = self.slots.get(self.last as usize)?.after[usize::from(self.skipped)];
         let slot = self.slots.get_mut(at as usize)?;
         let read = slot.read.as_deref_mut()?;
         if read.origin.file != place.file {
@@ -185,16 +191,18 @@ impl Texts {
             line.is_labelled(Label::Number(number), TextRange::new(start, behind));
         }
         self.last = at;
+        self.skipped = false;
         slot.read.take()
     }
     /// Notes that the text of this slot stands behind the one that was read last.
     #[inline]
-    pub(super) fn follows(&mut self, slot: u32, skipped: bool) {
+    pub(super) fn follows(&mut self, slot: u32) {
         if (slot as usize) < self.slots.len() {
             if let Some(last) = self.slots.get_mut(self.last as usize) {
-                last.after[usize::from(skipped)] = slot;
+                last.after[usize::from(self.skipped)] = slot;
             }
             self.last = slot;
+            self.skipped = false;
         }
     }
     /// The read form of a text, with `true`, to be moved to where it stands now; else room to read it into. `keep`: it will run again.

@@ -1,8 +1,28 @@
 //! G and M codes of the control and their modal groups (found by asking `rs274` for each code and each pair of codes).
 
 /// The modal group of a G code, given as ten times its number; `None`: the control does not know it.
-pub(super) fn g_group(code: i32) -> Option<usize> {
-    Some(match code {
+#[inline]
+pub(super) fn g_group(code: i16) -> Option<usize> {
+    let group = *G_GROUPS.get(usize::try_from(code).ok()?)?;
+    (group != NO_GROUP).then_some(usize::from(group))
+}
+
+/// No G code.
+const NO_GROUP: u8 = u8::MAX;
+
+/// The groups of G0 to G99.9.
+static G_GROUPS: [u8; 1000] = {
+    let mut groups = [NO_GROUP; 1000];
+    let mut code = 0;
+    while code < groups.len() {
+        groups[code] = group_of(code);
+        code += 1;
+    }
+    groups
+};
+
+const fn group_of(code: usize) -> u8 {
+    match code {
         40 | 53 | 100 | 280 | 281 | 300 | 301 | 520 | 530 | 920 => 0,
         // lines, arcs, splines, threads, probing; then the cycles, and 800, which ends them
         0
@@ -42,8 +62,8 @@ pub(super) fn g_group(code: i32) -> Option<usize> {
         960 | 970 => 14,
         70 | 80 => 15,
         921..=923 => 16,
-        _ => return None,
-    })
+        _ => NO_GROUP,
+    }
 }
 
 /// The modal group of an M code of 0 to 199; `None`: the control does not know it.

@@ -256,24 +256,21 @@ fn g_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) 
         return Err(undecided(range, 'G'));
     }
     let refuse = |problem: &'static Problem| Err(Error::new(problem, range));
-    let code = (value * 10.0 + 0.5).floor();
-    if (value - code / 10.0).abs() > 1e-4 {
-        return refuse(&problems::G_RANGE);
-    }
-    // a number beyond 32 bits is negative to the control
-    if code < 0.0 || code > f64::from(i32::MAX) {
-        return refuse(&problems::NEGATIVE_G);
-    }
-    if code > 999.0 {
-        return refuse(&problems::G_RANGE);
-    }
-    let Some(group) = g_group(code as i32) else {
-        if own(b'G', code as u32, range, values, block) {
+    let tenths = match value as u8 {
+        // most are whole numbers
+        whole @ 0..=99 if f64::from(whole) == value => Ok(i16::from(whole) * 10),
+        _ => g_tenths(value),
+    };
+    let code = match tenths {
+        Ok(code) => code,
+        Err(problem) => return refuse(problem),
+    };
+    let Some(group) = g_group(code) else {
+        if own(b'G', u32::from(code.unsigned_abs()), range, values, block) {
             return Ok(());
         }
         return refuse(&problems::G_UNKNOWN);
     };
-    let code = code as i16;
     match block.g_code(group) {
         Some(_) if code == CANCEL => return Ok(()),
         Some(other) if other != CANCEL => return refuse(&problems::G_GROUP),
@@ -281,6 +278,23 @@ fn g_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) 
     }
     block.put_g(group, code, range);
     Ok(())
+}
+
+/// Ten times the number of a G code: 0 to 999.
+#[inline(never)]
+fn g_tenths(value: f64) -> Result<i16, &'static Problem> {
+    let code = (value * 10.0 + 0.5).floor();
+    if (value - code / 10.0).abs() > 1e-4 {
+        return Err(&problems::G_RANGE);
+    }
+    // a number beyond 32 bits is negative to the control
+    if code < 0.0 || code > f64::from(i32::MAX) {
+        return Err(&problems::NEGATIVE_G);
+    }
+    if code > 999.0 {
+        return Err(&problems::G_RANGE);
+    }
+    Ok(code as i16)
 }
 
 fn m_code(value: f64, range: TextRange, values: &Values<'_>, block: &mut Block) -> Result<(), Error> {

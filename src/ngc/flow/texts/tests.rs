@@ -63,7 +63,7 @@ fn guessed(mut engine: Engine, before: Box<Compiled>, sure: bool) {
     let there = before.next;
     engine.put_back(before, false);
     let source = Arc::clone(&engine.files[0]);
-    let taken = engine.flow.texts.guess(source.bytes(), there, false);
+    let taken = engine.flow.texts.guess(source.bytes(), there);
     assert_eq!(taken.is_some(), sure);
     let Some(mut taken) = taken else { return };
     let mut fresh = Compiled::default();

@@ -4,7 +4,7 @@
 //! `;py,`. The comment is told before the line's block is run.
 mod text;
 
-use crate::flow::Halt;
+use crate::flow::{Halt, Why};
 use crate::read::Line;
 use crate::{At, Canon, Class, Engine, Error, Problem, Sink};
 use std::sync::Arc;
@@ -105,7 +105,7 @@ fn log(name: &str, text: &[u8]) -> Canon {
 }
 
 fn python() -> Halt {
-    Halt::Undecided("the line runs Python, which may change anything; Trunnion does not run it".to_owned())
+    Why::Undecided("the line runs Python, which may change anything; Trunnion does not run it".to_owned()).into()
 }
 
 fn starts_with(text: &[u8], word: &[u8]) -> bool {

@@ -58,10 +58,11 @@ pub(super) fn pass(text: &[u8], wanted: &[u8], global: bool, most: usize) -> Pas
 #[inline]
 pub(super) fn blanks(text: &[u8]) -> usize {
     if let Some(bytes) = text.first_chunk::<8>() {
-        let other = u64::from_le_bytes(*bytes) ^ u64::from_le_bytes([b' '; 8]);
-        let count = other.trailing_zeros() as usize / 8;
-        if count < 8 && bytes[count] != b'\t' {
-            return count;
+        let word = u64::from_le_bytes(*bytes);
+        let other = word ^ u64::from_le_bytes([b' '; 8]);
+        let count = other.trailing_zeros() / 8;
+        if count < 8 && (word >> (8 * count)) as u8 != b'\t' {
+            return count as usize;
         }
     }
     text.iter().take_while(|byte| matches!(**byte, b' ' | b'\t')).count()
@@ -78,13 +79,14 @@ pub(super) fn length(text: &[u8]) -> (usize, bool) {
     let mut at = 0;
     // lines are short: words of eight bytes are faster than a call
     'line: for bytes in text.as_chunks::<8>().0 {
-        let other = (u64::from_le_bytes(*bytes) | APART) ^ BOTH;
+        let word = u64::from_le_bytes(*bytes);
+        let other = (word | APART) ^ BOTH;
         // where a byte is one of them, its highest bit is set; above the first one others may be, too
         let mut marks = other.wrapping_sub(ONES) & !other & HIGH;
         while marks != 0 {
-            let place = marks.trailing_zeros() as usize / 8;
-            match bytes[place] {
-                b'\n' => return (at + place + 1, false),
+            let place = marks.trailing_zeros() / 8;
+            match (word >> (8 * place)) as u8 {
+                b'\n' => return (at + place as usize + 1, false),
                 b'(' => break 'line,
                 _ => marks &= marks - 1,
             }

@@ -38,11 +38,15 @@ use lines::Lines;
 use oline::OLine;
 use trunnion_syntax::TextRange;
 
+/// A line did not run to its end. That is rare: why is held elsewhere, so that what goes well is handed back in a register.
+#[derive(Debug)]
+pub(crate) struct Halt(Box<Why>);
+
 /// Why a line did not run to its end.
 #[derive(Debug)]
-pub(crate) enum Halt {
-    /// The control refuses it. Errors are rare: they are held elsewhere, so that what goes well is handed back in few bytes.
-    Refused(Box<Error>),
+pub(crate) enum Why {
+    /// The control refuses it.
+    Refused(Error),
     /// The control refuses it, and the errors are told.
     Told,
     /// What happens depends on something unknown: the sentence that says so.
@@ -51,10 +55,17 @@ pub(crate) enum Halt {
     Endless(Place),
 }
 
+impl From<Why> for Halt {
+    #[cold]
+    fn from(why: Why) -> Self {
+        Self(Box::new(why))
+    }
+}
+
 impl From<Error> for Halt {
     #[cold]
     fn from(error: Error) -> Self {
-        Self::Refused(error.into())
+        Why::Refused(error).into()
     }
 }
 

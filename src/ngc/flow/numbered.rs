@@ -1,6 +1,6 @@
 //! Fanuc-style calls: `M98 P.. L..` and `M99`.
 use super::labels::Style;
-use super::{Compiled, Halt, context, label, oline, problems};
+use super::{Compiled, Halt, Why, context, label, oline, problems};
 use crate::exec::{self, After};
 use crate::read;
 use crate::{Block, Engine, Error, Sink};
@@ -57,10 +57,8 @@ impl Engine {
         self.apply(&compiled.line)?;
         for (value, letter) in [(number, 'P'), (rounds.unwrap_or(1.0), 'L')] {
             if value.is_nan() {
-                return Err(Halt::Undecided(Self::undecided_word(
-                    letter,
-                    "which subprogram runs, and how often,",
-                )));
+                let why = Self::undecided_word(letter, "which subprogram runs, and how often,");
+                return Err(Why::Undecided(why).into());
             }
         }
         let whole = |value: f64, range| match label::whole(value) {

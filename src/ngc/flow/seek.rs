@@ -6,7 +6,7 @@ use super::fetch::{self, Head};
 use super::glance;
 use super::labels::Place;
 use super::oline::{self, Keyword, OLine};
-use super::{Compiled, Goal, Kind, Seeking, problems};
+use super::{Compiled, Goal, Kind, Seeking, Why, problems};
 use crate::{Engine, Error, read};
 use trunnion_formula::Pool;
 use trunnion_syntax::TextRange;
@@ -202,19 +202,19 @@ impl Engine {
         let definition = matches!(seeking.goal, Goal::Definition(_));
         let opens = matches!(line.keyword, Keyword::Sub | Keyword::Bare);
         let nested = || Error::new(&problems::NESTED_SUB, line.label_range.cover(line.keyword_range));
-        let name = match self.name_of(&line) {
+        let name = match self.name_of(&line).map_err(|halt| *halt.0) {
             Ok(name) => name,
             // observed: in a definition that is passed over a name may have no value
-            Err(super::Halt::Refused(error)) if definition && read::is_not_defined(&error) => {
+            Err(Why::Refused(error)) if definition && read::is_not_defined(&error) => {
                 return if opens {
                     Glance::Refused(nested())
                 } else {
                     Glance::Nothing
                 };
             }
-            Err(super::Halt::Refused(error)) => return Glance::Refused(*error),
-            Err(super::Halt::Undecided(why)) => return Glance::Undecided(why),
-            Err(super::Halt::Told | super::Halt::Endless(_)) => return Glance::Nothing,
+            Err(Why::Refused(error)) => return Glance::Refused(error),
+            Err(Why::Undecided(why)) => return Glance::Undecided(why),
+            Err(Why::Told | Why::Endless(_)) => return Glance::Nothing,
         };
         if let Some(flaw) = line.flaw
             && flaw.problem == &problems::UNKNOWN_KEYWORD

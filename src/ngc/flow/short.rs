@@ -14,7 +14,9 @@ use trunnion_syntax::TextRange;
 
 /// How a line begins.
 struct Head {
-    label: Label,
+    /// Where the label is a name; else it is this number.
+    name: Option<Name>,
+    number: u32,
     keyword: Keyword,
     /// Where O, the end of the label, the keyword and its end are.
     at: [usize; 4],
@@ -66,18 +68,19 @@ impl Engine {
 #[inline]
 fn head(text: &[u8], start: usize) -> Option<Head> {
     let behind = &text[start + 1..];
-    let (label, length) = if behind.first() == Some(&b'<') {
+    let (name, number, length) = if behind.first() == Some(&b'<') {
         let (name, length) = Name::before(&behind[1..], b'>')?;
-        (Label::Text(name), length + 2)
+        (Some(name), 0, length + 2)
     } else {
         let (number, length) = digits(behind)?;
-        (Label::Number(number), length)
+        (None, number, length)
     };
     let label_end = start + 1 + length;
     let word = label_end + glance::blanks(&text[label_end..]);
     let (keyword, length) = glance::plain_keyword(&text[word..])?;
     Some(Head {
-        label,
+        name,
+        number,
         keyword,
         at: [start, label_end, word, word + length],
     })
@@ -118,7 +121,10 @@ fn rest(text: &[u8], head: &Head, offset: u32, line: &mut OLine) -> Option<usize
 fn complete(line: &mut OLine, head: Head, offset: u32) {
     let [start, label_end, word, end] = head.at.map(|at| offset + at as u32);
     line.keyword = head.keyword;
-    line.label = head.label;
+    line.label = match head.name {
+        Some(name) => Label::Text(name),
+        None => Label::Number(head.number),
+    };
     line.label_range = TextRange::new(start, label_end);
     line.keyword_range = TextRange::new(word, end);
     line.rest = TextRange::new(word, word);

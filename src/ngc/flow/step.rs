@@ -2,7 +2,7 @@
 use super::labels::Place;
 use super::oline::OLine;
 use super::seek::Sought;
-use super::{Compiled, Halt, Kind, Refused, Seeking, problems};
+use super::{Compiled, Halt, Kind, Refused, Seeking, Why, problems};
 use crate::exec::{self, After};
 use crate::parameters::Values;
 use crate::read;
@@ -119,17 +119,17 @@ impl Engine {
     #[cold]
     fn halted(&mut self, halt: Halt, compiled: Box<Compiled>, keep: bool, sink: &mut dyn Sink) -> Step {
         let place = compiled.place;
-        if matches!(halt, Halt::Refused(_) | Halt::Told) {
+        if matches!(*halt.0, Why::Refused(_) | Why::Told) {
             let source = self.files[place.file.0 as usize].bytes();
             let text = super::fetch::trimmed(source, self.range_at(place));
             self.flow.refused = Refused::of_line(&compiled, &source[text.as_usize()]);
         }
         self.put_back(compiled, keep);
-        match halt {
-            Halt::Refused(error) => self.refuse(&error, sink),
-            Halt::Told => Step::Refused,
-            Halt::Undecided(why) => self.give_up(why),
-            Halt::Endless(place) => {
+        match *halt.0 {
+            Why::Refused(error) => self.refuse(&error, sink),
+            Why::Told => Step::Refused,
+            Why::Undecided(why) => self.give_up(why),
+            Why::Endless(place) => {
                 self.flow.ended = true;
                 let opens = At {
                     file: place.file,
@@ -169,7 +169,7 @@ impl Engine {
             result = self.call_contour(compiled, &block).and(result);
         }
         if let Err(halt) = &result {
-            let not_modelled = matches!(halt, Halt::Refused(error) if error.problem.class == crate::Class::NotModelled);
+            let not_modelled = matches!(&*halt.0, Why::Refused(error) if error.problem.class == crate::Class::NotModelled);
             let feed = compiled.line.words.iter().any(|word| word.letter == b'F');
             self.after_refusal(block.g[1], not_modelled, feed);
         }
@@ -260,7 +260,7 @@ impl Engine {
     pub(super) fn decided(&self, formula: &Formula, line: &OLine) -> Result<f64, Halt> {
         let value = self.value(formula)?;
         if value.is_nan() {
-            return Err(Halt::Undecided(self.undecided(formula, line)));
+            return Err(Why::Undecided(self.undecided(formula, line)).into());
         }
         Ok(value)
     }
@@ -268,10 +268,12 @@ impl Engine {
     #[cold]
     pub(super) fn refuse_text(&mut self, evaluated: Result<(), Error>, all: &[Error], sink: &mut dyn Sink) -> Halt {
         let first = match (evaluated, all.first()) {
-            (Err(error), _) if error.problem == &read::UNDECIDED => return Halt::Undecided(error.message().to_owned()),
+            (Err(error), _) if error.problem == &read::UNDECIDED => {
+                return Why::Undecided(error.message().to_owned()).into();
+            }
             (Err(error), _) => error,
             (Ok(()), Some(error)) => error.clone(),
-            (Ok(()), None) => return Halt::Told,
+            (Ok(()), None) => return Why::Told.into(),
         };
         if all.iter().any(|error| error.problem == &read::G_UNKNOWN) {
             // it may have been meant as a motion code
@@ -281,7 +283,7 @@ impl Engine {
         for error in all.iter().filter(|error| error.range != first.range) {
             self.tell(error, sink);
         }
-        Halt::Told
+        Why::Told.into()
     }
     fn tell(&mut self, error: &Error, sink: &mut dyn Sink) {
         self.flow.watch.stir();

@@ -5,7 +5,7 @@
 use super::label::{Label, whole};
 use super::labels::{LabelId, NameId, Opener, Structure};
 use super::oline::{Keyword, OLine};
-use super::{Compiled, Goal, Halt, Seeking, problems};
+use super::{Compiled, Goal, Halt, Seeking, Why, problems};
 use crate::exec::After;
 use crate::{Engine, Error, Problem, Sink};
 use trunnion_formula::Name;
@@ -119,7 +119,7 @@ impl Engine {
                     && value != 0.0
                     && let Some(outermost) = self.comes_back(compiled.place, opener.unwrap_or(compiled.place))
                 {
-                    return Err(Halt::Endless(outermost));
+                    return Err(Why::Endless(outermost).into());
                 }
                 self.run_while(compiled, line, (label, goal), sought, value)?;
             }

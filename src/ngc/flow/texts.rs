@@ -188,7 +188,8 @@ impl Texts {
         }
         read.stands_at(place, TextRange::new(behind, end));
         if let (Some((start, number)), Some(line)) = (label, &mut read.o) {
-            line.is_labelled(Label::Number(number), TextRange::new(start, behind));
+            line.label_stands_at(TextRange::new(start, behind));
+            line.label = Label::Number(number);
         }
         self.last = at;
         self.skipped = false;
@@ -331,7 +332,8 @@ impl Compiled {
     pub(super) fn stands_for(&mut self, place: Place, key: Key) {
         self.stands_at(place, key.text);
         if let (Some((range, label)), Some(line)) = (key.label, &mut self.o) {
-            line.is_labelled(label, range);
+            line.label_stands_at(range);
+            line.label = label;
         }
     }
     fn shift(&mut self, by: u32) {
@@ -363,14 +365,13 @@ impl Compiled {
 }
 
 impl OLine {
-    /// It stands behind another label.
+    /// It stands behind another label, whose place this is.
     #[inline]
-    fn is_labelled(&mut self, label: Label, range: TextRange) {
+    fn label_stands_at(&mut self, range: TextRange) {
         if self.keyword_range == self.label_range {
             self.keyword_range = range;
         }
         self.label_range = range;
-        self.label = label;
     }
     /// Moves its ranges by so many bytes (wrapping).
     fn shift(&mut self, by: u32) {

@@ -85,10 +85,7 @@ impl Engine {
             return Ok(());
         }
         if let Some(file) = self.load(name) {
-            self.flow.here = Place {
-                file,
-                ..Place::default()
-            };
+            self.flow.here = Place::new(file, 0, 0);
         }
         self.flow.seeking = Some(Seeking {
             goal: Goal::Subprogram(name, style),
@@ -109,7 +106,7 @@ impl Engine {
         {
             return chain;
         }
-        let site = (compiled.place.file, compiled.place.line);
+        let site = (compiled.place.file(), compiled.place.line());
         let chain = self.flow.chains.call(parent, site, name, style);
         compiled.memo.chain = Some((parent, chain));
         chain
@@ -192,12 +189,12 @@ impl Engine {
         let text = self.flow.labels.text(name).to_owned();
         let head = format!("File:{} line:{at}", self.file_name(here));
         let range = line.label_range.cover(line.keyword_range);
-        let same = known.place.file == here && known.place.line + 1 == at;
+        let same = known.place.file() == here && known.place.line() + 1 == at;
         let error = if same {
             let detail = format!("{head} sub: o|{text}| found in illegal location");
             Error::with(&problems::ILLEGAL_PLACE, range, detail)
         } else {
-            let other = self.file_name(known.place.file);
+            let other = self.file_name(known.place.file());
             let detail = format!("{head} redefining sub: o|{text}| already defined in file:{other}");
             Error::with(&problems::REDEFINED, range, detail)
         };

@@ -55,7 +55,7 @@ impl Engine {
             return None;
         }
         watch.passes += 1;
-        if watch.outermost.is_none_or(|first| opener.line < first.line) {
+        if watch.outermost.is_none_or(|first| opener.line() < first.line()) {
             watch.outermost = Some(opener);
         }
         let (generation, broken) = (flow.labels.generation, flow.broken);

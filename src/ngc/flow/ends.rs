@@ -15,15 +15,14 @@ impl Engine {
             // empty lines at once, since a file may be nothing else
             let rest = &source.bytes()[place.offset as usize..];
             let empty = rest.iter().take_while(|byte| **byte == b'\n').count() as u32;
-            place.offset += empty;
-            place.line += empty;
+            place = place.further(empty, place.offset + empty);
             if place.offset as usize >= source.bytes().len() {
                 let end = source.bytes().len() as u32;
                 return Some(self.stop(&problems::NO_END_PERCENT, TextRange::new(end, end), sink));
             }
             let range = source.line_at(place.offset);
             if let Some(error) = fetch::too_long(range) {
-                self.flow.at.line = place.line;
+                self.flow.at.line = place.line();
                 return Some(self.stop(error.problem, error.range, sink));
             }
             let next = Self::behind(place, range);
@@ -49,8 +48,8 @@ impl Engine {
                 opener,
                 ..
             }) => {
-                let file = self.flow.here.file;
-                let from = if file == opener.file { opener.line + 1 } else { 0 };
+                let file = self.flow.here.file();
+                let from = if file == opener.file() { opener.line() + 1 } else { 0 };
                 let name = self.flow.labels.text(name).to_owned();
                 let searched = core::mem::take(&mut self.flow.searched);
                 let detail = format!(
@@ -79,8 +78,8 @@ impl Engine {
                 let range = match seeking {
                     Some(seeking) => {
                         self.flow.at = At {
-                            file: seeking.opener.file,
-                            line: seeking.opener.line,
+                            file: seeking.opener.file(),
+                            line: seeking.opener.line(),
                             chain: self.flow.chain,
                         };
                         self.written_range(seeking.opener)
@@ -99,7 +98,7 @@ impl Engine {
     }
     /// The last line of the file in hand.
     fn last_line(&self) -> (FileId, TextRange) {
-        let file = self.flow.here.file;
+        let file = self.flow.here.file();
         let bytes = self.files[file.0 as usize].bytes();
         let end = bytes.len() - usize::from(bytes.ends_with(b"\n"));
         let start = memchr::memrchr(b'\n', &bytes[..end]).map_or(0, |before| before + 1);
@@ -114,7 +113,7 @@ impl Engine {
             .first_sub
             .filter(|_| idle && self.setup.start == Start::Unknown)?;
         let place = self.flow.labels.subprogram(name)?.place;
-        (self.flow.at.file, self.flow.at.line) = (place.file, place.line);
+        (self.flow.at.file, self.flow.at.line) = (place.file(), place.line());
         let name = self.flow.labels.text(name);
         Some(format!(
             "the program that calls o<{name}>: this file defines it and runs nothing"
@@ -122,7 +121,7 @@ impl Engine {
     }
     /// A line's text without blanks at its ends.
     fn written_range(&self, place: Place) -> TextRange {
-        let bytes = self.files[place.file.0 as usize].bytes();
+        let bytes = self.files[place.file().0 as usize].bytes();
         let text = fetch::trimmed(bytes, self.range_at(place));
         let blanks = bytes[text.as_usize()]
             .iter()
@@ -134,8 +133,8 @@ impl Engine {
     fn last_range(&self) -> TextRange {
         let here = self.flow.here;
         let at = self.flow.at;
-        let source = &self.files[here.file.0 as usize];
-        if at.file == here.file
+        let source = &self.files[here.file().0 as usize];
+        if at.file == here.file()
             && let Some(range) = source.line(at.line)
         {
             return fetch::trimmed(source.bytes(), range);
@@ -158,15 +157,15 @@ impl Engine {
             None => (String::new(), self.flow.here),
         };
         let here = self.flow.here;
-        let percent = (here.file, self.range_at(here));
+        let percent = (here.file(), self.range_at(here));
         self.finish(sink);
         let detail = format!("Failed to find sub 'O{name}' before EOF");
         let error = Error {
             read_last: Some(percent),
             ..Error::with(&problems::NOT_FOUND_PERCENT, self.written_range(opener), detail)
         };
-        self.flow.at.file = opener.file;
-        self.flow.at.line = opener.line;
+        self.flow.at.file = opener.file();
+        self.flow.at.line = opener.line();
         self.refuse(&error, sink);
         Step::Refused
     }
@@ -179,11 +178,7 @@ impl Engine {
     /// The program ends with M2, M30 or M99. Where it began with `%` the control misses the one at the end.
     pub(super) fn program_end(&mut self, sink: &mut dyn Sink) -> Step {
         self.flow.ended = true;
-        self.flow.end = Some(Place {
-            file: self.flow.at.file,
-            line: self.flow.at.line,
-            offset: 0,
-        });
+        self.flow.end = Some(Place::new(self.flow.at.file, self.flow.at.line, 0));
         if self.flow.percent && !self.percent_follows() {
             let text = b"interpreter: percent sign missing from end of file";
             let at = self.flow.at;
@@ -193,7 +188,7 @@ impl Engine {
     }
     fn percent_follows(&self) -> bool {
         let here = self.flow.here;
-        let bytes = &self.files[here.file.0 as usize].bytes()[here.offset as usize..];
+        let bytes = &self.files[here.file().0 as usize].bytes()[here.offset as usize..];
         bytes.split(|&byte| byte == b'\n').any(|line| line.trim_ascii() == b"%")
     }
     /// The run ends with an error.

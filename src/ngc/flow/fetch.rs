@@ -80,27 +80,23 @@ impl Engine {
     /// The bytes of the line that begins at a place.
     #[inline]
     pub(super) fn range_at(&self, place: Place) -> TextRange {
-        self.files[place.file.0 as usize].line_at(place.offset)
+        self.files[place.file().0 as usize].line_at(place.offset)
     }
     /// The place of the line behind one.
     pub(super) fn behind(place: Place, range: TextRange) -> Place {
-        Place {
-            file: place.file,
-            line: place.line + 1,
-            offset: range.end,
-        }
+        place.further(1, range.end)
     }
     /// The line at `here` in its read form, and whether it will run again: then what is found out about it is kept.
     #[inline]
     pub(super) fn fetch(&mut self) -> (Box<Compiled>, bool) {
         let place = self.flow.here;
-        let lines = self.flow.lines(place.file);
-        if !lines.run(place.line) {
+        let lines = self.flow.lines(place.file());
+        if !lines.run(place.line()) {
             let keep = self.flow.looping;
             return (self.read(place, keep), keep);
         }
         self.flow.fuel = self.flow.fuel.saturating_sub(1);
-        let Some(Kept { slot, memo }) = self.flow.lines[place.file.0 as usize].kept(place.line) else {
+        let Some(Kept { slot, memo }) = self.flow.lines[place.file().0 as usize].kept(place.line()) else {
             return (self.read(place, true), true);
         };
         match self.flow.texts.again(*slot, place) {
@@ -124,7 +120,7 @@ impl Engine {
         if !keep && let Some(compiled) = self.short_o_line(place) {
             return compiled;
         }
-        let source = self.files[place.file.0 as usize].bytes();
+        let source = self.files[place.file().0 as usize].bytes();
         match self.flow.texts.guess(source, place) {
             Some(compiled) => compiled,
             None => self.look_up(place, keep),
@@ -133,7 +129,7 @@ impl Engine {
     /// The same, by its text.
     #[inline(never)]
     fn look_up(&mut self, place: Place, keep: bool) -> Box<Compiled> {
-        let source = self.files[place.file.0 as usize].bytes();
+        let source = self.files[place.file().0 as usize].bytes();
         let range = self.range_at(place);
         let Some(key) = Key::of(source, range) else {
             let mut compiled = self.flow.texts.nowhere();
@@ -145,7 +141,7 @@ impl Engine {
             compiled.stands_for(place, key);
         } else {
             self.compile_range(place, range, &mut compiled);
-            compiled.comes_from(&key, place.file);
+            compiled.comes_from(&key, place.file());
         }
         self.flow.texts.follows(compiled.slot());
         compiled
@@ -156,7 +152,7 @@ impl Engine {
     }
     /// Reads the line at a place, whose bytes are known.
     fn compile_range(&self, place: Place, range: TextRange, into: &mut Compiled) {
-        let source = self.files[place.file.0 as usize].bytes();
+        let source = self.files[place.file().0 as usize].bytes();
         into.place = place;
         into.next = Self::behind(place, range);
         into.memo = super::Memo::default();
@@ -206,12 +202,12 @@ impl Engine {
     fn keep(&mut self, compiled: &Compiled) {
         let place = compiled.place;
         let (slot, memo) = (compiled.slot(), compiled.memo);
-        let lines = self.flow.lines(place.file);
-        match lines.kept(place.line) {
+        let lines = self.flow.lines(place.file());
+        match lines.kept(place.line()) {
             // nothing is found out about words
             Some(kept) if kept.slot == slot && compiled.kind == Kind::Words => {}
             Some(kept) => *kept = Kept { slot, memo },
-            None => lines.keep(place.line, Kept { slot, memo }),
+            None => lines.keep(place.line(), Kept { slot, memo }),
         }
     }
 }

@@ -19,13 +19,41 @@ impl NameId {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LabelId(u32);
 
-/// Where a line is, and the offset of its first byte.
+/// Where a line is, and the offset of its first byte. File and line are one number: what is written in one piece is read again at once
+/// without waiting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Place {
-    pub(crate) file: FileId,
-    /// From 0.
-    pub(crate) line: u32,
+    file_and_line: u64,
     pub(crate) offset: u32,
+}
+
+impl Place {
+    /// A line (from 0) of a file, whose first byte is at `offset`.
+    #[inline]
+    pub(crate) fn new(file: FileId, line: u32, offset: u32) -> Self {
+        Self {
+            file_and_line: u64::from(file.0) << 32 | u64::from(line),
+            offset,
+        }
+    }
+    /// The line so many lines further on in the same file, whose first byte is at `offset`.
+    #[inline]
+    pub(crate) fn further(self, lines: u32, offset: u32) -> Self {
+        Self {
+            // a file has fewer lines than bytes
+            file_and_line: self.file_and_line + u64::from(lines),
+            offset,
+        }
+    }
+    #[inline]
+    pub(crate) fn file(self) -> FileId {
+        FileId((self.file_and_line >> 32) as u32)
+    }
+    /// From 0.
+    #[inline]
+    pub(crate) fn line(self) -> u32 {
+        self.file_and_line as u32
+    }
 }
 
 /// What opens a structure.

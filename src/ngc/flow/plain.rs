@@ -1,6 +1,5 @@
 //! Lines of words with plain numbers that run for the first time: most of every program.
 use super::Refused;
-use super::labels::Place;
 use crate::exec::{self, After};
 use crate::{At, Block, Engine, Error, Sink, Step, read};
 
@@ -9,11 +8,11 @@ impl Engine {
     #[inline]
     pub(super) fn plain_line(&mut self, sink: &mut dyn Sink) -> Option<Step> {
         let here = self.flow.here;
-        if !self.flow.lines(here.file).is_new(here.line) || self.turning.is_some() {
+        if !self.flow.lines(here.file()).is_new(here.line()) || self.turning.is_some() {
             return None;
         }
         let mut block = self.block.take().unwrap_or_default();
-        let source = self.files[here.file.0 as usize].bytes();
+        let source = self.files[here.file().0 as usize].bytes();
         let Some(next) = read::plain(source, here.offset, &self.values(), &mut block) else {
             self.block = Some(block);
             return None;
@@ -23,17 +22,13 @@ impl Engine {
             self.block = Some(block);
             return None;
         }
-        self.flow.lines(here.file).run(here.line);
+        self.flow.lines(here.file()).run(here.line());
         self.flow.at = At {
-            file: here.file,
-            line: here.line,
+            file: here.file(),
+            line: here.line(),
             chain: self.flow.chain,
         };
-        self.flow.here = Place {
-            file: here.file,
-            line: here.line + 1,
-            offset: next,
-        };
+        self.flow.here = here.further(1, next);
         let result = self.run_plain(&mut block, sink);
         if let Err(error) = &result {
             let not_modelled = error.problem.class == crate::Class::NotModelled;

@@ -16,12 +16,9 @@ impl Engine {
     }
     fn read_rest_of(&mut self, file: FileId, sink: &mut dyn Sink) {
         let length = self.files[file.0 as usize].bytes().len();
-        let end = self.flow.end.filter(|place| place.file == file);
+        let end = self.flow.end.filter(|place| place.file() == file);
         let mut compiled = Compiled::default();
-        let mut place = Place {
-            file,
-            ..Place::default()
-        };
+        let mut place = Place::new(file, 0, 0);
         let mut inside = true;
         while (place.offset as usize) < length {
             if let Some(next) = self.behind_what_ran(place) {
@@ -30,17 +27,17 @@ impl Engine {
             }
             self.compile(place, &mut compiled);
             let next = compiled.next;
-            if compiled.kind == Kind::Percent && place.line > 0 && self.flow.percent {
+            if compiled.kind == Kind::Percent && place.line() > 0 && self.flow.percent {
                 return;
             }
-            let behind = end.is_some_and(|end| place.line > end.line);
-            if end.is_some_and(|end| place.line == end.line) {
+            let behind = end.is_some_and(|end| place.line() > end.line());
+            if end.is_some_and(|end| place.line() == end.line()) {
                 inside = false;
             }
             if behind && is_head(&compiled) {
                 inside = true;
             }
-            if (inside || !behind) && !self.flow.lines(file).has_run(place.line) {
+            if (inside || !behind) && !self.flow.lines(file).has_run(place.line()) {
                 tell(&compiled, file, sink);
             }
             if behind && is_end(&compiled) {
@@ -56,26 +53,22 @@ impl Engine {
     /// tell of them.
     fn behind_what_ran(&self, place: Place) -> Option<Place> {
         let stretch = crate::source::STRIDE;
-        let next = place.line + stretch;
-        let source = &self.files[place.file.0 as usize];
+        let next = place.line() + stretch;
+        let source = &self.files[place.file().0 as usize];
         let before_end = self
             .flow
             .end
-            .is_none_or(|end| end.file != place.file || end.line >= next);
-        let ran = place.line.is_multiple_of(stretch)
+            .is_none_or(|end| end.file() != place.file() || end.line() >= next);
+        let ran = place.line().is_multiple_of(stretch)
             && before_end
-            && self.flow.lines.get(place.file.0 as usize)?.all_ran(place.line);
+            && self.flow.lines.get(place.file().0 as usize)?.all_ran(place.line());
         if !ran {
             return None;
         }
         let offset = source.line(next)?.start;
         // a second `%` is the end
         let text = &source.bytes()[place.offset as usize..offset as usize];
-        (!self.flow.percent || memchr::memchr(b'%', text).is_none()).then_some(Place {
-            file: place.file,
-            line: next,
-            offset,
-        })
+        (!self.flow.percent || memchr::memchr(b'%', text).is_none()).then_some(Place::new(place.file(), next, offset))
     }
 }
 
@@ -98,7 +91,7 @@ fn is_end(compiled: &Compiled) -> bool {
 fn tell(compiled: &Compiled, file: FileId, sink: &mut dyn Sink) {
     let at = At {
         file,
-        line: compiled.place.line,
+        line: compiled.place.line(),
         ..At::default()
     };
     let mut say = |error: &Error| {

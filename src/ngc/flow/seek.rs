@@ -64,14 +64,14 @@ impl Engine {
         loop {
             let counts = self.pass(&seeking);
             let place = self.flow.here;
-            if place.offset as usize >= self.files[place.file.0 as usize].bytes().len() {
+            if place.offset as usize >= self.files[place.file().0 as usize].bytes().len() {
                 return Sought::EndOfFile;
             }
             if self.flow.fuel == 0 {
                 return Sought::OutOfFuel;
             }
-            let lines = self.flow.lines(place.file);
-            if lines.glance(place.line) {
+            let lines = self.flow.lines(place.file());
+            if lines.glance(place.line()) {
                 self.flow.fuel -= 1;
             }
             let range = self.range_at(place);
@@ -112,26 +112,26 @@ impl Engine {
         let generation = self.flow.labels.generation;
         if seeking.fixed {
             let opener = seeking.opener;
-            if let Some(kept) = self.flow.lines(opener.file).kept(opener.line) {
+            if let Some(kept) = self.flow.lines(opener.file()).kept(opener.line()) {
                 kept.memo.skip = Some((generation, place));
             }
         }
         self.flow.seeking = None;
         self.flow.texts.skip();
-        self.flow.lines(place.file).run(place.line);
+        self.flow.lines(place.file()).run(place.line());
     }
     /// Passes lines that by their first signs count for nothing; whether the line behind them counts by its first signs.
     fn pass(&mut self, seeking: &Seeking) -> bool {
         let from = self.flow.here;
-        let glanced = self.flow.lines(from.file).glanced();
+        let glanced = self.flow.lines(from.file()).glanced();
         let (wanted, global) = match seeking.goal {
             Goal::Label(_, wanted) => (wanted, false),
             Goal::Definition(wanted) | Goal::Subprogram(wanted, _) => (wanted, true),
         };
         let wanted = self.flow.labels.name_bytes(wanted);
-        let bytes = self.files[from.file.0 as usize].bytes();
+        let bytes = self.files[from.file().0 as usize].bytes();
         // lines that were looked at before cost: they are the first ones
-        let known = glanced.saturating_sub(from.line);
+        let known = glanced.saturating_sub(from.line());
         let most = if self.flow.fuel < u64::from(known) {
             self.flow.fuel as usize
         } else {
@@ -139,28 +139,24 @@ impl Engine {
         };
         let rest = bytes.get(from.offset as usize..).unwrap_or_default();
         let passed = glance::pass(rest, wanted, global, most);
-        let (line, counts) = (from.line + passed.lines as u32, passed.counts);
-        self.flow.fuel -= u64::from(known.min(passed.lines as u32));
-        if line > from.line {
-            self.flow.lines(from.file).glance(line - 1);
+        let lines = passed.lines as u32;
+        self.flow.fuel -= u64::from(known.min(lines));
+        if lines > 0 {
+            self.flow.lines(from.file()).glance(from.line() + lines - 1);
         }
-        self.flow.here = Place {
-            line,
-            offset: from.offset + passed.length as u32,
-            ..from
-        };
-        counts
+        self.flow.here = from.further(lines, from.offset + passed.length as u32);
+        passed.counts
     }
     fn note(&mut self, place: Place) {
         self.flow.at = crate::At {
-            file: place.file,
-            line: place.line,
+            file: place.file(),
+            line: place.line(),
             chain: self.flow.chain,
         };
     }
     /// Looks at one skipped line.
     fn glance(&mut self, place: Place, range: TextRange, seeking: &mut Seeking) -> Glance {
-        let file = std::sync::Arc::clone(&self.files[place.file.0 as usize]);
+        let file = std::sync::Arc::clone(&self.files[place.file().0 as usize]);
         let source = file.bytes();
         if let Some(error) = fetch::too_long(range) {
             return Glance::Refused(error);

@@ -26,7 +26,7 @@ impl Engine {
     /// The line at a place in its read form, if it is an O line of this sort.
     #[inline]
     pub(super) fn short_o_line(&mut self, place: Place) -> Option<Box<Compiled>> {
-        let source = self.files[place.file.0 as usize].bytes();
+        let source = self.files[place.file().0 as usize].bytes();
         let text = source.get(place.offset as usize..)?;
         let start = glance::blanks(text);
         if !matches!(text.get(start), Some(b'o' | b'O')) {
@@ -47,11 +47,7 @@ impl Engine {
             return None;
         };
         compiled.place = place;
-        compiled.next = Place {
-            line: place.line + 1,
-            offset: place.offset + end as u32,
-            ..place
-        };
+        compiled.next = place.further(1, place.offset + end as u32);
         compiled.kind = Kind::Label;
         compiled.only_sets = false;
         compiled.cut = None;

@@ -34,7 +34,7 @@ impl Engine {
             };
         }
         let here = self.flow.here;
-        if here.offset as usize >= self.files[here.file.0 as usize].bytes().len() {
+        if here.offset as usize >= self.files[here.file().0 as usize].bytes().len() {
             return self.end_of_file(sink);
         }
         if let Some(step) = self.plain_line(sink) {
@@ -60,8 +60,8 @@ impl Engine {
     fn goes_on_behind(&mut self, compiled: &Compiled) {
         let place = compiled.place;
         self.flow.at = At {
-            file: place.file,
-            line: place.line,
+            file: place.file(),
+            line: place.line(),
             chain: self.flow.chain,
         };
         self.flow.here = compiled.next;
@@ -120,7 +120,7 @@ impl Engine {
     fn halted(&mut self, halt: Halt, compiled: Box<Compiled>, keep: bool, sink: &mut dyn Sink) -> Step {
         let place = compiled.place;
         if matches!(*halt.0, Why::Refused(_) | Why::Told) {
-            let source = self.files[place.file.0 as usize].bytes();
+            let source = self.files[place.file().0 as usize].bytes();
             let text = super::fetch::trimmed(source, self.range_at(place));
             self.flow.refused = Refused::of_line(&compiled, &source[text.as_usize()]);
         }
@@ -132,8 +132,8 @@ impl Engine {
             Why::Endless(place) => {
                 self.flow.ended = true;
                 let opens = At {
-                    file: place.file,
-                    line: place.line,
+                    file: place.file(),
+                    line: place.line(),
                     chain: self.flow.chain,
                 };
                 Step::Endless(opens, self.setup.limits.blocks - self.flow.fuel)
@@ -169,7 +169,8 @@ impl Engine {
             result = self.call_contour(compiled, &block).and(result);
         }
         if let Err(halt) = &result {
-            let not_modelled = matches!(&*halt.0, Why::Refused(error) if error.problem.class == crate::Class::NotModelled);
+            let not_modelled =
+                matches!(&*halt.0, Why::Refused(error) if error.problem.class == crate::Class::NotModelled);
             let feed = compiled.line.words.iter().any(|word| word.letter == b'F');
             self.after_refusal(block.g[1], not_modelled, feed);
         }
@@ -319,15 +320,15 @@ impl Engine {
     fn endless(&self) -> At {
         let here = self.flow.here;
         let half = self.setup.limits.blocks / 2;
-        let around = |place: Place| place.file == here.file && place.line <= here.line;
+        let around = |place: Place| place.file() == here.file() && place.line() <= here.line();
         let heavy = self.flow.labels.structures().filter(|structure| {
             structure.opener != super::labels::Opener::If && around(structure.place) && structure.fuel >= half
         });
-        let line = heavy.map(|structure| structure.place.line).max();
+        let line = heavy.map(|structure| structure.place.line()).max();
         let chain = self.flow.chain;
         match (line, self.flow.calls.last()) {
             (Some(line), _) => At {
-                file: here.file,
+                file: here.file(),
                 line,
                 chain,
             },

@@ -338,7 +338,7 @@ impl Engine {
     #[cold]
     fn duplicate(&self, line: &OLine, known: &Structure) -> Error {
         let (number, text) = (self.line_number(), self.line_text());
-        let first = known.place.line + 1;
+        let first = known.place.line() + 1;
         let detail = if line.keyword == Keyword::If {
             format!("{number}: duplicate O-word label - already defined in line {first}: '{text}'")
         } else {
@@ -349,7 +349,7 @@ impl Engine {
     #[cold]
     fn mismatch(&self, line: &OLine, known: &Structure) -> Error {
         let (number, text) = (self.line_number(), self.line_text());
-        let (word, first) = (known.opener.word(), known.place.line + 1);
+        let (word, first) = (known.opener.word(), known.place.line() + 1);
         let detail = match line.keyword {
             Keyword::EndIf => {
                 let label = self.scoped_text(line);
@@ -365,7 +365,7 @@ impl Engine {
     #[cold]
     fn no_loop(&self, line: &OLine, known: &Structure) -> Error {
         let (number, text) = (self.line_number(), self.line_text());
-        let (word, first) = (known.opener.word(), known.place.line + 1);
+        let (word, first) = (known.opener.word(), known.place.line() + 1);
         let detail = format!("{number}: no matching while/do label: '{text}' (found '{word}' in line {first})");
         Error::with(&problems::NO_LOOP, line.label_range.cover(line.keyword_range), detail)
     }

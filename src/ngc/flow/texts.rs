@@ -165,7 +165,7 @@ impl Texts {
         let at = self.slots.get(self.last as usize)?.after[usize::from(self.skipped)];
         let slot = self.slots.get_mut(at as usize)?;
         let read = slot.read.as_deref_mut()?;
-        if read.origin.file != place.file {
+        if read.origin.file != place.file() {
             return None;
         }
         let (label, behind) = match read.origin.part {
@@ -315,14 +315,10 @@ impl Compiled {
     #[inline]
     pub(super) fn stands_at(&mut self, place: Place, text: TextRange) {
         self.place = place;
-        self.next = Place {
-            line: place.line + 1,
-            offset: text.end,
-            ..place
-        };
+        self.next = place.further(1, text.end);
         self.memo = super::Memo::default();
         let by = text.start.wrapping_sub(self.origin.text.start);
-        self.origin.file = place.file;
+        self.origin.file = place.file();
         self.origin.text = text;
         if by != 0 {
             self.shift(by);

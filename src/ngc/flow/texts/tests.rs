@@ -27,11 +27,7 @@ fn both(first: &str, second: &str) -> (bool, String, String) {
     let text = format!("{first}\n\n{second}\n{third}\n");
     let source = Source::new(String::new(), text.as_bytes().into());
     let mut engine = Engine::new(Arc::new(source), &Setup::default());
-    let there = Place {
-        line: 2,
-        offset: first.len() as u32 + 2,
-        ..Place::default()
-    };
+    let there = Place::new(FileId::MAIN, 2, first.len() as u32 + 2);
     let read = engine.read(Place::default(), true);
     let slot = read.slot();
     engine.put_back(read, false);

@@ -2,7 +2,7 @@
 use super::{Compiled, Label, NOWHERE, Part, plain_label};
 use crate::flow::Kind;
 use crate::flow::labels::Place;
-use crate::{Engine, Setup, Source};
+use crate::{Engine, FileId, Setup, Source};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -67,6 +67,34 @@ fn guessed(mut engine: Engine, before: Box<Compiled>, sure: bool) {
     assert_eq!((taken.place, taken.next), (fresh.place, fresh.next));
     let (one, other) = compared(&mut taken, &fresh);
     assert_eq!(one, other);
+}
+
+#[test]
+fn behind_skipped_lines_another_one_is_expected() {
+    let source = Source::new(String::new(), b"G1 X1\nG1 Y2\nG1 Z3\n".as_slice().into());
+    let mut engine = Engine::new(Arc::new(source), &Setup::default());
+    let [first, second, third] = [0, 1, 2].map(|line| Place::new(FileId::MAIN, line, 6 * line));
+    let run = |engine: &mut Engine, place| {
+        let read = engine.read(place, true);
+        engine.put_back(read, false);
+    };
+    run(&mut engine, first);
+    run(&mut engine, second);
+    run(&mut engine, first);
+    engine.flow.texts.skip();
+    run(&mut engine, third);
+    for (skips, expected, other) in [(false, second, third), (true, third, second)] {
+        run(&mut engine, first);
+        if skips {
+            engine.flow.texts.skip();
+        }
+        let source = Arc::clone(&engine.files[0]);
+        let texts = &mut engine.flow.texts;
+        assert!(texts.guess(source.bytes(), other).is_none(), "{skips}");
+        let read = texts.guess(source.bytes(), expected).expect("it stood there before");
+        assert_eq!(read.place, expected);
+        engine.put_back(read, false);
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use trunnion_formula::Variables;
 use trunnion_syntax::TextRange;
 
 /// A chain of calls; 0: the main program.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ChainId(pub u32);
 
 /// One call in a chain.

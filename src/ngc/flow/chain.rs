@@ -13,11 +13,46 @@ struct Link {
     style: Style,
 }
 
+/// What a chain is known by: the chain that led to the call, and the line of the call.
+type Key = (ChainId, FileId, u32);
+
 #[derive(Clone, Debug, Default)]
 struct Table {
     /// The call that made chain n + 1.
     links: Vec<Link>,
-    known: HashMap<(ChainId, FileId, u32), ChainId>,
+    known: Known,
+}
+
+/// Chains by their keys. A program that calls as it goes on meets them in order, and needs no more than a list.
+#[derive(Clone, Debug, Default)]
+struct Known {
+    in_order: Vec<(Key, ChainId)>,
+    /// Those that were met behind a greater one.
+    others: HashMap<Key, ChainId>,
+}
+
+impl Known {
+    /// Whether a key is greater than all there were: then it is not known.
+    fn is_next(&self, key: &Key) -> bool {
+        self.in_order.last().is_none_or(|(last, _)| last < key)
+    }
+    fn get(&self, key: &Key) -> Option<ChainId> {
+        if self.is_next(key) {
+            return None;
+        }
+        match self.in_order.binary_search_by(|(own, _)| own.cmp(key)) {
+            Ok(at) => Some(self.in_order[at].1),
+            Err(_) => self.others.get(key).copied(),
+        }
+    }
+    /// Adds one that is not known.
+    fn add(&mut self, key: Key, id: ChainId) {
+        if self.is_next(&key) {
+            self.in_order.push((key, id));
+        } else {
+            self.others.insert(key, id);
+        }
+    }
 }
 
 /// Every chain of calls of a run, once. Cloning is cheap.
@@ -28,7 +63,7 @@ impl Chains {
     /// The chain of a call made at a line that itself was reached by `parent`.
     pub(crate) fn call(&mut self, parent: ChainId, (file, line): (FileId, u32), name: NameId, style: Style) -> ChainId {
         let key = (parent, file, line);
-        if let Some(&id) = self.0.known.get(&key) {
+        if let Some(id) = self.0.known.get(&key) {
             return id;
         }
         let table = Arc::make_mut(&mut self.0);
@@ -40,7 +75,7 @@ impl Chains {
             style,
         });
         let id = ChainId(table.links.len() as u32);
-        table.known.insert(key, id);
+        table.known.add(key, id);
         id
     }
     /// The calls of a chain, outermost first.
@@ -60,5 +95,31 @@ impl Chains {
         }
         frames.reverse();
         frames
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Chains, HashMap};
+    use crate::flow::labels::{NameId, Style};
+    use crate::{ChainId, FileId};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn each_call_has_one_chain(calls in proptest::collection::vec((0..4_u32, 0..2_u32, 0..9_u32), 0..80), in_order: bool) {
+            let mut calls = calls;
+            if in_order {
+                calls.sort_unstable();
+            }
+            let mut chains = Chains::default();
+            let mut plain = HashMap::default();
+            for (parent, file, line) in calls {
+                let known = plain.len() as u32;
+                let id = chains.call(ChainId(parent), (FileId(file), line), NameId::MAIN, Style::Sub);
+                let expected = *plain.entry((parent, file, line)).or_insert(ChainId(known + 1));
+                prop_assert_eq!(id, expected);
+            }
+        }
     }
 }

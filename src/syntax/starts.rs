@@ -253,6 +253,26 @@ mod tests {
     }
 
     #[test]
+    fn a_group_reaches_as_far_as_a_byte_tells() {
+        for reach in 254..258 {
+            for last in 1..GROUP {
+                let plain = (0..GROUP).map(|at| {
+                    if at < last {
+                        at as u32
+                    } else {
+                        reach + at as u32 - last as u32
+                    }
+                });
+                let plain = plain.collect::<Vec<_>>();
+                let mut pieces = Starts::default();
+                pieces.extend(&plain);
+                assert_eq!(all(&pieces), plain, "{reach} {last}");
+                assert_eq!(pieces, compact(&plain), "{reach} {last}");
+            }
+        }
+    }
+
+    #[test]
     fn short_tokens_take_little_more_than_a_byte() {
         let short = (0..1600).map(|at| at * 15).collect::<Vec<_>>();
         assert_eq!(compact(&short).bytes(), 1600 + 4 * 1600 / GROUP);

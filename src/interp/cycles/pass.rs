@@ -16,27 +16,7 @@ impl Interpreter<'_> {
     pub(crate) fn pass_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
         let position = self.state.position;
         let start = self.memory.frames.programmed(&position);
-        for (slot, axis) in [(0, X), (1, Z)] {
-            let bit = 1 << axis;
-            if words.axes.unread & bit != 0 {
-                self.memory.cycle.pass[slot] = Stored::Unknown;
-            } else if let Some(value) = self.axis_value(words, axis) {
-                let incremental =
-                    words.axes.incremental & bit != 0 || (self.state.incremental && words.axes.absolute & bit == 0);
-                self.memory.cycle.pass[slot] = if incremental {
-                    Stored::By(value)
-                } else {
-                    Stored::At(value)
-                };
-            }
-        }
-        if words.radius.is_said() {
-            let taper = words
-                .radius
-                .number()
-                .map(|number| number.value * self.state.length_unit_mm);
-            self.memory.cycle.pass[2] = taper.map_or(Stored::Unknown, Stored::By);
-        }
+        self.keep_pass(words);
         let [x, z, taper] = self.memory.cycle.pass;
         let taper = if taper == Stored::Nothing {
             Some(0.0)
@@ -100,6 +80,31 @@ impl Interpreter<'_> {
                 },
                 report,
             );
+        }
+    }
+
+    /// What the block changes of the pass in force.
+    fn keep_pass(&mut self, words: &Words) {
+        for (slot, axis) in [(0, X), (1, Z)] {
+            let bit = 1 << axis;
+            if words.axes.unread & bit != 0 {
+                self.memory.cycle.pass[slot] = Stored::Unknown;
+            } else if let Some(value) = self.axis_value(words, axis) {
+                let incremental =
+                    words.axes.incremental & bit != 0 || (self.state.incremental && words.axes.absolute & bit == 0);
+                self.memory.cycle.pass[slot] = if incremental {
+                    Stored::By(value)
+                } else {
+                    Stored::At(value)
+                };
+            }
+        }
+        if words.radius.is_said() {
+            let taper = words
+                .radius
+                .number()
+                .map(|number| number.value * self.state.length_unit_mm);
+            self.memory.cycle.pass[2] = taper.map_or(Stored::Unknown, Stored::By);
         }
     }
 

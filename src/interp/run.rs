@@ -38,6 +38,8 @@ pub struct Interpreter<'d> {
     pub(crate) rs274: Option<Box<crate::rs274::Rs274>>,
     /// The calls in which the block in hand runs.
     pub(crate) chain: ChainId,
+    /// Motions of cycles so far: they have a bound as executed blocks have.
+    pub(crate) cycle_motions: u64,
 }
 
 /// Where facts about the block in hand go.
@@ -84,6 +86,7 @@ impl<'d> Interpreter<'d> {
             flow: crate::macro_b::Flow::default(),
             rs274: None,
             chain: ChainId::MAIN,
+            cycle_motions: 0,
         };
         if let Some(unit) = setup.control.units {
             let mm = unit.mm();

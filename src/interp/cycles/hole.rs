@@ -76,13 +76,22 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Whether the block in hand has made more motions than are worked out.
+    /// Whether the block in hand, or the cycles of the run together, have made more motions than are worked out.
     pub(super) fn is_full(&self) -> bool {
-        self.memory.out.len() > MOST_MOTIONS
+        self.memory.out.len() > MOST_MOTIONS || self.cycle_motions > self.setup.limits.blocks
+    }
+
+    /// Why a block is full.
+    pub(super) fn full(&self) -> String {
+        let blocks = self.setup.limits.blocks;
+        if self.cycle_motions > blocks {
+            return format!("more than {blocks} motions in the cycles of the program ([limits] blocks)");
+        }
+        format!("more than {MOST_MOTIONS} motions in one block")
     }
 
     pub(super) fn too_many(&mut self, words: &Words, axis: usize, report: &mut Report<'_>) {
-        let why = format!("more than {MOST_MOTIONS} motions in one block");
+        let why = self.full();
         self.lost(words, axis, &why, report);
     }
 

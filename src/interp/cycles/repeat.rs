@@ -5,7 +5,6 @@
 //! the contour as often as R says, each time nearer to it, and goes to the start of the next run in rapid. G71 and G72: `rough.rs`; G74 and
 //! G75: `groove.rs`; G76: `thread.rs`.
 use super::contour::{Contour, shifted};
-use super::hole::MOST_MOTIONS;
 use super::rough::Roughing;
 use super::thread::Thread;
 use crate::codes::Found;
@@ -148,10 +147,7 @@ impl Interpreter<'_> {
         let feed = self.feed_of(MotionKind::Linear, words, report);
         for run in 0..runs {
             if self.is_full() {
-                let what = format!(
-                    "{}: more than {MOST_MOTIONS} motions in one block",
-                    self.memory.cycle.id
-                );
+                let what = format!("{}: {}", self.memory.cycle.id, self.full());
                 return self.somehow_back(&what, start, report);
             }
             let left = 1.0 - f64::from(run) / f64::from(runs - 1);

@@ -10,7 +10,6 @@
 //! differ in whether the tool leaves its cuts at the feed or in rapid, and say nothing of cuts that miss the contour, run along a part of it, or are
 //! shorter than the escape: there the way is unknown, and what comes behind is known again.
 use super::contour::Contour;
-use super::hole::MOST_MOTIONS;
 use super::levels::{Frame, Path};
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
@@ -237,10 +236,7 @@ impl Interpreter<'_> {
         let mut cut = 1.0;
         while cut * plan.depth < plan.full - 1e-4 {
             if self.is_full() {
-                let what = format!(
-                    "{}: more than {MOST_MOTIONS} motions in one block",
-                    self.memory.cycle.id
-                );
+                let what = format!("{}: {}", self.memory.cycle.id, self.full());
                 return self.somehow_back(&what, start, report);
             }
             let depth = cut * plan.depth;

@@ -122,6 +122,7 @@ impl Interpreter<'_> {
 
     /// A motion to a place that is told as words tell it; it is put out with the others of the block.
     pub(crate) fn goes(&mut self, kind: MotionKind, to: Position, feed: Feed, report: &Report<'_>) {
+        self.cycle_motions += 1;
         let start = self.state.position;
         let end = self.memory.frames.arrive(to);
         self.state.position = end;

@@ -69,6 +69,7 @@ pub(super) fn run(work: &mut Work<'_>, code: i16) -> Result<(), Error> {
     };
     let polar = incremental && (work.block.radius.is_some() || work.block.angle.is_some());
     for turn in 0..words.l {
+        work.may_go_on()?;
         hole.at = if polar && turn > 0 {
             // each hole is turned and moved out from the one before
             let end = exec::end_of(&work.engine.state, work.block)?;
@@ -257,19 +258,15 @@ fn peck(work: &mut Work<'_>, code: i16, hole: &Hole, peck: f64) -> Result<(), Er
         0.254
     };
     let mut depth = hole.r - peck;
-    let mut count = 0_u64;
     while depth > hole.bottom {
+        // a peck too small to change the depth would never end
+        work.may_go_on()?;
         hole.feed(work, depth);
         if code == 830 {
             hole.rapid(work, hole.r);
         }
         hole.rapid(work, depth + above);
         depth -= peck;
-        count += 1;
-        // a peck too small to change the depth would never end; the bound on executed lines is the bound here as well
-        if count >= work.engine.setup.limits.blocks {
-            return Err(Error::new(&problems::NO_PECK, work.block.range_of(b'Q')));
-        }
     }
     hole.feed(work, hole.bottom);
     hole.rapid(work, hole.clear);

@@ -22,8 +22,9 @@ pub(super) struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Tells a call.
+    /// Tells a call, which costs as much as a line: cycles in loops end as loops do.
     fn emit(&mut self, call: crate::Canon) {
+        self.engine.flow.spend();
         self.engine.emit(call, self.at, self.sink);
     }
     /// Bytes of the motion code, or of the line where the code is modal.
@@ -33,6 +34,13 @@ impl Work<'_> {
         } else {
             self.block.range
         }
+    }
+    /// Refuses to go on where the bound on executed lines is reached.
+    fn may_go_on(&self) -> Result<(), Error> {
+        if self.engine.flow.is_spent() {
+            return Err(self.refuse(&problems::MANY));
+        }
+        Ok(())
     }
     /// A refusal at the motion code.
     fn refuse(&self, problem: &'static crate::Problem) -> Error {

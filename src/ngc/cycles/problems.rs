@@ -20,6 +20,7 @@ problems! {
     NO_Q_G73 MissingWord "Q word missing with g73" "Add Q: the depth of one peck."
     NO_Q_G83 MissingWord "Q word missing with g83" "Add Q: the depth of one peck."
     NO_PECK CannedCycle "Negative or zero q value used" "Q is the depth of one peck and greater than 0."
+    MANY CannedCycle "cycle with more motions than the bound on executed lines" "Repeat it less often (L), or make its steps greater (Q of a peck, J and H of a thread)."
     NO_P_G82 MissingWord "Dwell time p word missing with g82" "Add P: the dwell at the bottom, s."
     NO_P_G86 MissingWord "Dwell time p word missing with g86" "Add P: the dwell at the bottom, s."
     NO_P_G88 MissingWord "Dwell time p word missing with g88" "Add P: the dwell at the bottom, s."

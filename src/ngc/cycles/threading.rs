@@ -36,14 +36,14 @@ pub(super) fn run(work: &mut Work<'_>) -> Result<(), Error> {
     let full = thread.full;
     let mut depth = drive + thread.first;
     let mut pass = 1.0;
-    let mut count = 0_u64;
-    while depth < drive + full && count < work.engine.setup.limits.blocks {
+    while depth < drive + full {
+        work.may_go_on()?;
         cut(work, &thread, depth - drive);
         pass += 1.0;
-        count += 1;
         depth = drive + thread.first * math::pow(pass, 1.0 / thread.degression);
     }
     for _ in 0..=thread.springs.max(-1) {
+        work.may_go_on()?;
         cut(work, &thread, full);
     }
     rapid(work, thread.end);

@@ -248,6 +248,14 @@ impl Clone for Flow {
 }
 
 impl Flow {
+    /// A motion of a cycle counts as a line that runs.
+    pub(crate) fn spend(&mut self) {
+        self.fuel = self.fuel.saturating_sub(1);
+    }
+    /// Whether the bound on lines is reached.
+    pub(crate) fn is_spent(&self) -> bool {
+        self.fuel == 0
+    }
     /// Before the first line.
     pub(crate) fn new(setup: &Setup) -> Self {
         Self {

@@ -48,3 +48,36 @@ fn levels_that_count_from_an_unknown_place_are_told() {
     let said = faults("fanuc-30i", "G0 X1. Y2.\nG91 G81 X5. Z-3. R-1. F100.\nG80\nM30\n");
     assert!(said.len() == 1 && said[0].contains("levels count from Z"), "{said:?}");
 }
+
+/// Cycles with many repeats in a loop end as the loop would: their motions count for the bound on executed blocks.
+#[test]
+fn cycles_in_a_loop_are_given_up() {
+    for (dialect, source, why) in [
+        (
+            "fanuc-30i",
+            "G0 X1. Y2. Z9.\n#1=0\nWHILE[#1LT500]DO1\n#1=#1+1\nG91 G81 X1. Z-1. R-1. F100. K300\nEND1\nM30\n",
+            "motions in the cycles of the program",
+        ),
+        (
+            "linuxcnc",
+            "G0 X1 Y2 Z9\n#1=0\no1 while [#1 lt 500]\n#1=[#1+1]\nG91 G81 X1 Z-1 R-1 F100 L300\no1 endwhile\nM2\n",
+            "more motions than the bound",
+        ),
+        (
+            "linuxcnc",
+            "G0 X1 Y2 Z9\nG91 G83 X1 Z-10 R-1 Q0.5 F100 L300\nM2\n",
+            "more motions than the bound",
+        ),
+    ] {
+        let mut setup = Setup::default();
+        setup.limits.blocks = 2000;
+        let (program, log) = run_bytes(dialect, source.as_bytes(), &setup);
+        assert!(
+            (1000..4000).contains(&log.motions.len()),
+            "{dialect}: {}",
+            log.motions.len()
+        );
+        let said: Vec<_> = log.faults.iter().map(|fault| fault_line(&program, fault)).collect();
+        assert!(said.iter().any(|said| said.contains(why)), "{dialect}: {said:?}");
+    }
+}

@@ -124,10 +124,12 @@ impl Out<'_> {
         pose
     }
     fn rapid(&mut self, to: Point) -> Result<(), Error> {
+        self.engine.flow.spend();
         let end = self.pose(to);
         exec::made_straight(self.engine, true, end, &self.block, self.at, self.sink)
     }
     fn cut(&mut self, piece: &Segment) -> Result<(), Error> {
+        self.engine.flow.spend();
         let end = self.pose(piece.to);
         match piece.round {
             None => exec::made_straight(self.engine, false, end, &self.block, self.at, self.sink),

@@ -87,11 +87,13 @@ fn surfaces_that_cannot_be_read_are_refused_with_their_place() {
     }
 }
 
+/// A plane 1 mm below the zero.
+const PLANE: &str = "solid plane\nfacet normal 0 0 1\nouter loop\nvertex -100 -100 -1\nvertex 300 -100 -1\nvertex -100 300 -1\nendloop\nendfacet\nendsolid plane\n";
+
 #[test]
 fn an_stl_is_a_surface_too() {
     let folder = TempDir::new().expect("works");
-    let stl = "solid plane\nfacet normal 0 0 1\nouter loop\nvertex -100 -100 -1\nvertex 300 -100 -1\nvertex -100 300 -1\nendloop\nendfacet\nendsolid plane\n";
-    let part = write(&folder, "plane.stl", stl);
+    let part = write(&folder, "plane.stl", PLANE);
     let file = write(
         &folder,
         "a.nc",
@@ -142,8 +144,7 @@ fn an_stl_is_a_surface_too() {
 #[test]
 fn a_tool_of_another_length_is_not_held_against_a_surface() {
     let folder = TempDir::new().expect("works");
-    let stl = "solid plane\nfacet normal 0 0 1\nouter loop\nvertex -100 -100 -1\nvertex 300 -100 -1\nvertex -100 300 -1\nendloop\nendfacet\nendsolid plane\n";
-    let part = write(&folder, "plane.stl", stl);
+    let part = write(&folder, "plane.stl", PLANE);
     let judged = |length: &str| {
         let body = format!(
             "(trunnion: tool 1 length 80)\nG21 G90 G17 G94\nT1 M6\nS1 M3\n{length}G0 X0 Y0 Z-1\nG1 X20 F100\nM30\n"

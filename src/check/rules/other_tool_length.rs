@@ -81,7 +81,7 @@ mod tests {
 
     const TOOLS: &str = "(trunnion: tool 1 length 120)\n(trunnion: tool 5 length 80.5)\n";
 
-    /// 120 mm long tools of which nothing says so, and turns out of the cut, are nobody's business here.
+    /// A turn out of the cut is not judged, nor one with the tool's own length.
     #[test]
     fn told_once_for_each_length_in_force() {
         assert_drawn(

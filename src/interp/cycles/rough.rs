@@ -5,9 +5,9 @@
 //! depth and escape; and where the first point of the contour is reached or would be passed, in to that point and along the whole contour, then
 //! back to the start point in rapid. Depth and escape stay until they are said again (parameters 5132 and 5133), for both cycles.
 //!
-//! Sources: Fanuc Series 30i operator's manual, lathe system, stock removal in turning and facing; Robur concise guide to Fanuc lathe cycles, page
-//! 48; GSK988T user manual, G71, page 69 (the same cycle, with the order of its motions); Rockwell 9/Series lathe manual, page 24-9. They
-//! differ in whether the tool leaves its cuts at the feed or in rapid, and say nothing of cuts that miss the contour, run along a part of it, or are
+//! Sources: Robur concise guide to Fanuc lathe cycles, page 48; GSK988T user manual, G71, page 69 (the same cycle, with the order of its motions);
+//! Rockwell 9/Series lathe manual, page 24-9. Fanuc's own (Series 30i operator's manual, lathe system, stock removal in turning and facing) was
+//! not at hand. They differ in whether the tool leaves its cuts at the feed or in rapid, and say nothing of cuts that miss the contour, run along a part of it, or are
 //! shorter than the escape: there the way is unknown, and what comes behind is known again.
 use super::contour::Contour;
 use super::levels::{Frame, Path};

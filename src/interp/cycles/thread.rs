@@ -6,8 +6,8 @@
 //! least increments. The nth cut lies Q times the root of n below the crest, and at least the least depth below the one before; at the height less the
 //! allowance the finishing passes follow at the whole height. In in rapid, along the thread by the lead, out and back in rapid.
 //!
-//! Sources: Fanuc Series 30i operator's manual, lathe system, multiple threading cycle; HUST H6D-T manual, pages 3-59 and 3-60 (the same cycle:
-//! the least depth, and rapids everywhere but along the thread). Where in Z a cut begins that goes in along the flank (angle above 0), and
+//! Sources: HUST H6D-T manual, pages 3-59 and 3-60 (the same cycle: the least depth, and rapids everywhere but along the thread). Fanuc's own (Series
+//! 30i operator's manual, lathe system, multiple threading cycle) was not at hand. Where in Z a cut begins that goes in along the flank (angle above 0), and
 //! the shape of the pull-out (parameter 5131), are told by pictures alone: unknown.
 use crate::run::{Interpreter, Report};
 use crate::words::Words;

@@ -189,7 +189,8 @@ impl Certificate {
         let claim = match self.claim {
             Claim::SamePoses { .. } => "same poses at all block ends",
             Claim::SameBallCentre { .. } => "same ball centre at all block ends",
-            Claim::SameToolPath { .. } => "same tool path at every moment",
+            Claim::SameToolPath { .. } => "the same at every moment: path, feed, spindle, tool and all else",
+            Claim::SamePath { .. } => "the same tool path; feed, spindle and all else are not compared",
         };
         let worst = &self.worst;
         let mut text = format!(

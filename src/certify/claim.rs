@@ -28,9 +28,17 @@ pub enum Claim {
         /// deg.
         tolerance_deg: f64,
     },
-    /// At every moment of every motion (same share of the block), the tip is where it was within `tolerance_mm` and the tool axis
-    /// within `tolerance_deg`. Feeds may differ; the texts may differ in anything.
+    /// The programs do the same (interface section 8.3): at every moment of every motion the tip is where it was within `tolerance_mm`
+    /// and the tool axis within `tolerance_deg`, and feed, spindle, tool, offsets, coolant, stops, outputs, stored data and whatever is not
+    /// modelled are the same. The texts may differ in anything, and a line may be cut in two.
     SameToolPath {
+        /// mm.
+        tolerance_mm: f64,
+        /// deg.
+        tolerance_deg: f64,
+    },
+    /// The geometry of [`Self::SameToolPath`] alone: feed, spindle, coolant, stops and the like may differ.
+    SamePath {
         /// mm.
         tolerance_mm: f64,
         /// deg.
@@ -43,7 +51,7 @@ impl Claim {
     pub fn point_height_mm(&self) -> f64 {
         match self {
             Self::SameBallCentre { ball_radius_mm, .. } => *ball_radius_mm,
-            Self::SamePoses { .. } | Self::SameToolPath { .. } => 0.0,
+            Self::SamePoses { .. } | Self::SameToolPath { .. } | Self::SamePath { .. } => 0.0,
         }
     }
 
@@ -62,12 +70,16 @@ impl Claim {
             | Self::SameToolPath {
                 tolerance_mm,
                 tolerance_deg,
+            }
+            | Self::SamePath {
+                tolerance_mm,
+                tolerance_deg,
             } => (tolerance_mm, tolerance_deg),
         }
     }
 
     /// Whether it is a rewrite's claim: then nothing but numbers of coordinate words may differ in the text.
     pub fn is_rewrite(&self) -> bool {
-        !matches!(self, Self::SameToolPath { .. })
+        !matches!(self, Self::SameToolPath { .. } | Self::SamePath { .. })
     }
 }

@@ -1,12 +1,12 @@
 //! Two legs of the same number, one of each program: what differs, in numbers.
 use crate::certificate::MotionChange;
 use crate::path::{Apart, Path, apart};
-use crate::rerun::Step;
 use crate::{Claim, Outcome};
 use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Motion, MotionKind};
 use trunnion_machine::{Leg, Machine, NoStance, Stance, forward};
+use trunnion_same::{Judge, Near, Step, Verdict};
 
 /// Forward kinematics may differ from the programmed pose by this much, mm and deg: more is a fault of this program, not a claim.
 const FORWARD_TOLERANCE: f64 = 1e-6;
@@ -44,23 +44,24 @@ pub(crate) struct Pair<'a> {
     pub after: &'a Step,
 }
 
-/// Whether the zero of an axis is another one. One that nobody knows in either leaves the place of its axis unknown, where there is such an axis.
-fn another_zero((old, new): (&f64, &f64)) -> bool {
-    old != new && !(old.is_nan() && new.is_nan())
+/// The place of the zero point of X Y Z, mm.
+fn zero(motion: &Motion) -> Vec3 {
+    Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2])
 }
 
 /// The stances of both programs at the same moment.
 type Both<'s> = (&'s Stance, &'s Stance);
 
 impl Pair<'_> {
-    /// Compares. `Err` where the claim is refuted or cannot be decided.
+    /// Compares the paths; what is in force was compared before. `Err` where the claim is refuted or cannot be decided.
     pub(crate) fn compare(&self) -> Result<Compared, Outcome> {
         self.same_kind()?;
-        let (old, new) = (&self.before.leg, &self.after.leg);
-        let alike = self.alike();
+        let (old, new) = (self.before_leg()?, self.after_leg()?);
+        let alike = self.alike(old, new);
         let (was, is) = match (&old.end, &new.end) {
             (Ok(was), Ok(is)) => (was, is),
             (Err(_), Err(_)) if alike => return Ok(Compared::UnknownAlike),
+            (Err(_), Err(_)) if !self.claim.is_rewrite() => return self.by_words(),
             (Err(why), _) => return Err(self.no_pose("before", why)),
             (_, Err(why)) => return Err(self.no_pose("after", why)),
         };
@@ -75,7 +76,9 @@ impl Pair<'_> {
             self.way(start, (was, is))?
         };
         let height = self.claim.point_height_mm();
-        let shift = |height: f64| ((is.tip + is.axis * height) - (was.tip + was.axis * height)).norm();
+        let moved = zero(&new.motion) - zero(&old.motion);
+        let moved = if moved.iter().all(|value| value.is_finite()) { moved } else { Vec3::zeros() };
+        let shift = |height: f64| ((is.tip + moved + is.axis * height) - (was.tip + was.axis * height)).norm();
         let rotary = self.machine.rotary.iter();
         let change = MotionChange {
             motion: self.at.motion as u64,
@@ -91,6 +94,25 @@ impl Pair<'_> {
         self.judge_end(&change)?;
         self.judge_way(&way, start, (was, is))?;
         Ok(Compared::Changed(Box::new(change)))
+    }
+
+    /// Where the machine's place is unknown in both programs, the programmed coordinates are compared: both begin where the other does.
+    fn by_words(&self) -> Result<Compared, Outcome> {
+        let (mm, deg) = self.claim.tolerances();
+        match (Near { mm, deg }).pair(self.before, self.after) {
+            Ok(()) => Ok(Compared::UnknownAlike),
+            Err(Verdict::Unknown(gap)) => Err(self.unknown(&gap.what)),
+            Err(Verdict::Differs(found)) => self.refute(found.what),
+            Err(Verdict::Same) => Ok(Compared::UnknownAlike),
+        }
+    }
+
+    fn before_leg(&self) -> Result<&Leg, Outcome> {
+        self.before.leg.as_ref().ok_or_else(|| self.unknown("no machine is named"))
+    }
+
+    fn after_leg(&self) -> Result<&Leg, Outcome> {
+        self.after.leg.as_ref().ok_or_else(|| self.unknown("no machine is named"))
     }
 
     fn refute<T>(&self, message: String) -> Result<T, Outcome> {
@@ -123,25 +145,13 @@ impl Pair<'_> {
         self.unknown(&format!("in the program {which}, {why}"))
     }
 
-    /// What must be equal whatever is claimed, and what must be equal in a rewrite.
+    /// What must be equal in a rewrite beside what `trunnion_same` compares.
     fn same_kind(&self) -> Result<(), Outcome> {
-        let (old, new) = (&self.before.leg.motion, &self.after.leg.motion);
-        let dwells = matches!(old.kind, MotionKind::Dwell(_)) && old.kind != new.kind;
-        let differs = if core::mem::discriminant(&old.kind) != core::mem::discriminant(&new.kind) || dwells {
-            "the kind of motion (rapid, line, arc, dwell and its time)"
-        } else if old.zero.iter().zip(&new.zero).any(another_zero) || old.machine_coordinates != new.machine_coordinates
-        {
-            "the zero point"
-        } else if self.before.work_offset != self.after.work_offset {
-            "the work offset"
-        } else if self.before.compensation != self.after.compensation {
-            "the side of the cutter radius compensation"
-        } else if old.tool != new.tool || old.tool_length_mm != new.tool_length_mm {
-            "the tool or its length"
-        } else if old.tool_length_mm == 0.0 && self.before.length_of != self.after.length_of {
-            "whose tool length is in force (none is declared)"
-        } else if !self.claim.is_rewrite() {
+        let (old, new) = (&self.before.motion, &self.after.motion);
+        let differs = if !self.claim.is_rewrite() {
             return Ok(());
+        } else if old.zero.iter().zip(&new.zero).any(|(a, b)| a != b && !(a.is_nan() && b.is_nan())) {
+            "the zero point"
         } else if old.tcp != new.tcp || old.great_circle != new.great_circle {
             "tool centre point control"
         } else if process_differs(old, new) {
@@ -153,8 +163,7 @@ impl Pair<'_> {
     }
 
     /// Programmed alike, from a like state.
-    fn alike(&self) -> bool {
-        let (old, new) = (&self.before.leg, &self.after.leg);
+    fn alike(&self, old: &Leg, new: &Leg) -> bool {
         old.start == new.start && old.known_joints == new.known_joints && old.motion == at_block_of(old, &new.motion)
     }
 
@@ -167,7 +176,7 @@ impl Pair<'_> {
             return Ok(());
         };
         for step in [self.before, self.after] {
-            match step.ball_radius {
+            match step.held.ball_radius {
                 Some(declared) if declared == *radius => {}
                 Some(declared) => {
                     return self.refute(format!(
@@ -186,11 +195,12 @@ impl Pair<'_> {
 
     /// How far the ways between the ends lie apart.
     fn way(&self, start: Option<Both<'_>>, end: Both<'_>) -> Result<Apart, Outcome> {
-        let (old, new) = (&self.before.leg, &self.after.leg);
+        let (old, new) = (self.before_leg()?, self.after_leg()?);
         let Some((was, is)) = start else {
-            // straight from a position unknown to both: only the ends can be compared
+            // straight from a position unknown to both, which is the same one: only the ends can differ
             let straight = matches!(old.motion.kind, MotionKind::Rapid | MotionKind::Linear);
-            let comparable = self.claim.is_rewrite() && straight && old.start.is_none() && new.start.is_none();
+            let led_alike = old.motion.tcp == new.motion.tcp && old.motion.great_circle == new.motion.great_circle;
+            let comparable = led_alike && straight && old.start.is_none() && new.start.is_none();
             return if comparable {
                 Ok(Apart::default())
             } else {
@@ -204,9 +214,29 @@ impl Pair<'_> {
         let before = Path::new(self.machine, old, was, end.0, height);
         let after = Path::new(self.machine, new, is, end.1, height);
         let (Some(before), Some(after)) = (before, after) else {
-            return Err(self.unknown("how far two different arcs lie apart is not modelled"));
+            return self.arcs((was, is), end);
         };
         Ok(apart(&before, &after))
+    }
+
+    /// Two arcs while no rotary axis moves: then the part sees the arcs as they are programmed, turned and shifted as a whole.
+    fn arcs(&self, start: Both<'_>, end: Both<'_>) -> Result<Apart, Outcome> {
+        let (a, b) = (&self.before.motion, &self.after.motion);
+        let stand = |from: &Stance, to: &Stance| self.machine.rotary.iter().all(|&joint| from.joints[joint] == to.joints[joint]);
+        let still = stand(start.0, end.0) && stand(start.1, end.1) && stand(start.0, start.1);
+        let (MotionKind::Arc(Some(from)), MotionKind::Arc(Some(to))) = (&a.kind, &b.kind) else {
+            return Err(self.unknown("how far an arc and another motion lie apart is not modelled"));
+        };
+        if !still || a.tcp != b.tcp {
+            return Err(self.unknown("how far two different arcs lie apart while rotary axes move is not modelled"));
+        }
+        let off = trunnion_same::arcs_apart(from, to, a, b);
+        Ok(Apart {
+            sampled_mm: off,
+            bound_mm: off,
+            sampled_axis: 0.0,
+            bound_axis: 0.0,
+        })
     }
 
     /// Programmed alike but for the same whole turns of rotary axes at both ends: then the way is the same whatever its shape.
@@ -215,8 +245,10 @@ impl Pair<'_> {
             let off = |&joint: &usize| off_whole_turns(deg(is.joints[joint] - was.joints[joint]));
             (was.tip - is.tip).norm() <= 1e-9 && self.machine.rotary.iter().all(|joint| off(joint) <= 1e-9)
         };
-        let old = &self.before.leg;
-        let mut motion = at_block_of(old, &self.after.leg.motion);
+        let (Some(old), Some(new)) = (&self.before.leg, &self.after.leg) else {
+            return false;
+        };
+        let mut motion = at_block_of(old, &new.motion);
         for axis in 3..6 {
             motion.start.values[axis] = old.motion.start.values[axis];
             motion.end.values[axis] = old.motion.end.values[axis];
@@ -267,7 +299,7 @@ impl Pair<'_> {
         let claimed = match self.claim {
             Claim::SameBallCentre { .. } => false,
             Claim::SamePoses { .. } => start.is_some_and(|start| self.turns(start) == self.turns(end)),
-            Claim::SameToolPath { .. } => true,
+            Claim::SameToolPath { .. } | Claim::SamePath { .. } => true,
         };
         let (mm, degrees) = self.claim.tolerances();
         let (sampled_axis, bound_axis) = (deg(way.sampled_axis), deg(way.bound_axis));
@@ -297,6 +329,7 @@ fn at_block_of(leg: &Leg, motion: &Motion) -> Motion {
     Motion {
         block: leg.motion.block,
         chain: leg.motion.chain,
+        effects: leg.motion.effects,
         ..*motion
     }
 }
@@ -324,7 +357,7 @@ pub(crate) fn forward_residual(machine: &Machine, at: Place, leg: &Leg) -> Resul
         let line = at.line;
         if zero.iter().any(|value| !value.is_finite()) {
             return Err(Outcome::unknown(format!(
-                "line {line}: the zero point is not known, so that nobody knows where the machine stands"
+                "line {line}: the zero point is unknown, so the position of the machine is unknown"
             )));
         }
         return Err(Outcome::unknown(format!(

@@ -12,8 +12,6 @@ mod digest;
 mod library;
 mod path;
 mod recheck;
-mod rerun;
-mod side;
 mod text;
 mod verdict;
 

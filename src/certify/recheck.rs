@@ -6,15 +6,13 @@ use crate::certificate::{MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextDi
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
 use crate::library::Recorder;
-use crate::rerun::{Rerun, Step};
-use crate::side;
 use crate::text::text_change;
 use crate::{Certificate, Claim, Outcome};
-use std::collections::VecDeque;
 use trunnion_dialect::Dialect;
 use trunnion_geometry::deg;
 use trunnion_interp::Setup;
 use trunnion_machine::{Leg, Machine};
+use trunnion_same::{Difference, Input, Judge, Step, Steps, Verdict, compare};
 use trunnion_syntax::{BlockId, LineIndex, Program, parse};
 
 /// Tries to prove `claim` for two texts.
@@ -130,35 +128,32 @@ fn prove(
     }
     let mut proof = Proof::new(machine, claim, &new);
     let (recorded, library) = Recorder::wrap(setup);
-    let mut old_steps = Rerun::new(&old, dialect, machine, &recorded);
-    let mut new_steps = Rerun::new(&new, dialect, machine, &recorded);
-    loop {
-        match (old_steps.next(), new_steps.next()) {
-            (Some(was), Some(is)) => {
-                proof.add(&was, &is)?;
-                same_sides(
-                    (&old, &mut old_steps.sides),
-                    (&new, &mut new_steps.sides),
-                    dialect,
-                    false,
-                )?;
-            }
-            (None, None) => break,
-            (was, _) => {
-                let (which, shared) = (if was.is_some() { "before" } else { "after" }, proof.motions.total);
-                return Err(Outcome::unknown(format!(
-                    "the program {which} has more motions than the other, which ends after {shared}: programs are compared motion by motion"
-                )));
-            }
-        }
-    }
-    same_sides(
-        (&old, &mut old_steps.sides),
-        (&new, &mut new_steps.sides),
+    let input = |program| Input {
+        program,
         dialect,
-        true,
-    )?;
-    followed(&old_steps, &new_steps, text.rest_identical, (&old, &new))?;
+        setup: &recorded,
+        machine: Some(machine),
+    };
+    let mut sides = [Steps::new(input(&old)), Steps::new(input(&new))];
+    let [old_steps, new_steps] = &mut sides;
+    let (mm, degrees) = claim.tolerances();
+    let asked = trunnion_same::Claim {
+        mm,
+        deg: degrees,
+        frees_feed: false,
+        path_only: matches!(claim, Claim::SamePath { .. }),
+        cuts: !claim.is_rewrite(),
+    };
+    let verdict = compare(old_steps, new_steps, &asked, &mut proof);
+    if verdict != Verdict::Same {
+        if let Some(outcome) = proof.failed.take() {
+            return Err(outcome);
+        }
+        return Err(proof.outcome(verdict, &old));
+    }
+    if text.rest_identical {
+        every_change_ran(&sides, (&old, &new))?;
+    }
     Ok(Certificate {
         schema: SCHEMA.into(),
         tool_version: env!("CARGO_PKG_VERSION").into(),
@@ -185,23 +180,8 @@ fn prove(
     .sealed())
 }
 
-/// Both programs were run to their ends, and every block that differs ran: what did not run is not compared.
-fn followed(
-    old: &Rerun<'_>,
-    new: &Rerun<'_>,
-    same_blocks: bool,
-    (before, after): (&Program, &Program),
-) -> Result<(), Outcome> {
-    for (which, run) in [("before", old), ("after", new)] {
-        if let Some(why) = run.broken() {
-            return Err(Outcome::unknown(format!(
-                "the program {which} was not followed to its end, {why}"
-            )));
-        }
-    }
-    if !same_blocks {
-        return Ok(());
-    }
+/// Every block that differs ran: what did not run was not compared.
+fn every_change_ran([old, new]: &[Steps<'_>; 2], (before, after): (&Program, &Program)) -> Result<(), Outcome> {
     for (was, is) in before.blocks().zip(after.blocks()) {
         let same = before.source()[was.range().as_usize()] == after.source()[is.range().as_usize()];
         if !(same || old.has_run(was.id()) && new.has_run(is.id())) {
@@ -210,42 +190,6 @@ fn followed(
                 "line {line} differs, and never runs: nothing was compared there"
             )));
         }
-    }
-    Ok(())
-}
-
-/// What the programs say beside their motions must be the same, word for word, at the same motions: nothing else proves it alike.
-/// What both have said so far is compared and dropped; at the end nothing may be left.
-fn same_sides(
-    (old, before): (&Program, &mut VecDeque<side::Side>),
-    (new, after): (&Program, &mut VecDeque<side::Side>),
-    dialect: &Dialect,
-    at_end: bool,
-) -> Result<(), Outcome> {
-    while !(before.is_empty() && after.is_empty()) && (at_end || !before.is_empty() && !after.is_empty()) {
-        let (was, is) = (before.pop_front(), after.pop_front());
-        let (was, is) = (was.as_ref(), is.as_ref());
-        let said = |program: &Program, side: Option<&side::Side>| {
-            side.map(|side| (side.motions, side::text(program, dialect, side)))
-        };
-        let (was_said, is_said) = (said(old, was), said(new, is));
-        if was_said == is_said {
-            continue;
-        }
-        let place = |program: &Program, side: Option<&side::Side>| match side {
-            Some(side) => {
-                let start = program.block(side.block).range().start;
-                let (line, _) = LineIndex::new(program.source()).line_column(program.source(), start);
-                let text: String = side::text(program, dialect, side).chars().take(40).collect();
-                format!("line {line} says `{}`", text.trim_end())
-            }
-            None => "nothing more is said".to_owned(),
-        };
-        return Err(Outcome::unknown(format!(
-            "what is not modelled, tools, M words and calls are compared word for word, and differ: before, {}; after, {}",
-            place(old, was),
-            place(new, is)
-        )));
     }
     Ok(())
 }
@@ -275,6 +219,29 @@ struct Proof<'a> {
     worst: WorstChanges,
     rotary: Vec<RotaryChange>,
     changes: Vec<crate::certificate::MotionChange>,
+    /// What ended the proof, where that was a pair of motions.
+    failed: Option<Outcome>,
+}
+
+impl Judge for Proof<'_> {
+    fn pair(&mut self, before: &Step, after: &Step) -> Result<(), Verdict> {
+        self.add(before, after).map_err(|outcome| {
+            self.failed = Some(outcome);
+            Verdict::Differs(Difference {
+                before: None,
+                after: None,
+                what: String::new(),
+            })
+        })
+    }
+
+    fn cut(&mut self, off: f64) {
+        let at = Place {
+            motion: self.motions.total as usize,
+            line: 0,
+        };
+        raise(&mut self.worst.path_bound_mm, off, at);
+    }
 }
 
 impl<'a> Proof<'a> {
@@ -295,6 +262,36 @@ impl<'a> Proof<'a> {
             worst: WorstChanges::default(),
             rotary: machine.rotary.iter().map(axis).collect(),
             changes: Vec::new(),
+            failed: None,
+        }
+    }
+
+    /// A verdict about something other than the path of a pair of motions.
+    fn outcome(&self, verdict: Verdict, before: &Program) -> Outcome {
+        let (refuted, found) = match verdict {
+            Verdict::Differs(found) => (true, found),
+            Verdict::Unknown(found) => (false, found),
+            Verdict::Same => return Outcome::unknown("nothing was compared"),
+        };
+        let line = found.after.map(|block| self.line(block));
+        let lines = LineIndex::new(before.source());
+        let old = found
+            .before
+            .map(|block| lines.line_column(before.source(), before.block(block).range().start).0);
+        let place = match (old, line) {
+            (Some(old), Some(new)) => format!("line {old} before and line {new} after: "),
+            (Some(old), None) => format!("line {old} before: "),
+            (None, Some(new)) => format!("line {new} after: "),
+            (None, None) => String::new(),
+        };
+        if refuted {
+            Outcome::Refuted(crate::Witness {
+                motion: None,
+                line,
+                message: format!("{place}{}", found.what),
+            })
+        } else {
+            Outcome::unknown(format!("{place}{}", found.what))
         }
     }
 
@@ -307,11 +304,14 @@ impl<'a> Proof<'a> {
     fn add(&mut self, was: &Step, is: &Step) -> Result<(), Outcome> {
         let at = Place {
             motion: self.motions.total as usize,
-            line: self.line(is.leg.motion.block),
+            line: self.line(is.motion.block),
+        };
+        let (Some(old), Some(new)) = (&was.leg, &is.leg) else {
+            return Err(Outcome::unknown("no machine is named"));
         };
         let residuals = [
-            forward_residual(self.machine, at, &was.leg)?,
-            forward_residual(self.machine, at, &is.leg)?,
+            forward_residual(self.machine, at, old)?,
+            forward_residual(self.machine, at, new)?,
         ];
         for (mm, degrees) in residuals.into_iter().flatten() {
             raise(&mut self.worst.forward_residual_mm, mm, at);
@@ -319,7 +319,7 @@ impl<'a> Proof<'a> {
         }
         for (index, rotary) in self.rotary.iter_mut().enumerate() {
             let joint = self.machine.rotary[index];
-            let steps = [&was.leg, &is.leg].map(|leg| rotary_step(leg, joint));
+            let steps = [old, new].map(|leg| rotary_step(leg, joint));
             rotary.step_before_deg = rotary.step_before_deg.max(steps[0]);
             rotary.step_after_deg = rotary.step_after_deg.max(steps[1]);
             rotary.travel_before_deg += steps[0];
@@ -345,7 +345,7 @@ impl<'a> Proof<'a> {
                 self.changes.push(*change);
             }
         }
-        self.motions.process_changed += u64::from(process_differs(&was.leg.motion, &is.leg.motion));
+        self.motions.process_changed += u64::from(process_differs(&was.motion, &is.motion));
         self.motions.total += 1;
         Ok(())
     }

@@ -5,7 +5,6 @@ mod event;
 mod point;
 mod run;
 mod show;
-mod unread;
 
 use super::{
     Done,

@@ -45,7 +45,7 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    fn new(record: &Record<'_>) -> Self {
+    pub(crate) fn new(record: &Record<'_>) -> Self {
         let mut args = Self {
             numbers: [0.0; 16],
             count: 0,
@@ -132,15 +132,28 @@ impl Interpreter<'_> {
     pub(crate) fn step_apt(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
         let Some(record) = block.record() else { return };
         self.memory.last_content = Some(block.id());
+        let mut does_more = false;
+        if self.memory.effects.wanted {
+            self.record_effects(&record, block);
+        }
         let motion = {
             let mut report = Report {
                 program: block.program(),
                 block: block.id(),
                 record: Some(record.range),
-                faults: &mut |fault| sink.fault(fault),
+                faults: &mut |fault| {
+                    does_more |= crate::effects::does_more(&fault.kind);
+                    sink.fault(fault);
+                },
             };
             self.record(&record, &mut report)
         };
+        if self.memory.effects.wanted {
+            self.late_record_effects(&record, block, motion.as_ref(), does_more);
+            for effect in std::mem::take(&mut self.memory.effects.ready) {
+                sink.effect(effect);
+            }
+        }
         if let Some(motion) = motion {
             sink.motion(&motion, &self.state);
         }

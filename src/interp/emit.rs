@@ -300,6 +300,7 @@ impl Interpreter<'_> {
             radii: self.dialect.quirks.diameter,
             tool: state.tool,
             tilt: crate::Tilt::default(),
+            effects: self.memory.effects.count,
         }
     }
 

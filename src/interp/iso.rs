@@ -23,14 +23,18 @@ impl<'d> Interpreter<'d> {
         }
         let mut codes = std::mem::take(&mut self.codes);
         codes.clear();
+        let mut does_more = false;
+        let mut words = Words::default();
         let motion = {
             let mut report = Report {
                 program: block.program(),
                 block: block.id(),
                 record: None,
-                faults: &mut |fault| sink.fault(fault),
+                faults: &mut |fault| {
+                    does_more |= crate::effects::does_more(&fault.kind);
+                    sink.fault(fault);
+                },
             };
-            let mut words = Words::default();
             self.read(block, &mut codes, &mut words, &mut report);
             self.percent(&words);
             if words.has_content {
@@ -45,8 +49,29 @@ impl<'d> Interpreter<'d> {
                 None
             }
         };
+        if self.memory.effects.wanted && words.has_content {
+            self.collect(block, (&codes, &words), motion.as_ref(), does_more, sink);
+        }
         self.put_out(motion.as_ref(), block, sink);
         self.codes = codes;
+    }
+
+    /// Hands the effects of a block on.
+    #[cold]
+    fn collect(
+        &mut self,
+        block: &Block<'_>,
+        (codes, words): (&[Found<'d>], &Words),
+        motion: Option<&Motion>,
+        does_more: bool,
+        sink: &mut impl Sink,
+    ) {
+        let motions: Vec<Motion> = self.memory.out.iter().chain(motion).copied().collect();
+        let does_more = does_more || self.memory.frames.entering_data && codes.is_empty();
+        self.late_effects(block, codes, words, &motions, does_more);
+        for effect in std::mem::take(&mut self.memory.effects.ready) {
+            sink.effect(effect);
+        }
     }
 
     /// Whether a block belongs to the contour of the turning cycle before it, which has run it.
@@ -170,6 +195,9 @@ impl<'d> Interpreter<'d> {
         }
         if words.other_spindle {
             self.state.spindle_on = None;
+        }
+        if self.memory.effects.wanted {
+            self.code_effects(codes, words, &report.program.block(report.block));
         }
         let mut motion = self.motion(codes, words, &block, report);
         self.called_cycle(codes, words, &block, &mut motion, report);

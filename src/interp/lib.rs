@@ -4,6 +4,7 @@
 //! It does not know machines: a [`Motion`] says what is programmed, not what joints do.
 mod adjust;
 mod apt;
+mod apt_effects;
 mod apt_motion;
 mod apt_tool;
 mod arc;
@@ -14,6 +15,8 @@ mod corner;
 mod cycles;
 mod directive;
 mod dwell;
+mod effect;
+mod effects;
 mod emit;
 mod fault;
 mod frames;
@@ -37,8 +40,10 @@ mod unmodelled;
 mod unused;
 mod values;
 mod words;
+mod written;
 
 pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
+pub use effect::{Argument, Effect, Placed, Value, same_number};
 pub use directive::{Directive, directives};
 pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
 pub use modal::{FeedMode, LengthOf, ModalState};

@@ -87,6 +87,8 @@ pub(crate) struct Memory<'d> {
     pub(crate) compensation: crate::compensation::Compensation,
     /// Variables of a Sinumerik program.
     pub(crate) own: crate::own::Own,
+    /// What the program does beside its motions.
+    pub(crate) effects: crate::effect::Effects,
     /// Motions of the block in hand beside its last.
     pub(crate) out: Vec<crate::Motion>,
     /// The last block with content, for a missing program end.

@@ -212,6 +212,8 @@ pub struct Motion {
     pub tool: Option<u32>,
     /// Tilted working plane.
     pub tilt: Tilt,
+    /// How many effects ([`crate::Effect`]) the run had before the motion; 0 where nobody asks for effects.
+    pub effects: u32,
 }
 
 impl Motion {
@@ -237,6 +239,7 @@ impl Motion {
             radii: false,
             tool: None,
             tilt: Tilt::default(),
+            effects: 0,
         }
     }
     /// Whether it is a feed motion (line or arc).

@@ -96,6 +96,10 @@ impl Own {
         let value = reader.sum()?;
         (reader.rest.is_empty() && value.is_finite()).then_some(value)
     }
+    /// Whether DEF declares the name, so that it ends with the program.
+    pub(crate) fn is_local(&self, name: &str) -> bool {
+        self.sorts.contains_key(name)
+    }
     fn read(&self, name: &str) -> Option<f64> {
         let fresh = self.fresh.iter().any(|written| **written == *name);
         self.values.get(name).copied().filter(|_| !fresh)

@@ -16,6 +16,11 @@ pub trait Sink {
     }
     /// A fact about what is wrong.
     fn fault(&mut self, fault: Fault);
+    /// What the program does beside its motions, in order; only after [`Interpreter::watch_effects`]. Motions may be held back by cutter
+    /// compensation and come later: [`Motion::effects`] says which effects come before them.
+    fn effect(&mut self, effect: crate::Placed) {
+        let _ = effect;
+    }
     /// Called after each block (also those without motion).
     fn block_done(&mut self, block: BlockId, interpreter: &Interpreter<'_>) {
         let _ = (block, interpreter);
@@ -186,6 +191,15 @@ impl<'d> Interpreter<'d> {
             return run.variable(text);
         }
         self.flow.variable(text)
+    }
+
+    /// Variables that outlive the program and whose value is known: Fanuc and Haas `#500` to `#999`, LinuxCNC `#31` to `#5000`, its
+    /// parameter file and global names. Those of a Sinumerik come as [`crate::Effect::Store`].
+    pub fn outliving(&self) -> Vec<(String, f64)> {
+        match &self.rs274 {
+            Some(run) => run.outliving(),
+            None => self.flow.outliving(),
+        }
     }
 
     pub(crate) fn finish(&mut self, program: &Program, sink: &mut impl Sink) {

@@ -124,6 +124,13 @@ impl Engine {
             None => values.told(name.trim().parse().ok()?),
         }
     }
+    /// Parameters that outlive the program and are known: `#31` to `#5000`, those of the parameter file (`#5161` to `#5390`: home
+    /// positions, G92, coordinate systems), and global names (LinuxCNC user manual, G-code overview, parameters).
+    pub fn outliving(&self) -> Vec<(String, f64)> {
+        let numbers = (31..=5000).chain(5161..=5390);
+        let known = numbers.map(|index| (format!("#{index}"), self.store.number(index)));
+        known.chain(self.store.globals()).filter(|(_, value)| !value.is_nan()).collect()
+    }
     /// The text of a line (from 0) without the blanks around it; empty where there is no such line.
     pub fn text_of(&self, file: FileId, line: u32) -> String {
         let source = self.files.get(file.0 as usize);

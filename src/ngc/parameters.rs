@@ -103,6 +103,16 @@ impl Store {
     pub(crate) fn number(&self, index: usize) -> f64 {
         self.numbers.get(index).copied().unwrap_or(0.0)
     }
+    /// Global names with their values, in order.
+    pub(crate) fn globals(&self) -> impl Iterator<Item = (String, f64)> {
+        let mut named: Vec<(String, f64)> = self
+            .globals
+            .iter()
+            .map(|(name, value)| (format!("#<{name}>"), value))
+            .collect();
+        named.sort_by(|a, b| a.0.cmp(&b.0));
+        named.into_iter()
+    }
     /// Writes a parameter for the interpreter itself, read-only or not.
     pub(crate) fn set_number(&mut self, index: usize, value: f64) {
         if let Some(place) = self.numbers.get_mut(index) {

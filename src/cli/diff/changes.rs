@@ -3,11 +3,12 @@
 use super::align::{Stretch, align};
 use super::event::{Body, Event, Tech};
 use super::point::{Point, Tolerance};
-use super::run::Events;
-use crate::cli::{load::Loaded, stop::Stop};
+use super::run::{Events, input};
+use crate::cli::load::Loaded;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use trunnion_machine::Machine;
+use trunnion_same::{Claim, Near, Steps, Stop, Verdict};
 use trunnion_syntax::BlockId;
 
 /// So many motions are compared in detail; more are only counted.
@@ -28,7 +29,7 @@ pub(super) enum Change {
 #[derive(Clone, Debug)]
 pub(super) struct TechChange {
     /// Name, before, after.
-    pub(super) parts: Vec<(&'static str, String, String)>,
+    pub(super) parts: Vec<(String, String, String)>,
     /// First motion in both programs.
     pub(super) first: (BlockId, BlockId),
     /// Last motion in both programs.
@@ -37,8 +38,9 @@ pub(super) struct TechChange {
 }
 
 /// Everything found.
-#[derive(Default)]
 pub(super) struct Found {
+    /// The verdict of the comparison.
+    pub(super) verdict: Verdict,
     pub(super) motions: [u64; 2],
     pub(super) changes: Vec<Change>,
     pub(super) techs: Vec<TechChange>,
@@ -52,18 +54,28 @@ pub(super) struct Found {
     pub(super) too_different: bool,
     /// Both were compared one by one, because they have the same number of motions and too many differences to be aligned.
     pub(super) one_by_one: bool,
-    /// Where the runs stopped before the end of their programs, unless both programs are the same letter for letter.
+    /// Where the runs stopped before the end of their programs.
     pub(super) stops: [Option<Stop>; 2],
 }
 
 impl Found {
-    /// Whether both were followed to their ends and nothing differs.
-    pub(super) fn same(&self) -> bool {
-        self.no_difference() && self.stops.iter().all(Option::is_none)
+    fn new(verdict: Verdict) -> Self {
+        Self {
+            verdict,
+            motions: [0; 2],
+            changes: Vec::new(),
+            techs: Vec::new(),
+            not_compared: 0,
+            techs_not_listed: 0,
+            unknown: 0,
+            too_different: false,
+            one_by_one: false,
+            stops: [None, None],
+        }
     }
-    /// Whether nothing differs as far as both were followed.
-    pub(super) fn no_difference(&self) -> bool {
-        self.changes.is_empty() && self.techs.is_empty() && self.not_compared == 0 && !self.too_different
+    /// Whether the programs are the same.
+    pub(super) fn same(&self) -> bool {
+        self.verdict == Verdict::Same
     }
 }
 
@@ -86,12 +98,28 @@ struct Techs {
 /// Compares two programs; with the machine of the first one, by joints.
 pub(super) fn compare(before: &Loaded, after: &Loaded, tolerance: Tolerance) -> Found {
     let machine = before.resolved.machine.as_ref();
-    let mut found = Found::default();
+    let claim = Claim {
+        mm: tolerance.mm,
+        deg: tolerance.deg,
+        frees_feed: false,
+        path_only: false,
+        cuts: true,
+    };
+    let mut near = Near {
+        mm: tolerance.mm,
+        deg: tolerance.deg,
+    };
+    let mut sides = [
+        Steps::new(input(before, machine)),
+        Steps::new(input(after, machine)),
+    ];
+    let [one, other] = &mut sides;
+    let mut found = Found::new(trunnion_same::compare(one, other, &claim, &mut near));
     let mut techs = Techs::default();
     let a = keys(before, machine, tolerance, &mut techs, (0, &mut found));
     let b = keys(after, machine, tolerance, &mut techs, (1, &mut found));
-    if before.program.source() == after.program.source() {
-        found.stops = [None, None];
+    if found.same() {
+        return found;
     }
     let stretches = match align(&a.hashes, &b.hashes) {
         Some(stretches) => stretches,
@@ -200,7 +228,7 @@ impl TechChange {
 
 impl Found {
     /// Notes that a motion has another feed or the like; where it stands in the list.
-    fn note(&mut self, parts: Vec<(&'static str, String, String)>, blocks: (BlockId, BlockId)) -> Option<usize> {
+    fn note(&mut self, parts: Vec<(String, String, String)>, blocks: (BlockId, BlockId)) -> Option<usize> {
         if parts.is_empty() {
             return None;
         }

@@ -1,9 +1,9 @@
-//! What a program does, in order: motions with what is in force, and what cannot be compared in numbers, by its words.
+//! What a program does, in order: motions with what is in force, and everything else by its words.
 use super::point::Point;
 use std::sync::Arc;
-use trunnion_dialect::{Action, Dialect, Role};
-use trunnion_interp::{FaultKind, Feed, LengthOf, ModalState, Motion};
-use trunnion_syntax::{Address, Block, BlockId, Format, Item, Value};
+use trunnion_interp::{Feed, LengthOf, Motion};
+use trunnion_same::Step;
+use trunnion_syntax::BlockId;
 
 /// One thing that happens.
 #[derive(Clone, Debug)]
@@ -19,7 +19,7 @@ pub(super) struct Event {
 )]
 pub(super) enum Body {
     Motion(Point, Tech),
-    /// Words that say more than numbers do: stops, ends, what is recognised and not modelled.
+    /// Words: stops, ends, outputs, what is recognised and not modelled.
     Statement(String),
 }
 
@@ -27,22 +27,20 @@ pub(super) enum Body {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Tech {
     feed: (&'static str, u64),
-    rpm: Option<u64>,
-    spindle: Option<bool>,
     tool: Option<u32>,
     length: u64,
     length_of: LengthOf,
     offset: Option<Arc<str>>,
     zero: [u64; 9],
     compensation: u8,
-    coolant: Coolant,
+    machine_coordinates: bool,
+    great_circle: Option<bool>,
+    settings: Vec<(String, String)>,
 }
 
-/// Coolant: bit 0 mist, bit 1 flood.
-pub(super) type Coolant = u8;
-
 impl Tech {
-    pub(super) fn new(motion: &Motion, state: &ModalState) -> Self {
+    pub(super) fn new(step: &Step) -> Self {
+        let motion: &Motion = &step.motion;
         let feed = match motion.feed {
             _ if !motion.is_feed() => ("", 0.0),
             Feed::PerMinute(feed) => ("mm/min", feed),
@@ -53,43 +51,27 @@ impl Tech {
         };
         Self {
             feed: (feed.0, (feed.1 + 0.0).to_bits()),
-            rpm: motion.spindle_rpm.map(|rpm| (rpm + 0.0).to_bits()),
-            spindle: motion.spindle_on,
             tool: motion.tool,
             length: (motion.tool_length_mm + 0.0).to_bits(),
-            length_of: state.length_of,
-            offset: state.work_offset.clone(),
+            length_of: step.held.length_of,
+            offset: step.held.work_offset.clone(),
             zero: motion.zero.map(|value| (value + 0.0).to_bits()),
-            compensation: state.compensation,
-            coolant: 0,
+            compensation: step.held.compensation,
+            machine_coordinates: motion.machine_coordinates,
+            great_circle: motion.great_circle.filter(|_| motion.tcp),
+            settings: step.process.settings(),
         }
     }
 
-    /// With another coolant.
-    pub(super) fn with_coolant(self, coolant: Coolant) -> Self {
-        Self { coolant, ..self }
-    }
-
     /// What differs: its name, before and after.
-    pub(super) fn differences(&self, other: &Self) -> Vec<(&'static str, String, String)> {
+    pub(super) fn differences(&self, other: &Self) -> Vec<(String, String, String)> {
         let mut found = Vec::new();
-        let mut pair = |name, a: String, b: String| {
+        let mut pair = |name: &str, a: String, b: String| {
             if a != b {
-                found.push((name, a, b));
+                found.push((name.to_owned(), a, b));
             }
         };
         pair("feed", feed(self.feed), feed(other.feed));
-        let rpm = |tech: &Self| {
-            tech.rpm
-                .map_or("unknown".to_owned(), |bits| format!("{} 1/min", f64::from_bits(bits)))
-        };
-        pair("spindle speed", rpm(self), rpm(other));
-        let on = |tech: &Self| match tech.spindle {
-            Some(true) => "on",
-            Some(false) => "off",
-            None => "unknown",
-        };
-        pair("spindle", on(self).to_owned(), on(other).to_owned());
         let tool = |tech: &Self| tech.tool.map_or("unknown".to_owned(), |number| format!("T{number}"));
         pair("tool", tool(self), tool(other));
         let mm = |bits| format!("{} mm", f64::from_bits(bits));
@@ -110,11 +92,31 @@ impl Tech {
             code => format!("G{code}"),
         };
         pair("radius compensation", side(self), side(other));
+        let yes = |on: bool| if on { "on" } else { "off" }.to_owned();
         pair(
-            "coolant",
-            coolant_name(self.coolant).to_owned(),
-            coolant_name(other.coolant).to_owned(),
+            "machine coordinates",
+            yes(self.machine_coordinates),
+            yes(other.machine_coordinates),
         );
+        let circle = |tech: &Self| {
+            match tech.great_circle {
+                Some(true) => "great circle",
+                Some(false) => "linear in the axes",
+                None => "as the machine does it",
+            }
+            .to_owned()
+        };
+        pair("tool axis between ends", circle(self), circle(other));
+        let value = |tech: &Self, key: &str| {
+            let known = tech.settings.iter().find(|(known, _)| known == key);
+            known.map_or("not set".to_owned(), |(_, value)| value.clone())
+        };
+        let mut keys: Vec<&str> = self.settings.iter().chain(&other.settings).map(|(key, _)| key.as_str()).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        for key in keys {
+            pair(key, value(self, key), value(other, key));
+        }
         found
     }
 }
@@ -124,129 +126,5 @@ fn feed((unit, bits): (&'static str, u64)) -> String {
         "" => "none".to_owned(),
         "?" => "unknown".to_owned(),
         unit => format!("{} {unit}", f64::from_bits(bits)),
-    }
-}
-
-fn coolant_name(coolant: Coolant) -> &'static str {
-    ["off", "mist", "flood", "mist and flood"][usize::from(coolant & 3)]
-}
-
-/// The coolant after a block: M7, M8 and M9, or COOLNT of APT.
-pub(super) fn coolant(block: &Block<'_>, mut now: Coolant) -> Coolant {
-    if block.program().options().format == Format::Apt {
-        let Some(record) = block.record().filter(|record| record.is("COOLNT")) else {
-            return now;
-        };
-        let text = block.program().text(record.range).to_ascii_uppercase();
-        return if text.contains("OFF") {
-            0
-        } else if text.contains("MIST") {
-            1
-        } else {
-            2
-        };
-    }
-    for word in block.words() {
-        if let (Address::Letter(b'M'), Value::Number(number)) = (word.address, word.value) {
-            match number.to_integer() {
-                Some(7) => now |= 1,
-                Some(8) => now |= 2,
-                Some(9 | 2 | 30) => now = 0,
-                _ => {}
-            }
-        }
-    }
-    now
-}
-
-/// Whether a fault means that its block says more than its motions hold.
-pub(super) fn says_more(kind: &FaultKind) -> bool {
-    !matches!(
-        kind,
-        FaultKind::MissingFeed { .. }
-            | FaultKind::ArcRadiusMismatch { .. }
-            | FaultKind::ArcRadiusTooSmall { .. }
-            | FaultKind::VectorNotUnit { .. }
-            | FaultKind::AmbiguousDecimal
-            | FaultKind::TcpState(_)
-            | FaultKind::MissingProgramEnd
-            | FaultKind::WorkOffsetUnset { .. }
-            | FaultKind::ToolLengthUnset { .. }
-            | FaultKind::UnknownWord
-            | FaultKind::RepeatedWord
-            | FaultKind::UnusedWord
-    )
-}
-
-/// The words of a block that no number holds; of the whole block, if `whole`. `None` where there are none.
-pub(super) fn statement(block: &Block<'_>, dialect: &Dialect, whole: bool) -> Option<String> {
-    let program = block.program();
-    let text = |range| {
-        program
-            .text(range)
-            .split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" ")
-            .to_ascii_uppercase()
-    };
-    if program.options().format == Format::Apt {
-        let record = block.record()?;
-        let ends = record.is("FINI") || record.is("STOP") || record.is("OPSTOP");
-        return (whole || ends).then(|| text(record.range));
-    }
-    let mut parts = Vec::new();
-    for item in block.items() {
-        match item {
-            Item::Word(word) => {
-                let role = match word.address {
-                    Address::Letter(letter) => dialect.role(letter),
-                    _ => None,
-                };
-                if role != Some(Role::BlockNumber) && (whole || stops(dialect, role, word.value)) {
-                    parts.push(canonical(&text(word.range)));
-                }
-            }
-            Item::Call(call) if whole => parts.push(text(call.range)),
-            Item::Skip(_, range) => parts.push(text(range)),
-            Item::Label(range) | Item::Other(range) if whole => parts.push(text(range)),
-            _ => {}
-        }
-    }
-    // block delete alone says only that the block may be skipped, and that belongs to what it does
-    (!parts.is_empty()).then(|| parts.join(" "))
-}
-
-/// Whether an M word says something that no motion holds: a stop, an end, a function of the machine.
-fn stops(dialect: &Dialect, role: Option<Role>, value: Value) -> bool {
-    let (Some(Role::M), Value::Number(number)) = (role, value) else {
-        return false;
-    };
-    let code = number
-        .to_integer()
-        .and_then(|number| dialect.m((number * 10).try_into().ok()?));
-    let coolant = matches!(number.to_integer(), Some(7..=9));
-    !coolant
-        && code.is_none_or(|code| {
-            matches!(
-                code.action,
-                Action::ProgramStop | Action::ProgramEnd | Action::NoMotion | Action::NotModelled
-            )
-        })
-}
-
-/// A word without blanks inside and zeros in front: `M06` and `M 6` are `M6`.
-fn canonical(word: &str) -> String {
-    let packed: String = word.split_whitespace().collect();
-    match (packed.get(..1), packed.get(1..)) {
-        (Some(letter @ ("G" | "M" | "T")), Some(rest)) if rest.starts_with('0') && rest.len() > 1 => {
-            let digits = rest.trim_start_matches('0');
-            let zero = if digits.is_empty() || digits.starts_with('.') {
-                "0"
-            } else {
-                ""
-            };
-            format!("{letter}{zero}{digits}")
-        }
-        _ => packed,
     }
 }

@@ -6,6 +6,7 @@ use crate::cli::{json::tidy, load::Loaded};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use trunnion_interp::AXIS_LETTERS;
+use trunnion_same::Verdict;
 use trunnion_syntax::{BlockId, LineIndex};
 
 /// The lines of both programs.
@@ -49,6 +50,7 @@ pub(super) fn text(before: &Loaded, after: &Loaded, found: &Found, tolerance: To
     let lines = Lines::new(before, after);
     let mut out = String::new();
     let machine = before.resolved.machine.as_ref();
+    out.push_str(&summary(&lines, found, tolerance));
     let on = machine.map_or_else(String::new, |machine| {
         format!("  on {}, coordinates are its joints", machine.id)
     });
@@ -83,7 +85,6 @@ pub(super) fn text(before: &Loaded, after: &Loaded, found: &Found, tolerance: To
     if rows.len() > limit {
         let _ = writeln!(out, "  and {} more; see them all with --limit 0", rows.len() - limit);
     }
-    out.push_str(&summary(&lines, found, tolerance));
     out
 }
 
@@ -265,11 +266,9 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
     if found.same() {
         return format!("SAME {} motions {within}{unknown}\n", found.motions[0]);
     }
-    if found.no_difference() {
-        return format!(
-            "UNKNOWN {} motions are the same {within}{unknown}; what comes behind was not compared\n{stops}",
-            found.motions[0]
-        );
+    let first = first(lines, found);
+    if let Verdict::Unknown(_) = &found.verdict {
+        return format!("UNKNOWN {first}\n{stops}");
     }
     let [moved, removed, added, techs] = counts(found);
     let mut parts = Vec::new();
@@ -294,13 +293,11 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
         parts.push(format!("{} more not compared in detail", found.not_compared));
     }
     let counted = format!("{} -> {} motions", found.motions[0], found.motions[1]);
-    let mut text = format!(
-        "DIFFERENT {counted}: {}; other motions are the same {within}{unknown}\n",
-        parts.join(", ")
-    );
+    let listed = if parts.is_empty() { String::new() } else { format!("; {}", parts.join(", ")) };
+    let mut text = format!("DIFFERENT {first}\n{counted}{listed}; other motions are the same {within}{unknown}\n");
     if found.too_different {
         text = format!(
-            "DIFFERENT {counted}: too little in common to say which motion is which; they part at the first line above\n"
+            "DIFFERENT {first}\n{counted}: too little in common to say which motion is which; they part at the first line above\n"
         );
     } else if found.one_by_one {
         text.push_str(
@@ -308,6 +305,25 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
         );
     }
     text + &stops
+}
+
+/// The first difference, or what cannot be said, with the lines.
+fn first(lines: &Lines<'_>, found: &Found) -> String {
+    let (Verdict::Differs(difference) | Verdict::Unknown(difference)) = &found.verdict else {
+        return String::new();
+    };
+    let place = |side: usize, block: Option<BlockId>| {
+        block.map(|block| format!("{}:{}", lines.name(side), lines.line(side, block)))
+    };
+    let places: Vec<String> = [place(0, difference.before), place(1, difference.after)]
+        .into_iter()
+        .flatten()
+        .collect();
+    if places.is_empty() {
+        difference.what.clone()
+    } else {
+        format!("{}: {}", places.join(" and "), difference.what)
+    }
 }
 
 /// Where the runs stopped before the end, one line each.
@@ -375,7 +391,8 @@ pub(super) fn json(before: &Loaded, after: &Loaded, found: &Found, tolerance: To
     json!({
         "schema": "trunnion-diff/1", "version": env!("CARGO_PKG_VERSION"),
         "before": before.name, "after": after.name, "machine": before.resolved.machine.as_ref().map(|machine| &machine.id),
-        "tolerance_mm": tolerance.mm, "tolerance_deg": tolerance.deg, "same": found.same(),
+        "tolerance_mm": tolerance.mm, "tolerance_deg": tolerance.deg, "same": found.same(), "verdict": match found.verdict { Verdict::Same => "same", Verdict::Differs(_) => "different", Verdict::Unknown(_) => "unknown" },
+        "first_difference": (!found.same()).then(|| first(&lines, found)),
         "not_followed_before": stop(0), "not_followed_after": stop(1),
         "summary": {
             "motions_before": found.motions[0], "motions_after": found.motions[1], "moved": moved, "removed": removed,

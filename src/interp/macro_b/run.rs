@@ -213,6 +213,11 @@ impl super::Flow {
         self.deep.as_ref()?.variables.written(text)
     }
 
+    /// Common variables that keep their values when the program ends.
+    pub(crate) fn outliving(&self) -> Vec<(String, f64)> {
+        self.deep.as_ref().map_or_else(Vec::new, |deep| deep.variables.kept())
+    }
+
     pub(crate) fn chain(&self, chain: crate::ChainId) -> Vec<crate::Frame> {
         self.deep
             .as_ref()

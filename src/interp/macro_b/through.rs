@@ -23,6 +23,10 @@ impl<S: Sink> Sink for Through<'_, S> {
         self.sink.motion(motion, state);
     }
 
+    fn effect(&mut self, effect: crate::Placed) {
+        self.sink.effect(effect);
+    }
+
     fn fault(&mut self, fault: Fault) {
         if !self.told.is_new(self.place.file, &fault, self.again) {
             return;

@@ -131,6 +131,13 @@ impl Variables {
             Err(_) => self.named(&name.to_ascii_lowercase()),
         }
     }
+    /// #500 to #999 with their values, as far as they are known: they outlive the program (Series 30i operator's manual, custom macro).
+    pub(crate) fn kept(&self) -> Vec<(String, f64)> {
+        let kept = self.common.range(500..).filter(|_| !self.lost);
+        kept.filter_map(|(number, held)| Some((format!("#{number}"), (*held)?)))
+            .filter(|(_, value)| !value.is_nan())
+            .collect()
+    }
     /// A named variable.
     pub(crate) fn named(&self, name: &str) -> Option<f64> {
         if self.lost {

@@ -46,6 +46,9 @@ pub(super) struct Told {
     pub(super) hidden: bool,
     /// While lines are motions and nothing else, which no offset can change: the offsets, and the last of them.
     pub(super) steady: Option<Box<Steady>>,
+    /// Of the line in hand: it does more than its motions and calls hold; where a motion ends, or how it gets there, is unknown.
+    pub(super) does_more: bool,
+    pub(super) unknown_end: bool,
     /// The kinematics were switched, nobody knows to which: X Y Z say nothing about the machine.
     pub(super) kinematics_unknown: bool,
 }
@@ -97,6 +100,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         } else {
             self.program.block(block).range()
         };
+        self.told.does_more |= crate::effects::does_more(&kind);
         let kind = match self.told.paths.get(at.file.0 as usize) {
             Some(path) if at.file != FileId::MAIN => placed(kind, format!("{path}, line {}", at.line + 1)),
             _ => kind,
@@ -186,7 +190,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             radii: state.lathe_diameter,
             tool: modal.tool,
             tilt: crate::Tilt::default(),
+            effects: interpreter.memory.effects.count,
         };
+        let named = state.named_axes & !motion.end.known != 0;
+        let no_path = matches!(kind, MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None));
+        self.told.unknown_end |= named || no_path;
         self.sink.motion(&motion, &self.interpreter.state);
         motion
     }
@@ -247,6 +255,9 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
         if !matches!(call, Canon::Traverse(_) | Canon::Feed(_) | Canon::FeedRate(_)) {
             self.told.steady = None;
         }
+        if self.interpreter.memory.effects.wanted {
+            self.effect_of_call(call, at);
+        }
         match call {
             Canon::Traverse(pose) => self.straight_motion(true, pose, at, state),
             Canon::Feed(pose) => self.straight_motion(false, pose, at, state),
@@ -273,7 +284,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
                 end,
             } => self.spline(*order, points, knots, end, at, state),
             Canon::Probe(kind, pose) => self.probe(*kind, pose, at, state),
-            Canon::RigidTap(to, _) => self.tap(*to, at, state),
+            Canon::RigidTap(to, back) => self.tap(*to, *back, at, state),
             Canon::Dwell(seconds) => {
                 let shift = self.shift(state);
                 let end = shift.programmed(&self.told.machine);
@@ -378,7 +389,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     }
 
     /// Rigid tapping: in along the thread and back to where it began.
-    fn tap(&mut self, to: [f64; 3], at: At, state: &State) {
+    fn tap(&mut self, to: [f64; 3], back: f64, at: At, state: &State) {
         let shift = self.shift(state);
         let start = shift.programmed(&self.told.machine);
         let point = shift.point(to);
@@ -394,7 +405,13 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             .told
             .synced
             .map_or(Feed::Unknown, |pitch| Feed::PerRevolution(pitch.mm));
+        if self.interpreter.memory.effects.wanted {
+            self.tapping(Some(back), at);
+        }
         self.motion(MotionKind::Linear, end, &shift, feed, at, state);
         self.motion(MotionKind::Linear, start, &shift, feed, at, state);
+        if self.interpreter.memory.effects.wanted {
+            self.tapping(None, at);
+        }
     }
 }

@@ -2,6 +2,7 @@
 mod bridge;
 mod calls;
 mod chords;
+mod effects;
 mod faults;
 mod feed;
 mod frames;
@@ -10,6 +11,9 @@ mod places;
 mod setup;
 mod steady;
 
+use crate::effect::{Argument, Effect};
+use crate::words::Words;
+use crate::written::{Keep, resolved, written};
 use crate::{FaultKind, Frame, Interpreter, Sink};
 use bridge::{Bridge, LINEAR_AXES, Told};
 use frames::Shift;
@@ -64,6 +68,10 @@ impl Rs274 {
     pub(crate) fn variable(&self, text: &str) -> Option<f64> {
         self.engine.variable(text)
     }
+    /// Variables that outlive the program, as far as they are known.
+    pub(crate) fn outliving(&self) -> Vec<(String, f64)> {
+        self.engine.outliving()
+    }
     /// The calls of a chain.
     pub(crate) fn chain(&self, id: crate::ChainId) -> Vec<Frame> {
         let place = self.told.places.place(id);
@@ -107,8 +115,42 @@ impl Interpreter<'_> {
         } else {
             self.step_rs274(&mut run, program, sink)
         };
+        let at = run.engine.at();
         self.rs274 = Some(run);
+        if let Some(block) = block.filter(|_| self.memory.effects.wanted) {
+            self.line_effect(program, block, at, sink);
+        }
         block
+    }
+
+    /// The words of a line that does more than is modelled, or whose values are unknown.
+    #[cold]
+    fn line_effect(&mut self, program: &Program, block: BlockId, at: trunnion_ngc::At, sink: &mut impl Sink) {
+        let Some(run) = &mut self.rs274 else { return };
+        let does_more = std::mem::take(&mut run.told.does_more);
+        let unknown_end = std::mem::take(&mut run.told.unknown_end);
+        let text = run.engine.text_of(at.file, at.line);
+        let names = crate::written::names(&text);
+        let unknown = names.iter().any(|name| self.variable(name).is_some_and(f64::is_nan));
+        if !(does_more || unknown_end || unknown) {
+            return;
+        }
+        let arguments = if at.file == FileId::MAIN {
+            let keep = if unknown_end || unknown { Keep::All } else { Keep::BesideMotion };
+            written(&program.block(block), self, &Words::default(), keep)
+        } else {
+            vec![Argument::text("", &resolved(self, &text))]
+        };
+        if arguments.is_empty() {
+            return;
+        }
+        if let Some(run) = &mut self.rs274 {
+            run.told.steady = None;
+        }
+        self.memory.effects.add(block, Effect::Unmodelled(arguments));
+        for effect in std::mem::take(&mut self.memory.effects.ready) {
+            sink.effect(effect);
+        }
     }
 
     fn step_rs274(&mut self, run: &mut Rs274, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {

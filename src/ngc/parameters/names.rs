@@ -49,6 +49,11 @@ impl Names {
                 .all(same)
             && self.rest.iter().zip(&other.rest).all(same)
     }
+    /// All names with their values.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&Name, f64)> {
+        let listed = self.few.iter().map(|(name, value)| (name, *value));
+        listed.chain(self.rest.iter().map(|(name, value)| (name, *value)))
+    }
     /// Forgets all names.
     pub(super) fn clear(&mut self) {
         self.few.clear();

@@ -1,0 +1,90 @@
+//! The effects of an APT record, in the words that G-code programs use for the same, so that both can be compared.
+//!
+//! Source of the records: ISO 4343 (NC processor output, post processor commands): SPINDL, COOLNT, LOADTL, STOP, OPSTOP, END, FINI.
+use crate::apt::Args;
+use crate::effect::{Argument, Effect};
+use crate::run::Interpreter;
+use crate::written::packed;
+use crate::{Motion, MotionKind};
+use trunnion_syntax::{Block, Record};
+
+/// Records that say nothing to the machine.
+const NEUTRAL: [&str; 6] = ["PARTNO", "PPRINT", "REMARK", "CUTTER", "TOOLNO", "MULTAX"];
+
+impl Interpreter<'_> {
+    /// What a record sets, before its motion.
+    #[cold]
+    pub(crate) fn record_effects(&mut self, record: &Record<'_>, view: &Block<'_>) {
+        let args = Args::new(record);
+        let program = view.program();
+        let block = self.flow.main_block(view.id());
+        let effects = &mut self.memory.effects;
+        if record.is("COOLNT") {
+            let off = args.has(program, "OFF");
+            let mist = args.has(program, "MIST") && !off;
+            let flood = !off && (args.has(program, "FLOOD") || args.has(program, "ON") || args.words().is_empty());
+            for (key, is_on) in [("mist", mist), ("flood", flood)] {
+                let to: Vec<Argument> = is_on.then(|| Argument::code("on")).into_iter().collect();
+                effects.add(block, Effect::set(key, to));
+            }
+            if !(off || mist || flood) {
+                let words = vec![Argument::text("COOLNT", &packed(&program.text(record.range)))];
+                effects.add(block, Effect::Unmodelled(words));
+            }
+        } else if record.is("SPINDL") {
+            let still = args.has(program, "OFF") || args.numbers().first() == Some(&0.0);
+            let to = if args.has(program, "LOCK") || args.has(program, "ORIENT") {
+                vec![Argument::text("M19", &packed(&program.text(record.range)))]
+            } else if still {
+                vec![Argument::code("M5")]
+            } else if args.has(program, "CCLW") {
+                vec![Argument::code("M4")]
+            } else {
+                vec![Argument::code("M3")]
+            };
+            effects.add(block, Effect::set("spindle", to));
+            if let Some(&speed) = args.numbers().first().filter(|_| !still) {
+                effects.add(block, Effect::set("speed", [Argument::number("S", speed)]));
+            }
+            let surface = args.has(program, "SFM") || args.has(program, "SMM");
+            let mode: Vec<Argument> = surface.then(|| Argument::code("G96")).into_iter().collect();
+            effects.add(block, Effect::set("speed mode", mode));
+        } else if record.is("LOADTL") || record.is("LOAD") && args.has(program, "TOOL") {
+            if let Some(&number) = args.numbers().first() {
+                effects.add(block, Effect::set("tool prepared", [Argument::number("T", number)]));
+                effects.add(block, Effect::set("tool in use", [Argument::number("T", number)]));
+            }
+        } else if record.is("STOP") {
+            effects.add(block, Effect::Event(vec![Argument::code("M0")]));
+        } else if record.is("OPSTOP") {
+            effects.add(block, Effect::Event(vec![Argument::code("M1")]));
+        } else if record.is("FINI") || record.is("END") {
+            effects.add(block, Effect::End(vec![Argument::code("FINI")]));
+        }
+    }
+
+    /// The words of a record that does more than is modelled.
+    #[cold]
+    pub(crate) fn late_record_effects(
+        &mut self,
+        record: &Record<'_>,
+        view: &Block<'_>,
+        motion: Option<&Motion>,
+        does_more: bool,
+    ) {
+        let held = ["GOTO", "FROM", "RAPID", "FEDRAT", "SPINDL", "COOLNT", "LOADTL", "STOP", "OPSTOP", "FINI", "END"];
+        let unknown = motion.is_some_and(|motion| {
+            matches!(motion.kind, MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None))
+                || motion.end.xyz().is_none()
+        });
+        let modelled = ["GODLTA", "CIRCLE", "DELAY", "UNITS", "UNIT", "TLAXIS", "CUTCOM", "CYCLE", "CSYS", "LOAD"];
+        let known = held.iter().chain(&modelled).chain(&NEUTRAL).any(|name| record.is(name));
+        let cutcom = record.is("CUTCOM") || record.is("CYCLE");
+        if does_more || unknown || !known || cutcom {
+            let block = self.flow.main_block(view.id());
+            let text = packed(&view.program().text(record.range));
+            let words = vec![Argument::text("", &text)];
+            self.memory.effects.add(block, Effect::Unmodelled(words));
+        }
+    }
+}

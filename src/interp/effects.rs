@@ -1,0 +1,385 @@
+//! The effects of an ISO block: which of its codes and words are held neither by its motions nor by the modal state.
+use crate::codes::{Found, dwell_reads};
+use crate::effect::{Argument, Effect, Value};
+use crate::memory::Chosen;
+use crate::run::Interpreter;
+use crate::words::{Said, Words};
+use crate::written::{Keep, call_argument, named_effects, unknown_assignment, written};
+use crate::{FaultKind, Motion, MotionKind};
+use trunnion_dialect::{Action, CodeKind, Role};
+use trunnion_syntax::Block;
+
+/// Whether a fault means that its block does more than its motions and the modal state hold.
+pub(crate) fn does_more(kind: &FaultKind) -> bool {
+    !matches!(
+        kind,
+        FaultKind::MissingFeed { .. }
+            | FaultKind::ArcRadiusMismatch { .. }
+            | FaultKind::ArcRadiusTooSmall { .. }
+            | FaultKind::VectorNotUnit { .. }
+            | FaultKind::AmbiguousDecimal
+            | FaultKind::UnusedWord
+            | FaultKind::TcpState(_)
+            | FaultKind::MissingProgramEnd
+            | FaultKind::WorkOffsetUnset { .. }
+            | FaultKind::ToolLengthUnset { .. }
+    )
+}
+
+/// Names of codes that tell the operator something and do nothing else.
+const NEUTRAL: [&str; 1] = ["MSG"];
+
+/// Whether the spindle does more in a cycle or along a path than turn: it is coupled to the feed, stops, or is oriented.
+fn couples(action: Action) -> bool {
+    matches!(
+        action,
+        Action::Thread
+            | Action::VariableThread
+            | Action::TapCycle
+            | Action::TapLeftCycle
+            | Action::BoreStopCycle
+            | Action::BoreManualCycle
+            | Action::FineBoreCycle
+            | Action::BackBoreCycle
+            | Action::ThreadingCycle
+            | Action::ThreadRepeatCycle
+            | Action::HoleCall
+            | Action::CannedCycle
+    )
+}
+
+/// Whether a code ends what a code that [`couples`] began.
+fn uncouples(action: Action) -> bool {
+    action.is_hole_cycle()
+        || action.is_pass_cycle()
+        || matches!(
+            action,
+            Action::Rapid | Action::Linear | Action::ArcClockwise | Action::ArcCounterClockwise | Action::CycleOff
+        )
+}
+
+/// What a code is for a comparison.
+enum Sort {
+    /// Motions and the modal state hold it.
+    Held,
+    /// It sets something until another code sets it again.
+    Setting(&'static str),
+    /// One of a modal group whose codes only set something.
+    Group,
+    /// It happens once, before the block's motion.
+    Before,
+    /// It happens once, after the block's motion.
+    After,
+}
+
+fn sort(found: &Found<'_>, words: &Words) -> Sort {
+    let code = found.code;
+    match code.action {
+        _ if code.kind == CodeKind::Name && NEUTRAL.contains(&code.id.as_str()) => Sort::Held,
+        Action::SpindleClockwise | Action::SpindleCounterClockwise | Action::SpindleStop => Sort::Setting("spindle"),
+        Action::ConstantSurfaceSpeed | Action::ConstantSpindleSpeed => Sort::Setting("speed mode"),
+        Action::ProgramStop => Sort::After,
+        Action::OrientationAxes | Action::OrientationVector => Sort::Group,
+        Action::DataEntry | Action::ReferenceStore | Action::ReferenceStoreOther => Sort::Before,
+        // a limit of the spindle's speed
+        Action::PositionSet | Action::NotFollowed | Action::FrameChange
+            if !words.axes.any() && words.speed.is_said() =>
+        {
+            Sort::Setting("speed limit")
+        }
+        Action::NoMotion | Action::PathMode | Action::DiameterSwitch => match code.group.as_deref() {
+            None | Some("one-shot" | "non-modal" | "special-motion" | "exact-stop-once" | "stopping") => Sort::Before,
+            Some(_) => Sort::Group,
+        },
+        Action::Kinematics => Sort::Before,
+        _ => Sort::Held,
+    }
+}
+
+/// Coolant codes that every dialect here shares: flood, mist, or both off.
+fn coolant(code: &trunnion_dialect::Code) -> Option<&'static [(&'static str, bool)]> {
+    let listed = matches!(code.group.as_deref(), Some("coolant" | "mist"));
+    match code.id.as_str() {
+        "M7" if listed => Some(&[("mist", true)]),
+        "M8" if listed => Some(&[("flood", true)]),
+        "M9" if listed => Some(&[("mist", false), ("flood", false)]),
+        _ => None,
+    }
+}
+
+impl Interpreter<'_> {
+    /// Asks for effects: without, [`crate::Sink::effect`] is never called.
+    pub fn watch_effects(&mut self) {
+        self.memory.effects.wanted = true;
+    }
+
+    /// What the codes and the words S, T and D of a block set or do, before its motion.
+    #[cold]
+    pub(crate) fn code_effects(&mut self, codes: &[Found<'_>], words: &Words, view: &Block<'_>) {
+        let block = self.flow.main_block(view.id());
+        if matches!(view.items().next(), Some(trunnion_syntax::Item::Skip(..))) && self.setup.control.block_delete.is_none() {
+            // the switch decides whether the block runs at all
+            self.memory.effects.add(block, Effect::Event(vec![Argument::code("/")]));
+        }
+        let mut free = self.free_letters(words);
+        for found in codes {
+            if couples(found.code.action) {
+                let mut to = vec![name_of(found, view)];
+                let letters = match found.code.action {
+                    Action::VariableThread | Action::Thread => letter_bit(b'Q') | letter_bit(b'K'),
+                    _ => letter_bit(b'Q') | letter_bit(b'I') | letter_bit(b'J'),
+                };
+                to.extend(arguments(words, letters));
+                self.memory.effects.add(block, Effect::set("cycle", to));
+            } else if uncouples(found.code.action) {
+                self.memory.effects.add(block, Effect::set("cycle", []));
+            }
+        }
+        let mut opaque = Vec::new();
+        for found in codes {
+            match sort(found, words) {
+                Sort::Held => free &= !crate::unused::letters(found.code),
+                Sort::Setting("speed limit") => {
+                    let to = [Argument::code(found.code.id.clone()), said("S", words.speed)];
+                    self.memory.effects.add(block, Effect::set("speed limit", to));
+                    free = 0;
+                }
+                Sort::Setting(key) => {
+                    let mut to = vec![Argument::code(found.code.id.clone())];
+                    let own = crate::unused::letters(found.code) & free & !letter_bit(b'S');
+                    to.extend(arguments(words, own));
+                    free &= !own;
+                    self.memory.effects.add(block, Effect::set(key, to));
+                }
+                Sort::Group if coolant(found.code).is_some() => {
+                    for (key, on) in coolant(found.code).into_iter().flatten().filter(|(_, on)| *on) {
+                        let to = on.then(|| Argument::code("on")).into_iter().collect::<Vec<_>>();
+                        self.memory.effects.add(block, Effect::set(*key, to));
+                    }
+                }
+                Sort::Group | Sort::Before => opaque.push(found),
+                Sort::After => {}
+            }
+        }
+        let rest: Vec<Argument> = if words.flow { Vec::new() } else { arguments(words, free).collect() };
+        if opaque.is_empty() && !rest.is_empty() && !codes.iter().any(|found| found.code.action == Action::ProgramStop) {
+            self.memory.effects.add(block, Effect::Event(rest));
+        } else if let [found] = opaque[..]
+            && matches!(sort(found, words), Sort::Group)
+        {
+            let key = found.code.group.clone().unwrap_or_default();
+            let mut to = vec![name_of(found, view)];
+            to.extend(rest);
+            self.memory.effects.add(block, Effect::set(key, to));
+        } else if !opaque.is_empty() {
+            self.several(&opaque, rest, words, view);
+        }
+        self.word_effects(codes, words, block);
+    }
+
+    /// Several codes that are compared by their words, or one that happens once: the codes in an order of their own, with all words that
+    /// nothing else reads.
+    fn several(&mut self, opaque: &[&Found<'_>], rest: Vec<Argument>, words: &Words, view: &Block<'_>) {
+        let block = self.flow.main_block(view.id());
+        let mut alone = Vec::new();
+        for found in opaque {
+            let grouped = matches!(sort(found, words), Sort::Group);
+            if grouped && rest.is_empty() {
+                let key = found.code.group.clone().unwrap_or_default();
+                let to = [name_of(found, view)];
+                self.memory.effects.add(block, Effect::set(key, to));
+            } else {
+                alone.push(found);
+            }
+        }
+        if alone.is_empty() {
+            return;
+        }
+        let coordinates = alone.iter().any(|found| takes_axes(found.code.action));
+        let mut event: Vec<Argument> = alone.iter().map(|found| name_of(found, view)).collect();
+        event.sort_by(|a, b| a.name.cmp(&b.name));
+        event.extend(rest);
+        if coordinates {
+            event.extend(coordinate_arguments(words));
+            if self.state.length_unit_mm != 1.0 {
+                event.push(Argument::number("mm per unit", self.state.length_unit_mm));
+            }
+            if self.state.incremental {
+                event.push(Argument::code("incremental"));
+            }
+        }
+        self.memory.effects.add(block, Effect::Event(event));
+    }
+
+    /// S, T, D.
+    fn word_effects(&mut self, codes: &[Found<'_>], words: &Words, block: trunnion_syntax::BlockId) {
+        let limits = codes
+            .iter()
+            .any(|found| matches!(sort(found, words), Sort::Setting("speed limit")));
+        if words.speed.is_said() && !limits && !dwell_reads(codes, "S") {
+            self.memory.effects.add(block, Effect::set("speed", [said("S", words.speed)]));
+        }
+        if words.tool.is_said() {
+            let to = [chosen(&self.memory.prepared)];
+            self.memory.effects.add(block, Effect::set("tool prepared", to));
+        }
+        if words.tool.is_said() || codes.iter().any(|found| found.code.action == Action::ToolChange) {
+            let to = [chosen(&self.memory.in_spindle)];
+            self.memory.effects.add(block, Effect::set("tool in use", to));
+        }
+        if words.edge.is_said() {
+            self.memory.effects.add(block, Effect::set("D", [said("D", words.edge)]));
+        }
+    }
+
+    /// Letters of parameters in the block that no cycle in force reads.
+    fn free_letters(&self, words: &Words) -> u32 {
+        let parameters = (b'A'..=b'Z')
+            .filter(|letter| self.dialect.role(*letter) == Some(Role::Parameter))
+            .fold(0, |all, letter| all | letter_bit(letter));
+        let cycle = self.state.motion.is_some_and(|motion| motion.is_hole_cycle() || motion.is_pass_cycle());
+        let in_force = if cycle || words.radius.is_said() {
+            self.memory.cycle.letters | letter_bit(b'R') | letter_bit(b'P') | letter_bit(b'Q')
+        } else {
+            0
+        };
+        words.letters & parameters & !in_force
+    }
+
+    /// What happens after the block's motion: stops, coolant off, the program's end, and the words of a block that does more than is
+    /// modelled.
+    #[cold]
+    pub(crate) fn late_effects(
+        &mut self,
+        view: &Block<'_>,
+        codes: &[Found<'_>],
+        words: &Words,
+        motions: &[Motion],
+        does_more: bool,
+    ) {
+        let block = self.flow.main_block(view.id());
+        named_effects(self, view, block);
+        let named = words.axes.given | words.axes.unread;
+        let unknown_end = motions.iter().any(|motion| {
+            let no_path = matches!(motion.kind, MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None));
+            no_path || named & !motion.end.known != 0
+        });
+        let frame = codes.iter().any(|found| is_frame(found.code.action));
+        let unknown_frame = frame && (self.state.zero.iter().any(|value| value.is_nan()) || self.state.frame_unknown);
+        let unread = words.axes.unread | words.centre.unread | words.vector.unread != 0
+            || [words.feed, words.speed, words.tool, words.edge, words.radius, words.p, words.length_offset]
+                .iter()
+                .any(|said| matches!(said, Said::Unread));
+        let moved = !motions.is_empty() && !unknown_end && !unread;
+        if does_more || unknown_end || unknown_frame || unread {
+            let keep = if moved && !frame && !words.forgets_all { Keep::BesideMotion } else { Keep::All };
+            let arguments = written(view, self, words, keep);
+            if !arguments.is_empty() {
+                self.memory.effects.add(block, Effect::Unmodelled(arguments));
+            }
+        } else if let Some(arguments) = unknown_assignment(self, view, words) {
+            self.memory.effects.add(block, Effect::Unmodelled(arguments));
+        }
+        for found in codes {
+            match sort(found, words) {
+                Sort::After => {
+                    let mut event = vec![Argument::code(found.code.id.clone())];
+                    event.extend(arguments(words, crate::unused::letters(found.code) & words.letters));
+                    self.memory.effects.add(block, Effect::Event(event));
+                }
+                Sort::Group => {
+                    for (key, _) in coolant(found.code).into_iter().flatten().filter(|(_, on)| !*on) {
+                        self.memory.effects.add(block, Effect::set(*key, []));
+                    }
+                }
+                _ if found.code.action == Action::ProgramEnd => {
+                    let event = vec![Argument::code(found.code.id.clone())];
+                    self.memory.effects.add(block, Effect::End(event));
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Whether a code reads the axis words of its block as data.
+fn takes_axes(action: Action) -> bool {
+    matches!(
+        action,
+        Action::DataEntry | Action::ReferenceStore | Action::ReferenceStoreOther | Action::NoMotion | Action::PathMode
+    )
+}
+
+/// Whether a code changes what coordinates mean.
+fn is_frame(action: Action) -> bool {
+    matches!(
+        action,
+        Action::FrameChange
+            | Action::FrameLost
+            | Action::ProgrammableShift
+            | Action::LocalShift
+            | Action::PositionSet
+            | Action::PositionPreset
+            | Action::RotationOn
+            | Action::ScalingOn
+            | Action::MirrorOn
+            | Action::PolarOn
+            | Action::TiltedPlane
+            | Action::SwivelCycle
+            | Action::WorkOffset
+    )
+}
+
+pub(crate) fn letter_bit(letter: u8) -> u32 {
+    1 << (letter - b'A')
+}
+
+const LETTERS: [&str; 26] = [
+    "A", "B", "C", "D", "E", "F", "G", "H", "I", "J", "K", "L", "M", "N", "O", "P", "Q", "R", "S", "T", "U", "V", "W",
+    "X", "Y", "Z",
+];
+
+/// The words of some letters in alphabetical order.
+fn arguments(words: &Words, letters: u32) -> impl Iterator<Item = Argument> {
+    LETTERS
+        .iter()
+        .filter(move |letter| letters & letter_bit(letter.as_bytes()[0]) != 0)
+        .map(|letter| said(letter, words.letter(letter.as_bytes()[0])))
+        .filter(|argument| !matches!(argument.value, Value::Nothing))
+}
+
+/// X Y Z A B C U V W, I J K and R as they are written.
+fn coordinate_arguments(words: &Words) -> impl Iterator<Item = Argument> {
+    let letters = *b"XYZABCUVWIJKR";
+    letters.into_iter().filter_map(|letter| {
+        let value = words.letter(letter);
+        let name = LETTERS[usize::from(letter - b'A')];
+        value.is_said().then(|| said(name, value))
+    })
+}
+
+fn said(name: &'static str, said: Said) -> Argument {
+    match said {
+        Said::Nothing => Argument::code(name),
+        Said::Number(number) => Argument::number(name, number.value),
+        Said::Name(_) | Said::Unread => Argument::text(name, "unknown"),
+    }
+}
+
+fn chosen(tool: &Chosen) -> Argument {
+    match tool {
+        Chosen::Nothing => Argument::code("T"),
+        Chosen::Number(number) => Argument::number("T", f64::from(*number)),
+        Chosen::Named(name) => Argument::text("T", name),
+        Chosen::Unread => Argument::text("T", "unknown"),
+    }
+}
+
+/// The code as it is compared: a name with what stands between its parentheses.
+fn name_of(found: &Found<'_>, view: &Block<'_>) -> Argument {
+    if found.code.kind == CodeKind::Name && found.with_arguments {
+        call_argument(&found.code.id, &view.program().text(found.range))
+    } else {
+        Argument::code(found.code.id.clone())
+    }
+}

@@ -1,0 +1,202 @@
+//! Effects of a LinuxCNC program: canonical calls that are no motion and are not held by the modal state.
+use super::bridge::Bridge;
+use crate::effect::{Argument, Effect};
+use crate::Sink;
+use std::borrow::Cow;
+use trunnion_ngc::{At, Canon, Coolant, MotionMode, SpindleTurn, Stop, Switch};
+
+impl<S: Sink> Bridge<'_, '_, '_, S> {
+    /// Hands the effect of a canonical call on, if it has one.
+    #[cold]
+    pub(super) fn effect_of_call(&mut self, call: &Canon, at: At) {
+        if let Some(effect) = effect(call) {
+            let block = self.block(at);
+            self.interpreter.memory.effects.add(block, effect);
+            self.hand_on();
+        }
+    }
+
+    /// Rigid tapping begins, with the ratio of the speed back, or ends.
+    #[cold]
+    pub(super) fn tapping(&mut self, back: Option<f64>, at: At) {
+        let block = self.block(at);
+        let to: Vec<Argument> = back.map(|back| Argument::number("G33.1", back)).into_iter().collect();
+        self.interpreter.memory.effects.add(block, Effect::set("cycle", to));
+        self.hand_on();
+    }
+
+    fn hand_on(&mut self) {
+        for effect in std::mem::take(&mut self.interpreter.memory.effects.ready) {
+            self.sink.effect(effect);
+        }
+    }
+}
+
+/// The key of a spindle's setting; spindle 0 has the name without a number.
+fn key(name: &'static str, spindle: i32) -> Cow<'static, str> {
+    if spindle == 0 {
+        name.into()
+    } else {
+        format!("{name} ${spindle}").into()
+    }
+}
+
+fn count(name: &'static str, value: i32) -> Argument {
+    Argument::number(name, f64::from(value))
+}
+
+fn on(is_on: bool) -> Vec<Argument> {
+    is_on.then(|| Argument::code("on")).into_iter().collect()
+}
+
+/// What a call does beside moving. Calls that a [`crate::Motion`] or the modal state holds, and texts that do not stop the program, have
+/// none.
+fn effect(call: &Canon) -> Option<Effect> {
+    Some(match call {
+        Canon::MotionMode(mode) => Effect::set(
+            "path-control",
+            match mode {
+                MotionMode::ExactPath => vec![Argument::code("G61")],
+                MotionMode::ExactStop => vec![Argument::code("G61.1")],
+                MotionMode::Continuous(tolerance) => vec![Argument::code("G64"), Argument::number("P", *tolerance)],
+            },
+        ),
+        Canon::NaiveCamTolerance(tolerance) => Effect::set("path-control Q", [Argument::number("Q", *tolerance)]),
+        Canon::SpindleMode(spindle, ceiling) => Effect::set(
+            key("speed mode", *spindle),
+            if *ceiling == 0.0 {
+                Vec::new()
+            } else {
+                vec![Argument::number("D", *ceiling)]
+            },
+        ),
+        Canon::SpindleSpeed(spindle, speed) => {
+            Effect::set(key("speed", *spindle), [Argument::number("S", *speed)])
+        }
+        Canon::Spindle(spindle, turn) => Effect::set(
+            key("spindle", *spindle),
+            [Argument::code(match turn {
+                SpindleTurn::Clockwise => "M3",
+                SpindleTurn::CounterClockwise => "M4",
+                SpindleTurn::Stop => "M5",
+            })],
+        ),
+        Canon::OrientSpindle(spindle, angle, direction) => Effect::set(
+            key("spindle", *spindle),
+            [
+                Argument::code("M19"),
+                Argument::number("R", *angle),
+                count("P", *direction),
+            ],
+        ),
+        Canon::WaitOrient(spindle, seconds) => {
+            Effect::Event(vec![count("wait for orientation", *spindle), Argument::number("Q", *seconds)])
+        }
+        Canon::Coolant(coolant) => match coolant {
+            Coolant::MistOn => Effect::set("mist", on(true)),
+            Coolant::MistOff => Effect::set("mist", on(false)),
+            Coolant::FloodOn => Effect::set("flood", on(true)),
+            Coolant::FloodOff => Effect::set("flood", on(false)),
+        },
+        Canon::SelectTool(tool) => Effect::set("tool prepared", [count("T", *tool)]),
+        Canon::ChangeTool { tool, .. } | Canon::ChangeToolNumber { tool, .. } => {
+            Effect::set("tool in use", [count("T", *tool)])
+        }
+        Canon::SetToolEntry(row, entry) => {
+            let mut words = vec![
+                count("G10 L1", *row),
+                count("T", entry.number),
+                count("P", entry.pocket),
+                Argument::number("D", entry.diameter),
+                Argument::number("I", entry.front_angle),
+                Argument::number("J", entry.back_angle),
+                count("Q", entry.orientation),
+            ];
+            let letters = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
+            words.extend(letters.iter().zip(entry.offset).map(|(letter, value)| Argument::number(*letter, value)));
+            Effect::Event(words)
+        }
+        Canon::ReloadTools => Effect::Event(vec![Argument::code("G10 L0")]),
+        Canon::Switch(switch, is_on) => {
+            let name: Cow<'static, str> = match switch {
+                Switch::FeedOverride => "feed override".into(),
+                Switch::SpeedOverride(spindle) => key("speed override", *spindle),
+                Switch::AdaptiveFeed => "adaptive feed".into(),
+                Switch::FeedHold => "feed hold".into(),
+            };
+            Effect::set(name, [Argument::code(if *is_on { "on" } else { "off" })])
+        }
+        Canon::DigitalOutput { index, on, with_motion } => Effect::Event(vec![
+            Argument::code(match (with_motion, on) {
+                (true, true) => "M62",
+                (true, false) => "M63",
+                (false, true) => "M64",
+                (false, false) => "M65",
+            }),
+            count("P", *index),
+        ]),
+        Canon::AnalogOutput {
+            index,
+            value,
+            with_motion,
+        } => Effect::Event(vec![
+            Argument::code(if *with_motion { "M67" } else { "M68" }),
+            count("E", *index),
+            Argument::number("Q", *value),
+        ]),
+        Canon::WaitInput {
+            index,
+            analog,
+            until,
+            timeout,
+        } => Effect::Event(vec![
+            Argument::code("M66"),
+            count(if *analog { "E" } else { "P" }, *index),
+            count("L", *until),
+            Argument::number("Q", *timeout),
+        ]),
+        Canon::OwnCodes(codes) => {
+            let mut words: Vec<Argument> = codes.iter().map(|code| Argument::code(code.to_string())).collect();
+            words.sort_by(|a, b| a.name.cmp(&b.name));
+            Effect::Event(words)
+        }
+        Canon::UserCode(number, p, q) => Effect::Event(vec![
+            Argument::code(format!("M{number}")),
+            Argument::number("P", *p),
+            Argument::number("Q", *q),
+        ]),
+        Canon::Stop(Stop::Program) => Effect::Event(vec![Argument::code("M0")]),
+        Canon::Stop(Stop::Optional) => Effect::Event(vec![Argument::code("M1")]),
+        Canon::Stop(Stop::End) => Effect::End(vec![Argument::code("M2")]),
+        Canon::Finish => Effect::End(vec![Argument::code("%")]),
+        Canon::PalletShuttle => Effect::Event(vec![Argument::code("pallet shuttle")]),
+        Canon::Log(text) => Effect::Event(vec![Argument::text("LOG", &String::from_utf8_lossy(text))]),
+        Canon::Probe(kind, _) => Effect::Event(vec![Argument::code(format!("G38.{kind}"))]),
+        Canon::StartSync(synced) if !synced.velocity => {
+            Effect::set("cycle", [Argument::number("synchronised", synced.per_revolution)])
+        }
+        Canon::StopSync => Effect::set("cycle", []),
+        Canon::StartChange
+        | Canon::StartSync(_)
+        | Canon::Units(_)
+        | Canon::G5xOffset(..)
+        | Canon::G92Offset(_)
+        | Canon::XyRotation(_)
+        | Canon::FeedReference
+        | Canon::Reset
+        | Canon::Plane(_)
+        | Canon::Comment(_)
+        | Canon::Message(_)
+        | Canon::Print(_)
+        | Canon::FeedRate(_)
+        | Canon::FeedMode(..)
+        | Canon::Traverse(_)
+        | Canon::Feed(_)
+        | Canon::Arc { .. }
+        | Canon::Nurbs { .. }
+        | Canon::ProbeResult
+        | Canon::RigidTap(..)
+        | Canon::Dwell(_)
+        | Canon::ToolOffset(_) => return None,
+    })
+}

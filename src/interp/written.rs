@@ -1,0 +1,323 @@
+//! The words of a block as they are compared where the block's effect is not known: numbers by value, codes and names in one spelling,
+//! and expressions with the known variables in them replaced.
+use crate::effect::{Argument, Effect};
+use crate::run::Interpreter;
+use crate::words::{Said, Words};
+use trunnion_dialect::{CodeKind, Role};
+use trunnion_syntax::{Address, Block, BlockId, Item, TextRange, Value, Word};
+
+/// Which words of a block count.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Keep {
+    /// All.
+    All,
+    /// Those that neither the motion of the block nor the settings hold.
+    BesideMotion,
+}
+
+/// The words of a block, ordered by name.
+pub(crate) fn written(view: &Block<'_>, run: &Interpreter<'_>, words: &Words, keep: Keep) -> Vec<Argument> {
+    let mut found = Vec::new();
+    let text = |range: TextRange| view.program().text(range).into_owned();
+    for item in view.items() {
+        match item {
+            Item::Word(word) => {
+                if !(keep == Keep::BesideMotion && is_held(run, view, &word)) {
+                    found.extend(word_argument(view, run, words, &word));
+                }
+            }
+            Item::Call(call) => {
+                let known = run.dialect.name(&text(call.name)).is_some();
+                if !(keep == Keep::BesideMotion && known) {
+                    found.push(call_argument(&packed(&text(call.name)), &resolved(run, &text(call.range))));
+                }
+            }
+            Item::Other(range) => found.push(Argument::text("", &resolved(run, &text(range)))),
+            Item::Skip(..) | Item::Comment(_) | Item::Percent(_) | Item::Label(_) => {}
+        }
+    }
+    found.sort_by(|a, b| a.name.cmp(&b.name));
+    found
+}
+
+/// Whether the motion of the block or a setting holds the word.
+fn is_held(run: &Interpreter<'_>, view: &Block<'_>, word: &Word) -> bool {
+    let tenths = match word.value {
+        Value::Number(decimal) => crate::values::tenths(decimal),
+        _ => None,
+    };
+    let role = match word.address {
+        Address::Letter(letter) => run.dialect.role(letter),
+        Address::Indexed(..) | Address::Named(_) => named_role(run, view, word),
+    };
+    match role {
+        Some(Role::G) => tenths.is_some_and(|tenths| run.dialect.g(tenths).is_some()),
+        Some(Role::M) => tenths.is_some_and(|tenths| run.dialect.m(tenths).is_some()),
+        Some(role) => is_geometry(role) || matches!(role, Role::Feed | Role::Speed | Role::Tool | Role::LengthOffset | Role::EdgeOffset),
+        None => false,
+    }
+}
+
+fn is_geometry(role: Role) -> bool {
+    matches!(
+        role,
+        Role::Axis
+            | Role::Increment
+            | Role::ArcCentre
+            | Role::ArcRadius
+            | Role::ArcTurns
+            | Role::ToolVector
+            | Role::PostureStatus
+            | Role::PostureTurn
+    )
+}
+
+/// The name of a word that is written with `=`, upper case, without an index in brackets.
+fn stem(view: &Block<'_>, word: &Word) -> String {
+    match word.address {
+        Address::Letter(letter) => char::from(letter).to_string(),
+        Address::Indexed(letter, index) => format!("{}{index}", char::from(letter)),
+        Address::Named(name) => {
+            let name = packed(&view.program().text(name));
+            name.split('[').next().unwrap_or_default().to_owned()
+        }
+    }
+}
+
+fn named_role(run: &Interpreter<'_>, view: &Block<'_>, word: &Word) -> Option<Role> {
+    let role = run.dialect.named_role(stem(view, word).as_bytes());
+    match (role, word.address) {
+        (None, Address::Indexed(letter, _)) => run.dialect.role(letter).filter(|role| *role == Role::Variable),
+        _ => role,
+    }
+}
+
+/// A word with its value; `None` for block and program numbers.
+fn word_argument(view: &Block<'_>, run: &Interpreter<'_>, words: &Words, word: &Word) -> Option<Argument> {
+    let program = view.program();
+    let name = match word.address {
+        Address::Letter(letter) => match run.dialect.role(letter) {
+            Some(Role::BlockNumber | Role::ProgramNumber) => return None,
+            _ => char::from(letter.to_ascii_uppercase()).to_string(),
+        },
+        Address::Named(name) => packed(&program.text(name)),
+        Address::Indexed(..) => stem(view, word),
+    };
+    let letter = match word.address {
+        Address::Letter(letter) => words.letter(letter.to_ascii_uppercase()),
+        _ => Said::Nothing,
+    };
+    Some(match (word.value, letter) {
+        (Value::Number(decimal), _) => Argument::number(name, decimal.to_f64()),
+        (_, Said::Number(number)) => Argument::number(name, number.value),
+        _ => {
+            let text = program.text(word.value_range);
+            match value_of(run, &text) {
+                Some(value) => Argument::number(name, value),
+                None => Argument::text(name, &resolved(run, &text)),
+            }
+        }
+    })
+}
+
+/// The value of an expression of a Sinumerik program.
+fn value_of(run: &Interpreter<'_>, text: &str) -> Option<f64> {
+    if run.dialect.quirks.user_names {
+        run.memory.own.value(text.trim())
+    } else {
+        run.variable(text.trim()).filter(|value| !value.is_nan())
+    }
+}
+
+/// Upper case, without blanks.
+pub(crate) fn packed(text: &str) -> String {
+    text.chars()
+        .filter(|c| !c.is_whitespace())
+        .map(|c| c.to_ascii_uppercase())
+        .collect()
+}
+
+/// A text without blanks in upper case, in which variables with a known value are replaced by it.
+pub(crate) fn resolved(run: &Interpreter<'_>, text: &str) -> String {
+    let text = packed(text);
+    let hash = !run.dialect.quirks.user_names;
+    let mut out = String::new();
+    let mut rest = text.as_str();
+    // a word that is assigned keeps its name
+    if let Some((name, value)) = rest.split_once('=').filter(|(name, value)| {
+        !value.starts_with('=') && name.chars().all(|c| c.is_ascii_alphanumeric() || "#_$<>".contains(c))
+    }) {
+        out.push_str(name);
+        out.push('=');
+        rest = value;
+    }
+    while let Some(first) = rest.chars().next() {
+        let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let length = if hash && first == '#' {
+            let inside = &rest[1..];
+            1 + if inside.starts_with('<') {
+                inside.find('>').map_or(0, |end| end + 1)
+            } else {
+                inside.find(|c: char| !c.is_ascii_digit()).unwrap_or(inside.len())
+            }
+        } else if !hash && (first.is_ascii_alphabetic() || first == '_') {
+            rest.find(|c| !is_name(c)).unwrap_or(rest.len())
+        } else if first.is_ascii_digit() || first == '.' {
+            rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(rest.len())
+        } else {
+            out.push(first);
+            rest = &rest[first.len_utf8()..];
+            continue;
+        };
+        let (token, after) = rest.split_at(length.max(1));
+        let value = if first.is_ascii_digit() || first == '.' {
+            token.parse::<f64>().ok()
+        } else if after.starts_with(['(', '[']) {
+            None
+        } else if hash {
+            run.variable(token).filter(|value| !value.is_nan())
+        } else {
+            run.memory.own.value(token)
+        };
+        match value {
+            Some(value) => out.push_str(&(value + 0.0).to_string()),
+            None => out.push_str(token),
+        }
+        rest = after;
+    }
+    out
+}
+
+/// A name with what stands between its parentheses: `CYCLE832(0.1, 1)` and `CYCLE832(0.10,1)` are the same.
+pub(crate) fn call_argument(name: &str, text: &str) -> Argument {
+    let inside = text
+        .split_once('(')
+        .map_or("", |(_, rest)| rest.trim_end().strip_suffix(')').unwrap_or(rest));
+    let parts = inside.split(',').map(|part| {
+        let part = packed(part);
+        match part.parse::<f64>() {
+            Ok(value) if value.is_finite() => (value + 0.0).to_string(),
+            _ => part,
+        }
+    });
+    let joined = parts.collect::<Vec<_>>().join(",");
+    if joined.is_empty() {
+        Argument::code(packed(name))
+    } else {
+        Argument::text(packed(name), &format!("({joined})"))
+    }
+}
+
+/// What words that are written with `=` set: `ADIS=0.5`, `LIMS=2000`, `R1=5`.
+pub(crate) fn named_effects(run: &mut Interpreter<'_>, view: &Block<'_>, block: BlockId) {
+    let mut effects = Vec::new();
+    for word in view.words() {
+        if matches!(word.address, Address::Letter(_)) {
+            continue;
+        }
+        let stem = stem(view, &word);
+        if stem.starts_with('#') {
+            continue;
+        }
+        let argument = |name: String| {
+            let text = view.program().text(word.value_range);
+            match word.value {
+                Value::Number(decimal) => Argument::number(name, decimal.to_f64()),
+                _ => match value_of(run, &text) {
+                    Some(value) => Argument::number(name, value),
+                    None => Argument::text(name, &resolved(run, &text)),
+                },
+            }
+        };
+        let full = match word.address {
+            Address::Named(name) => packed(&view.program().text(name)),
+            _ => stem.clone(),
+        };
+        match named_role(run, view, &word) {
+            Some(Role::Variable) => effects.push(Effect::Store(argument(full))),
+            Some(Role::Parameter) => {
+                let key = match stem.as_str() {
+                    "SPOS" | "SPOSA" | "SPCON" | "SPCOF" | "SVC" => "spindle".to_owned(),
+                    "LIMS" => "speed limit".to_owned(),
+                    _ => full.clone(),
+                };
+                let auxiliary = stem.starts_with('H') && stem[1..].bytes().all(|byte| byte.is_ascii_digit());
+                effects.push(if auxiliary {
+                    Effect::Event(vec![argument(full)])
+                } else {
+                    Effect::set(key, [argument(full)])
+                });
+            }
+            Some(_) => {}
+            None if run.dialect.name(&stem).is_some_and(|code| code.kind == CodeKind::Name) => {
+                effects.push(Effect::set(full.clone(), [argument(full)]));
+            }
+            None if stem.starts_with('$') => effects.push(Effect::Event(vec![argument(full)])),
+            None if run.dialect.quirks.user_names && !run.memory.own.is_local(&stem) => {
+                effects.push(Effect::Store(argument(full)));
+            }
+            None => {}
+        }
+    }
+    for effect in effects {
+        run.memory.effects.add(block, effect);
+    }
+}
+
+/// The words of a block that gives a variable a value which is not known.
+pub(crate) fn unknown_assignment(run: &Interpreter<'_>, view: &Block<'_>, words: &Words) -> Option<Vec<Argument>> {
+    let unknown = |text: &str| {
+        names(text)
+            .iter()
+            .any(|name| run.variable(name).is_some_and(f64::is_nan))
+    };
+    let assigns = view.items().any(|item| match item {
+        Item::Word(word) => match word.address {
+            Address::Named(_) | Address::Indexed(..) if run.dialect.quirks.user_names => {
+                let variable = matches!(named_role(run, view, &word), None | Some(Role::Variable));
+                variable && !matches!(word.value, Value::Number(_)) && value_of(run, &view.program().text(word.value_range)).is_none()
+            }
+            _ => unknown(&view.program().text(word.range)),
+        },
+        Item::Call(call) => unknown(&view.program().text(call.range)),
+        Item::Other(range) => unknown(&view.program().text(range)),
+        _ => false,
+    });
+    assigns.then(|| written(view, run, words, Keep::All))
+}
+
+/// The variables that a text names: `#1`, `#<name>`; of a computed number (`#[#1+2]`) what it is computed from.
+pub(crate) fn names(text: &str) -> Vec<String> {
+    let packed: String = text.chars().filter(|c| !c.is_ascii_whitespace()).collect();
+    let mut found = Vec::new();
+    for (at, _) in packed.match_indices('#') {
+        let rest = &packed[at + 1..];
+        let length = if rest.starts_with('<') {
+            rest.find('>').map_or(0, |end| end + 1)
+        } else {
+            rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len()
+        };
+        if length > 0 {
+            found.push(format!("#{}", &rest[..length]));
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_variables() {
+        assert_eq!(names("X[# 5061 + #<a b>]#[#1+2]"), ["#5061", "#<ab>", "#1"]);
+        assert_eq!(names("#"), [] as [&str; 0]);
+    }
+
+    #[test]
+    fn arguments_of_calls_compare_by_value() {
+        assert_eq!(call_argument("CYCLE832", "CYCLE832(0.10, 1,)"), call_argument("cycle832", "CYCLE832( .1,1.0,)"));
+        assert_ne!(call_argument("CYCLE832", "CYCLE832(0.1)"), call_argument("CYCLE832", "CYCLE832(0.2)"));
+        assert_eq!(call_argument("MCALL", "MCALL"), Argument::code("MCALL"));
+    }
+}

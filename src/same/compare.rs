@@ -1,0 +1,277 @@
+//! The comparison: two streams of steps side by side, cut where one program makes in several motions what the other makes in one.
+//!
+//! What counts is interface section 8.3: geometry, feed, spindle, tool and offsets, coolant, clamps, dwell, stops, path control, outputs,
+//! stored data, and the words of everything that is not modelled.
+use crate::cut::{cut, is_idle};
+use crate::process::{motion_difference, shown};
+use crate::steps::{Item, Sort, Step, Steps};
+use crate::verdict::{Difference, Verdict};
+use trunnion_interp::{MotionKind, same_number};
+
+/// What is claimed to be the same.
+#[derive(Clone, Copy, Debug)]
+pub struct Claim {
+    /// Tolerance of the path, mm.
+    pub mm: f64,
+    /// Tolerance of the tool axis and of rotary axes, deg.
+    pub deg: f64,
+    /// Feeds may differ.
+    pub frees_feed: bool,
+    /// Everything but the geometry may differ: the claim is the path alone.
+    pub path_only: bool,
+    /// Motions may be cut: a line in two is the line. Off, both programs must have the same motions one by one.
+    pub cuts: bool,
+}
+
+/// Decides whether two motions lead the same way.
+pub trait Judge {
+    /// A pair of motions; `Err` ends the comparison with that verdict.
+    fn pair(&mut self, before: &Step, after: &Step) -> Result<(), Verdict>;
+    /// A motion whose other program makes it in pieces: the point at which it is cut lies so far from it, mm or deg.
+    fn cut(&mut self, off: f64) {
+        let _ = off;
+    }
+}
+
+/// Runs both programs to their ends, or to the first difference. The runs of two programs with the same text are the same whatever is
+/// unknown in them.
+pub fn compare(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, judge: &mut dyn Judge) -> Verdict {
+    let text = |steps: &Steps<'_>| std::ptr::from_ref(steps.input().dialect);
+    let same_text = before.input().program.source() == after.input().program.source() && text(before) == text(after);
+    match walk(before, after, claim, judge) {
+        Ok(()) => Verdict::Same,
+        Err(_) if same_text => Verdict::Same,
+        Err(verdict) => verdict,
+    }
+}
+
+fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, judge: &mut dyn Judge) -> Result<(), Verdict> {
+    let mut a = next(before, claim);
+    let mut b = next(after, claim);
+    loop {
+        match (&mut a, &mut b) {
+            (None, None) => break,
+            (Some(Item::Motion(was)), Some(Item::Motion(is))) => {
+                held(was, is, claim)?;
+                if claim.cuts && !ends_together(was, is, claim) {
+                    if let Some(off) = cut(is, was, (claim.mm, claim.deg)) {
+                        judge.cut(off);
+                        a = next(before, claim);
+                        continue;
+                    }
+                    if let Some(off) = cut(was, is, (claim.mm, claim.deg)) {
+                        judge.cut(off);
+                        b = next(after, claim);
+                        continue;
+                    }
+                }
+                judge.pair(was, is)?;
+            }
+            (Some(was @ Item::Happens { .. }), Some(is @ Item::Happens { .. })) => happens(was, is, claim)?,
+            (was, is) => return Err(only_one(was.as_ref(), is.as_ref())),
+        }
+        a = next(before, claim);
+        b = next(after, claim);
+    }
+    stopped(before, after)?;
+    if !claim.path_only {
+        at_end(before, after)?;
+    }
+    Ok(())
+}
+
+/// The next item that counts.
+fn next(steps: &mut Steps<'_>, claim: &Claim) -> Option<Item> {
+    steps.find(|item| match item {
+        Item::Motion(step) => !(claim.cuts && is_idle(step)),
+        Item::Happens { sort, .. } => !claim.path_only || *sort == Sort::Unmodelled,
+    })
+}
+
+fn at(was: Option<&Item>, is: Option<&Item>, what: String) -> Difference {
+    Difference {
+        before: was.map(Item::block),
+        after: is.map(Item::block),
+        what,
+    }
+}
+
+/// What must be the same at two motions before their paths are looked at.
+fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
+    let (a, b) = (&was.motion, &is.motion);
+    let differs = |what: String| {
+        Err(Verdict::Differs(Difference {
+            before: Some(a.block),
+            after: Some(b.block),
+            what,
+        }))
+    };
+    if core::mem::discriminant(&a.kind) != core::mem::discriminant(&b.kind) {
+        return differs(format!("one is {}, the other {}", kind(&a.kind), kind(&b.kind)));
+    }
+    if let (MotionKind::Dwell(from), MotionKind::Dwell(to)) = (&a.kind, &b.kind) {
+        let same = match (from, to) {
+            (Some(from), Some(to)) => same_number(*from, *to),
+            (None, None) => true,
+            _ => false,
+        };
+        if !same && !claim.path_only {
+            let seconds = |time: &Option<f64>| time.map_or("an unknown time".to_owned(), |time| format!("{time} s"));
+            return differs(format!("a dwell of {} and one of {}", seconds(from), seconds(to)));
+        }
+    }
+    if claim.path_only {
+        return Ok(());
+    }
+    if let Some((name, from, to)) = was.held.difference(&is.held).or_else(|| motion_difference(a, b, !claim.frees_feed)) {
+        return differs(format!("{name} differs: {from} and {to}"));
+    }
+    settings(was, is).map_or(Ok(()), differs)
+}
+
+fn settings(was: &Step, is: &Step) -> Option<String> {
+    let found = was.process.differences(&is.process);
+    let (key, from, to) = found.first()?;
+    Some(format!("{key} differs: {from} and {to}"))
+}
+
+/// A kind of motion in words.
+fn kind(kind: &MotionKind) -> &'static str {
+    match kind {
+        MotionKind::Rapid => "a rapid",
+        MotionKind::Linear => "a line at feed",
+        MotionKind::Arc(_) => "an arc",
+        MotionKind::Dwell(_) => "a dwell",
+        MotionKind::Unknown => "a motion that is not modelled",
+    }
+}
+
+/// Whether two motions end at one place, so that neither need be cut.
+fn ends_together(was: &Step, is: &Step, claim: &Claim) -> bool {
+    let (a, b) = (&was.motion, &is.motion);
+    let sweeps = match (&a.kind, &b.kind) {
+        (MotionKind::Arc(Some(a)), MotionKind::Arc(Some(b))) => (a.sweep - b.sweep).abs() < 1e-3,
+        _ => true,
+    };
+    sweeps
+        && a.end.known == b.end.known
+        && (0..9).filter(|axis| a.end.known & (1 << axis) != 0).all(|axis| {
+            let off = (a.end.values[axis] + a.zero[axis]) - (b.end.values[axis] + b.zero[axis]);
+            off.is_nan() || off.abs() <= if (3..6).contains(&axis) { claim.deg } else { claim.mm }
+        })
+}
+
+fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
+    let (
+        Item::Happens {
+            sort, words, process, ..
+        },
+        Item::Happens {
+            sort: other_sort,
+            words: other_words,
+            process: other_process,
+            ..
+        },
+    ) = (was, is)
+    else {
+        return Ok(());
+    };
+    let place = |what: String| at(Some(was), Some(is), what);
+    if sort != other_sort || words != other_words {
+        // two languages end their programs each in its own words
+        if *sort == Sort::End && *other_sort == Sort::End && across_languages(words, other_words) {
+            return Ok(());
+        }
+        let what = format!("one does `{}`, the other `{}`", shown(words), shown(other_words));
+        return Err(if *sort == Sort::Unmodelled || *other_sort == Sort::Unmodelled {
+            Verdict::Unknown(place(format!("{what}: their effect is not modelled, and the words differ")))
+        } else {
+            Verdict::Differs(place(what))
+        });
+    }
+    if claim.path_only {
+        return Ok(());
+    }
+    match process.differences(other_process).first() {
+        Some((key, from, to)) => Err(Verdict::Differs(place(format!(
+            "{key} differs at `{}`: {from} and {to}",
+            shown(words)
+        )))),
+        None => Ok(()),
+    }
+}
+
+fn across_languages(a: &[trunnion_interp::Argument], b: &[trunnion_interp::Argument]) -> bool {
+    let apt = |words: &[trunnion_interp::Argument]| words.iter().any(|word| word.name == "FINI");
+    apt(a) != apt(b)
+}
+
+/// One program does something where the other does something else, or nothing more.
+fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
+    let name = |item: Option<&Item>| match item {
+        None => "ends".to_owned(),
+        Some(Item::Motion(step)) => format!("makes {}", kind(&step.motion.kind)),
+        Some(Item::Happens { words, .. }) => format!("does `{}`", shown(words)),
+    };
+    let unmodelled = |item: Option<&Item>| {
+        matches!(
+            item,
+            Some(Item::Happens {
+                sort: Sort::Unmodelled,
+                ..
+            })
+        ) || matches!(item, Some(Item::Motion(step)) if step.motion.kind == MotionKind::Unknown)
+    };
+    let what = format!("the program before {}, the one after {}", name(was), name(is));
+    let place = at(was, is, what);
+    if unmodelled(was) || unmodelled(is) {
+        Verdict::Unknown(place)
+    } else {
+        Verdict::Differs(place)
+    }
+}
+
+/// Both were followed to their ends.
+fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
+    for (which, steps) in [("before", before), ("after", after)] {
+        if let Some(stop) = steps.stop() {
+            let block = Some(stop.block);
+            return Err(Verdict::Unknown(Difference {
+                before: block.filter(|_| which == "before"),
+                after: block.filter(|_| which == "after"),
+                what: format!("the program {which} was not followed to its end: {}", stop.why),
+            }));
+        }
+    }
+    Ok(())
+}
+
+/// What both leave behind.
+fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
+    let nowhere = |what: String| {
+        Err(Verdict::Differs(Difference {
+            before: None,
+            after: None,
+            what,
+        }))
+    };
+    let (a, b) = (before.stored(), after.stored());
+    for name in a.keys().chain(b.keys().filter(|name| !a.contains_key(*name))) {
+        if a.get(name) != b.get(name) {
+            let value = |value: Option<&trunnion_interp::Value>| match value {
+                None | Some(trunnion_interp::Value::Nothing) => "nothing".to_owned(),
+                Some(trunnion_interp::Value::Number(value)) => value.to_string(),
+                Some(trunnion_interp::Value::Text(text)) => text.to_string(),
+            };
+            return nowhere(format!(
+                "{name} outlives the program and holds {} and {}",
+                value(a.get(name)),
+                value(b.get(name))
+            ));
+        }
+    }
+    match before.process().differences(after.process()).first() {
+        Some((key, from, to)) => nowhere(format!("{key} at the end differs: {from} and {to}")),
+        None => Ok(()),
+    }
+}

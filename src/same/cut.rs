@@ -1,0 +1,145 @@
+//! Motions that do nothing, and motions that another program makes in several pieces.
+use crate::steps::Step;
+use trunnion_geometry::arc::Arc;
+use trunnion_interp::{Feed, MotionKind, Orientation, Position, Swivel};
+
+/// A coordinate that differs by no more has not moved, mm or deg: sums of offsets round.
+const STANDS: f64 = 1e-9;
+
+/// Whether a motion moves nothing and takes no time of its own: a block that repeats the place before it.
+pub(crate) fn is_idle(step: &Step) -> bool {
+    let motion = &step.motion;
+    let stays = |a: &Position, b: &Position| {
+        a.known == b.known && (0..9).all(|axis| a.known & (1 << axis) == 0 || (a.values[axis] - b.values[axis]).abs() <= STANDS)
+    };
+    let turned = match motion.orientation {
+        Orientation::Words => false,
+        Orientation::Vector(start, end) => start != Some(end),
+    };
+    let open = step.leg.as_ref().is_some_and(|leg| leg.open.is_some());
+    matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear)
+        && !matches!(motion.feed, Feed::InverseTime(_))
+        && motion.tilt.swivel == Swivel::No
+        && motion.tilt.free == 0
+        && motion.end.known != 0
+        && motion.says_way & !motion.end.known == 0
+        && !turned
+        && !open
+        && stays(&motion.start, &motion.end)
+        && step.process.get("cycle").is_empty()
+}
+
+/// Whether a motion may be made in several pieces without a difference: not where each piece ends with a stop, takes a time of its own, or
+/// is coupled to the spindle.
+fn may_be_cut(step: &Step) -> bool {
+    let stops = step.process.get("path-control").first();
+    let stops = stops.is_some_and(|code| matches!(code.name.as_ref(), "G60" | "G61" | "G61.1"));
+    !stops
+        && step.process.get("cycle").is_empty()
+        && !matches!(step.motion.feed, Feed::InverseTime(_))
+        && step.motion.tilt.swivel == Swivel::No
+}
+
+/// Cuts `long` where `short` ends, if that lies on it within `mm` and `deg`: then `long` becomes what is left of it, and the largest
+/// distance of the point from it is returned (mm or deg).
+pub(crate) fn cut(long: &mut Step, short: &Step, (mm, deg): (f64, f64)) -> Option<f64> {
+    if !may_be_cut(long) || !may_be_cut(short) {
+        return None;
+    }
+    let (motion, end) = (&long.motion, &short.motion.end);
+    if motion.start.known != motion.end.known || end.known != motion.end.known {
+        return None;
+    }
+    let offset = |axis: usize| short.motion.zero[axis] - motion.zero[axis];
+    let mut point = motion.end;
+    for axis in 0..9 {
+        point.values[axis] = end.values[axis] + if offset(axis).is_nan() { 0.0 } else { offset(axis) };
+    }
+    let share = match (&motion.kind, &short.motion.kind) {
+        (MotionKind::Linear, MotionKind::Linear) => straight_share(motion.start, motion.end, point),
+        (MotionKind::Rapid, MotionKind::Rapid) => {
+            // axes of a rapid may run each for itself: then its path is straight only where one axis moves
+            let moving = (0..9).filter(|axis| (motion.end.values[*axis] - motion.start.values[*axis]).abs() > STANDS);
+            if moving.count() != 1 {
+                return None;
+            }
+            straight_share(motion.start, motion.end, point)
+        }
+        (MotionKind::Arc(Some(arc)), MotionKind::Arc(Some(piece))) => arc_share(arc, piece, (mm, deg)),
+        _ => None,
+    }?;
+    let turns = (3..6).any(|axis| (motion.end.values[axis] - motion.start.values[axis]).abs() > STANDS);
+    match motion.orientation {
+        // rotary words may be made to run on a great circle, which is not even in them
+        Orientation::Words if turns && motion.tcp && motion.great_circle != Some(false) => return None,
+        Orientation::Words => {}
+        Orientation::Vector(Some(start), to) if (start - to).norm() <= STANDS => {}
+        Orientation::Vector(..) => return None,
+    }
+    let mut off: f64 = 0.0;
+    for axis in 0..9 {
+        if motion.end.known & (1 << axis) == 0 {
+            continue;
+        }
+        if matches!(motion.kind, MotionKind::Arc(_)) && axis < 3 {
+            continue;
+        }
+        let (from, to) = (motion.start.values[axis], motion.end.values[axis]);
+        let distance = (from + (to - from) * share - point.values[axis]).abs();
+        let limit = if (3..6).contains(&axis) { deg } else { mm };
+        if distance > limit {
+            return None;
+        }
+        off = off.max(distance);
+    }
+    if let (MotionKind::Arc(Some(arc)), Some(at)) = (&motion.kind, point.xyz()) {
+        let distance = (arc.point_at(share) - at).norm();
+        if distance > mm {
+            return None;
+        }
+        off = off.max(distance);
+    }
+    let kind = match motion.kind {
+        MotionKind::Arc(Some(arc)) => MotionKind::Arc(Some(rest(&arc, share))),
+        kind => kind,
+    };
+    long.motion.kind = kind;
+    long.motion.start = point;
+    if let (Some(leg), Some(other)) = (&mut long.leg, &short.leg) {
+        leg.start = other.end.as_ref().ok().copied();
+        leg.motion = long.motion;
+    }
+    long.is_part = true;
+    Some(off)
+}
+
+/// The share of a straight motion at which it comes nearest to a point, by the axis that moves most; `None` outside of it.
+fn straight_share(start: Position, end: Position, point: Position) -> Option<f64> {
+    let change = |axis: usize| end.values[axis] - start.values[axis];
+    let axis = (0..9)
+        .filter(|axis| end.known & (1 << axis) != 0)
+        .max_by(|a, b| change(*a).abs().total_cmp(&change(*b).abs()))?;
+    let share = (point.values[axis] - start.values[axis]) / change(axis);
+    (share > 0.0 && share < 1.0).then_some(share)
+}
+
+/// The share of an arc that a piece from its start covers.
+fn arc_share(arc: &Arc, piece: &Arc, (mm, _): (f64, f64)) -> Option<f64> {
+    let share = piece.sweep / arc.sweep * arc.normal.dot(&piece.normal).signum();
+    let along = arc.normal.cross(&piece.normal).norm() <= 1e-9;
+    let height = |centre: trunnion_geometry::Vec3| centre - arc.normal * arc.normal.dot(&centre);
+    let centred = (height(arc.centre) - height(piece.centre)).norm() <= mm;
+    (along && centred && share > 0.0 && share < 1.0).then_some(share)
+}
+
+/// What is left of an arc after a share of it.
+fn rest(arc: &Arc, share: f64) -> Arc {
+    let start = arc.point_at(share);
+    Arc {
+        start,
+        centre: arc.centre + arc.normal * arc.normal.dot(&(start - arc.start)),
+        sweep: arc.sweep * (1.0 - share),
+        radius_start: arc.radius_start + (arc.radius_end - arc.radius_start) * share,
+        ..*arc
+    }
+}

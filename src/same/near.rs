@@ -1,0 +1,156 @@
+//! Two motions that lead the same way within tolerances, by what is programmed and, with a machine, by what the machine does.
+use crate::compare::Judge;
+use crate::steps::Step;
+use crate::verdict::{Difference, Verdict};
+use trunnion_geometry::arc::Arc;
+use trunnion_geometry::math::angle_between;
+use trunnion_geometry::{Vec3, deg};
+use trunnion_interp::{AXIS_LETTERS, Motion, MotionKind, Orientation};
+
+/// Tolerances of a comparison by ends and shape.
+#[derive(Clone, Copy, Debug)]
+pub struct Near {
+    /// mm.
+    pub mm: f64,
+    /// deg.
+    pub deg: f64,
+}
+
+/// At so many places two arcs are compared; between them a bound holds.
+const SAMPLES: u32 = 256;
+
+impl Judge for Near {
+    fn pair(&mut self, before: &Step, after: &Step) -> Result<(), Verdict> {
+        let (a, b) = (&before.motion, &after.motion);
+        let at = |what: String| Difference {
+            before: Some(a.block),
+            after: Some(b.block),
+            what,
+        };
+        let differs = |what: String| Err(Verdict::Differs(at(what)));
+        let unknown = |what: String| Err(Verdict::Unknown(at(what)));
+        if a.tcp == b.tcp && same_sort(a, b) {
+            if a.end.known != b.end.known {
+                let letters: String = (0..9)
+                    .filter(|axis| (a.end.known ^ b.end.known) & (1 << axis) != 0)
+                    .map(|axis| char::from(AXIS_LETTERS[axis]))
+                    .collect();
+                return unknown(format!("the end of {letters} is known in only one of the programs"));
+            }
+            for axis in (0..9).filter(|axis| a.end.known & (1 << axis) != 0) {
+                let (from, to) = (placed(a, axis, a.end.values[axis]), placed(b, axis, b.end.values[axis]));
+                let rotary = (3..6).contains(&axis);
+                let limit = if rotary { self.deg } else { self.mm };
+                let off = (from - to).abs();
+                if off.is_nan() {
+                    // the zero point of the axis is unknown; both add the same coordinate to it only if these are equal
+                    if (a.end.values[axis] - b.end.values[axis]).abs() <= limit && from.is_nan() && to.is_nan() {
+                        continue;
+                    }
+                    return unknown(format!(
+                        "the zero point of {} is unknown in one of the programs",
+                        char::from(AXIS_LETTERS[axis])
+                    ));
+                }
+                if off > limit {
+                    let unit = if rotary { "deg" } else { "mm" };
+                    let letter = char::from(AXIS_LETTERS[axis]);
+                    return differs(format!(
+                        "{letter} ends at {} {unit} and at {} {unit}",
+                        a.end.values[axis], b.end.values[axis]
+                    ));
+                }
+            }
+            if let (Orientation::Vector(_, from), Orientation::Vector(_, to)) = (a.orientation, b.orientation) {
+                let angle = deg(angle_between(&from, &to));
+                if angle > self.deg {
+                    return differs(format!("the tool axis differs by {angle:.6} deg"));
+                }
+            }
+            if let (MotionKind::Arc(Some(from)), MotionKind::Arc(Some(to))) = (&a.kind, &b.kind) {
+                let off = arcs_apart(from, to, a, b);
+                if off > self.mm {
+                    return differs(format!("the arcs are up to {off:.6} mm apart"));
+                }
+            }
+            return self.joints(before, after).map_or(Ok(()), differs);
+        }
+        let ends = before.leg.as_ref().zip(after.leg.as_ref());
+        let Some((Ok(was), Ok(is))) = ends.map(|(a, b)| (a.end.as_ref(), b.end.as_ref())) else {
+            return unknown("one program leads the tip and the other the axes, and without a machine that cannot be compared".into());
+        };
+        let off = (was.tip + zero(a) - is.tip - zero(b)).norm();
+        let angle = deg(angle_between(&was.axis, &is.axis));
+        if off > self.mm || angle > self.deg {
+            return differs(format!("the tip ends {off:.6} mm and the tool axis {angle:.6} deg apart"));
+        }
+        unknown("both end in the same pose, one leads the tip and the other the axes: their paths in between are not compared".into())
+    }
+}
+
+impl Near {
+    /// What differs in the joints, where both are known.
+    fn joints(&self, before: &Step, after: &Step) -> Option<String> {
+        let (a, b) = (before.leg.as_ref()?, after.leg.as_ref()?);
+        let (was, is) = (a.end.as_ref().ok()?, b.end.as_ref().ok()?);
+        let off = (was.tip + zero(&before.motion) - is.tip - zero(&after.motion)).norm();
+        if off > self.mm {
+            return Some(format!("the tip ends {off:.6} mm away"));
+        }
+        let angle = deg(angle_between(&was.axis, &is.axis));
+        if angle > self.deg {
+            return Some(format!("the tool axis ends {angle:.6} deg off"));
+        }
+        (was.branch != is.branch && was.branch * is.branch == -1)
+            .then(|| "the machine reaches the same pose in another posture".to_owned())
+    }
+}
+
+/// Programmed with the same sort of words.
+fn same_sort(a: &Motion, b: &Motion) -> bool {
+    core::mem::discriminant(&a.orientation) == core::mem::discriminant(&b.orientation) && a.tilt == b.tilt
+}
+
+/// A coordinate with the zero point in force.
+fn placed(motion: &Motion, axis: usize, value: f64) -> f64 {
+    if motion.machine_coordinates {
+        value
+    } else {
+        value + motion.zero[axis]
+    }
+}
+
+/// X Y Z of the zero point, mm.
+fn zero(motion: &Motion) -> Vec3 {
+    Vec3::new(motion.zero[0], motion.zero[1], motion.zero[2])
+}
+
+/// How far the zero point of `b` lies from that of `a`, mm; zero where it is unknown.
+fn shift(a: &Motion, b: &Motion) -> Vec3 {
+    (zero(b) - zero(a)).map(|value| if value.is_nan() { 0.0 } else { value })
+}
+
+/// No point of one arc is farther from the point of the other at the same share, mm. Between samples a share h apart the distance of two
+/// curves exceeds that at the samples by at most (Q1 + Q2) h^2 / 8, where Q = r sweep^2 bounds the second derivative of an arc.
+pub fn arcs_apart(a: &Arc, b: &Arc, before: &Motion, after: &Motion) -> f64 {
+    let shift = shift(before, after);
+    let sampled = (0..=SAMPLES)
+        .map(|step| f64::from(step) / f64::from(SAMPLES))
+        .map(|share| (b.point_at(share) + shift - a.point_at(share)).norm())
+        .fold(0.0, f64::max);
+    let bend = |arc: &Arc| {
+        let spread = (arc.radius_end - arc.radius_start).abs();
+        arc.radius_start.max(arc.radius_end) * arc.sweep * arc.sweep + 2.0 * spread * arc.sweep.abs()
+    };
+    // two arcs of nearly one shape bend nearly alike: what differs is bounded by the differences of centre, radius and sweep
+    let centre = (b.centre + shift - a.centre).norm() + (a.radius_start - b.radius_start).abs();
+    let alike = a.normal.cross(&b.normal).norm() <= 1e-9 && a.normal.dot(&b.normal) > 0.0;
+    let bend = if alike {
+        let turn = (a.sweep - b.sweep).abs();
+        let most = a.sweep.abs().max(b.sweep.abs());
+        bend(a) * (2.0 * turn / most.max(1e-12) + turn) + most * most * 2.0 * centre + 1e-12
+    } else {
+        bend(a) + bend(b)
+    };
+    sampled + bend / (8.0 * f64::from(SAMPLES) * f64::from(SAMPLES))
+}

@@ -1,0 +1,160 @@
+//! What is in force at a moment of a run, beside where the tool is.
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, same_number};
+
+/// Settings by their key; a key that is absent was never set, or is back at what it was before anything set it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Process {
+    settings: BTreeMap<Cow<'static, str>, Vec<Argument>>,
+}
+
+impl Process {
+    /// Sets a key; whether that changes anything.
+    pub(crate) fn set(this: &mut Arc<Self>, key: &Cow<'static, str>, to: &[Argument]) -> bool {
+        if this.get(key) == to {
+            return false;
+        }
+        let this = Arc::make_mut(this);
+        if to.is_empty() {
+            this.settings.remove(key);
+        } else {
+            this.settings.insert(key.clone(), to.to_vec());
+        }
+        true
+    }
+
+    /// What a key is set to; empty where it is not set.
+    pub fn get(&self, key: &str) -> &[Argument] {
+        self.settings.get(key).map_or(&[], Vec::as_slice)
+    }
+
+    /// All settings as people read them, in the order of their keys.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        self.settings.iter().map(|(key, to)| (key.to_string(), shown(to))).collect()
+    }
+
+    /// Whether the spindle is known to stand still: then its speed does nothing.
+    fn spindle_stands(&self) -> bool {
+        matches!(self.get("spindle"), [only] if only.name == "M5")
+    }
+
+    /// The settings that differ: key, before, after.
+    pub fn differences<'p>(&'p self, other: &'p Self) -> Vec<(&'p str, String, String)> {
+        if std::ptr::eq(self, other) {
+            return Vec::new();
+        }
+        let keys = self.settings.keys().chain(other.settings.keys().filter(|key| !self.settings.contains_key(*key)));
+        let idle = self.spindle_stands() && other.spindle_stands();
+        keys.filter(|key| self.get(key) != other.get(key))
+            .filter(|key| !(idle && (key.starts_with("speed") && !key.contains('$'))))
+            .map(|key| (key.as_ref(), shown(self.get(key)), shown(other.get(key))))
+            .collect()
+    }
+}
+
+/// Words as people read them.
+pub fn shown(words: &[Argument]) -> String {
+    if words.is_empty() {
+        return "not set".to_owned();
+    }
+    words.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
+}
+
+/// What the modal state holds for a motion that the motion itself does not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Held {
+    /// Name of the active work offset.
+    pub work_offset: Option<Arc<str>>,
+    /// Side of the cutter radius compensation: 0 off, 41, 42.
+    pub compensation: u8,
+    /// Whose length is in force.
+    pub length_of: LengthOf,
+    /// Radius of the tool if it is declared to be a ball, mm.
+    pub ball_radius: Option<f64>,
+}
+
+impl Held {
+    /// Of a modal state.
+    pub fn new(state: &ModalState) -> Self {
+        Self {
+            work_offset: state.work_offset.clone(),
+            compensation: state.compensation,
+            length_of: state.length_of,
+            ball_radius: match state.tool_shape() {
+                Some((trunnion_interp::ToolShape::Ball, diameter)) => Some(0.5 * diameter),
+                _ => None,
+            },
+        }
+    }
+
+    /// The first field that differs: name, before, after.
+    pub(crate) fn difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
+        let offset = |held: &Self| held.work_offset.as_deref().unwrap_or("none").to_owned();
+        let side = |held: &Self| match held.compensation {
+            0 => "off".to_owned(),
+            code => format!("G{code}"),
+        };
+        if self.work_offset != other.work_offset {
+            Some(("the work offset", offset(self), offset(other)))
+        } else if self.compensation != other.compensation {
+            Some(("the side of the cutter radius compensation", side(self), side(other)))
+        } else if self.length_of != other.length_of {
+            let name = "whose tool length is in force";
+            Some((name, self.length_of.to_string(), other.length_of.to_string()))
+        } else {
+            None
+        }
+    }
+}
+
+/// Feed with its unit.
+pub(crate) fn feed(feed: Feed) -> String {
+    match feed {
+        Feed::PerMinute(value) => format!("{value} mm/min"),
+        Feed::PerRevolution(value) => format!("{value} mm/rev"),
+        Feed::InverseTime(value) => format!("{value} 1/min"),
+        Feed::Unknown => "unknown".to_owned(),
+        Feed::Rapid => "rapid".to_owned(),
+    }
+}
+
+/// Whether two feeds are the same setting.
+pub(crate) fn same_feed(a: Feed, b: Feed) -> bool {
+    match (a, b) {
+        (Feed::PerMinute(a), Feed::PerMinute(b))
+        | (Feed::PerRevolution(a), Feed::PerRevolution(b))
+        | (Feed::InverseTime(a), Feed::InverseTime(b)) => same_number(a, b),
+        (Feed::Unknown, Feed::Unknown) | (Feed::Rapid, Feed::Rapid) => true,
+        _ => false,
+    }
+}
+
+/// What the motions themselves hold of the process and must agree on: name, before, after.
+pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Option<(&'static str, String, String)> {
+    let yes = |on: bool| if on { "on" } else { "off" }.to_owned();
+    let tool = |motion: &Motion| motion.tool.map_or("unknown".to_owned(), |number| format!("T{number}"));
+    let circle = |motion: &Motion| {
+        match motion.great_circle {
+            Some(true) => "great circle",
+            Some(false) => "linear in the axes",
+            None => "as the machine does it",
+        }
+        .to_owned()
+    };
+    if a.tool != b.tool {
+        Some(("the tool", tool(a), tool(b)))
+    } else if !same_number(a.tool_length_mm, b.tool_length_mm) {
+        let mm = |motion: &Motion| format!("{} mm", motion.tool_length_mm);
+        Some(("the tool length in force", mm(a), mm(b)))
+    } else if a.machine_coordinates != b.machine_coordinates {
+        Some(("machine coordinates", yes(a.machine_coordinates), yes(b.machine_coordinates)))
+    } else if a.tcp && b.tcp && a.great_circle != b.great_circle {
+        Some(("the interpolation of the tool axis", circle(a), circle(b)))
+    } else if feed_counts && a.is_feed() && !same_feed(a.feed, b.feed) {
+        Some(("the feed", feed(a.feed), feed(b.feed)))
+    } else {
+        None
+    }
+}

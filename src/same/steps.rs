@@ -1,0 +1,271 @@
+//! A program as a stream of what it does: nothing is kept but what the block in hand has brought.
+use crate::process::{Held, Process};
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+use trunnion_dialect::Dialect;
+use trunnion_interp::{
+    Argument, Effect, Fault, FaultKind, Interpreter, ModalState, Motion, Placed, Setup, Sink, Value,
+};
+use trunnion_machine::{Follower, Leg, Machine};
+use trunnion_syntax::{BlockId, Program};
+
+/// More items without a motion between them are not kept.
+const MOST_WAITING: usize = 1_000_000;
+
+/// A program with everything it is run with.
+#[derive(Clone, Copy)]
+pub struct Input<'a> {
+    /// The program.
+    pub program: &'a Program,
+    /// Its dialect.
+    pub dialect: &'a Dialect,
+    /// Tools, offsets, parameters of the control, called programs.
+    pub setup: &'a Setup,
+    /// The machine; without one, programmed coordinates are compared.
+    pub machine: Option<&'a Machine>,
+}
+
+/// A motion with everything that is in force.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// As programmed.
+    pub motion: Motion,
+    /// What the machine does; `None` without a machine.
+    pub leg: Option<Leg>,
+    /// What the modal state holds.
+    pub held: Held,
+    /// What else is in force.
+    pub process: Arc<Process>,
+    /// It is a part of a motion of the program, up to a point at which the other program has one.
+    pub is_part: bool,
+}
+
+/// What an [`Item::Happens`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sort {
+    /// A stop, an output, data written to the control.
+    Event,
+    /// The program's end.
+    End,
+    /// Words whose effect is not modelled.
+    Unmodelled,
+}
+
+/// What a program does.
+#[derive(Clone, Debug)]
+pub enum Item {
+    /// A motion.
+    Motion(Box<Step>),
+    /// Something else.
+    Happens {
+        /// The block.
+        block: BlockId,
+        /// What it is.
+        sort: Sort,
+        /// Its words.
+        words: Vec<Argument>,
+        /// What is in force.
+        process: Arc<Process>,
+    },
+}
+
+impl Item {
+    /// The block of the main program.
+    pub fn block(&self) -> BlockId {
+        match self {
+            Self::Motion(step) => step.motion.block,
+            Self::Happens { block, .. } => *block,
+        }
+    }
+}
+
+/// Where and why a run stopped before the end of its program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// The block.
+    pub block: BlockId,
+    /// Why.
+    pub why: String,
+}
+
+/// Runs a program and yields what it does.
+pub struct Steps<'a> {
+    input: Input<'a>,
+    interpreter: Interpreter<'a>,
+    run: Run<'a>,
+    ready: VecDeque<Item>,
+    ran: Vec<u64>,
+    over: bool,
+}
+
+struct Run<'a> {
+    follower: Option<Follower<'a>>,
+    motions: VecDeque<(Motion, Option<Leg>, Held)>,
+    effects: VecDeque<(u32, Placed)>,
+    /// Effects so far.
+    count: u32,
+    process: Arc<Process>,
+    stores: BTreeMap<String, Value>,
+    stop: Option<Stop>,
+}
+
+impl Sink for Run<'_> {
+    fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        let leg = self.follower.as_mut().map(|follower| follower.follow(motion));
+        self.motions.push_back((*motion, leg, Held::new(state)));
+    }
+    fn fault(&mut self, fault: Fault) {
+        if let Some(why) = ends(&fault.kind) {
+            self.stop.get_or_insert(Stop {
+                block: fault.block,
+                why,
+            });
+        }
+    }
+    fn effect(&mut self, effect: Placed) {
+        self.effects.push_back((self.count, effect));
+        self.count += 1;
+    }
+}
+
+/// Why a run is not followed to the end of its program, where a fault means that.
+fn ends(kind: &FaultKind) -> Option<String> {
+    Some(match kind {
+        FaultKind::EndlessLoop { proved: true, .. } => "it never ends: a loop comes back to the same values".to_owned(),
+        FaultKind::EndlessLoop { blocks, .. } => format!("it does not end within {blocks} executed blocks"),
+        FaultKind::NotDecided { what } => format!("what runs next depends on {what}"),
+        FaultKind::Rejected { message, .. } => format!("the control refuses it: {message}"),
+        FaultKind::MissingSubprogram { name, .. } => format!("the called program {name} is missing"),
+        _ => return None,
+    })
+}
+
+impl<'a> Steps<'a> {
+    /// At the program's start.
+    pub fn new(input: Input<'a>) -> Self {
+        let mut interpreter = Interpreter::new(input.dialect, input.setup);
+        interpreter.watch_effects();
+        Self {
+            input,
+            interpreter,
+            run: Run {
+                follower: input.machine.map(Follower::new),
+                motions: VecDeque::new(),
+                effects: VecDeque::new(),
+                count: 0,
+                process: Arc::default(),
+                stores: BTreeMap::new(),
+                stop: None,
+            },
+            ready: VecDeque::new(),
+            ran: vec![0; input.program.block_count().div_ceil(64)],
+            over: false,
+        }
+    }
+
+    /// With what it was made.
+    pub fn input(&self) -> &Input<'a> {
+        &self.input
+    }
+
+    /// Whether a block of the program ran.
+    pub fn has_run(&self, block: BlockId) -> bool {
+        let word = self.ran.get(block.0 as usize / 64);
+        word.is_some_and(|word| word >> (block.0 % 64) & 1 == 1)
+    }
+
+    /// Where and why the run stopped before the end of its program; asked when there are no more items.
+    pub fn stop(&self) -> Option<&Stop> {
+        self.run.stop.as_ref()
+    }
+
+    /// What is in force now.
+    pub fn process(&self) -> &Arc<Process> {
+        &self.run.process
+    }
+
+    /// Variables that outlive the program, with their values as far as they are known; asked when there are no more items.
+    pub fn stored(&self) -> BTreeMap<String, Value> {
+        let mut stores = self.run.stores.clone();
+        let kept = self.interpreter.outliving().into_iter();
+        stores.extend(kept.map(|(name, value)| (name, Value::Number(value))));
+        stores
+    }
+
+    /// Runs the next block; false at the end.
+    fn advance(&mut self) -> bool {
+        if self.over {
+            return false;
+        }
+        if self.ready.len() > MOST_WAITING {
+            let block = self.ready.back().map_or(BlockId(0), Item::block);
+            let why = format!("it does more than {MOST_WAITING} things without a motion");
+            self.run.stop.get_or_insert(Stop { block, why });
+            self.over = true;
+            return false;
+        }
+        let block = self.interpreter.advance(self.input.program, &mut self.run);
+        self.over = block.is_none();
+        if let Some(block) = block
+            && let Some(word) = self.ran.get_mut(block.0 as usize / 64)
+        {
+            *word |= 1 << (block.0 % 64);
+        }
+        while let Some((motion, leg, held)) = self.run.motions.pop_front() {
+            self.effects_before(motion.effects);
+            self.ready.push_back(Item::Motion(Box::new(Step {
+                motion,
+                leg,
+                held,
+                process: Arc::clone(&self.run.process),
+                is_part: false,
+            })));
+        }
+        if self.over || !self.interpreter.motions_wait() {
+            self.effects_before(u32::MAX);
+        }
+        !self.over
+    }
+
+    /// Applies the effects that come before the motion that was made after so many.
+    fn effects_before(&mut self, count: u32) {
+        let run = &mut self.run;
+        while run.effects.front().is_some_and(|(index, _)| *index < count) {
+            let Some((_, Placed { block, effect })) = run.effects.pop_front() else {
+                return;
+            };
+            let (sort, words) = match effect {
+                Effect::Set { key, to } => {
+                    Process::set(&mut run.process, &key, &to);
+                    continue;
+                }
+                Effect::Store(argument) => {
+                    run.stores.insert(argument.name.into_owned(), argument.value);
+                    continue;
+                }
+                Effect::Event(words) => (Sort::Event, words),
+                Effect::End(words) => (Sort::End, words),
+                Effect::Unmodelled(words) => (Sort::Unmodelled, words),
+            };
+            self.ready.push_back(Item::Happens {
+                block,
+                sort,
+                words,
+                process: Arc::clone(&run.process),
+            });
+        }
+    }
+}
+
+impl Iterator for Steps<'_> {
+    type Item = Item;
+
+    fn next(&mut self) -> Option<Item> {
+        while self.ready.is_empty() {
+            if !self.advance() {
+                break;
+            }
+        }
+        self.ready.pop_front()
+    }
+}

@@ -69,6 +69,7 @@ impl Pair<'_> {
             return Ok(Compared::Same);
         }
         self.same_ball()?;
+        self.same_rotary_words(&old.motion, &new.motion)?;
         let start = old.start.as_ref().zip(new.start.as_ref());
         let way = if start.is_none() && alike {
             Apart::default()
@@ -160,6 +161,27 @@ impl Pair<'_> {
             return Ok(());
         };
         self.refute(format!("{differs} differs between before and after"))
+    }
+
+    /// Where both programs name rotary axes, and more than the path is claimed, these end where they did.
+    fn same_rotary_words(&self, old: &Motion, new: &Motion) -> Result<(), Outcome> {
+        let Claim::SameToolPath { tolerance_deg, .. } = self.claim else {
+            return Ok(());
+        };
+        let words = |motion: &Motion| matches!(motion.orientation, trunnion_interp::Orientation::Words) && motion.tilt.normal.is_none();
+        if !words(old) || !words(new) {
+            return Ok(());
+        }
+        for axis in 3..6 {
+            if let (Some(from), Some(to)) = (old.end.get(axis), new.end.get(axis)) {
+                let off = (from + old.zero[axis] - to - new.zero[axis]).abs();
+                if above(off, *tolerance_deg) {
+                    let letter = char::from(trunnion_interp::AXIS_LETTERS[axis]);
+                    return self.refute(format!("{letter} ends at {from} deg and at {to} deg"));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Programmed alike, from a like state.

@@ -4,12 +4,12 @@
 use crate::apt::Args;
 use crate::effect::{Argument, Effect};
 use crate::run::Interpreter;
-use crate::written::packed;
+use crate::written::{call_argument, packed};
 use crate::{Motion, MotionKind};
 use trunnion_syntax::{Block, Record};
 
 /// Records that say nothing to the machine.
-const NEUTRAL: [&str; 6] = ["PARTNO", "PPRINT", "REMARK", "CUTTER", "TOOLNO", "MULTAX"];
+const NEUTRAL: [&str; 8] = ["PARTNO", "PPRINT", "REMARK", "PAINT", "DISPLY", "CUTTER", "TOOLNO", "MULTAX"];
 
 impl Interpreter<'_> {
     /// What a record sets, before its motion.
@@ -28,13 +28,13 @@ impl Interpreter<'_> {
                 effects.add(block, Effect::set(key, to));
             }
             if !(off || mist || flood) {
-                let words = vec![Argument::text("COOLNT", &packed(&program.text(record.range)))];
+                let words = vec![Argument::text("COOLNT", &written_record(record, view))];
                 effects.add(block, Effect::Unmodelled(words));
             }
         } else if record.is("SPINDL") {
             let still = args.has(program, "OFF") || args.numbers().first() == Some(&0.0);
             let to = if args.has(program, "LOCK") || args.has(program, "ORIENT") {
-                vec![Argument::text("M19", &packed(&program.text(record.range)))]
+                vec![Argument::text("M19", &written_record(record, view))]
             } else if still {
                 vec![Argument::code("M5")]
             } else if args.has(program, "CCLW") {
@@ -46,6 +46,10 @@ impl Interpreter<'_> {
             if let Some(&speed) = args.numbers().first().filter(|_| !still) {
                 effects.add(block, Effect::set("speed", [Argument::number("S", speed)]));
             }
+            let plain = ["RPM", "CLW", "CCLW", "ON", "OFF", "LOCK", "ORIENT", "SFM", "SMM"];
+            let other = args.words().iter().any(|&word| !plain.iter().any(|known| crate::apt::is(program, word, known)));
+            let more = (other || args.numbers().len() > 1).then(|| Argument::text("SPINDL", &written_record(record, view)));
+            effects.add(block, Effect::set("spindle words", more.into_iter().collect::<Vec<_>>()));
             let surface = args.has(program, "SFM") || args.has(program, "SMM");
             let mode: Vec<Argument> = surface.then(|| Argument::code("G96")).into_iter().collect();
             effects.add(block, Effect::set("speed mode", mode));
@@ -53,7 +57,17 @@ impl Interpreter<'_> {
             if let Some(&number) = args.numbers().first() {
                 effects.add(block, Effect::set("tool prepared", [Argument::number("T", number)]));
                 effects.add(block, Effect::set("tool in use", [Argument::number("T", number)]));
+                effects.add(block, Effect::Event(vec![Argument::code("tool change")]));
+                let other = args.words().iter().any(|&word| !["LENGTH", "TOOL"].iter().any(|known| crate::apt::is(program, word, known)));
+                let more = other.then(|| Argument::text("LOADTL", &written_record(record, view)));
+                effects.add(block, Effect::set("tool words", more.into_iter().collect::<Vec<_>>()));
             }
+        } else if record.is("CUTTER") || record.is("CIRCLE") {
+            let to = [Argument::text("", &written_record(record, view))];
+            let key = if record.is("CUTTER") { "cutter" } else { "circle" };
+            effects.add(block, Effect::set(key, to));
+        } else if record.is("GOTO") {
+            effects.add(block, Effect::set("circle", []));
         } else if record.is("STOP") {
             effects.add(block, Effect::Event(vec![Argument::code("M0")]));
         } else if record.is("OPSTOP") {
@@ -82,9 +96,17 @@ impl Interpreter<'_> {
         let cutcom = record.is("CUTCOM") || record.is("CYCLE");
         if does_more || unknown || !known || cutcom {
             let block = self.flow.main_block(view.id());
-            let text = packed(&view.program().text(record.range));
-            let words = vec![Argument::text("", &text)];
+            let words = vec![Argument::text("", &written_record(record, view))];
             self.memory.effects.add(block, Effect::Unmodelled(words));
         }
+    }
+}
+
+/// A record without blanks, its numbers in one spelling.
+fn written_record(record: &Record<'_>, view: &Block<'_>) -> String {
+    let text = packed(&view.program().text(record.range));
+    match text.split_once('/') {
+        Some((major, arguments)) => call_argument(major, &format!("({arguments})")).to_string(),
+        None => text,
     }
 }

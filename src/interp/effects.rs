@@ -4,10 +4,10 @@ use crate::effect::{Argument, Effect, Value};
 use crate::memory::Chosen;
 use crate::run::Interpreter;
 use crate::words::{Said, Words};
-use crate::written::{Keep, call_argument, named_effects, unknown_assignment, written};
+use crate::written::{Keep, call_argument, comments, named_effects, system_assignment, unknown_assignment, written};
 use crate::{FaultKind, Motion, MotionKind};
 use trunnion_dialect::{Action, CodeKind, Role};
-use trunnion_syntax::Block;
+use trunnion_syntax::{Block, Item};
 
 /// Whether a fault means that its block does more than its motions and the modal state hold.
 pub(crate) fn does_more(kind: &FaultKind) -> bool {
@@ -21,10 +21,14 @@ pub(crate) fn does_more(kind: &FaultKind) -> bool {
             | FaultKind::UnusedWord
             | FaultKind::TcpState(_)
             | FaultKind::MissingProgramEnd
+            | FaultKind::AptVectorMissing
             | FaultKind::WorkOffsetUnset { .. }
             | FaultKind::ToolLengthUnset { .. }
     )
 }
+
+/// Codes that read the comment of their block (Haas mill operator's manual: G47 text engraving, M95 sleep mode, M130 to M131 media).
+const READ_COMMENTS: [&str; 4] = ["G47", "M95", "M130", "M131"];
 
 /// Names of codes that tell the operator something and do nothing else.
 const NEUTRAL: [&str; 1] = ["MSG"];
@@ -80,7 +84,8 @@ fn sort(found: &Found<'_>, words: &Words) -> Sort {
         Action::ConstantSurfaceSpeed | Action::ConstantSpindleSpeed => Sort::Setting("speed mode"),
         Action::ProgramStop => Sort::After,
         Action::OrientationAxes | Action::OrientationVector => Sort::Group,
-        Action::DataEntry | Action::ReferenceStore | Action::ReferenceStoreOther => Sort::Before,
+        Action::DataEntry | Action::ReferenceStore | Action::ReferenceStoreOther | Action::SwivelCycle => Sort::Before,
+        Action::MachineCoordinates => Sort::Setting("coordinates"),
         // a limit of the spindle's speed
         Action::PositionSet | Action::NotFollowed | Action::FrameChange
             if !words.axes.any() && words.speed.is_said() =>
@@ -117,10 +122,12 @@ impl Interpreter<'_> {
     #[cold]
     pub(crate) fn code_effects(&mut self, codes: &[Found<'_>], words: &Words, view: &Block<'_>) {
         let block = self.flow.main_block(view.id());
-        if matches!(view.items().next(), Some(trunnion_syntax::Item::Skip(..))) && self.setup.control.block_delete.is_none() {
+        if let Some(Item::Skip(level, _)) = view.items().next().filter(|_| self.setup.control.block_delete.is_none()) {
             // the switch decides whether the block runs at all
-            self.memory.effects.add(block, Effect::Event(vec![Argument::code("/")]));
+            let words = vec![Argument::number("/", f64::from(level))];
+            self.memory.effects.add(block, Effect::Event(words));
         }
+        named_effects(self, view, block);
         let mut free = self.free_letters(words);
         for found in codes {
             if couples(found.code.action) {
@@ -146,7 +153,7 @@ impl Interpreter<'_> {
                 }
                 Sort::Setting(key) => {
                     let mut to = vec![Argument::code(found.code.id.clone())];
-                    let own = crate::unused::letters(found.code) & free & !letter_bit(b'S');
+                    let own = crate::unused::letters(found.code) & words.letters & !letter_bit(b'S');
                     to.extend(arguments(words, own));
                     free &= !own;
                     self.memory.effects.add(block, Effect::set(key, to));
@@ -197,10 +204,14 @@ impl Interpreter<'_> {
         }
         let coordinates = alone.iter().any(|found| takes_axes(found.code.action));
         let mut event: Vec<Argument> = alone.iter().map(|found| name_of(found, view)).collect();
+        if alone.iter().any(|found| READ_COMMENTS.contains(&found.code.id.as_str())) {
+            event.extend(comments(view));
+        }
         event.sort_by(|a, b| a.name.cmp(&b.name));
         event.extend(rest);
         if coordinates {
-            event.extend(coordinate_arguments(words));
+            event.retain(|argument| argument.name.len() > 1);
+            event.extend(all_arguments(words));
             if self.state.length_unit_mm != 1.0 {
                 event.push(Argument::number("mm per unit", self.state.length_unit_mm));
             }
@@ -220,8 +231,12 @@ impl Interpreter<'_> {
             self.memory.effects.add(block, Effect::set("speed", [said("S", words.speed)]));
         }
         if words.tool.is_said() {
-            let to = [chosen(&self.memory.prepared)];
+            let to = [chosen(&self.memory.prepared), said("T", words.tool)];
             self.memory.effects.add(block, Effect::set("tool prepared", to));
+        }
+        if codes.iter().any(|found| found.code.action == Action::ToolChange) {
+            let change = vec![Argument::code("tool change")];
+            self.memory.effects.add(block, Effect::Event(change));
         }
         if words.tool.is_said() || codes.iter().any(|found| found.code.action == Action::ToolChange) {
             let to = [chosen(&self.memory.in_spindle)];
@@ -229,6 +244,9 @@ impl Interpreter<'_> {
         }
         if words.edge.is_said() {
             self.memory.effects.add(block, Effect::set("D", [said("D", words.edge)]));
+        }
+        if words.length_offset.is_said() {
+            self.memory.effects.add(block, Effect::set("H", [said("H", words.length_offset)]));
         }
     }
 
@@ -238,7 +256,9 @@ impl Interpreter<'_> {
             .filter(|letter| self.dialect.role(*letter) == Some(Role::Parameter))
             .fold(0, |all, letter| all | letter_bit(letter));
         let cycle = self.state.motion.is_some_and(|motion| motion.is_hole_cycle() || motion.is_pass_cycle());
-        let in_force = if cycle || words.radius.is_said() {
+        let in_force = if words.builder_code {
+            u32::MAX
+        } else if cycle {
             self.memory.cycle.letters | letter_bit(b'R') | letter_bit(b'P') | letter_bit(b'Q')
         } else {
             0
@@ -255,17 +275,24 @@ impl Interpreter<'_> {
         codes: &[Found<'_>],
         words: &Words,
         motions: &[Motion],
-        does_more: bool,
+        (does_more, ambiguous): (bool, bool),
     ) {
         let block = self.flow.main_block(view.id());
-        named_effects(self, view, block);
+        if ambiguous {
+            // a parameter of the control decides how large a number without a decimal point is
+            let words = vec![Argument::code("a number without decimal point")];
+            self.memory.effects.add(block, Effect::Unmodelled(words));
+        }
         let named = words.axes.given | words.axes.unread;
         let unknown_end = motions.iter().any(|motion| {
             let no_path = matches!(motion.kind, MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None));
             no_path || named & !motion.end.known != 0
         });
         let frame = codes.iter().any(|found| is_frame(found.code.action));
-        let unknown_frame = frame && (self.state.zero.iter().any(|value| value.is_nan()) || self.state.frame_unknown);
+        let unknown_frame = frame
+            && (self.state.zero.iter().any(|value| value.is_nan())
+                || self.state.frame_unknown
+                || self.state.position.xyz().is_none());
         let unread = words.axes.unread | words.centre.unread | words.vector.unread != 0
             || [words.feed, words.speed, words.tool, words.edge, words.radius, words.p, words.length_offset]
                 .iter()
@@ -273,12 +300,21 @@ impl Interpreter<'_> {
         let moved = !motions.is_empty() && !unknown_end && !unread;
         if does_more || unknown_end || unknown_frame || unread {
             let keep = if moved && !frame && !words.forgets_all { Keep::BesideMotion } else { Keep::All };
-            let arguments = written(view, self, words, keep);
+            let mut arguments = written(view, self, words, keep);
+            if !arguments.is_empty() && codes.iter().any(|found| READ_COMMENTS.contains(&found.code.id.as_str())) {
+                arguments.extend(comments(view));
+            }
             if !arguments.is_empty() {
                 self.memory.effects.add(block, Effect::Unmodelled(arguments));
             }
         } else if let Some(arguments) = unknown_assignment(self, view, words) {
             self.memory.effects.add(block, Effect::Unmodelled(arguments));
+        }
+        if let Some(arguments) = system_assignment(self, view) {
+            self.memory.effects.add(block, Effect::Event(arguments));
+        }
+        if codes.iter().any(|found| found.code.action == Action::MachineCoordinates) {
+            self.memory.effects.add(block, Effect::set("coordinates", []));
         }
         for found in codes {
             match sort(found, words) {
@@ -348,13 +384,11 @@ fn arguments(words: &Words, letters: u32) -> impl Iterator<Item = Argument> {
         .filter(|argument| !matches!(argument.value, Value::Nothing))
 }
 
-/// X Y Z A B C U V W, I J K and R as they are written.
-fn coordinate_arguments(words: &Words) -> impl Iterator<Item = Argument> {
-    let letters = *b"XYZABCUVWIJKR";
-    letters.into_iter().filter_map(|letter| {
-        let value = words.letter(letter);
-        let name = LETTERS[usize::from(letter - b'A')];
-        value.is_said().then(|| said(name, value))
+/// All words but codes, numbers of blocks and programs, S and T, as they are written.
+fn all_arguments(words: &Words) -> impl Iterator<Item = Argument> {
+    LETTERS.iter().filter_map(|letter| {
+        let value = words.letter(letter.as_bytes()[0]);
+        (value.is_said() && !matches!(*letter, "S" | "T")).then(|| said(letter, value))
     })
 }
 

@@ -23,7 +23,7 @@ impl<'d> Interpreter<'d> {
         }
         let mut codes = std::mem::take(&mut self.codes);
         codes.clear();
-        let mut does_more = false;
+        let (mut does_more, mut ambiguous) = (false, false);
         let mut words = Words::default();
         let motion = {
             let mut report = Report {
@@ -32,6 +32,7 @@ impl<'d> Interpreter<'d> {
                 record: None,
                 faults: &mut |fault| {
                     does_more |= crate::effects::does_more(&fault.kind);
+                    ambiguous |= fault.kind == FaultKind::AmbiguousDecimal;
                     sink.fault(fault);
                 },
             };
@@ -50,7 +51,7 @@ impl<'d> Interpreter<'d> {
             }
         };
         if self.memory.effects.wanted && words.has_content {
-            self.collect(block, (&codes, &words), motion.as_ref(), does_more, sink);
+            self.collect(block, (&codes, &words), motion.as_ref(), (does_more, ambiguous), sink);
         }
         self.put_out(motion.as_ref(), block, sink);
         self.codes = codes;
@@ -63,12 +64,12 @@ impl<'d> Interpreter<'d> {
         block: &Block<'_>,
         (codes, words): (&[Found<'d>], &Words),
         motion: Option<&Motion>,
-        does_more: bool,
+        (does_more, ambiguous): (bool, bool),
         sink: &mut impl Sink,
     ) {
         let motions: Vec<Motion> = self.memory.out.iter().chain(motion).copied().collect();
         let does_more = does_more || self.memory.frames.entering_data && codes.is_empty();
-        self.late_effects(block, codes, words, &motions, does_more);
+        self.late_effects(block, codes, words, &motions, (does_more, ambiguous));
         for effect in std::mem::take(&mut self.memory.effects.ready) {
             sink.effect(effect);
         }

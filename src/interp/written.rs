@@ -264,6 +264,44 @@ pub(crate) fn named_effects(run: &mut Interpreter<'_>, view: &Block<'_>, block: 
     }
 }
 
+/// The comments of a block, for codes that read them.
+pub(crate) fn comments(view: &Block<'_>) -> Vec<Argument> {
+    let texts = view.items().filter_map(|item| match item {
+        Item::Comment(comment) => Some(view.program().text(comment.range).trim().to_owned()),
+        _ => None,
+    });
+    texts.map(|text| Argument::text("comment", &text)).collect()
+}
+
+/// The words of a block that writes a variable of the control (Fanuc and Haas: #1000 and above), with the operator's message in its
+/// comment. A number that is computed may be any.
+pub(crate) fn system_assignment(run: &Interpreter<'_>, view: &Block<'_>) -> Option<Vec<Argument>> {
+    if !run.dialect.quirks.macro_b {
+        return None;
+    }
+    let mut found = Vec::new();
+    for item in view.items() {
+        let range = match item {
+            Item::Word(word) if matches!(word.address, Address::Named(_)) => word.range,
+            Item::Other(range) => range,
+            _ => continue,
+        };
+        let text = packed(&view.program().text(range));
+        let Some((name, value)) = text.strip_prefix('#').and_then(|rest| rest.split_once('=')) else {
+            continue;
+        };
+        let is_own = name.parse::<u32>().is_ok_and(|number| number < 1000) || name.starts_with('<');
+        if !is_own {
+            found.push(Argument::text(format!("#{name}"), &resolved(run, value)));
+        }
+    }
+    if found.is_empty() {
+        return None;
+    }
+    found.extend(comments(view));
+    Some(found)
+}
+
 /// The words of a block that gives a variable a value which is not known.
 pub(crate) fn unknown_assignment(run: &Interpreter<'_>, view: &Block<'_>, words: &Words) -> Option<Vec<Argument>> {
     let unknown = |text: &str| {

@@ -107,7 +107,13 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
         }))
     };
     if core::mem::discriminant(&a.kind) != core::mem::discriminant(&b.kind) {
-        return differs(format!("one is {}, the other {}", kind(&a.kind), kind(&b.kind)));
+        let lost = [a, b].iter().any(|motion| motion.kind == MotionKind::Unknown);
+        let verdict = if lost { Verdict::Unknown } else { Verdict::Differs };
+        return Err(verdict(Difference {
+            before: Some(a.block),
+            after: Some(b.block),
+            what: format!("one is {}, the other {}", kind(&a.kind), kind(&b.kind)),
+        }));
     }
     if let (MotionKind::Dwell(from), MotionKind::Dwell(to)) = (&a.kind, &b.kind) {
         let same = match (from, to) {
@@ -269,6 +275,9 @@ fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
                 value(b.get(name))
             ));
         }
+    }
+    if before.leads_tip() != after.leads_tip() {
+        return nowhere("tool centre point control is on at the end of only one of the programs".into());
     }
     match before.process().differences(after.process()).first() {
         Some((key, from, to)) => nowhere(format!("{key} at the end differs: {from} and {to}")),

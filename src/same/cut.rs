@@ -24,6 +24,8 @@ pub(crate) fn is_idle(step: &Step) -> bool {
         && motion.end.known != 0
         && motion.says_way & !motion.end.known == 0
         && !turned
+        && !motion.machine_coordinates
+        && step.process.get("coordinates").is_empty()
         && !open
         && stays(&motion.start, &motion.end)
         && step.process.get("cycle").is_empty()

@@ -2,7 +2,8 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, same_number};
+use trunnion_dialect::Plane;
+use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, Posture, same_number};
 
 /// Settings by their key; a key that is absent was never set, or is back at what it was before anything set it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,6 +41,15 @@ impl Process {
         matches!(self.get("spindle"), [only] if only.name == "M5")
     }
 
+    /// The settings that APT and G code share.
+    const SHARED: [&'static str; 5] = ["spindle", "speed", "flood", "mist", "tool in use"];
+
+    /// The settings that differ among those that programs of two languages share: key, before, after.
+    pub fn shared_differences<'p>(&'p self, other: &'p Self) -> Vec<(&'p str, String, String)> {
+        let found = self.differences(other).into_iter();
+        found.filter(|(key, ..)| Self::SHARED.contains(key)).collect()
+    }
+
     /// The settings that differ: key, before, after.
     pub fn differences<'p>(&'p self, other: &'p Self) -> Vec<(&'p str, String, String)> {
         if std::ptr::eq(self, other) {
@@ -71,6 +81,8 @@ pub struct Held {
     pub compensation: u8,
     /// Whose length is in force.
     pub length_of: LengthOf,
+    /// Working plane: arcs, cycles and compensation lie in it.
+    pub plane: Plane,
     /// Radius of the tool if it is declared to be a ball, mm.
     pub ball_radius: Option<f64>,
 }
@@ -82,6 +94,7 @@ impl Held {
             work_offset: state.work_offset.clone(),
             compensation: state.compensation,
             length_of: state.length_of,
+            plane: state.plane,
             ball_radius: match state.tool_shape() {
                 Some((trunnion_interp::ToolShape::Ball, diameter)) => Some(0.5 * diameter),
                 _ => None,
@@ -100,6 +113,13 @@ impl Held {
             Some(("the work offset", offset(self), offset(other)))
         } else if self.compensation != other.compensation {
             Some(("the side of the cutter radius compensation", side(self), side(other)))
+        } else if self.plane != other.plane {
+            let name = |plane| match plane {
+                Plane::Xy => "G17",
+                Plane::Zx => "G18",
+                Plane::Yz => "G19",
+            };
+            Some(("the working plane", name(self.plane).to_owned(), name(other.plane).to_owned()))
         } else if self.length_of != other.length_of {
             let name = "whose tool length is in force";
             Some((name, self.length_of.to_string(), other.length_of.to_string()))
@@ -150,6 +170,18 @@ pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Op
         Some(("the tool length in force", mm(a), mm(b)))
     } else if a.machine_coordinates != b.machine_coordinates {
         Some(("machine coordinates", yes(a.machine_coordinates), yes(b.machine_coordinates)))
+    } else if a.tilt.swivel != b.tilt.swivel || a.tilt.posture != b.tilt.posture {
+        let asked = |motion: &Motion| match motion.tilt.posture {
+            Posture::ByRule => "the control's own".to_owned(),
+            Posture::Lower => "the lower".to_owned(),
+            Posture::Higher => "the higher".to_owned(),
+            Posture::Numbered(number) => format!("number {number}"),
+            Posture::Bits { status, turn } => {
+                let bits = |name: &str, bits: Option<u16>| bits.map_or(String::new(), |bits| format!("{name}={bits} "));
+                format!("{}{}", bits("STAT", status), bits("TU", turn)).trim_end().to_owned()
+            }
+        };
+        Some(("the posture or turn that is asked for", asked(a), asked(b)))
     } else if a.tcp && b.tcp && a.great_circle != b.great_circle {
         Some(("the interpolation of the tool axis", circle(a), circle(b)))
     } else if feed_counts && a.is_feed() && !same_feed(a.feed, b.feed) {

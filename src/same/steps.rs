@@ -179,6 +179,11 @@ impl<'a> Steps<'a> {
         self.run.stop.as_ref()
     }
 
+    /// Whether tool centre point control is on now.
+    pub(crate) fn leads_tip(&self) -> bool {
+        self.interpreter.state.tcp
+    }
+
     /// What is in force now.
     pub fn process(&self) -> &Arc<Process> {
         &self.run.process

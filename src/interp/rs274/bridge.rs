@@ -49,6 +49,8 @@ pub(super) struct Told {
     /// Of the line in hand: it does more than its motions and calls hold; where a motion ends, or how it gets there, is unknown.
     pub(super) does_more: bool,
     pub(super) unknown_end: bool,
+    /// The last motion was programmed in machine coordinates (G53).
+    pub(super) machine_frame: bool,
     /// The kinematics were switched, nobody knows to which: X Y Z say nothing about the machine.
     pub(super) kinematics_unknown: bool,
 }
@@ -139,6 +141,9 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         at: At,
         state: &State,
     ) -> Motion {
+        if self.interpreter.memory.effects.wanted {
+            self.machine_frame(state.machine_frame, at);
+        }
         let block = self.block(at);
         let start = shift.programmed(&self.told.machine);
         let [mut end, mut machine] = ends;

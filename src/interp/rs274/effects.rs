@@ -11,6 +11,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     pub(super) fn effect_of_call(&mut self, call: &Canon, at: At) {
         if let Some(effect) = effect(call) {
             let block = self.block(at);
+            if matches!(call, Canon::ChangeTool { .. } | Canon::ChangeToolNumber { .. }) {
+                let change = vec![Argument::code("tool change")];
+                self.interpreter.memory.effects.add(block, Effect::Event(change));
+            }
             self.interpreter.memory.effects.add(block, effect);
             self.hand_on();
         }
@@ -23,6 +27,16 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let to: Vec<Argument> = back.map(|back| Argument::number("G33.1", back)).into_iter().collect();
         self.interpreter.memory.effects.add(block, Effect::set("cycle", to));
         self.hand_on();
+    }
+
+    /// A motion in machine coordinates (G53), or the first one after it.
+    pub(super) fn machine_frame(&mut self, is_on: bool, at: At) {
+        if std::mem::replace(&mut self.told.machine_frame, is_on) != is_on {
+            let block = self.block(at);
+            let to: Vec<Argument> = is_on.then(|| Argument::code("G53")).into_iter().collect();
+            self.interpreter.memory.effects.add(block, Effect::set("coordinates", to));
+            self.hand_on();
+        }
     }
 
     fn hand_on(&mut self) {

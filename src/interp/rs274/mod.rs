@@ -131,7 +131,18 @@ impl Interpreter<'_> {
         let unknown_end = std::mem::take(&mut run.told.unknown_end);
         let text = run.engine.text_of(at.file, at.line);
         let names = crate::written::names(&text);
-        let unknown = names.iter().any(|name| self.variable(name).is_some_and(f64::is_nan));
+        let skip = match program.block(block).items().next() {
+            Some(trunnion_syntax::Item::Skip(level, _)) if self.setup.control.block_delete.is_none() => Some(level),
+            _ => None,
+        };
+        if let Some(level) = skip.filter(|_| at.file == FileId::MAIN) {
+            let words = vec![Argument::number("/", f64::from(level))];
+            self.memory.effects.add(block, Effect::Event(words));
+            self.hand_on(sink);
+        }
+        let shifts = ["G92", "G52", "G10", "G53"].iter().any(|code| crate::written::packed(&text).contains(code));
+        let lost = shifts && self.state.position.xyz().is_none();
+        let unknown = lost || names.iter().any(|name| self.variable(name).is_some_and(f64::is_nan));
         if !(does_more || unknown_end || unknown) {
             return;
         }
@@ -144,10 +155,15 @@ impl Interpreter<'_> {
         if arguments.is_empty() {
             return;
         }
+        self.memory.effects.add(block, Effect::Unmodelled(arguments));
+        self.hand_on(sink);
+    }
+
+    fn hand_on(&mut self, sink: &mut impl Sink) {
         if let Some(run) = &mut self.rs274 {
+            // the next motion says anew how many effects came before it
             run.told.steady = None;
         }
-        self.memory.effects.add(block, Effect::Unmodelled(arguments));
         for effect in std::mem::take(&mut self.memory.effects.ready) {
             sink.effect(effect);
         }

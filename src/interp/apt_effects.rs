@@ -66,8 +66,7 @@ impl Interpreter<'_> {
             let to = [Argument::text("", &written_record(record, view))];
             let key = if record.is("CUTTER") { "cutter" } else { "circle" };
             effects.add(block, Effect::set(key, to));
-        } else if record.is("GOTO") {
-            effects.add(block, Effect::set("circle", []));
+
         } else if record.is("STOP") {
             effects.add(block, Effect::Event(vec![Argument::code("M0")]));
         } else if record.is("OPSTOP") {
@@ -86,6 +85,10 @@ impl Interpreter<'_> {
         motion: Option<&Motion>,
         does_more: bool,
     ) {
+        if record.is("GOTO") {
+            let block = self.flow.main_block(view.id());
+            self.memory.effects.add(block, Effect::set("circle", []));
+        }
         let held = ["GOTO", "FROM", "RAPID", "FEDRAT", "SPINDL", "COOLNT", "LOADTL", "STOP", "OPSTOP", "FINI", "END"];
         let unknown = motion.is_some_and(|motion| {
             matches!(motion.kind, MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None))

@@ -130,6 +130,8 @@ pub(crate) struct Effects {
     pub(crate) wanted: bool,
     /// How many there were so far in the run.
     pub(crate) count: u32,
+    /// Words of blocks that shift or turn the coordinates and were held by known positions so far.
+    pub(crate) frames: Vec<Vec<Argument>>,
     /// Not handed on yet.
     pub(crate) ready: Vec<Placed>,
 }

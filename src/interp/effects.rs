@@ -27,6 +27,9 @@ pub(crate) fn does_more(kind: &FaultKind) -> bool {
     )
 }
 
+/// Blocks of shifts and turns that wait for a motion that needs their words.
+const MOST_FRAMES: usize = 1000;
+
 /// Codes that read the comment of their block (Haas mill operator's manual: G47 text engraving, M95 sleep mode, M130 to M131 media).
 const READ_COMMENTS: [&str; 4] = ["G47", "M95", "M130", "M131"];
 
@@ -278,11 +281,6 @@ impl Interpreter<'_> {
         (does_more, ambiguous): (bool, bool),
     ) {
         let block = self.flow.main_block(view.id());
-        if ambiguous {
-            // a parameter of the control decides how large a number without a decimal point is
-            let words = vec![Argument::code("a number without decimal point")];
-            self.memory.effects.add(block, Effect::Unmodelled(words));
-        }
         let named = words.axes.given | words.axes.unread;
         let unknown_end = motions.iter().any(|motion| {
             let no_path = matches!(motion.kind, MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None));
@@ -297,6 +295,25 @@ impl Interpreter<'_> {
             || [words.feed, words.speed, words.tool, words.edge, words.radius, words.p, words.length_offset]
                 .iter()
                 .any(|said| matches!(said, Said::Unread));
+        if frame && !unknown_frame {
+            let words = written(view, self, words, Keep::All);
+            self.memory.effects.frames.push(words);
+        }
+        if unknown_end || self.memory.effects.frames.len() > MOST_FRAMES {
+            // where a motion ends is unknown under these shifts and turns: they are compared by their words
+            for words in std::mem::take(&mut self.memory.effects.frames) {
+                self.memory.effects.add(block, Effect::Unmodelled(words));
+            }
+        }
+        let dwell = |found: &Found<'_>| found.code.action == Action::Dwell;
+        let unclear = words.p.number().is_some_and(|p| p.has_point) && self.dialect.quirks.dwell_in_ms
+            || words.feed.is_said() && !self.dialect.quirks.user_names;
+        let ambiguous = ambiguous || codes.iter().any(dwell) && unclear;
+        if ambiguous {
+            // a parameter of the control decides what the number means
+            let words = vec![Argument::code("a number with or without decimal point")];
+            self.memory.effects.add(block, Effect::Unmodelled(words));
+        }
         let moved = !motions.is_empty() && !unknown_end && !unread;
         if does_more || unknown_end || unknown_frame || unread {
             let keep = if moved && !frame && !words.forgets_all { Keep::BesideMotion } else { Keep::All };

@@ -188,23 +188,27 @@ pub(crate) fn resolved(run: &Interpreter<'_>, text: &str) -> String {
     out
 }
 
-/// A name with what stands between its parentheses: `CYCLE832(0.1, 1)` and `CYCLE832(0.10,1)` are the same.
+/// A name with what follows it: `CYCLE832(0.1, 1)` and `CYCLE832(0.10,1)` are the same.
 pub(crate) fn call_argument(name: &str, text: &str) -> Argument {
-    let inside = text
-        .split_once('(')
-        .map_or("", |(_, rest)| rest.trim_end().strip_suffix(')').unwrap_or(rest));
-    let parts = inside.split(',').map(|part| {
-        let part = packed(part);
-        match part.parse::<f64>() {
-            Ok(value) if value.is_finite() => (value + 0.0).to_string(),
-            _ => part,
-        }
+    let name = packed(name);
+    let text = packed(text);
+    let rest = text.strip_prefix(name.as_str()).unwrap_or(&text);
+    let Some(inside) = rest.strip_prefix('(').map(|inside| inside.strip_suffix(')').unwrap_or(inside)) else {
+        return if rest.is_empty() {
+            Argument::code(name)
+        } else {
+            Argument::text(name, rest)
+        };
+    };
+    let parts = inside.split(',').map(|part| match part.parse::<f64>() {
+        Ok(value) if value.is_finite() => (value + 0.0).to_string(),
+        _ => part.to_owned(),
     });
     let joined = parts.collect::<Vec<_>>().join(",");
     if joined.is_empty() {
-        Argument::code(packed(name))
+        Argument::code(name)
     } else {
-        Argument::text(packed(name), &format!("({joined})"))
+        Argument::text(name, &format!("({joined})"))
     }
 }
 

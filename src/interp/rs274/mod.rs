@@ -141,7 +141,9 @@ impl Interpreter<'_> {
             self.hand_on(sink);
         }
         let shifts = ["G92", "G52", "G10", "G53"].iter().any(|code| crate::written::packed(&text).contains(code));
-        let lost = shifts && self.state.position.xyz().is_none();
+        // G10 L11 counts from the ninth coordinate system, which may not be declared
+        let ninth = crate::written::packed(&text).contains("L11");
+        let lost = shifts && (ninth || self.state.position.xyz().is_none());
         let unknown = lost || names.iter().any(|name| self.variable(name).is_some_and(f64::is_nan));
         if !(does_more || unknown_end || unknown) {
             return;

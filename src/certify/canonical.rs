@@ -19,7 +19,8 @@
 //!   a field or a variant changes no byte. A tag is never used for a second meaning.
 //! * A field without a value (`None`) is left out. A fact that is added later gets a new tag and is left out where it has the value with
 //!   which all older versions ran: then old digests stay. Any other change of these bytes needs a new version of the certificate.
-//! * -0 and 0 are one number: no verdict may depend on the sign of a zero in an input.
+//! * -0 and 0 are one number here. No verdict rests on that: a re-check computes everything again from the inputs that it is given.
+
 /// How the fields of a struct are encoded: each with its tag, and those that do not count. All must be named.
 macro_rules! record {
     ($struct:ty { $($field:ident = $tag:literal),+ $(,)? } $(without { $($left_out:ident),+ $(,)? })?) => {
@@ -142,14 +143,25 @@ macro_rules! whole_numbers {
     ($($type:ty)+) => {
         $(impl Encode for $type {
             fn encode(&self, out: &mut CanonicalV1) {
-                let value = *self as u64;
-                out.value(WHOLE, |out| out.bytes.extend(value.to_be_bytes()));
+                u64::from(*self).encode(out);
             }
         })+
     };
 }
 
-whole_numbers!(u8 u16 u32 u64 usize);
+whole_numbers!(u8 u16 u32);
+
+impl Encode for u64 {
+    fn encode(&self, out: &mut CanonicalV1) {
+        out.value(WHOLE, |out| out.bytes.extend(self.to_be_bytes()));
+    }
+}
+
+impl Encode for usize {
+    fn encode(&self, out: &mut CanonicalV1) {
+        (*self as u64).encode(out);
+    }
+}
 
 impl Encode for f64 {
     fn encode(&self, out: &mut CanonicalV1) {

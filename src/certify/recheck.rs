@@ -97,7 +97,7 @@ fn inputs_match(
         ));
     }
     if certificate.setup_sha256 != setup_digest(setup) {
-        return refuse("other tools or work offsets");
+        return refuse("other tools, work offsets, control parameters or variables");
     }
     Ok(())
 }

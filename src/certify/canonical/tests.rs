@@ -265,12 +265,7 @@ fn every_fact_of_a_machine_counts() {
             |m| m.gauge_point.y += 1.0,
             |m| m.home.tool_axis.x += 1.0,
             |m| m.home.gauge_point.y += 1.0,
-            |m| {
-                m.gantries.push(Gantry {
-                    letter: b'U',
-                    leader: b'X',
-                })
-            },
+            |m| m.gantries.extend(gantry()),
             |m| m.axes[0].letter = b'B',
             |m| m.axes[0].kind = trunnion_machine::AxisKind::Linear,
             |m| m.axes[0].side = trunnion_machine::Side::Head,
@@ -326,6 +321,11 @@ fn every_fact_of_a_machine_counts() {
             |m| m.tolerances.near_mm += 1.0,
         ],
     );
+}
+
+fn gantry() -> Option<Gantry> {
+    let (letter, leader) = (b'U', b'X');
+    Some(Gantry { letter, leader })
 }
 
 fn sign() -> trunnion_machine::AxisSign {

@@ -265,7 +265,7 @@ fn every_fact_of_a_machine_counts() {
             |m| m.gauge_point.y += 1.0,
             |m| m.home.tool_axis.x += 1.0,
             |m| m.home.gauge_point.y += 1.0,
-            |m| m.gantries.extend(gantry()),
+            |m| m.gantries.push(gantry()),
             |m| m.axes[0].letter = b'B',
             |m| m.axes[0].kind = trunnion_machine::AxisKind::Linear,
             |m| m.axes[0].side = trunnion_machine::Side::Head,
@@ -323,9 +323,9 @@ fn every_fact_of_a_machine_counts() {
     );
 }
 
-fn gantry() -> Option<Gantry> {
+fn gantry() -> Gantry {
     let (letter, leader) = (b'U', b'X');
-    Some(Gantry { letter, leader })
+    Gantry { letter, leader }
 }
 
 fn sign() -> trunnion_machine::AxisSign {

@@ -1,4 +1,6 @@
 //! House rules as tests: floors look down only, lists equal folders, files stay short, rule headers are whole.
+mod debug_text;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use trunnion::check::rules;

@@ -1,10 +1,13 @@
 //! What a proof leaves behind: digests of the inputs, the claim, and the numbers found.
 use crate::Claim;
-use crate::digest::hex_sha256;
+use crate::digest::seal_digest;
 use serde::{Deserialize, Serialize};
 
-/// Version of the certificate's shape.
-pub const SCHEMA: &str = "trunnion-certificate/1";
+/// Version of the certificate: of its JSON and of the canonical encoding that its digests and its seal are made from.
+pub const SCHEMA: &str = "trunnion-certificate/2";
+
+/// The first version, whose digests were made from text that changed whenever a field was renamed.
+const SCHEMA_1: &str = "trunnion-certificate/1";
 
 /// A certificate (JSON). Every number in it is recomputed by `recheck`; one that differs is refused.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,7 +42,7 @@ pub struct Certificate {
     pub rotary: Vec<RotaryChange>,
     /// Each motion that differs.
     pub changes: Vec<MotionChange>,
-    /// SHA-256 of this certificate with an empty seal, so that an altered claim is noticed too.
+    /// SHA-256 of the canonical encoding of all fields above, so that an altered claim is noticed too.
     pub seal_sha256: String,
 }
 
@@ -171,16 +174,18 @@ impl Certificate {
         json
     }
 
-    /// Reads JSON. `Err` says what is wrong and where (line and column).
+    /// Reads JSON. `Err` says what is wrong and where (line and column), or which other version it is and what to do about it.
     pub fn from_json(json: &str) -> Result<Self, String> {
-        let certificate: Self = serde_json::from_str(json).map_err(|error| format!("not a certificate: {error}"))?;
-        if certificate.schema != SCHEMA {
-            return Err(format!(
-                "certificate schema is \"{}\", this program reads \"{SCHEMA}\"",
-                certificate.schema
-            ));
+        /// All that certificates of every version have in common.
+        #[derive(Deserialize)]
+        struct Header {
+            schema: String,
         }
-        Ok(certificate)
+        let wrong = |error: serde_json::Error| format!("not a certificate: {error}");
+        // the version first: fields of another one would be called unknown or missing
+        let header: Header = serde_json::from_str(json).map_err(wrong)?;
+        other_schema(&header.schema).map_or(Ok(()), Err)?;
+        serde_json::from_str(json).map_err(wrong)
     }
 
     /// One line for people: what is proved, with the worst numbers.
@@ -220,10 +225,21 @@ impl Certificate {
 
     /// What the seal must be.
     pub(crate) fn seal(&self) -> String {
-        let bare = Self {
-            seal_sha256: String::new(),
-            ..self.clone()
-        };
-        hex_sha256(bare.to_json().as_bytes())
+        seal_digest(self)
+    }
+}
+
+/// Why a certificate with this schema cannot be checked; `None`: it can.
+pub(crate) fn other_schema(schema: &str) -> Option<String> {
+    match schema {
+        SCHEMA => None,
+        SCHEMA_1 => Some(format!(
+            "this certificate was made by an older version of trunnion (schema \"{SCHEMA_1}\"), whose digests this version cannot check; make a new \
+             one from the program before: `trunnion fix BEFORE -o AFTER --certificate FILE`, with the same machine, tools and rewrite"
+        )),
+        _ => Some(format!(
+            "certificate schema is {}, and this version of trunnion reads only \"{SCHEMA}\"",
+            serde_json::Value::from(schema)
+        )),
     }
 }

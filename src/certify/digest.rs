@@ -1,72 +1,57 @@
-//! Digests of the inputs: only facts that a proof rests on, written in one canonical way.
+//! Digests of the inputs: SHA-256 over the canonical encoding of the facts that a proof rests on.
+use crate::canonical::{CanonicalV1, Encode};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use trunnion_dialect::Dialect;
 use trunnion_interp::Setup;
 use trunnion_machine::Machine;
 
-/// SHA-256 in lower case hexadecimal.
+/// What is digested begins with the schema and the kind of thing, so that no digest of one kind is one of another kind or version.
+const DIALECT: &[u8] = b"trunnion-certificate/2 dialect\0";
+const MACHINE: &[u8] = b"trunnion-certificate/2 machine\0";
+const SETUP: &[u8] = b"trunnion-certificate/2 setup\0";
+const SEAL: &[u8] = b"trunnion-certificate/2 seal\0";
+
+/// SHA-256 of a file's bytes, in lower case hexadecimal, as `sha256sum` prints it.
 pub(crate) fn hex_sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes)
-        .iter()
-        .fold(String::with_capacity(64), |mut hex, byte| {
-            // writing to a String cannot fail
-            let _ = write!(hex, "{byte:02x}");
-            hex
-        })
+    hex(&Sha256::digest(bytes))
 }
 
 /// Digest of what a dialect says: notation, letters, codes and quirks; not its prose.
 pub(crate) fn dialect_digest(dialect: &Dialect) -> String {
-    let mut facts = format!(
-        "{}\n{:?}\n{:?}\n{:?}\n",
-        dialect.name, dialect.lex, dialect.arc_tolerance_mm, dialect.quirks
-    );
-    for letter in b'A'..=b'Z' {
-        let _ = writeln!(facts, "{} {:?}", char::from(letter), dialect.role(letter));
-    }
-    for code in dialect.codes() {
-        let _ = writeln!(facts, "{:?} {} {:?} {:?}", code.kind, code.id, code.group, code.action);
-    }
-    hex_sha256(facts.as_bytes())
+    canonical(DIALECT, dialect)
 }
 
-/// Digest of a machine: chain, limits, speeds, control; not its thresholds and prose.
+/// Digest of a machine: chain, limits, speeds, control and thresholds; not its prose.
 pub(crate) fn machine_digest(machine: &Machine) -> String {
-    let mut facts = format!("{}\n{:?} {:?}\n", machine.id, machine.tool_axis, machine.gauge_point);
-    let _ = writeln!(
-        facts,
-        "{} great circle {}",
-        machine.control.family, machine.control.tcp_great_circle
-    );
-    // thresholds of rules decide nothing here, but the pole cone bounds windows, and all of it is the model of the control
-    let _ = writeln!(facts, "{:?} {:?}", machine.control, machine.tolerances);
-    for axis in &machine.axes {
-        let _ = writeln!(facts, "{axis:?}");
-        let _ = writeln!(
-            facts,
-            "{} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
-            char::from(axis.letter),
-            axis.kind,
-            axis.side,
-            axis.direction,
-            axis.point,
-            axis.sign,
-            axis.limits,
-            axis.max_speed,
-            axis.max_acceleration
-        );
-    }
-    hex_sha256(facts.as_bytes())
+    canonical(MACHINE, machine)
 }
 
-/// Digest of tools, work offsets, bounds and parameters of the control; called programs are noted one by one.
+/// Digest of tools, work offsets, bounds, parameters of the control and variables; called programs are noted one by one.
 pub(crate) fn setup_digest(setup: &Setup) -> String {
-    let facts = format!(
-        "{:?}\n{:?}\n{:?}\n{:?}",
-        setup.tools, setup.work_offsets, setup.limits, setup.control
-    );
-    hex_sha256(facts.as_bytes())
+    canonical(SETUP, setup)
+}
+
+/// Digest of a certificate without its seal.
+pub(crate) fn seal_digest(certificate: &crate::Certificate) -> String {
+    canonical(SEAL, certificate)
+}
+
+/// Domain, then the canonical bytes.
+fn canonical(domain: &[u8], value: &impl Encode) -> String {
+    let digest = Sha256::new()
+        .chain_update(domain)
+        .chain_update(CanonicalV1::bytes_of(value));
+    hex(&digest.finalize())
+}
+
+/// Lower case hexadecimal.
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::with_capacity(64), |mut hex, byte| {
+        // writing to a String cannot fail
+        let _ = write!(hex, "{byte:02x}");
+        hex
+    })
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 //! certificates from scratch.
 //!
 //! It knows neither rules nor rewrites nor any search: what it trusts is floors 0 to 3 and itself.
+mod canonical;
 mod certificate;
 mod claim;
 mod compare;

@@ -2,7 +2,9 @@
 //!
 //! Both texts are parsed, run and followed again by floors 0 to 3. Each pair of motions is compared (`compare`), the ways between
 //! block ends are bounded (`path`), and the texts are compared byte by byte outside coordinate words (`text`).
-use crate::certificate::{MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextDigest, Worst, WorstChanges};
+use crate::certificate::{
+    MotionCounts, NamedDigest, RotaryChange, SCHEMA, TextDigest, Worst, WorstChanges, other_schema,
+};
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
 use crate::digest::{dialect_digest, hex_sha256, machine_digest, setup_digest};
 use crate::library::Recorder;
@@ -71,11 +73,8 @@ fn inputs_match(
             "the certificate was made for {what}: its SHA-256 differs"
         )))
     };
-    if certificate.schema != SCHEMA {
-        return Err(Outcome::refuted(format!(
-            "schema: certificate says \"{}\", this program reads \"{SCHEMA}\"",
-            certificate.schema
-        )));
+    if let Some(why) = other_schema(&certificate.schema) {
+        return Err(Outcome::refuted(why));
     }
     if certificate.before != text_digest(before) {
         return refuse("another text before");
@@ -96,7 +95,7 @@ fn inputs_match(
         ));
     }
     if certificate.setup_sha256 != setup_digest(setup) {
-        return refuse("other tools or work offsets");
+        return refuse("other tools, work offsets, control parameters or variables");
     }
     Ok(())
 }

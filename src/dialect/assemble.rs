@@ -34,7 +34,6 @@ pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
     }
     if let Some(row) = &table.arc_tolerance {
         dialect.arc = arc_tolerance(row)?;
-        dialect.arc_tolerance_mm = dialect.arc.mm;
         dialect.quirks.arc_tolerance_relative = dialect.arc.relative;
     }
     dialect.extensions = extensions(&table.extensions)?;

@@ -28,7 +28,7 @@ pub struct Quirks {
     pub edge_at_tool_change: bool,
     /// In a dwell P without a decimal point is ms (Fanuc); else s. X and U without a point then are ms too.
     pub dwell_in_ms: bool,
-    /// Radii of an arc's start and end that differ by less than this part of the radius agree, whatever `arc_tolerance_mm` says
+    /// Radii of an arc's start and end that differ by less than this part of the radius agree, whatever [`Dialect::arc`] says
     /// (LinuxCNC 0.001). In TOML: `relative` in `[arc-tolerance]`.
     pub arc_tolerance_relative: f64,
     /// The program may define names of its own (variables, labels, subprograms), so an unknown name is no error in itself.
@@ -101,9 +101,7 @@ pub struct Dialect {
     pub title: String,
     /// How its text is cut into tokens.
     pub lex: LexOptions,
-    /// An arc's end radius may differ from its start radius by this much, mm (with its source in the table).
-    pub arc_tolerance_mm: f64,
-    /// The same in full: inch, part of the radius, source.
+    /// How much an arc's end radius may differ from its start radius.
     pub arc: ArcTolerance,
     /// File name extensions that name this dialect, lower case, no dot.
     pub extensions: Vec<String>,
@@ -210,7 +208,6 @@ impl Dialect {
             name: String::new(),
             title: String::new(),
             lex: LexOptions::default(),
-            arc_tolerance_mm: 0.0,
             arc,
             extensions: Vec::new(),
             groups: BTreeMap::new(),

@@ -1,6 +1,7 @@
 //! The `trunnion` program as its users run it: one file here is one command or one kind of input.
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
+mod certificates;
 mod commands;
 mod convert;
 mod diff;

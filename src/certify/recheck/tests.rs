@@ -3,6 +3,8 @@ use super::{certify, recheck};
 use crate::{Certificate, Claim, Outcome};
 use trunnion_interp::Setup;
 
+mod versions;
+
 const TURNS: Claim = Claim::SamePoses {
     tolerance_mm: 1e-6,
     tolerance_deg: 1e-6,
@@ -365,7 +367,13 @@ fn a_certificate_is_for_its_inputs_only() {
     let spaced = format!("{BEFORE}\n");
     for (before, after, machine, setup, why) in [
         (BEFORE, &after, &narrow, &none, "another machine"),
-        (BEFORE, &after, machine, &setup, "other tools or work offsets"),
+        (
+            BEFORE,
+            &after,
+            machine,
+            &setup,
+            "other tools, work offsets, control parameters or variables",
+        ),
         (&spaced, &after, machine, &none, "another text before"),
         (BEFORE, &format!("{after}\n"), machine, &none, "another text after"),
     ] {

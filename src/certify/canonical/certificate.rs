@@ -1,0 +1,95 @@
+//! A certificate without its seal, and its claim.
+use super::{CanonicalV1, Encode};
+use crate::certificate::{
+    Certificate, MotionChange, MotionCounts, NamedDigest, RotaryChange, TextChange, TextDigest, Worst, WorstChanges,
+};
+use crate::claim::Claim;
+
+// The seal is made from these bytes.
+record! {
+    Certificate {
+        schema = 1, tool_version = 2, before = 3, after = 4, dialect = 5, machine = 6, setup_sha256 = 7, library = 8,
+        claim = 9, text = 10, motions = 11, worst = 12, rotary = 13, changes = 14,
+    } without {
+        seal_sha256,
+    }
+}
+
+record! {
+    TextDigest {
+        sha256 = 1, bytes = 2,
+    }
+}
+
+record! {
+    NamedDigest {
+        name = 1, sha256 = 2,
+    }
+}
+
+record! {
+    TextChange {
+        numbers_changed = 1, words_inserted = 2, bytes_changed = 3, rest_identical = 4,
+    }
+}
+
+record! {
+    MotionCounts {
+        total = 1, changed = 2, unknown = 3, process_changed = 4,
+    }
+}
+
+record! {
+    Worst {
+        value = 1, motion = 2, line = 3,
+    }
+}
+
+record! {
+    WorstChanges {
+        point_shift_mm = 1, tip_shift_mm = 2, axis_change_deg = 3, path_bound_mm = 4, path_axis_bound_deg = 5,
+        forward_residual_mm = 6, forward_residual_deg = 7,
+    }
+}
+
+record! {
+    RotaryChange {
+        axis = 1, step_before_deg = 2, step_after_deg = 3, travel_before_deg = 4, travel_after_deg = 5,
+    }
+}
+
+record! {
+    MotionChange {
+        motion = 1, line = 2, point_shift_mm = 3, tip_shift_mm = 4, axis_change_deg = 5, rotary_change_deg = 6,
+        path_sampled_mm = 7, path_bound_mm = 8, path_axis_bound_deg = 9,
+    }
+}
+
+impl Encode for Claim {
+    fn encode(&self, out: &mut CanonicalV1) {
+        match self {
+            Self::SamePoses {
+                tolerance_mm,
+                tolerance_deg,
+            } => out.variant(1, |fields| {
+                fields.field(1, tolerance_mm).field(2, tolerance_deg);
+            }),
+            Self::SameBallCentre {
+                ball_radius_mm,
+                tolerance_mm,
+                tolerance_deg,
+            } => out.variant(2, |fields| {
+                fields
+                    .field(1, ball_radius_mm)
+                    .field(2, tolerance_mm)
+                    .field(3, tolerance_deg);
+            }),
+            Self::SameToolPath {
+                tolerance_mm,
+                tolerance_deg,
+            } => out.variant(3, |fields| {
+                fields.field(1, tolerance_mm).field(2, tolerance_deg);
+            }),
+        }
+    }
+}

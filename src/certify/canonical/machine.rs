@@ -1,0 +1,101 @@
+//! A machine: chain, limits, speeds, control and thresholds.
+use super::{CanonicalV1, Encode};
+use trunnion_machine::{
+    Axis, AxisExtra, AxisSign, Branch, Control, Criterion, Gantry, Home, Limits, Machine, PostureWords, Tolerances,
+};
+
+// The rest is prose, or the axes in a form made for speed, or bodies, which no proof looks at.
+record! {
+    Machine {
+        id = 1, axes = 2, tool_axis = 3, gauge_point = 4, home = 5, control = 6, tolerances = 7, gantries = 8,
+    } without {
+        name, sources, rotary, linear, joint_of_letter, constants, bodies, not_used, warnings, checks, not_judged,
+    }
+}
+
+record! {
+    Home {
+        tool_axis = 1, gauge_point = 2,
+    }
+}
+
+record! {
+    Axis {
+        letter = 1, kind = 2, side = 3, direction = 4, point = 5, sign = 6, limits = 7, max_speed = 8,
+        max_acceleration = 9, extra = 10,
+    } without {
+        note, source,
+    }
+}
+
+record! {
+    AxisExtra {
+        wrap = 1, clamp = 2, clamp_codes = 3, cable = 4, spindle = 5, diameter = 6, limits_declared = 7,
+        limit_margin = 8, resolution = 9, max_jerk = 10, position_gain = 11, feed_forward = 12, point_uncertainty = 13,
+        direction_uncertainty = 14, hold = 15,
+    }
+}
+
+record! {
+    Gantry {
+        letter = 1, leader = 2,
+    }
+}
+
+record! {
+    Control {
+        family = 1, tcp_great_circle = 2, tcp_declared = 3, rapid = 4, branch = 5, pole_cone = 6, pole_action = 7,
+        feed = 8, corner_model = 9, block_time = 10, tcp_codes = 11, posture_words = 12, units = 13,
+    }
+}
+
+record! {
+    Branch {
+        rule = 1, declared = 2, order = 3, range = 4, passing_type = 5, solution_negative = 6,
+    }
+}
+
+record! {
+    PostureWords {
+        turn = 1, status = 2, solutions = 3,
+    }
+}
+
+record! {
+    AxisSign {
+        letter = 1, negative = 2,
+    }
+}
+
+record! {
+    Tolerances {
+        tip_mm = 1, pole_cone = 2, pole_angle = 3, swap_excess = 4, pole_touch = 5, feed_drop_warning = 6,
+        feed_drop_error = 7, orientation = 8, swept_mm = 9, rotary_ratio = 10, linear_ratio = 11, rapid_ratio = 12,
+        pivot_mm = 13, near_mm = 14,
+    }
+}
+
+impl Encode for Limits {
+    fn encode(&self, out: &mut CanonicalV1) {
+        match self {
+            Self::Unbounded => out.variant(1, |_| {}),
+            Self::Range(lowest, highest) => out.variant(2, |fields| {
+                fields.field(1, lowest).field(2, highest);
+            }),
+        }
+    }
+}
+
+impl Encode for Criterion {
+    fn encode(&self, out: &mut CanonicalV1) {
+        match self {
+            Self::Time => out.variant(1, |_| {}),
+            Self::Move(axis) => out.variant(2, |fields| {
+                fields.field(1, axis);
+            }),
+            Self::Value(axis) => out.variant(3, |fields| {
+                fields.field(1, axis);
+            }),
+        }
+    }
+}

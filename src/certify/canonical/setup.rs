@@ -1,0 +1,71 @@
+//! What a program is run with: tools, work offsets, bounds, parameters of the control, variables.
+use super::{CanonicalV1, Encode};
+use trunnion_interp::{ClampCodes, ControlData, Limits, Position, Setup, TcpCodes, Tool, ToolShape, WorkOffset};
+
+// Each called program of the library has its own digest in the certificate.
+record! {
+    Setup {
+        tools = 1, work_offsets = 2, limits = 3, control = 4, variables = 5,
+    } without {
+        library,
+    }
+}
+
+record! {
+    Tool {
+        number = 1, shape = 2, diameter_mm = 3, length_mm = 4,
+    }
+}
+
+record! {
+    WorkOffset {
+        name = 1, values = 2,
+    }
+}
+
+record! {
+    Limits {
+        blocks = 1, depth = 2,
+    }
+}
+
+record! {
+    ControlData {
+        units = 1, implicit_decimals = 2, chip_break_retract_mm = 3, peck_clearance_mm = 4, bore_shift = 5,
+        roughing_escape = 6, thread_pull_out = 7, outer_corner = 8, block_delete = 9, roll_pitch_yaw = 10,
+        tcp_codes = 11, clamp_codes = 12, further_axes = 13, length_along = 14, reference_points = 15,
+    }
+}
+
+record! {
+    TcpCodes {
+        on = 1, off = 2, at_start = 3,
+    }
+}
+
+record! {
+    ClampCodes {
+        on = 1, off = 2,
+    }
+}
+
+impl Encode for ToolShape {
+    fn encode(&self, out: &mut CanonicalV1) {
+        match self {
+            Self::Ball => out.variant(1, |_| {}),
+            Self::Flat => out.variant(2, |_| {}),
+            Self::Bull(corner_mm) => out.variant(3, |fields| {
+                fields.field(1, corner_mm);
+            }),
+        }
+    }
+}
+
+/// Each axis, in the order of `AXIS_LETTERS`, or nothing: what the place of an unknown one holds means nothing.
+impl Encode for Position {
+    fn encode(&self, out: &mut CanonicalV1) {
+        let Self { values, known: _ } = self;
+        let axes: Vec<_> = (0..values.len()).map(|axis| self.get(axis)).collect();
+        axes.encode(out);
+    }
+}

@@ -23,6 +23,9 @@ pub struct Certificate {
     pub after: TextDigest,
     /// The dialect: name, and digest of what it says about letters and codes.
     pub dialect: NamedDigest,
+    /// The dialect of the text after, where it is another one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub after_dialect: Option<NamedDigest>,
     /// The machine: id, and digest of its chain, limits, speeds and control.
     pub machine: NamedDigest,
     /// Digest of tools, work offsets and bounds the programs were run with, declarations outside the texts.

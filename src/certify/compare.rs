@@ -78,7 +78,11 @@ impl Pair<'_> {
         };
         let height = self.claim.point_height_mm();
         let moved = zero(&new.motion) - zero(&old.motion);
-        let moved = if moved.iter().all(|value| value.is_finite()) { moved } else { Vec3::zeros() };
+        let moved = if moved.iter().all(|value| value.is_finite()) {
+            moved
+        } else {
+            Vec3::zeros()
+        };
         let shift = |height: f64| ((is.tip + moved + is.axis * height) - (was.tip + was.axis * height)).norm();
         let rotary = self.machine.rotary.iter();
         let change = MotionChange {
@@ -109,11 +113,17 @@ impl Pair<'_> {
     }
 
     fn before_leg(&self) -> Result<&Leg, Outcome> {
-        self.before.leg.as_ref().ok_or_else(|| self.unknown("no machine is named"))
+        self.before
+            .leg
+            .as_ref()
+            .ok_or_else(|| self.unknown("no machine is named"))
     }
 
     fn after_leg(&self) -> Result<&Leg, Outcome> {
-        self.after.leg.as_ref().ok_or_else(|| self.unknown("no machine is named"))
+        self.after
+            .leg
+            .as_ref()
+            .ok_or_else(|| self.unknown("no machine is named"))
     }
 
     fn refute<T>(&self, message: String) -> Result<T, Outcome> {
@@ -151,7 +161,12 @@ impl Pair<'_> {
         let (old, new) = (&self.before.motion, &self.after.motion);
         let differs = if !self.claim.is_rewrite() {
             return Ok(());
-        } else if old.zero.iter().zip(&new.zero).any(|(a, b)| a != b && !(a.is_nan() && b.is_nan())) {
+        } else if old
+            .zero
+            .iter()
+            .zip(&new.zero)
+            .any(|(a, b)| a != b && !(a.is_nan() && b.is_nan()))
+        {
             "the zero point"
         } else if old.tcp != new.tcp || old.great_circle != new.great_circle {
             "tool centre point control"
@@ -168,7 +183,9 @@ impl Pair<'_> {
         let Claim::SameToolPath { tolerance_deg, .. } = self.claim else {
             return Ok(());
         };
-        let words = |motion: &Motion| matches!(motion.orientation, trunnion_interp::Orientation::Words) && motion.tilt.normal.is_none();
+        let words = |motion: &Motion| {
+            matches!(motion.orientation, trunnion_interp::Orientation::Words) && motion.tilt.normal.is_none()
+        };
         if !words(old) || !words(new) {
             return Ok(());
         }
@@ -244,7 +261,12 @@ impl Pair<'_> {
     /// Two arcs while no rotary axis moves: then the part sees the arcs as they are programmed, turned and shifted as a whole.
     fn arcs(&self, start: Both<'_>, end: Both<'_>) -> Result<Apart, Outcome> {
         let (a, b) = (&self.before.motion, &self.after.motion);
-        let stand = |from: &Stance, to: &Stance| self.machine.rotary.iter().all(|&joint| from.joints[joint] == to.joints[joint]);
+        let stand = |from: &Stance, to: &Stance| {
+            self.machine
+                .rotary
+                .iter()
+                .all(|&joint| from.joints[joint] == to.joints[joint])
+        };
         let still = stand(start.0, end.0) && stand(start.1, end.1) && stand(start.0, start.1);
         let (MotionKind::Arc(Some(from)), MotionKind::Arc(Some(to))) = (&a.kind, &b.kind) else {
             return Err(self.unknown("how far an arc and another motion lie apart is not modelled"));

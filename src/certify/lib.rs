@@ -21,5 +21,5 @@ pub use certificate::{
     WorstChanges,
 };
 pub use claim::Claim;
-pub use recheck::{certify, recheck};
+pub use recheck::{certify, certify_across, recheck};
 pub use verdict::{Gap, Outcome, Witness};

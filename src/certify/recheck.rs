@@ -26,7 +26,19 @@ pub fn certify(
     setup: &Setup,
     claim: &Claim,
 ) -> Outcome {
-    match prove(before, after, dialect, machine, setup, claim) {
+    certify_across(before, after, [dialect, dialect], machine, setup, claim)
+}
+
+/// The same for two texts in two dialects: APT beside G code.
+pub fn certify_across(
+    before: &[u8],
+    after: &[u8],
+    dialects: [&Dialect; 2],
+    machine: &Machine,
+    setup: &Setup,
+    claim: &Claim,
+) -> Outcome {
+    match prove(before, after, dialects, machine, setup, claim) {
         Ok(certificate) => Outcome::Proved(Box::new(certificate)),
         Err(outcome) => outcome,
     }
@@ -42,7 +54,8 @@ pub fn recheck(
     setup: &Setup,
 ) -> Outcome {
     let fresh = match inputs_match(certificate, before, after, dialect, machine, setup)
-        .and_then(|()| prove(before, after, dialect, machine, setup, &certificate.claim))
+        .and_then(|()| after_dialect(certificate, dialect))
+        .and_then(|other| prove(before, after, [dialect, other], machine, setup, &certificate.claim))
     {
         Ok(fresh) => fresh,
         Err(outcome) => return outcome,
@@ -107,18 +120,28 @@ fn text_digest(text: &[u8]) -> TextDigest {
     }
 }
 
+/// The dialect of the text after: that of the text before, or the built-in one that the certificate names.
+fn after_dialect<'d>(certificate: &Certificate, dialect: &'d Dialect) -> Result<&'d Dialect, Outcome> {
+    let Some(named) = &certificate.after_dialect else {
+        return Ok(dialect);
+    };
+    trunnion_dialect::builtin(&named.name)
+        .filter(|other| dialect_digest(other) == named.sha256)
+        .ok_or_else(|| Outcome::refuted(format!("the certificate was made for another dialect {}", named.name)))
+}
+
 /// The proof.
 fn prove(
     before: &[u8],
     after: &[u8],
-    dialect: &Dialect,
+    [dialect, other]: [&Dialect; 2],
     machine: &Machine,
     setup: &Setup,
     claim: &Claim,
 ) -> Result<Certificate, Outcome> {
     claim_makes_sense(claim)?;
     let old = parse(before.to_vec(), dialect.lex);
-    let new = parse(after.to_vec(), dialect.lex);
+    let new = parse(after.to_vec(), other.lex);
     let text = text_change(&old, &new, dialect);
     if claim.is_rewrite() && !text.rest_identical {
         return Err(Outcome::refuted(
@@ -127,19 +150,20 @@ fn prove(
     }
     let mut proof = Proof::new(machine, claim, &new);
     let (recorded, library) = Recorder::wrap(setup);
-    let input = |program| Input {
+    let input = |program, dialect| Input {
         program,
         dialect,
         setup: &recorded,
         machine: Some(machine),
     };
-    let mut sides = [Steps::new(input(&old)), Steps::new(input(&new))];
+    let mut sides = [Steps::new(input(&old, dialect)), Steps::new(input(&new, other))];
     let [old_steps, new_steps] = &mut sides;
     let (mm, degrees) = claim.tolerances();
     let asked = trunnion_same::Claim {
         mm,
         deg: degrees,
         frees_feed: false,
+        across: false,
         path_only: matches!(claim, Claim::SamePath { .. }),
         cuts: !claim.is_rewrite(),
     };
@@ -162,6 +186,10 @@ fn prove(
             name: dialect.name.clone(),
             sha256: dialect_digest(dialect),
         },
+        after_dialect: (other.name != dialect.name).then(|| NamedDigest {
+            name: other.name.clone(),
+            sha256: dialect_digest(other),
+        }),
         machine: NamedDigest {
             name: machine.id.clone(),
             sha256: machine_digest(machine),

@@ -237,6 +237,9 @@ pub(crate) struct Certify {
     pub(crate) before: PathBuf,
     /// The program after.
     pub(crate) after: PathBuf,
+    /// What is claimed: that all is the same, or the geometry of the tool path alone.
+    #[arg(long, value_enum, default_value = "all")]
+    pub(crate) claim: ClaimOf,
     /// The certificate to re-check; without it the same tool path is proved or refuted.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) certificate: Option<PathBuf>,
@@ -246,6 +249,15 @@ pub(crate) struct Certify {
     /// Without certificate: how far the tool axis may be off, degrees.
     #[arg(long, value_name = "DEG", default_value_t = 0.001)]
     pub(crate) tolerance_deg: f64,
+}
+
+/// What `certify` and `diff` compare.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ClaimOf {
+    /// Path, feed, spindle, tool, offsets, coolant, stops, outputs and stored data.
+    All,
+    /// The geometry of the tool path.
+    Path,
 }
 
 /// `explain`

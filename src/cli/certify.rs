@@ -1,12 +1,12 @@
 //! `certify`: re-checks a certificate, or proves or refutes that AFTER is the same tool path as BEFORE.
 use super::{
     Done,
-    args::{Certify, Global},
+    args::{Certify, ClaimOf, Global},
     failure::Failure,
     load,
 };
 use std::io::Write;
-use trunnion_certify::{Certificate, Claim, Outcome, certify, recheck};
+use trunnion_certify::{Certificate, Claim, Outcome, certify_across, recheck};
 
 /// Runs `certify`. Refuted or unknown makes the exit status 1.
 pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
@@ -20,11 +20,25 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         let certificate = Certificate::from_json(&text).map_err(|e| Failure::file(file, e))?;
         recheck(&certificate, before, &after, dialect, machine, setup)
     } else {
-        let claim = Claim::SameToolPath {
-            tolerance_mm: command.tolerance_mm,
-            tolerance_deg: command.tolerance_deg,
+        let (tolerance_mm, tolerance_deg) = (command.tolerance_mm, command.tolerance_deg);
+        let claim = match command.claim {
+            ClaimOf::All => Claim::SameToolPath {
+                tolerance_mm,
+                tolerance_deg,
+            },
+            ClaimOf::Path => Claim::SamePath {
+                tolerance_mm,
+                tolerance_deg,
+            },
         };
-        certify(before, &after, dialect, machine, setup, &claim)
+        // two languages: APT beside G code
+        let other = load::load(global, &command.after)
+            .ok()
+            .map(|other| other.resolved.dialect);
+        let other = other
+            .filter(|other| other.lex.format != dialect.lex.format)
+            .unwrap_or(dialect);
+        certify_across(before, &after, [dialect, other], machine, setup, &claim)
     };
     let mut out = std::io::stdout().lock();
     match outcome {

@@ -8,7 +8,7 @@ mod show;
 
 use super::{
     Done,
-    args::Global,
+    args::{ClaimOf, Global},
     failure::{Failure, remark},
     json::write_json,
     load,
@@ -33,6 +33,9 @@ pub(crate) struct Diff {
     /// Angles that differ by no more are the same, degrees.
     #[arg(long, value_name = "DEG", default_value_t = 0.001)]
     tolerance_deg: f64,
+    /// What is compared: all, or the geometry of the tool path alone.
+    #[arg(long, value_enum, default_value = "all")]
+    claim: ClaimOf,
     /// Show at most this many differences (0: all that were compared in detail).
     #[arg(long, default_value_t = 100)]
     limit: usize,
@@ -68,7 +71,7 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
         mm: command.tolerance_mm,
         deg: command.tolerance_deg,
     };
-    let found = changes::compare(&before, &after, tolerance);
+    let found = changes::compare(&before, &after, tolerance, command.claim == ClaimOf::Path);
     let limit = if command.limit == 0 { usize::MAX } else { command.limit };
     let mut out = BufWriter::new(std::io::stdout().lock());
     match command.format {

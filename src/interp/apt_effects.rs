@@ -9,7 +9,9 @@ use crate::{Motion, MotionKind};
 use trunnion_syntax::{Block, Record};
 
 /// Records that say nothing to the machine.
-const NEUTRAL: [&str; 8] = ["PARTNO", "PPRINT", "REMARK", "PAINT", "DISPLY", "CUTTER", "TOOLNO", "MULTAX"];
+const NEUTRAL: [&str; 8] = [
+    "PARTNO", "PPRINT", "REMARK", "PAINT", "DISPLY", "CUTTER", "TOOLNO", "MULTAX",
+];
 
 impl Interpreter<'_> {
     /// What a record sets, before its motion.
@@ -47,9 +49,16 @@ impl Interpreter<'_> {
                 effects.add(block, Effect::set("speed", [Argument::number("S", speed)]));
             }
             let plain = ["RPM", "CLW", "CCLW", "ON", "OFF", "LOCK", "ORIENT", "SFM", "SMM"];
-            let other = args.words().iter().any(|&word| !plain.iter().any(|known| crate::apt::is(program, word, known)));
-            let more = (other || args.numbers().len() > 1).then(|| Argument::text("SPINDL", &written_record(record, view)));
-            effects.add(block, Effect::set("spindle words", more.into_iter().collect::<Vec<_>>()));
+            let other = args
+                .words()
+                .iter()
+                .any(|&word| !plain.iter().any(|known| crate::apt::is(program, word, known)));
+            let more =
+                (other || args.numbers().len() > 1).then(|| Argument::text("SPINDL", &written_record(record, view)));
+            effects.add(
+                block,
+                Effect::set("spindle words", more.into_iter().collect::<Vec<_>>()),
+            );
             let surface = args.has(program, "SFM") || args.has(program, "SMM");
             let mode: Vec<Argument> = surface.then(|| Argument::code("G96")).into_iter().collect();
             effects.add(block, Effect::set("speed mode", mode));
@@ -58,7 +67,11 @@ impl Interpreter<'_> {
                 effects.add(block, Effect::set("tool prepared", [Argument::number("T", number)]));
                 effects.add(block, Effect::set("tool in use", [Argument::number("T", number)]));
                 effects.add(block, Effect::Event(vec![Argument::code("tool change")]));
-                let other = args.words().iter().any(|&word| !["LENGTH", "TOOL"].iter().any(|known| crate::apt::is(program, word, known)));
+                let other = args.words().iter().any(|&word| {
+                    !["LENGTH", "TOOL"]
+                        .iter()
+                        .any(|known| crate::apt::is(program, word, known))
+                });
                 let more = other.then(|| Argument::text("LOADTL", &written_record(record, view)));
                 effects.add(block, Effect::set("tool words", more.into_iter().collect::<Vec<_>>()));
             }
@@ -66,7 +79,6 @@ impl Interpreter<'_> {
             let to = [Argument::text("", &written_record(record, view))];
             let key = if record.is("CUTTER") { "cutter" } else { "circle" };
             effects.add(block, Effect::set(key, to));
-
         } else if record.is("STOP") {
             effects.add(block, Effect::Event(vec![Argument::code("M0")]));
         } else if record.is("OPSTOP") {
@@ -89,12 +101,18 @@ impl Interpreter<'_> {
             let block = self.flow.main_block(view.id());
             self.memory.effects.add(block, Effect::set("circle", []));
         }
-        let held = ["GOTO", "FROM", "RAPID", "FEDRAT", "SPINDL", "COOLNT", "LOADTL", "STOP", "OPSTOP", "FINI", "END"];
+        let held = [
+            "GOTO", "FROM", "RAPID", "FEDRAT", "SPINDL", "COOLNT", "LOADTL", "STOP", "OPSTOP", "FINI", "END",
+        ];
         let unknown = motion.is_some_and(|motion| {
-            matches!(motion.kind, MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None))
-                || motion.end.xyz().is_none()
+            matches!(
+                motion.kind,
+                MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None)
+            ) || motion.end.xyz().is_none()
         });
-        let modelled = ["GODLTA", "CIRCLE", "DELAY", "UNITS", "UNIT", "TLAXIS", "CUTCOM", "CYCLE", "CSYS", "LOAD"];
+        let modelled = [
+            "GODLTA", "CIRCLE", "DELAY", "UNITS", "UNIT", "TLAXIS", "CUTCOM", "CYCLE", "CSYS", "LOAD",
+        ];
         let known = held.iter().chain(&modelled).chain(&NEUTRAL).any(|name| record.is(name));
         let cutcom = record.is("CUTCOM") || record.is("CYCLE");
         if does_more || unknown || !known || cutcom {

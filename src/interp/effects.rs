@@ -125,7 +125,11 @@ impl Interpreter<'_> {
     #[cold]
     pub(crate) fn code_effects(&mut self, codes: &[Found<'_>], words: &Words, view: &Block<'_>) {
         let block = self.flow.main_block(view.id());
-        if let Some(Item::Skip(level, _)) = view.items().next().filter(|_| self.setup.control.block_delete.is_none()) {
+        if let Some(Item::Skip(level, _)) = view
+            .items()
+            .next()
+            .filter(|_| self.setup.control.block_delete.is_none())
+        {
             // the switch decides whether the block runs at all
             let words = vec![Argument::number("/", f64::from(level))];
             self.memory.effects.add(block, Effect::Event(words));
@@ -171,8 +175,13 @@ impl Interpreter<'_> {
                 Sort::After => {}
             }
         }
-        let rest: Vec<Argument> = if words.flow { Vec::new() } else { arguments(words, free).collect() };
-        if opaque.is_empty() && !rest.is_empty() && !codes.iter().any(|found| found.code.action == Action::ProgramStop) {
+        let rest: Vec<Argument> = if words.flow {
+            Vec::new()
+        } else {
+            arguments(words, free).collect()
+        };
+        if opaque.is_empty() && !rest.is_empty() && !codes.iter().any(|found| found.code.action == Action::ProgramStop)
+        {
             self.memory.effects.add(block, Effect::Event(rest));
         } else if let [found] = opaque[..]
             && matches!(sort(found, words), Sort::Group)
@@ -207,7 +216,10 @@ impl Interpreter<'_> {
         }
         let coordinates = alone.iter().any(|found| takes_axes(found.code.action));
         let mut event: Vec<Argument> = alone.iter().map(|found| name_of(found, view)).collect();
-        if alone.iter().any(|found| READ_COMMENTS.contains(&found.code.id.as_str())) {
+        if alone
+            .iter()
+            .any(|found| READ_COMMENTS.contains(&found.code.id.as_str()))
+        {
             event.extend(comments(view));
         }
         event.sort_by(|a, b| a.name.cmp(&b.name));
@@ -231,7 +243,9 @@ impl Interpreter<'_> {
             .iter()
             .any(|found| matches!(sort(found, words), Sort::Setting("speed limit")));
         if words.speed.is_said() && !limits && !dwell_reads(codes, "S") {
-            self.memory.effects.add(block, Effect::set("speed", [said("S", words.speed)]));
+            self.memory
+                .effects
+                .add(block, Effect::set("speed", [said("S", words.speed)]));
         }
         if words.tool.is_said() {
             let to = [chosen(&self.memory.prepared), said("T", words.tool)];
@@ -246,10 +260,14 @@ impl Interpreter<'_> {
             self.memory.effects.add(block, Effect::set("tool in use", to));
         }
         if words.edge.is_said() {
-            self.memory.effects.add(block, Effect::set("D", [said("D", words.edge)]));
+            self.memory
+                .effects
+                .add(block, Effect::set("D", [said("D", words.edge)]));
         }
         if words.length_offset.is_said() {
-            self.memory.effects.add(block, Effect::set("H", [said("H", words.length_offset)]));
+            self.memory
+                .effects
+                .add(block, Effect::set("H", [said("H", words.length_offset)]));
         }
     }
 
@@ -258,7 +276,10 @@ impl Interpreter<'_> {
         let parameters = (b'A'..=b'Z')
             .filter(|letter| self.dialect.role(*letter) == Some(Role::Parameter))
             .fold(0, |all, letter| all | letter_bit(letter));
-        let cycle = self.state.motion.is_some_and(|motion| motion.is_hole_cycle() || motion.is_pass_cycle());
+        let cycle = self
+            .state
+            .motion
+            .is_some_and(|motion| motion.is_hole_cycle() || motion.is_pass_cycle());
         let in_force = if words.builder_code {
             u32::MAX
         } else if cycle {
@@ -283,18 +304,28 @@ impl Interpreter<'_> {
         let block = self.flow.main_block(view.id());
         let named = words.axes.given | words.axes.unread;
         let unknown_end = motions.iter().any(|motion| {
-            let no_path = matches!(motion.kind, MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None));
+            let no_path = matches!(
+                motion.kind,
+                MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None)
+            );
             no_path || named & !motion.end.known != 0
         });
         let frame = codes.iter().any(|found| is_frame(found.code.action));
-        let unknown_frame = frame
-            && (self.state.zero.iter().any(|value| value.is_nan())
-                || self.state.frame_unknown
-                || self.state.position.xyz().is_none());
+        let offset = codes.iter().any(|found| found.code.action == Action::WorkOffset);
+        let lost = self.state.zero.iter().any(|value| value.is_nan()) || self.state.frame_unknown;
+        let unknown_frame = (frame || offset) && lost || frame && self.state.position.xyz().is_none();
         let unread = words.axes.unread | words.centre.unread | words.vector.unread != 0
-            || [words.feed, words.speed, words.tool, words.edge, words.radius, words.p, words.length_offset]
-                .iter()
-                .any(|said| matches!(said, Said::Unread));
+            || [
+                words.feed,
+                words.speed,
+                words.tool,
+                words.edge,
+                words.radius,
+                words.p,
+                words.length_offset,
+            ]
+            .iter()
+            .any(|said| matches!(said, Said::Unread));
         if frame && !unknown_frame {
             let words = written(view, self, words, Keep::All);
             self.memory.effects.frames.push(words);
@@ -306,7 +337,7 @@ impl Interpreter<'_> {
             }
         }
         let dwell = |found: &Found<'_>| found.code.action == Action::Dwell;
-        let unclear = words.p.number().is_some_and(|p| p.has_point) && self.dialect.quirks.dwell_in_ms
+        let unclear = words.p.number().is_some_and(|p| p.has_point) && self.dialect.quirks.whole_numbers_ambiguous
             || words.feed.is_said() && !self.dialect.quirks.user_names;
         let ambiguous = ambiguous || codes.iter().any(dwell) && unclear;
         if ambiguous {
@@ -316,9 +347,17 @@ impl Interpreter<'_> {
         }
         let moved = !motions.is_empty() && !unknown_end && !unread;
         if does_more || unknown_end || unknown_frame || unread {
-            let keep = if moved && !frame && !words.forgets_all { Keep::BesideMotion } else { Keep::All };
+            let keep = if moved && !frame && !words.forgets_all {
+                Keep::BesideMotion
+            } else {
+                Keep::All
+            };
             let mut arguments = written(view, self, words, keep);
-            if !arguments.is_empty() && codes.iter().any(|found| READ_COMMENTS.contains(&found.code.id.as_str())) {
+            if !arguments.is_empty()
+                && codes
+                    .iter()
+                    .any(|found| READ_COMMENTS.contains(&found.code.id.as_str()))
+            {
                 arguments.extend(comments(view));
             }
             if !arguments.is_empty() {
@@ -330,7 +369,10 @@ impl Interpreter<'_> {
         if let Some(arguments) = system_assignment(self, view) {
             self.memory.effects.add(block, Effect::Event(arguments));
         }
-        if codes.iter().any(|found| found.code.action == Action::MachineCoordinates) {
+        if codes
+            .iter()
+            .any(|found| found.code.action == Action::MachineCoordinates)
+        {
             self.memory.effects.add(block, Effect::set("coordinates", []));
         }
         for found in codes {
@@ -379,7 +421,6 @@ fn is_frame(action: Action) -> bool {
             | Action::PolarOn
             | Action::TiltedPlane
             | Action::SwivelCycle
-            | Action::WorkOffset
     )
 }
 

@@ -43,8 +43,8 @@ mod words;
 mod written;
 
 pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
-pub use effect::{Argument, Effect, Placed, Value, same_number};
 pub use directive::{Directive, directives};
+pub use effect::{Argument, Effect, Placed, Value, same_number};
 pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
 pub use modal::{FeedMode, LengthOf, ModalState};
 pub use motion::{

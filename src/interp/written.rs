@@ -29,7 +29,10 @@ pub(crate) fn written(view: &Block<'_>, run: &Interpreter<'_>, words: &Words, ke
             Item::Call(call) => {
                 let known = run.dialect.name(&text(call.name)).is_some();
                 if !(keep == Keep::BesideMotion && known) {
-                    found.push(call_argument(&packed(&text(call.name)), &resolved(run, &text(call.range))));
+                    found.push(call_argument(
+                        &packed(&text(call.name)),
+                        &resolved(run, &text(call.range)),
+                    ));
                 }
             }
             Item::Other(range) => found.push(Argument::text("", &resolved(run, &text(range)))),
@@ -53,7 +56,13 @@ fn is_held(run: &Interpreter<'_>, view: &Block<'_>, word: &Word) -> bool {
     match role {
         Some(Role::G) => tenths.is_some_and(|tenths| run.dialect.g(tenths).is_some()),
         Some(Role::M) => tenths.is_some_and(|tenths| run.dialect.m(tenths).is_some()),
-        Some(role) => is_geometry(role) || matches!(role, Role::Feed | Role::Speed | Role::Tool | Role::LengthOffset | Role::EdgeOffset),
+        Some(role) => {
+            is_geometry(role)
+                || matches!(
+                    role,
+                    Role::Feed | Role::Speed | Role::Tool | Role::LengthOffset | Role::EdgeOffset
+                )
+        }
         None => false,
     }
 }
@@ -163,7 +172,8 @@ pub(crate) fn resolved(run: &Interpreter<'_>, text: &str) -> String {
         } else if !hash && (first.is_ascii_alphabetic() || first == '_') {
             rest.find(|c| !is_name(c)).unwrap_or(rest.len())
         } else if first.is_ascii_digit() || first == '.' {
-            rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(rest.len())
+            rest.find(|c: char| !(c.is_ascii_digit() || c == '.'))
+                .unwrap_or(rest.len())
         } else {
             out.push(first);
             rest = &rest[first.len_utf8()..];
@@ -193,7 +203,10 @@ pub(crate) fn call_argument(name: &str, text: &str) -> Argument {
     let name = packed(name);
     let text = packed(text);
     let rest = text.strip_prefix(name.as_str()).unwrap_or(&text);
-    let Some(inside) = rest.strip_prefix('(').map(|inside| inside.strip_suffix(')').unwrap_or(inside)) else {
+    let Some(inside) = rest
+        .strip_prefix('(')
+        .map(|inside| inside.strip_suffix(')').unwrap_or(inside))
+    else {
         return if rest.is_empty() {
             Argument::code(name)
         } else {
@@ -317,7 +330,9 @@ pub(crate) fn unknown_assignment(run: &Interpreter<'_>, view: &Block<'_>, words:
         Item::Word(word) => match word.address {
             Address::Named(_) | Address::Indexed(..) if run.dialect.quirks.user_names => {
                 let variable = matches!(named_role(run, view, &word), None | Some(Role::Variable));
-                variable && !matches!(word.value, Value::Number(_)) && value_of(run, &view.program().text(word.value_range)).is_none()
+                variable
+                    && !matches!(word.value, Value::Number(_))
+                    && value_of(run, &view.program().text(word.value_range)).is_none()
             }
             _ => unknown(&view.program().text(word.range)),
         },
@@ -358,8 +373,14 @@ mod tests {
 
     #[test]
     fn arguments_of_calls_compare_by_value() {
-        assert_eq!(call_argument("CYCLE832", "CYCLE832(0.10, 1,)"), call_argument("cycle832", "CYCLE832( .1,1.0,)"));
-        assert_ne!(call_argument("CYCLE832", "CYCLE832(0.1)"), call_argument("CYCLE832", "CYCLE832(0.2)"));
+        assert_eq!(
+            call_argument("CYCLE832", "CYCLE832(0.10, 1,)"),
+            call_argument("cycle832", "CYCLE832( .1,1.0,)")
+        );
+        assert_ne!(
+            call_argument("CYCLE832", "CYCLE832(0.1)"),
+            call_argument("CYCLE832", "CYCLE832(0.2)")
+        );
         assert_eq!(call_argument("MCALL", "MCALL"), Argument::code("MCALL"));
     }
 }

@@ -2,6 +2,7 @@
 //! the new text is parsed and run beside the old one, and what differs in words, motions, faults or modal state is refused.
 //!
 //! It does no I/O. It does not know machines or rules.
+mod alike;
 mod apt;
 mod attempt;
 mod blanks;

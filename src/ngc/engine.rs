@@ -129,7 +129,10 @@ impl Engine {
     pub fn outliving(&self) -> Vec<(String, f64)> {
         let numbers = (31..=5000).chain(5161..=5390);
         let known = numbers.map(|index| (format!("#{index}"), self.store.number(index)));
-        known.chain(self.store.globals()).filter(|(_, value)| !value.is_nan()).collect()
+        known
+            .chain(self.store.globals())
+            .filter(|(_, value)| !value.is_nan())
+            .collect()
     }
     /// The text of a line (from 0) without the blanks around it; empty where there is no such line.
     pub fn text_of(&self, file: FileId, line: u32) -> String {

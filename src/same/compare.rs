@@ -3,7 +3,7 @@
 //! What counts is interface section 8.3: geometry, feed, spindle, tool and offsets, coolant, clamps, dwell, stops, path control, outputs,
 //! stored data, and the words of everything that is not modelled.
 use crate::cut::{cut, is_idle};
-use crate::process::{motion_difference, shown};
+use crate::process::{Process, motion_difference, shown};
 use crate::steps::{Item, Sort, Step, Steps};
 use crate::verdict::{Difference, Verdict};
 use trunnion_interp::{MotionKind, same_number};
@@ -19,6 +19,8 @@ pub struct Claim {
     pub frees_feed: bool,
     /// Everything but the geometry may differ: the claim is the path alone.
     pub path_only: bool,
+    /// The programs are in two languages (APT and G code): what one of them cannot say does not count. Set by [`compare`].
+    pub across: bool,
     /// Motions may be cut: a line in two is the line. Off, both programs must have the same motions one by one.
     pub cuts: bool,
 }
@@ -38,6 +40,11 @@ pub trait Judge {
 pub fn compare(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, judge: &mut dyn Judge) -> Verdict {
     let text = |steps: &Steps<'_>| std::ptr::from_ref(steps.input().dialect);
     let same_text = before.input().program.source() == after.input().program.source() && text(before) == text(after);
+    let format = |steps: &Steps<'_>| steps.input().dialect.lex.format;
+    let claim = &Claim {
+        across: claim.across || format(before) != format(after),
+        ..*claim
+    };
     match walk(before, after, claim, judge) {
         Ok(()) => Verdict::Same,
         Err(_) if same_text => Verdict::Same,
@@ -74,7 +81,7 @@ fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, judge: &mu
         b = next(after, claim);
     }
     stopped(before, after)?;
-    if !claim.path_only {
+    if !claim.path_only && !claim.across {
         at_end(before, after)?;
     }
     Ok(())
@@ -129,16 +136,27 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
     if claim.path_only {
         return Ok(());
     }
-    if let Some((name, from, to)) = was.held.difference(&is.held).or_else(|| motion_difference(a, b, !claim.frees_feed)) {
+    let held = was.held.difference(&is.held).filter(|_| !claim.across);
+    if let Some((name, from, to)) = held.or_else(|| motion_difference(a, b, !claim.frees_feed)) {
         return differs(format!("{name} differs: {from} and {to}"));
     }
-    settings(was, is).map_or(Ok(()), differs)
+    let found = setting(&was.process, &is.process, claim);
+    found.map_or(Ok(()), |(key, from, to)| {
+        differs(format!("{key} differs: {from} and {to}"))
+    })
 }
 
-fn settings(was: &Step, is: &Step) -> Option<String> {
-    let found = was.process.differences(&is.process);
-    let (key, from, to) = found.first()?;
-    Some(format!("{key} differs: {from} and {to}"))
+/// The first setting that differs and counts.
+fn setting(was: &Process, is: &Process, claim: &Claim) -> Option<(String, String, String)> {
+    let found = if claim.across {
+        was.shared_differences(is)
+    } else {
+        was.differences(is)
+    };
+    found
+        .into_iter()
+        .next()
+        .map(|(key, from, to)| (key.to_owned(), from, to))
 }
 
 /// A kind of motion in words.
@@ -185,12 +203,14 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
     let place = |what: String| at(Some(was), Some(is), what);
     if sort != other_sort || words != other_words {
         // two languages end their programs each in its own words
-        if *sort == Sort::End && *other_sort == Sort::End && across_languages(words, other_words) {
+        if *sort == Sort::End && *other_sort == Sort::End && claim.across {
             return Ok(());
         }
         let what = format!("one does `{}`, the other `{}`", shown(words), shown(other_words));
         return Err(if *sort == Sort::Unmodelled || *other_sort == Sort::Unmodelled {
-            Verdict::Unknown(place(format!("{what}: their effect is not modelled, and the words differ")))
+            Verdict::Unknown(place(format!(
+                "{what}: their effect is not modelled, and the words differ"
+            )))
         } else {
             Verdict::Differs(place(what))
         });
@@ -198,18 +218,13 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
     if claim.path_only {
         return Ok(());
     }
-    match process.differences(other_process).first() {
+    match setting(process, other_process, claim) {
         Some((key, from, to)) => Err(Verdict::Differs(place(format!(
             "{key} differs at `{}`: {from} and {to}",
             shown(words)
         )))),
         None => Ok(()),
     }
-}
-
-fn across_languages(a: &[trunnion_interp::Argument], b: &[trunnion_interp::Argument]) -> bool {
-    let apt = |words: &[trunnion_interp::Argument]| words.iter().any(|word| word.name == "FINI");
-    apt(a) != apt(b)
 }
 
 /// One program does something where the other does something else, or nothing more.

@@ -10,7 +10,8 @@ const STANDS: f64 = 1e-9;
 pub(crate) fn is_idle(step: &Step) -> bool {
     let motion = &step.motion;
     let stays = |a: &Position, b: &Position| {
-        a.known == b.known && (0..9).all(|axis| a.known & (1 << axis) == 0 || (a.values[axis] - b.values[axis]).abs() <= STANDS)
+        a.known == b.known
+            && (0..9).all(|axis| a.known & (1 << axis) == 0 || (a.values[axis] - b.values[axis]).abs() <= STANDS)
     };
     let turned = match motion.orientation {
         Orientation::Words => false,

@@ -77,12 +77,17 @@ impl Judge for Near {
         }
         let ends = before.leg.as_ref().zip(after.leg.as_ref());
         let Some((Ok(was), Ok(is))) = ends.map(|(a, b)| (a.end.as_ref(), b.end.as_ref())) else {
-            return unknown("one program leads the tip and the other the axes, and without a machine that cannot be compared".into());
+            return unknown(
+                "one program leads the tip and the other the axes, and without a machine that cannot be compared"
+                    .into(),
+            );
         };
         let off = (was.tip + zero(a) - is.tip - zero(b)).norm();
         let angle = deg(angle_between(&was.axis, &is.axis));
         if off > self.mm || angle > self.deg {
-            return differs(format!("the tip ends {off:.6} mm and the tool axis {angle:.6} deg apart"));
+            return differs(format!(
+                "the tip ends {off:.6} mm and the tool axis {angle:.6} deg apart"
+            ));
         }
         unknown("both end in the same pose, one leads the tip and the other the axes: their paths in between are not compared".into())
     }

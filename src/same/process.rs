@@ -33,7 +33,10 @@ impl Process {
 
     /// All settings as people read them, in the order of their keys.
     pub fn settings(&self) -> Vec<(String, String)> {
-        self.settings.iter().map(|(key, to)| (key.to_string(), shown(to))).collect()
+        self.settings
+            .iter()
+            .map(|(key, to)| (key.to_string(), shown(to)))
+            .collect()
     }
 
     /// Whether the spindle is known to stand still: then its speed does nothing.
@@ -55,7 +58,10 @@ impl Process {
         if std::ptr::eq(self, other) {
             return Vec::new();
         }
-        let keys = self.settings.keys().chain(other.settings.keys().filter(|key| !self.settings.contains_key(*key)));
+        let keys = self
+            .settings
+            .keys()
+            .chain(other.settings.keys().filter(|key| !self.settings.contains_key(*key)));
         let idle = self.spindle_stands() && other.spindle_stands();
         keys.filter(|key| self.get(key) != other.get(key))
             .filter(|key| !(idle && (key.starts_with("speed") && !key.contains('$'))))
@@ -119,7 +125,11 @@ impl Held {
                 Plane::Zx => "G18",
                 Plane::Yz => "G19",
             };
-            Some(("the working plane", name(self.plane).to_owned(), name(other.plane).to_owned()))
+            Some((
+                "the working plane",
+                name(self.plane).to_owned(),
+                name(other.plane).to_owned(),
+            ))
         } else if self.length_of != other.length_of {
             let name = "whose tool length is in force";
             Some((name, self.length_of.to_string(), other.length_of.to_string()))
@@ -169,7 +179,11 @@ pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Op
         let mm = |motion: &Motion| format!("{} mm", motion.tool_length_mm);
         Some(("the tool length in force", mm(a), mm(b)))
     } else if a.machine_coordinates != b.machine_coordinates {
-        Some(("machine coordinates", yes(a.machine_coordinates), yes(b.machine_coordinates)))
+        Some((
+            "machine coordinates",
+            yes(a.machine_coordinates),
+            yes(b.machine_coordinates),
+        ))
     } else if a.tilt.swivel != b.tilt.swivel || a.tilt.posture != b.tilt.posture {
         let asked = |motion: &Motion| match motion.tilt.posture {
             Posture::ByRule => "the control's own".to_owned(),
@@ -178,7 +192,9 @@ pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Op
             Posture::Numbered(number) => format!("number {number}"),
             Posture::Bits { status, turn } => {
                 let bits = |name: &str, bits: Option<u16>| bits.map_or(String::new(), |bits| format!("{name}={bits} "));
-                format!("{}{}", bits("STAT", status), bits("TU", turn)).trim_end().to_owned()
+                format!("{}{}", bits("STAT", status), bits("TU", turn))
+                    .trim_end()
+                    .to_owned()
             }
         };
         Some(("the posture or turn that is asked for", asked(a), asked(b)))

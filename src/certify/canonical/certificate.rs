@@ -9,7 +9,7 @@ use crate::claim::Claim;
 record! {
     Certificate {
         schema = 1, tool_version = 2, before = 3, after = 4, dialect = 5, machine = 6, setup_sha256 = 7, library = 8,
-        claim = 9, text = 10, motions = 11, worst = 12, rotary = 13, changes = 14,
+        claim = 9, text = 10, motions = 11, worst = 12, rotary = 13, changes = 14, after_dialect = 15,
     } without {
         seal_sha256,
     }
@@ -88,6 +88,12 @@ impl Encode for Claim {
                 tolerance_mm,
                 tolerance_deg,
             } => out.variant(3, |fields| {
+                fields.field(1, tolerance_mm).field(2, tolerance_deg);
+            }),
+            Self::SamePath {
+                tolerance_mm,
+                tolerance_deg,
+            } => out.variant(4, |fields| {
                 fields.field(1, tolerance_mm).field(2, tolerance_deg);
             }),
         }

@@ -193,6 +193,7 @@ fn a_certificate_without_its_seal() {
         bytes,
     };
     let certificate = Certificate {
+        after_dialect: None,
         schema: "trunnion-certificate/2".into(),
         tool_version: "0".into(),
         before: text("b", 1),

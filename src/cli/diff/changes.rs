@@ -96,23 +96,21 @@ struct Techs {
 }
 
 /// Compares two programs; with the machine of the first one, by joints.
-pub(super) fn compare(before: &Loaded, after: &Loaded, tolerance: Tolerance) -> Found {
+pub(super) fn compare(before: &Loaded, after: &Loaded, tolerance: Tolerance, path_only: bool) -> Found {
     let machine = before.resolved.machine.as_ref();
     let claim = Claim {
         mm: tolerance.mm,
         deg: tolerance.deg,
         frees_feed: false,
-        path_only: false,
+        across: false,
+        path_only,
         cuts: true,
     };
     let mut near = Near {
         mm: tolerance.mm,
         deg: tolerance.deg,
     };
-    let mut sides = [
-        Steps::new(input(before, machine)),
-        Steps::new(input(after, machine)),
-    ];
+    let mut sides = [Steps::new(input(before, machine)), Steps::new(input(after, machine))];
     let [one, other] = &mut sides;
     let mut found = Found::new(trunnion_same::compare(one, other, &claim, &mut near));
     let mut techs = Techs::default();

@@ -111,7 +111,12 @@ impl Tech {
             let known = tech.settings.iter().find(|(known, _)| known == key);
             known.map_or("not set".to_owned(), |(_, value)| value.clone())
         };
-        let mut keys: Vec<&str> = self.settings.iter().chain(&other.settings).map(|(key, _)| key.as_str()).collect();
+        let mut keys: Vec<&str> = self
+            .settings
+            .iter()
+            .chain(&other.settings)
+            .map(|(key, _)| key.as_str())
+            .collect();
         keys.sort_unstable();
         keys.dedup();
         for key in keys {

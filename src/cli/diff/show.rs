@@ -293,7 +293,11 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
         parts.push(format!("{} more not compared in detail", found.not_compared));
     }
     let counted = format!("{} -> {} motions", found.motions[0], found.motions[1]);
-    let listed = if parts.is_empty() { String::new() } else { format!("; {}", parts.join(", ")) };
+    let listed = if parts.is_empty() {
+        String::new()
+    } else {
+        format!("; {}", parts.join(", "))
+    };
     let mut text = format!("DIFFERENT {first}\n{counted}{listed}; other motions are the same {within}{unknown}\n");
     if found.too_different {
         text = format!(

@@ -198,7 +198,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             effects: interpreter.memory.effects.count,
         };
         let named = state.named_axes & !motion.end.known != 0;
-        let no_path = matches!(kind, MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None));
+        let no_path = matches!(
+            kind,
+            MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None)
+        );
         self.told.unknown_end |= named || no_path;
         self.sink.motion(&motion, &self.interpreter.state);
         motion

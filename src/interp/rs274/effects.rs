@@ -1,7 +1,7 @@
 //! Effects of a LinuxCNC program: canonical calls that are no motion and are not held by the modal state.
 use super::bridge::Bridge;
-use crate::effect::{Argument, Effect};
 use crate::Sink;
+use crate::effect::{Argument, Effect};
 use std::borrow::Cow;
 use trunnion_ngc::{At, Canon, Coolant, MotionMode, SpindleTurn, Stop, Switch};
 
@@ -34,7 +34,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if std::mem::replace(&mut self.told.machine_frame, is_on) != is_on {
             let block = self.block(at);
             let to: Vec<Argument> = is_on.then(|| Argument::code("G53")).into_iter().collect();
-            self.interpreter.memory.effects.add(block, Effect::set("coordinates", to));
+            self.interpreter
+                .memory
+                .effects
+                .add(block, Effect::set("coordinates", to));
             self.hand_on();
         }
     }
@@ -84,9 +87,7 @@ fn effect(call: &Canon) -> Option<Effect> {
                 vec![Argument::number("D", *ceiling)]
             },
         ),
-        Canon::SpindleSpeed(spindle, speed) => {
-            Effect::set(key("speed", *spindle), [Argument::number("S", *speed)])
-        }
+        Canon::SpindleSpeed(spindle, speed) => Effect::set(key("speed", *spindle), [Argument::number("S", *speed)]),
         Canon::Spindle(spindle, turn) => Effect::set(
             key("spindle", *spindle),
             [Argument::code(match turn {
@@ -103,9 +104,10 @@ fn effect(call: &Canon) -> Option<Effect> {
                 count("P", *direction),
             ],
         ),
-        Canon::WaitOrient(spindle, seconds) => {
-            Effect::Event(vec![count("wait for orientation", *spindle), Argument::number("Q", *seconds)])
-        }
+        Canon::WaitOrient(spindle, seconds) => Effect::Event(vec![
+            count("wait for orientation", *spindle),
+            Argument::number("Q", *seconds),
+        ]),
         Canon::Coolant(coolant) => match coolant {
             Coolant::MistOn => Effect::set("mist", on(true)),
             Coolant::MistOff => Effect::set("mist", on(false)),
@@ -127,7 +129,12 @@ fn effect(call: &Canon) -> Option<Effect> {
                 count("Q", entry.orientation),
             ];
             let letters = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
-            words.extend(letters.iter().zip(entry.offset).map(|(letter, value)| Argument::number(*letter, value)));
+            words.extend(
+                letters
+                    .iter()
+                    .zip(entry.offset)
+                    .map(|(letter, value)| Argument::number(*letter, value)),
+            );
             Effect::Event(words)
         }
         Canon::ReloadTools => Effect::Event(vec![Argument::code("G10 L0")]),

@@ -140,7 +140,9 @@ impl Interpreter<'_> {
             self.memory.effects.add(block, Effect::Event(words));
             self.hand_on(sink);
         }
-        let shifts = ["G92", "G52", "G10", "G53"].iter().any(|code| crate::written::packed(&text).contains(code));
+        let shifts = ["G92", "G52", "G10", "G53"]
+            .iter()
+            .any(|code| crate::written::packed(&text).contains(code));
         // G10 L11 counts from the ninth coordinate system, which may not be declared
         let ninth = crate::written::packed(&text).contains("L11");
         let lost = shifts && (ninth || self.state.position.xyz().is_none());
@@ -149,7 +151,11 @@ impl Interpreter<'_> {
             return;
         }
         let arguments = if at.file == FileId::MAIN {
-            let keep = if unknown_end || unknown { Keep::All } else { Keep::BesideMotion };
+            let keep = if unknown_end || unknown {
+                Keep::All
+            } else {
+                Keep::BesideMotion
+            };
             written(&program.block(block), self, &Words::default(), keep)
         } else {
             vec![Argument::text("", &resolved(self, &text))]

@@ -236,10 +236,9 @@ impl Pair<'_> {
     fn way(&self, start: Option<Both<'_>>, end: Both<'_>) -> Result<Apart, Outcome> {
         let (old, new) = (self.before_leg()?, self.after_leg()?);
         let Some((was, is)) = start else {
-            // straight from a position unknown to both, which is the same one: only the ends can differ
+            // straight from a position unknown to both, from which nothing is checked (interface section 7)
             let straight = matches!(old.motion.kind, MotionKind::Rapid | MotionKind::Linear);
-            let led_alike = old.motion.tcp == new.motion.tcp && old.motion.great_circle == new.motion.great_circle;
-            let comparable = led_alike && straight && old.start.is_none() && new.start.is_none();
+            let comparable = old.motion.tcp == new.motion.tcp && straight && old.start.is_none() && new.start.is_none();
             return if comparable {
                 Ok(Apart::default())
             } else {

@@ -294,6 +294,9 @@ fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
     if before.leads_tip() != after.leads_tip() {
         return nowhere("tool centre point control is on at the end of only one of the programs".into());
     }
+    if let Some((name, from, to)) = before.held().difference(&after.held()) {
+        return nowhere(format!("{name} at the end differs: {from} and {to}"));
+    }
     match before.process().differences(after.process()).first() {
         Some((key, from, to)) => nowhere(format!("{key} at the end differs: {from} and {to}")),
         None => Ok(()),

@@ -184,6 +184,11 @@ impl<'a> Steps<'a> {
         self.interpreter.state.tcp
     }
 
+    /// What the modal state holds now.
+    pub(crate) fn held(&self) -> Held {
+        Held::new(&self.interpreter.state)
+    }
+
     /// What is in force now.
     pub fn process(&self) -> &Arc<Process> {
         &self.run.process

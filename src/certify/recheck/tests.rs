@@ -235,10 +235,13 @@ fn arcs_that_are_not_known_are_compared_by_their_words() {
 #[test]
 fn a_zero_that_nobody_knows_is_named() {
     let text = "G21 G90\nG92 X#5061\nG0 X0 Y4 Z11 A24 C9\nM2\n";
-    let Outcome::Unknown(gap) = on("linuxcnc", text, text, &PATH, &Setup::default()) else {
+    let other = text.replace("X0", "X0.0");
+    let Outcome::Unknown(gap) = on("linuxcnc", text, &other, &PATH, &Setup::default()) else {
         panic!("is known");
     };
-    assert!(gap.message.contains("line 3: the zero point is not known"), "{gap}");
+    assert!(gap.message.contains("line 3: the zero point is unknown"), "{gap}");
+    // whatever is unknown, a program is the same as itself
+    proved(on("linuxcnc", text, text, &PATH, &Setup::default()));
 }
 
 /// Texts may differ in anything, but not in what decides where the tool is or how long it waits.
@@ -264,44 +267,44 @@ fn another_zero_tool_length_or_dwell_is_another_path() {
         ..Setup::default()
     };
     for (before, after, why) in [
-        ("G54 G0 X1.", "G55 G0 X1.", "the zero point"),
+        ("G54 G0 X1.", "G55 G0 X1.", "the work offset"),
         // at the same place, but only as long as the offset is none
-        ("G0 X1.", "G53 G0 X1.", "the zero point"),
-        (
-            "T1 M6\nG0 X1. Y1. Z1.",
-            "T2 M6\nG0 X1. Y1. Z1.",
-            "the tool or its length",
-        ),
-        (
-            "G43 H1 G0 X1. Y1. Z1.",
-            "G43 H3 G0 X1. Y1. Z1.",
-            "the tool or its length",
-        ),
+        ("G0 X1.", "G53 G0 X1.", "machine coordinates"),
+        ("T1 M6\nG0 X1. Y1. Z1.", "T2 M6\nG0 X1. Y1. Z1.", "tool in use"),
+        ("G43 H1 G0 X1. Y1. Z1.", "G43 H3 G0 X1. Y1. Z1.", "whose tool length"),
         (
             "#1=7\nG43 H#1 G0 X1. Y1. Z1.",
             "#1=8\nG43 H#1 G0 X1. Y1. Z1.",
             "whose tool length",
         ),
-        ("G4 X1.", "G4 X2.", "dwell and its time"),
-        ("G0 X1.", "G1 X1. F100.", "the kind of motion"),
+        ("G4 X1.", "G4 X2.", "a dwell of 1 s and one of 2 s"),
+        ("G0 X1.", "G1 X1. F100.", "one is a rapid, the other a line at feed"),
     ] {
         let Outcome::Refuted(witness) = fanuc(before, after, &setup) else {
             panic!("{before} -> {after} is not refuted")
         };
         assert!(witness.message.contains(why), "{witness}");
     }
-    assert!(matches!(fanuc("G0 X1.", "G0 X1.\nX2.", &setup), Outcome::Unknown(_)));
-    assert!(matches!(fanuc("G0 X1.\nX2.", "G0 X1.", &setup), Outcome::Unknown(_)));
+    assert!(matches!(fanuc("G0 X1.", "G0 X1.\nX2.", &setup), Outcome::Refuted(_)));
+    assert!(matches!(fanuc("G0 X1.\nX2.", "G0 X1.", &setup), Outcome::Refuted(_)));
 }
 
+/// Another feed or speed refutes that the programs are the same; the claim of the path alone says how many differ.
 #[test]
-fn another_feed_is_told() {
-    let certificate = proved(fanuc("G1 X1. F100.", "G1 X1. F200.", &Setup::default()));
-    assert_eq!(certificate.motions.process_changed, 1);
-    assert!(certificate.summary().ends_with("feed or spindle speed differ"));
+fn another_feed_is_refuted_unless_the_path_alone_is_claimed() {
+    let path = Claim::SamePath {
+        tolerance_mm: 1e-6,
+        tolerance_deg: 1e-6,
+    };
     let speed = |rpm: u32| format!("S{rpm} M3\nG1 X1. F100.");
-    let certificate = proved(fanuc(&speed(1000), &speed(1001), &Setup::default()));
-    assert_eq!(certificate.motions.process_changed, 1);
+    let (slow, fast) = (speed(1000), speed(1001));
+    for (before, after) in [("G1 X1. F100.", "G1 X1. F200."), (slow.as_str(), fast.as_str())] {
+        let [one, two] = [before, after].map(|blocks| format!("G0 X0. Y0. Z50. A0. C0.\n{blocks}\nM30\n"));
+        assert!(matches!(fanuc(before, after, &Setup::default()), Outcome::Refuted(_)));
+        let certificate = proved(on("fanuc-30i", &one, &two, &path, &Setup::default()));
+        assert_eq!(certificate.motions.process_changed, 1);
+        assert!(certificate.summary().ends_with("feed or spindle speed differ"));
+    }
 }
 
 /// Half a degree of the table under a tilted tool is within the claim, and still another way.

@@ -6,7 +6,7 @@ use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Motion, MotionKind};
 use trunnion_machine::{Leg, Machine, NoStance, Stance, forward};
-use trunnion_same::{Judge, Near, Step, Verdict};
+use trunnion_same::Step;
 
 /// Forward kinematics may differ from the programmed pose by this much, mm and deg: more is a fault of this program, not a claim.
 const FORWARD_TOLERANCE: f64 = 1e-6;
@@ -50,7 +50,7 @@ fn zero(motion: &Motion) -> Vec3 {
 }
 
 /// The stances of both programs at the same moment.
-type Both<'s> = (&'s Stance, &'s Stance);
+pub(super) type Both<'s> = (&'s Stance, &'s Stance);
 
 impl Pair<'_> {
     /// Compares the paths; what is in force was compared before. `Err` where the claim is refuted or cannot be decided.
@@ -101,17 +101,6 @@ impl Pair<'_> {
         Ok(Compared::Changed(Box::new(change)))
     }
 
-    /// Where the machine's place is unknown in both programs, the programmed coordinates are compared: both begin where the other does.
-    fn by_words(&self) -> Result<Compared, Outcome> {
-        let (mm, deg) = self.claim.tolerances();
-        match (Near { mm, deg }).pair(self.before, self.after) {
-            Ok(()) => Ok(Compared::UnknownAlike),
-            Err(Verdict::Unknown(gap)) => Err(self.unknown(&gap.what)),
-            Err(Verdict::Differs(found)) => self.refute(found.what),
-            Err(Verdict::Same) => Ok(Compared::UnknownAlike),
-        }
-    }
-
     fn before_leg(&self) -> Result<&Leg, Outcome> {
         self.before
             .leg
@@ -126,11 +115,11 @@ impl Pair<'_> {
             .ok_or_else(|| self.unknown("no machine is named"))
     }
 
-    fn refute<T>(&self, message: String) -> Result<T, Outcome> {
+    pub(super) fn refute<T>(&self, message: String) -> Result<T, Outcome> {
         Err(Outcome::refuted_at(self.at.motion, self.at.line, message))
     }
 
-    fn unknown(&self, message: &str) -> Outcome {
+    pub(super) fn unknown(&self, message: &str) -> Outcome {
         Outcome::unknown(format!("line {}: {message}", self.at.line))
     }
 
@@ -176,29 +165,6 @@ impl Pair<'_> {
             return Ok(());
         };
         self.refute(format!("{differs} differs between before and after"))
-    }
-
-    /// Where both programs name rotary axes, and more than the path is claimed, these end where they did.
-    fn same_rotary_words(&self, old: &Motion, new: &Motion) -> Result<(), Outcome> {
-        let Claim::SameToolPath { tolerance_deg, .. } = self.claim else {
-            return Ok(());
-        };
-        let words = |motion: &Motion| {
-            matches!(motion.orientation, trunnion_interp::Orientation::Words) && motion.tilt.normal.is_none()
-        };
-        if !words(old) || !words(new) {
-            return Ok(());
-        }
-        for axis in 3..6 {
-            if let (Some(from), Some(to)) = (old.end.get(axis), new.end.get(axis)) {
-                let off = (from + old.zero[axis] - to - new.zero[axis]).abs();
-                if above(off, *tolerance_deg) {
-                    let letter = char::from(trunnion_interp::AXIS_LETTERS[axis]);
-                    return self.refute(format!("{letter} ends at {from} deg and at {to} deg"));
-                }
-            }
-        }
-        Ok(())
     }
 
     /// Programmed alike, from a like state.
@@ -255,31 +221,6 @@ impl Pair<'_> {
             return self.arcs((was, is), end);
         };
         Ok(apart(&before, &after))
-    }
-
-    /// Two arcs while no rotary axis moves: then the part sees the arcs as they are programmed, turned and shifted as a whole.
-    fn arcs(&self, start: Both<'_>, end: Both<'_>) -> Result<Apart, Outcome> {
-        let (a, b) = (&self.before.motion, &self.after.motion);
-        let stand = |from: &Stance, to: &Stance| {
-            self.machine
-                .rotary
-                .iter()
-                .all(|&joint| from.joints[joint] == to.joints[joint])
-        };
-        let still = stand(start.0, end.0) && stand(start.1, end.1) && stand(start.0, start.1);
-        let (MotionKind::Arc(Some(from)), MotionKind::Arc(Some(to))) = (&a.kind, &b.kind) else {
-            return Err(self.unknown("how far an arc and another motion lie apart is not modelled"));
-        };
-        if !still || a.tcp != b.tcp {
-            return Err(self.unknown("how far two different arcs lie apart while rotary axes move is not modelled"));
-        }
-        let off = trunnion_same::arcs_apart(from, to, a, b);
-        Ok(Apart {
-            sampled_mm: off,
-            bound_mm: off,
-            sampled_axis: 0.0,
-            bound_axis: 0.0,
-        })
     }
 
     /// Programmed alike but for the same whole turns of rotary axes at both ends: then the way is the same whatever its shape.
@@ -383,7 +324,7 @@ fn off_whole_turns(degrees: f64) -> f64 {
 }
 
 /// Above the limit, or not a number.
-fn above(value: f64, limit: f64) -> bool {
+pub(super) fn above(value: f64, limit: f64) -> bool {
     value.is_nan() || value > limit
 }
 

@@ -12,8 +12,10 @@ mod difference;
 mod digest;
 mod library;
 mod path;
+mod proof;
 mod recheck;
 mod text;
+mod unlike;
 mod verdict;
 
 pub use certificate::{

@@ -55,3 +55,4 @@ pub use setup::{
     ControlData, Files, ImplicitDecimals, LengthUnit, Library, Limits, Loaded, OuterCorner, RollPitchYaw,
     RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
 };
+pub use written::canonical_text;

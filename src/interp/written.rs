@@ -146,6 +146,44 @@ pub(crate) fn packed(text: &str) -> String {
         .collect()
 }
 
+/// The text of a block without comments, blanks and block number, in upper case, its numbers in one spelling.
+pub fn canonical_text(text: &str) -> String {
+    let mut depth = 0;
+    let bare: String = text
+        .chars()
+        .take_while(|c| *c != ';')
+        .filter(|c| {
+            depth += i32::from(*c == '(');
+            let keep = depth == 0;
+            depth -= i32::from(*c == ')');
+            keep
+        })
+        .collect();
+    let bare = packed(&bare);
+    let after_number = bare
+        .strip_prefix('N')
+        .map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
+    let mut rest = after_number.unwrap_or(&bare);
+    let mut out = String::new();
+    while let Some(first) = rest.chars().next() {
+        let length = rest
+            .find(|c: char| !(c.is_ascii_digit() || c == '.'))
+            .unwrap_or(rest.len());
+        if length == 0 {
+            out.push(first);
+            rest = &rest[first.len_utf8()..];
+            continue;
+        }
+        let (token, after) = rest.split_at(length);
+        match token.parse::<f64>() {
+            Ok(value) => out.push_str(&value.to_string()),
+            Err(_) => out.push_str(token),
+        }
+        rest = after;
+    }
+    out
+}
+
 /// A text without blanks in upper case, in which variables with a known value are replaced by it.
 pub(crate) fn resolved(run: &Interpreter<'_>, text: &str) -> String {
     let text = packed(text);

@@ -107,6 +107,8 @@ struct Run<'a> {
     process: Arc<Process>,
     stores: BTreeMap<String, Value>,
     stop: Option<Stop>,
+    /// Blocks of the main program whose called program is missing.
+    missing: Vec<BlockId>,
 }
 
 impl Sink for Run<'_> {
@@ -115,6 +117,10 @@ impl Sink for Run<'_> {
         self.motions.push_back((*motion, leg, Held::new(state)));
     }
     fn fault(&mut self, fault: Fault) {
+        if matches!(fault.kind, FaultKind::MissingSubprogram { .. }) {
+            // what it would do is in its name and arguments
+            self.missing.push(fault.block);
+        }
         if let Some(why) = ends(&fault.kind) {
             self.stop.get_or_insert(Stop {
                 block: fault.block,
@@ -135,7 +141,6 @@ fn ends(kind: &FaultKind) -> Option<String> {
         FaultKind::EndlessLoop { blocks, .. } => format!("it does not end within {blocks} executed blocks"),
         FaultKind::NotDecided { what } => format!("what runs next depends on {what}"),
         FaultKind::Rejected { message, .. } => format!("the control refuses it: {message}"),
-        FaultKind::MissingSubprogram { name, .. } => format!("the called program {name} is missing"),
         _ => return None,
     })
 }
@@ -156,6 +161,7 @@ impl<'a> Steps<'a> {
                 process: Arc::default(),
                 stores: BTreeMap::new(),
                 stop: None,
+                missing: Vec::new(),
             },
             ready: VecDeque::new(),
             ran: vec![0; input.program.block_count().div_ceil(64)],
@@ -220,6 +226,12 @@ impl<'a> Steps<'a> {
             && let Some(word) = self.ran.get_mut(block.0 as usize / 64)
         {
             *word |= 1 << (block.0 % 64);
+        }
+        for block in std::mem::take(&mut self.run.missing) {
+            let text = self.input.program.text(self.input.program.block(block).range());
+            let words = vec![Argument::text("", &trunnion_interp::canonical_text(&text))];
+            let effect = Effect::Unmodelled(words);
+            self.run.effect(Placed { block, effect });
         }
         while let Some((motion, leg, held)) = self.run.motions.pop_front() {
             self.effects_before(motion.effects);

@@ -173,7 +173,7 @@ fn a_comparison_that_was_not_followed_to_the_end_is_not_the_same() {
     fs::write(folder.path().join("trunnion.toml"), "[limits]\nblocks = 20000\n").expect("writable");
     let probe = "O1\nG21 G90 G94 F100.\nG0X0.Y0.Z0.\nIF[#5061GT0]GOTO10\nG1 X1.\nN10 M30\n";
     let count = "O1\nG21 G90 G94 F100.\nG0X0.\nWHILE[1EQ1]DO1\n#1=#1+1\nEND1\nG1 X1.\nM30\n";
-    for (program, line, why) in [(probe, 4, "#5061"), (count, 4, "no end within")] {
+    for (program, line, why) in [(probe, 4, "#5061"), (count, 4, "end within")] {
         let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("writable");
         write("a.nc", program);
         write("b.nc", &program.replace("G1 X1.", "G1 X9."));
@@ -182,7 +182,7 @@ fn a_comparison_that_was_not_followed_to_the_end_is_not_the_same() {
         assert_eq!(status(&output), 1, "{shown}");
         let places = ["a", "b"].map(|name| format!("{name}.nc:{line}: not followed from here: "));
         assert!(
-            shown.contains("UNKNOWN 1 motions") && places.iter().all(|place| shown.contains(place)),
+            shown.starts_with("UNKNOWN ") && places.iter().all(|place| shown.contains(place)),
             "{shown}"
         );
         assert!(shown.contains(why) && !shown.contains("SAME"), "{shown}");

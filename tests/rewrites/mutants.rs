@@ -231,7 +231,8 @@ fn the_same_tool_path_is_proved_or_refuted_with_a_witness() {
     let before = sinumerik(ROWS);
     let machine = settings.machine.expect("a machine");
     let compare = |after: &str, tolerance_mm: f64, tolerance_deg: f64| {
-        let claim = Claim::SameToolPath {
+        // C turns otherwise near the pole, so the programs are not the same in everything: the path is
+        let claim = Claim::SamePath {
             tolerance_mm,
             tolerance_deg,
         };
@@ -258,5 +259,5 @@ fn the_same_tool_path_is_proved_or_refuted_with_a_witness() {
     assert!(matches!(compare(&after, 0.02, 0.08), Outcome::Refuted(_)));
     assert!(matches!(compare(&after, 0.02, 1.0), Outcome::Proved(_)));
     let shorter = before.replace("N2950", ";N2950");
-    assert!(matches!(compare(&shorter, 1.0, 1.0), Outcome::Unknown(_)));
+    assert!(matches!(compare(&shorter, 1.0, 1.0), Outcome::Refuted(_)));
 }

@@ -267,9 +267,11 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
         return format!("SAME {} motions {within}{unknown}\n", found.motions[0]);
     }
     let first = first(lines, found);
-    if let Verdict::Unknown(_) = &found.verdict {
-        return format!("UNKNOWN {first}\n{stops}");
-    }
+    let word = if matches!(found.verdict, Verdict::Unknown(_)) {
+        "UNKNOWN"
+    } else {
+        "DIFFERENT"
+    };
     let [moved, removed, added, techs] = counts(found);
     let mut parts = Vec::new();
     if moved > 0 {
@@ -298,10 +300,10 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
     } else {
         format!("; {}", parts.join(", "))
     };
-    let mut text = format!("DIFFERENT {first}\n{counted}{listed}; other motions are the same {within}{unknown}\n");
+    let mut text = format!("{word} {first}\n{counted}{listed}; other motions are the same {within}{unknown}\n");
     if found.too_different {
         text = format!(
-            "DIFFERENT {first}\n{counted}: too little in common to say which motion is which; they part at the first line above\n"
+            "{word} {first}\n{counted}: too little in common to say which motion is which; they part at the first line above\n"
         );
     } else if found.one_by_one {
         text.push_str(

@@ -1,0 +1,169 @@
+//! The proof in hand: what comparing pairs of motions has found so far.
+use crate::certificate::{MotionCounts, RotaryChange, Worst, WorstChanges};
+use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
+use crate::{Claim, Outcome};
+use trunnion_geometry::deg;
+use trunnion_machine::{Leg, Machine};
+use trunnion_same::{Difference, Judge, Step, Verdict};
+use trunnion_syntax::{BlockId, LineIndex, Program};
+
+/// What is found while both programs run.
+pub(crate) struct Proof<'a> {
+    machine: &'a Machine,
+    claim: &'a Claim,
+    after: &'a Program,
+    lines: LineIndex,
+    pub(crate) motions: MotionCounts,
+    pub(crate) worst: WorstChanges,
+    pub(crate) rotary: Vec<RotaryChange>,
+    pub(crate) changes: Vec<crate::certificate::MotionChange>,
+    /// What ended the proof, where that was a pair of motions.
+    pub(crate) failed: Option<Outcome>,
+}
+
+impl Judge for Proof<'_> {
+    fn pair(&mut self, before: &Step, after: &Step) -> Result<(), Verdict> {
+        self.add(before, after).map_err(|outcome| {
+            self.failed = Some(outcome);
+            Verdict::Differs(Difference {
+                before: None,
+                after: None,
+                what: String::new(),
+            })
+        })
+    }
+
+    fn cut(&mut self, off: f64) {
+        let at = Place {
+            motion: self.motions.total as usize,
+            line: 0,
+        };
+        raise(&mut self.worst.path_bound_mm, off, at);
+    }
+}
+
+impl<'a> Proof<'a> {
+    pub(crate) fn new(machine: &'a Machine, claim: &'a Claim, after: &'a Program) -> Self {
+        let axis = |&joint: &usize| RotaryChange {
+            axis: char::from(machine.axes[joint].letter).to_string(),
+            step_before_deg: 0.0,
+            step_after_deg: 0.0,
+            travel_before_deg: 0.0,
+            travel_after_deg: 0.0,
+        };
+        Self {
+            machine,
+            claim,
+            after,
+            lines: LineIndex::new(after.source()),
+            motions: MotionCounts::default(),
+            worst: WorstChanges::default(),
+            rotary: machine.rotary.iter().map(axis).collect(),
+            changes: Vec::new(),
+            failed: None,
+        }
+    }
+
+    /// A verdict about something other than the path of a pair of motions.
+    pub(crate) fn outcome(&self, verdict: Verdict, before: &Program) -> Outcome {
+        let (refuted, found) = match verdict {
+            Verdict::Differs(found) => (true, found),
+            Verdict::Unknown(found) => (false, found),
+            Verdict::Same => return Outcome::unknown("nothing was compared"),
+        };
+        let line = found.after.map(|block| self.line(block));
+        let lines = LineIndex::new(before.source());
+        let old = found
+            .before
+            .map(|block| lines.line_column(before.source(), before.block(block).range().start).0);
+        let place = match (old, line) {
+            (Some(old), Some(new)) => format!("line {old} before and line {new} after: "),
+            (Some(old), None) => format!("line {old} before: "),
+            (None, Some(new)) => format!("line {new} after: "),
+            (None, None) => String::new(),
+        };
+        if refuted {
+            Outcome::Refuted(crate::Witness {
+                motion: None,
+                line,
+                message: format!("{place}{}", found.what),
+            })
+        } else {
+            Outcome::unknown(format!("{place}{}", found.what))
+        }
+    }
+
+    fn line(&self, block: BlockId) -> u32 {
+        self.lines
+            .line_column(self.after.source(), self.after.block(block).range().start)
+            .0
+    }
+
+    fn add(&mut self, was: &Step, is: &Step) -> Result<(), Outcome> {
+        let at = Place {
+            motion: self.motions.total as usize,
+            line: self.line(is.motion.block),
+        };
+        let (Some(old), Some(new)) = (&was.leg, &is.leg) else {
+            return Err(Outcome::unknown("no machine is named"));
+        };
+        let residuals = [
+            forward_residual(self.machine, at, old)?,
+            forward_residual(self.machine, at, new)?,
+        ];
+        for (mm, degrees) in residuals.into_iter().flatten() {
+            raise(&mut self.worst.forward_residual_mm, mm, at);
+            raise(&mut self.worst.forward_residual_deg, degrees, at);
+        }
+        for (index, rotary) in self.rotary.iter_mut().enumerate() {
+            let joint = self.machine.rotary[index];
+            let steps = [old, new].map(|leg| rotary_step(leg, joint));
+            rotary.step_before_deg = rotary.step_before_deg.max(steps[0]);
+            rotary.step_after_deg = rotary.step_after_deg.max(steps[1]);
+            rotary.travel_before_deg += steps[0];
+            rotary.travel_after_deg += steps[1];
+        }
+        let pair = Pair {
+            machine: self.machine,
+            claim: self.claim,
+            at,
+            before: was,
+            after: is,
+        };
+        match pair.compare()? {
+            Compared::Same => {}
+            Compared::UnknownAlike => self.motions.unknown += 1,
+            Compared::Changed(change) => {
+                raise(&mut self.worst.point_shift_mm, change.point_shift_mm, at);
+                raise(&mut self.worst.tip_shift_mm, change.tip_shift_mm, at);
+                raise(&mut self.worst.axis_change_deg, change.axis_change_deg, at);
+                raise(&mut self.worst.path_bound_mm, change.path_bound_mm, at);
+                raise(&mut self.worst.path_axis_bound_deg, change.path_axis_bound_deg, at);
+                self.motions.changed += 1;
+                self.changes.push(*change);
+            }
+        }
+        self.motions.process_changed += u64::from(process_differs(&was.motion, &is.motion));
+        self.motions.total += 1;
+        Ok(())
+    }
+}
+
+/// Size of a joint's step in one motion, deg; 0 where an end is unknown.
+fn rotary_step(leg: &Leg, joint: usize) -> f64 {
+    match (&leg.start, &leg.end) {
+        (Some(start), Ok(end)) => deg((end.joints[joint] - start.joints[joint]).abs()),
+        _ => 0.0,
+    }
+}
+
+/// Keeps the worst value and its place.
+fn raise(worst: &mut Worst, value: f64, at: Place) {
+    if value > worst.value || worst.line == 0 {
+        *worst = Worst {
+            value,
+            motion: at.motion as u64,
+            line: at.line,
+        };
+    }
+}

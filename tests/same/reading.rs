@@ -97,8 +97,13 @@ pub(crate) fn read(file: &Path) -> Vec<Pair> {
     let (mut setting, mut pairs) = (Setting::default(), Vec::new());
     let mut frames = BTreeMap::from([("none".to_owned(), "@@\n".to_owned())]);
     let (head, sections) = sections(&text);
-    for line in head.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#')) {
-        let (key, value) = line.split_once(':').unwrap_or_else(|| panic!("{stem}: `{line}` is no `key: value`"));
+    for line in head
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !line.starts_with('#'))
+    {
+        let (key, value) = line
+            .split_once(':')
+            .unwrap_or_else(|| panic!("{stem}: `{line}` is no `key: value`"));
         setting.set(key, value, &stem);
     }
     for (headline, body) in sections {
@@ -109,8 +114,12 @@ pub(crate) fn read(file: &Path) -> Vec<Pair> {
             frames.insert(own.frame, body);
             continue;
         }
-        let (kind, theme) = title.split_once(": ").unwrap_or_else(|| panic!("{place}: a title is `word: name`"));
-        let frame = frames.get(&own.frame).unwrap_or_else(|| panic!("{place}: no frame `{}`", own.frame));
+        let (kind, theme) = title
+            .split_once(": ")
+            .unwrap_or_else(|| panic!("{place}: a title is `word: name`"));
+        let frame = frames
+            .get(&own.frame)
+            .unwrap_or_else(|| panic!("{place}: no frame `{}`", own.frame));
         let make = |name: String, expected: Expected, before: &str, after: &str, files: &[(String, String)]| Pair {
             name,
             expected,
@@ -134,7 +143,13 @@ pub(crate) fn read(file: &Path) -> Vec<Pair> {
             let expected = Expected::named(kind).unwrap_or_else(|| panic!("{place}: what is expected?"));
             let [before, after, files] = &parts(&body, &place);
             let text = |part: &[(String, String)]| part[0].1.clone();
-            pairs.push(make(format!("{stem}: {theme}"), expected, &text(before), &text(after), files));
+            pairs.push(make(
+                format!("{stem}: {theme}"),
+                expected,
+                &text(before),
+                &text(after),
+                files,
+            ));
         }
     }
     pairs
@@ -194,6 +209,9 @@ fn parts(body: &str, place: &str) -> [Vec<(String, String)>; 3] {
             }
         }
     }
-    assert!(found[0].len() == 1 && found[1].len() == 1, "{place}: one `--- before`, one `--- after`");
+    assert!(
+        found[0].len() == 1 && found[1].len() == 1,
+        "{place}: one `--- before`, one `--- after`"
+    );
     found
 }

@@ -87,7 +87,8 @@ fn ask(pair: &Pair) -> Answer {
     }
     let run = |command: &str, words: &[&str]| -> Said {
         let mut job = Command::new(binary());
-        job.arg(command).args(["--dialect", &pair.dialect, "--machine", &pair.machine]);
+        job.arg(command)
+            .args(["--dialect", &pair.dialect, "--machine", &pair.machine]);
         if let (Some(claim), "certify") = (&pair.claim, command) {
             job.args(["--claim", claim]);
         }
@@ -106,8 +107,15 @@ fn said(job: &mut Command, folder: &Path, words: &[&str]) -> Said {
         let word = line.split_whitespace().next().unwrap_or_default();
         words.contains(&word).then(|| word.to_owned())
     };
-    let found = text.lines().enumerate().find_map(|(i, line)| Some((i, verdict(line)?, line)));
-    let failure = String::from_utf8_lossy(&output.stderr).lines().next().unwrap_or_default().to_owned();
+    let found = text
+        .lines()
+        .enumerate()
+        .find_map(|(i, line)| Some((i, verdict(line)?, line)));
+    let failure = String::from_utf8_lossy(&output.stderr)
+        .lines()
+        .next()
+        .unwrap_or_default()
+        .to_owned();
     Said {
         comes_first: found.as_ref().is_some_and(|(i, ..)| *i == 0),
         word: found.as_ref().map_or("nothing".to_owned(), |(_, word, _)| word.clone()),

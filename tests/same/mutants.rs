@@ -156,8 +156,13 @@ impl Base {
             {
                 if word.freedom == Freedom::None {
                     change("a word deleted", i, None);
+                    // P, X, U and F may all be a dwell's time
+                    let dwell = words.iter().any(|word| word.text() == "G4");
+                    let time = |word: &Word| word.letter().is_some_and(|letter| "PXUF".contains(letter));
                     for other in self.other_letters(word) {
-                        change("another letter", i, Some(other));
+                        if !(dwell && time(&other)) {
+                            change("another letter", i, Some(other));
+                        }
                     }
                 }
                 for other in self.other_codes(word) {

@@ -8,6 +8,8 @@ use std::path::Path;
 pub(crate) enum Expected {
     /// PROVED and SAME.
     Same,
+    /// PROVED or UNKNOWN, SAME or UNKNOWN: the same, but only a model that the contract does not demand can tell.
+    PerhapsSame,
     /// Anything but PROVED and SAME.
     Different,
     /// REFUTED and DIFFERENT.
@@ -20,6 +22,7 @@ impl Expected {
     fn named(word: &str) -> Option<Self> {
         Some(match word {
             "same" => Self::Same,
+            "same?" => Self::PerhapsSame,
             "different" => Self::Different,
             "different!" => Self::CertainlyDifferent,
             "unknown" => Self::Unknown,
@@ -32,6 +35,7 @@ impl fmt::Display for Expected {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Same => "same",
+            Self::PerhapsSame => "same?",
             Self::Different => "different",
             Self::CertainlyDifferent => "different!",
             Self::Unknown => "unknown",

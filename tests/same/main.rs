@@ -4,6 +4,8 @@
 mod mutants;
 mod reading;
 mod running;
+mod samples;
+mod words;
 
 use mutants::{Base, Random};
 use reading::{Expected, Pair};
@@ -216,7 +218,7 @@ fn no_number_of_a_sample_is_free() {
     let mut pairs = Vec::new();
     for (name, dialect, machine) in programs {
         let text = std::fs::read_to_string(samples.join(name)).expect("a sample");
-        pairs.extend(mutants::numbers_changed(name, &text, dialect, machine));
+        pairs.extend(samples::numbers_changed(name, &text, dialect, machine));
     }
     assert!(pairs.len() > 250, "only {} numbers were found", pairs.len());
     let answers = ask_all(&pairs);

@@ -12,5 +12,5 @@ mod machines;
 mod pictures;
 mod pieces;
 mod stats;
-mod tools;
+pub(crate) mod tools;
 mod twins;

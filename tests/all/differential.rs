@@ -1,6 +1,6 @@
 //! Random programs through `trunnion canon` and through LinuxCNC's own interpreter `rs274 -g`: both must say the same, call for call.
 //!
-//! `TRUNNION_DIFFERENTIAL=10000 cargo test --test differential` runs that many programs (default 300);
+//! `TRUNNION_DIFFERENTIAL=10000 cargo test --test all differential` runs that many programs (default 300);
 //! `TRUNNION_DIFFERENTIAL_SEED=N` starts at another seed. Skipped where `rs274` (Debian: linuxcnc-uspace) is not installed.
 #![expect(
     clippy::disallowed_methods,
@@ -30,7 +30,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What an interpreter says: the calls and the parameter file, the error if there is one, whether it ended well, or not at all.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Answer {
+pub(crate) struct Answer {
     calls: Vec<String>,
     error: String,
     good: bool,

@@ -1,7 +1,5 @@
-//! docs/rules is made from the rules' headers. `UPDATE=1 cargo test --test generated_docs` writes it anew.
-mod generated_pages;
-
-use generated_pages::assert_fresh;
+//! docs/rules is made from the rules' headers. `UPDATE=1 cargo test --test all generated_docs` writes it anew.
+use crate::generated_pages::assert_fresh;
 use std::fmt::Write;
 use trunnion::check::{Guarantee, Rule, Severity, rules};
 

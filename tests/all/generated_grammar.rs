@@ -1,6 +1,6 @@
 //! The TextMate grammars of the editor extension are what the dialect tables make of them.
 //!
-//! `UPDATE=1 cargo test --test generated_grammar` writes them anew.
+//! `UPDATE=1 cargo test --test all generated_grammar` writes them anew.
 use std::path::{Path, PathBuf};
 use trunnion::dialect::{BUILTIN_NAMES, Dialect, builtin, textmate};
 use trunnion::syntax::Format;
@@ -28,7 +28,7 @@ fn fresh(name: &str, text: &str) {
     let there = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
         there == text,
-        "{} is stale: run `UPDATE=1 cargo test --test generated_grammar`",
+        "{} is stale: run `UPDATE=1 cargo test --test all generated_grammar`",
         path.display()
     );
 }

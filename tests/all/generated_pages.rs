@@ -29,7 +29,7 @@ pub(crate) fn assert_fresh(folder: &str, wanted: &[(String, String)], test: &str
     }
     assert!(
         stale.is_empty(),
-        "stale in {folder}: {}; run UPDATE=1 cargo test --test {test}",
+        "stale in {folder}: {}; run UPDATE=1 cargo test --test all {test}",
         stale.join(", ")
     );
 }

@@ -1,7 +1,5 @@
-//! docs/rewrites is made from the rewrites' headers. `UPDATE=1 cargo test --test generated_rewrite_docs` writes it anew.
-mod generated_pages;
-
-use generated_pages::assert_fresh;
+//! docs/rewrites is made from the rewrites' headers. `UPDATE=1 cargo test --test all generated_rewrite_docs` writes it anew.
+use crate::generated_pages::assert_fresh;
 use std::path::Path;
 use trunnion::rewrite::{Rewrite, rewrites};
 

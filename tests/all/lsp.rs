@@ -1,7 +1,5 @@
 //! The language server over the wire: a real process, real frames, edits, requests and cancels interleaved.
-mod lsp_client;
-
-use lsp_client::{Client, position};
+use crate::lsp_client::{self, Client, position};
 use serde_json::{Value, json};
 
 const STRATEGY_2: &str = "\

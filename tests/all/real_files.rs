@@ -1,16 +1,13 @@
 //! Programs that people wrote, checked as they come: every finding is listed with its reason, and each was judged by hand, for LinuxCNC
 //! programs beside the answer of `rs274 -g`. The programs lie in ../shared/data.
 #![expect(clippy::print_stdout, reason = "a skipped test says so")]
-#[path = "cli/tools.rs"]
-mod tools;
-
+use crate::cli::tools::{self, str, text, trunnion};
 use std::{
     collections::BTreeSet,
     fmt::Write,
     fs,
     path::{Path, PathBuf},
 };
-use tools::{str, text, trunnion};
 
 /// Findings of one file that are listed; the command counts the others.
 const LISTED: &str = "30";

@@ -48,17 +48,31 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Each crate with its direct dependencies, as its Cargo.toml lists them (not those for tests).
-fn crates() -> BTreeMap<String, BTreeSet<String>> {
+/// The manifests of all crates, with their texts.
+fn manifests() -> Vec<(PathBuf, String)> {
     let mut manifests = vec![root().join("Cargo.toml"), root().join("lsp/Cargo.toml")];
     for entry in std::fs::read_dir(root().join("src")).expect("src is there").flatten() {
         manifests.push(entry.path().join("Cargo.toml"));
     }
+    manifests
+        .into_iter()
+        .filter_map(|path| std::fs::read_to_string(&path).ok().map(|text| (path, text)))
+        .collect()
+}
+
+/// Each crate with its folder.
+fn crate_folders() -> Vec<(String, PathBuf)> {
+    let named = |(path, text): (PathBuf, String)| {
+        let name = text.lines().find_map(|line| line.strip_prefix("name = \""))?;
+        Some((name.trim_end_matches('"').to_owned(), path.parent()?.to_owned()))
+    };
+    manifests().into_iter().filter_map(named).collect()
+}
+
+/// Each crate with its direct dependencies, as its Cargo.toml lists them (not those for tests).
+fn crates() -> BTreeMap<String, BTreeSet<String>> {
     let mut found = BTreeMap::new();
-    for manifest in manifests {
-        let Ok(text) = std::fs::read_to_string(&manifest) else {
-            continue;
-        };
+    for (manifest, text) in manifests() {
         let (mut section, mut name, mut uses) = ("", None, BTreeSet::new());
         for line in text.lines().map(str::trim) {
             if line.starts_with('[') {
@@ -211,6 +225,28 @@ fn files_are_short() {
         long.is_empty(),
         "over {LONGEST_FILE} lines: one idea per file\n{}",
         long.join("\n")
+    );
+}
+
+/// Every test binary links the whole program again: a crate has one, `tests/all/main.rs`, and its files are modules of that.
+#[test]
+fn a_crate_has_one_test_binary() {
+    let mut others = Vec::new();
+    for (name, folder) in crate_folders() {
+        for entry in std::fs::read_dir(folder.join("tests")).into_iter().flatten().flatten() {
+            let path = entry.path();
+            // src/dialect/tests holds modules of the library
+            let module = name == "trunnion-dialect";
+            let binary = path.extension().is_some_and(|own| own == "rs") || path.join("main.rs").is_file();
+            if binary && !module && !path.ends_with("tests/all") {
+                others.push(format!("{name}: {}", path.display()));
+            }
+        }
+    }
+    assert!(
+        others.is_empty(),
+        "make them modules of tests/all/main.rs\n{}",
+        others.join("\n")
     );
 }
 

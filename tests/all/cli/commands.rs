@@ -1,6 +1,6 @@
 //! The command line as the interface says: formats, exit statuses, errors with their place.
 
-use crate::tools::{FLIP, json, status, str, text, trunnion, write};
+use super::tools::{FLIP, json, status, str, text, trunnion, write};
 use serde_json::Value;
 use std::{
     fs,

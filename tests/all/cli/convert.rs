@@ -1,5 +1,5 @@
 //! `convert` on the command line: programs for each control, files written, refusals.
-use crate::tools::{json, status, str, text, trunnion, write};
+use super::tools::{json, status, str, text, trunnion, write};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -128,7 +128,7 @@ fn what_is_written_passes_check_and_goes_back() {
     assert_eq!(goto(&text), goto(&fs::read_to_string(&piece).expect("there")), "{text}");
     // on another machine the program says B instead of A
     let output = trunnion(&[&["convert", &written, "--to-machine", "ferrari-bc"][..], &machine].concat());
-    let moved = crate::tools::text(&output.stdout);
+    let moved = super::tools::text(&output.stdout);
     assert!(
         status(&output) == 0 && moved.contains(" B") && !moved.contains(" A"),
         "{moved}"

@@ -1,6 +1,6 @@
 //! `diff` on the command line: what is told about programs that move the tool differently, and that text alone says nothing.
 
-use crate::tools::{FLIP, json, status, str, text, trunnion, write};
+use super::tools::{FLIP, json, status, str, text, trunnion, write};
 use std::fmt::Write;
 use std::path::Path;
 use tempfile::TempDir;

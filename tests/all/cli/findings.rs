@@ -1,6 +1,6 @@
 //! How findings are worded on the command line, how they are silenced, and dialect tables of one's own.
 
-use crate::tools::{json, status, str, text, trunnion, write};
+use super::tools::{json, status, str, text, trunnion, write};
 use std::path::Path;
 use tempfile::TempDir;
 

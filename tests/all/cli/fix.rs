@@ -1,6 +1,6 @@
 //! `trace`, `fix` and `certify` on the command line: columns, diffs, files written, certificates.
 
-use crate::tools::{FLIP, json, status, str, text, trunnion, write};
+use super::tools::{FLIP, json, status, str, text, trunnion, write};
 use std::fs;
 use tempfile::TempDir;
 

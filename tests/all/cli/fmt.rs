@@ -1,6 +1,6 @@
 //! `fmt` on the command line: files written, lists for CI, diffs, numbers, refusals, hostile files.
 
-use crate::tools::{status, str, text, trunnion, write};
+use super::tools::{status, str, text, trunnion, write};
 use std::{
     fs,
     io::Write,

@@ -1,6 +1,6 @@
 //! Input that nobody writes in earnest: every command ends with a status of its own and a message, whatever it reads.
 
-use crate::tools::{status, str, text};
+use super::tools::{status, str, text};
 use std::{
     fs,
     path::Path,

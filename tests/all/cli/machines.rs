@@ -1,5 +1,5 @@
 //! `machine compare` and `machine import` from outside.
-use crate::tools::{status, str, text, trunnion, write};
+use super::tools::{status, str, text, trunnion, write};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;

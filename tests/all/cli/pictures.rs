@@ -1,5 +1,5 @@
 //! `surface` and `plot`: the saddle's error in numbers, and pictures that are whole, labelled and small.
-use crate::tools::{FLIP, json, status, str, text, trunnion, write};
+use super::tools::{FLIP, json, status, str, text, trunnion, write};
 use std::path::PathBuf;
 use tempfile::TempDir;
 

@@ -1,5 +1,5 @@
 //! Test pieces: what `trace`, `check` and `diff` say of them is what their closed forms say, and planted faults are found.
-use crate::tools::{json, status, str, text, trunnion};
+use super::tools::{json, status, str, text, trunnion};
 use core::f64::consts::TAU;
 use serde_json::Value;
 use std::collections::BTreeSet;

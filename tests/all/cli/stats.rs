@@ -1,6 +1,6 @@
 //! `stats` and `parse --tree` on the command line.
 
-use crate::tools::{FLIP, json, status, str, text, trunnion, write};
+use super::tools::{FLIP, json, status, str, text, trunnion, write};
 use std::path::Path;
 use tempfile::TempDir;
 

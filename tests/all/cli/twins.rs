@@ -1,6 +1,6 @@
 //! Faulty twins of test pieces: a check, a comparison or a trace finds what was planted; what cannot be made is refused.
-use crate::pieces::{MACHINE, column, findings, sample, trace};
-use crate::tools::{status, str, text, trunnion};
+use super::pieces::{MACHINE, column, findings, sample, trace};
+use super::tools::{status, str, text, trunnion};
 use std::collections::BTreeSet;
 use tempfile::TempDir;
 

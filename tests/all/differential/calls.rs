@@ -1,5 +1,5 @@
 //! Subprograms of random programs: in files of their own, in Fanuc's style, with values and names.
-use crate::generate::Program;
+use super::generate::Program;
 
 impl Program {
     /// A subprogram in a file beside the program.

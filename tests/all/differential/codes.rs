@@ -1,6 +1,6 @@
 //! Lines of random codes and random words: what belongs together, what a code needs, what nothing uses, and which of several mistakes the
 //! control tells.
-use crate::generate::Program;
+use super::generate::Program;
 
 /// What is in force before.
 const BEFORE: [&str; 40] = [

@@ -1,5 +1,5 @@
 //! Every difference from `rs274` that is accepted: when, and why.
-use crate::Answer;
+use super::Answer;
 
 /// A difference that is accepted.
 pub(crate) struct Explanation {

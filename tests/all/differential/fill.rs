@@ -1,5 +1,5 @@
 //! Lines from patterns: `{..}` stands for a random value of a sort.
-use crate::generate::{Program, number};
+use super::generate::{Program, number};
 use std::fmt::Write;
 
 impl Program {

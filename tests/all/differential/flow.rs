@@ -1,5 +1,5 @@
 //! Conditions, loops and subprograms of random programs.
-use crate::generate::{Program, number};
+use super::generate::{Program, number};
 
 impl Program {
     pub(crate) fn condition(&mut self) {

@@ -1,6 +1,6 @@
 //! Random LinuxCNC programs: mostly such as people write, some with a mistake.
-use crate::random::Random;
-use crate::settings::Case;
+use super::random::Random;
+use super::settings::Case;
 use core::fmt::Write;
 
 /// A program as it grows.

@@ -1,5 +1,5 @@
 //! One word of a random program is changed: mostly into a mistake, whose message and line must be the control's.
-use crate::generate::Program;
+use super::generate::Program;
 
 /// Words that are put somewhere.
 const WORDS: [&str; 44] = [

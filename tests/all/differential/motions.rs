@@ -1,5 +1,5 @@
 //! Arcs, canned cycles and compensated contours of random programs.
-use crate::generate::{Program, number};
+use super::generate::{Program, number};
 use core::fmt::Write;
 
 impl Program {

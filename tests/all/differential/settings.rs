@@ -1,5 +1,5 @@
 //! What random programs are run with: tool tables, parameter files, INI files, called programs.
-use crate::generate::{Program, number};
+use super::generate::{Program, number};
 use core::fmt::Write;
 
 /// A program and what belongs to it.

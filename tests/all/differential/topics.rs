@@ -1,5 +1,5 @@
 //! Tools, spindles, outputs, saved states, probing, polar words, names, comments of random programs.
-use crate::generate::{Program, number};
+use super::generate::{Program, number};
 
 impl Program {
     pub(crate) fn tools(&mut self) {

@@ -1,5 +1,5 @@
 //! Turning cycles of random programs: G70 to G72.2 with a contour in a subprogram.
-use crate::generate::{Program, number};
+use super::generate::{Program, number};
 
 impl Program {
     pub(crate) fn turning(&mut self) {

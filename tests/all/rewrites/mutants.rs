@@ -1,6 +1,6 @@
 //! Corrupts certificates and texts: every mutant must be refused.
 
-use crate::strategy_2::{ROWS, ball, certified, settings, sinumerik, smooth};
+use super::strategy_2::{ROWS, ball, certified, settings, sinumerik, smooth};
 use serde_json::Value;
 use trunnion::certify::{Certificate, Claim, Outcome, certify, recheck};
 use trunnion::check::Settings;

@@ -1,6 +1,6 @@
 //! Rewrites on random chains near the pole and on damaged programs.
 
-use crate::strategy_2::{ROWS, VECTORS, apt, ball, largest_c_step, run, settings, sinumerik, smooth, turned, words};
+use super::strategy_2::{ROWS, VECTORS, apt, ball, largest_c_step, run, settings, sinumerik, smooth, turned, words};
 use proptest::prelude::*;
 use std::fmt::Write;
 use trunnion::rewrite::{Attempt, Options, rewrites};

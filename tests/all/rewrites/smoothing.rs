@@ -1,6 +1,6 @@
 //! Rewrites on the published guide-vane rows, on hard cases, and on random chains.
 
-use crate::strategy_2::{
+use super::strategy_2::{
     ROWS, VECTORS, apt, axis, ball, certified, largest_c_step, refused, settings, sinumerik, smooth, tool, turned,
     words,
 };

@@ -1,6 +1,6 @@
 //! Rotary axes unwound, and the example in each rewrite's header.
 
-use crate::strategy_2::{certified, refused, run, settings, sinumerik};
+use super::strategy_2::{certified, refused, run, settings, sinumerik};
 use trunnion::interp::Setup;
 use trunnion::rewrite::{Attempt, Options, rewrites};
 

@@ -1,5 +1,5 @@
 //! Bounds against dense sampling on random blocks of all built-in machines and of random chains: never below the truth, and at most 1.2
-//! times it. `TRUNNION_BLOCKS=1000000 cargo test --release -p trunnion-machine soundness` judges that many.
+//! times it. `TRUNNION_BLOCKS=1000000 cargo test --release -p trunnion-machine --test all soundness` judges that many.
 use crate::common::{vector, words};
 use crate::led::{travel, with_spiral};
 use crate::random::{Random, random_machine};

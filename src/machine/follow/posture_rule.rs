@@ -19,7 +19,7 @@ pub(crate) const TIE: f64 = 1e-9;
 
 /// The rule by which a control picks a posture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PostureRule {
+pub(crate) enum PostureRule {
     /// Trunnion's own.
     Generic,
     /// The posture whose moves are both the smaller ones.
@@ -49,7 +49,7 @@ impl PostureRule {
         ("heidenhain", Self::Heidenhain),
     ];
     /// The name.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         Self::NAMES
             .iter()
             .find(|(_, rule)| *rule == self)
@@ -70,7 +70,7 @@ impl PostureRule {
 
 /// What two postures are compared by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Criterion {
+pub(crate) enum Criterion {
     /// Time of the slower axis.
     Time,
     /// Way of the rule's first (0) or second (1) axis.
@@ -81,7 +81,7 @@ pub enum Criterion {
 
 /// How a control picks postures.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Branch {
+pub(crate) struct Branch {
     /// The rule; `None`: neither declared nor documented for the family.
     pub rule: Option<PostureRule>,
     /// Whether the machine file names the rule.

@@ -1,0 +1,4 @@
+//! Whole programs through a check.
+mod any_input;
+mod loops;
+mod no_silence;

@@ -1,0 +1,318 @@
+//! The `[control]` part of a machine file: how the numerical control interpolates, picks postures and plans.
+use crate::file::raw::{Number, RawBranch, RawControl, RawOrientation, RawRapid, RawTcpCodes, Word};
+use crate::file::text::number;
+use crate::file::validate::{Fault, non_negative, positive};
+use crate::follow::requests::posture_words;
+use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction, PostureRule, RapidPath};
+use trunnion_geometry::{deg, rad};
+use trunnion_interp::{LengthUnit, TcpCodes};
+
+/// Names that `family` may have (interface, section 7).
+const FAMILIES: &[&str] = &[
+    "generic",
+    "iso-6983",
+    "linuxcnc",
+    "fanuc-30i",
+    "haas-ngc",
+    "sinumerik-840d",
+    "heidenhain-klartext",
+    "okuma-osp",
+    "mitsubishi-m700",
+    "grbl",
+    "apt",
+];
+
+/// Checks the part and keeps what later floors read.
+pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault> {
+    let family = one_of("family", raw.family.as_ref(), FAMILIES)?;
+    let mut orientation = None;
+    if let Some(tcp) = &raw.tcp {
+        one_of("path", tcp.path.as_ref(), &["tip-linear"])?;
+        one_of("feed", tcp.feed.as_ref(), &["tip"])?;
+        orientation = tcp.orientation;
+    }
+    let family = family.unwrap_or_else(|| "generic".to_owned());
+    let feed = one_of("feed", raw.feed.as_ref(), &["xyz", "combined"])?;
+    let mut control = Control {
+        tcp_great_circle: orientation == Some(RawOrientation::GreatCircle),
+        tcp_declared: orientation.is_some(),
+        rapid: match raw.rapid {
+            // coordinated rapids are documented for LinuxCNC; elsewhere a parameter decides (Fanuc 1401 LRP, Haas setting 335)
+            None if family == "linuxcnc" => RapidPath::Synchronous,
+            None => RapidPath::Undeclared,
+            Some(RawRapid::Synchronous) => RapidPath::Synchronous,
+            Some(RawRapid::Dogleg) => RapidPath::Dogleg,
+        },
+        branch: branch(raw.branch.as_ref(), &family, axes)?,
+        pole_cone: None,
+        pole_action: PoleAction::Through,
+        feed: match feed.as_deref() {
+            Some("xyz") => Some(FeedMeaning::Xyz),
+            Some(_) => Some(FeedMeaning::Combined),
+            None => None,
+        },
+        family,
+        corner_model: None,
+        block_time: None,
+        tcp_codes: raw.tcp_codes.as_ref().map(tcp_codes).transpose()?,
+        posture_words: posture_words(&raw.posture_words, axes)?,
+        units: match one_of("units", raw.units.as_ref(), &["mm", "inch"])?.as_deref() {
+            Some("inch") => Some(LengthUnit::Inch),
+            Some(_) => Some(LengthUnit::Millimetre),
+            None => None,
+        },
+    };
+    if let Some(pole) = &raw.pole {
+        let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;
+        control.pole_action = match action.as_deref() {
+            Some("hold") => PoleAction::Hold,
+            Some("alarm") => PoleAction::Alarm,
+            _ => PoleAction::Through,
+        };
+        control.pole_cone = non_negative("cone", pole.cone.as_ref())?.map(rad);
+        if let (true, None, Some(word)) = (
+            control.pole_action != PoleAction::Through,
+            control.pole_cone,
+            &pole.action,
+        ) {
+            return Err(Fault {
+                message: format!(
+                    "action {:?} needs the cone in which the control does it: give cone in degrees",
+                    word.get_ref()
+                ),
+                span: word.span(),
+            });
+        }
+        control.branch.passing_type = passing_type(pole.passing_type.as_ref())?;
+    }
+    if let Some(corner) = &raw.corner {
+        let models = ["axis-jump", "grbl", "klipper", "linuxcnc-g64", "exact-stop", "servo"];
+        control.corner_model = one_of("model", corner.model.as_ref(), &models)?;
+        for (letter, jump) in &corner.dv {
+            known_axis(letter, axes)?;
+            positive("dv", Some(jump))?;
+        }
+    }
+    if let Some(planner) = &raw.planner {
+        positive("lookahead", planner.lookahead.as_ref())?;
+        non_negative("filter_time", planner.filter_time.as_ref())?;
+        control.block_time = non_negative("block_time", planner.block_time.as_ref())?;
+    }
+    Ok(control)
+}
+
+/// Codes that switch the kinematics: each a G or M code with its number, in one of the two lists.
+fn tcp_codes(raw: &RawTcpCodes) -> Result<TcpCodes, Fault> {
+    let is_code =
+        |code: &str| matches!(code.split_at_checked(1), Some(("G" | "M", number)) if number.parse::<u16>().is_ok());
+    for word in raw.on.iter().chain(&raw.off) {
+        if !is_code(word.get_ref()) {
+            return Err(Fault {
+                message: format!(
+                    "{:?} is no code: write G or M and its number, as \"M428\"",
+                    word.get_ref()
+                ),
+                span: word.span(),
+            });
+        }
+    }
+    if let Some(twice) = raw
+        .off
+        .iter()
+        .find(|off| raw.on.iter().any(|on| on.get_ref() == off.get_ref()))
+    {
+        return Err(Fault {
+            message: format!(
+                "{:?} cannot switch tool centre point control both on and off",
+                twice.get_ref()
+            ),
+            span: twice.span(),
+        });
+    }
+    let names = |words: &[Word]| words.iter().map(|word| word.get_ref().clone()).collect();
+    Ok(TcpCodes {
+        on: names(&raw.on),
+        off: names(&raw.off),
+        at_start: raw.at_start,
+    })
+}
+
+/// The word, which must be one of the known ones.
+fn one_of(name: &str, word: Option<&Word>, known: &[&str]) -> Result<Option<String>, Fault> {
+    let Some(word) = word else { return Ok(None) };
+    if known.contains(&word.get_ref().as_str()) {
+        return Ok(Some(word.get_ref().clone()));
+    }
+    let message = format!("unknown {name} {:?}; known: {}", word.get_ref(), known.join(", "));
+    Err(Fault {
+        message,
+        span: word.span(),
+    })
+}
+
+fn known_axis(word: &Word, axes: &[Axis]) -> Result<(), Fault> {
+    if axes.iter().any(|axis| word.get_ref().as_bytes() == [axis.letter]) {
+        return Ok(());
+    }
+    Err(Fault {
+        message: format!("{:?} is not an axis of this machine", word.get_ref()),
+        span: word.span(),
+    })
+}
+
+/// How the control picks postures: what the file names, else what the family documents.
+fn branch(raw: Option<&RawBranch>, family: &str, axes: &[Axis]) -> Result<Branch, Fault> {
+    let mut branch = Branch {
+        rule: PostureRule::of_family(family),
+        ..Branch::default()
+    };
+    let Some(raw) = raw else { return Ok(branch) };
+    let names = PostureRule::NAMES.map(|(name, _)| name);
+    if let Some(name) = one_of("rule", raw.rule.as_ref(), &names)? {
+        branch.rule = PostureRule::named(&name);
+        branch.declared = true;
+    }
+    branch.solution_negative = one_of("seq", raw.seq.as_ref(), &["+", "-"])?.map(|sign| sign == "-");
+    if let (Some(word), true) = (&raw.seq, branch.rule != Some(PostureRule::Heidenhain)) {
+        return Err(Fault {
+            message: "seq is the tilting solution of a Heidenhain: name the rule \"heidenhain\"".to_owned(),
+            span: word.span(),
+        });
+    }
+    let criteria = [
+        ("time", Criterion::Time),
+        ("move1", Criterion::Move(0)),
+        ("move2", Criterion::Move(1)),
+        ("abs1", Criterion::Value(0)),
+        ("abs2", Criterion::Value(1)),
+    ];
+    for word in &raw.order {
+        let name = one_of("order", Some(word), &criteria.map(|(name, _)| name))?;
+        let found = criteria.iter().filter(|(known, _)| name.as_deref() == Some(*known));
+        branch.order.extend(found.map(|(_, criterion)| *criterion));
+    }
+    if let (None, Some(word)) = (branch.rule, raw.order.first()) {
+        return Err(Fault {
+            message: format!("the family {family:?} has no documented rule that order could refine; name a rule too"),
+            span: word.span(),
+        });
+    }
+    for (letter, range) in &raw.range {
+        known_axis(letter, axes)?;
+        let [min, max] = *range.get_ref();
+        if !(min.is_finite() && max.is_finite() && min < max) {
+            let message = format!("range [{min}, {max}]: the lower end must be below the upper one, both finite");
+            return Err(Fault {
+                message,
+                span: range.span(),
+            });
+        }
+        let linear = |axis: &&Axis| letter.get_ref().as_bytes() == [axis.letter] && axis.kind == AxisKind::Linear;
+        if axes.iter().any(|axis| linear(&axis)) {
+            return Err(Fault {
+                message: format!(
+                    "{:?} is a linear axis; a posture is a choice of rotary axes",
+                    letter.get_ref()
+                ),
+                span: letter.span(),
+            });
+        }
+        branch.range.push((letter.get_ref().as_bytes()[0], rad(min), rad(max)));
+    }
+    Ok(branch)
+}
+
+fn passing_type(number: Option<&Number>) -> Result<Option<u8>, Fault> {
+    match number {
+        Some(number) if ![1.0, 2.0].contains(number.get_ref()) => Err(Fault {
+            message: format!("passing_type = {}; 1 and 2 are known", number.get_ref()),
+            span: number.span(),
+        }),
+        number => Ok(number.map(|number| if *number.get_ref() < 1.5 { 1 } else { 2 })),
+    }
+}
+
+/// What is known of the choice of postures, the pole and the meaning of F, for people.
+pub(crate) fn in_words(control: &Control) -> Vec<String> {
+    let branch = &control.branch;
+    let mut lines = Vec::new();
+    match branch.rule {
+        Some(PostureRule::Generic) if !branch.declared => {}
+        Some(rule) => {
+            let said = if branch.declared { "" } else { " (documented for the family)" };
+            lines.push(format!("picks postures for tool vectors by the rule {:?}{said}", rule.name()));
+        }
+        // programmed without tool vectors
+        None if matches!(control.family.as_str(), "linuxcnc" | "grbl") => {}
+        None => lines.push(
+            "which posture it picks for tool vectors is neither documented nor declared: reported as unknown where it matters"
+                .to_owned(),
+        ),
+    }
+    if let Some(negative) = branch.solution_negative {
+        let sign = if negative { "below" } else { "above" };
+        lines.push(format!(
+            "SEQ{}: of two postures the one with the rotary axis nearest the tool (on a table the last from the workpiece) {sign} zero",
+            if negative { '-' } else { '+' }
+        ));
+    }
+    posture_words_in_words(control, &mut lines);
+    for &(letter, low, high) in &branch.range {
+        lines.push(format!(
+            "looks for values of {} between {} and {} deg",
+            char::from(letter),
+            number(deg(low)),
+            number(deg(high))
+        ));
+    }
+    if let Some(passing) = branch.passing_type {
+        lines.push(format!("passes the pole by type {passing}"));
+    }
+    match (control.pole_action, control.pole_cone) {
+        (PoleAction::Hold, Some(cone)) => lines.push(format!(
+            "holds the first rotary axis within {} deg of the pole",
+            number(deg(cone))
+        )),
+        (PoleAction::Alarm, Some(cone)) => lines.push(format!(
+            "stops with an alarm within {} deg of the pole",
+            number(deg(cone))
+        )),
+        _ => {}
+    }
+    match control.feed {
+        Some(FeedMeaning::Xyz) => lines.push("without tool centre point control F counts along X Y Z".to_owned()),
+        Some(FeedMeaning::Combined) => {
+            lines.push("without tool centre point control F counts along the root of mm2 + deg2".to_owned());
+        }
+        // RS274/NGC says it, Sinumerik counts along the geometry axes
+        None if matches!(control.family.as_str(), "linuxcnc" | "grbl" | "sinumerik-840d" | "generic" | "apt") => {}
+        None => lines.push(
+            "what F counts along where rotary and linear axes move together without tool centre point control is not declared: reported as unknown where it matters"
+                .to_owned(),
+        ),
+    }
+    lines
+}
+
+/// What STAT, TU and G53.1 P mean.
+fn posture_words_in_words(control: &Control, lines: &mut Vec<String>) {
+    let words = &control.posture_words;
+    let sign = |negative: bool| if negative { '-' } else { '+' };
+    for (letter, bit) in &words.turn {
+        lines.push(format!("bit {bit} of TU: {} below zero", char::from(*letter)));
+    }
+    if let Some((bit, said)) = &words.status {
+        lines.push(format!(
+            "bit {bit} of STAT: the posture with {}{}",
+            char::from(said.letter),
+            sign(said.negative)
+        ));
+    }
+    for (number, said) in &words.solutions {
+        lines.push(format!(
+            "solution {number} (G53.1 P{number}): the posture with {}{}",
+            char::from(said.letter),
+            sign(said.negative)
+        ));
+    }
+}

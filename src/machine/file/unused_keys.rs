@@ -1,0 +1,76 @@
+//! What a machine file may declare although nothing honours it yet: read and checked, and said plainly.
+use crate::file::raw::{RawAxis, RawControl, RawMachine};
+
+/// One sentence for each declaration that no formula and no rule honours.
+pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
+    let mut out = Vec::new();
+    for axis in raw.axis.get_ref() {
+        of_axis(axis.get_ref(), &mut out);
+    }
+    of_control(&raw.control, &mut out);
+    if !raw.body.is_empty() {
+        out.push("[[body]]: clearance between bodies is not checked".to_owned());
+    }
+    let tolerances = &raw.tolerances;
+    if tolerances.collision_near.is_some() {
+        out.push("tolerance collision_near: clearance between bodies is not checked".to_owned());
+    }
+    out
+}
+
+/// Those that could change a verdict of the rules there are: what moves, and which way, is not what is judged.
+pub(crate) fn not_judged(raw: &RawMachine) -> Vec<String> {
+    let decisive = ["limit_margin on"];
+    let mut all = not_used(raw);
+    all.retain(|text| decisive.iter().any(|start| text.starts_with(start)));
+    all
+}
+
+fn of_axis(axis: &RawAxis, out: &mut Vec<String>) {
+    let letter = axis.letter.get_ref();
+    let mut say = |set: bool, text: String| {
+        if set {
+            out.push(text);
+        }
+    };
+    say(
+        axis.spindle,
+        format!("spindle on {letter}: speeds as a spindle are not judged"),
+    );
+    say(
+        axis.limit_margin.is_some(),
+        format!("limit_margin on {letter}: only the limits themselves are judged"),
+    );
+    let uncertainty = &axis.uncertainty;
+    say(
+        uncertainty.point.is_some() || uncertainty.dir_arcsec.is_some(),
+        format!(
+            "uncertainty on {letter}: `machine show` and pivot-uncertainty say what it does to the tip; bounds are for the axis as it is declared"
+        ),
+    );
+    let dynamics = &axis.dynamics;
+    let smooth = [
+        ("jmax", dynamics.jmax.is_some()),
+        ("kv", dynamics.kv.is_some()),
+        ("kff", dynamics.kff.is_some()),
+    ];
+    for (name, set) in smooth {
+        say(
+            set,
+            format!("{name} on {letter}: jerk and lag of the position loop are not considered"),
+        );
+    }
+    say(
+        axis.resolution.is_some(),
+        format!("resolution on {letter}: joint values are not rounded to it"),
+    );
+}
+
+fn of_control(control: &RawControl, out: &mut Vec<String>) {
+    if control.corner.is_some() {
+        out.push("[control] corner: speed at corners is not considered".to_owned());
+    }
+    if control.planner.is_some() {
+        out.push("[control] planner: block time, look-ahead and filters are not considered".to_owned());
+    }
+}

@@ -1,0 +1,21 @@
+//! What a follower remembers, without the machine it follows on: an owned check-point.
+use crate::follow::follower::State;
+use crate::{Follower, Machine};
+
+/// What a [`Follower`] remembers between two motions.
+#[derive(Clone, Debug)]
+pub struct Memory {
+    state: State,
+}
+
+impl<'m> Follower<'m> {
+    /// A check-point to go on from with [`Follower::resume`].
+    pub fn memory(&self) -> Memory {
+        Memory { state: self.state }
+    }
+
+    /// Goes on from a check-point made on the same machine.
+    pub fn resume(machine: &'m Machine, memory: &Memory) -> Self {
+        Self::at(machine, &memory.state)
+    }
+}

@@ -1,0 +1,52 @@
+//! What an interpreter is told of the machine that a program runs on.
+use crate::Machine;
+use crate::follow::words::Words;
+use trunnion_interp::ControlData;
+
+impl Machine {
+    /// Sets what the machine says into the data of its control: the codes of its kinematics and clamps, its further axes, and where its tool
+    /// points at home. What a control said before of another machine is gone; without a machine, all of it.
+    pub fn tell(machine: Option<&Self>, control: &mut ControlData) {
+        control.tcp_codes = machine.and_then(|machine| machine.control.tcp_codes.clone());
+        control.clamp_codes = machine.map(Self::clamp_codes).unwrap_or_default();
+        control.further_axes = machine.map(Self::further_axes).unwrap_or_default();
+        control.length_along = machine.and_then(Self::length_along);
+    }
+
+    /// Letters of its axes beside X Y Z A B C.
+    fn further_axes(&self) -> Vec<u8> {
+        let letters = self.axes.iter().map(|axis| axis.letter);
+        letters.filter(|letter| !b"XYZABC".contains(letter)).collect()
+    }
+
+    /// By how much 1 mm of tool length shifts the words of X, Y and Z (diameters by 2 mm) while they are joints: the tool axis at home.
+    /// `None` where that is Z alone.
+    pub(crate) fn length_along(&self) -> Option<[f64; 3]> {
+        let along = Words::new(self).length_along();
+        (along != [0.0, 0.0, 1.0]).then_some(along)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::builtin;
+
+    #[test]
+    fn nothing_of_another_machine_is_left() {
+        let machine = builtin("linuxcnc-xyzbca-trsrn").expect("built in");
+        let mut control = ControlData {
+            further_axes: vec![b'W'],
+            length_along: Some([1.0, 0.0, 0.0]),
+            ..ControlData::default()
+        };
+        control.clamp_codes[3] = Some(trunnion_interp::ClampCodes { on: 10, off: 11 });
+        Machine::tell(Some(machine), &mut control);
+        assert!(machine.control.tcp_codes.is_some());
+        assert_eq!(control.tcp_codes, machine.control.tcp_codes);
+        assert_eq!(control.clamp_codes, machine.clamp_codes());
+        assert_eq!(control.length_along, None);
+        Machine::tell(None, &mut control);
+        assert_eq!(control, ControlData::default());
+    }
+}

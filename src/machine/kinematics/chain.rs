@@ -1,0 +1,328 @@
+//! The machine as a chain of axes from workpiece to tool. Internal units: mm, rad, s.
+use crate::{Branch, Constants};
+use trunnion_geometry::Vec3;
+
+/// The most axes a machine may have.
+pub const MAX_AXES: usize = 9;
+
+/// Joint values in chain order, mm or rad.
+pub type Joints = [f64; MAX_AXES];
+
+/// Linear or rotary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AxisKind {
+    /// mm.
+    Linear,
+    /// rad.
+    Rotary,
+}
+
+/// Which side of the cut the axis carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Moves the workpiece.
+    Table,
+    /// Moves the tool.
+    Head,
+}
+
+/// Travel of an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limits {
+    /// Endless.
+    Unbounded,
+    /// Lowest and highest joint value, mm or rad.
+    Range(f64, f64),
+}
+
+/// One axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Upper case letter.
+    pub letter: u8,
+    /// Kind.
+    pub kind: AxisKind,
+    /// Side.
+    pub side: Side,
+    /// Unit direction at home, machine frame.
+    pub direction: Vec3,
+    /// Any point of a rotary axis at home, machine frame, mm.
+    pub point: Vec3,
+    /// +1: ISO 841 (positive = tool relative to workpiece); -1: turned round.
+    pub sign: f64,
+    /// Travel.
+    pub limits: Limits,
+    /// Highest speed, mm/s or rad/s; `None`: not declared.
+    pub max_speed: Option<f64>,
+    /// Highest acceleration, mm/s^2 or rad/s^2; `None`: not declared.
+    pub max_acceleration: Option<f64>,
+    /// A word on where speed or limits come from ("assumed"), for people.
+    pub note: Option<String>,
+    /// Where the numbers of this axis come from.
+    pub source: Option<String>,
+    /// Properties that no formula of this crate needs.
+    pub extra: AxisExtra,
+}
+
+/// How a control reads a rotary word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Wrap {
+    /// The value as written, with its turns.
+    #[default]
+    Literal,
+    /// The shortest way to the angle (M126).
+    Shortest,
+    /// The angle modulo 360 deg; the sign of the word is the direction of turning.
+    ModuloSign,
+}
+
+/// Properties of an axis beyond kinematics.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct AxisExtra {
+    /// How the control reads a rotary word.
+    pub wrap: Wrap,
+    /// The axis must not move while cutting (3+2, indexed).
+    pub clamp: bool,
+    /// M codes by which a program clamps the axis and releases it; `None`: the file names none.
+    pub clamp_codes: Option<trunnion_interp::ClampCodes>,
+    /// The turns of the axis wind up a cable or a hose.
+    pub cable: bool,
+    /// The axis is also a spindle (mill-turn).
+    pub spindle: bool,
+    /// Words of a linear axis are diameters, joint values are radii.
+    pub diameter: bool,
+    /// Whether the file states limits (or that there are none).
+    pub limits_declared: bool,
+    /// Warn when nearer than this to a limit, mm or rad; `None`: only outside.
+    pub limit_margin: Option<f64>,
+    /// Smallest step, mm or rad; `None`: not declared.
+    pub resolution: Option<f64>,
+    /// Highest jerk, mm/s^3 or rad/s^3; `None`: not declared.
+    pub max_jerk: Option<f64>,
+    /// Position loop gain, 1/s; `None`: not declared.
+    pub position_gain: Option<f64>,
+    /// Share of velocity feed-forward, 0..=1; `None`: not declared.
+    pub feed_forward: Option<f64>,
+    /// Uncertainty of the axis' point, mm; `None`: not declared.
+    pub point_uncertainty: Option<f64>,
+    /// Uncertainty of the axis' direction, rad; `None`: not declared.
+    pub direction_uncertainty: Option<f64>,
+    /// A rotary axis beyond the two that inverse kinematics solves for stands at this value, rad; `None`: it moves.
+    pub hold: Option<f64>,
+}
+
+/// An axis that only mirrors another one (gantry); it is not a joint of the chain.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Gantry {
+    /// Letter of the mirroring axis.
+    pub letter: u8,
+    /// Letter of the axis it follows.
+    pub leader: u8,
+}
+
+/// How rapid motions run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum RapidPath {
+    /// The file does not say.
+    #[default]
+    Undeclared,
+    /// All axes arrive together.
+    Synchronous,
+    /// Each axis runs at its own speed.
+    Dogleg,
+}
+
+/// What a control does inside its cone about the pole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub(crate) enum PoleAction {
+    /// It goes on as anywhere.
+    #[default]
+    Through,
+    /// It holds the first rotary axis.
+    Hold,
+    /// It stops with an alarm (Fanuc 30i: parameter 19696, bit NPC; PS5421).
+    Alarm,
+}
+
+/// What F counts along where rotary and linear axes move together without TCP.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeedMeaning {
+    /// The path of X Y Z, mm; where these stand still the angle, deg (RS274/NGC).
+    Xyz,
+    /// The root of the squares of mm and deg of all axes.
+    Combined,
+}
+
+/// A rigid body that hangs on a part of the machine (for clearance checks).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Body {
+    /// Axis letter, `base`, `spindle` or `workpiece`.
+    pub carrier: String,
+    /// File with the shape, relative to the machine file.
+    pub mesh: String,
+}
+
+/// How the control interpolates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Control {
+    /// A dialect / family name, or `generic`.
+    pub family: String,
+    /// With TCP: orientation on the great circle (true) or joint-linear (false).
+    pub tcp_great_circle: bool,
+    /// Whether the machine file said so, or it is the default.
+    pub tcp_declared: bool,
+    /// How rapid motions run.
+    pub rapid: RapidPath,
+    /// How the control picks postures.
+    pub(crate) branch: Branch,
+    /// Cone about the pole inside which the control acts, rad; `None`: not declared.
+    pub pole_cone: Option<f64>,
+    /// What it does there.
+    pub(crate) pole_action: PoleAction,
+    /// What F counts along where rotary and linear axes move together without TCP; `None`: not declared, X Y Z are taken.
+    pub feed: Option<FeedMeaning>,
+    /// Corner speed model (axis-jump, grbl, klipper, linuxcnc-g64, exact-stop, servo); `None`: not declared.
+    pub corner_model: Option<String>,
+    /// Shortest time the control needs per block, s; `None`: not declared.
+    pub block_time: Option<f64>,
+    /// Codes of the builder that switch tool centre point control (LinuxCNC's M428 ...); `None`: not declared.
+    pub tcp_codes: Option<trunnion_interp::TcpCodes>,
+    /// What words mean that ask for a posture: STAT, TU, G53.1 P.
+    pub(crate) posture_words: crate::PostureWords,
+    /// Unit of lengths before a program says one; `None`: not declared.
+    pub units: Option<trunnion_interp::LengthUnit>,
+}
+
+/// Thresholds of the rules.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tolerances {
+    /// path-deviation, mm.
+    pub tip_mm: f64,
+    /// pole-flip: cone about the pole, rad.
+    pub pole_cone: f64,
+    /// pole-flip: rotary change, rad.
+    pub pole_angle: f64,
+    /// branch-swap: rotary excess, rad.
+    pub swap_excess: f64,
+    /// pole-crossing: distance to the pole, rad.
+    pub pole_touch: f64,
+    /// feed-drop: share of the programmed feed below which a warning is given.
+    pub feed_drop_warning: f64,
+    /// feed-drop: share below which it is an error.
+    pub feed_drop_error: f64,
+    /// orientation-deviation, rad.
+    pub orientation: f64,
+    /// swept-deviation, mm.
+    pub swept_mm: f64,
+    /// excess-rotary-travel: turn of the rotary axes over turn of the tool axis.
+    pub rotary_ratio: f64,
+    /// excess-linear-travel: way of the linear axes over way of the tip.
+    pub linear_ratio: f64,
+    /// excess-rapid-travel: way of the rapid motions over the direct way.
+    pub rapid_ratio: f64,
+    /// pivot-uncertainty, mm.
+    pub pivot_mm: f64,
+    /// near-miss: clearance below which a warning is given, mm.
+    pub near_mm: f64,
+}
+
+impl Default for Tolerances {
+    fn default() -> Self {
+        let deg = trunnion_geometry::rad;
+        Self {
+            tip_mm: 0.01,
+            pole_cone: deg(2.0),
+            pole_angle: deg(10.0),
+            swap_excess: deg(5.0),
+            pole_touch: deg(0.01),
+            feed_drop_warning: 0.8,
+            feed_drop_error: 0.3,
+            orientation: deg(0.1),
+            swept_mm: 0.05,
+            rotary_ratio: 20.0,
+            linear_ratio: 5.0,
+            rapid_ratio: 2.0,
+            pivot_mm: crate::kinematics::uncertainty::PIVOT_SENSITIVITY,
+            near_mm: 2.0,
+        }
+    }
+}
+
+/// Tool axis and gauge point with every joint at zero, machine frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Home {
+    /// Unit vector, tip -> spindle.
+    pub tool_axis: Vec3,
+    /// mm.
+    pub gauge_point: Vec3,
+}
+
+/// A machine: validated, ready for kinematics. Only `load` makes one; the axes and `constants` belong together, so change the file,
+/// not the fields.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    /// `mikron-ucp710`.
+    pub id: String,
+    /// Name for people.
+    pub name: String,
+    /// Axes from workpiece to tool.
+    pub axes: Vec<Axis>,
+    /// k0: unit tool axis tip -> spindle at home, carried by the held axes to where they hold it.
+    pub tool_axis: Vec3,
+    /// Gauge point at home with all moving joints zero, machine frame, carried by the held axes, mm.
+    pub gauge_point: Vec3,
+    /// Tool axis and gauge point with all joints zero, also those of held axes; the same two where nothing is held.
+    pub home: Home,
+    /// Control.
+    pub control: Control,
+    /// Thresholds.
+    pub tolerances: Tolerances,
+    /// Where the numbers come from.
+    pub sources: Vec<String>,
+    /// Indices of the rotary axes that move, in chain order (0, 1 or 2 of them).
+    pub rotary: Vec<usize>,
+    /// Indices of the linear axes in chain order.
+    pub linear: Vec<usize>,
+    /// For each of `AXIS_LETTERS`, the joint it drives.
+    pub joint_of_letter: [Option<u8>; 9],
+    /// Precomputed kinematics of the chain.
+    pub constants: Constants,
+    /// Axes that mirror another one.
+    pub(crate) gantries: Vec<Gantry>,
+    /// Rigid bodies.
+    pub bodies: Vec<Body>,
+    /// What the file declares and nothing honours yet, one sentence each: rules that depend on it judge without it.
+    pub not_used: Vec<String>,
+    /// What is odd about the file and yet usable, one sentence each.
+    pub warnings: Vec<String>,
+    /// How many `[[check]]` rows the file has; all of them hold, else it does not load.
+    pub checks: usize,
+    /// Those of `not_used` that could change a verdict of the rules there are: with them nothing passes.
+    pub not_judged: Vec<String>,
+}
+
+impl Machine {
+    /// The joint that a letter drives (either case); `None` when the machine has no such axis.
+    pub fn joint(&self, letter: u8) -> Option<usize> {
+        let upper = letter.to_ascii_uppercase();
+        self.axes.iter().position(|axis| axis.letter == upper)
+    }
+
+    /// The codes of its clamps, as an interpreter wants them.
+    pub fn clamp_codes(&self) -> trunnion_interp::AllClampCodes {
+        let mut codes = trunnion_interp::AllClampCodes::default();
+        for axis in &self.axes {
+            let letter = trunnion_interp::AxisLetter::new(axis.letter);
+            if let Some(slot) = letter.and_then(|letter| codes.get_mut(usize::from(letter.0))) {
+                *slot = axis.extra.clamp_codes;
+            }
+        }
+        codes
+    }
+
+    /// The axes that are held, with the joint values they are held at, rad.
+    pub fn held(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let axes = self.axes.iter().enumerate();
+        axes.filter_map(|(joint, axis)| Some((joint, axis.extra.hold?)))
+    }
+}

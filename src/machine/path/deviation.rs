@@ -1,0 +1,124 @@
+//! How far the tip strays from the programmed segment inside a block: sampled value and proven bound.
+use crate::follow::follower::leads_path;
+use crate::path::curve_distance::CurveDistance;
+use crate::path::peak::{Piece, peak};
+use crate::path::tip_path::{Run, TipPath};
+use crate::{Leg, Machine, RapidPath};
+use trunnion_interp::MotionKind;
+
+/// Deviation of the tip path from the programmed segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deviation {
+    /// Largest distance found at a sample, mm (never above the truth).
+    pub sampled_mm: f64,
+    /// Proven upper bound, mm (never below the truth).
+    pub bound_mm: f64,
+    /// Share of the block, 0..=1, where the largest sample lies.
+    pub at: f64,
+}
+
+/// A rapid whose axes run each at its own speed: where anything is between the ends is not known, nor is it programmed.
+#[inline]
+pub(crate) fn runs_dogleg(machine: &Machine, leg: &Leg) -> bool {
+    matches!(leg.motion.kind, MotionKind::Rapid) && machine.control.rapid == RapidPath::Dogleg
+}
+
+/// Where sample and bound are this near, mm, more samples say nothing more.
+const CLOSE_MM: f64 = 2e-5;
+
+/// Samples spent on closeness; beyond them a bound of [`RATIO`] times the sample is enough.
+const CLOSE_SAMPLES: u32 = 256;
+
+/// Above the tolerance the bound is brought down to this multiple of the largest sample: 1.2 times the truth is promised.
+pub(crate) const RATIO: f64 = 1.19;
+
+/// Set distance of the tip path to the programmed segment. `tolerance_mm`: the bound may be loose where it already proves
+/// this; above it, it is at most 1.2 times the truth. `None`: not modelled, an unknown stance, or a rapid whose axes run each for itself.
+///
+/// The segment of a line joins the tips at both ends in the workpiece frame; that of an arc is the arc as it lies in the workpiece at the
+/// start of the block, its end carried evenly to where the tip ends. With TCP or vectors the control keeps the tip on the programmed
+/// path, so the deviation is zero by construction, and so it is where no rotary axis moves. Without TCP the joints run linearly (X Y Z
+/// along the arc) and the tip on W(t); bound: largest sample + Q h^2 / 8 per piece of length h, Q >= |W''|. Source: kinematics notes 3.
+pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<Deviation> {
+    if runs_dogleg(machine, leg) {
+        return None;
+    }
+    let none = Deviation {
+        sampled_mm: 0.0,
+        bound_mm: 0.0,
+        at: 0.0,
+    };
+    let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
+    let arc = match &leg.motion.kind {
+        MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => return None,
+        MotionKind::Arc(Some(arc)) => Some(arc),
+        MotionKind::Rapid | MotionKind::Linear => None,
+    };
+    if leg.rotary_change == [0.0; 2] || leads_path(&leg.motion) {
+        return Some(none);
+    }
+    let run = Run::new(machine, start, end);
+    let tolerance = tolerance_mm.max(0.0);
+    if arc.is_none() {
+        // most lines are settled here, without a path
+        let (bend, rounding) = run.bound(None);
+        let at_once = bend * 0.125 + rounding;
+        if at_once <= tolerance {
+            return Some(Deviation {
+                bound_mm: at_once,
+                ..none
+            });
+        }
+    }
+    let path = TipPath::new(run, arc);
+    let arc = path.laid_arc();
+    // both run evenly from a common start to a common end: at the same moment they differ by at most the eighth of both bends
+    let at_once = (path.bend + arc.as_ref().map_or(0.0, |arc| arc.bend)) * 0.125 + path.rounding;
+    if at_once <= tolerance {
+        return Some(Deviation {
+            bound_mm: at_once,
+            ..none
+        });
+    }
+    let room = (tolerance - path.rounding).max(0.0);
+    let enough = |bound: f64, sampled: f64, samples: u32| {
+        bound <= room || bound <= sampled + CLOSE_MM || (samples > CLOSE_SAMPLES && bound <= sampled * RATIO)
+    };
+    let (sampled, bound, at) = if let Some(arc) = arc {
+        let stray = CurveDistance {
+            point: |t| path.way(t),
+            point_bend: path.bend,
+            curve: |s| arc.way(s),
+            curve_bend: arc.bend,
+        };
+        let found = stray.farthest(enough);
+        (found.sampled, found.bound, found.at)
+    } else {
+        let found = peak(
+            |t| from_chord(&path, t),
+            |piece: &Piece| piece.below_parabola(path.bend),
+            enough,
+        );
+        (found.sampled, found.bound, found.at)
+    };
+    Some(Deviation {
+        sampled_mm: (sampled - path.rounding).max(0.0),
+        bound_mm: bound + path.rounding,
+        at,
+    })
+}
+
+/// Distance of W(t) from the segment between the tips, mm.
+fn from_chord(path: &TipPath<'_>, t: f64) -> f64 {
+    if t <= 0.0 || t >= 1.0 {
+        return 0.0;
+    }
+    let (off, chord) = (path.way(t), path.chord);
+    let length2 = chord.norm_squared();
+    let share = if length2 > 0.0 {
+        (off.dot(&chord) / length2).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    (off - chord * share).norm()
+}

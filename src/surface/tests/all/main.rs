@@ -1,0 +1,2 @@
+//! Required surfaces on real machines.
+mod saddle;

@@ -1,0 +1,8 @@
+//! What the lexers and the items promise, seen from outside.
+mod apt_records;
+mod files;
+mod iso_items;
+mod lines;
+mod lossless;
+mod numbers;
+mod show;

@@ -1,0 +1,2 @@
+//! Settings on disk.
+mod settings;

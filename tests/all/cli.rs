@@ -1,0 +1,17 @@
+//! The `trunnion` program as its users run it: one file here is one command or one kind of input.
+#![allow(clippy::print_stdout, reason = "a skipped test says so")]
+
+mod certificates;
+mod commands;
+mod convert;
+mod diff;
+mod findings;
+mod fix;
+mod fmt;
+mod hostile;
+mod machines;
+mod pictures;
+mod pieces;
+mod stats;
+pub(crate) mod tools;
+mod twins;

@@ -1,0 +1,106 @@
+//! `stats` and `parse --tree` on the command line.
+
+use super::tools::{FLIP, json, status, str, text, trunnion, write};
+use std::path::Path;
+use tempfile::TempDir;
+
+const PROGRAM: &str = "%\nO100\nG21 G90 G17 G94\nT3 M6\nS2000 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX30 F300\nG3 X30 Y40 I0 J20\nG4 P1500\nT7 M6\nS500 M3\n\
+                       G0 X0 Y0 Z10\nG1 X1 F50\nM98 P200\nM98 P200\nM30\n%\n";
+
+#[test]
+fn a_program_in_numbers() {
+    let folder = TempDir::new().expect("works");
+    let file = write(&folder, "a.nc", PROGRAM);
+    let output = trunnion(&["stats", str(&file), "--dialect", "fanuc-30i"]);
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    insta::assert_snapshot!("stats_text", text(&output.stdout).replace(str(&file), "a.nc"));
+    let output = trunnion(&["stats", str(&file), "--dialect", "fanuc-30i", "--format", "json"]);
+    let document = json(&output);
+    let file = &document["files"][0];
+    // half a circle of radius 20 to the right of X30, so that X reaches 50
+    assert_eq!(file["extents"]["x_mm"], serde_json::json!([0.0, 50.0]));
+    assert_eq!(file["extents"]["z_mm"], serde_json::json!([-1.0, 10.0]));
+    assert_eq!(file["motions_by_kind"]["arc"], 1);
+    assert_eq!(file["feed"]["mm_min"], serde_json::json!([50.0, 300.0]));
+}
+
+#[test]
+fn the_impeller_has_the_extents_of_its_own_footer() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/linuxcnc-5axis/impeller-7bl-xyzac.ngc");
+    if !path.is_file() {
+        println!("skipped: {} is absent", path.display());
+        return;
+    }
+    let folder = TempDir::new().expect("works");
+    // the machine that the program is for: M428 is tool centre point control
+    let settings = "[control]\ntcp_codes = { on = [\"M428\"], off = [\"M429\"] }\n";
+    let config = write(&folder, "trunnion.toml", settings);
+    for said in [["--config", str(&config)], ["--machine", "linuxcnc-xyzac-trt"]] {
+        extents_of_the_impeller(&path, said);
+    }
+}
+
+fn extents_of_the_impeller(path: &Path, [option, value]: [&str; 2]) {
+    let document = json(&trunnion(&["stats", str(path), option, value, "--format", "json"]));
+    let end = |axis: &str, at: usize| document["files"][0]["extents"][axis][at].as_f64().expect("known");
+    // ( Rmax 45.44 Zmin -2.65 Zmax 39.77 ) ( Amin -74.49 Amax 0.00 ) ( Cmin -399.81 Cmax 0.00 ), and the last block goes to Z40
+    for (axis, low, high) in [("z_mm", -2.65, 40.0), ("a_deg", -74.49, 0.0), ("c_deg", -399.81, 0.0)] {
+        assert!(
+            (end(axis, 0) - low).abs() < 0.0051 && (end(axis, 1) - high).abs() < 0.0051,
+            "{axis}"
+        );
+    }
+}
+
+#[test]
+fn with_a_machine_joints_and_times_are_told() {
+    let folder = TempDir::new().expect("works");
+    let file = write(&folder, "flip.nc", FLIP);
+    let output = trunnion(&[
+        "stats",
+        str(&file),
+        "--dialect",
+        "fanuc-30i",
+        "--machine",
+        "mikron-ucp710",
+    ]);
+    assert_eq!(status(&output), 0);
+    insta::assert_snapshot!("stats_machine", text(&output.stdout).replace(str(&file), "flip.nc"));
+}
+
+#[test]
+fn the_tree_shows_words_expressions_and_problems() {
+    let folder = TempDir::new().expect("works");
+    let source = "N10 G1 X[#1 + SIN[2*#<a b>]] F=R1 (cut)\n/2 o100 while [#1 LT 5]\nX1..2 ; two points\n";
+    let file = write(&folder, "a.ngc", source);
+    let output = trunnion(&["parse", "--tree", str(&file)]);
+    assert_eq!(status(&output), 1);
+    insta::assert_snapshot!("parse_tree", text(&output.stdout));
+    let document = json(&trunnion(&["parse", "--tree", "--format", "json", str(&file)]));
+    assert_eq!(document["schema"], "trunnion-tree/2");
+    let word = &document["blocks"][0]["items"][2];
+    assert_eq!(
+        (word["address"].as_str(), word["value"].as_str()),
+        (Some("X"), Some("expression"))
+    );
+    assert_eq!(
+        word["parts"][4],
+        serde_json::json!({ "kind": "open", "depth": 1, "start": 17, "end": 18, "text": "[" })
+    );
+    assert_eq!(document["errors"].as_array().map(Vec::len), Some(1));
+}
+
+#[test]
+fn a_tree_of_a_hundred_thousand_brackets_is_a_list() {
+    let folder = TempDir::new().expect("works");
+    let file = write(
+        &folder,
+        "deep.ngc",
+        &format!("x{}1{}\n", "[".repeat(100_000), "]".repeat(100_000)),
+    );
+    for format in ["text", "json"] {
+        let output = trunnion(&["parse", "--tree", "--format", format, str(&file)]);
+        assert_eq!(status(&output), 0, "{format}");
+        assert!(output.stdout.len() < 30_000_000);
+    }
+}

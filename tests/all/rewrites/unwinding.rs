@@ -1,0 +1,98 @@
+//! Rotary axes unwound, and the example in each rewrite's header.
+
+use super::strategy_2::{certified, refused, run, settings, sinumerik};
+use trunnion::interp::Setup;
+use trunnion::rewrite::{Attempt, Options, rewrites};
+
+fn near(value: f64, wanted: f64, within: f64) -> bool {
+    (value - wanted).abs() <= within
+}
+
+fn unwind(text: &str) -> Attempt {
+    run(
+        "unwind-rotary",
+        text,
+        &settings("sinumerik-840d", Setup::default()),
+        &Options::default(),
+    )
+}
+
+#[test]
+fn a_rotary_jump_is_unwound() {
+    let text = sinumerik(
+        "G1 X0 Y0 Z50 A10 C350.000\nX1 A10.5 C358.5\nX2 A11 C6.25\nX3 ; comment\nX4 A11.5 C-346.000\nX5 C340\n",
+    );
+    let (after, certificate) = certified(unwind(&text));
+    let expected = text.replace("C6.25", "C366.25").replace("C-346.000", "C374.000");
+    assert_eq!(after, expected);
+    assert!(near(certificate.rotary[0].step_before_deg, 686.0, 1e-6));
+    assert!(near(certificate.rotary[0].step_after_deg, 34.0, 1e-6));
+    assert!(
+        certificate
+            .changes
+            .iter()
+            .all(|change| near(change.rotary_change_deg[0] % 360.0, 0.0, 1e-9))
+    );
+    assert!(certificate.worst.axis_change_deg.value < 1e-9);
+    assert!(matches!(unwind(&after), Attempt::NothingToDo));
+}
+
+#[test]
+fn unwinding_refuses_what_is_not_literal() {
+    for (rows, why) in [
+        ("G1 X0 Y0 Z50 A10 C350\nX2 C=DC(5)\nX3 C4\n", "plain number"),
+        ("G1 X0 Y0 Z50 A10 C350\nX2 C5\nG91 X1 C1\nG90\n", "G91"),
+    ] {
+        let reason = refused(unwind(&sinumerik(rows)));
+        assert!(reason.contains(why), "{reason}");
+    }
+}
+
+#[test]
+fn every_rewrites_example_holds() {
+    for rewrite in rewrites() {
+        let fences = fences(rewrite.docs);
+        let [(info, before), (_, after)] = fences.as_slice() else {
+            panic!("{}: one before and one after fence expected", rewrite.name);
+        };
+        let known = |word: &&str| trunnion::dialect::BUILTIN_NAMES.contains(word);
+        let dialect = info.split_whitespace().find(known).expect("a dialect");
+        let settings = settings(dialect, Setup::default());
+        let options = Options::default();
+        assert_eq!(
+            &certified(run(rewrite.name, before, &settings, &options)).0,
+            after,
+            "{}",
+            rewrite.name
+        );
+        for heading in ["# Why", "# Example", "# Claim", "# Traps", "# Sources"] {
+            assert!(
+                rewrite.docs.contains(&format!("\n{heading}\n")),
+                "{}: {heading} is missing",
+                rewrite.name
+            );
+        }
+    }
+}
+
+/// Fences of a header: info string and text.
+fn fences(docs: &str) -> Vec<(String, String)> {
+    let mut fences: Vec<(String, String)> = Vec::new();
+    let mut inside = false;
+    for line in docs.lines() {
+        match line.strip_prefix("```") {
+            Some(info) if !inside => {
+                inside = true;
+                fences.push((info.to_owned(), String::new()));
+            }
+            Some(_) => inside = false,
+            None if inside => {
+                let (_, text) = fences.last_mut().expect("a fence is open");
+                text.push_str(line);
+                text.push('\n');
+            }
+            None => {}
+        }
+    }
+    fences
+}

@@ -35,6 +35,8 @@ pub(crate) struct Writer<'a> {
     /// Tool centre point control, or compensation of the tool's length, is on.
     ready: bool,
     tool: Option<u32>,
+    /// Coolant other than through the spindle is on.
+    coolant_outside: bool,
     pub(crate) zero: [f64; 9],
 }
 
@@ -71,6 +73,7 @@ impl<'a> Writer<'a> {
             moved: Vec::new(),
             ready: false,
             tool: None,
+            coolant_outside: false,
             zero: [0.0; 9],
         }
     }
@@ -253,7 +256,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn forget_coordinates(&mut self) {
+    pub(crate) fn forget_coordinates(&mut self) {
         for word in WORDS.into_iter().chain(["vector"]) {
             self.modal.forget(word);
         }
@@ -289,11 +292,22 @@ impl<'a> Writer<'a> {
             }
             Event::SpindleOff => self.template("spindle-stop", block, |_| None),
             Event::Coolant(coolant) => {
+                let lonely = *coolant == Coolant::ThruOff && self.post.template("coolant-thru-off").is_none();
+                if lonely && !self.coolant_outside {
+                    // nothing else is on
+                    return self.template("coolant-off", block, |_| None);
+                }
+                match coolant {
+                    Coolant::Flood | Coolant::Mist | Coolant::Air => self.coolant_outside = true,
+                    Coolant::Off => self.coolant_outside = false,
+                    Coolant::Thru | Coolant::ThruOff => {}
+                }
                 let key = match coolant {
                     Coolant::Flood => "coolant-flood",
                     Coolant::Mist => "coolant-mist",
                     Coolant::Thru => "coolant-thru",
                     Coolant::Air => "coolant-air",
+                    Coolant::ThruOff => "coolant-thru-off",
                     Coolant::Off => "coolant-off",
                 };
                 self.template(key, block, |_| None)
@@ -344,7 +358,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn not_ready(&mut self) -> Result<(), Refused> {
+    pub(crate) fn not_ready(&mut self) -> Result<(), Refused> {
         let tcp = match self.mode {
             Mode::TipRotary(_) => true,
             Mode::Tip => self.options.orientation == OrientationWords::Vectors,
@@ -360,6 +374,7 @@ impl<'a> Writer<'a> {
     fn motion(&mut self, out: &Out, block: BlockId) -> Result<(), Refused> {
         match out {
             Out::Left => Ok(()),
+            Out::Words(words) => self.plain_rapid(words, block),
             Out::Dwell(seconds) => {
                 let (s, ms) = (number(*seconds, 3, self.post.point), number(seconds * 1000.0, 0, false));
                 self.template("dwell", Some(block), |name| match name {

@@ -17,6 +17,7 @@ mod number;
 mod options;
 mod plan;
 mod plan_arc;
+mod plan_words;
 mod post;
 mod posture;
 mod refuse;

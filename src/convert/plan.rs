@@ -55,6 +55,8 @@ pub(crate) struct Move {
 pub(crate) enum Out {
     /// It ends nowhere known.
     Left,
+    /// A rapid of which only some axes are known: their words, by index of the axis, mm or deg.
+    Words(Vec<(usize, f64)>),
     Dwell(f64),
     Moves(Vec<Move>),
 }
@@ -220,7 +222,7 @@ impl Planner<'_> {
         }
         if let Err(why) = &posed.end {
             if self.may_leave(index) {
-                return Ok(Out::Left);
+                return self.partial(index, posed, frame);
             }
             return Err(self.refuse(posed, format!("where this motion ends is not known: {why}")));
         }

@@ -1,14 +1,21 @@
 //! Two readings held against each other.
+use super::axis::axes_apart;
+use super::effects::{Terms, same_requests};
+use super::words::{same_words, words_apart};
 use super::{ConversionClaim, ConversionProof, Part, Posed, Reading, Track};
 use crate::Outcome;
+use std::sync::Arc;
 use trunnion_geometry::deg;
-use trunnion_geometry::math::{angle_between, asin};
+use trunnion_geometry::math::angle_between;
 use trunnion_interp::{Fault, Feed, MotionKind};
 use trunnion_machine::{Machine, Pose};
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
 /// Most moments at which two ways are compared.
 const MOST_SAMPLES: f64 = 4096.0;
+
+/// Shifts of the zero point that differ by less are one, mm or deg.
+const SHIFT: f64 = 1e-9;
 
 /// Tool lengths that differ by less are one, mm.
 const LENGTH_MM: f64 = 1e-6;
@@ -18,6 +25,8 @@ struct Proof<'a> {
     after: (&'a Reading, Option<&'a Machine>),
     claim: &'a ConversionClaim,
     found: ConversionProof,
+    /// The work offset of the program that names one, where the other names none.
+    offset: Option<Arc<str>>,
 }
 
 /// Proves that `after` is what `before` says. The readings must be fresh: [`super::read`] of the texts.
@@ -29,6 +38,20 @@ pub fn converted(
     after: (&Reading, Option<&Machine>),
     parts: &[Part],
     claim: &ConversionClaim,
+) -> Result<ConversionProof, Outcome> {
+    converted_on(before, after, parts, claim, &Terms::default())
+}
+
+/// As [`converted`], with what the user leaves out and what the post says of its own codes.
+///
+/// # Errors
+/// As [`converted`].
+pub fn converted_on(
+    before: (&Reading, Option<&Machine>),
+    after: (&Reading, Option<&Machine>),
+    parts: &[Part],
+    claim: &ConversionClaim,
+    terms: &Terms<'_>,
 ) -> Result<ConversionProof, Outcome> {
     if let Some(fault) = after.0.grave().next() {
         let line = line(&after.0.program, fault.block);
@@ -43,6 +66,7 @@ pub fn converted(
         after,
         claim,
         found: ConversionProof::default(),
+        offset: None,
     };
     let (mut was, mut is) = (0, 0);
     for part in parts {
@@ -51,6 +75,11 @@ pub fn converted(
                 proof.moves(was, is, count as usize)?;
                 was += 1;
                 is += count as usize;
+            }
+            Part::Words => {
+                proof.words(was, is)?;
+                was += 1;
+                is += 1;
             }
             Part::Left => {
                 proof.left(was)?;
@@ -68,6 +97,7 @@ pub fn converted(
             "{was} of {all_was} motions before and {is} of {all_is} after were compared"
         )));
     }
+    same_requests(before.0, after.0, parts, terms)?;
     (proof.found.motions_before, proof.found.motions_after) = (all_was as u64, all_is as u64);
     Ok(proof.found)
 }
@@ -81,11 +111,6 @@ fn line(program: &Program, block: BlockId) -> u32 {
 
 fn fault_text(program: &Program, fault: &Fault) -> String {
     program.text(fault.range).chars().take(40).collect()
-}
-
-/// The angle between two unit vectors whose tips are `chord` apart, rad.
-fn chord_angle(chord: f64) -> f64 {
-    2.0 * asin((0.5 * chord).min(1.0))
 }
 
 /// Above the limit, or not a number.
@@ -128,6 +153,20 @@ impl Proof<'_> {
         }
         self.found.left_out += 1;
         Ok(())
+    }
+
+    /// A rapid of which only some axes are known, in the same words.
+    fn words(&mut self, was: usize, is: usize) -> Result<(), Outcome> {
+        let (before, after) = (self.before.0, self.after.0);
+        let (Some(old), Some(new)) = (before.motions.get(was), after.motions.get(is)) else {
+            return Err(Outcome::unknown("the program after ends too early"));
+        };
+        self.alike(old, new, is)?;
+        let apart = words_apart(old, new).filter(|_| same_words(self.before.1, self.after.1));
+        match apart {
+            Some((mm, degrees)) if !above(mm, self.claim.end_mm) && !above(degrees, self.claim.end_deg) => Ok(()),
+            _ => self.refute(is, "a rapid in some axes is not the one before".to_owned()),
+        }
     }
 
     /// Motions that only position, where nothing is said of where the tool comes from.
@@ -186,7 +225,7 @@ impl Proof<'_> {
     }
 
     /// Kind, tool and spindle.
-    fn alike(&self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
+    fn alike(&mut self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
         let fits = match (old.motion.kind, new.motion.kind) {
             (MotionKind::Dwell(Some(was)), MotionKind::Dwell(Some(is))) => (was - is).abs() <= 5e-4 + 1e-9,
             (MotionKind::Rapid, MotionKind::Rapid)
@@ -212,13 +251,16 @@ impl Proof<'_> {
             None => new.motion.spindle_on != Some(true),
             on => new.motion.spindle_on == on,
         };
-        if !same_turning || !same_speed {
+        let turns = old.motion.spindle_on == Some(true) && new.motion.spindle_on == Some(true);
+        let same_way = !turns || old.counter_clockwise.unwrap_or(false) == new.counter_clockwise.unwrap_or(false);
+        if !same_turning || !same_speed || !same_way {
             return self.refute(is, "the spindle differs".to_owned());
         }
         let by_hand = !self.after.0.changes_tools && new.motion.tool.is_none();
         if old.motion.tool != new.motion.tool && !by_hand {
             return self.refute(is, "the tool differs".to_owned());
         }
+        self.same_zero(old, new, is)?;
         // a length that is not in force, or that of another number, puts the tip elsewhere on the machine, whatever X Y Z say
         let told = !by_hand && self.before.0.tells_lengths && self.after.0.tells_lengths;
         if told && new.motion.is_feed() && (old.tool_length - new.tool_length).abs() > LENGTH_MM {
@@ -239,6 +281,32 @@ impl Proof<'_> {
             return self.refute(is, why);
         }
         Ok(())
+    }
+
+    /// The zero point: its name, and what the program shifts beside it. CL data have none.
+    fn same_zero(&mut self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
+        if old.motion.machine_coordinates || matches!(old.motion.kind, MotionKind::Dwell(_)) {
+            return Ok(());
+        }
+        let apart = old
+            .shift
+            .iter()
+            .zip(&new.shift)
+            .any(|(was, is)| above((was - is).abs(), SHIFT));
+        if apart {
+            let why = "the program shifts the zero point (G52, G92, G10, TRANS), and the one after does not";
+            return self.refute(is, why.to_owned());
+        }
+        match (&old.work_offset, &new.work_offset) {
+            (Some(was), Some(now)) if was != now => {
+                self.refute(is, format!("the work offset is {now} where it was {was}"))
+            }
+            // one of them names none (CL data): then the other may not change it
+            (Some(name), None) | (None, Some(name)) if self.offset.get_or_insert_with(|| name.clone()) != name => {
+                self.refute(is, "several work offsets became one".to_owned())
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The end of one motion after.
@@ -282,27 +350,24 @@ impl Proof<'_> {
             return self.refute(is, "its way is not known".to_owned());
         };
         let h2 = (to - from) * (to - from);
-        let ((was_mm, was_axis), (is_mm, is_axis)) = (track.bend(), made.bend());
-        let (bend, bend_axis) = (was_mm * h2 + is_mm, was_axis * h2 + is_axis);
+        let bend = track.bend().0 * h2 + made.bend().0;
         // so many that the bound is at most a twentieth of the tolerance above the samples
         let steps = (bend / (0.4 * self.claim.path_mm))
             .sqrt()
             .ceil()
             .clamp(1.0, MOST_SAMPLES);
-        let (mut off, mut chord) = (0.0f64, 0.0f64);
+        let mut off = 0.0f64;
         for step in 0..=(steps as u32) {
             let t = f64::from(step) / steps;
             let (was, is) = (track.at(from + (to - from) * t), made.at(t));
             off = off.max((was.tip - is.tip).norm());
-            chord = chord.max((was.axis - is.axis).norm());
         }
-        let between = 1.0 / (8.0 * steps * steps);
-        let mm = off + bend * between;
-        let degrees = deg(chord_angle(chord + bend_axis * between));
+        let mm = off + bend / (8.0 * steps * steps);
         if is_rapid {
             self.found.rapid_mm = self.found.rapid_mm.max(mm);
             return Ok(());
         }
+        let degrees = deg(axes_apart(track, (from, to), &made));
         if above(mm, self.claim.path_mm) {
             let limit = self.claim.path_mm;
             return self.refute(

@@ -2,6 +2,7 @@
 //!
 //! Both texts are read from scratch by floors 0 to 3. Who converted them only says which motions belong together; a wrong
 //! hint can refuse a good conversion and never prove a bad one.
+mod alike;
 mod ask;
 mod ask_apt;
 mod ask_code;
@@ -11,6 +12,7 @@ mod claim;
 mod effects;
 mod proof;
 mod reading;
+mod reason;
 mod track;
 mod words;
 
@@ -25,3 +27,5 @@ pub use words::{moved_axes, same_words};
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_asks;

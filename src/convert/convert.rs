@@ -183,10 +183,11 @@ fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
     // a missing feed is told where the cut is planned
     faults.retain(|fault| !feed_only(fault));
     let Some(fault) = faults.first() else { return Ok(()) };
-    Err(Refused::range(program, fault.range, wording(fault)))
+    Err(Refused::range(program, fault.range, wording(program, fault)))
 }
 
-fn wording(fault: &Fault) -> String {
+fn wording(program: &Program, fault: &Fault) -> String {
+    let text: String = program.text(fault.range).chars().take(40).collect();
     match &fault.kind {
         FaultKind::NotModelled { what } if what.starts_with("INSERT") => {
             format!("{what}; where INSERT only carries remarks, say --insert-is-remark")
@@ -197,12 +198,15 @@ fn wording(fault: &Fault) -> String {
         FaultKind::Rejected { message, .. } => format!("the control refuses this block: {message}"),
         FaultKind::NotDecided { what } => format!("what runs next depends on {what}, which is not known"),
         FaultKind::AptUnknownRecord => "an unknown record: it may move the tool".to_owned(),
-        FaultKind::UnknownCode { .. } => "an unknown code".to_owned(),
+        FaultKind::UnknownCode { .. } => format!("{text} is an unknown code"),
+        FaultKind::ProgramAlarm { .. } => {
+            format!("{text} stops the program with an alarm, which is not carried over: take it away")
+        }
         FaultKind::AmbiguousDecimal => {
             "a number without a point: a parameter of the control decides what it means; say so in trunnion.toml"
                 .to_owned()
         }
-        _ => "the program has an error here; `trunnion check` says which".to_owned(),
+        _ => format!("the program has an error at `{text}`; `trunnion check` says which"),
     }
 }
 

@@ -11,7 +11,7 @@ pub(crate) fn parts(outs: &[Out]) -> Vec<Part> {
     outs.iter()
         .map(|out| match out {
             Out::Left => Part::Left,
-            Out::Words(_) => Part::Words,
+            Out::Words { .. } => Part::Words,
             Out::Dwell(_) => Part::Moves(1),
             Out::Moves(moves) => Part::Moves(moves.len() as u32),
         })

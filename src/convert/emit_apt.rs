@@ -34,7 +34,7 @@ impl<'a> AptWriter<'a> {
         let tilts = |one: &Move| (one.axis - Vec3::z()).norm() > 1e-12;
         let multax = outs.iter().any(|out| match out {
             Out::Moves(moves) => moves.iter().any(tilts),
-            Out::Left | Out::Words(_) | Out::Dwell(_) => false,
+            Out::Left | Out::Words { .. } | Out::Dwell(_) => false,
         });
         Self {
             reading,
@@ -143,7 +143,7 @@ impl<'a> AptWriter<'a> {
 
     fn motion(&mut self, out: &Out) {
         match out {
-            Out::Left | Out::Words(_) => {}
+            Out::Left | Out::Words { .. } => {}
             Out::Dwell(seconds) => self.record(&format!("DELAY/{}", number(*seconds, 3, false))),
             Out::Moves(moves) => {
                 for one in moves {

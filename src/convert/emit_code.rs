@@ -2,7 +2,7 @@
 use crate::clamps::{Clamping, Step, remark};
 use crate::emit::{declaration, plain};
 use crate::events::ACTIVE;
-use crate::job::{Coolant, Event, Job, Placed};
+use crate::job::{Event, Job, Placed};
 use crate::modal::Modal;
 use crate::number::number;
 use crate::plan::{Mode, Out};
@@ -36,7 +36,7 @@ pub(crate) struct Writer<'a> {
     ready: bool,
     tool: Option<u32>,
     /// Coolant other than through the spindle is on.
-    coolant_outside: bool,
+    pub(crate) coolant_outside: bool,
     pub(crate) zero: [f64; 9],
 }
 
@@ -291,27 +291,7 @@ impl<'a> Writer<'a> {
                 self.template(key, block, |name| (name == "speed").then(|| rpm.clone()))
             }
             Event::SpindleOff => self.template("spindle-stop", block, |_| None),
-            Event::Coolant(coolant) => {
-                let lonely = *coolant == Coolant::ThruOff && self.post.template("coolant-thru-off").is_none();
-                if lonely && !self.coolant_outside {
-                    // nothing else is on
-                    return self.template("coolant-off", block, |_| None);
-                }
-                match coolant {
-                    Coolant::Flood | Coolant::Mist | Coolant::Air => self.coolant_outside = true,
-                    Coolant::Off => self.coolant_outside = false,
-                    Coolant::Thru | Coolant::ThruOff => {}
-                }
-                let key = match coolant {
-                    Coolant::Flood => "coolant-flood",
-                    Coolant::Mist => "coolant-mist",
-                    Coolant::Thru => "coolant-thru",
-                    Coolant::Air => "coolant-air",
-                    Coolant::ThruOff => "coolant-thru-off",
-                    Coolant::Off => "coolant-off",
-                };
-                self.template(key, block, |_| None)
-            }
+            Event::Coolant(coolant) => self.coolant(*coolant, block),
             Event::Stop(optional) => {
                 let key = if *optional { "optional-stop" } else { "stop" };
                 self.template(key, block, |_| None)
@@ -332,7 +312,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Tool centre point control on, or the tool's length.
-    fn get_ready(&mut self, block: BlockId) -> Result<(), Refused> {
+    pub(crate) fn get_ready(&mut self, block: BlockId) -> Result<(), Refused> {
         if self.ready {
             return Ok(());
         }
@@ -374,7 +354,7 @@ impl<'a> Writer<'a> {
     fn motion(&mut self, out: &Out, block: BlockId) -> Result<(), Refused> {
         match out {
             Out::Left => Ok(()),
-            Out::Words(words) => self.plain_rapid(words, block),
+            Out::Words { known, led } => self.plain_rapid(known, *led, block),
             Out::Dwell(seconds) => {
                 let (s, ms) = (number(*seconds, 3, self.post.point), number(seconds * 1000.0, 0, false));
                 self.template("dwell", Some(block), |name| match name {

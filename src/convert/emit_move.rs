@@ -26,9 +26,13 @@ impl Writer<'_> {
         number(mm / self.options.units.mm(), decimals, self.post.point)
     }
 
-    /// A rapid of which only these words are known, before tool centre point control and tool length are on.
-    pub(crate) fn plain_rapid(&mut self, known: &[(usize, f64)], block: BlockId) -> Result<(), Refused> {
-        self.not_ready()?;
+    /// A rapid of which only these words are known; where the tip is not led, before tool centre point control and tool length are on.
+    pub(crate) fn plain_rapid(&mut self, known: &[(usize, f64)], led: bool, block: BlockId) -> Result<(), Refused> {
+        if led {
+            self.get_ready(block)?;
+        } else {
+            self.not_ready()?;
+        }
         let mut words: Vec<String> = self.modal.change("motion", "G0".to_owned()).into_iter().collect();
         let mut turns = 0;
         for (axis, value) in known {

@@ -55,8 +55,13 @@ pub(crate) struct Move {
 pub(crate) enum Out {
     /// It ends nowhere known.
     Left,
-    /// A rapid of which only some axes are known: their words, by index of the axis, mm or deg.
-    Words(Vec<(usize, f64)>),
+    /// A rapid of which only some axes are known.
+    Words {
+        /// Their words, by index of the axis, mm or deg.
+        known: Vec<(usize, f64)>,
+        /// Tool centre point control is on.
+        led: bool,
+    },
     Dwell(f64),
     Moves(Vec<Move>),
 }

@@ -21,8 +21,11 @@ impl Planner<'_> {
         };
         let vectors = self.options.orientation == crate::OrientationWords::Vectors;
         let zero = posed.motion.zero.iter().zip(&frame.zero).all(|(is, own)| is == own);
-        if !self.apt && !vectors && zero && same_words(self.source, target) {
-            return Ok(Out::Words(moved));
+        let led = posed.motion.tcp;
+        // the tip is led by one and the same machine, or nothing leads it
+        let leads = !led || target.is_some() && matches!(self.mode, Mode::TipRotary(_));
+        if !self.apt && !vectors && zero && leads && same_words(self.source, target) {
+            return Ok(Out::Words { known: moved, led });
         }
         // CL data have no points of which a coordinate is not known
         if self.apt || !self.merges(index, &moved) {
@@ -43,7 +46,7 @@ impl Planner<'_> {
             .any(|other| other.motion.tool == tool && known(other))
     }
 
-    /// Whether the next motion to a known place holds X, Y or Z still that moves here: without this rapid it would move it.
+    /// Whether the next motion to a known place finds X, Y or Z where this one leads it: without this rapid it would move it.
     fn merges(&self, index: usize, moved: &[(usize, f64)]) -> bool {
         let tool = self.reading.motions[index].motion.tool;
         let mut rest = self.reading.motions[index + 1..].iter();
@@ -53,7 +56,10 @@ impl Planner<'_> {
                 let (start, end) = (next.motion.start.get(axis), next.motion.end.get(axis));
                 start.is_some() && start == end
             };
-            moved.iter().any(|(axis, _)| *axis < 3 && stays(*axis))
+            let there = |axis: usize, value: f64| next.motion.end.get(axis) == Some(value);
+            moved
+                .iter()
+                .any(|(axis, value)| *axis < 3 && (stays(*axis) || there(*axis, *value)))
         })
     }
 }

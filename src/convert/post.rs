@@ -5,8 +5,6 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 use toml::Spanned;
-use trunnion_certify::conversion::{Ask, Coolant, asked_in};
-use trunnion_dialect::Dialect;
 use trunnion_machine::Machine;
 
 /// Names of the posts that are built in: those of their dialects.
@@ -165,7 +163,7 @@ pub struct Post {
     /// Codes for tool centre point control where the machine declares none.
     pub(crate) tcp_on: Option<String>,
     pub(crate) tcp_off: Option<String>,
-    templates: BTreeMap<String, String>,
+    pub(crate) templates: BTreeMap<String, String>,
 }
 
 /// A built-in post by its name; loaded once.
@@ -351,34 +349,6 @@ impl Post {
         let code = if on { &codes.on } else { &codes.off }.first().cloned();
         let always = codes.at_start && codes.off.is_empty();
         code.or_else(|| always.then(String::new))
-    }
-
-    /// What the codes of its own in its templates mean, by the text of the code: a request, or, of the frame of every program, none.
-    pub(crate) fn meanings(&self, dialect: &Dialect) -> Vec<(String, Option<Ask>)> {
-        let mut all = Vec::new();
-        for (key, template) in &self.templates {
-            let meaning = match key.as_str() {
-                "coolant-flood" => Some(Ask::Coolant(Coolant::Flood)),
-                "coolant-mist" => Some(Ask::Coolant(Coolant::Mist)),
-                "coolant-thru" => Some(Ask::Coolant(Coolant::Thru)),
-                "coolant-thru-off" => Some(Ask::Coolant(Coolant::ThruOff)),
-                "coolant-air" => Some(Ask::Coolant(Coolant::Air)),
-                "coolant-off" => Some(Ask::Coolant(Coolant::Off)),
-                "stop" => Some(Ask::Stop { optional: false }),
-                "optional-stop" => Some(Ask::Stop { optional: true }),
-                "auxiliary" | "comment" | "message" => continue,
-                _ => None,
-            };
-            let text = fill(template, |name| {
-                Some(if name == "title" { String::new() } else { "1".to_owned() })
-            });
-            for ask in asked_in(text.unwrap_or_default().as_bytes(), dialect) {
-                if let Ask::Own(own) = ask {
-                    all.push((own.text, meaning.clone()));
-                }
-            }
-        }
-        all
     }
 
     /// A template; `None`: the control has no such code.

@@ -14,19 +14,13 @@ use trunnion_syntax::{BlockId, LineIndex, Program};
 /// Most moments at which two ways are compared.
 const MOST_SAMPLES: f64 = 4096.0;
 
-/// Shifts of the zero point that differ by less are one, mm or deg.
-const SHIFT: f64 = 1e-9;
-
-/// Tool lengths that differ by less are one, mm.
-const LENGTH_MM: f64 = 1e-6;
-
-struct Proof<'a> {
-    before: (&'a Reading, Option<&'a Machine>),
-    after: (&'a Reading, Option<&'a Machine>),
+pub(super) struct Proof<'a> {
+    pub(super) before: (&'a Reading, Option<&'a Machine>),
+    pub(super) after: (&'a Reading, Option<&'a Machine>),
     claim: &'a ConversionClaim,
     found: ConversionProof,
     /// The work offset of the program that names one, where the other names none.
-    offset: Option<Arc<str>>,
+    pub(super) offset: Option<Arc<str>>,
 }
 
 /// Proves that `after` is what `before` says. The readings must be fresh: [`super::read`] of the texts.
@@ -58,6 +52,19 @@ pub fn converted_on(
         let text = fault_text(&after.0.program, fault);
         return Err(Outcome::unknown(format!(
             "line {line} after is not understood: `{text}` ({:?})",
+            fault.kind
+        )));
+    }
+    let dropped = |text: &str| terms.dropped.iter().any(|drop| drop.eq_ignore_ascii_case(text));
+    let mut grave = before
+        .0
+        .grave()
+        .filter(|fault| !dropped(&fault_text(&before.0.program, fault)));
+    if let Some(fault) = grave.next() {
+        let line = line(&before.0.program, fault.block);
+        let text = fault_text(&before.0.program, fault);
+        return Err(Outcome::unknown(format!(
+            "line {line} before is not understood: `{text}` ({:?})",
             fault.kind
         )));
     }
@@ -114,12 +121,12 @@ fn fault_text(program: &Program, fault: &Fault) -> String {
 }
 
 /// Above the limit, or not a number.
-fn above(value: f64, limit: f64) -> bool {
+pub(super) fn above(value: f64, limit: f64) -> bool {
     value.is_nan() || value > limit
 }
 
 impl Proof<'_> {
-    fn refute<T>(&self, is: usize, message: String) -> Result<T, Outcome> {
+    pub(super) fn refute<T>(&self, is: usize, message: String) -> Result<T, Outcome> {
         match self.after.0.motions.get(is) {
             Some(posed) => {
                 let line = line(&self.after.0.program, posed.motion.block);
@@ -219,94 +226,10 @@ impl Proof<'_> {
         for (index, posed) in new.iter().enumerate() {
             let (from, to) = (share(index, count), share(index + 1, count));
             self.end(&track.at(to), posed, is + index)?;
-            self.way(&track, (from, to), posed, is + index, is_rapid)?;
+            let degrees = self.way(&track, (from, to), posed, is + index, is_rapid)?;
+            self.same_orientation(old, posed, degrees, is + index)?;
         }
         if is_rapid { Ok(()) } else { self.feed(old, new, is) }
-    }
-
-    /// Kind, tool and spindle.
-    fn alike(&mut self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
-        let fits = match (old.motion.kind, new.motion.kind) {
-            (MotionKind::Dwell(Some(was)), MotionKind::Dwell(Some(is))) => (was - is).abs() <= 5e-4 + 1e-9,
-            (MotionKind::Rapid, MotionKind::Rapid)
-            | (MotionKind::Linear, MotionKind::Linear)
-            | (MotionKind::Arc(Some(_)), MotionKind::Arc(Some(_)) | MotionKind::Linear) => true,
-            _ => false,
-        };
-        if !fits {
-            return self.refute(is, "the kind of motion differs".to_owned());
-        }
-        let rpm = |posed: &Posed| {
-            posed
-                .motion
-                .spindle_rpm
-                .filter(|_| posed.motion.spindle_on == Some(true))
-        };
-        let same_speed = match (rpm(old), rpm(new)) {
-            (Some(was), Some(is)) => (was - is).abs() <= 5e-4,
-            (was, is) => was.is_none() && is.is_none(),
-        };
-        // where nothing was said of it, it must not be told to turn
-        let same_turning = match old.motion.spindle_on {
-            None => new.motion.spindle_on != Some(true),
-            on => new.motion.spindle_on == on,
-        };
-        let turns = old.motion.spindle_on == Some(true) && new.motion.spindle_on == Some(true);
-        let same_way = !turns || old.counter_clockwise.unwrap_or(false) == new.counter_clockwise.unwrap_or(false);
-        if !same_turning || !same_speed || !same_way {
-            return self.refute(is, "the spindle differs".to_owned());
-        }
-        let by_hand = !self.after.0.changes_tools && new.motion.tool.is_none();
-        if old.motion.tool != new.motion.tool && !by_hand {
-            return self.refute(is, "the tool differs".to_owned());
-        }
-        self.same_zero(old, new, is)?;
-        // a length that is not in force, or that of another number, puts the tip elsewhere on the machine, whatever X Y Z say
-        let told = !by_hand && self.before.0.tells_lengths && self.after.0.tells_lengths;
-        if told && new.motion.is_feed() && (old.tool_length - new.tool_length).abs() > LENGTH_MM {
-            let why = format!(
-                "{:.4} mm of tool length are in force where it was {:.4} mm: switch on the length of the tool that cuts",
-                new.tool_length, old.tool_length
-            );
-            return self.refute(is, why);
-        }
-        // of lengths that nobody declared, and of words that no machine places, all that is known is whose they are
-        let blind = new.tool_length.abs() <= LENGTH_MM || new.leg.is_none();
-        if told && blind && new.motion.is_feed() && old.length_of != new.length_of {
-            let why = format!(
-                "the tool length in force is {} where it was {}: switch on the length of the tool that cuts, or declare the lengths and \
-                 name the machine",
-                new.length_of, old.length_of
-            );
-            return self.refute(is, why);
-        }
-        Ok(())
-    }
-
-    /// The zero point: its name, and what the program shifts beside it. CL data have none.
-    fn same_zero(&mut self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
-        if old.motion.machine_coordinates || matches!(old.motion.kind, MotionKind::Dwell(_)) {
-            return Ok(());
-        }
-        let apart = old
-            .shift
-            .iter()
-            .zip(&new.shift)
-            .any(|(was, is)| above((was - is).abs(), SHIFT));
-        if apart {
-            let why = "the program shifts the zero point (G52, G92, G10, TRANS), and the one after does not";
-            return self.refute(is, why.to_owned());
-        }
-        match (&old.work_offset, &new.work_offset) {
-            (Some(was), Some(now)) if was != now => {
-                self.refute(is, format!("the work offset is {now} where it was {was}"))
-            }
-            // one of them names none (CL data): then the other may not change it
-            (Some(name), None) | (None, Some(name)) if self.offset.get_or_insert_with(|| name.clone()) != name => {
-                self.refute(is, "several work offsets became one".to_owned())
-            }
-            _ => Ok(()),
-        }
     }
 
     /// The end of one motion after.
@@ -334,7 +257,7 @@ impl Proof<'_> {
     }
 
     /// The way of one motion after, against its share of the one before: for the difference of the two points, bent by at most Q, the
-    /// largest sample + Q / (8 m^2) at m equal steps.
+    /// largest sample + Q / (8 m^2) at m equal steps. Gives the bound of the angle between the tool axes, deg; 0 for rapids.
     fn way(
         &mut self,
         track: &Track<'_>,
@@ -342,10 +265,10 @@ impl Proof<'_> {
         new: &Posed,
         is: usize,
         is_rapid: bool,
-    ) -> Result<(), Outcome> {
+    ) -> Result<f64, Outcome> {
         let Some(made) = Track::new(new, self.after.1) else {
             if is_rapid {
-                return Ok(());
+                return Ok(0.0);
             }
             return self.refute(is, "its way is not known".to_owned());
         };
@@ -365,7 +288,7 @@ impl Proof<'_> {
         let mm = off + bend / (8.0 * steps * steps);
         if is_rapid {
             self.found.rapid_mm = self.found.rapid_mm.max(mm);
-            return Ok(());
+            return Ok(0.0);
         }
         let degrees = deg(axes_apart(track, (from, to), &made));
         if above(mm, self.claim.path_mm) {
@@ -385,7 +308,27 @@ impl Proof<'_> {
         }
         self.found.path_mm = self.found.path_mm.max(mm);
         self.found.path_deg = self.found.path_deg.max(degrees);
-        Ok(())
+        Ok(degrees)
+    }
+
+    /// Where the program says how the tool axis runs between the ends (ORIAXES, ORIVECT), it runs so after, or no differently.
+    fn same_orientation(&self, old: &Posed, new: &Posed, degrees: f64, is: usize) -> Result<(), Outcome> {
+        let (Some(asked), Some(machine)) = (old.motion.great_circle, self.after.1) else {
+            return Ok(());
+        };
+        let runs = new.motion.great_circle.unwrap_or(machine.control.tcp_great_circle);
+        if new.leg.is_none() || !new.tip_words() || runs == asked || degrees <= self.claim.end_deg {
+            return Ok(());
+        }
+        let (was, now) = if asked {
+            ("on a great circle (ORIVECT)", "in its rotary axes")
+        } else {
+            ("in its rotary axes (ORIAXES)", "on a great circle")
+        };
+        self.refute(
+            is,
+            format!("the tool axis runs {now} where the program asks for it {was}"),
+        )
     }
 
     /// Feeds in the same unit are compared as numbers, others by the time that the motion takes.

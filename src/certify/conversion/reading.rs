@@ -1,5 +1,6 @@
 //! A program run from scratch, with the pose of the tool at both ends of every motion.
 use super::ask::{Asked, asks};
+use super::reason::reason;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use trunnion_dialect::Dialect;
@@ -8,7 +9,7 @@ use trunnion_interp::{
     AllClampCodes, ChainId, Fault, FaultKind, Feed, Interpreter, LengthOf, ModalState, Motion, MotionKind, Orientation,
     Refusal, Setup, Sink, Swivel, Tilt, Tool, WorkOffset,
 };
-use trunnion_machine::{Follower, Joints, Leg, Machine, NoStance, Pose, forward};
+use trunnion_machine::{Follower, Joints, Leg, Machine, Pose, forward};
 use trunnion_syntax::{BlockId, Format, Program, parse};
 
 /// What holds at the start of a program that does not say it: an excerpt.
@@ -297,39 +298,6 @@ fn shift(motion: &Motion, state: &ModalState, setup: &Setup) -> [f64; 9] {
     });
     let base = declared.map_or([0.0; 9], |offset| offset.values);
     core::array::from_fn(|axis| motion.zero[axis] - base[axis])
-}
-
-/// Why there is no pose.
-fn reason(why: &NoStance) -> String {
-    let deg = trunnion_geometry::deg;
-    match why {
-        NoStance::PositionUnknown(letters) => format!("the position of {letters} is not known"),
-        NoStance::Unreachable(off) => format!(
-            "the machine cannot point the tool there: the nearest tool axis it reaches is {:.4} deg away",
-            deg(*off)
-        ),
-        NoStance::OutsideLimits { axis, value, limit } => format!(
-            "{} would have to go to {:.4} deg, its limit is {:.4} deg",
-            char::from(*axis),
-            deg(*value),
-            deg(*limit)
-        ),
-        NoStance::PostureRefused { axis, value } => format!(
-            "no posture is as the program asks for it: {} would be {:.4} deg",
-            char::from(*axis),
-            deg(*value)
-        ),
-        NoStance::NotModelled => "the motion is not modelled".to_owned(),
-        NoStance::HeldElsewhere { axis, .. } => {
-            format!("the machine file holds axis {} elsewhere", char::from(*axis))
-        }
-        NoStance::PlaneMisaligned(off) => format!("the tool stands {:.4} deg off the tilted plane's normal", deg(*off)),
-        NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
-        NoStance::RotaryOffset(letter) => format!(
-            "a work offset in {} under tool centre point control is not modelled",
-            char::from(*letter)
-        ),
-    }
 }
 
 impl Posed {

@@ -5,12 +5,11 @@ use trunnion_interp::{MotionKind, Orientation, Tilt};
 use trunnion_machine::{Joints, MAX_AXES, Machine, forward};
 
 /// The axes that a rapid moves to known places, by index (X Y Z A B C U V W), with the place in mm or deg. `None`: it is no plain rapid in
-/// words (machine coordinates, a led tip, a tilted plane), or it moves an axis nobody knows where.
+/// words (machine coordinates, a tilted plane), or it moves an axis nobody knows where.
 pub fn moved_axes(posed: &Posed) -> Option<Vec<(usize, f64)>> {
     let motion = &posed.motion;
     let plain = motion.kind == MotionKind::Rapid
         && !motion.machine_coordinates
-        && !motion.tcp
         && motion.orientation == Orientation::Words
         && motion.tilt == Tilt::default()
         // a way that a word says itself, or an axis that moves somewhere unknown
@@ -49,6 +48,9 @@ fn is_plain(machine: &Machine) -> bool {
 /// How far the words of two such rapids lie apart, mm and deg; `None`: they do not move the same axes.
 pub(super) fn words_apart(old: &Posed, new: &Posed) -> Option<(f64, f64)> {
     let (was, is) = (moved_axes(old)?, moved_axes(new)?);
+    if old.motion.tcp != new.motion.tcp {
+        return None;
+    }
     let mut apart = (0.0f64, 0.0f64);
     // an axis that is moved to where it stands is not moved
     let stands = |axis: usize, value: f64| old.motion.start.get(axis) == Some(value);

@@ -8,7 +8,7 @@ use super::ask_apt::record_asks;
 use super::ask_iso::Blocks;
 use trunnion_dialect::Dialect;
 use trunnion_interp::AllClampCodes;
-use trunnion_syntax::{BlockId, Format, Program, TextRange};
+use trunnion_syntax::{Address, BlockId, Format, Program, TextRange, Value, Word};
 
 /// Coolant that is switched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,6 +77,8 @@ pub enum Why {
     Waits,
     /// What runs is decided at the machine.
     Switch,
+    /// The program begins again, or goes back to the one that calls it.
+    Repeats,
     /// The motions of the code are not known well enough.
     Motion,
     /// What it does is up to the control or the builder of the machine.
@@ -107,6 +109,9 @@ impl Why {
             Self::PathControl => "sets how exactly the control follows the path, and has no counterpart",
             Self::Waits => "waits for the operator or raises an alarm, and has no counterpart",
             Self::Switch => "depends on a switch of the machine: take the `/` or the block away",
+            Self::Repeats => {
+                "starts the program again or returns to one that calls it, and what is written ends: write M30"
+            }
             Self::Motion => "is not carried over: what it does on the way is not known well enough",
             Self::Machine => "has no counterpart: what it does is up to the machine",
         }
@@ -149,7 +154,14 @@ pub(super) fn asks(
         };
         turn = found.counter_clockwise.or(turn);
         turns.push(turn);
-        for (range, ask) in found.asks {
+        for (range, mut ask) in found.asks {
+            // it acts on the motion of its block, and on none without one
+            if let Ask::Own(own) = &mut ask
+                && own.name == "G9"
+                && one.motions == before
+            {
+                own.text.push_str(" alone");
+            }
             // these act when the motions of their block are done
             let after = matches!(ask, Ask::Stop { .. } | Ask::Coolant(Coolant::Off | Coolant::ThruOff));
             all.push(Asked {
@@ -162,7 +174,33 @@ pub(super) fn asks(
         }
         before = one.motions;
     }
+    if let Some(one) = ran.last()
+        && let Some(range) = starts_again(program, dialect, one.block)
+    {
+        all.push(Asked {
+            block: one.block,
+            ran: ran.len() - 1,
+            range,
+            at: one.motions,
+            ask: Ask::Own(Own {
+                name: "M99".to_owned(),
+                text: "M99 at the end".to_owned(),
+                why: Why::Repeats,
+            }),
+        });
+    }
     (all, turns)
+}
+
+/// M99 as the last block that runs: the program begins again, or goes back to one that calls it.
+fn starts_again(program: &Program, dialect: &Dialect, block: BlockId) -> Option<TextRange> {
+    let is_iso = program.options().format == Format::Iso;
+    let is = |word: &Word| match (word.address, word.value) {
+        (Address::Letter(b'M'), Value::Number(number)) => number.to_integer() == Some(99),
+        _ => false,
+    };
+    let found = program.block(block).words().find(|word| is_iso && is(word));
+    found.filter(|_| dialect.m(990).is_some()).map(|word| word.range)
 }
 
 /// What a text asks for, block by block in the order they are written: for templates.

@@ -101,6 +101,8 @@ impl<'a> Blocks<'a> {
                 &mut found,
             );
         }
+        // in the order of the text, so that the first to be refused is the first that is read
+        found.asks.sort_by_key(|(range, _)| range.start);
         found
     }
 
@@ -250,7 +252,7 @@ impl<'a> Blocks<'a> {
             }
             return;
         }
-        let corner = name.starts_with(',') && self.dialect.quirks.corner_words;
+        let corner = matches!(name.as_str(), ",R" | ",C") && self.dialect.quirks.corner_words;
         if corner || declares || self.local.contains(stem) {
             return;
         }

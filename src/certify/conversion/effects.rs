@@ -1,5 +1,5 @@
 //! The requests of two programs held against each other: each stands between the same motions, in the same order and state.
-use super::ask::{Ask, Coolant, Own};
+use super::ask::{Ask, Asked, Coolant, Own, Why};
 use super::{Part, Reading};
 use crate::Outcome;
 use core::fmt;
@@ -63,7 +63,8 @@ enum Event {
         coolants: Coolants,
         turning: Turning,
     },
-    Own(String),
+    /// A request of one control; `None`: by its number alone (AUXFUN).
+    Own(String, Option<String>),
 }
 
 impl fmt::Display for Event {
@@ -71,7 +72,7 @@ impl fmt::Display for Event {
         match self {
             Self::Stop { optional: true, .. } => f.write_str("an optional stop"),
             Self::Stop { .. } => f.write_str("a stop"),
-            Self::Own(text) => f.write_str(text),
+            Self::Own(text, _) => f.write_str(text),
         }
     }
 }
@@ -109,6 +110,15 @@ pub(super) fn same_requests(
             let line = line(reading, block);
             return Err(Outcome::unknown(format!(
                 "line {line} {which} leads into another file, whose requests beside motions are not compared"
+            )));
+        }
+    }
+    for (reading, which) in [(before, "before"), (after, "after")] {
+        let switch = |asked: &&Asked| matches!(&asked.ask, Ask::Own(own) if own.why == Why::Switch);
+        if let Some(asked) = reading.asks.iter().find(switch) {
+            let line = line(reading, asked.block);
+            return Err(Outcome::unknown(format!(
+                "line {line} {which}: whether it runs depends on a switch"
             )));
         }
     }
@@ -208,7 +218,10 @@ fn alike(one: &Event, other: &Event) -> bool {
             };
             optional == other_optional && coolants == other_coolants && turns
         }
-        (Event::Own(one), Event::Own(other)) => one == other,
+        // the same text means something else on another control
+        (Event::Own(one, of), Event::Own(other, other_of)) => {
+            one == other && (of == other_of || of.is_none() || other_of.is_none())
+        }
         _ => false,
     }
 }
@@ -275,7 +288,8 @@ impl<'a> Side<'a> {
     fn own(&self, name: &str, text: &str, may_drop: bool, ran: usize, events: &mut Events) {
         let dropped = may_drop && self.dropped.iter().any(|drop| drop.eq_ignore_ascii_case(name));
         if !dropped {
-            events.push((Event::Own(text.to_owned()), self.reading.blocks[ran].block));
+            let own = Event::Own(text.to_owned(), Some(self.reading.dialect.clone()));
+            events.push((own, self.reading.blocks[ran].block));
         }
     }
 
@@ -288,7 +302,7 @@ impl<'a> Side<'a> {
             8 => self.coolants.set(Coolant::Flood),
             9 => self.coolants.set(Coolant::Off),
             _ if self.clamps.iter().flatten().any(|codes| is(codes.on) || is(codes.off)) => {}
-            _ => events.push((Event::Own(format!("M{number}")), self.reading.blocks[ran].block)),
+            _ => events.push((Event::Own(format!("M{number}"), None), self.reading.blocks[ran].block)),
         }
     }
 

@@ -90,6 +90,8 @@ pub struct Ran {
 pub struct Reading {
     /// Parsed.
     pub program: Program,
+    /// Name of its dialect.
+    pub dialect: String,
     /// Motions in the order the control makes them.
     pub motions: Vec<Posed>,
     /// Blocks in the order the control runs them.
@@ -154,6 +156,7 @@ pub fn read(run: &Run<'_>) -> Reading {
         first = ran.motions;
     }
     Reading {
+        dialect: run.dialect.name.clone(),
         asks,
         clamp_codes,
         program,

@@ -169,6 +169,24 @@ fn another_zero_point_is_refuted() {
     lost("fanuc-30i", "G55\nG0 X10. Y0. Z5.", "G0 X10. Y0. Z5.", "work offset");
 }
 
+/// The same text means something else on another control.
+#[test]
+fn the_text_of_another_control_is_no_counterpart() {
+    let program = |request: &str| format!("{HEAD}{request}\n{TAIL}");
+    for request in ["M19", "M62", "G61"] {
+        let text = program(request);
+        assert_eq!(outcome((&text, "fanuc-30i"), (&text, "fanuc-30i"), &[]), Ok(()));
+        outcome((&text, "haas-ngc"), (&text, "fanuc-30i"), &[]).expect_err(request);
+    }
+    let deleted = program("/M8");
+    let found = outcome((&deleted, "fanuc-30i"), (&deleted, "fanuc-30i"), &[]).expect_err("a switch");
+    assert!(found.contains("depends on a switch"), "{found}");
+    let (before, after) = (program("G9 G1 X8. F100."), program("G9\nG1 X8. F100."));
+    outcome((&before, "fanuc-30i"), (&after, "fanuc-30i"), &[]).expect_err("no exact stop");
+    let again = program("").replace("M30", "M99");
+    outcome((&again, "fanuc-30i"), (&program(""), "fanuc-30i"), &[]).expect_err("it ends");
+}
+
 /// The user's word lets go of what moves nothing, never of a thread.
 #[test]
 fn what_moves_the_tool_is_never_dropped() {

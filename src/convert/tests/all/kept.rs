@@ -81,7 +81,7 @@ fn a_fanuc_asks_for_more_than_motions() {
         ("G26", "G26"),
         ("G22", "G22"),
         ("/M8", "block delete"),
-        ("M8 /M9", "/"),
+        ("G1 X8. /Y2. F100.", "block delete"),
         ("DPRNT[X#1[53]]", "DPRNT"),
     ];
     refused("fanuc-30i", &["sinumerik-840d", "apt"], &all);
@@ -310,6 +310,19 @@ fn what_asks_for_nothing_is_converted() {
             let _ = made.unwrap_or_else(|refused| panic!("{dialect}, {blocks}: {refused}"));
         }
     }
+}
+
+/// M99 at the end starts the main program again.
+#[test]
+fn a_program_that_starts_again_is_refused() {
+    let source = around("fanuc-30i", "").replace("M30", "M99");
+    let refused = refusal(to(
+        (&source, "fanuc-30i", ""),
+        "sinumerik-840d",
+        "",
+        &Options::default(),
+    ));
+    assert!(refused.message.contains("M99"), "{refused}");
 }
 
 /// Direction of the spindle, coolant and stops are written where they stood.

@@ -2,16 +2,30 @@
 //!
 //! Both texts are read from scratch by floors 0 to 3. Who converted them only says which motions belong together; a wrong
 //! hint can refuse a good conversion and never prove a bad one.
+mod alike;
+mod ask;
+mod ask_apt;
+mod ask_code;
+mod ask_iso;
+mod axis;
 mod claim;
+mod effects;
 mod proof;
 mod reading;
+mod reason;
 mod track;
+mod words;
 
 pub use crate::curve::{great_circle, joint_bend};
+pub use ask::{Ask, Asked, Coolant, Own, Why, asked_in};
 pub use claim::{ConversionClaim, ConversionProof, Part};
-pub use proof::converted;
+pub use effects::Terms;
+pub use proof::{converted, converted_on};
 pub use reading::{Assume, Posed, Ran, Reading, Run, read};
 pub use track::{Track, carried, rotary};
+pub use words::{moved_axes, same_words};
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_asks;

@@ -1,14 +1,14 @@
 //! One conversion: read, plan, write, read back, prove.
 use crate::emit::{parts, parts_beside};
 use crate::emit_code::Written;
-use crate::events::job;
+use crate::events::{job, refusal};
 use crate::plan::{Out, Planner};
 use crate::setting::Setting;
 use crate::travel::{Beyond, Travel, travel, zeros_declared};
 use crate::{Options, Refused, Target};
 use trunnion_certify::Outcome;
 use trunnion_certify::conversion::{
-    Assume, ConversionClaim, ConversionProof, Part, Posed, Reading, Run, converted, read,
+    Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Why, converted_on, read,
 };
 use trunnion_dialect::Dialect;
 use trunnion_interp::{AllClampCodes, Fault, FaultKind};
@@ -89,7 +89,14 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         text: written, moved, ..
     } = setting.write(&reading, &job, &outs, source.setup, options)?;
     let claim = setting.claim(options, tolerance_mm);
-    let (proof, turned, travel) = prove(source, (&reading, machine), &setting, (&written, &moved), &outs, &claim)?;
+    let (proof, turned, travel) = prove(
+        source,
+        (&reading, machine),
+        &setting,
+        (&written, &moved),
+        &outs,
+        (&claim, &options.drop),
+    )?;
     if let Some(&index) = turned.first().filter(|_| !options.allow_swap) {
         let block = reading.motions[index].motion.block;
         let message = format!(
@@ -152,6 +159,17 @@ fn prepared(source: &Source<'_>, options: &Options) -> Vec<u8> {
 /// Refuses a program of which it is not known what it does.
 fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
     let program = &reading.program;
+    // the worst first: what becomes of a tap, not only that its cycle is not modelled
+    for asked in &reading.asks {
+        if let Ask::Own(Own {
+            name,
+            text,
+            why: why @ Why::Synchronised,
+        }) = &asked.ask
+        {
+            return Err(Refused::range(program, asked.range, refusal(name, text, *why)));
+        }
+    }
     if let Some(error) = program.errors().first() {
         let message = "the text is not understood here; `trunnion check` says more";
         return Err(Refused::range(program, error.range, message));
@@ -165,10 +183,11 @@ fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
     // a missing feed is told where the cut is planned
     faults.retain(|fault| !feed_only(fault));
     let Some(fault) = faults.first() else { return Ok(()) };
-    Err(Refused::range(program, fault.range, wording(fault)))
+    Err(Refused::range(program, fault.range, wording(program, fault)))
 }
 
-fn wording(fault: &Fault) -> String {
+fn wording(program: &Program, fault: &Fault) -> String {
+    let text: String = program.text(fault.range).chars().take(40).collect();
     match &fault.kind {
         FaultKind::NotModelled { what } if what.starts_with("INSERT") => {
             format!("{what}; where INSERT only carries remarks, say --insert-is-remark")
@@ -179,12 +198,15 @@ fn wording(fault: &Fault) -> String {
         FaultKind::Rejected { message, .. } => format!("the control refuses this block: {message}"),
         FaultKind::NotDecided { what } => format!("what runs next depends on {what}, which is not known"),
         FaultKind::AptUnknownRecord => "an unknown record: it may move the tool".to_owned(),
-        FaultKind::UnknownCode { .. } => "an unknown code".to_owned(),
+        FaultKind::UnknownCode { .. } => format!("{text} is an unknown code"),
+        FaultKind::ProgramAlarm { .. } => {
+            format!("{text} stops the program with an alarm, which is not carried over: take it away")
+        }
         FaultKind::AmbiguousDecimal => {
             "a number without a point: a parameter of the control decides what it means; say so in trunnion.toml"
                 .to_owned()
         }
-        _ => "the program has an error here; `trunnion check` says which".to_owned(),
+        _ => format!("the program has an error at `{text}`; `trunnion check` says which"),
     }
 }
 
@@ -194,7 +216,7 @@ fn prove(
     setting: &Setting<'_>,
     (text, moved): (&str, &[u32]),
     outs: &[Out],
-    claim: &ConversionClaim,
+    (claim, dropped): (&ConversionClaim, &[String]),
 ) -> Result<(ConversionProof, Vec<usize>, Travel), Refused> {
     // vectors say by themselves where the tool points
     let machine = setting.mode.machine().or(setting.machine.filter(|_| setting.vectors));
@@ -219,7 +241,12 @@ fn prove(
     } else {
         parts(outs)
     };
-    let proof = converted(before, (&after, machine), &parts, claim).map_err(|outcome| {
+    let meanings = setting.meanings();
+    let terms = Terms {
+        dropped,
+        meanings: &meanings,
+    };
+    let proof = converted_on(before, (&after, machine), &parts, claim, &terms).map_err(|outcome| {
         let why = match outcome {
             Outcome::Refuted(witness) => witness.to_string(),
             Outcome::Unknown(gap) => gap.to_string(),
@@ -253,6 +280,7 @@ fn control_swaps(after: &Reading, parts: &[Part], machine: Option<&Machine>, vec
     for part in parts {
         let (before, count) = match part {
             Part::Moves(count) => (1, *count as usize),
+            Part::Words => (1, 1),
             Part::Left => (1, 0),
             Part::Added(count) => (0, *count as usize),
         };

@@ -11,6 +11,7 @@ pub(crate) fn parts(outs: &[Out]) -> Vec<Part> {
     outs.iter()
         .map(|out| match out {
             Out::Left => Part::Left,
+            Out::Words { .. } => Part::Words,
             Out::Dwell(_) => Part::Moves(1),
             Out::Moves(moves) => Part::Moves(moves.len() as u32),
         })
@@ -39,9 +40,12 @@ pub(crate) fn parts_beside(outs: &[Out], after: &Reading, moved: &[u32]) -> Vec<
     };
     for part in parts(outs) {
         added(&mut all, &mut own);
-        if let Part::Moves(count) = part {
-            own.by_ref().take(count as usize).for_each(drop);
-        }
+        let count = match part {
+            Part::Moves(count) => count as usize,
+            Part::Words => 1,
+            Part::Left | Part::Added(_) => 0,
+        };
+        own.by_ref().take(count).for_each(drop);
         all.push(part);
     }
     added(&mut all, &mut own);

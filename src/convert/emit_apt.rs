@@ -34,7 +34,7 @@ impl<'a> AptWriter<'a> {
         let tilts = |one: &Move| (one.axis - Vec3::z()).norm() > 1e-12;
         let multax = outs.iter().any(|out| match out {
             Out::Moves(moves) => moves.iter().any(tilts),
-            Out::Left | Out::Dwell(_) => false,
+            Out::Left | Out::Words { .. } | Out::Dwell(_) => false,
         });
         Self {
             reading,
@@ -143,7 +143,7 @@ impl<'a> AptWriter<'a> {
 
     fn motion(&mut self, out: &Out) {
         match out {
-            Out::Left => {}
+            Out::Left | Out::Words { .. } => {}
             Out::Dwell(seconds) => self.record(&format!("DELAY/{}", number(*seconds, 3, false))),
             Out::Moves(moves) => {
                 for one in moves {
@@ -198,6 +198,8 @@ fn plain_record(event: &Event) -> Option<String> {
         Event::Comment(comment) => format!("PPRINT {}", text(comment)),
         Event::Message(message) => format!("DISPLY/{}", text(message)),
         Event::SpindleOff => "SPINDL/OFF".to_owned(),
+        // COOLNT/OFF is all there is
+        Event::Coolant(Coolant::ThruOff) => return None,
         Event::Coolant(coolant) => format!(
             "COOLNT/{}",
             match coolant {
@@ -205,7 +207,7 @@ fn plain_record(event: &Event) -> Option<String> {
                 Coolant::Mist => "MIST",
                 Coolant::Thru => "THRU",
                 Coolant::Air => "AIR",
-                Coolant::Off => "OFF",
+                Coolant::ThruOff | Coolant::Off => "OFF",
             }
         ),
         Event::Stop(optional) => if *optional { "OPSTOP" } else { "STOP" }.to_owned(),

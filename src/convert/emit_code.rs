@@ -2,7 +2,7 @@
 use crate::clamps::{Clamping, Step, remark};
 use crate::emit::{declaration, plain};
 use crate::events::ACTIVE;
-use crate::job::{Coolant, Event, Job, Placed};
+use crate::job::{Event, Job, Placed};
 use crate::modal::Modal;
 use crate::number::number;
 use crate::plan::{Mode, Out};
@@ -35,6 +35,8 @@ pub(crate) struct Writer<'a> {
     /// Tool centre point control, or compensation of the tool's length, is on.
     ready: bool,
     tool: Option<u32>,
+    /// Coolant other than through the spindle is on.
+    pub(crate) coolant_outside: bool,
     pub(crate) zero: [f64; 9],
 }
 
@@ -71,6 +73,7 @@ impl<'a> Writer<'a> {
             moved: Vec::new(),
             ready: false,
             tool: None,
+            coolant_outside: false,
             zero: [0.0; 9],
         }
     }
@@ -253,7 +256,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn forget_coordinates(&mut self) {
+    pub(crate) fn forget_coordinates(&mut self) {
         for word in WORDS.into_iter().chain(["vector"]) {
             self.modal.forget(word);
         }
@@ -288,16 +291,7 @@ impl<'a> Writer<'a> {
                 self.template(key, block, |name| (name == "speed").then(|| rpm.clone()))
             }
             Event::SpindleOff => self.template("spindle-stop", block, |_| None),
-            Event::Coolant(coolant) => {
-                let key = match coolant {
-                    Coolant::Flood => "coolant-flood",
-                    Coolant::Mist => "coolant-mist",
-                    Coolant::Thru => "coolant-thru",
-                    Coolant::Air => "coolant-air",
-                    Coolant::Off => "coolant-off",
-                };
-                self.template(key, block, |_| None)
-            }
+            Event::Coolant(coolant) => self.coolant(*coolant, block),
             Event::Stop(optional) => {
                 let key = if *optional { "optional-stop" } else { "stop" };
                 self.template(key, block, |_| None)
@@ -318,7 +312,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Tool centre point control on, or the tool's length.
-    fn get_ready(&mut self, block: BlockId) -> Result<(), Refused> {
+    pub(crate) fn get_ready(&mut self, block: BlockId) -> Result<(), Refused> {
         if self.ready {
             return Ok(());
         }
@@ -344,7 +338,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn not_ready(&mut self) -> Result<(), Refused> {
+    pub(crate) fn not_ready(&mut self) -> Result<(), Refused> {
         let tcp = match self.mode {
             Mode::TipRotary(_) => true,
             Mode::Tip => self.options.orientation == OrientationWords::Vectors,
@@ -360,6 +354,7 @@ impl<'a> Writer<'a> {
     fn motion(&mut self, out: &Out, block: BlockId) -> Result<(), Refused> {
         match out {
             Out::Left => Ok(()),
+            Out::Words { known, led } => self.plain_rapid(known, *led, block),
             Out::Dwell(seconds) => {
                 let (s, ms) = (number(*seconds, 3, self.post.point), number(seconds * 1000.0, 0, false));
                 self.template("dwell", Some(block), |name| match name {

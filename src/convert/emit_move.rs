@@ -26,6 +26,31 @@ impl Writer<'_> {
         number(mm / self.options.units.mm(), decimals, self.post.point)
     }
 
+    /// A rapid of which only these words are known; where the tip is not led, before tool centre point control and tool length are on.
+    pub(crate) fn plain_rapid(&mut self, known: &[(usize, f64)], led: bool, block: BlockId) -> Result<(), Refused> {
+        if led {
+            self.get_ready(block)?;
+        } else {
+            self.not_ready()?;
+        }
+        let mut words: Vec<String> = self.modal.change("motion", "G0".to_owned()).into_iter().collect();
+        let mut turns = 0;
+        for (axis, value) in known {
+            let text = if (3..6).contains(axis) {
+                number(*value, self.post.angle, self.post.point)
+            } else {
+                self.length(*value)
+            };
+            turns |= if *axis > 2 { 1 << axis } else { 0 };
+            words.push(format!("{}{text}", WORDS[*axis]));
+        }
+        self.clamp(Step::Motion { turns, cuts: false }, block)?;
+        self.line(&words.join(" "));
+        self.moved.push(self.lines);
+        self.forget_coordinates();
+        Ok(())
+    }
+
     pub(crate) fn one(&mut self, one: &Move, block: BlockId) -> Result<(), Refused> {
         let mut words: Vec<String> = Vec::new();
         self.feed_mode(one, &mut words, block)?;

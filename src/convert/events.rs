@@ -1,7 +1,7 @@
 //! Events of a program: what its blocks say beside motions, in the order the control runs them.
 use crate::job::{Coolant, Event, Job, Placed};
 use crate::{Options, Refused};
-use trunnion_certify::conversion::{Ran, Reading};
+use trunnion_certify::conversion::{Ask, Asked, Ran, Reading, Why};
 use trunnion_dialect::{Action, Dialect};
 use trunnion_interp::{AllClampCodes, Tool};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, Value, Word};
@@ -9,14 +9,10 @@ use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange,
 /// What a block says beside its motions.
 #[derive(Debug, Default)]
 pub(crate) struct Said {
+    /// Comments and messages.
     pub(crate) before: Vec<Event>,
-    pub(crate) after: Vec<Event>,
-    /// Direction of the spindle: counter-clockwise.
-    pub(crate) counter_clockwise: Option<bool>,
     /// A tool is changed.
     pub(crate) tool_change: bool,
-    /// What has no counterpart and moves nothing.
-    pub(crate) left_out: Vec<String>,
     /// Name of the program.
     pub(crate) name: Option<String>,
 }
@@ -45,19 +41,25 @@ pub(crate) fn job(
             ..Job::default()
         },
         spindle: Spindle::Unknown,
-        counter_clockwise: false,
         tool: None,
         work_offset: None,
     };
-    let mut motions = 0;
-    for ran in &reading.blocks {
+    let (mut motions, mut next) = (0, 0);
+    for (index, ran) in reading.blocks.iter().enumerate() {
         let block = program.block(ran.block);
         let said = match program.options().format {
             Format::Apt => crate::events_apt::said(&block, options),
-            Format::Iso => said(&block, dialect, options, clamps),
+            Format::Iso => said(&block, dialect),
         }
         .map_err(|(range, message)| Refused::range(program, range, message))?;
-        teller.block(reading, ran, said, motions)?;
+        let count = reading.asks[next..]
+            .iter()
+            .take_while(|asked| asked.ran == index)
+            .count();
+        let asks = &reading.asks[next..next + count];
+        next += count;
+        let asked = teller.asked(asks, options, clamps.is_some())?;
+        teller.block(reading, ran, said, asked, motions)?;
         motions = ran.motions;
     }
     let mut job = teller.job;
@@ -87,22 +89,58 @@ struct Teller<'p> {
     program: &'p Program,
     job: Job,
     spindle: Spindle,
-    counter_clockwise: bool,
     tool: Option<u32>,
     work_offset: Option<String>,
 }
 
 impl Teller<'_> {
-    fn block(&mut self, reading: &Reading, ran: &Ran, said: Said, first: usize) -> Result<(), Refused> {
+    /// What is asked for beside motions: events before and after those of the block. What cannot be carried over is refused by name, or
+    /// left out where the user says so.
+    fn asked(
+        &mut self,
+        asks: &[Asked],
+        options: &Options,
+        own_clamps: bool,
+    ) -> Result<(Vec<Event>, Vec<Event>), Refused> {
+        let (mut before, mut after) = (Vec::new(), Vec::new());
+        for asked in asks {
+            match &asked.ask {
+                Ask::Coolant(coolant @ (Coolant::Off | Coolant::ThruOff)) => after.push(Event::Coolant(*coolant)),
+                Ask::Coolant(coolant) => before.push(Event::Coolant(*coolant)),
+                Ask::Stop { optional } => after.push(Event::Stop(*optional)),
+                Ask::Auxiliary(number) => before.push(Event::Auxiliary(*number)),
+                Ask::Clamp(_) if own_clamps => {}
+                Ask::Clamp(name) => self.own(asked, (name, name), Why::Machine, options)?,
+                Ask::Idle(name) if WRITTEN.contains(&name.as_str()) => {}
+                Ask::Idle(name) => self.job.leave_out(name, asked.block),
+                Ask::Own(own) => self.own(asked, (&own.name, &own.text), own.why, options)?,
+            }
+        }
+        Ok((before, after))
+    }
+
+    fn own(&mut self, asked: &Asked, (name, text): (&str, &str), why: Why, options: &Options) -> Result<(), Refused> {
+        let dropped = options.drop.iter().any(|drop| drop.eq_ignore_ascii_case(name));
+        if dropped && why.may_be_dropped() {
+            self.job.leave_out(name, asked.block);
+            return Ok(());
+        }
+        Err(Refused::range(self.program, asked.range, refusal(name, text, why)))
+    }
+
+    fn block(
+        &mut self,
+        reading: &Reading,
+        ran: &Ran,
+        said: Said,
+        (asked, after): (Vec<Event>, Vec<Event>),
+        first: usize,
+    ) -> Result<(), Refused> {
         let block = ran.block;
-        self.counter_clockwise = said.counter_clockwise.unwrap_or(self.counter_clockwise);
         let heard = |events: &[Event]| events.iter().any(|event| !matches!(event, Event::Comment(_)));
-        if ran.motions_wait && (heard(&said.before) || heard(&said.after)) {
+        if ran.motions_wait && (heard(&said.before) || heard(&asked) || heard(&after)) {
             let message = "an M code inside a contour with cutter radius compensation: where on the offset path it belongs is not known";
             return Err(Refused::at(self.program, block, message));
-        }
-        for what in &said.left_out {
-            self.job.leave_out(what, block);
         }
         self.job.name = self.job.name.take().or(said.name);
         let (comments, before): (Vec<_>, Vec<_>) = said
@@ -112,13 +150,15 @@ impl Teller<'_> {
         self.say(comments, block);
         self.tool(ran, said.tool_change)?;
         self.say(before, block);
+        self.say(asked, block);
+        let turns = ran.counter_clockwise.unwrap_or(false);
         for index in first..ran.motions {
             let motion = &reading.motions[index].motion;
-            self.spindle(motion.spindle_on, motion.spindle_rpm, block)?;
+            self.spindle(motion.spindle_on, motion.spindle_rpm, turns, block)?;
             self.job.push(Event::Motion(index), block);
         }
-        self.spindle(ran.spindle_on, ran.spindle_rpm, block)?;
-        self.say(said.after, block);
+        self.spindle(ran.spindle_on, ran.spindle_rpm, turns, block)?;
+        self.say(after, block);
         Ok(())
     }
 
@@ -157,11 +197,11 @@ impl Teller<'_> {
         Ok(())
     }
 
-    fn spindle(&mut self, on: Option<bool>, rpm: Option<f64>, block: BlockId) -> Result<(), Refused> {
+    fn spindle(&mut self, on: Option<bool>, rpm: Option<f64>, turns: bool, block: BlockId) -> Result<(), Refused> {
         let wanted = match (on, rpm) {
             (None, _) => return Ok(()),
             (Some(false), _) => Spindle::Off,
-            (Some(true), Some(rpm)) => Spindle::On(self.counter_clockwise, rpm),
+            (Some(true), Some(rpm)) => Spindle::On(turns, rpm),
             (Some(true), None) => {
                 let message =
                     "the spindle turns with a speed that is not known (none is programmed, or a cutting speed)";
@@ -192,6 +232,19 @@ pub(crate) fn comment(text: &str) -> Option<Event> {
     Some(Event::Comment(text.to_owned()))
 }
 
+/// Requests that move nothing and are written, as comments, messages or the title.
+const WRITTEN: &[&str] = &["MSG", "(MSG,...)", "PPRINT", "REMARK", "TITLES", "PARTNO", "DISPLY"];
+
+/// What cannot be carried over, in words.
+pub(crate) fn refusal(name: &str, text: &str, why: Why) -> String {
+    let way_out = if why.may_be_dropped() {
+        format!("; `--drop {name}` leaves it out")
+    } else {
+        String::new()
+    };
+    format!("{text} {}{way_out}", why.sentence())
+}
+
 /// The words by which a comment speaks to LinuxCNC.
 pub(crate) const ACTIVE: &[&str] = &[
     "MSG",
@@ -207,12 +260,7 @@ pub(crate) const ACTIVE: &[&str] = &[
 ];
 
 /// What an ISO block says.
-fn said(
-    block: &Block<'_>,
-    dialect: &Dialect,
-    options: &Options,
-    clamps: Option<&AllClampCodes>,
-) -> Result<Said, Cannot> {
+fn said(block: &Block<'_>, dialect: &Dialect) -> Result<Said, Cannot> {
     let program = block.program();
     let mut said = Said::default();
     for item in block.items() {
@@ -226,9 +274,7 @@ fn said(
                     Some((head, rest)) if dialect.quirks.rs274 && head == "MSG" => {
                         said.before.push(Event::Message(rest.trim().to_owned()));
                     }
-                    Some((head, _)) if dialect.quirks.rs274 && ACTIVE.contains(&head.as_str()) => {
-                        said.left_out.push(format!("({head},...)"));
-                    }
+                    Some((head, _)) if dialect.quirks.rs274 && ACTIVE.contains(&head.as_str()) => {}
                     _ => said.before.extend(comment(&text)),
                 }
             }
@@ -237,20 +283,12 @@ fn said(
                     "block delete: whether the block runs depends on a switch; take the `/` or the block away";
                 return Err((range, message.to_owned()));
             }
-            Item::Word(word) if clamps.is_some_and(|clamps| is_clamp(&word, clamps)) => {}
-            Item::Word(word) => said_by_word(&word, program, dialect, options, &mut said)?,
-            Item::Call(call) => {
-                let name = program.text(call.name);
-                if name.eq_ignore_ascii_case("MSG") {
-                    let inside = call.arguments.map(|range| program.text(range)).unwrap_or_default();
-                    let text = inside.trim().trim_matches('"').to_owned();
-                    if !text.is_empty() {
-                        said.before.push(Event::Message(text));
-                    }
-                } else if let Some(code) = dialect.name(&name)
-                    && matches!(code.action, Action::PathMode | Action::NoMotion | Action::NotFollowed)
-                {
-                    said.left_out.push(name.to_string());
+            Item::Word(word) => said.tool_change |= changes_tool(&word, dialect),
+            Item::Call(call) if program.text(call.name).eq_ignore_ascii_case("MSG") => {
+                let inside = call.arguments.map(|range| program.text(range)).unwrap_or_default();
+                let text = inside.trim().trim_matches('"').to_owned();
+                if !text.is_empty() {
+                    said.before.push(Event::Message(text));
                 }
             }
             _ => {}
@@ -259,75 +297,18 @@ fn said(
     Ok(said)
 }
 
-/// Whether a word is the code of a clamp.
-fn is_clamp(word: &Word, clamps: &AllClampCodes) -> bool {
-    let (Address::Letter(b'M'), Value::Number(number)) = (word.address, word.value) else {
+/// Whether a word puts a tool into the spindle.
+fn changes_tool(word: &Word, dialect: &Dialect) -> bool {
+    let (Address::Letter(letter), Value::Number(number)) = (word.address, word.value) else {
         return false;
     };
-    let is = |code: u16| number.to_f64().total_cmp(&f64::from(code)).is_eq();
-    clamps.iter().flatten().any(|codes| is(codes.on) || is(codes.off))
-}
-
-fn said_by_word(
-    word: &Word,
-    program: &Program,
-    dialect: &Dialect,
-    options: &Options,
-    said: &mut Said,
-) -> Result<(), Cannot> {
-    let (Address::Letter(letter @ (b'G' | b'M' | b'T')), Value::Number(number)) = (word.address, word.value) else {
-        return Ok(());
-    };
     let tenths = (number.to_f64() * 10.0).round();
-    if !(0.0..1e6).contains(&tenths) {
-        return Ok(());
-    }
-    let tenths = tenths as u32;
     match letter {
-        b'T' => said.tool_change |= dialect.quirks.tool_word_changes,
-        b'G' => {
-            let passing = |code: &&trunnion_dialect::Code| matches!(code.action, Action::PathMode | Action::NoMotion);
-            if let Some(code) = dialect.g(tenths).filter(passing) {
-                said.left_out.push(code.id.clone());
-            }
+        b'T' => dialect.quirks.tool_word_changes,
+        b'M' if (0.0..1e6).contains(&tenths) => {
+            let code = dialect.m(tenths as u32);
+            code.is_some_and(|code| code.action == Action::ToolChange)
         }
-        _ => return m_code(tenths, word.range, program, dialect, options, said),
+        _ => false,
     }
-    Ok(())
-}
-
-fn m_code(
-    tenths: u32,
-    range: TextRange,
-    program: &Program,
-    dialect: &Dialect,
-    options: &Options,
-    said: &mut Said,
-) -> Result<(), Cannot> {
-    let code = dialect.m(tenths);
-    match code.map(|code| code.action) {
-        Some(Action::SpindleClockwise) => said.counter_clockwise = Some(false),
-        Some(Action::SpindleCounterClockwise) => said.counter_clockwise = Some(true),
-        Some(Action::ToolChange) => said.tool_change = true,
-        Some(Action::ProgramStop) => said.after.push(Event::Stop(tenths == 10)),
-        Some(Action::NoMotion) | None => match (tenths, code.and_then(|code| code.group.as_deref())) {
-            // by custom on controls that leave them to the builder of the machine
-            (70, _) => said.before.push(Event::Coolant(Coolant::Mist)),
-            (80, _) => said.before.push(Event::Coolant(Coolant::Flood)),
-            (90, _) | (890, Some("coolant")) => said.after.push(Event::Coolant(Coolant::Off)),
-            (880, Some("coolant")) => said.before.push(Event::Coolant(Coolant::Thru)),
-            _ => {
-                let written = program.text(range).to_ascii_uppercase();
-                if !options.drop.iter().any(|drop| drop.eq_ignore_ascii_case(&written)) {
-                    let message = format!(
-                        "{written} has no counterpart: what it does is up to the machine; `--drop {written}` leaves it out"
-                    );
-                    return Err((range, message));
-                }
-                said.left_out.push(written);
-            }
-        },
-        _ => {}
-    }
-    Ok(())
 }

@@ -1,16 +1,7 @@
 //! What a program says, apart from any language: events in order, motions among them.
+pub(crate) use trunnion_certify::conversion::Coolant;
 use trunnion_interp::Tool;
 use trunnion_syntax::BlockId;
-
-/// Coolant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Coolant {
-    Flood,
-    Mist,
-    Thru,
-    Air,
-    Off,
-}
 
 /// One thing that a program says.
 #[derive(Clone, Debug, PartialEq)]

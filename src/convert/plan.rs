@@ -55,6 +55,13 @@ pub(crate) struct Move {
 pub(crate) enum Out {
     /// It ends nowhere known.
     Left,
+    /// A rapid of which only some axes are known.
+    Words {
+        /// Their words, by index of the axis, mm or deg.
+        known: Vec<(usize, f64)>,
+        /// Tool centre point control is on.
+        led: bool,
+    },
     Dwell(f64),
     Moves(Vec<Move>),
 }
@@ -220,7 +227,7 @@ impl Planner<'_> {
         }
         if let Err(why) = &posed.end {
             if self.may_leave(index) {
-                return Ok(Out::Left);
+                return self.partial(index, posed, frame);
             }
             return Err(self.refuse(posed, format!("where this motion ends is not known: {why}")));
         }

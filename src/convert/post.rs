@@ -55,6 +55,7 @@ const TEMPLATES: &[(&str, &[&str])] = &[
     ("coolant-flood", &[]),
     ("coolant-mist", &[]),
     ("coolant-thru", &[]),
+    ("coolant-thru-off", &[]),
     ("coolant-air", &[]),
     ("coolant-off", &[]),
     ("stop", &[]),
@@ -162,7 +163,7 @@ pub struct Post {
     /// Codes for tool centre point control where the machine declares none.
     pub(crate) tcp_on: Option<String>,
     pub(crate) tcp_off: Option<String>,
-    templates: BTreeMap<String, String>,
+    pub(crate) templates: BTreeMap<String, String>,
 }
 
 /// A built-in post by its name; loaded once.

@@ -6,7 +6,7 @@ use crate::job::Job;
 use crate::number::rounding;
 use crate::plan::{Mode, Out};
 use crate::{Options, OrientationWords, Post, Refused, Target};
-use trunnion_certify::conversion::{ConversionClaim, Reading};
+use trunnion_certify::conversion::{Ask, ConversionClaim, Reading};
 use trunnion_dialect::{Action, Dialect};
 use trunnion_geometry::deg;
 use trunnion_interp::{AllClampCodes, ClampCodes, Setup};
@@ -120,6 +120,11 @@ impl<'a> Setting<'a> {
 
     pub(crate) fn has(&self, key: &str) -> bool {
         self.post.is_none_or(|post| post.template(key).is_some())
+    }
+
+    /// What the post says of codes that the dialect leaves to the builder of the machine.
+    pub(crate) fn meanings(&self) -> Vec<(String, Option<Ask>)> {
+        self.post.map(|post| post.meanings(self.dialect)).unwrap_or_default()
     }
 
     pub(crate) fn tolerance(&self) -> f64 {

@@ -55,6 +55,7 @@ pub(crate) fn travel(after: &Reading, parts: &[Part], machine: Option<&Machine>)
     for part in parts {
         let (before, count) = match part {
             Part::Moves(count) => (1, *count as usize),
+            Part::Words => (1, 1),
             Part::Left => (1, 0),
             Part::Added(count) => (0, *count as usize),
         };

@@ -5,6 +5,8 @@
 pub enum Part {
     /// The next motion before is made by the next so many after, each an equal share of it.
     Moves(u32),
+    /// The next motion before is a rapid of which only some axes are known; the next one after has the same words.
+    Words,
     /// The next motion before has none after. Only a rapid that ends nowhere known, where no known pose comes before it with the same tool,
     /// or none after it.
     Left,

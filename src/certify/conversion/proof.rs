@@ -1,23 +1,26 @@
 //! Two readings held against each other.
+use super::axis::axes_apart;
+use super::effects::{Terms, same_requests};
+use super::words::{same_words, words_apart};
 use super::{ConversionClaim, ConversionProof, Part, Posed, Reading, Track};
 use crate::Outcome;
+use std::sync::Arc;
 use trunnion_geometry::deg;
-use trunnion_geometry::math::{angle_between, asin};
-use trunnion_interp::{Fault, Feed, MotionKind};
+use trunnion_geometry::math::angle_between;
+use trunnion_interp::{Fault, FaultKind, Feed, MotionKind};
 use trunnion_machine::{Machine, Pose};
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
 /// Most moments at which two ways are compared.
 const MOST_SAMPLES: f64 = 4096.0;
 
-/// Tool lengths that differ by less are one, mm.
-const LENGTH_MM: f64 = 1e-6;
-
-struct Proof<'a> {
-    before: (&'a Reading, Option<&'a Machine>),
-    after: (&'a Reading, Option<&'a Machine>),
+pub(super) struct Proof<'a> {
+    pub(super) before: (&'a Reading, Option<&'a Machine>),
+    pub(super) after: (&'a Reading, Option<&'a Machine>),
     claim: &'a ConversionClaim,
     found: ConversionProof,
+    /// The work offset of the program that names one, where the other names none.
+    pub(super) offset: Option<Arc<str>>,
 }
 
 /// Proves that `after` is what `before` says. The readings must be fresh: [`super::read`] of the texts.
@@ -29,6 +32,20 @@ pub fn converted(
     after: (&Reading, Option<&Machine>),
     parts: &[Part],
     claim: &ConversionClaim,
+) -> Result<ConversionProof, Outcome> {
+    converted_on(before, after, parts, claim, &Terms::default())
+}
+
+/// As [`converted`], with what the user leaves out and what the post says of its own codes.
+///
+/// # Errors
+/// As [`converted`].
+pub fn converted_on(
+    before: (&Reading, Option<&Machine>),
+    after: (&Reading, Option<&Machine>),
+    parts: &[Part],
+    claim: &ConversionClaim,
+    terms: &Terms<'_>,
 ) -> Result<ConversionProof, Outcome> {
     if let Some(fault) = after.0.grave().next() {
         let line = line(&after.0.program, fault.block);
@@ -43,6 +60,7 @@ pub fn converted(
         after,
         claim,
         found: ConversionProof::default(),
+        offset: None,
     };
     let (mut was, mut is) = (0, 0);
     for part in parts {
@@ -51,6 +69,11 @@ pub fn converted(
                 proof.moves(was, is, count as usize)?;
                 was += 1;
                 is += count as usize;
+            }
+            Part::Words => {
+                proof.words(was, is)?;
+                was += 1;
+                is += 1;
             }
             Part::Left => {
                 proof.left(was)?;
@@ -68,6 +91,7 @@ pub fn converted(
             "{was} of {all_was} motions before and {is} of {all_is} after were compared"
         )));
     }
+    same_requests(before.0, after.0, parts, terms)?;
     (proof.found.motions_before, proof.found.motions_after) = (all_was as u64, all_is as u64);
     Ok(proof.found)
 }
@@ -83,18 +107,13 @@ fn fault_text(program: &Program, fault: &Fault) -> String {
     program.text(fault.range).chars().take(40).collect()
 }
 
-/// The angle between two unit vectors whose tips are `chord` apart, rad.
-fn chord_angle(chord: f64) -> f64 {
-    2.0 * asin((0.5 * chord).min(1.0))
-}
-
 /// Above the limit, or not a number.
-fn above(value: f64, limit: f64) -> bool {
+pub(super) fn above(value: f64, limit: f64) -> bool {
     value.is_nan() || value > limit
 }
 
 impl Proof<'_> {
-    fn refute<T>(&self, is: usize, message: String) -> Result<T, Outcome> {
+    pub(super) fn refute<T>(&self, is: usize, message: String) -> Result<T, Outcome> {
         match self.after.0.motions.get(is) {
             Some(posed) => {
                 let line = line(&self.after.0.program, posed.motion.block);
@@ -128,6 +147,20 @@ impl Proof<'_> {
         }
         self.found.left_out += 1;
         Ok(())
+    }
+
+    /// A rapid of which only some axes are known, in the same words.
+    fn words(&mut self, was: usize, is: usize) -> Result<(), Outcome> {
+        let (before, after) = (self.before.0, self.after.0);
+        let (Some(old), Some(new)) = (before.motions.get(was), after.motions.get(is)) else {
+            return Err(Outcome::unknown("the program after ends too early"));
+        };
+        self.alike(old, new, is)?;
+        let apart = words_apart(old, new).filter(|_| same_words(self.before.1, self.after.1));
+        match apart {
+            Some((mm, degrees)) if !above(mm, self.claim.end_mm) && !above(degrees, self.claim.end_deg) => Ok(()),
+            _ => self.refute(is, "a rapid in some axes is not the one before".to_owned()),
+        }
     }
 
     /// Motions that only position, where nothing is said of where the tool comes from.
@@ -180,65 +213,10 @@ impl Proof<'_> {
         for (index, posed) in new.iter().enumerate() {
             let (from, to) = (share(index, count), share(index + 1, count));
             self.end(&track.at(to), posed, is + index)?;
-            self.way(&track, (from, to), posed, is + index, is_rapid)?;
+            let degrees = self.way(&track, (from, to), posed, is + index, is_rapid)?;
+            self.same_orientation(old, posed, degrees, is + index)?;
         }
         if is_rapid { Ok(()) } else { self.feed(old, new, is) }
-    }
-
-    /// Kind, tool and spindle.
-    fn alike(&self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
-        let fits = match (old.motion.kind, new.motion.kind) {
-            (MotionKind::Dwell(Some(was)), MotionKind::Dwell(Some(is))) => (was - is).abs() <= 5e-4 + 1e-9,
-            (MotionKind::Rapid, MotionKind::Rapid)
-            | (MotionKind::Linear, MotionKind::Linear)
-            | (MotionKind::Arc(Some(_)), MotionKind::Arc(Some(_)) | MotionKind::Linear) => true,
-            _ => false,
-        };
-        if !fits {
-            return self.refute(is, "the kind of motion differs".to_owned());
-        }
-        let rpm = |posed: &Posed| {
-            posed
-                .motion
-                .spindle_rpm
-                .filter(|_| posed.motion.spindle_on == Some(true))
-        };
-        let same_speed = match (rpm(old), rpm(new)) {
-            (Some(was), Some(is)) => (was - is).abs() <= 5e-4,
-            (was, is) => was.is_none() && is.is_none(),
-        };
-        // where nothing was said of it, it must not be told to turn
-        let same_turning = match old.motion.spindle_on {
-            None => new.motion.spindle_on != Some(true),
-            on => new.motion.spindle_on == on,
-        };
-        if !same_turning || !same_speed {
-            return self.refute(is, "the spindle differs".to_owned());
-        }
-        let by_hand = !self.after.0.changes_tools && new.motion.tool.is_none();
-        if old.motion.tool != new.motion.tool && !by_hand {
-            return self.refute(is, "the tool differs".to_owned());
-        }
-        // a length that is not in force, or that of another number, puts the tip elsewhere on the machine, whatever X Y Z say
-        let told = !by_hand && self.before.0.tells_lengths && self.after.0.tells_lengths;
-        if told && new.motion.is_feed() && (old.tool_length - new.tool_length).abs() > LENGTH_MM {
-            let why = format!(
-                "{:.4} mm of tool length are in force where it was {:.4} mm: switch on the length of the tool that cuts",
-                new.tool_length, old.tool_length
-            );
-            return self.refute(is, why);
-        }
-        // of lengths that nobody declared, and of words that no machine places, all that is known is whose they are
-        let blind = new.tool_length.abs() <= LENGTH_MM || new.leg.is_none();
-        if told && blind && new.motion.is_feed() && old.length_of != new.length_of {
-            let why = format!(
-                "the tool length in force is {} where it was {}: switch on the length of the tool that cuts, or declare the lengths and \
-                 name the machine",
-                new.length_of, old.length_of
-            );
-            return self.refute(is, why);
-        }
-        Ok(())
     }
 
     /// The end of one motion after.
@@ -266,7 +244,7 @@ impl Proof<'_> {
     }
 
     /// The way of one motion after, against its share of the one before: for the difference of the two points, bent by at most Q, the
-    /// largest sample + Q / (8 m^2) at m equal steps.
+    /// largest sample + Q / (8 m^2) at m equal steps. Gives the bound of the angle between the tool axes, deg; 0 for rapids.
     fn way(
         &mut self,
         track: &Track<'_>,
@@ -274,35 +252,32 @@ impl Proof<'_> {
         new: &Posed,
         is: usize,
         is_rapid: bool,
-    ) -> Result<(), Outcome> {
+    ) -> Result<f64, Outcome> {
         let Some(made) = Track::new(new, self.after.1) else {
             if is_rapid {
-                return Ok(());
+                return Ok(0.0);
             }
             return self.refute(is, "its way is not known".to_owned());
         };
         let h2 = (to - from) * (to - from);
-        let ((was_mm, was_axis), (is_mm, is_axis)) = (track.bend(), made.bend());
-        let (bend, bend_axis) = (was_mm * h2 + is_mm, was_axis * h2 + is_axis);
+        let bend = track.bend().0 * h2 + made.bend().0;
         // so many that the bound is at most a twentieth of the tolerance above the samples
         let steps = (bend / (0.4 * self.claim.path_mm))
             .sqrt()
             .ceil()
             .clamp(1.0, MOST_SAMPLES);
-        let (mut off, mut chord) = (0.0f64, 0.0f64);
+        let mut off = 0.0f64;
         for step in 0..=(steps as u32) {
             let t = f64::from(step) / steps;
             let (was, is) = (track.at(from + (to - from) * t), made.at(t));
             off = off.max((was.tip - is.tip).norm());
-            chord = chord.max((was.axis - is.axis).norm());
         }
-        let between = 1.0 / (8.0 * steps * steps);
-        let mm = off + bend * between;
-        let degrees = deg(chord_angle(chord + bend_axis * between));
+        let mm = off + bend / (8.0 * steps * steps);
         if is_rapid {
             self.found.rapid_mm = self.found.rapid_mm.max(mm);
-            return Ok(());
+            return Ok(0.0);
         }
+        let degrees = deg(axes_apart(track, (from, to), &made));
         if above(mm, self.claim.path_mm) {
             let limit = self.claim.path_mm;
             return self.refute(
@@ -320,7 +295,27 @@ impl Proof<'_> {
         }
         self.found.path_mm = self.found.path_mm.max(mm);
         self.found.path_deg = self.found.path_deg.max(degrees);
-        Ok(())
+        Ok(degrees)
+    }
+
+    /// Where the program says how the tool axis runs between the ends (ORIAXES, ORIVECT), it runs so after, or no differently.
+    fn same_orientation(&self, old: &Posed, new: &Posed, degrees: f64, is: usize) -> Result<(), Outcome> {
+        let (Some(asked), Some(machine)) = (old.motion.great_circle, self.after.1) else {
+            return Ok(());
+        };
+        let runs = new.motion.great_circle.unwrap_or(machine.control.tcp_great_circle);
+        if new.leg.is_none() || !new.tip_words() || runs == asked || degrees <= self.claim.end_deg {
+            return Ok(());
+        }
+        let (was, now) = if asked {
+            ("on a great circle (ORIVECT)", "in its rotary axes")
+        } else {
+            ("in its rotary axes (ORIAXES)", "on a great circle")
+        };
+        self.refute(
+            is,
+            format!("the tool axis runs {now} where the program asks for it {was}"),
+        )
     }
 
     /// Feeds in the same unit are compared as numbers, others by the time that the motion takes.

@@ -1,13 +1,15 @@
 //! A program run from scratch, with the pose of the tool at both ends of every motion.
+use super::ask::{Asked, asks};
+use super::reason::reason;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use trunnion_dialect::Dialect;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{
-    ChainId, Fault, FaultKind, Feed, Interpreter, LengthOf, ModalState, Motion, MotionKind, Orientation, Refusal,
-    Setup, Sink, Swivel, Tilt, Tool,
+    AllClampCodes, ChainId, Fault, FaultKind, Feed, Interpreter, LengthOf, ModalState, Motion, MotionKind, Orientation,
+    Refusal, Setup, Sink, Swivel, Tilt, Tool, WorkOffset,
 };
-use trunnion_machine::{Follower, Joints, Leg, Machine, NoStance, Pose, forward};
+use trunnion_machine::{Follower, Joints, Leg, Machine, Pose, forward};
 use trunnion_syntax::{BlockId, Format, Program, parse};
 
 /// What holds at the start of a program that does not say it: an excerpt.
@@ -53,6 +55,12 @@ pub struct Posed {
     pub length_of: LengthOf,
     /// Whether the tip runs as far as X Y Z do, whichever way they run: they stand square to each other, and so does what turns them.
     pub square: bool,
+    /// Direction of the spindle, where the program says it: counter-clockwise.
+    pub counter_clockwise: Option<bool>,
+    /// What the zero point in force has beside the declared values of the work offset (G52, G92, G10, TRANS), mm and deg.
+    pub shift: [f64; 9],
+    /// Name of the work offset in force.
+    pub work_offset: Option<Arc<str>>,
 }
 
 /// A block that ran.
@@ -68,6 +76,8 @@ pub struct Ran {
     pub spindle_on: Option<bool>,
     /// Its speed, 1/min.
     pub spindle_rpm: Option<f64>,
+    /// Its direction, where the program says it: counter-clockwise.
+    pub counter_clockwise: Option<bool>,
     /// Tool in the spindle after it.
     pub tool: Option<u32>,
     /// What is declared of it.
@@ -80,6 +90,8 @@ pub struct Ran {
 pub struct Reading {
     /// Parsed.
     pub program: Program,
+    /// Name of its dialect.
+    pub dialect: String,
     /// Motions in the order the control makes them.
     pub motions: Vec<Posed>,
     /// Blocks in the order the control runs them.
@@ -88,6 +100,10 @@ pub struct Reading {
     pub faults: Vec<Fault>,
     /// The first block that leads into another file.
     pub elsewhere: Option<BlockId>,
+    /// What the blocks ask for beside their motions, in the order they ran.
+    pub asks: Vec<Asked>,
+    /// Codes of clamps that the machine names.
+    pub clamp_codes: AllClampCodes,
     /// The control changes tools itself; where it does not, nobody knows which one is in the spindle.
     pub changes_tools: bool,
     /// The control adds the length of its tools itself; where it does not, the operator sets it.
@@ -110,6 +126,7 @@ pub fn read(run: &Run<'_>) -> Reading {
         faults: Vec::new(),
         chains: BTreeSet::new(),
         elsewhere: None,
+        setup: run.setup,
     };
     let mut interpreter = Interpreter::new(run.dialect, run.setup);
     if run.assume.tcp {
@@ -122,13 +139,26 @@ pub fn read(run: &Run<'_>) -> Reading {
         sink.block_done(block, &interpreter);
     }
     let Collector {
-        motions,
-        blocks,
+        mut motions,
+        mut blocks,
         faults,
         elsewhere,
         ..
     } = sink;
+    let clamp_codes = run.setup.control.clamp_codes;
+    let (asks, turns) = asks(&program, run.dialect, &clamp_codes, &blocks);
+    let mut first = 0;
+    for (ran, turn) in blocks.iter_mut().zip(turns) {
+        ran.counter_clockwise = turn;
+        for posed in &mut motions[first..ran.motions] {
+            posed.counter_clockwise = turn;
+        }
+        first = ran.motions;
+    }
     Reading {
+        dialect: run.dialect.name.clone(),
+        asks,
+        clamp_codes,
         program,
         motions,
         blocks,
@@ -153,6 +183,7 @@ struct Collector<'m> {
     /// Chains of calls that were looked at.
     chains: BTreeSet<ChainId>,
     elsewhere: Option<BlockId>,
+    setup: &'m Setup,
 }
 
 impl Sink for Collector<'_> {
@@ -193,6 +224,9 @@ impl Sink for Collector<'_> {
             tool_length: self.length.1,
             length_of: state.length_of,
             square,
+            counter_clockwise: None,
+            shift: shift(motion, state, self.setup),
+            work_offset: state.work_offset.clone(),
         });
     }
 
@@ -217,6 +251,7 @@ impl Sink for Collector<'_> {
             motions_wait: interpreter.motions_wait(),
             spindle_on: state.spindle_on,
             spindle_rpm: state.spindle_rpm,
+            counter_clockwise: None,
             tool: state.tool,
             tool_data: state.tool_data,
             work_offset: state.work_offset.clone(),
@@ -258,37 +293,14 @@ impl Collector<'_> {
     }
 }
 
-/// Why there is no pose.
-fn reason(why: &NoStance) -> String {
-    let deg = trunnion_geometry::deg;
-    match why {
-        NoStance::PositionUnknown(letters) => format!("the position of {letters} is not known"),
-        NoStance::Unreachable(off) => format!(
-            "the machine cannot point the tool there: the nearest tool axis it reaches is {:.4} deg away",
-            deg(*off)
-        ),
-        NoStance::OutsideLimits { axis, value, limit } => format!(
-            "{} would have to go to {:.4} deg, its limit is {:.4} deg",
-            char::from(*axis),
-            deg(*value),
-            deg(*limit)
-        ),
-        NoStance::PostureRefused { axis, value } => format!(
-            "no posture is as the program asks for it: {} would be {:.4} deg",
-            char::from(*axis),
-            deg(*value)
-        ),
-        NoStance::NotModelled => "the motion is not modelled".to_owned(),
-        NoStance::HeldElsewhere { axis, .. } => {
-            format!("the machine file holds axis {} elsewhere", char::from(*axis))
-        }
-        NoStance::PlaneMisaligned(off) => format!("the tool stands {:.4} deg off the tilted plane's normal", deg(*off)),
-        NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
-        NoStance::RotaryOffset(letter) => format!(
-            "a work offset in {} under tool centre point control is not modelled",
-            char::from(*letter)
-        ),
-    }
+/// What the zero point has beside the declared values of the work offset.
+fn shift(motion: &Motion, state: &ModalState, setup: &Setup) -> [f64; 9] {
+    let declared = state.work_offset.as_deref().and_then(|name| {
+        let known = |offset: &&WorkOffset| offset.name.eq_ignore_ascii_case(name);
+        setup.work_offsets.iter().find(known)
+    });
+    let base = declared.map_or([0.0; 9], |offset| offset.values);
+    core::array::from_fn(|axis| motion.zero[axis] - base[axis])
 }
 
 impl Posed {

@@ -128,6 +128,22 @@ impl<'m> Track<'m> {
         }
     }
 
+    /// The machine whose rotary joints run linearly here, if any do.
+    pub(super) fn rotary_machine(&self) -> Option<&'m Machine> {
+        match &self.kind {
+            Kind::Tip { rotary, .. } => rotary.map(|(machine, ..)| machine),
+            Kind::Joints { machine, .. } | Kind::JointArc { machine, .. } => Some(machine),
+        }
+    }
+
+    /// The angle that the tool axis runs through evenly on a great circle, rad: 0 where it stands; `None`: it runs otherwise.
+    pub(super) fn circle_angle(&self) -> Option<f64> {
+        match &self.kind {
+            Kind::Tip { rotary: None, .. } => Some(angle_between(&self.ends[0].axis, &self.ends[1].axis)),
+            _ => (self.bend().1 == 0.0).then_some(0.0),
+        }
+    }
+
     /// The arc on which the tip runs in the workpiece frame; `None`: it runs on none, or the linear axes distort it.
     pub fn tip_arc(&self) -> Option<Arc> {
         match &self.kind {

@@ -3,6 +3,7 @@
 mod clamps;
 mod code;
 mod guide_vane;
+mod kept;
 mod machines;
 mod proof;
 mod real;

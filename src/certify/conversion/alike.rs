@@ -1,0 +1,98 @@
+//! What two motions that belong together have in common beside their way: kind, spindle, zero point, tool and its length.
+use super::Posed;
+use super::proof::{Proof, above};
+use crate::Outcome;
+use trunnion_interp::MotionKind;
+
+/// Shifts of the zero point that differ by less are one, mm or deg.
+const SHIFT: f64 = 1e-9;
+
+/// Tool lengths that differ by less are one, mm.
+const LENGTH_MM: f64 = 1e-6;
+
+impl Proof<'_> {
+    /// Kind, tool and spindle.
+    pub(super) fn alike(&mut self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
+        let fits = match (old.motion.kind, new.motion.kind) {
+            (MotionKind::Dwell(Some(was)), MotionKind::Dwell(Some(is))) => (was - is).abs() <= 5e-4 + 1e-9,
+            (MotionKind::Rapid, MotionKind::Rapid)
+            | (MotionKind::Linear, MotionKind::Linear)
+            | (MotionKind::Arc(Some(_)), MotionKind::Arc(Some(_)) | MotionKind::Linear) => true,
+            _ => false,
+        };
+        if !fits {
+            return self.refute(is, "the kind of motion differs".to_owned());
+        }
+        let rpm = |posed: &Posed| {
+            posed
+                .motion
+                .spindle_rpm
+                .filter(|_| posed.motion.spindle_on == Some(true))
+        };
+        let same_speed = match (rpm(old), rpm(new)) {
+            (Some(was), Some(is)) => (was - is).abs() <= 5e-4,
+            (was, is) => was.is_none() && is.is_none(),
+        };
+        // where nothing was said of it, it must not be told to turn
+        let same_turning = match old.motion.spindle_on {
+            None => new.motion.spindle_on != Some(true),
+            on => new.motion.spindle_on == on,
+        };
+        let turns = old.motion.spindle_on == Some(true) && new.motion.spindle_on == Some(true);
+        let same_way = !turns || old.counter_clockwise.unwrap_or(false) == new.counter_clockwise.unwrap_or(false);
+        if !same_turning || !same_speed || !same_way {
+            return self.refute(is, "the spindle differs".to_owned());
+        }
+        let by_hand = !self.after.0.changes_tools && new.motion.tool.is_none();
+        if old.motion.tool != new.motion.tool && !by_hand {
+            return self.refute(is, "the tool differs".to_owned());
+        }
+        self.same_zero(old, new, is)?;
+        // a length that is not in force, or that of another number, puts the tip elsewhere on the machine, whatever X Y Z say
+        let told = !by_hand && self.before.0.tells_lengths && self.after.0.tells_lengths;
+        if told && new.motion.is_feed() && (old.tool_length - new.tool_length).abs() > LENGTH_MM {
+            let why = format!(
+                "{:.4} mm of tool length are in force where it was {:.4} mm: switch on the length of the tool that cuts",
+                new.tool_length, old.tool_length
+            );
+            return self.refute(is, why);
+        }
+        // of lengths that nobody declared, and of words that no machine places, all that is known is whose they are
+        let blind = new.tool_length.abs() <= LENGTH_MM || new.leg.is_none();
+        if told && blind && new.motion.is_feed() && old.length_of != new.length_of {
+            let why = format!(
+                "the tool length in force is {} where it was {}: switch on the length of the tool that cuts, or declare the lengths and \
+                 name the machine",
+                new.length_of, old.length_of
+            );
+            return self.refute(is, why);
+        }
+        Ok(())
+    }
+
+    /// The zero point: its name, and what the program shifts beside it. CL data have none.
+    fn same_zero(&mut self, old: &Posed, new: &Posed, is: usize) -> Result<(), Outcome> {
+        if old.motion.machine_coordinates || matches!(old.motion.kind, MotionKind::Dwell(_)) {
+            return Ok(());
+        }
+        let apart = old
+            .shift
+            .iter()
+            .zip(&new.shift)
+            .any(|(was, is)| above((was - is).abs(), SHIFT));
+        if apart {
+            let why = "the program shifts the zero point (G52, G92, G10, TRANS), and the one after does not";
+            return self.refute(is, why.to_owned());
+        }
+        match (&old.work_offset, &new.work_offset) {
+            (Some(was), Some(now)) if was != now => {
+                self.refute(is, format!("the work offset is {now} where it was {was}"))
+            }
+            // one of them names none (CL data): then the other may not change it
+            (Some(name), None) | (None, Some(name)) if self.offset.get_or_insert_with(|| name.clone()) != name => {
+                self.refute(is, "several work offsets became one".to_owned())
+            }
+            _ => Ok(()),
+        }
+    }
+}

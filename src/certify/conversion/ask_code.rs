@@ -1,0 +1,252 @@
+//! What a code asks for beside motions. What this file does not name is the control's own: a new code is refused until it is named here.
+use super::ask::{Ask, Coolant, Found, Why};
+use trunnion_dialect::{Action, Code, CodeKind, Dialect};
+use trunnion_syntax::TextRange;
+
+/// How much of a code is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Held {
+    /// A name without arguments.
+    Bare,
+    /// A number, or a name with arguments.
+    Whole,
+}
+
+/// Adds what a code asks for; `text` is the code with the words that belong to it.
+pub(super) fn by_code(code: &Code, held: Held, range: TextRange, text: &str, dialect: &Dialect, found: &mut Found) {
+    match code.action {
+        Action::SpindleClockwise => found.counter_clockwise = Some(false),
+        Action::SpindleCounterClockwise => found.counter_clockwise = Some(true),
+        _ => {}
+    }
+    let is_name = code.kind == CodeKind::Name;
+    let name = if is_name { code.id.as_str() } else { head(text) };
+    match why(code, held, text, dialect) {
+        Judged::Motions => {}
+        Judged::Named(ask) => found.asks.push((range, ask)),
+        Judged::Own(why) => found.own(range, name, text, why),
+    }
+}
+
+enum Judged {
+    /// Motions, tools, feeds and spindle speeds hold it.
+    Motions,
+    Named(Ask),
+    Own(Why),
+}
+
+fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
+    use Judged::{Motions, Named, Own};
+    if dialect.quirks.rs274
+        && let Some(judged) = linuxcnc(code)
+    {
+        return judged;
+    }
+    match code.action {
+        action if in_motions(action) => Motions,
+        Action::BoreCycle | Action::BoreStopCycle | Action::DrillCycle => Motions,
+        Action::SpindleStop if head(text) == "M5" => Motions,
+        Action::SpindleStop => Own(Why::Oriented),
+        Action::ProgramStop => match head(text) {
+            "M0" => Named(Ask::Stop { optional: false }),
+            "M1" => Named(Ask::Stop { optional: true }),
+            _ => Own(Why::Waits),
+        },
+        Action::TapCycle
+        | Action::TapLeftCycle
+        | Action::Thread
+        | Action::VariableThread
+        | Action::ThreadingCycle
+        | Action::ThreadRepeatCycle => Own(Why::Synchronised),
+        Action::FineBoreCycle | Action::BackBoreCycle | Action::BoreManualCycle => Own(Why::Motion),
+        // CYCLE84 taps; 86, 87 and 88 stop the spindle at an angle or wait for the operator
+        Action::HoleCall => match code.id.as_str() {
+            "CYCLE81" | "CYCLE82" | "CYCLE83" | "CYCLE85" | "CYCLE89" => Motions,
+            "CYCLE84" => Own(Why::Synchronised),
+            _ => Own(Why::Motion),
+        },
+        // MCALL: the cycle that it calls stands behind it
+        Action::CannedCycle if code.id == "MCALL" => Motions,
+        Action::NotModelled if taps(code) => Own(Why::Synchronised),
+        Action::NotModelled | Action::CannedCycle | Action::Skip => Own(Why::Motion),
+        Action::ConstantSurfaceSpeed => Own(Why::SurfaceSpeed),
+        // of a Sinumerik, G97 and G973 also say that F counts per turn, which is not followed
+        Action::ConstantSpindleSpeed if code.group.as_deref() != Some("feed-mode") => Motions,
+        Action::ConstantSpindleSpeed if matches!(code.id.as_str(), "G971" | "G972") => Motions,
+        Action::ConstantSpindleSpeed => Own(Why::Motion),
+        Action::PositionSet if text.split(' ').any(|word| word.starts_with('S')) => Own(Why::SpindleLimit),
+        Action::PositionSet
+        | Action::DataEntry
+        | Action::DataEntryEnd
+        | Action::ReferenceStore
+        | Action::ReferenceStoreOther => Own(Why::Stored),
+        Action::NotFollowed if text.split(' ').any(|word| word.starts_with('S')) => Own(Why::SpindleLimit),
+        Action::PathMode | Action::NoMotion => quiet(code, held, text),
+        _ => Own(Why::Machine),
+    }
+}
+
+/// Actions whose whole effect is in the motions and in the feeds, tools, offsets and spindle speeds that are compared with them.
+fn in_motions(action: Action) -> bool {
+    matches!(
+        action,
+        Action::Rapid
+            | Action::Linear
+            | Action::ArcClockwise
+            | Action::ArcCounterClockwise
+            | Action::Dwell
+            | Action::PlaneXy
+            | Action::PlaneZx
+            | Action::PlaneYz
+            | Action::Absolute
+            | Action::Incremental
+            | Action::ArcCentreAbsolute
+            | Action::ArcCentreIncremental
+            | Action::Inch
+            | Action::InchLengthsOnly
+            | Action::Metric
+            | Action::FeedInverseTime
+            | Action::FeedPerMinute
+            | Action::FeedPerRevolution
+            | Action::CompensationOff
+            | Action::CompensationLeft
+            | Action::CompensationRight
+            | Action::ToolLengthOn
+            | Action::ToolLengthOff
+            | Action::TcpOn
+            | Action::TcpVectorOn
+            | Action::TcpOff
+            | Action::Kinematics
+            | Action::MachineCoordinates
+            | Action::WorkOffset
+            | Action::WorkOffsetNone
+            | Action::SpindleClockwise
+            | Action::SpindleCounterClockwise
+            | Action::ToolChange
+            | Action::ProgramEnd
+            | Action::FrameChange
+            | Action::FrameLost
+            | Action::DiameterSwitch
+            | Action::ProgrammableShift
+            | Action::FrameReset
+            | Action::TiltedPlane
+            | Action::TiltedPlaneTurn
+            | Action::TiltedPlaneTurnTip
+            | Action::SwivelCycle
+            | Action::Declaration
+            | Action::DrillDwellCycle
+            | Action::PeckCycle
+            | Action::ChipBreakCycle
+            | Action::ReturnInitial
+            | Action::ReturnToR
+            | Action::LocalShift
+            | Action::PositionPreset
+            | Action::RotationOn
+            | Action::RotationOff
+            | Action::ScalingOn
+            | Action::ScalingOff
+            | Action::MirrorOn
+            | Action::MirrorOff
+            | Action::PolarOn
+            | Action::PolarOff
+            | Action::ReferenceCheck
+            | Action::ReferenceReturn
+            | Action::ReferenceReturnOther
+            | Action::ReferenceFrom
+            | Action::CirclePocket
+            | Action::BoltCircle
+            | Action::BoltArc
+            | Action::BoltLine
+            | Action::TurningCycle
+            | Action::FacingCycle
+            | Action::FinishCycle
+            | Action::RoughTurnCycle
+            | Action::RoughFaceCycle
+            | Action::PatternRepeatCycle
+            | Action::FacePeckCycle
+            | Action::GroovePeckCycle
+            | Action::CycleOff
+            | Action::SubprogramCall
+            | Action::OrientationAxes
+            | Action::OrientationVector
+            | Action::PointToPoint
+            | Action::PointToPointRapid
+            | Action::ContinuousPath
+    )
+}
+
+/// Whether a code that is not modelled couples the motion to the spindle.
+fn taps(code: &Code) -> bool {
+    let words = ["thread", "tap", "coupled to the spindle"];
+    let doc = code.doc.to_ascii_lowercase();
+    words.iter().any(|word| doc.contains(word))
+}
+
+/// LinuxCNC's engine runs more than its table of codes says; `None`: as for other controls.
+fn linuxcnc(code: &Code) -> Option<Judged> {
+    use Judged::{Motions, Own};
+    let id = code.id.as_str();
+    Some(match id {
+        "G33" | "G33.1" | "G76" | "G74" | "G84" => Own(Why::Synchronised),
+        // splines, stored positions, planes of U V W, lengths, turning cycles and holes: their motions are those of the engine
+        "G5" | "G5.1" | "G5.2" | "G5.3" | "G6.2" | "G6.3" | "G7" | "G8" | "G17.1" | "G18.1" | "G19.1" | "G28"
+        | "G30" | "G43.1" | "G43.2" | "G52" | "G70" | "G71" | "G71.1" | "G71.2" | "G72" | "G72.1" | "G72.2" | "G73"
+        | "G81" | "G82" | "G83" | "G85" | "G86" | "G89" | "M61" => Motions,
+        "G10" | "G92" | "G92.3" | "G28.1" | "G30.1" => Own(Why::Stored),
+        _ => return None,
+    })
+}
+
+/// A code that moves nothing.
+fn quiet(code: &Code, held: Held, text: &str) -> Judged {
+    use Judged::{Motions, Named, Own};
+    if code.kind == CodeKind::M {
+        let coolant = match (head(text), code.group.as_deref()) {
+            // by custom on controls that leave them to the builder of the machine
+            ("M7", _) => Some(Coolant::Mist),
+            ("M8", _) => Some(Coolant::Flood),
+            ("M9", _) => Some(Coolant::Off),
+            ("M88", Some("coolant")) => Some(Coolant::Thru),
+            ("M89", Some("coolant")) => Some(Coolant::ThruOff),
+            _ => None,
+        };
+        return coolant.map_or(Own(Why::Machine), |coolant| Named(Ask::Coolant(coolant)));
+    }
+    let path = || {
+        if code.action == Action::PathMode {
+            Why::PathControl
+        } else {
+            match code.group.as_deref() {
+                Some("acceleration" | "feed-forward" | "dynamics" | "compressor" | "orientation-smoothing") => {
+                    Why::PathControl
+                }
+                _ => Why::Machine,
+            }
+        }
+    };
+    match code.id.as_str() {
+        // alone it lets the control run past corners without a stop, and asks for nothing
+        "G64" if text == "G64" => Named(Ask::Idle(text.to_owned())),
+        // they end what is never begun in the program that is written: what begins it is refused
+        "COMPOF" | "FFWOF" | "OSOF" | "ORISOF" => Named(Ask::Idle(text.to_owned())),
+        "G5.1" if text.ends_with(" Q0") => Named(Ask::Idle(text.to_owned())),
+        "G5" | "G8" if text.ends_with(" P0") => Named(Ask::Idle(text.to_owned())),
+        // as feeds are programmed: the state of every program that is written
+        "FNORM" => Motions,
+        // texts on the screen, and names for a simulation
+        "MSG" | "DISPLOF" | "DISPLON" | "WORKPIECE" | "SETVN" => Named(Ask::Idle(code.id.clone())),
+        "AC" | "IC" | "DC" | "ACP" | "ACN" => Motions,
+        "SPOS" | "SPOSA" | "WAITS" => Own(Why::Oriented),
+        "SETAL" => Own(Why::Waits),
+        "ADIS" | "ADISPOS" | "CTOL" | "OTOL" | "ATOL" => Own(Why::PathControl),
+        "POPEN" | "PCLOS" | "BPRNT" | "DPRNT" => Own(Why::Stored),
+        "G63" => Own(Why::Synchronised),
+        "G25" | "G26" if held == Held::Whole => Own(Why::SpindleLimit),
+        _ => Own(path()),
+    }
+}
+
+/// The code itself.
+fn head(text: &str) -> &str {
+    text.split(' ').next().unwrap_or(text)
+}

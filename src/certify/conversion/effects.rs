@@ -1,0 +1,333 @@
+//! The requests of two programs held against each other: each stands between the same motions, in the same order and state.
+use super::ask::{Ask, Asked, Coolant, Own, Why};
+use super::{Part, Reading};
+use crate::Outcome;
+use core::fmt;
+use trunnion_interp::AllClampCodes;
+use trunnion_syntax::{Address, BlockId, LineIndex};
+
+/// What a comparison may take for granted beside both texts.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Terms<'a> {
+    /// Requests that the user leaves out, by name (`M64`); only those that [`super::Why::may_be_dropped`].
+    pub dropped: &'a [String],
+    /// What own codes of the control mean in the program after, as its post says: the text of a request, and the request. `None`: it
+    /// belongs to the frame of every program.
+    pub meanings: &'a [(String, Option<Ask>)],
+}
+
+/// What is switched on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Coolants {
+    flood: bool,
+    mist: bool,
+    thru: bool,
+    air: bool,
+}
+
+impl Coolants {
+    fn set(&mut self, coolant: Coolant) {
+        match coolant {
+            Coolant::Flood => self.flood = true,
+            Coolant::Mist => self.mist = true,
+            Coolant::Thru => self.thru = true,
+            Coolant::Air => self.air = true,
+            Coolant::ThruOff => self.thru = false,
+            Coolant::Off => *self = Self::default(),
+        }
+    }
+}
+
+impl fmt::Display for Coolants {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let all = [
+            (self.flood, "flood"),
+            (self.mist, "mist"),
+            (self.thru, "through the spindle"),
+            (self.air, "air"),
+        ];
+        let on: Vec<&str> = all.iter().filter(|(on, _)| *on).map(|(_, name)| *name).collect();
+        f.write_str(&if on.is_empty() {
+            "off".to_owned()
+        } else {
+            on.join(" and ")
+        })
+    }
+}
+
+/// What must come between two motions, in order.
+#[derive(Clone, Debug, PartialEq)]
+enum Event {
+    Stop {
+        optional: bool,
+        coolants: Coolants,
+        turning: Turning,
+    },
+    /// A request of one control; `None`: by its number alone (AUXFUN).
+    Own(String, Option<String>),
+}
+
+impl fmt::Display for Event {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stop { optional: true, .. } => f.write_str("an optional stop"),
+            Self::Stop { .. } => f.write_str("a stop"),
+            Self::Own(text, _) => f.write_str(text),
+        }
+    }
+}
+
+/// How the spindle turns: counter-clockwise, 1/min. `None`: it stands, or nothing was said.
+type Turning = Option<(bool, Option<f64>)>;
+
+/// Events with the block that asks for each.
+type Events = Vec<(Event, BlockId)>;
+
+/// One program's requests on the way through its motions.
+struct Side<'a> {
+    reading: &'a Reading,
+    next: usize,
+    coolants: Coolants,
+    dropped: &'a [String],
+    meanings: &'a [(String, Option<Ask>)],
+    clamps: &'a AllClampCodes,
+    /// It is the program after.
+    written: bool,
+}
+
+/// Compares the requests of both programs.
+///
+/// # Errors
+/// Refuted where a request is lost, added or stands elsewhere; unknown where what a program asks for is not all seen.
+pub(super) fn same_requests(
+    before: &Reading,
+    after: &Reading,
+    parts: &[Part],
+    terms: &Terms<'_>,
+) -> Result<(), Outcome> {
+    for (reading, which) in [(before, "before"), (after, "after")] {
+        if let Some(block) = reading.elsewhere {
+            let line = line(reading, block);
+            return Err(Outcome::unknown(format!(
+                "line {line} {which} leads into another file, whose requests beside motions are not compared"
+            )));
+        }
+    }
+    for (reading, which) in [(before, "before"), (after, "after")] {
+        let switch = |asked: &&Asked| matches!(&asked.ask, Ask::Own(own) if own.why == Why::Switch);
+        if let Some(asked) = reading.asks.iter().find(switch) {
+            let line = line(reading, asked.block);
+            return Err(Outcome::unknown(format!(
+                "line {line} {which}: whether it runs depends on a switch"
+            )));
+        }
+    }
+    let mut was = Side::new(before, terms.dropped, &[], &after.clamp_codes, false);
+    let mut is = Side::new(after, &[], terms.meanings, &after.clamp_codes, true);
+    let (mut at_was, mut at_is) = (0, 0);
+    for part in parts {
+        match *part {
+            Part::Left => at_was += 1,
+            Part::Added(count) => at_is += count as usize,
+            Part::Moves(_) | Part::Words => {
+                let count = if let Part::Moves(count) = *part { count } else { 1 };
+                both(&mut was, &mut is, at_was, at_is)?;
+                at_was += 1;
+                at_is += count as usize;
+                if let Some(asked) = is.reading.asks.get(is.next).filter(|asked| asked.at < at_is) {
+                    let line = line(after, asked.block);
+                    return Err(Outcome::refuted_at(
+                        at_is - 1,
+                        line,
+                        "something is asked for in the middle of what was one motion".to_owned(),
+                    ));
+                }
+            }
+        }
+    }
+    both(&mut was, &mut is, usize::MAX, usize::MAX)
+}
+
+/// Compares what comes before the motions with these indices.
+fn both(was: &mut Side<'_>, is: &mut Side<'_>, at_was: usize, at_is: usize) -> Result<(), Outcome> {
+    let (old, new) = (was.until(at_was), is.until(at_is));
+    let mut pairs = old.iter().zip(&new);
+    let differs = pairs.find(|((one, _), (other, _))| !alike(one, other));
+    let is_line = |block: Option<BlockId>| {
+        let last = is.reading.motions.get(at_is).or(is.reading.motions.last());
+        let block = block.or(last.map(|posed| posed.motion.block));
+        block.map_or(0, |block| line(is.reading, block))
+    };
+    let refute = |block: Option<BlockId>, message: String| {
+        Err(Outcome::refuted_at(
+            at_is.min(is.reading.motions.len()),
+            is_line(block),
+            message,
+        ))
+    };
+    if let Some(((one, old_block), (other, new_block))) = differs {
+        let line = line(was.reading, *old_block);
+        return refute(
+            Some(*new_block),
+            format!("{other} comes where {one} (line {line} before) comes, or in another state of spindle or coolant"),
+        );
+    }
+    if let Some((lost, block)) = old.get(new.len()) {
+        let line = line(was.reading, *block);
+        return refute(None, format!("{lost} (line {line} before) is lost"));
+    }
+    if let Some((more, block)) = new.get(old.len()) {
+        return refute(Some(*block), format!("{more} is added"));
+    }
+    // the end of a program switches all coolant off
+    let ended = at_was >= was.reading.motions.len();
+    if was.coolants != is.coolants && !ended {
+        return refute(
+            None,
+            format!("the coolant is {} where it was {}", is.coolants, was.coolants),
+        );
+    }
+    Ok(())
+}
+
+fn alike(one: &Event, other: &Event) -> bool {
+    match (one, other) {
+        (
+            Event::Stop {
+                optional,
+                coolants,
+                turning,
+            },
+            Event::Stop {
+                optional: other_optional,
+                coolants: other_coolants,
+                turning: other_turning,
+            },
+        ) => {
+            let turns = match (turning, other_turning) {
+                (Some((ccw, rpm)), Some((other_ccw, other_rpm))) => {
+                    let speeds = match (rpm, other_rpm) {
+                        (Some(rpm), Some(other)) => (rpm - other).abs() <= 5e-4,
+                        (None, None) => true,
+                        _ => false,
+                    };
+                    ccw == other_ccw && speeds
+                }
+                (None, None) => true,
+                _ => false,
+            };
+            optional == other_optional && coolants == other_coolants && turns
+        }
+        // the same text means something else on another control
+        (Event::Own(one, of), Event::Own(other, other_of)) => {
+            one == other && (of == other_of || of.is_none() || other_of.is_none())
+        }
+        _ => false,
+    }
+}
+
+impl<'a> Side<'a> {
+    fn new(
+        reading: &'a Reading,
+        dropped: &'a [String],
+        meanings: &'a [(String, Option<Ask>)],
+        clamps: &'a AllClampCodes,
+        written: bool,
+    ) -> Self {
+        Self {
+            reading,
+            next: 0,
+            coolants: Coolants::default(),
+            dropped,
+            meanings,
+            clamps,
+            written,
+        }
+    }
+
+    /// Runs all requests in front of the motion with this index.
+    fn until(&mut self, motion: usize) -> Events {
+        let mut events = Vec::new();
+        while let Some(asked) = self.reading.asks.get(self.next).filter(|asked| asked.at <= motion) {
+            self.next += 1;
+            self.hear(&asked.ask, asked.ran, &mut events);
+        }
+        events
+    }
+
+    fn hear(&mut self, ask: &Ask, ran: usize, events: &mut Events) {
+        match ask {
+            Ask::Idle(_) => {}
+            Ask::Coolant(coolant) => self.coolants.set(*coolant),
+            Ask::Stop { optional } => {
+                let stop = Event::Stop {
+                    optional: *optional,
+                    coolants: self.coolants,
+                    turning: self.turning(ran),
+                };
+                if !self.changes_tool_by_hand(ran) {
+                    events.push((stop, self.reading.blocks[ran].block));
+                }
+            }
+            // where the program after has clamps of its own, they are judged by what its axes do
+            Ask::Clamp(name) if *self.clamps == AllClampCodes::default() => self.own(name, name, true, ran, events),
+            Ask::Clamp(_) => {}
+            Ask::Auxiliary(number) => self.auxiliary(*number, ran, events),
+            Ask::Own(Own { name, text, why }) => {
+                if let Some((_, meaning)) = self.meanings.iter().find(|(known, _)| known == text) {
+                    if let Some(ask) = meaning.clone() {
+                        self.hear(&ask, ran, events);
+                    }
+                    return;
+                }
+                self.own(name, text, why.may_be_dropped(), ran, events);
+            }
+        }
+    }
+
+    fn own(&self, name: &str, text: &str, may_drop: bool, ran: usize, events: &mut Events) {
+        let dropped = may_drop && self.dropped.iter().any(|drop| drop.eq_ignore_ascii_case(name));
+        if !dropped {
+            let own = Event::Own(text.to_owned(), Some(self.reading.dialect.clone()));
+            events.push((own, self.reading.blocks[ran].block));
+        }
+    }
+
+    /// An M code by its number: what it is called on the control for which it is written.
+    fn auxiliary(&mut self, number: u32, ran: usize, events: &mut Events) {
+        let is = |code: u16| u32::from(code) == number;
+        match number {
+            0 | 1 => self.hear(&Ask::Stop { optional: number == 1 }, ran, events),
+            7 => self.coolants.set(Coolant::Mist),
+            8 => self.coolants.set(Coolant::Flood),
+            9 => self.coolants.set(Coolant::Off),
+            _ if self.clamps.iter().flatten().any(|codes| is(codes.on) || is(codes.off)) => {}
+            _ => events.push((Event::Own(format!("M{number}"), None), self.reading.blocks[ran].block)),
+        }
+    }
+
+    /// Whether a stop only lets the operator change the tool, on a control that cannot: it follows the block with the tool's number.
+    fn changes_tool_by_hand(&self, ran: usize) -> bool {
+        let Some(before) = ran
+            .checked_sub(1)
+            .filter(|_| self.written && !self.reading.changes_tools)
+        else {
+            return false;
+        };
+        let program = &self.reading.program;
+        let mut words = program.block(self.reading.blocks[before].block).words();
+        words.any(|word| word.address == Address::Letter(b'T'))
+    }
+
+    /// The spindle after a block.
+    fn turning(&self, ran: usize) -> Turning {
+        let ran = &self.reading.blocks[ran];
+        (ran.spindle_on == Some(true)).then(|| (ran.counter_clockwise.unwrap_or(false), ran.spindle_rpm))
+    }
+}
+
+fn line(reading: &Reading, block: BlockId) -> u32 {
+    let source = reading.program.source();
+    let start = reading.program.block(block).range().start;
+    LineIndex::new(source).line_column(source, start).0
+}

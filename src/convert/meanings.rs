@@ -1,0 +1,35 @@
+//! What a post says of codes that its dialect leaves to the builder of the machine: `coolant-thru = "M51"`.
+use crate::Post;
+use crate::template::fill;
+use trunnion_certify::conversion::{Ask, Coolant, asked_in};
+use trunnion_dialect::Dialect;
+
+impl Post {
+    /// What the codes of its own in its templates mean, by the text of the code: a request, or, of the frame of every program, none.
+    pub(crate) fn meanings(&self, dialect: &Dialect) -> Vec<(String, Option<Ask>)> {
+        let mut all = Vec::new();
+        for (key, template) in &self.templates {
+            let meaning = match key.as_str() {
+                "coolant-flood" => Some(Ask::Coolant(Coolant::Flood)),
+                "coolant-mist" => Some(Ask::Coolant(Coolant::Mist)),
+                "coolant-thru" => Some(Ask::Coolant(Coolant::Thru)),
+                "coolant-thru-off" => Some(Ask::Coolant(Coolant::ThruOff)),
+                "coolant-air" => Some(Ask::Coolant(Coolant::Air)),
+                "coolant-off" => Some(Ask::Coolant(Coolant::Off)),
+                "stop" => Some(Ask::Stop { optional: false }),
+                "optional-stop" => Some(Ask::Stop { optional: true }),
+                "auxiliary" | "comment" | "message" => continue,
+                _ => None,
+            };
+            let text = fill(template, |name| {
+                Some(if name == "title" { String::new() } else { "1".to_owned() })
+            });
+            for ask in asked_in(text.unwrap_or_default().as_bytes(), dialect) {
+                if let Ask::Own(own) = ask {
+                    all.push((own.text, meaning.clone()));
+                }
+            }
+        }
+        all
+    }
+}

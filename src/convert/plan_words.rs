@@ -1,0 +1,65 @@
+//! Rapids of which only some axes are known: `G0 X Y` before the first Z. They stay motions of their own, so that the tool does not run
+//! in X, Y and Z at once where it ran in X and Y first.
+use crate::Refused;
+use crate::plan::{Mode, Out, Planner};
+use crate::sample::Frame;
+use trunnion_certify::conversion::{Posed, moved_axes, same_words};
+use trunnion_interp::MotionKind;
+
+impl Planner<'_> {
+    /// What becomes of a rapid that ends nowhere known and may be left out.
+    pub(crate) fn partial(&self, index: usize, posed: &Posed, frame: &Frame) -> Result<Out, Refused> {
+        let Some(moved) = moved_axes(posed).filter(|moved| !moved.is_empty()) else {
+            return Ok(Out::Left);
+        };
+        if !self.leads_in(index) {
+            return Ok(Out::Left);
+        }
+        let target = match self.mode {
+            Mode::Tip => None,
+            Mode::TipRotary(machine) | Mode::Joints(machine) => Some(machine),
+        };
+        let vectors = self.options.orientation == crate::OrientationWords::Vectors;
+        let zero = posed.motion.zero.iter().zip(&frame.zero).all(|(is, own)| is == own);
+        let led = posed.motion.tcp;
+        // the tip is led by one and the same machine, or nothing leads it
+        let leads = !led || target.is_some() && matches!(self.mode, Mode::TipRotary(_));
+        if !self.apt && !vectors && zero && leads && same_words(self.source, target) {
+            return Ok(Out::Words { known: moved, led });
+        }
+        // CL data have no points of which a coordinate is not known
+        if self.apt || !self.merges(index, &moved) {
+            return Ok(Out::Left);
+        }
+        let message = "this rapid moves some axes before the others are known. In the program that is written it would run together with \
+             the next one, in all axes at once: program a complete position here, or take the block away";
+        Err(self.refuse(posed, message.to_owned()))
+    }
+
+    /// Whether no place of the tool is known before.
+    fn leads_in(&self, index: usize) -> bool {
+        let motions = &self.reading.motions;
+        let tool = motions[index].motion.tool;
+        let known = |other: &Posed| other.end.is_ok() && !matches!(other.motion.kind, MotionKind::Dwell(_));
+        !motions[..index]
+            .iter()
+            .any(|other| other.motion.tool == tool && known(other))
+    }
+
+    /// Whether the next motion to a known place finds X, Y or Z where this one leads it: without this rapid it would move it.
+    fn merges(&self, index: usize, moved: &[(usize, f64)]) -> bool {
+        let tool = self.reading.motions[index].motion.tool;
+        let mut rest = self.reading.motions[index + 1..].iter();
+        let next = rest.find(|other| other.end.is_ok() && !matches!(other.motion.kind, MotionKind::Dwell(_)));
+        next.filter(|next| next.motion.tool == tool).is_some_and(|next| {
+            let stays = |axis: usize| {
+                let (start, end) = (next.motion.start.get(axis), next.motion.end.get(axis));
+                start.is_some() && start == end
+            };
+            let there = |axis: usize, value: f64| next.motion.end.get(axis) == Some(value);
+            moved
+                .iter()
+                .any(|(axis, value)| *axis < 3 && (stays(*axis) || there(*axis, *value)))
+        })
+    }
+}

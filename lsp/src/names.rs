@@ -43,7 +43,7 @@ fn length(behind: &[u8]) -> Option<usize> {
 fn worth(value: Option<f64>) -> String {
     match value {
         None => "has no value".to_owned(),
-        Some(value) if value.is_nan() => "has a value that is not known".to_owned(),
+        Some(value) if value.is_nan() => "has an unknown value".to_owned(),
         Some(value) => {
             let digits = format!("{value:.6}");
             let digits = digits.trim_end_matches('0').trim_end_matches('.');
@@ -89,7 +89,7 @@ fn o_word(program: &Program, block: &Block<'_>, at: u32) -> Option<(String, Text
     }
     let written = program.text(word);
     let mut text = match lines.iter().find(|(_, keyword)| keyword == "sub") {
-        Some((line, _)) => format!("**{written}** subprogram, begins in line {line}"),
+        Some((line, _)) => format!("**{written}** subprogram, starts in line {line}"),
         None if lines.iter().any(|(_, keyword)| keyword == "call") => {
             format!("**{written}** is not defined in this file")
         }

@@ -18,7 +18,7 @@ pub(crate) fn diagnostics(analysed: &Analysed, encoding: Encoding) -> Vec<Diagno
     let judged = match &analysed.outcome {
         Ok(judged) => judged,
         Err(error) => {
-            let text = format!("{error}; until that is mended nothing is checked");
+            let text = format!("{error}; nothing is checked until this is corrected");
             return vec![plain("settings", DiagnosticSeverity::ERROR, text)];
         }
     };

@@ -176,7 +176,7 @@ impl Certificate {
         let certificate: Self = serde_json::from_str(json).map_err(|error| format!("not a certificate: {error}"))?;
         if certificate.schema != SCHEMA {
             return Err(format!(
-                "certificate schema is \"{}\", this program reads \"{SCHEMA}\"",
+                "the certificate has schema \"{}\", but this program reads \"{SCHEMA}\"",
                 certificate.schema
             ));
         }
@@ -203,7 +203,7 @@ impl Certificate {
             worst.path_axis_bound_deg.value
         );
         if self.motions.unknown > 0 {
-            text.push_str("; some positions are unknown, but programmed alike");
+            text.push_str("; some positions are unknown, but both programs program them alike");
         }
         if self.motions.process_changed > 0 {
             text.push_str("; feed or spindle speed differ");

@@ -66,11 +66,11 @@ pub(crate) fn join(off: &mut Report, on: &Report) {
         .retain(|found| !absence(found) || in_on.contains(&key(found)));
     for found in &mut off.diagnostics {
         if !in_on.contains(&key(found)) {
-            found.notes.push("only where the blocks with / are run".to_owned());
+            found.notes.push("only if the blocks with / run".to_owned());
         }
     }
     for found in &mut only_on {
-        found.notes.push("only where the blocks with / are skipped".to_owned());
+        found.notes.push("only if the blocks with / are skipped".to_owned());
     }
     off.diagnostics.append(&mut only_on);
     off.diagnostics

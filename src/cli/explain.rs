@@ -17,7 +17,7 @@ pub(super) fn explain(command: &Explain) -> Result<Done, Failure> {
     let docs = rule(&name).map(|r| r.docs).or_else(|| rewrite(&name).map(|r| r.docs));
     let Some(docs) = docs else {
         return Err(Failure::new(format!(
-            "no rule or rewrite is named `{name}`; `trunnion rules` lists them"
+            "unknown rule or rewrite `{name}`; `trunnion rules` lists all"
         )));
     };
     let mut out = std::io::stdout().lock();

@@ -27,12 +27,12 @@ impl Stops {
         let may_stop = !dialect.quirks.rs274;
         let (why, sure) = match &fault.kind {
             FaultKind::EndlessLoop { proved: true, .. } => {
-                ("it never ends: a loop comes back to the same values".to_owned(), true)
+                ("it never ends: a loop returns to the same values".to_owned(), true)
             }
             FaultKind::EndlessLoop { blocks, .. } => (format!("no end within {blocks} executed blocks"), true),
             FaultKind::NotDecided { what } => (format!("not decided: {what}"), true),
             FaultKind::Rejected { message, .. } if may_stop => (format!("the control refuses it: {message}"), false),
-            FaultKind::MissingSubprogram { name, .. } if may_stop => (format!("there is no program {name}"), false),
+            FaultKind::MissingSubprogram { name, .. } if may_stop => (format!("program {name} not found"), false),
             _ => return,
         };
         if self.0.as_ref().is_none_or(|known| sure || !known.sure) {

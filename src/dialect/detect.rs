@@ -42,11 +42,11 @@ pub fn detect(file_name: Option<&str>, source: &[u8], family: Option<&str>) -> D
     let Some((family, dialect)) = family.and_then(|family| Some((family, builtin(family)?))) else {
         return Detected {
             dialect: core_dialect(),
-            reason: "no sign of a particular control".to_owned(),
+            reason: "nothing in the file points to a particular control".to_owned(),
         };
     };
     if let Some(line) = foreign_comment(head, dialect) {
-        let reason = format!("content: a comment in line {line} that {family} does not know");
+        let reason = format!("content: a comment in line {line} of a kind that {family} does not have");
         return Detected {
             dialect: core_dialect(),
             reason,

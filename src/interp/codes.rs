@@ -220,7 +220,10 @@ impl<'d> Interpreter<'d> {
                 self.memory.travel = Travel::of(found.code.action).unwrap_or_default();
             }
             Action::Skip => {
-                let what = format!("{}: where the skip signal ends it", found.code.id);
+                let what = format!(
+                    "{}: the position at which the skip signal ends the motion",
+                    found.code.id
+                );
                 report.fault(found.range, FaultKind::NotModelled { what });
                 block.not_modelled = true;
                 if words.axes.any() {

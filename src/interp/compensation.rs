@@ -108,11 +108,11 @@ impl Interpreter<'_> {
         if let Some(held) = &self.memory.compensation.held
             && !held.element.meets(&element, &held.told.0, motion)
         {
-            self.lose("the path is not known throughout", report);
+            self.lose("part of the path is unknown", report);
         }
         if told.1.plane != plane && now != 0 && self.memory.compensation.stage == Stage::On {
             self.reject(
-                "the plane changes during cutter compensation: end it with G40 first",
+                "the plane changes during cutter compensation: cancel it with G40 first",
                 "plane-change",
                 report,
             );
@@ -136,7 +136,7 @@ impl Interpreter<'_> {
             return;
         }
         if !still {
-            self.lose("the path is not known throughout", report);
+            self.lose("part of the path is unknown", report);
         }
         self.memory.compensation.ready.push(told);
     }
@@ -145,12 +145,12 @@ impl Interpreter<'_> {
         self.memory.compensation.stage = Stage::On;
         if element.is_arc() {
             self.reject(
-                "cutter compensation begins with an arc: begin it with a straight motion",
+                "cutter compensation starts with an arc: start it with a straight motion",
                 "arc-start-or-cancel",
                 report,
             );
             self.memory.compensation.ready.push(told);
-            self.lose("it begins with an arc", report);
+            self.lose("it starts with an arc", report);
             return;
         }
         self.memory.compensation.held = Some(Box::new(Held {
@@ -237,7 +237,7 @@ impl Interpreter<'_> {
     fn release(&mut self, mut told: Told, element: &Element, end: Point, unsure: bool, report: &mut Report<'_>) {
         let between = std::mem::take(&mut self.memory.compensation.between);
         if unsure {
-            let what = "cutter radius compensation: a corner behind several motions outside of the plane".to_owned();
+            let what = "cutter radius compensation: a corner after several motions out of the plane".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
             element.forget(&mut told.0.end);
         }
@@ -302,7 +302,7 @@ impl Interpreter<'_> {
         self.settle(report);
         self.memory.compensation.stage = Stage::Lost;
         self.memory.compensation.plane = None;
-        let what = format!("cutter radius compensation: {why}; path is the programmed one");
+        let what = format!("cutter radius compensation: {why}; the programmed path is used instead");
         report.fault(report.whole(), FaultKind::NotModelled { what });
     }
 

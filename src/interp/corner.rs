@@ -160,7 +160,7 @@ impl Interpreter<'_> {
                 let place = if arcs {
                     "at an arc"
                 } else {
-                    "from or to a place that is not known"
+                    "from or to an unknown position"
                 };
                 let what = format!(",{} {place}", char::from(waiting.letter));
                 report.fault(report.whole(), FaultKind::NotModelled { what });
@@ -169,7 +169,7 @@ impl Interpreter<'_> {
                     next.0.start.forget(*axis);
                 }
             } else {
-                let text = "a straight feed motion in the plane must follow a rounded or chamfered corner";
+                let text = "a rounded or chamfered corner must be followed by a straight feed motion in the plane";
                 self.no_corner(text, "corner-no-move", report);
             }
             on.push(before);

@@ -196,7 +196,7 @@ impl Interpreter<'_> {
             turns: self.turns(words),
         };
         if self.is_spiral(words) {
-            let what = "a spiral or cone: Q or L beside an arc".to_owned();
+            let what = "a spiral or cone: Q or L in the block of an arc".to_owned();
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
             return MotionKind::Arc(None);
         }

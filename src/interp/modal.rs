@@ -33,7 +33,7 @@ impl core::fmt::Display for LengthOf {
             Self::Nothing => f.write_str("none"),
             Self::Tool(Some(number)) => write!(f, "that of tool {number}"),
             Self::Tool(None) => f.write_str("that of the tool in use"),
-            Self::Other => f.write_str("one that is no tool's own"),
+            Self::Other => f.write_str("one that belongs to no tool"),
         }
     }
 }

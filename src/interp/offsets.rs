@@ -140,7 +140,7 @@ impl Interpreter<'_> {
             && self.state.tool_length_mm.is_none();
         if waits && !self.memory.tool_never_changed {
             self.memory.tool_never_changed = true;
-            let what = "the length of a tool that T chooses and no M6 brings (machine data 22550 says whether T alone changes tools)";
+            let what = "the length of a tool that T selects and no M6 loads (machine data 22550 decides whether T alone changes tools)";
             let kind = FaultKind::NotModelled { what: what.to_owned() };
             report.fault(words.first.unwrap_or_default(), kind);
         }

@@ -63,7 +63,7 @@ impl Interpreter<'_> {
                 Some(alarm) => FaultKind::Rejected {
                     refusal: Refusal::UnusedWord,
                     message: format!(
-                        "`{}`: no code of the block reads it",
+                        "`{}` is not used by any code of the block",
                         report.program.text(word.range).trim()
                     ),
                     alarm: Some(alarm.number.clone()),

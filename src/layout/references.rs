@@ -109,7 +109,7 @@ impl Reader<'_, '_> {
             let names = word(b'H').or_else(|| word(b'Q').filter(|_| self.dialect.quirks.macro_b));
             if let (Some(h), true) = (names, has((b'M', 98))) {
                 let why = format!(
-                    "`{}` beside M98 may name a block of the program that is called",
+                    "`{}` in a block with M98 may name a block of the called program",
                     self.text(h.range)
                 );
                 self.obstacle(h.range, why);
@@ -156,7 +156,7 @@ impl Reader<'_, '_> {
             _ if named => {}
             _ => {
                 let why = format!(
-                    "the target of `{}` is computed: it is not known which block it means",
+                    "the target of `{}` is computed: it is not known which block it refers to",
                     self.text(range)
                 );
                 self.obstacle(range, why);
@@ -174,7 +174,7 @@ impl Reader<'_, '_> {
             return self.refer(word.value_range, number, of_caller);
         }
         let text = self.text(word.range);
-        let why = format!("the target `{text}` is computed: it is not known which block it means");
+        let why = format!("the target `{text}` is computed: it is not known which block it refers to");
         self.obstacle(word.range, why);
     }
 
@@ -189,7 +189,7 @@ impl Reader<'_, '_> {
             {
                 let range = table.range(id).cover(table.range(next));
                 let why = format!(
-                    "`{}` reads a block number, and what the program does with it is not followed",
+                    "`{}` reads a block number, and it is not known what the program does with it",
                     self.text(range)
                 );
                 self.obstacle(range, why);
@@ -230,7 +230,7 @@ impl Reader<'_, '_> {
         let text = call.arguments.map(|range| self.text(range)).unwrap_or_default();
         if text.contains(['"', '$', '<', '[', '(']) {
             let why = format!(
-                "the target of `{}` is computed: it is not known which block it means",
+                "the target of `{}` is computed: it is not known which block it refers to",
                 self.text(call.range)
             );
             self.obstacle(call.range, why);

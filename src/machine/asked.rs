@@ -191,7 +191,7 @@ pub(crate) fn posture_words(raw: &RawPostureWords, axes: &[Axis]) -> Result<Post
             Some(axis) if axis.kind == AxisKind::Rotary => Ok(axis.letter),
             _ => Err(fault(
                 word,
-                format!("{:?} is no rotary axis of this machine", word.get_ref()),
+                format!("{:?} is not a rotary axis of this machine", word.get_ref()),
             )),
         }
     };
@@ -206,7 +206,10 @@ pub(crate) fn posture_words(raw: &RawPostureWords, axes: &[Axis]) -> Result<Post
     }
     for (number, said) in &raw.solutions {
         let Ok(value) = number.get_ref().parse::<u8>() else {
-            return Err(fault(number, "a solution is named by its number, as \"1\"".to_owned()));
+            return Err(fault(
+                number,
+                "name a solution by its number, for example \"1\"".to_owned(),
+            ));
         };
         let text = said.get_ref();
         let known = text.split_at_checked(1).and_then(|(letter, sign)| {
@@ -224,7 +227,7 @@ pub(crate) fn posture_words(raw: &RawPostureWords, axes: &[Axis]) -> Result<Post
         let Some(sign) = known else {
             return Err(fault(
                 said,
-                format!("{text:?} is no sign of a rotary axis: write its letter and + or -, as \"A+\""),
+                format!("{text:?} is not the sign of a rotary axis: write its letter and + or -, for example \"A+\""),
             ));
         };
         words.solutions.push((value, sign));
@@ -256,7 +259,7 @@ fn bit(number: &Number) -> Result<u8, Fault> {
         return Ok(value as u8);
     }
     Err(Fault {
-        message: format!("{value} is no number of a bit: 0 to 15"),
+        message: format!("{value} is not a bit number: write 0 to 15"),
         span: number.span(),
     })
 }

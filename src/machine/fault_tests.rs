@@ -35,7 +35,7 @@ axes | XYZ,{letter="X", sign=-1} | "X" | listed twice
 axes | {letter="x", sign=1} | "x" | write "X"
 axes | XYZ,{letter="V",follow="y"} | "y" | write "Y"
 axes | {letter="X"} | "X" | say sign = 1 (ISO 841
-axes | {letter="C",side="table"} | "C" | sign = -1 (turned round) explicitly
+axes | {letter="C",side="table"} | "C" | sign = -1 (reversed)
 axes | XYZ,{letter="V",follow="U"} | "U" | not an axis of this machine
 axes | {letter="V",follow="V"} | "V" | cannot follow itself
 axes | XYZ,{letter="C", sign=1,side="table"} | "C" | from workpiece to tool

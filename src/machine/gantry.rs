@@ -78,7 +78,7 @@ impl Rails {
                 (Limits::Range(low, high), Limits::Range(min, max)) if low.max(min) < high.min(max) => {
                     Limits::Range(low.max(min), high.min(max))
                 }
-                _ => return fault("but no position is inside the limits of both".to_owned()),
+                _ => return fault("but no position is within the limits of both".to_owned()),
             };
             leader.max_speed = lower(leader.max_speed, follower.max_speed);
             leader.max_acceleration = lower(leader.max_acceleration, follower.max_acceleration);

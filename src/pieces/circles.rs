@@ -82,7 +82,7 @@ pub fn fixed_tip(radius: f64, tilt_deg: f64, segments: usize, feed: f64) -> Resu
             (tip, axis)
         })
         .collect();
-    let title = format!("fixed tip {radius} mm off the zero, tilt {tilt_deg} deg, {segments} blocks");
+    let title = format!("fixed tip {radius} mm from the zero point, tilt {tilt_deg} deg, {segments} blocks");
     Ok(Piece::along("fixed-tip", title, feed, BALL, &points))
 }
 

@@ -114,7 +114,7 @@ pub(crate) fn count(what: &str, value: usize, low: usize, high: usize) -> Result
     if (low..=high).contains(&value) {
         Ok(value)
     } else {
-        Err(PieceError(format!("{what} {value}: from {low} to {high} are possible")))
+        Err(PieceError(format!("{what} {value}: must be from {low} to {high}")))
     }
 }
 
@@ -124,7 +124,7 @@ pub(crate) fn within(what: &str, value: f64, low: f64, high: f64, unit: &str) ->
         Ok(value)
     } else {
         Err(PieceError(format!(
-            "{what} {value} {unit}: from {low} to {high} {unit} are possible"
+            "{what} {value} {unit}: must be from {low} to {high} {unit}"
         )))
     }
 }

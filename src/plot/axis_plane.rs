@@ -31,7 +31,9 @@ pub fn axis_plane(
 ) -> Result<String, PlotError> {
     let plane = Plane::new(machine)?;
     if record.samples.is_empty() {
-        return Err(PlotError("no tool axis is known, so there is nothing to draw".into()));
+        return Err(PlotError(
+            "nothing to draw: the tool axis is unknown in every motion".into(),
+        ));
     }
     let rules = rules(marks);
     let letter = |slot: usize| char::from(machine.axes[machine.rotary[slot]].letter);
@@ -149,7 +151,7 @@ impl<'m> Plane<'m> {
     fn new(machine: &'m Machine) -> Result<Self, PlotError> {
         if machine.constants.pair.is_none() {
             return Err(PlotError(format!(
-                "the plane of the tool axis needs two rotary axes; {} has {}",
+                "the tool axis plot needs two rotary axes; {} has {}",
                 machine.id,
                 machine.rotary.len()
             )));

@@ -174,7 +174,7 @@ pub(crate) fn runs_straight(program: &Program, settings: &Settings<'_>) -> Resul
         let source = program.source();
         let (line, _) = LineIndex::new(source).line_column(source, program.block(block).range().start);
         return Err(format!(
-            "the program has loops or calls (line {line}): one word there is many motions, and rewrites lead one motion at a time"
+            "the program has loops or calls (line {line}): there one word drives many motions, and rewrites change one motion at a time"
         ));
     }
     Ok(())

@@ -16,7 +16,7 @@ pub fn find_machine(name: &str, folder: Option<&Path>) -> Result<Machine, LoadEr
     if !is_file {
         let known = trunnion_machine::BUILTIN_MACHINES.join(", ");
         return Err(LoadError::new(format!(
-            "no embedded machine is named `{name}` and no such file exists; embedded are {known}; or name a TOML file"
+            "unknown machine `{name}`: no such file exists, and the embedded machines are {known}"
         )));
     }
     let text = std::fs::read_to_string(&path)

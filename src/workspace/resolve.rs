@@ -89,7 +89,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     for rule in &overrides.allow {
         if trunnion_check::rule(rule).is_none() {
             return Err(LoadError::new(format!(
-                "--allow {rule}: no such rule; `trunnion rules` lists them"
+                "--allow {rule}: unknown rule; `trunnion rules` lists all rules"
             )));
         }
         rules.push((rule.clone(), RuleLevel::Allow));
@@ -113,7 +113,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
         if trunnion_dialect::builtin(name).is_none() {
             let known = trunnion_dialect::BUILTIN_NAMES.join(", ");
             return Err(LoadError::new(format!(
-                "--port-to {name}: no dialect has this name; known are {known}"
+                "--port-to {name}: unknown dialect; known dialects: {known}"
             )));
         }
         port_to.push(name.clone());
@@ -149,7 +149,7 @@ fn library(
         for (folder, span) in &config.subprogram_path {
             let folder = home.join(folder);
             if !folder.is_dir() {
-                let message = format!("there is no folder {}", folder.display());
+                let message = format!("folder {} does not exist", folder.display());
                 return Err(LoadError::at(file, text, Some(span), message));
             }
             folders.push(folder);
@@ -228,7 +228,7 @@ fn dialect_for(
         let Some(dialect) = trunnion_dialect::builtin(name) else {
             let known = trunnion_dialect::BUILTIN_NAMES.join(", ");
             return Err(LoadError::new(format!(
-                "no dialect is named `{name}` ({reason}); known are {known}"
+                "unknown dialect `{name}` ({reason}); known dialects: {known}"
             )));
         };
         return Ok((dialect, reason.to_owned()));
@@ -236,7 +236,7 @@ fn dialect_for(
     if let (Some((name, span)), Some((file, text))) = (&config.dialect_table, config_file) {
         let path = file.parent().unwrap_or(Path::new("")).join(name);
         if !path.is_file() {
-            let message = format!("there is no file {}", path.display());
+            let message = format!("file {} does not exist", path.display());
             return Err(LoadError::at(file, text, Some(span), message));
         }
         return Ok((

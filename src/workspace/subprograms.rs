@@ -115,7 +115,7 @@ fn read(path: &Path, folder: &Path) -> Result<Arc<[u8]>, &'static str> {
     let real = fs::canonicalize(path).map_err(|_| UNREADABLE)?;
     let home = fs::canonicalize(folder).map_err(|_| UNREADABLE)?;
     if !real.starts_with(home) {
-        return Err("is a link out of the folder");
+        return Err("is a link to outside the folder");
     }
     let file = File::open(real).map_err(|_| UNREADABLE)?;
     let mut bytes = Vec::new();
@@ -229,7 +229,7 @@ mod tests {
             let searched = Subprograms::new([folder.path().join("subs")])
                 .load("link")
                 .expect_err("it leads out");
-            assert!(searched[0].contains("is a link out of the folder"), "{searched:?}");
+            assert!(searched[0].contains("is a link to outside the folder"), "{searched:?}");
         }
     }
 

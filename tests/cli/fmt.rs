@@ -191,7 +191,7 @@ fn several_files_are_counted() {
     assert_eq!(status(&output), 0);
     let told = text(&output.stderr);
     assert!(
-        told.contains("c.mpf: 1 problem of the text; its line stays as it is"),
+        told.contains("c.mpf: 1 problem in the text; its line is not changed"),
         "{told}"
     );
     assert!(told.contains("1 changed, 2 as they should be"), "{told}");

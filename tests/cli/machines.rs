@@ -91,7 +91,7 @@ fn a_comparison_passes_only_where_it_is_proven() {
     assert!(
         code == 1
             && said.starts_with("UNKNOWN")
-            && said.contains("1 motion compared at the end only: the start is not known"),
+            && said.contains("1 motion compared at the end only: the start is unknown"),
         "{said}"
     );
     // what is not modelled is counted
@@ -102,7 +102,7 @@ fn a_comparison_passes_only_where_it_is_proven() {
     );
     let (code, said) = compare("0.03", Some(str(&lost)));
     assert!(
-        code == 1 && said.contains("could not be compared: the end or the path is not known"),
+        code == 1 && said.contains("could not be compared: the end or the path is unknown"),
         "{said}"
     );
 }

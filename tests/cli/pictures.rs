@@ -173,7 +173,13 @@ fn pictures_are_whole_and_labelled() {
     for (kind, words) in [
         (
             "joints",
-            &["C / deg", "X / mm", "way of the tool tip / mm", "pole-flip", "limits"][..],
+            &[
+                "C / deg",
+                "X / mm",
+                "travel of the tool tip / mm",
+                "pole-flip",
+                "limits",
+            ][..],
         ),
         (
             "axis-plane",
@@ -185,7 +191,7 @@ fn pictures_are_whole_and_labelled() {
                 "pole-flip",
             ],
         ),
-        ("deviation", &["way of the tool tip / mm", "tolerance 0.01 mm"]),
+        ("deviation", &["travel of the tool tip / mm", "tolerance 0.01 mm"]),
         ("path", &["Y / mm", "feed", "rapid"]),
     ] {
         let output = trunnion(&[

@@ -26,7 +26,7 @@ export function findProgram(context: vscode.ExtensionContext): Found {
   const program = [bundled, ...onPath].find(isProgram);
   return program !== undefined
     ? { program }
-    : { problem: `No "${NAME}" program: this extension carries none (${bundled}) and there is none on PATH. Install it, or set trunnion.path.` };
+    : { problem: `No "${NAME}" program: this extension contains none (${bundled}) and there is none on PATH. Install it, or set trunnion.path.` };
 }
 
 function absolute(path: string): string {

@@ -76,7 +76,7 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
         if config.dialect.is_some() {
             return Err(at(
                 &table,
-                "`dialect` and `dialect_table` exclude each other: the table itself says which dialect it `extends`",
+                "use either `dialect` or `dialect_table`, not both: the table itself names the dialect that it `extends`",
             ));
         }
         let span = table.span();
@@ -87,7 +87,10 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     }
     for folder in file.subprogram_path {
         if folder.get_ref().is_empty() {
-            return Err(at(&folder, "a folder has a name; `.` is the folder of this file"));
+            return Err(at(
+                &folder,
+                "the folder name is empty; write `.` for the folder of this file",
+            ));
         }
         let span = folder.span();
         config.subprogram_path.push((folder.into_inner(), span));
@@ -142,7 +145,7 @@ fn known_dialect(name: Spanned<String>) -> Result<String, ConfigError> {
     Err(at(
         &name,
         format!(
-            "no dialect is called `{}`; there are {names}; a table of your own is named by `dialect_table`",
+            "unknown dialect `{}`; known dialects: {names}; to use your own table, set `dialect_table`",
             name.get_ref()
         ),
     ))
@@ -162,7 +165,7 @@ fn rule_level(name: &Spanned<String>, level: &Spanned<String>) -> Result<(String
     if crate::rule(name.get_ref()).is_none() {
         return Err(at(
             name,
-            format!("no rule is called `{}`; `trunnion rules` lists them", name.get_ref()),
+            format!("unknown rule `{}`; `trunnion rules` lists all rules", name.get_ref()),
         ));
     }
     let value = match level.get_ref().as_str() {
@@ -173,7 +176,7 @@ fn rule_level(name: &Spanned<String>, level: &Spanned<String>) -> Result<(String
         other => {
             return Err(at(
                 level,
-                format!("no level is called `{other}`: allow, info, warning or error"),
+                format!("unknown level `{other}`; write allow, info, warning or error"),
             ));
         }
     };
@@ -186,14 +189,14 @@ fn tolerance(name: &Spanned<String>, value: &Spanned<f64>) -> Result<(String, f6
         let names: Vec<&str> = TOLERANCES.iter().map(|(known, _)| *known).collect();
         return Err(at(
             name,
-            format!("no tolerance is called `{key}`; there are {}", names.join(", ")),
+            format!("unknown tolerance `{key}`; known tolerances: {}", names.join(", ")),
         ));
     }
     let number = *value.get_ref();
     let (least, most, range) = if key.starts_with("feed_drop") {
-        (0.0, 1.0, "from 0 to 1, a share of the programmed feed")
+        (0.0, 1.0, "from 0 to 1, a part of the programmed feed")
     } else if key.ends_with("_ratio") {
-        (1.0, f64::MAX, "1 or more, a way over the direct way")
+        (1.0, f64::MAX, "1 or more, a ratio to the direct distance")
     } else {
         (0.0, f64::MAX, "0 or more")
     };
@@ -224,7 +227,7 @@ fn declared_tool(entry: &Spanned<FileTool>) -> Result<Tool, ConfigError> {
                 },
             )?),
             (None, Some(corner)) => {
-                return Err(at(corner, "a corner radius needs a shape: shape = \"bull\""));
+                return Err(at(corner, "`corner_radius` needs a tool shape: add `shape = \"bull\"`"));
             }
             (None, None) => None,
         };
@@ -272,11 +275,11 @@ fn work_offset(
         let Some(axis) = axis else {
             return Err(at(
                 letter,
-                format!("`{}` is no axis: X Y Z A B C U V W", letter.get_ref()),
+                format!("`{}` is not an axis; the axes are X Y Z A B C U V W", letter.get_ref()),
             ));
         };
         if !value.get_ref().is_finite() {
-            return Err(at(value, "a work offset is a number of mm or degrees"));
+            return Err(at(value, "a work offset must be a number in mm or degrees: `X = 0.0`"));
         }
         offset.values[usize::from(axis.0)] = *value.get_ref();
     }

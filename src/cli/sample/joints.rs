@@ -63,12 +63,12 @@ fn words(why: &NoStance) -> String {
     match why {
         NoStance::Unreachable(off) => format!("outside its reach by {:.3} deg", deg(*off)),
         NoStance::OutsideLimits { axis, value, limit } => format!(
-            "{} would stand at {:.3} deg, its limit is {:.3} deg",
+            "{} would be at {:.3} deg, its limit is {:.3} deg",
             char::from(*axis),
             deg(*value),
             deg(*limit)
         ),
-        NoStance::PositionUnknown(letters) => format!("nothing says where {letters} stand"),
+        NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown"),
         _ => "it cannot be followed".to_owned(),
     }
 }
@@ -98,7 +98,7 @@ fn one_posture(
             };
         }
         let joints =
-            solve(machine, q, &step.tip).ok_or_else(|| refusal(index, step, "its linear axes cannot get there"))?;
+            solve(machine, q, &step.tip).ok_or_else(|| refusal(index, step, "its linear axes cannot reach it"))?;
         places.push(Place { joints });
     }
     Ok(places)

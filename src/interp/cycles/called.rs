@@ -174,9 +174,9 @@ impl Interpreter<'_> {
             _ => false,
         };
         let why = if call.further || other_axis {
-            Some("with numbers that choose other meanings")
+            Some("with numbers that select other meanings")
         } else if call.levels().is_none() {
-            Some("without levels that are known and make a hole")
+            Some("without known levels that make a hole")
         } else {
             None
         };
@@ -229,7 +229,7 @@ impl Interpreter<'_> {
                     _ => None,
                 };
                 if pitch.is_none() {
-                    let what = format!("{}: its pitch", call.id);
+                    let what = format!("{}: the pitch", call.id);
                     report.fault(TextRange::default(), FaultKind::NotModelled { what });
                 }
                 pitch.map_or(Feed::Unknown, Feed::PerRevolution)

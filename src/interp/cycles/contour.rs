@@ -76,9 +76,9 @@ impl Interpreter<'_> {
         } else if found.motions.is_empty() || found.motions.len() > MOST_MOTIONS {
             "it has no motions, or more than 100000"
         } else if ends {
-            "coordinates are turned, scaled or unknown"
+            "its coordinates are rotated, scaled or unknown"
         } else if !found.motions.iter().all(known) {
-            "not every point of it is known"
+            "some of its points are unknown"
         } else {
             return Some(Contour {
                 motions: found.motions,
@@ -92,7 +92,7 @@ impl Interpreter<'_> {
         if follows {
             self.memory.passed_over = Some((here, last));
         }
-        let what = format!("{}: its contour: {why}", self.memory.cycle.id);
+        let what = format!("contour of {}: {why}", self.memory.cycle.id);
         report.fault(report.whole(), FaultKind::NotModelled { what });
         None
     }
@@ -162,10 +162,7 @@ impl Interpreter<'_> {
             (None, _) => first,
             _ => last,
         };
-        let message = format!(
-            "there is no block N{missing} for the contour of {}",
-            self.memory.cycle.id
-        );
+        let message = format!("contour of {}: block N{missing} does not exist", self.memory.cycle.id);
         self.refuse(words, Refusal::Label, message, Some("contour-missing"), report);
         None
     }

@@ -68,11 +68,11 @@ impl Interpreter<'_> {
         let way = |place: usize| (end.values[axes[place]] - start.values[axes[place]]).abs();
         let count = |place: usize| way(place) / steps[place].filter(|step| *step > 0.0).unwrap_or(f64::MAX);
         let why = if self.memory.frames.active || self.state.frame_unknown || !known {
-            Some("from or to a place that is not known")
+            Some("from or to an unknown position")
         } else if relieved {
             Some("with a relief at the bottom (R)")
         } else if way(1) > 0.0 && steps[1].is_none_or(|step| step == 0.0) {
-            Some("with a way aside and no step for it")
+            Some("with a sideways move and no step for it")
         } else if count(0) * (count(1) + 1.0) > MOST {
             Some("with more than 10000 steps")
         } else {

@@ -31,7 +31,7 @@ impl Interpreter<'_> {
             start.get(Z),
         );
         let (Some(x), Some(z), Some(taper), Some(x_start), Some(z_start)) = ends else {
-            let what = format!("{} from or to a place that is not known", self.memory.cycle.id);
+            let what = format!("{} from or to an unknown position", self.memory.cycle.id);
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
             let mut motion = self.unknown_motion(words, report);
             motion.end.known &= !crate::offsets::LINEAR;
@@ -111,7 +111,8 @@ impl Interpreter<'_> {
     /// What becomes of the corners of a thread that is left before its end. Where nobody says whether it is, they stay, and it is told.
     fn pull_out(&self, corners: &mut Vec<((f64, f64), MotionKind)>, lead: Feed, report: &mut Report<'_>) {
         let (Some(leads), Feed::PerRevolution(lead)) = (self.setup.control.thread_pull_out, lead) else {
-            let why = "whether the tool leaves its thread before the end ([control] thread_pull_out says it, in leads)";
+            let why =
+                "whether the tool pulls out before the end of the thread (declare [control] thread_pull_out, in leads)";
             return self.not_worked_out(why, report);
         };
         let [((x0, z0), _), ((x, z), _), _, (start, _)] = corners[..] else {
@@ -127,7 +128,7 @@ impl Interpreter<'_> {
             (start, MotionKind::Unknown),
         ];
         self.not_worked_out(
-            "the shape of its pull-out (parameter 5131), and the way back behind it",
+            "the shape of its pull-out (parameter 5131), and the return after it",
             report,
         );
     }

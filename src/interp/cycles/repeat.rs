@@ -103,7 +103,7 @@ impl Interpreter<'_> {
             }
         } else if action != Action::FinishCycle {
             let what = format!(
-                "{}: where the program goes on when its contour does not follow it at once",
+                "{}: where the program continues if its contour does not follow it directly",
                 self.memory.cycle.id
             );
             report.fault(report.whole(), FaultKind::NotModelled { what });
@@ -135,13 +135,13 @@ impl Interpreter<'_> {
         let kept = self.memory.cycle.kept;
         let (Some([x, z]), Some(runs @ 2..)) = (kept.relief, kept.runs) else {
             let what = format!(
-                "{} without U, W and two runs or more (R of its first block)",
+                "{} without U, W and at least two passes (R of its first block)",
                 self.memory.cycle.id
             );
             return self.somehow_back(&what, start, report);
         };
         let Some(allowance) = self.allowance(words) else {
-            let what = format!("{} with an allowance that is not known", self.memory.cycle.id);
+            let what = format!("{} with an unknown allowance", self.memory.cycle.id);
             return self.somehow_back(&what, start, report);
         };
         let feed = self.feed_of(MotionKind::Linear, words, report);

@@ -63,7 +63,7 @@ impl Interpreter<'_> {
         let steps = self.step_words(action, depth);
         let Some(steps) = steps.filter(|steps| steps.first * MOST_STEPS >= depth) else {
             let why = if steps.is_none() {
-                "this mixture of I, J, K and Q"
+                "this combination of I, J, K and Q"
             } else {
                 "more than 10000 steps"
             };

@@ -60,7 +60,10 @@ impl Interpreter<'_> {
         match self.plan_thread(start, lead, words) {
             Ok(plan) => self.thread(&plan, report),
             Err(why) => {
-                let what = format!("{}: its passes: {why}; it ends where it began", self.memory.cycle.id);
+                let what = format!(
+                    "passes of {}: {why}; the cycle is taken to end where it started",
+                    self.memory.cycle.id
+                );
                 self.somehow_back(&what, start, report);
             }
         }
@@ -104,7 +107,7 @@ impl Interpreter<'_> {
         let least = least.ok_or("without Q in its first block (parameter 5140)")?;
         let allowance = allowance.ok_or("without R in its first block (parameter 5141)")?;
         if finishing == 0 || !ANGLES.contains(&angle) {
-            return Err("no finishing pass, or an angle that is none of 0, 29, 30, 55, 60 and 80");
+            return Err("no finishing pass, or an angle other than 0, 29, 30, 55, 60 or 80");
         }
         let mut end = start;
         self.targets(&words.axes, false, &mut end);
@@ -112,15 +115,15 @@ impl Interpreter<'_> {
             .iter()
             .all(|place| place.get(X).is_some() && place.get(Z).is_some());
         if !known || self.memory.frames.active || self.state.frame_unknown {
-            return Err("from or to a place that is not known");
+            return Err("from or to an unknown position");
         }
         let taper = match self.length_word(words, b'R') {
-            None if words.radius.is_said() => return Err("its taper (R) is not known"),
+            None if words.radius.is_said() => return Err("its taper (R) is unknown"),
             taper => taper.unwrap_or(0.0),
         };
         let size = |letter| self.increment_word(words, letter).filter(|size| *size > 0.0);
         let (Some(height), Some(first)) = (size(b'P'), size(b'Q')) else {
-            return Err("without its height (P) and the depth of its first cut (Q), both above 0");
+            return Err("without its height (P) and the depth of its first cut (Q), both greater than 0");
         };
         let Feed::PerRevolution(pitch) = lead else {
             return Err("without its lead (F)");
@@ -183,13 +186,13 @@ impl Interpreter<'_> {
         }
         if plan.flank {
             self.not_worked_out(
-                "where in Z its cuts begin, which go in along the flank (angle of the tool above 0)",
+                "where in Z its cuts start, which feed in along the flank (tool angle greater than 0)",
                 report,
             );
         }
         if plan.pull_out > 0.0 {
             self.not_worked_out(
-                "the shape of its pull-out (parameter 5131), and the way back behind it",
+                "the shape of its pull-out (parameter 5131), and the return after it",
                 report,
             );
         }

@@ -107,7 +107,7 @@ impl Interpreter<'_> {
             return;
         }
         if !std::mem::replace(&mut self.memory.frames.reference_said, true) {
-            let what = format!("reference point {number}: where it lies is not declared");
+            let what = format!("reference point {number}: its position is not declared");
             report.fault(range, FaultKind::NotModelled { what });
         }
         let start = self.state.position;

@@ -22,7 +22,7 @@ impl<'d> Interpreter<'d> {
     /// a vector are not known.
     fn tilt_to(&mut self, tilt: Option<Tilted>, report: &mut Report<'_>) {
         if self.memory.compensation.is_busy() || self.memory.corners.is_busy() {
-            let what = "a tilted plane begins or ends under cutter compensation".to_owned();
+            let what = "a tilted plane starts or ends under cutter compensation".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
             self.forget_position();
         }

@@ -115,7 +115,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let on = state.side != trunnion_ngc::Side::Off;
         let was = std::mem::replace(&mut self.told.compensated, on);
         if on && !was && state.radius == 0.0 && !state.radius_given {
-            let what = "cutter radius compensation: the diameter of the tool is not declared and taken as zero";
+            let what = "cutter radius compensation: the diameter of the tool is not declared and is taken as zero";
             self.not_modelled(at, 410..=422, what.to_owned());
         }
     }
@@ -334,7 +334,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let places = chords(order as usize, points, knots, tolerance);
         let judged = if places.is_some() {
             format!(
-                "spline: judged along chords within {SPLINE_TOLERANCE_MM} mm of it; the control runs it as arcs of its own"
+                "spline: judged along chords within {SPLINE_TOLERANCE_MM} mm of it; the control runs it as its own arcs"
             )
         } else {
             "spline: its path".to_owned()
@@ -373,7 +373,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 end.forget(axis);
             }
         }
-        self.not_modelled(at, 382..=385, format!("G38.{kind}: where the probe touches"));
+        self.not_modelled(
+            at,
+            382..=385,
+            format!("G38.{kind}: the position at which the probe touches"),
+        );
         self.motion(MotionKind::Unknown, end, &shift, Feed::Unknown, at, state);
     }
 

@@ -21,10 +21,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let moving: Vec<&OwnCode> = codes.iter().filter(moves).collect();
         let [_, .., last] = moving[..] else { return };
         let names: Vec<String> = moving.iter().map(ToString::to_string).collect();
-        let what = format!(
-            "{} in one block: their order is for the machine to say",
-            names.join(" and ")
-        );
+        let what = format!("{} in one block: the machine decides their order", names.join(" and "));
         self.fault(at, last.range, FaultKind::NotModelled { what });
         self.lose_kinematics();
     }
@@ -58,7 +55,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         );
         if state.side != Side::Off && !is_harmless(code.action) {
             // motions before it in the text come behind it
-            let what = format!("{} under compensation of the cutter radius", code.id);
+            let what = format!("{} under cutter radius compensation", code.id);
             self.fault(at, own.range, FaultKind::NotModelled { what });
             self.told.kinematics_unknown = true;
             self.told.lost_rotary = true;
@@ -116,9 +113,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.tcp(on);
             return;
         }
-        let what = format!(
-            "{code}: to which kinematics it switches is for the machine to say ([control] tcp_codes), and nothing says it"
-        );
+        let what =
+            format!("{code}: the machine file does not declare which kinematics it selects ([control] tcp_codes)");
         self.fault(at, own.range, FaultKind::NotModelled { what });
         self.tcp(false);
         self.told.lost = true;
@@ -127,8 +123,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// G53, G28 or G30 while tool centre point control is on.
     pub(super) fn frame_unknown(&mut self, at: At) {
-        let what = "G53, G28 or G30 while tool centre point control is on: machine coordinates of the tip or of the joints, as the \
-                    machine's kinematics have it";
+        let what = "G53, G28 or G30 while tool centre point control is on: machine coordinates mean the tip or the axes, as the \
+                    machine's kinematics define";
         let range = self.code_range(at, b'G', |code| matches!(code, 280 | 300 | 530));
         self.fault(at, range, FaultKind::NotModelled { what: what.to_owned() });
         self.told.lost = true;

@@ -78,7 +78,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Moves::Linear => Feed::PerMinute(rate.mm),
             Moves::RotaryOnly if !per_revolution => Feed::PerMinute(rate.deg),
             Moves::RotaryOnly | Moves::Unknown => {
-                let what = "F in inch: whether it counts degrees or inches in this block is not known".to_owned();
+                let what = "F in inch: it is not known whether it means degrees or inches in this block".to_owned();
                 self.not_modelled(at, 0..=0, what);
                 Feed::Unknown
             }

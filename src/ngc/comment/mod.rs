@@ -105,7 +105,7 @@ fn log(name: &str, text: &[u8]) -> Canon {
 }
 
 fn python() -> Halt {
-    Why::Undecided("the line runs Python, which may change anything; Trunnion does not run it".to_owned()).into()
+    Why::Undecided("this line runs Python, which may change anything; Trunnion does not run it".to_owned()).into()
 }
 
 fn starts_with(text: &[u8], word: &[u8]) -> bool {

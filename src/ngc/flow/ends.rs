@@ -116,7 +116,7 @@ impl Engine {
         (self.flow.at.file, self.flow.at.line) = (place.file(), place.line());
         let name = self.flow.labels.text(name);
         Some(format!(
-            "the program that calls o<{name}>: this file defines it and runs nothing"
+            "the program that calls o<{name}>: this file only defines it and runs nothing"
         ))
     }
     /// A line's text without blanks at its ends.

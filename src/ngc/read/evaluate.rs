@@ -337,6 +337,6 @@ fn own(letter: u8, tenths: u32, range: TextRange, values: &Values<'_>, block: &m
 }
 
 fn undecided(range: TextRange, letter: char) -> Error {
-    let text = format!("which {letter} code this is depends on a value that is not known");
+    let text = format!("which {letter} code this is depends on an unknown value");
     Error::with(&problems::UNDECIDED, range, text)
 }

@@ -114,7 +114,7 @@ fn row(words: &str) -> Result<ToolEntry, String> {
         let number = word.get(1..).unwrap_or("");
         let value: f64 = number
             .parse()
-            .map_err(|_| format!("`{word}` is no word: a letter and a number are expected"))?;
+            .map_err(|_| format!("`{word}` is not a word: expected a letter and a number"))?;
         match letter {
             b'T' => {
                 entry.number = value as i32;
@@ -127,7 +127,7 @@ fn row(words: &str) -> Result<ToolEntry, String> {
             b'Q' => entry.orientation = value as i32,
             _ => match b"XYZABCUVW".iter().position(|&axis| axis == letter) {
                 Some(axis) => entry.offset[axis] = value,
-                None => return Err(format!("`{word}`: no column of a tool table has this letter")),
+                None => return Err(format!("`{word}`: a tool table has no column with this letter")),
             },
         }
     }

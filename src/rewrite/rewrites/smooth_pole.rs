@@ -98,7 +98,7 @@ struct Task<'a> {
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
     let Some(machine) = settings.machine else {
-        return Err("no machine is given: poles belong to a machine (--machine)".into());
+        return Err("no machine is named, and poles depend on the machine (--machine)".into());
     };
     if machine.rotary.len() < 2 {
         return Ok(None);
@@ -129,7 +129,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
                 windows.push(smoothed);
             }
             Ok(_) => reasons.push(format!(
-                "line {}: another ball radius, which needs a run of its own",
+                "line {}: a different ball radius, which needs a separate run",
                 task.line(flip)
             )),
             Err(reason) => reasons.push(format!("line {}: {reason}", task.line(flip))),
@@ -146,7 +146,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
     let letter = char::from(machine.axes[machine.rotary[0]].letter);
     let mut summary = summary(&windows, letter);
     if !reasons.is_empty() {
-        summary.push_str("; left as it is: ");
+        summary.push_str("; not changed: ");
         summary.push_str(&some_of(&reasons));
     }
     Ok(Some(Proposal {
@@ -209,10 +209,10 @@ fn obstacle(point: &Point) -> Option<String> {
 fn tool_obstacle(point: &Point) -> Option<String> {
     match point.tip {
         Tip::Undeclared => Some(
-            "the tool's shape is not declared, and only a ball keeps its contact: (trunnion: tool 1 ball diameter 10), [[tool]] in trunnion.toml, or --tool ball:10"
+            "the tool shape is not declared, and only a ball keeps its contact point: declare it by (trunnion: tool 1 ball diameter 10), by [[tool]] in trunnion.toml, or by --tool ball:10"
                 .into(),
         ),
-        Tip::Other => Some("the tool is declared but is no ball: its contact with the surface would move".into()),
+        Tip::Other => Some("the tool is not a ball: its contact with the surface would move".into()),
         Tip::Ball(_) if point.incremental => Some("coordinates are incremental (G91)".into()),
         Tip::Ball(_) => None,
     }
@@ -256,12 +256,15 @@ impl Task<'_> {
             Err(NoStance::PositionUnknown(letters)) => format!("the position of {} is unknown", in_words(letters)),
             Err(NoStance::RotaryOffset(letter)) => format!("the work offset turns {}", char::from(*letter)),
             Err(NoStance::HeldElsewhere { axis, .. }) => {
-                format!("axis {} is held elsewhere by the machine file", char::from(*axis))
+                format!(
+                    "the machine file holds axis {} at a different position",
+                    char::from(*axis)
+                )
             }
             _ => "the motion is not modelled".into(),
         };
         Some(format!(
-            "line {}: {why}, so whether the table flips at the pole is unknown",
+            "line {}: {why}, so it is unknown whether the table flips at the pole",
             self.line(index)
         ))
     }
@@ -273,7 +276,7 @@ impl Task<'_> {
             return Err(obstacle);
         }
         let Tip::Ball(ball_radius) = point.tip else {
-            return Err("the tool is no ball".into());
+            return Err("the tool is not a ball".into());
         };
         let covers = memory.chain.first().is_some_and(|station| station.first <= flip)
             && memory.chain.last().is_some_and(|station| flip <= station.last);
@@ -282,19 +285,19 @@ impl Task<'_> {
         }
         let stations = &memory.chain;
         let Some((left, right)) = window(stations, flip, self.machine.tolerances.pole_cone) else {
-            return Err("no point lies between the two ends that must stay".into());
+            return Err("there is no point between the two fixed ends".into());
         };
         let stations = &stations[left..=right];
         let writer = self.writer(point, ball_radius, &mut memory.styles);
         // a hair less than allowed, so that the last bit of a double decides nothing
         let room = rad(self.options.tolerance_deg) * (1.0 - 1e-8);
         let q = straighten(self.machine, stations, room)
-            .ok_or_else(|| "the rotary axis is outside its limits already".to_string())?;
+            .ok_or_else(|| "the rotary axis is already outside its limits".to_string())?;
         let before = largest_step(stations.iter().map(|station| station.q));
         let after = largest_step(q.iter().copied());
         if after > 0.99 * before {
             return Err(format!(
-                "within {} deg the largest step of {:.3} deg can only become {:.3} deg (--tolerance-deg)",
+                "within {} deg the largest step can only be reduced from {:.3} deg to {:.3} deg (--tolerance-deg)",
                 self.options.tolerance_deg,
                 deg(before),
                 deg(after)

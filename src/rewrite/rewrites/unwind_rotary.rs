@@ -54,7 +54,7 @@ pub(super) const REWRITE: Body = Body {
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
     let Some(machine) = settings.machine else {
-        return Err("no machine is given: limits of rotary axes belong to a machine (--machine)".into());
+        return Err("no machine is named, and the limits of rotary axes depend on the machine (--machine)".into());
     };
     let motions = programmed(program, settings.dialect, &settings.setup).motions;
     let (mut edits, mut summaries, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
@@ -76,7 +76,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         };
     }
     edits.sort_by_key(|edit| edit.range.start);
-    summaries.extend(reasons.into_iter().map(|reason| format!("left as it is: {reason}")));
+    summaries.extend(reasons.into_iter().map(|reason| format!("not changed: {reason}")));
     let claim = Claim::SamePoses {
         tolerance_mm: options.tolerance_mm,
         tolerance_deg: options.tolerance_deg,
@@ -120,7 +120,7 @@ fn unwind(
     let after = long_way_steps(&values, &turns);
     if after >= before {
         return Err(format!(
-            "{name} turns the long way round {before} times, and its limits leave no other way"
+            "{name} turns the long way round {before} times, and its limits allow nothing else"
         ));
     }
     let mut edits = Vec::new();
@@ -178,7 +178,7 @@ fn refuse_what_is_not_literal(program: &Program, letter: u8, motions: &[Programm
             }
         }
         if words(program, block.id(), letter).count() > 1 {
-            return Err(format!("line {}: {name} is given twice", line(program, block.id())));
+            return Err(format!("line {}: {name} is written twice", line(program, block.id())));
         }
     }
     Ok(())

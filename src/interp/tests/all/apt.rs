@@ -177,7 +177,7 @@ fn records_that_are_not_modelled() {
     assert_eq!(
         got[2..],
         [
-            r#"6: GODLTA/1,1,1: NotModelled { what: "GODLTA from a place that is not known" }"#,
+            r#"6: GODLTA/1,1,1: NotModelled { what: "GODLTA from an unknown position" }"#,
             "7: FROBNI: AptUnknownRecord",
             r#"7: FROBNI/1: NotModelled { what: "FROBNI" }"#
         ]
@@ -204,8 +204,8 @@ fn after_an_unknown_record_nothing_is_known() {
     assert_eq!(
         faults("apt", source),
         [
-            r#"3: INSERT G0 X5: NotModelled { what: "INSERT: text for the machine is not read" }"#,
-            r#"4: GODLTA/1,1,1: NotModelled { what: "GODLTA from a place that is not known" }"#
+            r#"3: INSERT G0 X5: NotModelled { what: "INSERT: the text that it passes to the machine is not read" }"#,
+            r#"4: GODLTA/1,1,1: NotModelled { what: "GODLTA from an unknown position" }"#
         ]
     );
     let harmless = "FEDRAT/1\nGOTO/1,2,3\nPPRINT/A\nREMARK B\nSEQNO/10\nOPSKIP/ON\nGODLTA/1,1,1\n";

@@ -43,7 +43,7 @@ fn mixtures_of_steps_are_named() {
         let (program, log) = run_bytes("haas-ngc", source.as_bytes(), &Setup::default());
         let faults: Vec<_> = log.faults.iter().map(|fault| fault_line(&program, fault)).collect();
         assert!(
-            faults[0].contains(&format!("{what} with this mixture of I, J, K and Q")),
+            faults[0].contains(&format!("{what} with this combination of I, J, K and Q")),
             "{words}: {faults:?}"
         );
         let motions: Vec<_> = log.motions.iter().map(|m| line(m).replace("X1 Y2 ", "")).collect();

@@ -89,7 +89,7 @@ fn compensation_is_said_once() {
     let got = faults("iso-6983", "F1\nG41 D1 G1 X1\nG40\nG42 X2\n");
     assert_eq!(
         got,
-        [r#"2: G41: NotModelled { what: "cutter radius compensation: path is the programmed one" }"#]
+        [r#"2: G41: NotModelled { what: "cutter radius compensation: the programmed path is used instead" }"#]
     );
 }
 

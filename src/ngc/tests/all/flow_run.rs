@@ -259,7 +259,7 @@ fn what_is_not_known_decides_nothing() {
         ),
         (
             "o1 repeat [#100]\no1 endrepeat\nm2\n",
-            "how often this loop runs depends on #100, which keeps its value",
+            "how many times this loop runs depends on #100, which keeps its value",
         ),
         (
             "o#<_hal[a.b]> call\nm2\n",

@@ -373,11 +373,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 end.forget(axis);
             }
         }
-        self.not_modelled(
-            at,
-            382..=385,
-            format!("G38.{kind}: the position at which the probe touches"),
-        );
+        self.not_modelled(at, 382..=385, format!("G38.{kind}: the probed position"));
         self.motion(MotionKind::Unknown, end, &shift, Feed::Unknown, at, state);
     }
 

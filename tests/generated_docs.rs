@@ -1,4 +1,4 @@
-//! docs/rules is made from the rules' headers. `UPDATE=1 cargo test --test generated_docs` writes it anew.
+//! docs/rules is made from the rules' headers. `UPDATE=1 cargo test --test generated_docs` writes it again.
 mod generated_pages;
 
 use generated_pages::assert_fresh;

@@ -1,4 +1,4 @@
-//! docs/rewrites is made from the rewrites' headers. `UPDATE=1 cargo test --test generated_rewrite_docs` writes it anew.
+//! docs/rewrites is made from the rewrites' headers. `UPDATE=1 cargo test --test generated_rewrite_docs` writes it again.
 mod generated_pages;
 
 use generated_pages::assert_fresh;

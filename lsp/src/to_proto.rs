@@ -10,7 +10,7 @@ use tower_lsp::lsp_types::{
 use trunnion_check::{Severity, Status};
 use trunnion_syntax::TextRange;
 
-/// More findings than this help nobody in an editor; the last one then says how many there are.
+/// More findings than this are useless in an editor; the last one then states how many there are.
 const MOST: usize = 2000;
 
 /// The findings of an analysis; a settings error is one finding at the start of the document.

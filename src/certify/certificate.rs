@@ -1,4 +1,4 @@
-//! What a proof leaves behind: digests of the inputs, the claim, and the numbers found.
+//! What a proof records: digests of the inputs, the claim, and the numbers found.
 use crate::Claim;
 use crate::digest::hex_sha256;
 use serde::{Deserialize, Serialize};
@@ -53,7 +53,7 @@ pub struct TextDigest {
     pub bytes: u64,
 }
 
-/// A name and the digest of what it stands for.
+/// A name and the digest of its contents.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NamedDigest {

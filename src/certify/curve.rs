@@ -21,7 +21,7 @@ pub fn joint_bend(machine: &Machine, ends: &[Joints; 2], tool_length: f64) -> f6
             }
             AxisKind::Rotary => {
                 let distance = |point: &Vec3| axis.direction.cross(&(point - axis.point)).norm();
-                // between the ends the point is at most half its way farther out than their mean
+                // between the ends the point is farther out than their mean by at most half its travel
                 let reach = 0.5 * (distance(&points[0]) + distance(&points[1]) + speed);
                 for (point, value) in points.iter_mut().zip(values) {
                     *point = rotate(&axis.direction, axis.sign * value, &(*point - axis.point)) + axis.point;

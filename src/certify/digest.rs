@@ -1,4 +1,4 @@
-//! Digests of the inputs: only facts that a proof rests on, written in one canonical way.
+//! Digests of the inputs: only facts that a proof depends on, written in one canonical form.
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use trunnion_dialect::Dialect;

@@ -37,7 +37,7 @@ pub(crate) struct Path<'m> {
 }
 
 impl<'m> Path<'m> {
-    /// The path of the point `height` mm above the tip. `None` where the way between the ends is not modelled: arcs, unknown motions.
+    /// The path of the point `height` mm above the tip. `None` where the path between the ends is not modelled: arcs, unknown motions.
     pub(crate) fn new(machine: &'m Machine, leg: &Leg, start: &Stance, end: &Stance, height: f64) -> Option<Self> {
         let motion = &leg.motion;
         let vectors = matches!(motion.orientation, trunnion_interp::Orientation::Vector(..));

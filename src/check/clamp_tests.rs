@@ -1,4 +1,4 @@
-//! Rule clamped-axis-moves: axes that must stand still, and codes of clamps.
+//! Rule clamped-axis-moves: axes that must not move, and clamp codes.
 use crate::fixture::{assert_drawn, check_with, machine};
 use std::sync::Arc;
 use trunnion_interp::{Files, Library, Loaded, Setup};
@@ -13,7 +13,7 @@ fn a_run_of_blocks_is_told_once_and_the_free_axis_may_turn() {
 }
 
 /// The tool leans by the same angle at both ends and C has turned by half a turn but a little: on the great circle A comes down towards
-/// the pole and goes up again. Straight over the pole nobody knows.
+/// the pole and goes up again. Exactly over the pole it is unknown.
 #[test]
 fn an_axis_that_comes_back_on_a_great_circle_has_turned() {
     let program = |j: &str| {
@@ -131,7 +131,7 @@ fn codes_of_a_called_file_without_motion_are_read() {
     assert_eq!(told("fanuc-30i", Some("O7\nM10\nM99\n"), main), [TURNS]);
     let closed = main.replace("M98", "M10\nM98");
     assert_eq!(told("fanuc-30i", Some("O7\nM11\nM99\n"), &closed), [""; 0]);
-    // behind what is not there nothing is known
+    // after a missing part nothing is known
     let gone = "M11\nM98 P7\nG0 X0. Y0. Z50. A20. C0.\nG0 C9.\nM30\n";
     let found = told("fanuc-30i", None, gone);
     assert_eq!(
@@ -153,7 +153,7 @@ fn a_linuxcnc_program_is_read_the_same() {
     );
     let skipped = "M11\nG0 X0 Y0 Z50 A20 C0\no1 if [0]\nM10\no1 endif\nG0 C9\nM2\n";
     assert_eq!(told("linuxcnc", None, skipped), [""; 0]);
-    // beside another code it is clear; of two codes of one clamp nobody knows which is the last
+    // beside another code it is clear; of two codes of one clamp it is unknown which comes last
     let beside = "M11\nG0 X0 Y0 Z50 A20 C0\nM10 M8 (M11)\nG0 C9\nM2\n";
     assert_eq!(told("linuxcnc", None, beside), [TURNS]);
     let both = "M11\nG0 X0 Y0 Z50 A20 C0\nM10 m 1 1\nG0 C9\nM2\n";
@@ -161,7 +161,7 @@ fn a_linuxcnc_program_is_read_the_same() {
         told("linuxcnc", None, both),
         ["C may be clamped: which code of its clamp ran last is not known"]
     );
-    // of two clamps each hears its own code, whichever stands last
+    // of two clamps each reacts to its own code, whichever is written last
     for codes in ["M10 M13", "M13 M10"] {
         let text = format!("M11\nM13\nG0 X0 Y0 Z50 A20 C0\n{codes}\nG0 C9\nG0 A29\nM2\n");
         let two = format!("{CODES}+A.clamp_codes={{on=\"M12\",off=\"M13\"}}");

@@ -191,7 +191,7 @@ impl<'a> Settings<'a> {
         }
     }
 
-    /// At the start of a program, told what the machine says of its codes.
+    /// At the start of a program, as the machine declares its codes.
     pub(crate) fn interpreter(&self) -> Interpreter<'static> {
         let codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
         if codes == self.setup.control.clamp_codes {

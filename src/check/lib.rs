@@ -1,4 +1,4 @@
-//! Floor 5: speaks. Reads text, motions and legs, and turns facts into diagnostics by rules, one rule a file.
+//! Floor 6: reports. Reads text, motions and legs, and turns facts into diagnostics by rules, one rule per file.
 //!
 //! It does no I/O: texts come in, plain data goes out. It does not know terminals, JSON or LSP.
 mod again;

@@ -1,4 +1,4 @@
-//! The list of rules, alphabetical. A rule is one file in `rules/`; its name stands in two lists here.
+//! The list of rules, alphabetical. A rule is one file in `rules/`; its name appears in two lists here.
 mod ambiguous_implicit_decimal;
 mod ambiguous_posture;
 mod angle_wrap;

@@ -195,7 +195,7 @@ impl<W: Write> Printer<W> {
         };
         range.map_or_else(Vec::new, |range| self.text(at.file, range))
     }
-    /// Bytes of a file without the line end behind them.
+    /// Bytes of a file without the final line end.
     fn text(&self, file: FileId, range: TextRange) -> Vec<u8> {
         let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
         let line = sources

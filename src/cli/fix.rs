@@ -160,7 +160,7 @@ pub(super) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     file.as_file().sync_all().map_err(|e| fail(&e))?;
     file.persist(&target).map_err(|e| fail(&e.error))?;
     if let Ok(folder) = File::open(folder) {
-        // Makes the rename itself durable; not every file system can, and the file is whole either way.
+        // Makes the rename itself durable; not every file system can do this, and the file is complete either way.
         let _ = folder.sync_all();
     }
     Ok(())

@@ -89,7 +89,7 @@ impl Serialize for Values {
     }
 }
 
-/// Rounded to a millionth of its unit: what lies below is arithmetic, not information.
+/// Rounded to a millionth of its unit: anything smaller is rounding noise.
 pub(super) fn tidy(value: f64) -> f64 {
     let rounded = (value * 1e6).round() / 1e6;
     if rounded.is_finite() { rounded + 0.0 } else { value }

@@ -106,7 +106,7 @@ fn bytes(path: &Path, megabytes: u64) -> Result<Option<Vec<u8>>, Failure> {
             return Err(Failure::file(path, "is a directory; this command takes one program"));
         }
         File::open(path).and_then(|file| {
-            // a regular file tells its size: one that is too large is not read in vain
+            // a regular file reports its size: one that is too large is not read at all
             let told = file.metadata()?.len();
             if told > most {
                 return Ok(most as usize + 1);

@@ -163,7 +163,7 @@ pub(super) enum WindingChoice {
 pub(super) enum Plant {
     /// The second half is in the other posture.
     Swap,
-    /// The axis nearest the workpiece turns the wrong way.
+    /// The axis nearest the workpiece turns in the wrong direction.
     WrongSign,
     /// A rotary axis is 0.1 deg beyond its limit in one block.
     Limit,

@@ -1,4 +1,4 @@
-//! Why a run was not followed to the end of its program: what comes behind such a place was neither counted nor compared.
+//! Why a run was not followed to the end of its program: nothing after such a place was counted or compared.
 use trunnion_dialect::Dialect;
 use trunnion_interp::{Fault, FaultKind};
 use trunnion_syntax::BlockId;
@@ -23,7 +23,7 @@ pub(super) struct Stops(Option<Stop>);
 impl Stops {
     /// Takes a fault of the run.
     pub(super) fn fault(&mut self, fault: &Fault, dialect: &Dialect) {
-        // LinuxCNC's interpreter goes on behind a refused block, and reads what lies behind the end
+        // LinuxCNC's interpreter continues after a refused block, and reads what follows the end
         let may_stop = !dialect.quirks.rs274;
         let (why, sure) = match &fault.kind {
             FaultKind::EndlessLoop { proved: true, .. } => {

@@ -12,7 +12,7 @@ fn error<T>(span: Range<usize>, message: impl Into<String>) -> Result<T, Dialect
     })
 }
 
-/// What an id in a table stands for.
+/// What an id in a table means.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Pattern {
     /// G or M codes from .. to, in tenths.

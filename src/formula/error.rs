@@ -15,9 +15,9 @@ pub struct FormulaError {
 /// The cause of a [`FormulaError`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum FormulaErrorKind {
-    /// The line ends where a value must stand.
+    /// The line ends where a value is expected.
     MissingValue,
-    /// Something that is no number stands where a value must stand; `text` is what there is of a number (`""`, `-`, `.`).
+    /// Something that is not a number where a value is expected; `text` is what there is of a number (`""`, `-`, `.`).
     NotANumber {
         /// Sign, digits and points as far as they reach.
         text: Box<str>,
@@ -39,7 +39,7 @@ pub enum FormulaErrorKind {
     MissingSecondBracket,
     /// `POW[x` without `,`.
     MissingComma,
-    /// Neither an operator nor `]` behind a value; the letter it begins with, if it is one, in lower case.
+    /// Neither an operator nor `]` after a value; the letter it begins with, if it is one, in lower case.
     UnknownOperator(Option<char>),
     /// `#<` without `>` on the line.
     UnclosedName,

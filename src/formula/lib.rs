@@ -41,7 +41,7 @@ pub enum Grammar {
     MacroB,
 }
 
-/// The left side of an assignment, behind its `#`.
+/// The left side of an assignment, after its `#`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     /// `#5=`, `##2=`, `#[1+2]=`: the formula of the variable's number.

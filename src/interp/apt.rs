@@ -36,7 +36,7 @@ pub(crate) struct Args {
     count: usize,
     words: [TextRange; 8],
     word_count: usize,
-    /// For each word, how many numbers stand before it.
+    /// For each word, how many numbers come before it.
     before: [usize; 8],
     /// Something is neither a number nor a word.
     pub(crate) odd: bool,

@@ -17,7 +17,7 @@ use trunnion_dialect::Plane;
 /// A motion and what was in force after its block.
 pub(crate) type Told = (Motion, ModalState);
 
-/// Where the compensation stands.
+/// The state of the compensation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Stage {
     /// Off.
@@ -54,9 +54,9 @@ pub(crate) struct Compensation {
     pub(crate) d: Option<u32>,
     plane: Option<Plane>,
     held: Option<Box<Held>>,
-    /// Motions without a way in the plane, behind the held one.
+    /// Motions without a path in the plane, after the held one.
     between: Vec<Told>,
-    /// Motions that can be told now.
+    /// Motions that can be emitted now.
     pub(crate) ready: Vec<Told>,
 }
 
@@ -67,7 +67,7 @@ impl Compensation {
     }
 }
 
-/// The motion with its way in the plane replaced.
+/// The motion with its path in the plane replaced.
 fn moved(told: &Told, element: &Element, from: Point, to: Point) -> Option<Told> {
     let (motion, state) = told;
     let mut motion = *motion;
@@ -127,7 +127,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A motion that does not move in the plane, or whose way is not known.
+    /// A motion that does not move in the plane, or whose path is not known.
     fn without_way(&mut self, told: Told, report: &mut Report<'_>) {
         let motion = &told.0;
         let still = Element::rests(motion, self.memory.compensation.plane.unwrap_or(self.state.plane));
@@ -171,11 +171,11 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The next motion of the contour: the held one can be told.
+    /// The next motion of the contour: the held one can be emitted.
     fn follow(&mut self, told: Told, element: Element, report: &mut Report<'_>) {
         let offset = self.side() * self.memory.compensation.radius;
         let Some(held) = self.memory.compensation.held.take() else {
-            // after a start-up that was told already
+            // after a start-up that was already emitted
             self.memory.compensation.held = Some(Box::new(Held {
                 from: element.start,
                 told,
@@ -233,7 +233,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Tells a motion, and behind it at its end those without a way in the plane.
+    /// Emits a motion, and after it, at its end, those without a path in the plane.
     fn release(&mut self, mut told: Told, element: &Element, end: Point, unsure: bool, report: &mut Report<'_>) {
         let between = std::mem::take(&mut self.memory.compensation.between);
         if unsure {
@@ -306,7 +306,7 @@ impl Interpreter<'_> {
         report.fault(report.whole(), FaultKind::NotModelled { what });
     }
 
-    /// Everything that waits is told: the program ends.
+    /// Everything that waits is emitted: the program ends.
     pub(crate) fn end_compensation(&mut self, report: &mut Report<'_>) {
         self.settle(report);
         let between = std::mem::take(&mut self.memory.compensation.between);

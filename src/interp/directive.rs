@@ -1,4 +1,4 @@
-//! Comments that speak to Trunnion: `(trunnion: tool 1 ball diameter 10)`, `; trunnion: allow pole-flip because ...`.
+//! Comments that address Trunnion: `(trunnion: tool 1 ball diameter 10)`, `; trunnion: allow pole-flip because ...`.
 use crate::{Tool, ToolShape};
 use nom::branch::alt;
 use nom::bytes::complete::{tag_no_case, take_while1};

@@ -167,7 +167,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Makes a tool's length active, with its name and whose it is; where it is not declared, zero, said once.
+    /// Makes a tool's length active, with its name and whose it is; where it is not declared, zero, reported once.
     fn take_length(
         &mut self,
         tool: Option<Tool>,

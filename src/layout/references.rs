@@ -1,5 +1,5 @@
-//! Where a program speaks of its own block numbers: jumps, returns, local subprograms, contours of turning cycles. What cannot be
-//! read as a number is said, never guessed.
+//! Where a program refers to its own block numbers: jumps, returns, local subprograms, contours of turning cycles. What cannot be
+//! read as a number is reported, never guessed.
 use trunnion_dialect::{Action, Dialect};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, TokenKind, Value};
 
@@ -19,7 +19,7 @@ pub(crate) struct Reference {
 /// Why block numbers cannot be changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Obstacle {
-    /// The place that stands in the way.
+    /// The place that prevents it.
     pub range: TextRange,
     /// What it is, and why numbers stay, for people.
     pub why: String,
@@ -254,7 +254,7 @@ pub(crate) fn begins_program(block: &Block<'_>) -> Option<i64> {
     let mut items = block.items().filter(|item| !matches!(item, Item::Comment(_)));
     match items.next()? {
         Item::Word(word) if word.address == Address::Letter(b'O') => match (word.value, items.next()) {
-            // with a name behind it, it is an O-word of RS274/NGC
+            // with a name after it, it is an O-word of RS274/NGC
             (_, Some(Item::Call(_))) => None,
             (Value::Number(number), _) => Some(number.to_integer().unwrap_or(-1)),
             _ => None,

@@ -53,7 +53,7 @@ struct Part {
     calls: Vec<i64>,
 }
 
-/// Everything that speaks of block numbers.
+/// Everything that refers to block numbers.
 struct Survey {
     parts: Vec<Part>,
     /// The part of each block.

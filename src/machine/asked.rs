@@ -1,8 +1,8 @@
 //! What a program asks of the choice between postures beside the tool vector, and what the machine file says that it means.
 //!
 //! * SEQ+ and SEQ- of a Heidenhain: the sign of the primary rotary axis, which is the first seen from the tool, or seen from the table the
-//!   last (TNC7 user's manual, tilting solution). Where no posture with it lies inside the travel, the control stops with an error.
-//! * G53.1 P1 and P2: which solution the number means is said by the machine file.
+//!   last (TNC7 user's manual, tilting solution). If no posture with it is within the travel, the control stops with an error.
+//! * G53.1 P1 and P2: the machine file declares which solution the number means.
 //! * STAT and TU of a Sinumerik in point-to-point motions: bits of TU are the signs of the rotary axes, 0 for 0 <= value < 360 deg, 1 for
 //!   -360 < value < 0 deg, counted by the channel's axis numbers; an axis whose travel is more than 360 deg either way takes the shortest
 //!   way whatever they say (840D sl Function Manual, Extended Functions, 03/2013, section 6.6.2; Programming Manual, Job Planning, 03/2013,
@@ -28,7 +28,7 @@ pub struct AxisSign {
 pub struct PostureWords {
     /// Bit numbers of TU: letter of the rotary axis, bit.
     pub turn: Vec<(u8, u8)>,
-    /// The bit of STAT that tells the posture, and the sign that it means when it is set (the other one when it is not).
+    /// The bit of STAT that selects the posture, and the sign that it means when it is set (the other one when it is not).
     pub status: Option<(u8, AxisSign)>,
     /// Solutions by number (G53.1 P1).
     pub solutions: Vec<(u8, AxisSign)>,
@@ -41,7 +41,7 @@ pub(crate) struct Asked {
     turns: [Option<bool>; 2],
     /// Index of the rotary axis and whether its value has to be below zero.
     signs: [Option<(usize, bool)>; 2],
-    /// The program asks for something whose meaning nobody declared.
+    /// The program selects a posture by a word whose meaning is not declared.
     pub(crate) unsaid: bool,
 }
 

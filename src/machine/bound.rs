@@ -7,7 +7,7 @@ use std::collections::BinaryHeap;
 pub(crate) struct Peak {
     /// Largest value at a sample: never above the truth.
     pub(crate) sampled: f64,
-    /// Where that sample lies, 0..=1.
+    /// Where that sample is, 0..=1.
     pub(crate) at: f64,
     /// Never below the truth.
     pub(crate) bound: f64,

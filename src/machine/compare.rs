@@ -80,7 +80,7 @@ impl<'m> Comparison<'m> {
         Some(self.at(&end.joints, end.tool_length))
     }
 
-    /// The tip stands still at `tip` (part frame, mm) while each rotary axis runs through its travel (an endless one: a turn), alone and
+    /// The tip is held at `tip` (part frame, mm) while each rotary axis moves through its travel (an endless one: a turn), alone and
     /// together with the others, in `steps` steps; the linear axes follow as the believed machine solves them. `None` where they cannot.
     pub fn fixed_tip_sweep(&self, tip: &Vec3, tool_length: f64, steps: usize) -> Option<TipDifference> {
         let machine = self.believed;
@@ -110,7 +110,7 @@ impl<'m> Comparison<'m> {
         worst
     }
 
-    /// The worst at `poses` random joints inside the travels (endless: a turn, or 300 mm either way), tool lengths 0 to 200 mm.
+    /// The worst at `poses` random positions within the travel (endless: a turn, or 300 mm in both directions), tool lengths 0 to 200 mm.
     pub fn random_poses(&self, poses: usize, seed: u64) -> Option<TipDifference> {
         let mut random = SplitMix(seed);
         let pose = |_| {

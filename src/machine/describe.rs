@@ -206,7 +206,7 @@ fn axis(machine: &Machine, joint: usize) -> AxisDescription {
     }
 }
 
-/// Distance of the tip from the axis' point for which an uncertain direction is told, mm.
+/// Distance of the tip from the axis' point for which an uncertain direction is printed, mm.
 const ARM: f64 = 100.0;
 
 /// What the declared uncertainty of an axis does to the tip.

@@ -12,7 +12,7 @@ use trunnion_geometry::Vec3;
 use trunnion_geometry::math::angle_between;
 use trunnion_interp::{Motion, MotionKind, Orientation, Position, Swivel};
 
-/// How far from its normal the tool may stand on a tilted plane, rad: 0.01 deg (kinematics notes 5, TWP-ALIGN).
+/// How far from its normal the tool may be on a tilted plane, rad: 0.01 deg (kinematics notes 5, TWP-ALIGN).
 const PLANE_TOLERANCE: f64 = 0.01 * core::f64::consts::PI / 180.0;
 
 /// What a follower remembers between two motions.
@@ -22,7 +22,7 @@ pub(crate) struct State {
     pub(crate) known_joints: (Joints, u16),
     /// Last known rotary joints, rad; zeros before the first: the reference of the posture choice.
     pub(crate) rotary: [f64; 2],
-    /// Whether they are where the rotary axes stand now.
+    /// Whether they are at the present position of the rotary axes.
     pub(crate) rotary_known: bool,
     /// Sign of the last stance that had one, 0 when there was none.
     pub(crate) sign: i8,
@@ -88,7 +88,7 @@ impl<'m> Follower<'m> {
         self.step(motion, given)
     }
 
-    /// Takes the stance that the program tells without a motion (APT FROM): tip and tool vector where the motion starts. The posture
+    /// Takes the stance that the program states without a motion (APT FROM): tip and tool vector where the motion starts. The posture
     /// is chosen as at a first motion. `false` where there is no such stance.
     fn begin(&mut self, motion: &Motion) -> bool {
         let Orientation::Vector(Some(axis), _) = motion.orientation else {
@@ -232,7 +232,7 @@ impl<'m> Follower<'m> {
     }
 
     /// The tip that tip words name, workpiece frame with the work offset, mm. Where the program never named it but the machine
-    /// stands somewhere (TCP was just switched), it stays there.
+    /// has a position (TCP was just switched), it stays there.
     fn tip(&self, motion: &Motion, start: Option<&Stance>) -> Option<Vec3> {
         if let Some(point) = self.words.point(motion, &motion.end) {
             return Some(point + zero_point(motion));
@@ -307,7 +307,7 @@ impl<'m> Follower<'m> {
         let mut turns = [Turn::NONE; 2];
         for (index, rotary) in constants.rotary().iter().enumerate() {
             turns[index] = match start {
-                // a rotary axis that stands still needs no sine
+                // a rotary axis that does not move needs no sine
                 Some(before) if before.joints[rotary.joint] == joints[rotary.joint] => {
                     let (sin, cos) = before.turns[index];
                     Turn {

@@ -93,7 +93,7 @@ impl Rails {
 }
 
 impl Rail {
-    /// The follower's limits in terms of its leader: both move one body, so where a positive value moves it the other way (sign times
+    /// The follower's limits in terms of its leader: both move one body, so if a positive value moves it in the opposite direction (sign times
     /// direction), the follower has the leader's value with the opposite sign.
     fn limits_for(&self, leader: &Axis) -> Limits {
         let turned = self.signed && self.axis.sign * leader.sign < 0.0;

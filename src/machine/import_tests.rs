@@ -223,7 +223,7 @@ fn what_is_wrong_with_an_ini_is_named_and_located() {
     assert!(missing.message.contains("no [KINS] KINEMATICS"), "{missing}");
 }
 
-/// An own FreeCAD machine: C stands on A.
+/// A FreeCAD machine of our own: C is mounted on A.
 const FREECAD: &str = r#"{
   "freecad_version": "1.2.0",
   "machine": {
@@ -262,7 +262,7 @@ fn a_freecad_machine_keeps_the_sense_of_its_rotary_axes_open() {
     assert_eq!(x.limits, crate::Limits::Range(-254.0, 254.0));
     assert_eq!(machine.axes[4].max_speed, None);
     assert!(imported.open.contains(&"axis Z: max_velocity not given".to_owned()));
-    // what is not read is told, above all a frame that would move everything
+    // what is not read is reported, above all a frame that would move everything
     assert!(
         imported
             .open
@@ -278,7 +278,7 @@ fn a_freecad_machine_keeps_the_sense_of_its_rotary_axes_open() {
             .iter()
             .any(|line| line.starts_with("base_frame is not read: places and directions"))
     );
-    // nobody says which rotary axis carries which
+    // it is not known which rotary axis carries which
     let flat = FREECAD.replace("\"parent\": \"A\"", "\"parent\": null");
     let refused = load("flat", &import_freecad("own.fcm", &flat).expect("a machine").toml).expect_err("no order");
     assert!(refused.message.contains("`order`"), "{refused}");

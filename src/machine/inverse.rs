@@ -58,7 +58,7 @@ impl<'a> IntoIterator for &'a Postures {
 /// All orientations that reach a tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Orientations {
-    /// No posture: the tool axis lies outside the cone the machine reaches; angle to it, rad.
+    /// No posture: the tool axis is outside the cone that the machine reaches; angle to it, rad.
     Unreachable(f64),
     /// One or two postures (one at the edge of the reach, and on machines with fewer than two rotary axes).
     Postures(Postures),

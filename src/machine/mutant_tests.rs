@@ -1,5 +1,5 @@
 //! Random mutations of every shipped machine file (A12): one sign, direction, point, order, limit or other entry is changed; of those
-//! that change what the machine does, at least 95 in 100 must be noticed when the file is loaded and tested. Prints who noticed what.
+//! that change what the machine does, at least 95 in 100 must be detected when the file is loaded and tested. Prints which check detects what.
 use crate::selftest::SplitMix;
 use crate::{BUILTIN_MACHINES, Comparison, Machine, builtin, builtin_source, load, self_test};
 use std::collections::BTreeMap;
@@ -197,7 +197,7 @@ fn differs(honest: &Machine, mutant: &Machine) -> bool {
     pose || a != b || comparison.entries().iter().any(entry)
 }
 
-/// Who noticed: 0 validation, 1 self-test, 2 check rows, 3 nobody; `None` where the mutant does what the honest machine does.
+/// What detects it: 0 validation, 1 self-test, 2 check rows, 3 nothing; `None` where the mutant does what the original machine does.
 fn noticed(honest: &Machine, file: &Table) -> Option<usize> {
     let mut bare = file.clone();
     bare.remove("check");

@@ -15,7 +15,7 @@ pub struct Nearness(Option<Near>);
 
 #[derive(Clone, Copy, Debug)]
 struct Near {
-    /// Where the machine stands: the tool in the workpiece, the linear joints and the length of the tool.
+    /// The position of the machine: the tool in the workpiece, the linear axes and the tool length.
     point: Vec3,
     linear: [f64; 3],
     tool_length: f64,
@@ -25,7 +25,7 @@ struct Near {
     rounding: f64,
 }
 
-/// Whether the chain is linear axes at right angles behind two rotary ones.
+/// Whether the chain is two rotary axes followed by linear axes at right angles.
 #[inline]
 fn is_table(constants: &Constants) -> bool {
     let at_right_angles = constants.linear_count == 3 && constants.cartesian.is_some();
@@ -39,7 +39,7 @@ fn linear(constants: &Constants, stance: &Stance) -> [f64; 3] {
 }
 
 impl Near {
-    /// In full, where the machine stands.
+    /// In full, at the position of the machine.
     fn of(machine: &Machine, stance: &Stance) -> Option<Self> {
         let constants = &machine.constants;
         if !is_table(constants) {
@@ -80,7 +80,7 @@ impl Near {
         self.point = end.point;
         self.linear = linear(constants, end);
         self.radius = [(first + chord) * ROUNDED_SUM, (second + way) * ROUNDED_SUM];
-        // a sum of coordinates grows by less than twice a way through space, and both ways count twice in the size of a run
+        // a sum of coordinates grows by less than twice a distance in space, and both distances count twice in the size of a run
         self.rounding = (self.rounding + 4.0 * ROUNDING * (way + chord)) * ROUNDED_SUM;
     }
 }

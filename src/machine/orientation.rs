@@ -16,7 +16,7 @@ pub struct OrientationDeviation {
     pub sampled: f64,
     /// Proven upper bound, rad (never below the truth).
     pub bound: f64,
-    /// Share of the block, 0..=1, where the largest sample lies.
+    /// Where in the block, 0..=1, the largest sample is.
     pub at: f64,
 }
 

@@ -70,7 +70,7 @@ pub(crate) fn pole_angle_min(constants: &Constants, pair: &PairConstants, from: 
         return ends;
     }
     let (a, b) = (a / PI, b / PI);
-    // the way of most blocks is between the same two multiples of pi, 0 and one beside it
+    // most blocks stay between the same two multiples of pi, 0 and one beside it
     if a.min(b) > 0.0 && a.max(b) < 1.0 || a.min(b) > -1.0 && a.max(b) < 0.0 {
         return ends;
     }

@@ -224,7 +224,7 @@ fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Ve
             let angle = angle_between(a, b);
             !(PARALLEL..=core::f64::consts::PI - PARALLEL).contains(&angle)
         };
-        // a held axis turns what stands behind it
+        // a held axis turns what follows it in the chain
         let turned = |joint: usize| Carried::by(&axes[..joint]).turn(&axes[joint].direction);
         let (e1, e2, k0) = (&turned(first), &turned(second), &Carried::by(axes).turn(k0));
         let (l1, l2) = (char::from(axes[first].letter), char::from(axes[second].letter));

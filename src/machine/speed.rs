@@ -76,7 +76,7 @@ fn limit(machine: &Machine, leg: &Leg, enough_mm_min: f64) -> Option<FeedLimit> 
             _ => {
                 let course = Course::new(machine, leg)?;
                 if matches!(course.spin, Spin::Even) {
-                    // also where the tool axis stands still on its great circle
+                    // also where the tool axis does not move on its great circle
                     worst = constant_load(machine, (start, end), Changes::Solved);
                 }
                 let above = worst.map_or(0.0, |load| load.share());
@@ -303,7 +303,7 @@ fn programmed_feed(leg: &Leg) -> Option<f64> {
 /// How long the block takes at the programmed feed, without acceleration, s. `None`: unknown.
 ///
 /// Rapid: the slowest axis. Feed: length over F, or the angle (root of the sum of squares of the rotary increments, degrees) over F
-/// where no linear axis moves (RS274/NGC); in both cases not less than the slowest axis needs for its way.
+/// where no linear axis moves (RS274/NGC); in both cases not less than the slowest axis needs for its travel.
 pub fn block_duration_s(machine: &Machine, leg: &Leg) -> Option<f64> {
     match leg.motion.kind {
         MotionKind::Dwell(seconds) => return seconds,
@@ -339,7 +339,7 @@ struct AxesTime {
     complete: bool,
 }
 
-/// Time of the slowest axis over its whole way; `None` where the stances are not known.
+/// Time of the slowest axis over its whole travel; `None` where the stances are not known.
 fn axes_time(machine: &Machine, leg: &Leg) -> Option<AxesTime> {
     let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
     let mut time = AxesTime {

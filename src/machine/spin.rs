@@ -77,8 +77,8 @@ impl<'a> Spin<'a> {
 }
 
 /// How far the rotary axes get from where they start in a block, rad, workpiece side first: at its end, or half-way on a great circle,
-/// where an axis may leave a value that it comes back to. Never above the truth; zero only for an axis that stands still. `None` where a
-/// stance or the way between them is not known.
+/// where an axis may leave a value that it returns to. Never above the true value; zero only for an axis that does not move. `None` where a
+/// stance or the path between them is not known.
 pub fn rotary_turns(machine: &Machine, leg: &Leg) -> Option<[f64; 2]> {
     let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
     let mut turns = leg.rotary_change;

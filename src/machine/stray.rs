@@ -14,7 +14,7 @@ pub(crate) struct Stray<W, S> {
     pub(crate) curve_bend: f64,
 }
 
-/// What was found; mm, and the share of the block where the largest sample lies.
+/// What was found; mm, and where in the block the largest sample is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Found {
     /// Never above the truth.
@@ -106,7 +106,7 @@ impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> Stray<W, S> {
             .min(still(piece.value_to, &to.foot, &from.point))
     }
 
-    /// Distance of W(t) from the curve, at most [`slack`] above the truth, and where the foot lies: the piece of the curve whose lower
+    /// Distance of W(t) from the curve, at most [`slack`] above the true value, and where the foot is: the piece of the curve whose lower
     /// bound (distance from its chord less bend ds^2 / 8) is smallest is halved first. Where that takes too long, `loose` grows to how far
     /// above the truth it may lie.
     fn nearest(&self, t: f64, loose: &Cell<f64>) -> (f64, Near) {
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
 
     fn piece(feet: [f64; 2], far: [f64; 2]) -> Piece<Near> {
-        // W stands at the origin at both ends; the feet lie as far from it as `far` says
+        // W is at the origin at both ends; the feet are as far from it as `far` says
         let near = |s: f64, foot: f64| Near {
             s,
             point: Vec3::zeros(),
@@ -226,7 +226,7 @@ mod tests {
         assert!((over([0.2, 0.6], [9.0, 0.5]) - 2.25).abs() < 1e-12);
     }
 
-    /// A spike of the curve that a thousand looks miss comes within 0.01 mm of the point: what is said to be sampled is no more.
+    /// A spike of the curve that a thousand samples miss comes within 0.01 mm of the point: the sampled value is not larger.
     #[test]
     fn a_foot_that_was_not_found_is_allowed_for() {
         let spike = |s: f64| {

@@ -62,7 +62,7 @@ impl Bulge {
         self.arc.point_at(t) - self.arc.start - (self.arc.end - self.arc.start) * t
     }
 
-    /// Largest rate of the way beside the chord and largest second derivative.
+    /// Largest rate of the path relative to the chord, and largest second derivative.
     fn bounds(&self) -> (f64, f64) {
         let (fastest, _, bend) = crate::course::Track::Arc(self.arc).bounds();
         (fastest + (self.arc.end - self.arc.start).norm(), bend)
@@ -222,7 +222,7 @@ impl<'a> TipPath<'a> {
         place(&run.machine.constants, &turns, &shifts, &run.tool) - run.from
     }
 
-    /// The segment that an arc programs, in the workpiece: the arc as it lies in the workpiece at the start of the block, its end carried
+    /// The segment that an arc programs, in the workpiece: the arc in its position in the workpiece at the start of the block, its end carried
     /// evenly to where the tip ends. Without rotary motion it is the arc itself.
     pub(crate) fn laid_arc(&self) -> Option<LaidArc<'_>> {
         let bulge = self.bulge.as_ref()?;

@@ -67,7 +67,7 @@ pub fn pivot_sensitivity_between(
     found
 }
 
-/// Largest |sin(q / 2)| for q between two angles: 1 where half a turn (and any whole turns) lies between them.
+/// Largest |sin(q / 2)| for q between two angles: 1 where half a turn (plus any full turns) is between them.
 fn largest_half_sine([a, b]: [f64; 2]) -> f64 {
     let (low, high) = (a.min(b), a.max(b));
     // the first odd multiple of pi that is not below `low`

@@ -63,7 +63,7 @@ fn plain(machine: &Machine, joint: usize, value: f64) -> f64 {
 
 fn pose(about: &str, row: &RawCheck, machine: &Machine) -> Result<(), Fault> {
     let mut joints: Joints = [0.0; MAX_AXES];
-    // a held axis that the row does not name stands where it is held
+    // a held axis that the row does not name is where it is held
     for (joint, value) in machine.held() {
         joints[joint] = value;
     }

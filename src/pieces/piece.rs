@@ -109,7 +109,7 @@ impl Piece {
     }
 }
 
-/// A count that lies within `low..=high`.
+/// A count within `low..=high`.
 pub(crate) fn count(what: &str, value: usize, low: usize, high: usize) -> Result<usize, PieceError> {
     if (low..=high).contains(&value) {
         Ok(value)
@@ -118,7 +118,7 @@ pub(crate) fn count(what: &str, value: usize, low: usize, high: usize) -> Result
     }
 }
 
-/// A number that lies within `low..=high`.
+/// A number within `low..=high`.
 pub(crate) fn within(what: &str, value: f64, low: f64, high: f64, unit: &str) -> Result<f64, PieceError> {
     if (low..=high).contains(&value) {
         Ok(value)

@@ -17,7 +17,7 @@ use trunnion_machine::{Machine, Orientations, orientations, tool_axis_at};
 /// Colour of the lines of equal turn.
 const RAY: RGBColor = RGBColor(150, 185, 215);
 
-/// Draws it. `after`: a second run of the same machine, drawn over the first. `within`: only what lies within so many degrees of the pole.
+/// Draws it. `after`: a second run of the same machine, drawn over the first. `within`: only what is within this many degrees of the pole.
 ///
 /// # Errors
 /// The machine has not two rotary axes, or no tool axis is known.
@@ -169,7 +169,7 @@ impl<'m> Plane<'m> {
         let across = (across - pole * pole.dot(&across)).normalize();
         let mut upwards = pole.cross(&across);
         if pole.sum() < 0.0 {
-            // i and j (or k) both count upwards whichever way the axis points
+            // i and j (or k) both count upwards whatever the direction of the axis
             upwards = -upwards;
         }
         let at_pole = match orientations(machine, &pole) {

@@ -1,4 +1,4 @@
-//! Joints of the machine against the way or the time, one field an axis, with limits and blocks to look at.
+//! Axis positions of the machine over the path or the time, one field per axis, with limits and blocks to look at.
 use crate::canvas::{BLUE, Entry, GREEN, GREY, Header, ORANGE, PURPLE, PlotError, SKY, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Mark, Record, Sample};

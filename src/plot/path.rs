@@ -162,7 +162,7 @@ fn step(value: f64) -> f64 {
     base.into_iter().find(|nice| *nice >= value).unwrap_or(value)
 }
 
-/// The tool axis at some of the feed samples, evenly along the way.
+/// The tool axis at some of the feed samples, evenly along the path.
 fn draw_axes(flat: &Panel<'_>, record: &Record, size: f64) -> Result<(), PlotError> {
     let feeds = || {
         record

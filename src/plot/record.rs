@@ -8,7 +8,7 @@ use trunnion_machine::{AxisKind, Joints, Leg, Machine, Way, block_duration_s, ti
 pub struct Sample {
     /// Way of the tip in the workpiece frame since the first known position, mm.
     pub way: f64,
-    /// Time since then, s; not a number behind a block whose time is not known.
+    /// Time since then, s; not a number after a block whose time is not known.
     pub time: f64,
     /// Joints in chain order, mm or deg.
     pub joints: Joints,

@@ -101,7 +101,7 @@ impl Writer<'_> {
         let view = self.program.block(block);
         let slots = slots(self.program, &view, self.scheme)?;
         let programmed = self.programmed(stance);
-        // a vector in force stays in force; a rotary word may have to be said again
+        // an active vector stays active; a rotary word may have to be repeated
         let words = if self.scheme.count() == 4 { 4 } else { 3 };
         let mut numbers = Vec::new();
         for (index, &value) in programmed.iter().enumerate().take(words) {

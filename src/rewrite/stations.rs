@@ -90,7 +90,7 @@ pub(crate) fn window(stations: &[Station], flip: usize, cone: f64) -> Option<(us
 }
 
 /// New values of the rotary joint for the stations of a window, rad; the ends keep theirs. `room`: how far a tool axis
-/// may turn, rad. `None` where a station lies outside the joint's limits.
+/// may turn, rad. `None` where a station is outside the limits of the axis.
 pub(crate) fn straighten(machine: &Machine, window: &[Station], room: f64) -> Option<Vec<f64>> {
     let limits = match machine.axes[machine.rotary[0]].limits {
         Limits::Unbounded => (f64::NEG_INFINITY, f64::INFINITY),

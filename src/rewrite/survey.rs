@@ -42,7 +42,7 @@ pub(crate) struct Point {
     pub from_known: bool,
     /// Sizes of the rotary steps, rad.
     pub rotary_change: [f64; 2],
-    /// Smallest angle to the pole on the way, rad.
+    /// Smallest angle to the pole along the path, rad.
     pub pole_angle_min: f64,
     /// The posture changes by a swap.
     pub swap: bool,

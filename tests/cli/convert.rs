@@ -79,7 +79,7 @@ fn every_post_is_looked_at() {
     }
 }
 
-/// The travel of the machine: told where the zero point is nobody's, refused where it is declared.
+/// The travel of the machine: reported if the zero point is not declared, refused if it is.
 #[test]
 fn a_program_that_leaves_the_travel_is_told_or_refused() {
     let folder = TempDir::new().expect("works");

@@ -1,4 +1,4 @@
-//! Input that nobody writes in earnest: every command ends with a status of its own and a message, whatever it reads.
+//! Deliberately bad input: every command ends with its exit status and a message, whatever it reads.
 
 use crate::tools::{status, str, text};
 use std::{

@@ -84,7 +84,7 @@ fn a_comparison_passes_only_where_it_is_proven() {
             "PASS: the tip is off by at most 0.086603 mm, 0.0867 mm are allowed (proven)".to_owned()
         )
     );
-    // A turns by 30 deg: 2 sin(15 deg) 0.05 = 0.025882 mm, but nobody knows where the first motion comes from
+    // A turns by 30 deg: 2 sin(15 deg) 0.05 = 0.025882 mm, but the start of the first motion is unknown
     let text = "TRAORI\nG0 X0 Y0 Z50 A0 C0\nG1 X10 A30 F500\nG1 X0 A0\nM30\n";
     let program = write(&folder, "short.mpf", text);
     let (code, said) = compare("0.03", Some(str(&program)));

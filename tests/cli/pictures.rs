@@ -241,7 +241,7 @@ fn the_plane_of_the_tool_axis_before_and_after_and_near_the_pole() {
     let green = |picture: &str| picture.matches("#009E73").count();
     let alone = picture(&[]);
     assert!(!alone.contains("before") && green(&both) > green(&alone) + 4);
-    // half a degree about the pole: sin 0.5 deg is 0.0087, so that no label of the axes lies beyond it
+    // half a degree around the pole: sin 0.5 deg is 0.0087, so that no label of the axes is beyond it
     let near = picture(&["--around-pole", "0.5"]);
     assert!(near.contains("0.005") && !near.contains("0.02"), "{near}");
     for (more, word) in [

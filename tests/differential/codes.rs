@@ -1,5 +1,5 @@
 //! Lines of random codes and random words: what belongs together, what a code needs, what nothing uses, and which of several mistakes the
-//! control tells.
+//! control reports.
 use crate::generate::Program;
 
 /// What is in force before.

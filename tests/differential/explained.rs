@@ -189,7 +189,7 @@ fn is_refused(error: &str) -> bool {
     error.lines().next().is_some_and(|line| REFUSED.contains(&line))
 }
 
-/// The calls before the refusal are the control's; two calls behind it reset the machine.
+/// The calls before the refusal are the control's; two calls after it reset the machine.
 fn is_head(ours: &Ours, control: &Answer) -> bool {
     let resets = |line: &&String| line.ends_with("ON_RESET()") && !line.starts_with("    6 ");
     let length = ours
@@ -247,7 +247,7 @@ fn is_zero(text: &str) -> bool {
     digits.starts_with("0.0") && digits.bytes().all(|byte| matches!(byte, b'0' | b'.'))
 }
 
-/// Two neighbours in the last decimal, and the value lies in the middle between them, as far as sums of doubles can tell.
+/// Two neighbours in the last decimal, and the value is in the middle between them, as far as sums of doubles show.
 fn is_tie(a: &str, b: &str, exact: &str) -> bool {
     let decimals = |text: &str| Some(text.split_once('.')?.1.len());
     let [Some(count), Some(other)] = [a, b].map(decimals) else {

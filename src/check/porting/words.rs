@@ -63,7 +63,7 @@ pub(super) fn same_group(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>
     }
 }
 
-/// Whether the two codes exclude each other in the source's own table, and it refuses that: then its own rule tells of it.
+/// Whether the source's own table says that the two codes exclude each other, and refuses them: then its own rule reports it.
 fn clashes_here(from: &Dialect, other: &str, word: &Word) -> bool {
     let group = |code: Option<&Code>| code.and_then(|code| code.group.clone());
     let first = from.codes().iter().find(|code| code.id == other);

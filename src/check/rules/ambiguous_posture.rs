@@ -164,7 +164,7 @@ mod tests {
         assert_eq!(found[0].values.len(), 4);
     }
 
-    /// PTP with TU, whose bits nobody declared; with the bits of the axes declared the program says what it means.
+    /// PTP with TU, whose bits are not declared; if the bits of the axes are declared, the program is unambiguous.
     #[test]
     fn words_for_postures_need_their_meaning() {
         let text = "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 PTP\nN40 G0 X10 A3=0.1 B3=-0.3 C3=0.95 TU=16\n";
@@ -181,7 +181,7 @@ mod tests {
         );
     }
 
-    /// C stays where it stands, and nobody said where.
+    /// C stays where it is, and where that is was never programmed.
     #[test]
     fn a_first_vector_along_the_pole_leaves_the_first_axis_unknown() {
         let text = "N10 TRAORI\nN20 G0 X0 Y0 Z50 A3=0 B3=0 C3=1\n";

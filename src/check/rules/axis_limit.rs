@@ -38,7 +38,7 @@ pub(super) const RULE: Body = Body {
     level: Level::Leg(Needs::BEYOND, check),
 };
 
-/// Key of the way that is not known; those of findings are letters and more.
+/// Key of the unknown path; the keys of findings are letters and more.
 const UNSETTLED: u64 = 0;
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
@@ -58,7 +58,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     for excess in found {
         let axis = &view.machine.axes[excess.axis];
         let beyond = (excess.value - excess.limit).abs();
-        // the lower limit behind the upper one is another finding, however near the blocks
+        // the lower limit after the upper one is a separate finding, however close the blocks
         let key =
             u64::from(axis.letter) + 256 * u64::from(excess.value > excess.limit) + 512 * u64::from(excess.if_together);
         if out.repeats(view, key, beyond) {
@@ -146,7 +146,7 @@ mod tests {
         );
     }
 
-    /// The tip stands 410 mm above A: Z is 371.6 mm at A-25 and 314.1 mm at A40, and 410 mm in between, where A passes 0.
+    /// The tip is 410 mm above A: Z is 371.6 mm at A-25 and 314.1 mm at A40, and 410 mm in between, where A passes 0.
     #[test]
     fn a_limit_broken_between_two_legal_ends_is_found() {
         assert_drawn(
@@ -168,7 +168,7 @@ mod tests {
         for (rapid, wanted) in [
             (RapidPath::Undeclared, vec![Status::Unknown]),
             (RapidPath::Synchronous, vec![Status::Fail]),
-            // nobody says that it holds while the tip is led
+            // it is not declared that this holds while the tip is guided
             (RapidPath::Dogleg, vec![Status::Unknown]),
         ] {
             machine.control.rapid = rapid;

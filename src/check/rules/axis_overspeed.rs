@@ -154,7 +154,7 @@ fn unsettled(view: &LegView<'_>, out: &mut Reporter<'_>, [message, note, help]: 
         .merge_everywhere(cause);
 }
 
-/// A block whose speed cannot be told although its ends and its feed are known: told once per cause.
+/// A block whose speed cannot be computed although its ends and its feed are known: reported once per cause.
 fn undecided(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let Some((start, end)) = view.stances() else { return };
     let moves = |i: usize| (start.joints[i] - end.joints[i]).abs() > NO_TURN;
@@ -163,7 +163,7 @@ fn undecided(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return;
     }
     let why = match (view.motion().feed, view.motion().kind) {
-        // the faults that took the feed or the arc's centre are told by their own rules
+        // the faults that removed the feed or the centre of the arc are reported by their own rules
         (Feed::Unknown | Feed::Rapid, _) | (_, MotionKind::Arc(None)) => return,
         (Feed::PerRevolution(_), _) if view.motion().spindle_rpm.is_none() => {
             "the feed is per revolution and the spindle speed is not known"
@@ -183,7 +183,7 @@ fn undecided(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .merge_everywhere(hash(why));
 }
 
-/// An axis that moves but has no declared speed cannot be judged: told once per axis.
+/// An axis that moves but has no declared speed cannot be judged: reported once per axis.
 fn undeclared(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let Some((start, end)) = view.stances() else { return };
     for (i, axis) in view.machine.axes.iter().enumerate() {
@@ -246,7 +246,7 @@ mod tests {
         }
         assert_eq!(said(haas, "G93 G1 C90. F2."), [""; 0]);
         assert_eq!(said(haas, "G1 X1. C9. F1000."), ["Unknown F with linear and rotary"]);
-        // said: degrees
+        // declared: degrees
         let declared = "gcode haas-ngc mikron-ucp710+control.feed=\"xyz\"";
         assert_eq!(said(declared, "G1 C90. F7100."), [""; 0]);
         assert_eq!(said(declared, "G1 C90. F7300.").len(), 1);

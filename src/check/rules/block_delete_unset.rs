@@ -126,7 +126,7 @@ mod tests {
         );
         assert_eq!(own.status, crate::Status::Unknown, "two switches");
         assert!(found.diagnostics.iter().all(|d| d.rule != "not-modelled"));
-        // where nobody says that the control knows it, nothing is guessed
+        // if it is not declared that the control knows it, nothing is guessed
         let found = report(text);
         assert_eq!(found.diagnostics.iter().filter(|d| d.rule == "not-modelled").count(), 2);
     }

@@ -140,7 +140,7 @@ mod tests {
             })
         };
         assert!((value("rotary_change_deg").unwrap() - 180.0).abs() < 1e-4, "{found:?}");
-        // at 30 deg A still stands on its limit; the block to 35 deg swaps
+        // at 30 deg A is still at its limit; the block to 35 deg swaps
         assert!(
             (value("rotary_change_second_deg").unwrap() - 65.0).abs() < 1e-4,
             "{found:?}"

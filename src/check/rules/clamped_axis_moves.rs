@@ -68,7 +68,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     }
 }
 
-/// Axes that must stand still while cutting.
+/// Axes that must not move while cutting.
 fn in_the_cut(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if !view.machine.axes.iter().any(|axis| axis.extra.clamp) {
         return;
@@ -146,7 +146,7 @@ fn turn(view: &LegView<'_>, axis: usize) -> Turn {
     match (motion.kind, motion.orientation) {
         (MotionKind::Dwell(_), _) => Turn::No,
         (MotionKind::Unknown, _) | (_, Orientation::Vector(..)) => Turn::Perhaps,
-        // neither before nor behind this block the program knows it: the block does not name it
+        // neither before nor after this block does the program know it: the block does not name it
         _ if to.is_none() || from == to => Turn::No,
         _ => Turn::Perhaps,
     }

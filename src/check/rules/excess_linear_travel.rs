@@ -130,7 +130,7 @@ fn turning_word(view: &LegView<'_>, program: &Program) -> TextRange {
     )
 }
 
-/// The threshold lies between the bounds.
+/// The threshold is between the bounds.
 fn between(view: &LegView<'_>, out: &mut Reporter<'_>, travel: &LinearTravel, tip: f64, allowed: f64) {
     if out.repeats_unknown(view, BETWEEN, travel.most_mm) {
         return;
@@ -178,7 +178,7 @@ mod tests {
         }
     }
 
-    /// C turns by 90 deg and X and Y carry the tool along, so that the tip stands still on the part while they run 141 mm: a zero point that
+    /// C turns by 90 deg and X and Y carry the tool along, so that the tip does not move on the part while they run 141 mm: a zero point that
     /// changes between the blocks moves nothing.
     #[test]
     fn the_way_of_the_tip_is_that_on_the_part_whatever_the_zero_point() {
@@ -209,7 +209,7 @@ mod tests {
         found.map(|found| (found.status, found.values))
     }
 
-    /// Between ratios that fail and ratios that hold lies one that is not proven: it is not silent, and names both bounds.
+    /// Between ratios that fail and ratios that hold there is one that is not proven: it is reported, with both bounds.
     #[test]
     fn a_length_at_the_threshold_is_not_proven() {
         let (mut low, mut high) = (5.0, 200.0);

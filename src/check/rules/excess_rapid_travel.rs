@@ -48,10 +48,10 @@ pub(super) const RULE: Body = Body {
     level: Level::Leg(Needs::ARRIVES, check),
 };
 
-/// A shorter direct way counts as this, mm or deg.
+/// A shorter direct distance counts as this, mm or deg.
 const LEAST: f64 = 0.1;
 
-/// A smaller detour is not told, mm or deg.
+/// A smaller detour is not reported, mm or deg.
 const DETOUR: f64 = 10.0;
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
@@ -108,7 +108,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
 mod tests {
     use crate::fixture::{Fixture, assert_drawn};
 
-    /// The obstacle of the paper, ten times as large: the long way round it is 127.97 mm, the shortest 84.72 mm, the direct way 60 mm.
+    /// The obstacle of the paper, ten times as large: the long way round it is 127.97 mm, the shortest 84.72 mm, the direct distance 60 mm.
     #[test]
     fn the_long_way_round_the_barrier_of_the_paper_is_told() {
         let cut = "G0 X59 Y50 Z0\nG1 X60 F500\n";
@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn a_tilted_head_retracts_along_its_tool() {
-        // B 90: the tool lies along X
+        // B 90: the tool is parallel to X
         assert_drawn(
             "gcode ferrari-bc",
             "G0 X0 Y0 Z0 B90 C0\nG1 Y1 F500\nG0 X200\nG0 Y2\nG0 X0\nG1 Y3\nM30\n",

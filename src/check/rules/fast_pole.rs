@@ -51,7 +51,7 @@ pub(super) const RULE: Body = Body {
 /// Where the first axis turns less than this many times as far as the tool axis the pole is not to blame.
 const AMPLIFIED: f64 = 5.0;
 
-/// A tool axis that turns less stands still, rad: 1e-4 deg.
+/// A tool axis that turns less than this does not turn, rad: 1e-4 deg.
 const STILL: f64 = 1.7e-6;
 
 /// Peak acceleration of the first axis on a straight pass is this times w^2 / d^2 (kinematics notes 2.4).

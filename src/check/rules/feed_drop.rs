@@ -58,7 +58,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if share >= tolerances.feed_drop_warning * (1.0 - ROUNDING) {
         return;
     }
-    // told by axis-overspeed: the axis that drops the feed is overrun at the programmed one
+    // reported by axis-overspeed: the axis that drops the feed is too fast at the programmed one
     if view.feed_is_ambiguous(out.dialect()) {
         return;
     }

@@ -135,7 +135,7 @@ fn assumed(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &OrientationDe
 }
 
 fn opposite(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    // an arc without a known centre is told by the fault that took it
+    // the fault that removed the centre of an arc reports it
     let lost = matches!(view.motion().kind, trunnion_interp::MotionKind::Arc(None));
     if lost || out.repeats_unknown(view, OPPOSITE, 0.0) {
         return;
@@ -171,7 +171,7 @@ mod tests {
 
     #[test]
     fn a_tenth_of_a_degree_is_the_threshold() {
-        // at a tilt of A the way round the cone lies about dC^2 sin A cos A / 8 beside the great circle
+        // at a tilt of A the path round the cone is about dC^2 sin A cos A / 8 away from the great circle
         let text = |j: f64| {
             let (sin, cos) = trunnion_geometry::math::sin_cos(trunnion_geometry::rad(j));
             let (sin, cos) = (0.5 * sin, 0.5 * cos);

@@ -45,7 +45,7 @@ pub(super) const RULE: Body = Body {
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    // an arc without a known centre is told by the fault that took it
+    // the fault that removed the centre of an arc reports it
     let lost = matches!(view.motion().kind, MotionKind::Arc(None));
     if !view.motion().is_feed() || lost || view.stances().is_none() {
         return;

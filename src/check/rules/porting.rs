@@ -108,8 +108,8 @@ mod tests {
         }
     }
 
-    /// Each lint with a wrong and a right line, in both directions where both controls take the line: what differs for the one who comes from
-    /// Fanuc differs for the one who comes from LinuxCNC.
+    /// Each lint with a wrong and a right line, in both directions where both controls accept the line: what changes when moving from
+    /// Fanuc also changes when moving from LinuxCNC.
     #[test]
     fn wrong_and_right_in_both_directions() {
         const THERE: &str = "gcode fanuc-30i port=linuxcnc";

@@ -84,12 +84,12 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .merge_everywhere(cause);
 }
 
-/// Whether it is an arc that nobody can draw because X, Y or Z of its start is not known, as behind a switch of tool centre point control.
+/// Whether it is an arc that cannot be drawn because X, Y or Z of its start is unknown, as after a switch of tool centre point control.
 pub(crate) fn is_arc_from_nowhere(motion: &Motion) -> bool {
     motion.kind == MotionKind::Arc(None) && motion.start.xyz().is_none()
 }
 
-/// Its end is known, its way is not: told once.
+/// Its end is known, its path is not: reported once.
 fn arc_from_nowhere(view: &LegView<'_>, out: &mut Reporter<'_>) {
     const CAUSE: u64 = u64::MAX;
     if out.repeats_unknown(view, CAUSE, 0.0) {
@@ -111,7 +111,7 @@ fn is_told(view: &LegView<'_>) -> bool {
     motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()
 }
 
-/// A work offset turns the workpiece frame: told once for each axis.
+/// A work offset turns the workpiece frame: reported once for each axis.
 fn rotary_offset(axis: u8, view: &LegView<'_>, out: &mut Reporter<'_>) {
     let cause = u64::from(axis);
     if !is_told(view) || out.repeats_unknown(view, cause, 0.0) {
@@ -130,7 +130,7 @@ fn rotary_offset(axis: u8, view: &LegView<'_>, out: &mut Reporter<'_>) {
         .merge_everywhere(cause);
 }
 
-/// The program moves an axis that the machine file holds: told once for each axis and place.
+/// The program moves an axis that the machine file holds: reported once for each axis and position.
 fn held_elsewhere(axis: u8, [value, held]: [f64; 2], view: &LegView<'_>, out: &mut Reporter<'_>) {
     let cause = hash(&format!("{} {value}", char::from(axis)));
     if !is_told(view) || out.repeats_unknown(view, cause, 0.0) {
@@ -218,7 +218,7 @@ mod tests {
         assert_eq!(report.diagnostics[0].count, 3);
     }
 
-    /// Behind a switch of tool centre point control nobody knows from where an increment counts, in a rapid either.
+    /// After a switch of tool centre point control the start of an increment is unknown, in a rapid as well.
     #[test]
     fn a_rapid_by_an_increment_from_nowhere_is_told() {
         let report = assert_drawn(
@@ -228,7 +228,7 @@ mod tests {
         assert_eq!(report.diagnostics[1].status, crate::Status::Unknown);
     }
 
-    /// What only the machine knows: where a probe touched, where its reference point lies.
+    /// What only the machine knows: where a probe touched, where its reference point is.
     #[test]
     fn a_rapid_to_what_only_the_machine_knows_is_told() {
         for line in ["G0 X#5061", "G0 X[1 + #5161]", "G28 Z60", "#1 = #5063\nG0 Z#1"] {
@@ -245,7 +245,7 @@ mod tests {
         }
     }
 
-    /// Where the centre of an arc lies that is told from its start, nobody knows behind a switch of tool centre point control.
+    /// An arc centre given relative to its start is unknown after a switch of tool centre point control.
     #[test]
     fn an_arc_behind_a_switch_of_tool_centre_point_control_is_told() {
         for arc in [

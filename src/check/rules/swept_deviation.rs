@@ -66,7 +66,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let tolerance = view.machine.tolerances.swept_mm;
     let declared = end.tool_length > 0.0;
     let length = if declared { end.tool_length } else { LONGEST_MM };
-    // opposite tool axes are told by orientation-deviation, a straying tip by path-deviation
+    // opposite tool axes are reported by orientation-deviation, a deviating tip by path-deviation
     let Some(deviation) = swept_deviation(view.machine, view.leg, length, tolerance) else {
         return;
     };

@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn only_lengths_count() {
-        // zero and angles are the same in any unit; the first length is told, once
+        // zero and angles are the same in any unit; the first length is reported, once
         assert_drawn(
             "gcode",
             "G0 X0 Y0\nB45\nX5\n;^ units-unset: nothing says whether lengths are inch or mm\nY7\n",

@@ -77,7 +77,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             continue;
         }
         let badness = rad(RESERVE_DEG) - reserve;
-        // the lower end behind the upper one is another finding, however near the blocks
+        // the lower end after the upper one is a separate finding, however close the blocks
         let key = key + 256 * u64::from(limit == high);
         if out.repeats(view, key, badness) {
             continue;

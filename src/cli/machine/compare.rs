@@ -75,7 +75,7 @@ pub(super) fn run(global: &Global, options: &Options<'_>) -> Result<Done, Failur
 /// Random poses have tools of up to this length, mm.
 const RANDOM_TOOLS_MM: f64 = 200.0;
 
-/// Digits that are told of a bound.
+/// Digits that are printed of a bound.
 fn round_up(bound: f64) -> f64 {
     (bound * 1e6 * (1.0 - 1e-12)).ceil() / 1e6
 }

@@ -10,7 +10,7 @@ use trunnion_machine::{
 };
 use trunnion_pieces::{Move, Piece};
 
-/// Where the machine stands.
+/// The position of the machine.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) joints: Joints,
@@ -87,7 +87,7 @@ fn one_posture(
             Orientations::Unreachable(off) => {
                 return Err(refusal(index, step, &words(&NoStance::Unreachable(off))));
             }
-            // the first rotary axis is free: it stays, or (naive) stands at zero as an arc tangent of nothing does
+            // the first rotary axis is free: it stays, or (naive) is at zero, as atan2 of zeros gives
             Orientations::Pole(second) => [if windings == WindingChoice::Nearest { q[0] } else { 0.0 }, second],
             Orientations::Postures(postures) => pick(&postures, posture).q,
         };

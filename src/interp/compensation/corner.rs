@@ -6,7 +6,7 @@ use crate::OuterCorner;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Link {
     pub(super) to: Point,
-    /// Centre of an arc, and which way it turns; else a line.
+    /// Centre of an arc, and its direction of rotation; otherwise a line.
     pub(super) about: Option<(Point, f64)>,
 }
 

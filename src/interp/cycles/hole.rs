@@ -44,7 +44,7 @@ impl Interpreter<'_> {
             return;
         };
         if repeats == 0 {
-            // data only; whether the tool goes to the coordinates is not told
+            // data only; the sources do not say whether the tool moves to the coordinates
             if (words.axes.given | words.axes.unread) & !(1 << axis) != 0 {
                 self.lost(words, axis, "coordinates in a cycle with zero repeats", report);
             }
@@ -210,7 +210,7 @@ impl Interpreter<'_> {
         self.memory.out.push(motion);
     }
 
-    /// One hole, from where the tool stands above it.
+    /// One hole, from the present position above it.
     fn hole(&mut self, plan: &Plan, report: &mut Report<'_>) {
         let dwell = self.memory.cycle.hole.dwell;
         let feed_out = |interpreter: &mut Self, plan: &Plan, report: &Report<'_>| {
@@ -273,7 +273,7 @@ impl Interpreter<'_> {
         self.state.spindle_on = before;
     }
 
-    /// By how much the tool goes off the wall, first and second axis of the plane; `None`: a parameter of the control says which way, and
+    /// How far the tool moves off the wall, first and second axis of the plane; `None`: a parameter of the control decides the direction, and
     /// it is not declared, or turned by a frame.
     fn aside(&self, report: &mut Report<'_>) -> Option<[f64; 2]> {
         let hole = &self.memory.cycle.hole;

@@ -15,7 +15,7 @@ const ROUNDED: f64 = 2e-3;
 pub(super) struct Frame {
     /// The axis into the work and the one along the cuts.
     pub(super) axes: [usize; 2],
-    /// 1 or -1: which way depth and along grow.
+    /// 1 or -1: the direction in which depth and distance along grow.
     pub(super) signs: [f64; 2],
     /// Where both are 0, mm.
     pub(super) origin: [f64; 2],
@@ -77,7 +77,7 @@ impl Path {
         Ok(Self { frame, pieces })
     }
 
-    /// Where a cut at this depth, which lies above the contour's first point, meets the contour. `None` where it does not, and where it runs
+    /// Where a cut at this depth, which is above the contour's first point, meets the contour. `None` where it does not, and where it runs
     /// along a part of it, so that the first and the last point that they share differ.
     pub(super) fn meet(&self, depth: f64) -> Option<f64> {
         let at = self.pieces.partition_point(|piece| piece.to[0] > depth + SAME);

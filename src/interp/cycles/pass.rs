@@ -1,7 +1,7 @@
 //! Turning cycles of one pass (G90, G94 and G92 of system A): in, cut, out, back to the start.
 //!
 //! A thread may be left before its end: parameter 5130 says how many leads before (Fanuc Series 30i operator's manual, lathe system, threading
-//! cycle), and how the tool goes out there is told by pictures alone.
+//! cycle), and the sources show only in pictures how the tool retracts there.
 use super::Stored;
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
@@ -108,7 +108,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// What becomes of the corners of a thread that is left before its end. Where nobody says whether it is, they stay, and it is told.
+    /// What happens to the corners of a thread that is left before its end. If it is not declared whether it is, they stay, and that is reported.
     fn pull_out(&self, corners: &mut Vec<((f64, f64), MotionKind)>, lead: Feed, report: &mut Report<'_>) {
         let (Some(leads), Feed::PerRevolution(lead)) = (self.setup.control.thread_pull_out, lead) else {
             let why =

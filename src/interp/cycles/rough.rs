@@ -3,12 +3,12 @@
 //! From the start point in rapid by the finishing allowance; in by the depth of cut as the first block of the contour says (G0 or G1); along the
 //! axis at the feed up to the contour, which is moved by the allowance; off at 45 degrees by the escape; back in rapid to the start line; in by
 //! depth and escape; and where the first point of the contour is reached or would be passed, in to that point and along the whole contour, then
-//! back to the start point in rapid. Depth and escape stay until they are said again (parameters 5132 and 5133), for both cycles.
+//! back to the start point in rapid. Depth and escape stay until they are programmed again (parameters 5132 and 5133), for both cycles.
 //!
 //! Sources: Robur concise guide to Fanuc lathe cycles, page 48; GSK988T user manual, G71, page 69 (the same cycle, with the order of its motions);
 //! Rockwell 9/Series lathe manual, page 24-9. Fanuc's own (Series 30i operator's manual, lathe system, stock removal in turning and facing) was
 //! not at hand. They differ in whether the tool leaves its cuts at the feed or in rapid, and say nothing of cuts that miss the contour, run along a part of it, or are
-//! shorter than the escape: there the way is unknown, and what comes behind is known again.
+//! shorter than the escape: there the path is unknown, and what follows is known again.
 use super::contour::Contour;
 use super::levels::{Frame, Path};
 use crate::run::{Interpreter, Report};
@@ -24,7 +24,7 @@ const MOST: f64 = 10_000.0;
 /// What positions may be off, mm.
 const OFF: f64 = 1e-6;
 
-/// What the first block of G71 and G72 keeps, mm; `None`: not said, or not known.
+/// What the first block of G71 and G72 keeps, mm; `None`: not programmed, or unknown.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Roughing {
     depth: Option<f64>,
@@ -156,7 +156,7 @@ impl Interpreter<'_> {
         if full / depth > MOST {
             return Err("more than 10000 cuts");
         }
-        // depths and places along the contour are the same before and behind its move
+        // depths and positions along the contour are the same before and after its move
         let frame = Frame {
             axes,
             signs,

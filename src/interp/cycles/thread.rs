@@ -3,12 +3,12 @@
 //! First block: P is six digits, two each for the number of finishing passes, the pull-out in tenths of the lead, and the angle of the tool; Q the
 //! least depth of a cut, R the finishing allowance (parameters 5142, 5130, 5143, 5140, 5141). Second block: X and Z the root of the thread at its
 //! end, R the radius at its beginning less that at its end, P the height, Q the depth of the first cut, F the lead. P and Q are radii in
-//! least increments. The nth cut lies Q times the root of n below the crest, and at least the least depth below the one before; at the height less the
+//! least increments. The nth cut is Q times the root of n below the crest, and at least the least depth below the one before; at the height less the
 //! allowance the finishing passes follow at the whole height. In in rapid, along the thread by the lead, out and back in rapid.
 //!
 //! Sources: HUST H6D-T manual, pages 3-59 and 3-60 (the same cycle: the least depth, and rapids everywhere but along the thread). Fanuc's own (Series
 //! 30i operator's manual, lathe system, multiple threading cycle) was not at hand. Where in Z a cut begins that goes in along the flank (angle above 0), and
-//! the shape of the pull-out (parameter 5131), are told by pictures alone: unknown.
+//! the shape of the pull-out (parameter 5131), are shown in pictures only: unknown.
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
 use crate::{Feed, MotionKind, Position};
@@ -20,7 +20,7 @@ const MOST: usize = 10_000;
 /// Angles of the tool that a control takes, degrees.
 const ANGLES: [u32; 6] = [0, 29, 30, 55, 60, 80];
 
-/// What the first block keeps; `None`: not said, or not known.
+/// What the first block keeps; `None`: not programmed, or unknown.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Thread {
     /// Finishing passes, pull-out in tenths of the lead, angle in degrees.
@@ -131,7 +131,7 @@ impl Interpreter<'_> {
         let root = [end.values[X], end.values[Z]];
         let (rise, way) = (start.values[X] - root[X], root[1] - start.values[Z]);
         let out = rise.signum();
-        // the start lies outside of the thread at both ends
+        // the start is outside the thread at both ends
         if rise * out < height - 1e-9 || (rise - taper) * out < height - 1e-9 || way == 0.0 {
             return Err("it starts inside its thread, or has no length");
         }

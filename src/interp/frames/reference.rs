@@ -80,7 +80,7 @@ impl Interpreter<'_> {
         self.rapid_to(point, report);
     }
 
-    /// Rapid of the named axes to a reference point: in machine coordinates where it is declared, else to nobody knows where.
+    /// Rapid of the named axes to a reference point: in machine coordinates where it is declared, otherwise to an unknown position.
     fn reach_reference(&mut self, named: u16, number: u32, range: TextRange, report: &mut Report<'_>) {
         let place = (number.max(1) - 1) as usize;
         let stored = self.memory.frames.stored_reference.get(place).copied().flatten();
@@ -120,7 +120,7 @@ impl Interpreter<'_> {
         self.memory.out.push(motion);
     }
 
-    /// A motion to a place that is told as words tell it; it is put out with the others of the block.
+    /// A motion to a position that is given as words give it; it is emitted with the others of the block.
     pub(crate) fn goes(&mut self, kind: MotionKind, to: Position, feed: Feed, report: &Report<'_>) {
         self.cycle_motions += 1;
         let start = self.state.position;

@@ -11,11 +11,11 @@ use trunnion_geometry::arc::{Arc, Turning};
 use trunnion_ngc::{At, Canon, Error, FileId, OwnCode, Pose, State};
 use trunnion_syntax::{BlockId, Program, TextRange};
 
-/// What calls have told that a motion needs and [`State`] does not tell in step with them: compensation of the cutter radius holds
+/// What calls have set that a motion needs and [`State`] does not set in step with them: compensation of the cutter radius holds
 /// calls back while the state runs ahead.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Told {
-    /// The control has told its own unit of lengths.
+    /// The control has reported its own unit of lengths.
     pub(super) own_units: bool,
     /// Where the machine is, mm and deg, as far as it is known.
     pub(super) machine: Position,
@@ -32,11 +32,11 @@ pub(super) struct Told {
     pub(super) tool_offset: Pose,
     /// The block in which each line begins, where that is not its number.
     pub(super) blocks: Option<std::sync::Arc<[u32]>>,
-    /// Where lines stand and from where the main program called them.
+    /// Where lines are and from where the main program called them.
     pub(super) places: Places,
     /// The files of the run as people are shown them; the main program first.
     pub(super) paths: Vec<std::sync::Arc<str>>,
-    /// Compensation of the cutter radius was on behind the last line.
+    /// Compensation of the cutter radius was on after the last line.
     pub(super) compensated: bool,
     /// Something has happened after which X Y Z U V W are not known.
     pub(super) lost: bool,
@@ -46,7 +46,7 @@ pub(super) struct Told {
     pub(super) hidden: bool,
     /// While lines are motions and nothing else, which no offset can change: the offsets, and the last of them.
     pub(super) steady: Option<Box<Steady>>,
-    /// The kinematics were switched, nobody knows to which: X Y Z say nothing about the machine.
+    /// The kinematics were switched, to which one is unknown: X Y Z say nothing about the machine.
     pub(super) kinematics_unknown: bool,
 }
 
@@ -72,7 +72,7 @@ pub(super) struct Bridge<'i, 'd, 'p, S: Sink> {
 }
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
-    /// The block of the main program that stands for a place.
+    /// The block of the main program that represents a place.
     pub(super) fn block(&self, at: At) -> BlockId {
         if at.file == FileId::MAIN {
             let last = (self.program.block_count() as u32).saturating_sub(1);
@@ -168,7 +168,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             kind,
             start,
             end,
-            // lines that are told by what differs may name other rotary axes
+            // lines that are emitted as differences may name other rotary axes
             says_way: if modal.incremental {
                 crate::offsets::ROTARY | state.named_axes
             } else {
@@ -277,7 +277,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
             Canon::Dwell(seconds) => {
                 let shift = self.shift(state);
                 let end = shift.programmed(&self.told.machine);
-                // what a machine makes of a negative time, which the interpreter takes, nobody says
+                // it is not known what a machine does with a negative time, which the interpreter accepts
                 let is_time = seconds.is_finite() && *seconds >= 0.0;
                 let kind = MotionKind::Dwell(is_time.then_some(*seconds));
                 self.motion(kind, end, &shift, Feed::Unknown, at, state);

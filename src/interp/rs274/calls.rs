@@ -11,7 +11,7 @@ use trunnion_syntax::{Address, BlockId, TextRange, Value};
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// The codes of the machine's own of one block. Which of them runs first is for the machine to say, so that of several that do more
-    /// than switch something it is not known what they leave behind.
+    /// than switch something it is not known what they leave active.
     pub(super) fn own_codes(&mut self, codes: &[OwnCode], at: At, state: &State) {
         for own in codes {
             self.own_code(*own, at, state);
@@ -34,7 +34,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.interpreter.state.frame_unknown = true;
     }
 
-    /// A code of the machine's own: what the dialect's table says of it, else nothing is known of the position behind it.
+    /// A code of the machine's own: what the dialect's table says of it, otherwise the position after it is unknown.
     fn own_code(&mut self, own: OwnCode, at: At, state: &State) {
         let code = table_entry(self.interpreter.dialect, own);
         let clamps_axis = self.clamp_code(own, state);
@@ -54,7 +54,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 | Action::ProgramStop
         );
         if state.side != Side::Off && !is_harmless(code.action) {
-            // motions before it in the text come behind it
+            // motions before it in the text come after it
             let what = format!("{} under cutter radius compensation", code.id);
             self.fault(at, own.range, FaultKind::NotModelled { what });
             self.told.kinematics_unknown = true;
@@ -98,7 +98,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let codes = &interpreter.setup.control.clamp_codes;
         let clamps = &mut interpreter.state.clamps;
         let is_one = clamps.hear(codes, own.tenths);
-        // motions before it in the text may come behind it
+        // motions before it in the text may come after it
         if is_one && state.side != Side::Off {
             clamps.hear_unread(codes);
         }
@@ -257,7 +257,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
-    /// The program has no end: told at its last line that is not blank.
+    /// The program has no end: reported at its last line that is not blank.
     pub(super) fn missing_end(&mut self) {
         let blocks = (0..self.program.block_count() as u32).rev().map(BlockId);
         let mut written = blocks.filter(|&block| {

@@ -72,7 +72,7 @@ impl DraftAxis {
             ..Self::default()
         }
     }
-    /// The keys that nobody knows.
+    /// The unknown keys.
     fn unknown(&self) -> Vec<&'static str> {
         if self.follow.is_some() {
             return Vec::new();

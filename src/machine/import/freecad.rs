@@ -1,6 +1,6 @@
 //! A machine file from a machine of FreeCAD's CAM workbench (`.fcm`, JSON): axes with type, role, parent, joint, limits and highest speed.
 //!
-//! Speeds are per minute. The file has no accelerations, and does not say which way a positive rotary word turns (dir is the axis of
+//! Speeds are per minute. The file has no accelerations, and does not say in which direction a positive rotary word turns (dir is the axis of
 //! rotation, its sense depends on the post processor), so that the sign of rotary axes stays open.
 use super::Imported;
 use super::draft::{Draft, DraftAxis};
@@ -276,7 +276,7 @@ fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     (norm > 1e-6).then(|| v.map(|c| c / norm))
 }
 
-/// From workpiece to tool: of the table's axes those that stand on another one come first, of the head's the other way round.
+/// From workpiece to tool: of the table's axes those mounted on another one come first, of the head's in the opposite order.
 fn order(placed: Vec<Placed>, draft: &mut Draft) -> Result<(), MachineError> {
     let parents: BTreeMap<String, Option<String>> = placed
         .iter()

@@ -221,7 +221,7 @@ fn limits(
     let mut sections = vec![format!("AXIS_{named}")];
     if let Some(joint) = joint {
         sections.push(format!("JOINT_{joint}"));
-        // before joints and axes were told apart (2.7 and older), axes were numbered
+        // before LinuxCNC distinguished joints and axes (2.7 and older), axes were numbered
         sections.push(format!("AXIS_{joint}"));
     }
     let factor = if axis.rotary { scale.angle } else { scale.length };

@@ -32,7 +32,7 @@ pub(super) struct Piece {
 const UP: f64 = 1.0 + 1e-9;
 
 impl GreatCircle<'_> {
-    /// Bounds over a piece: of two ways to them, each is the nearer one somewhere.
+    /// Bounds over a piece: of two formulas, each is the tighter one somewhere.
     pub(crate) fn bounds(&self, from: f64, to: f64) -> SpinBounds {
         let piece = self.piece(from, to);
         let (one, other) = (self.by_reach(&piece), self.by_azimuth(&piece));
@@ -106,7 +106,7 @@ impl GreatCircle<'_> {
 
     /// t1 is the azimuth of u less its lead over the second axis ([`GreatCircle::lead`]). The azimuth's rate is w n / (1 - x^2) with n the
     /// part of the circle's axis along e1; the lead changes with x by N / (D (1 - x^2)), N = c S - (x - c y)(y - c x) / S, and N with x by
-    /// -(y - c x) D (1 - y^2) / S^3. At the edge of reach, where S is small, most of the first way's terms take each other away; here
+    /// -(y - c x) D (1 - y^2) / S^3. At the edge of reach, where S is small, most terms of the first formula cancel; here
     /// they are small themselves as long as x changes little.
     fn by_azimuth(&self, piece: &Piece) -> SpinBounds {
         let &Piece {

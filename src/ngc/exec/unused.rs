@@ -42,7 +42,7 @@ rotary! {
     AXIS_C "Cannot put a c in canned cycle"
 }
 
-/// Which codes a block has, for the question who uses its words.
+/// Which codes a block has, to decide which of them uses its words.
 struct Codes<'b>(&'b Block);
 
 impl Codes<'_> {

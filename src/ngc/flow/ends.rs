@@ -40,7 +40,7 @@ impl Engine {
         self.emit(Canon::Reset, At::default(), sink);
         None
     }
-    /// The last line is behind: the end of the program is missing, or what is looked for.
+    /// The last line is passed: the end of the program is missing, or what is looked for.
     pub(super) fn end_of_file(&mut self, sink: &mut dyn Sink) -> Step {
         match self.flow.seeking {
             Some(Seeking {

@@ -1,4 +1,4 @@
-//! Why it cannot be said what runs next: which values are not known, and where they come from.
+//! Why it is unknown what runs next: which values are not known, and where they come from.
 use super::oline::{Keyword, OLine};
 use crate::Engine;
 use trunnion_formula::{Formula, Variable, Variables};

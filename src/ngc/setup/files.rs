@@ -43,9 +43,9 @@ impl Ini {
 
 impl ToolTable {
     /// Reads lines of words: T number, P pocket, X Y Z A B C U V W offsets, D diameter, I and J angles, Q orientation; `;` begins a
-    /// comment. Lines that are no row are told beside the rows. Each P takes a row, also a second P of one line and those of a line that
-    /// is no row (so `rs274`): tools behind it move down. A row without P is that of the spindle, as a run starts, and takes no other; a
-    /// tool that stands there and in a later row has that row's values in both (observed).
+    /// comment. Lines that are no row are reported with the rows. Each P takes a row, also a second P of one line and those of a line that
+    /// is no row (so `rs274`): tools after it move down. A row without P is that of the spindle, as a run starts, and takes no other; a
+    /// tool that is there and in a later row has that row's values in both (observed).
     pub fn parse(bytes: &[u8]) -> (Self, Vec<BadLine>) {
         let mut rows = Vec::new();
         let mut spindle: Option<ToolEntry> = None;
@@ -94,7 +94,7 @@ impl ToolTable {
     }
 }
 
-/// How many P words with a number a line has, whatever else stands there.
+/// How many P words with a number a line has, whatever else it contains.
 fn pockets(words: &str) -> usize {
     let is_pocket = |word: &&str| {
         let number = word

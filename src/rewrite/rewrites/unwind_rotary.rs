@@ -29,8 +29,8 @@
 //!
 //! # Traps
 //! - Only whole turns that keep the axis inside its limits are added; a jump that the limits enforce stays.
-//! - Exact half turns stay as they are written: both ways are as long.
-//! - The program may end some turns away from where it ended before; a program that goes on from there, or a control that shows
+//! - Exact half turns stay as they are written: both directions are equally long.
+//! - The program may end some turns away from where it ended before; a program that continues from there, or a control that shows
 //!   0 to 360 degrees, must be able to live with that.
 //! - `C=DC(..)`, `IC(..)`, `ACP(..)`, `ACN(..)`, G91, expressions and tool vectors do not take values literally: refused.
 //!

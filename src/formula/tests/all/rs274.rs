@@ -1,5 +1,5 @@
-//! RS274/NGC: every line of `rs274.tsv` was put behind `G0X` and given to LinuxCNC's `rs274` (2.9.0~pre1); beside it stands what it
-//! answered: the X of the move, or the message behind `!`.
+//! RS274/NGC: every line of `rs274.tsv` was put after `G0X` and given to LinuxCNC's `rs274` (2.9.0~pre1); beside it stands what it
+//! answered: the X of the move, or the message after `!`.
 use crate::support::{Table, eval, read, refused};
 use trunnion_formula::{Cursor, Grammar, Target, Variable, target, value};
 use trunnion_syntax::{Decimal, TextRange};

@@ -193,7 +193,7 @@ fn after_an_unknown_record_nothing_is_known() {
             ["L X1 Y2 Z3 F1 tcp <0 0 1>", "U - tcp", "L - F1 tcp"],
             "{record}"
         );
-        // the record, what it may be, and the GODLTA behind it
+        // the record, what it may be, and the GODLTA after it
         assert_eq!(faults("apt", &source).len(), 3, "{record}");
     }
     let source = "FEDRAT/1\nGOTO/1,2,3\nINSERT G0 X5\nGODLTA/1,1,1\nGOTO/4,5,6,0,0,1\n";

@@ -104,7 +104,7 @@ fn what_a_cycle_does_not_tell_is_unknown() {
         let got = faults("sinumerik-840d", &format!("{HEAD}{text}\n"));
         assert!(got.iter().any(|fault| fault.contains(told)), "{text}: {got:?}");
     }
-    // the place behind a hole in steps is known
+    // the position after a hole in steps is known
     assert_eq!(
         cycle("CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0)"),
         ["R X0 Y0 Z3", "U X0 Y0 Z-20", "R X0 Y0 Z10"]

@@ -115,7 +115,7 @@ fn pecking_leaves_the_hole() {
         "R Z1",
     ];
     assert_eq!(pecking("fanuc-30i", source, control), want);
-    // where the clearance is not declared, the rapid into the hole ends nobody knows where; the depths are known
+    // where the clearance is not declared, the rapid into the hole ends at an unknown position; the depths are known
     let got = pecking("fanuc-30i", source, ControlData::default());
     assert_eq!(got[3..6], ["R Z1", "R X1 Y2", "L Z-5 F100"]);
 }
@@ -195,7 +195,7 @@ fn bores_that_stop_the_spindle() {
 
 #[test]
 fn fine_boring_shifts_off_the_wall() {
-    // Fanuc: a parameter says which way Q shifts, so X and Y are unknown while the tool is off the wall
+    // Fanuc: a parameter decides the direction in which Q shifts, so X and Y are unknown while the tool is off the wall
     let fanuc = lines("fanuc-30i", "G0 X1. Y2. Z9.\nG98 G76 Z-3. R1. Q0.5 F100.\n");
     assert_eq!(
         fanuc,

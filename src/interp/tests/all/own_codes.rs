@@ -72,7 +72,7 @@ fn several_codes_of_the_machine_in_one_block_are_all_run() {
         assert_eq!(lines, ["R X1 Y2 Z3 A4", "R X5 A4 tcp", "R X1 Y1 Z1 A1"], "{codes}");
         assert_eq!(faults, [""; 0], "{codes}");
     }
-    // which of two switches of the kinematics is the last, nobody knows
+    // it is unknown which of two switches of the kinematics comes last
     for codes in ["M428 M430", "M429 M428"] {
         let (lines, faults) = run(codes);
         assert!(

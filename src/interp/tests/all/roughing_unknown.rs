@@ -1,10 +1,10 @@
-//! Roughing cycles that are not worked out, and say why: they end where they began, and what comes behind is known.
+//! Roughing cycles that are not simulated, and say why: they end where they began, and what follows is known.
 use crate::support::{fault_line, faults, lines, run_bytes};
 use trunnion_interp::{MotionKind, Setup, WorkOffset};
 
 const A: &str = "fanuc-30i-lathe-a";
 
-/// Parts of a program: what stands before it, first and second block, contour.
+/// Parts of a program: what comes before it, first and second block, contour.
 fn program([before, first, second, contour]: [&str; 4]) -> String {
     format!("{before}G0 X50. Z2.\n{first}\n{second}\n{contour}G0 Z9.\nM30\n")
 }
@@ -30,7 +30,7 @@ fn are_unknown(cases: &[([&str; 4], &str)]) {
 #[test]
 fn words_that_are_missing_or_not_documented() {
     are_unknown(&[
-        // no depth, no escape, lengths that nobody knows
+        // no depth, no escape, unknown lengths
         (["", "", SECOND, CONTOUR], "without a depth of cut"),
         (["", "G71 R1.", SECOND, CONTOUR], "without a depth of cut"),
         (["", "G71 U0. R1.", SECOND, CONTOUR], "without a depth of cut"),

@@ -8,7 +8,7 @@ const A: &str = "fanuc-30i-lathe-a";
 /// two finishing passes.
 const DEPTHS: [f64; 8] = [0.4, 0.565_685, 0.69282, 0.8, 0.894_427, 0.9, 1.0, 1.0];
 
-/// A thread without flank and pull-out: radius of the root at the end `x`, of the start `x0`; the way out of the work; taper; Z.
+/// A thread without flank and pull-out: radius of the root at the end `x`, of the start `x0`; the retract; taper; Z.
 fn passes(x: f64, x0: f64, taper: f64, [z0, z]: [f64; 2], depths: &[f64]) -> Vec<String> {
     let out = (x0 - x).signum();
     let mut want = vec![format!("R X{x0} Z{z0}")];
@@ -31,7 +31,7 @@ fn cuts_go_deeper_by_the_root_of_their_number() {
     let c = source.replace("G76", "G78").replace("G0 X35.", "G90 G0 X35.");
     assert_eq!(lines("fanuc-30i-lathe-c", &c), lines(A, source));
     assert_eq!(lines(A, &source.replace("X30. Z-20.", "U-5. W-25.")), lines(A, source));
-    // inside, and the other way
+    // inside, and in the other direction
     let inside = source.replace("X35. Z5.", "X25. Z-25.").replace("Z-20.", "Z0.");
     assert_eq!(lines(A, &inside), passes(15.0, 12.5, 0.0, [-25.0, 0.0], &DEPTHS));
 }
@@ -184,7 +184,7 @@ fn hostile_numbers_come_to_an_end() {
     }
 }
 
-/// One pass (G92) on a taper, left 1.2 leads of 1.5 mm before its end, after 23.2 of 25 mm; or told that nobody knows where.
+/// One pass (G92) on a taper, left 1.2 leads of 1.5 mm before its end, after 23.2 of 25 mm; or reported as unknown.
 #[test]
 fn a_thread_of_one_pass_may_be_left_before_its_end() {
     use trunnion_interp::ControlData;

@@ -1,4 +1,4 @@
-//! New block numbers: what follows them, and what stands in the way.
+//! New block numbers: what follows them, and what prevents them.
 use crate::support::{dialect, program};
 use trunnion_interp::Setup;
 use trunnion_layout::{Numbers, Renumbered, renumber};

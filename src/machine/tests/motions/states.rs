@@ -206,7 +206,7 @@ fn a_needless_change_of_posture_has_an_excess() {
     // straight through the pole: no excess
     let leg = follower.follow(&tcp(swapped, place(10.0, 0.0, 50.0, 5.0, 190.0)));
     assert_eq!(leg.rotary_excess, 0.0);
-    // by way of the pole: the sign before it counts
+    // through the pole: the sign before it counts
     let on_pole = place(11.0, 0.0, 50.0, 0.0, 190.0);
     follower.follow(&tcp(place(10.0, 0.0, 50.0, 5.0, 190.0), on_pole));
     let leg = follower.follow(&tcp(on_pole, place(12.0, 0.0, 50.0, -5.0, 10.0)));
@@ -258,7 +258,7 @@ fn durations_follow_the_feed_and_the_slowest_axis() {
     assert_eq!(feed_limit(mikron(), &leg).expect("limited").axis_speed, None);
 }
 
-/// The joints of C, degrees, for a sequence of C words on a machine whose control reads them in the given way.
+/// The positions of C, degrees, for a sequence of C words on a machine whose control reads them in the given way.
 fn wrapped(wrap: &str, words_c: &[f64]) -> Vec<f64> {
     let source = trunnion_machine::builtin_source("mikron-ucp710").expect("built in");
     // without the rows that say a second time how words are read

@@ -1,6 +1,6 @@
 //! Programs with the calls that `rs274 -g` of LinuxCNC 2.9 made of them, held against ours.
 //!
-//! A file is a row of cases: the program, `---`, the calls and, with a `!` in front, the error, `===`. What stands in front of `+++` is the
+//! A file is a row of cases: the program, `---`, the calls and, marked by `!`, the error, `===`. The text before `+++` is the
 //! machine's INI file.
 use crate::listing;
 use std::fmt::Write;

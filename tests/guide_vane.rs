@@ -1,4 +1,4 @@
-//! The four guide-vane strategies on the Mikron UCP 710: the numbers of the paper of 2006 and of the kinematics notes.
+//! The four guide-vane strategies on the Mikron UCP 710: the numbers of the paper of 2006 and of docs/kinematics.md.
 //!
 //! Each strategy is five blocks, printed as Sinumerik words and as APT vectors. Angles deg, lengths mm, feeds mm/min.
 use std::fmt::Write;

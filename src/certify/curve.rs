@@ -5,7 +5,7 @@ use trunnion_machine::{AxisKind, Joints, Machine};
 
 /// |W''| of the tip while all joints run linearly. The chain is walked from the tool to the workpiece: a linear axis of speed v adds v
 /// to the bound V of the speed; a rotary axis of speed w at a distance of at most d adds 2 w V + w^2 d to that of the bend, and
-/// w d to V (kinematics notes 3).
+/// w d to V (docs/kinematics.md#between-the-ends-of-a-block).
 pub fn joint_bend(machine: &Machine, ends: &[Joints; 2], tool_length: f64) -> f64 {
     let mut points = [machine.home.gauge_point - machine.home.tool_axis * tool_length; 2];
     let (mut speed, mut bend) = (0.0, 0.0);

@@ -13,7 +13,7 @@ use core::f64::consts::{PI, TAU};
 use trunnion_geometry::Vec3;
 use trunnion_interp::Posture;
 
-/// Postures that differ by less than this in every rotary axis are not reported as a choice, rad: 5 deg (kinematics notes 5, CTRL-AMBIG).
+/// Postures that differ by less than this in every rotary axis are not reported as a choice, rad: 5 deg (docs/kinematics.md#which-posture-a-control-takes).
 const DIFFERENT: f64 = 5.0 * PI / 180.0;
 
 /// What a choice starts from.
@@ -372,7 +372,7 @@ fn direction_axis(machine: &Machine) -> usize {
 }
 
 /// Sum of the rotary moves, rad, of the cheapest move from `from` to the tool axis `axis` in the posture with the sign `branch`, limits
-/// aside: Dmin of branch-swap, kinematics notes 5. A swap that a limit enforces is a swap all the same. `None`: no such posture.
+/// aside: the least travel of docs/kinematics.md#change-of-posture. A swap that a limit enforces is a swap all the same. `None`: no such posture.
 pub(crate) fn cheapest_in_posture(machine: &Machine, axis: &Vec3, branch: i8, from: [f64; 2]) -> Option<f64> {
     let Orientations::Postures(postures) = orientations(machine, axis) else {
         return None;

@@ -28,7 +28,7 @@ pub struct LinearAxis {
     pub segment: usize,
 }
 
-/// Constants of the orientation solver (kinematics notes 2.3); only for machines with two rotary axes.
+/// Constants of the orientation solver (docs/kinematics.md#two-postures); only for machines with two rotary axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairConstants {
     /// c = e1 . e2.

@@ -235,7 +235,7 @@ fn remarks(machine: &Machine) -> Vec<String> {
     lines
 }
 
-/// What a positive motion of the axis does (kinematics notes 2.1 and 7).
+/// What a positive motion of the axis does (docs/kinematics.md#machine-model).
 fn sentence(axis: &Axis) -> String {
     let letter = char::from(axis.letter);
     let turned = axis.sign < 0.0;

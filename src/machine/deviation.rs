@@ -38,7 +38,7 @@ pub(crate) const RATIO: f64 = 1.19;
 /// The segment of a line joins the tips at both ends in the workpiece frame; that of an arc is the arc in its position in the workpiece at the
 /// start of the block, its end carried evenly to where the tip ends. With TCP or vectors the control keeps the tip on the programmed
 /// path, so the deviation is zero by construction, and so it is where no rotary axis moves. Without TCP the joints run linearly (X Y Z
-/// along the arc) and the tip on W(t); bound: largest sample + Q h^2 / 8 per piece of length h, Q >= |W''|. Source: kinematics notes 3.
+/// along the arc) and the tip on W(t); bound: largest sample + Q h^2 / 8 per piece of length h, Q >= |W''|. Source: docs/kinematics.md#between-the-ends-of-a-block.
 pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<Deviation> {
     if runs_dogleg(machine, leg) {
         return None;

@@ -12,7 +12,7 @@ use trunnion_geometry::Vec3;
 use trunnion_geometry::math::angle_between;
 use trunnion_interp::{Motion, MotionKind, Orientation, Position, Swivel};
 
-/// How far from its normal the tool may be on a tilted plane, rad: 0.01 deg (kinematics notes 5, TWP-ALIGN).
+/// How far from its normal the tool may be on a tilted plane, rad: 0.01 deg (docs/kinematics.md#tilted-planes).
 const PLANE_TOLERANCE: f64 = 0.01 * core::f64::consts::PI / 180.0;
 
 /// What a follower remembers between two motions.

@@ -151,7 +151,7 @@ pub(crate) fn segment_shifts(constants: &Constants, joints: &Joints) -> [Vec3; 3
     shifts
 }
 
-/// Forward kinematics: kinematics notes 2.1 (product of the chain's motions, workpiece to tool). `tool_length` in mm. A held axis counts
+/// Forward kinematics: docs/kinematics.md#machine-model (product of the chain's motions, workpiece to tool). `tool_length` in mm. A held axis counts
 /// with its value in `joints`.
 pub fn forward(machine: &Machine, joints: &Joints, tool_length: f64) -> Pose {
     if let Some(other) = machine.held_elsewhere(joints) {
@@ -170,7 +170,7 @@ pub fn forward(machine: &Machine, joints: &Joints, tool_length: f64) -> Pose {
     Pose { tip, axis }
 }
 
-/// Tool axis in the workpiece frame for two rotary joint values, rad (a missing one is ignored): u = R1 R2 k0, kinematics notes 2.1.
+/// Tool axis in the workpiece frame for two rotary joint values, rad (a missing one is ignored): u = R1 R2 k0, docs/kinematics.md#machine-model.
 pub fn tool_axis_at(machine: &Machine, q: [f64; 2]) -> Vec3 {
     let constants = &machine.constants;
     let mut axis = machine.tool_axis;

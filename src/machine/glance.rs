@@ -70,7 +70,7 @@ pub struct Glance {
 }
 
 /// A look at a line along which all joints run straight; `None` for all other legs. `allowances` are those of the machine, `near` is kept
-/// from leg to leg. Source: kinematics notes 3, as in the functions that [`Glance`] names.
+/// from leg to leg. Source: docs/kinematics.md#between-the-ends-of-a-block, as in the functions that [`Glance`] names.
 #[inline]
 pub fn glance(machine: &Machine, allowances: &Allowances, near: &mut Nearness, leg: &Leg) -> Option<Glance> {
     let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {

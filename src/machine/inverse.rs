@@ -66,7 +66,7 @@ pub enum Orientations {
     Pole(f64),
 }
 
-/// Exact orientation solver, kinematics notes 2.3 and 2.5. `axis` must have length 1. Windings and limits are not applied.
+/// Exact orientation solver, docs/kinematics.md#two-postures. `axis` must have length 1. Windings and limits are not applied.
 pub fn orientations(machine: &Machine, axis: &Vec3) -> Orientations {
     let constants = &machine.constants;
     match (constants.rotary_count, &constants.pair) {
@@ -86,7 +86,7 @@ fn no_rotary(tool_axis: &Vec3, axis: &Vec3) -> Orientations {
     }
 }
 
-/// One rotary axis: u = Rot(e, q) k0 keeps its angle to e (kinematics notes 2.5).
+/// One rotary axis: u = Rot(e, q) k0 keeps its angle to e (docs/kinematics.md#fewer-rotary-axes).
 fn one_rotary(constants: &Constants, tool_axis: &Vec3, axis: &Vec3) -> Orientations {
     let rotary = &constants.rotary[0];
     let e = rotary.direction;

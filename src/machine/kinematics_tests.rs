@@ -1,4 +1,4 @@
-//! Forward and inverse kinematics against the rows of the kinematics notes and the papers' formulas.
+//! Forward and inverse kinematics against the rows of docs/kinematics.md and the papers' formulas.
 use crate::selftest::SplitMix;
 use crate::{
     BUILTIN_MACHINES, MAX_AXES, Machine, Orientations, REACH_TOLERANCE, builtin, forward, inverse, load, orientations,

@@ -30,7 +30,7 @@ const CLOSE_MM: f64 = 1e-3;
 
 /// All joints outside their travel in this leg, each limit once with the worst value. At the end: the known joints, also
 /// where the stance is not known; at a start that the program gave without a motion, all of them. Inside the block, whatever its ends
-/// are: linear joints under TCP or along arcs, and rotary ones on a great circle, by the bound of kinematics notes 3 and bisection;
+/// are: linear joints under TCP or along arcs, and rotary ones on a great circle, by the bound of docs/kinematics.md#between-the-ends-of-a-block and bisection;
 /// other joints run straight from end to end, so that an end is their worst. A joint that only returns from beyond its limit is not
 /// named again: the block before named it.
 ///

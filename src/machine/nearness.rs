@@ -88,7 +88,7 @@ impl Near {
 impl Nearness {
     /// A bound of the distance between the tip's path and its chord while all joints run straight from one stance to the other, mm.
     /// It may be loose where it proves `enough`. `turned`: by how much both rotary joints turn, rad; `tip`: how far the tip goes, mm; `way`: how
-    /// far the linear joints go at most, mm. Source: kinematics notes 3; the distances from the axes are those at an earlier block and what the tool went since.
+    /// far the linear joints go at most, mm. Source: docs/kinematics.md#between-the-ends-of-a-block; the distances from the axes are those at an earlier block and what the tool went since.
     #[inline]
     pub(crate) fn stray(
         &mut self,

@@ -2,7 +2,7 @@
 //! sign conventions (LinuxCNC documentation, "5-axis kinematics" and the notes of the switchable kinematics). They are derived here, not
 //! taken over: the point on the workpiece is carried through the turns of the tables one plane at a time ([`turned_plane`]), and a
 //! nutating head turns what is perpendicular to its axis. LinuxCNC's position is the tip plus the tool length along Z. Inverse kinematics of
-//! xyzbc-trt with the factor `con` in its offset terms (kinematics notes 8).
+//! xyzbc-trt with the factor `con` in its offset terms (docs/kinematics.md#test-pieces).
 use crate::selftest::SplitMix;
 use crate::{Joints, MAX_AXES, Machine, builtin, builtin_source, forward, inverse, load};
 use core::f64::consts::PI;
@@ -261,7 +261,7 @@ fn nutating_heads_in_both_conventions() {
     agree(&turned("linuxcnc-xyzbca-trsrn"), |g| xyzbca(g, -1.0));
 }
 
-/// The table of kinematics notes 2.1.
+/// Published machines in the form of docs/kinematics.md#machine-model.
 #[test]
 fn tool_axes_of_the_notes() {
     type Formula = fn([f64; 3], [f64; 3]) -> [f64; 3];

@@ -1,6 +1,6 @@
 //! Posture sign and distance from the pole.
 //!
-//! With tau = s2 q2 + azimuth of k0 about e2: e1.u = c y + rho cos tau and S = -rho sin tau (from kinematics notes 2.3), so that the
+//! With tau = s2 q2 + azimuth of k0 about e2: e1.u = c y + rho cos tau and S = -rho sin tau (from docs/kinematics.md#two-postures), so that the
 //! angle to the pole depends on the second rotary joint alone and has its extremes where S is zero, at the multiples of pi of tau.
 use crate::{Constants, Machine, PairConstants};
 use core::f64::consts::{FRAC_PI_2, PI};

@@ -1,4 +1,4 @@
-//! The machine file (TOML, schema `ncmachine/1`, kinematics notes 7): read, checked, turned into mm, rad and s, with clear errors.
+//! The machine file (TOML, schema `ncmachine/1`, docs/kinematics.md#machine-model): read, checked, turned into mm, rad and s, with clear errors.
 use crate::control::control;
 use crate::gantry::Rails;
 use crate::held::Carried;
@@ -15,7 +15,7 @@ use trunnion_interp::AXIS_LETTERS;
 /// Two directions nearer than this count as parallel, rad.
 const PARALLEL: f64 = 1e-3;
 
-/// Above this condition number of the linear axes the machine is warned about (kinematics notes 2.2).
+/// Above this condition number of the linear axes the machine is warned about (docs/kinematics.md#linear-axes-for-a-given-tip).
 const ILL_CONDITIONED: f64 = 1e3;
 
 /// Why a machine file cannot be used.
@@ -198,7 +198,7 @@ impl Chain {
     }
 }
 
-/// Number of axes, rank of the linear ones, and that each rotary axis can turn the tool (kinematics notes 7, validation at load).
+/// Number of axes, rank of the linear ones, and that each rotary axis can turn the tool (docs/kinematics.md#machine-model).
 fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Vec3) -> Result<Constants, Fault> {
     let moves = |axis: &Axis| axis.kind == AxisKind::Rotary && axis.extra.hold.is_none();
     let rotary: Vec<usize> = (0..axes.len()).filter(|&i| moves(&axes[i])).collect();

@@ -237,7 +237,7 @@ fn what_is_not_used_is_said() {
     );
 }
 
-/// The compact forms of kinematics notes 7.
+/// The compact forms of docs/kinematics.md#machine-model.
 #[test]
 fn compact_chains_load() {
     let head_head = r#"schema = "ncmachine/1"

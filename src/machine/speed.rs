@@ -32,7 +32,7 @@ const TIGHT: f64 = 1e-3;
 /// below, a coarser bound with any of the linear axes may be given, which settles that no axis is overrun and no more; so it may on chains whose linear axes lie in different places, near postures where they hardly
 /// span space. Without TCP the joints run linearly and the feed is that of the programmed X Y Z path; with
 /// TCP (or vectors) the rotary joints run linearly and the linear joints' rates change within the block: samples of their exact rates
-/// and a bound of their second derivative (kinematics notes 3 and 4.1).
+/// and a bound of their second derivative (docs/kinematics.md#axis-speed-and-feed).
 pub fn feed_limit(machine: &Machine, leg: &Leg) -> Option<FeedLimit> {
     limit(machine, leg, programmed_feed(leg).unwrap_or(f64::INFINITY))
 }

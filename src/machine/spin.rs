@@ -118,7 +118,7 @@ impl<'a> GreatCircle<'a> {
     }
 
     /// By how much the azimuth of `u` about e1 leads that of the second axis in this posture, rad. S keeps its sign in a posture, so that it
-    /// stays between 0 and pi, or between -pi and 0: gamma of kinematics notes 2.3 with the posture's sign.
+    /// stays between 0 and pi, or between -pi and 0: gamma of docs/kinematics.md#two-postures with the posture's sign.
     fn lead(&self, u: &Vec3) -> f64 {
         let pair = self.pair;
         let x = self.machine.constants.rotary[0].direction.dot(u);

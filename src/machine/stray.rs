@@ -76,7 +76,7 @@ impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> Stray<W, S> {
     ///
     /// On a piece of t of length h any choice of s for each t gives an upper bound. Taken are s running evenly between the feet of both
     /// ends, |E''| <= point bend h^2 + curve bend ds^2 with E = W - S, and s standing at either foot: largest end + |E''| / 8
-    /// (kinematics notes 3). The second closes where the nearest point jumps from one part of the curve to another.
+    /// (docs/kinematics.md#between-the-ends-of-a-block). The second closes where the nearest point jumps from one part of the curve to another.
     pub(crate) fn farthest(&self, enough: impl Fn(f64, f64, u32) -> bool) -> Found {
         let loose = Cell::new(0.0_f64);
         let found = peak_tagged(

@@ -141,7 +141,7 @@ impl<'a> Run<'a> {
     /// `bend` and `rounding` of a path, axis by axis from the tool to the workpiece: turning a point with rate v and second derivative at
     /// most a by D adds D r to v and 2 D v + D^2 r to a, r its largest distance from the axis: at an end, or above the chord by a / 8.
     /// Before the axis nearest the tool the point runs straight or along an arc; after the axis nearest the workpiece it is the tip itself,
-    /// and a turn keeps distances from its axis: with two rotary axes no point needs to be turned. Source: kinematics notes 3.
+    /// and a turn keeps distances from its axis: with two rotary axes no point needs to be turned. Source: docs/kinematics.md#between-the-ends-of-a-block.
     #[inline]
     pub(crate) fn bound(&self, bulge: Option<&Bulge>) -> (f64, f64) {
         let rotary = self.machine.constants.rotary();
@@ -171,7 +171,7 @@ impl<'a> Run<'a> {
 }
 
 /// Bound of the distance between the tip's path and its chord while all joints run straight from `start` to `end`, mm: the eighth of the
-/// largest second derivative, and rounding. Source: kinematics notes 3.
+/// largest second derivative, and rounding. Source: docs/kinematics.md#between-the-ends-of-a-block.
 #[inline]
 pub(crate) fn straight_stray(machine: &Machine, start: &Stance, end: &Stance) -> f64 {
     let (bend, rounding) = Run::new(machine, start, end).bound(None);

@@ -1,4 +1,4 @@
-//! What the declared uncertainty of an axis does to the tip (PIVOT-SENS, kinematics notes 5): first order, worst direction.
+//! What the declared uncertainty of an axis does to the tip (docs/kinematics.md#uncertainty-of-the-rotary-axes): first order, worst direction.
 //!
 //! A control that believes a rotary axis to pass through c while it passes through c + dc, and that was zeroed with the axis at zero,
 //! misses the tip by (I - R) dc, whose length is at most 2 |sin(q/2)| |dc|. An axis that is tilted by a small angle e about a line
@@ -9,7 +9,7 @@ use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{rotate, sin};
 
-/// Above this the uncertainty is worth a word, mm (kinematics notes 5, PIVOT-SENS).
+/// Above this the uncertainty is worth a word, mm (docs/kinematics.md#uncertainty-of-the-rotary-axes).
 pub const PIVOT_SENSITIVITY: f64 = 0.02;
 
 /// What the uncertainty of one rotary axis does.

@@ -24,7 +24,7 @@ impl core::ops::Deref for Windings {
 }
 
 /// The values q + 2 pi m inside the limits of axis `axis` (joint index), nearest to `near` first, at most three; empty when no winding
-/// is legal or when the axis is missing. A value 1e-5 deg or less beyond a limit becomes the limit. All in rad. Source: kinematics notes 2.3.
+/// is legal or when the axis is missing. A value 1e-5 deg or less beyond a limit becomes the limit. All in rad. Source: docs/kinematics.md#two-postures.
 pub fn windings(machine: &Machine, axis: usize, q: f64, near: f64) -> Windings {
     match machine.axes.get(axis) {
         Some(axis) => windings_in(axis.limits, q, near),
@@ -71,7 +71,7 @@ pub(crate) fn windings_in(limits: Limits, q: f64, near: f64) -> Windings {
 }
 
 /// S = e1 . (R1 e2 x u) of a posture, signed; |S| = sqrt(g2) D. It depends on q2 alone (rad), since R1 keeps e1: S = (e1 x e2) . R2 k0.
-/// 0 for machines with fewer than two rotary axes. Source: kinematics notes 2.3.
+/// 0 for machines with fewer than two rotary axes. Source: docs/kinematics.md#two-postures.
 pub fn solution_s(machine: &Machine, q2: f64) -> f64 {
     let (Some(pair), [_, second]) = (&machine.constants.pair, &machine.constants.rotary) else {
         return 0.0;
@@ -91,7 +91,7 @@ pub fn pole_angle(machine: &Machine, axis: &Vec3) -> f64 {
 }
 
 /// Change of the tool axis (workpiece frame) per rad of each rotary joint: j1 = s1 e1 x u, j2 = s2 (R1 e2) x u; zero for a missing axis.
-/// Source: kinematics notes 2.4.
+/// Source: docs/kinematics.md#how-fast-the-first-axis-turns-near-the-pole.
 pub fn rotary_jacobian(machine: &Machine, q: [f64; 2]) -> [Vec3; 2] {
     let constants = &machine.constants;
     let axis = tool_axis_at(machine, q);

@@ -219,7 +219,7 @@ fn first_pieces(way: &Way<'_>) -> usize {
 }
 
 /// Distance from the nearest point of the surface, less the offset: it changes no faster than the tip moves, and between two moments the
-/// tip is within Q h2 / 8 of its chord (kinematics notes 3).
+/// tip is within Q h2 / 8 of its chord (docs/kinematics.md#between-the-ends-of-a-block).
 struct FromSurface<'a> {
     way: &'a Way<'a>,
     required: &'a Required,

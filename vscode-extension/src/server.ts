@@ -14,7 +14,7 @@ export function firstFolder(): string | undefined {
   return vscode.workspace.workspaceFolders?.find((folder) => folder.uri.scheme === 'file')?.uri.fsPath;
 }
 
-/** Looks for the program anew, so that a changed setting or a new installation is seen at the next start. */
+/** Looks for the program again, so that a changed setting or a new installation is seen at the next start. */
 export function findProgram(context: vscode.ExtensionContext): Found {
   const wanted = vscode.workspace.getConfiguration('trunnion').get<string>('path', '').trim();
   if (wanted !== '') {

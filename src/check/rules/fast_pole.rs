@@ -54,10 +54,10 @@ const AMPLIFIED: f64 = 5.0;
 /// A tool axis that turns less than this does not turn, rad: 1e-4 deg.
 const STILL: f64 = 1.7e-6;
 
-/// Peak acceleration of the first axis on a straight pass is this times w^2 / d^2 (kinematics notes 2.4).
+/// Peak acceleration of the first axis on a straight pass is this times w^2 / d^2 (docs/kinematics.md#how-fast-the-first-axis-turns-near-the-pole).
 const PASS: f64 = 0.6495;
 
-/// Seconds that an axis needs for a pass at 1 rad from the pole, per rad that the tool axis turns (kinematics notes 2.4).
+/// Seconds that an axis needs for a pass at 1 rad from the pole, per rad that the tool axis turns (docs/kinematics.md#how-fast-the-first-axis-turns-near-the-pole).
 pub(crate) fn pass(axis: &Axis) -> f64 {
     let by_speed = axis.max_speed.map_or(0.0, |speed| 1.0 / speed);
     let by_acceleration = axis.max_acceleration.map_or(0.0, |limit| (PASS / limit).sqrt());

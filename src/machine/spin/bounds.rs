@@ -1,5 +1,5 @@
 //! Bounds of the rotary axes' rates and of their changes over a piece of a great circle. With x = e1.u, S^2 = D (1 - y^2) - (x - c y)^2
-//! (kinematics notes 2.3) and w the angle per block: u'' = -w^2 u, x'' = -w^2 x, S S' = -(x - c y) x'.
+//! (docs/kinematics.md#two-postures) and w the angle per block: u'' = -w^2 u, x'' = -w^2 x, S S' = -(x - c y) x'.
 use super::GreatCircle;
 use core::f64::consts::PI;
 use trunnion_geometry::math::{atan2, cos, sin_cos};

@@ -1,15 +1,15 @@
-//! Turns the tool axis a little where it passes near the pole, so that the rotary table need not spin.
+//! Turns the tool axis a little where it passes near the pole, so that the rotary table does not have to spin.
 //!
 //! # Why
-//! Near the pole (tool axis parallel to the first rotary axis) a hair's breadth of tool axis asks for a large turn of the
-//! table. The feed breaks down, and the dwell leaves a mark. Seen from above, the tool axis walks round the pole; this rewrite
-//! lets it walk straight, as far as the tolerance allows.
+//! Near the pole (tool axis parallel to the first rotary axis) a tiny change of the tool axis needs a large turn of the table. The
+//! feed drops, and the dwell leaves a mark. Seen from above, the tool axis walks around the pole; this rewrite makes it walk
+//! straight, as far as the tolerance allows.
 //!
 //! # How
-//! In each run of straight feed motions round a `pole-flip`, the second rotary axis stays as it is. The first gets the taut
-//! string through the tube `|C' - C| <= 2 asin(sin(tol / 2) / sin theta)`: the least travel and the least peak speed at once. The
-//! ends of the window (the first points outside the pole cone, or the ends of the run) stay. The tip moves by `r (u - u')`, so
-//! that the centre of the ball, and with it the contact with the surface, stays where it was.
+//! In each run of straight feed motions around a `pole-flip`, the second rotary axis keeps its values. The first one follows the
+//! taut string through the tube `|C' - C| <= 2 asin(sin(tol / 2) / sin theta)`: the least total travel and the least peak speed at
+//! once. The ends of the window (the first points outside the pole cone, or the ends of the run) stay. The tip moves by
+//! `r (u - u')`, so that the centre of the ball, and with it the contact with the surface, stays where it was.
 //!
 //! # Example
 //! ```gcode before sinumerik-840d mikron-ucp710
@@ -36,21 +36,20 @@
 //! ```
 //!
 //! # Claim
-//! At every block end the tool axis turns about the part by at most the tolerance, and the centre of the ball stays within
-//! `--tolerance-mm`. No feed, no spindle word, no other byte changes. How far the paths lie apart between block ends is measured
-//! and bounded in the certificate.
+//! At every block end the tool axis turns relative to the part by at most the tolerance, and the centre of the ball stays within
+//! `--tolerance-mm`. No feed, no spindle word and no other byte changes. The certificate states a measured value and a proven bound
+//! of how far apart the paths are between block ends.
 //!
 //! # Traps
-//! - Only a ball keeps its contact when the tool axis turns. The tool's shape must be declared; a flat or bull-nosed tool needs
-//!   the surface normal, which a program does not hold.
-//! - A word that was left out because its value did not change may have to be written out.
-//! - Near the pole rounded numbers matter: `A0.081` and `k = 0.999999` are not the same tool axis. The rewrite works from what
-//!   the program says, digit by digit, and is verified after rounding.
+//! - Only a ball keeps its contact when the tool axis turns. The shape of the tool must be declared; a flat or bull-nosed tool
+//!   needs the surface normal, which a program does not contain.
+//! - A word that was omitted because its value did not change may have to be written.
+//! - Near the pole rounded numbers matter: `A0.081` and `k = 0.999999` are not the same tool axis. The rewrite works on the words
+//!   of the program, digit by digit, and is verified after rounding.
 //! - Shank and holder turn with the tool axis, by at most the tolerance.
 //!
 //! # Sources
-//! The guide-vane paper of 2006 (deformation on the circle i^2 + j^2 = 1 - k^2); Trunnion's kinematics notes 1 (003:
-//! P' = P + r (u - u')), 6 (R3) and 12.3 (taut string).
+//! Guide-vane paper (2006), deformation on the circle i^2 + j^2 = 1 - k^2; docs/kinematics.md#smoothing-at-the-pole.
 use super::Body;
 use crate::reposition::Writer;
 use crate::slots::{Scheme, Styles, styles};

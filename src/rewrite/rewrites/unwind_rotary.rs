@@ -1,8 +1,8 @@
-//! Adds whole turns to the words of a rotary axis so that it never turns the long way round.
+//! Adds full turns to the words of a rotary axis so that it never turns the long way round.
 //!
 //! # Why
-//! A control that takes rotary words literally turns from `C359` to `C1` through 358 degrees: under feed the tool dwells and
-//! marks the part, in rapid it costs seconds and winds cables. `C361` is the same pose, two degrees away.
+//! A control that takes rotary words literally turns from `C359` to `C1` through 358 degrees. Under feed the tool dwells and marks
+//! the part; in rapid it costs seconds and winds up cables. `C361` is the same pose, two degrees away.
 //!
 //! # Example
 //! ```gcode before sinumerik-840d mikron-ucp710
@@ -23,19 +23,19 @@
 //! ```
 //!
 //! # Claim
-//! Every motion ends in the same pose, and rotary joints differ by whole turns only. Where the number of turns is the same at both
-//! ends of a motion, its path is the same too; where it changes, the axis now takes the shorter way (the certificate says by how
-//! much the paths differ there).
+//! Every motion ends in the same pose, and rotary positions differ by full turns only. Where the number of turns is the same at
+//! both ends of a motion, its path is the same too. Where it changes, the axis now takes the shorter way, and the certificate states
+//! by how much the paths differ there.
 //!
 //! # Traps
-//! - Only whole turns that keep the axis inside its limits are added; a jump that the limits enforce stays.
+//! - Only full turns that keep the axis within its limits are added; a jump that the limits force stays.
 //! - Exact half turns stay as they are written: both directions are equally long.
-//! - The program may end some turns away from where it ended before; a program that continues from there, or a control that shows
-//!   0 to 360 degrees, must be able to live with that.
+//! - The program may end some full turns away from where it ended before. A program that continues from there, or a control that
+//!   shows 0 to 360 degrees, must accept that.
 //! - `C=DC(..)`, `IC(..)`, `ACP(..)`, `ACN(..)`, G91, expressions and tool vectors do not take values literally: refused.
 //!
 //! # Sources
-//! Trunnion's kinematics notes 6 (R1: q_i += 2 pi round((q_(i-1) - q_i) / 2 pi)).
+//! docs/kinematics.md#unwinding: q_i += 2 pi round((q_(i-1) - q_i) / 2 pi).
 use super::Body;
 use crate::style::add_whole;
 use crate::survey::{ProgrammedMotion, programmed};

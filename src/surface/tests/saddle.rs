@@ -1,4 +1,4 @@
-//! The saddle of kinematics notes A7 on a table-table machine without tool centre point control: the error of its trajectory surface.
+//! The saddle of docs/kinematics.md#test-pieces on a table-table machine without tool centre point control: the error of its trajectory surface.
 use core::f64::consts::TAU;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Position};

@@ -1,4 +1,4 @@
-//! The formulas of the bounds, term by term: with a tolerance without end a bound is the formula itself (kinematics notes 3), and these
+//! The formulas of the bounds, term by term: with a tolerance without end a bound is the formula itself (docs/kinematics.md#between-the-ends-of-a-block), and these
 //! blocks make each of its terms count. Expected values are worked out here from lengths and angles alone.
 use crate::common::{position, vector, words};
 use trunnion_geometry::math::{asin, cos, hypot, sin};

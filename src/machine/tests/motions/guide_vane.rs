@@ -166,7 +166,7 @@ fn feed_limits_under_tcp() {
     near(lowest[2][0], 205.0, 'C');
     near(lowest[3][0], 355.0, 'C');
     near(lowest[0][0], 1640.0, 'A');
-    // at the programmed 2000 mm/min the axis would have to run at these speeds (kinematics notes 1)
+    // at the programmed 2000 mm/min the axis would have to run at these speeds (docs/kinematics.md#the-pole)
     let legs = follow(&vectors(&STRATEGIES[1]));
     let speed = |row: usize| {
         deg(feed_limit(machine(), &legs[row])

@@ -279,7 +279,7 @@ fn wrapped(wrap: &str, words_c: &[f64]) -> Vec<f64> {
 
 #[test]
 fn rotary_words_are_read_as_the_control_reads_them() {
-    // kinematics notes 8: with M126 350 to 10 is +20 and 10 to 340 is -30; without, -340 and +330
+    // docs/kinematics.md#rotary-words-and-full-turns: with M126 350 to 10 is +20 and 10 to 340 is -30; without, -340 and +330
     assert_eq!(wrapped("literal", &[350.0, 10.0, 340.0]), [350.0, 10.0, 340.0]);
     assert_eq!(wrapped("shortest", &[350.0, 10.0, 340.0]), [350.0, 370.0, 340.0]);
     // the sign is the direction: 10 upwards, 10 downwards, the same word again, 350 downwards

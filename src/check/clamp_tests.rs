@@ -50,7 +50,7 @@ fn drawn(dialect: &str, text: &str) {
 fn a_clamp_that_no_code_has_named_is_not_decided() {
     drawn(
         "haas-ngc",
-        "G0 X0. Y0. Z50. A20. C0.\n;                    ^^^ clamped-axis-moves: C may be clamped: no M10 or M11 has run yet\nG0 C9.\nX5.\nM30\n",
+        "G0 X0. Y0. Z50. A20. C0.\n;                    ^^^ clamped-axis-moves: C may be clamped: neither M10 nor M11 has run yet\nG0 C9.\nX5.\nM30\n",
     );
 }
 
@@ -79,7 +79,7 @@ fn a_code_by_an_expression_counts_where_its_value_is_known() {
     );
     assert_eq!(
         told("haas-ngc", None, "M11\nG0 X0. Y0. Z50. A20. C0.\nM#500\nG0 C9.\nM30\n"),
-        ["C may be clamped: which code of its clamp ran last is not known"],
+        ["C may be clamped: it is not known which of its clamp codes ran last"],
     );
 }
 
@@ -136,7 +136,7 @@ fn codes_of_a_called_file_without_motion_are_read() {
     let found = told("fanuc-30i", None, gone);
     assert_eq!(
         found,
-        ["C may be clamped: which code of its clamp ran last is not known"]
+        ["C may be clamped: it is not known which of its clamp codes ran last"]
     );
 }
 
@@ -159,7 +159,7 @@ fn a_linuxcnc_program_is_read_the_same() {
     let both = "M11\nG0 X0 Y0 Z50 A20 C0\nM10 m 1 1\nG0 C9\nM2\n";
     assert_eq!(
         told("linuxcnc", None, both),
-        ["C may be clamped: which code of its clamp ran last is not known"]
+        ["C may be clamped: it is not known which of its clamp codes ran last"]
     );
     // of two clamps each reacts to its own code, whichever is written last
     for codes in ["M10 M13", "M13 M10"] {

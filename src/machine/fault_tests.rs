@@ -48,10 +48,10 @@ axes | {letter="C", sign=1,side="table"},{letter="A", sign=1,side="table"},{lett
 axes | {letter="A", sign=1,side="table",hold=0,limits=[10,20]},XYZ | 0 | outside the limits
 axes | {letter="X", sign=1,hold=0},{letter="Y", sign=1},{letter="Z", sign=1} | 0 | belongs to a rotary axis
 axes | {letter="A",side="table",unknown=["sign","point"]},XYZ | "sign" | `sign`, `point` are not known
-axes | {letter="A",unknown=["side"]},XYZ | "side" | `side` is not known
+axes | {letter="A",unknown=["side"]},XYZ | "side" | `side` is unknown
 axes | XYZ,{letter="V",follow="Y",limits=[0,10]},{letter="U",follow="Y",limits=[20,30]} | "Y" | inside the limits of both
 axes | {letter="C", sign=1,side="table"},XYZ,{letter="A",sign=1,side="table",follow="X"} | "X" | linear and the other rotary
-head | unknown = ["order"] | "order" | `order` of this machine is not known
+head | unknown = ["order"] | "order" | `order` of this machine is unknown
 tail | [[check]];;joints = { A = 90 };;tool_length = 10;;tip = [0, 1, 0] | [0, 1, 0] | look at sign, dir, point, kind and place of axis A
 tail | [[check]];;tip = [0, 1, 0] | [0, 1, 0] | only tool_axis, gauge_point and hold
 tail | [[check]];;joints = { A = 90 };;axis = [0, 1, 0] | [0, 1, 0] | 180 deg away

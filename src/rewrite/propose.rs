@@ -217,7 +217,7 @@ mod tests {
         assert!(more.contains("of C would grow"), "{more}");
         let outside = refusal(|program, _, _| Ok(Some(every_c(program, |c| c - 720.0))));
         assert!(
-            outside.contains("it would make an error") && outside.contains("axis-limit"),
+            outside.contains("it would cause an error") && outside.contains("axis-limit"),
             "{outside}"
         );
     }

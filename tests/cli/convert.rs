@@ -184,7 +184,7 @@ fn a_refusal_writes_nothing_and_tells_the_place() {
     for (arguments, why) in [
         (
             &["--to", "heidenhain-klartext"][..],
-            "there is no post for `heidenhain-klartext`",
+            "no post for `heidenhain-klartext`",
         ),
         (&[], "what shall be written?"),
         (&["--to", "apt", "--tolerance-mm", "-1"], "positive number"),

@@ -43,7 +43,7 @@ fn a_planted_pivot_error_is_found_with_its_block() {
     let same = trunnion(&["machine", "compare", "mikron-ucp710", "mikron-ucp710", str(&program)]);
     assert_eq!(status(&same), 0, "{}", text(&same.stdout));
     assert!(
-        text(&same.stdout).contains("PASS: the tip is off by at most 0 mm, 0.02 mm are allowed (proven)"),
+        text(&same.stdout).contains("PASS: the tip is off by at most 0 mm (proven); the tolerance is 0.02 mm"),
         "{}",
         text(&same.stdout)
     );
@@ -81,7 +81,7 @@ fn a_comparison_passes_only_where_it_is_proven() {
         poses,
         (
             0,
-            "PASS: the tip is off by at most 0.086603 mm, 0.0867 mm are allowed (proven)".to_owned()
+            "PASS: the tip is off by at most 0.086603 mm (proven); the tolerance is 0.0867 mm".to_owned()
         )
     );
     // A turns by 30 deg: 2 sin(15 deg) 0.05 = 0.025882 mm, but the start of the first motion is unknown
@@ -140,7 +140,7 @@ fn an_ini_becomes_a_machine_file_that_says_what_is_open() {
         "{said}"
     );
     assert!(
-        said.contains("open: axis X: MIN_LIMIT is not given and stays undeclared"),
+        said.contains("open: axis X: MIN_LIMIT is missing and stays undeclared"),
         "{said}"
     );
     assert!(

@@ -261,7 +261,10 @@ fn work_offset(
 ) -> Result<WorkOffset, ConfigError> {
     if !is_work_offset(name.get_ref()) {
         let known = "G54 to G59, G59.1 to G59.3, G54.1 P1 and so on, G505 to G599";
-        return Err(at(name, format!("`{}` is no work offset: {known}", name.get_ref())));
+        return Err(at(
+            name,
+            format!("`{}` is not a work offset; known are {known}", name.get_ref()),
+        ));
     }
     let mut offset = WorkOffset {
         name: name.get_ref().clone(),

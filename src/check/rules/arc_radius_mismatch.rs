@@ -82,7 +82,7 @@ mod tests {
     fn a_radius_too_small_for_its_chord() {
         let report = assert_drawn(
             "gcode",
-            "N10 G17 G90 G0 X0 Y0\nN20 G2 X10 Y0 R4 F300\n;      ^^^ arc-radius-mismatch: no circle of radius 4 mm joins points that lie 10 mm apart\n",
+            "N10 G17 G90 G0 X0 Y0\nN20 G2 X10 Y0 R4 F300\n;      ^^^ arc-radius-mismatch: no circle of radius 4 mm connects two points 10 mm apart\n",
         );
         assert_eq!(report.summary.errors, 1);
     }

@@ -220,7 +220,7 @@ mod tests {
             .filter(|d| d.rule == "axis-overspeed")
             .collect();
         assert_eq!((found.len(), found[0].block.as_deref()), (1, Some("N30")));
-        assert_eq!(found[0].notes, ["the block can run at 7200 deg/min at most"]);
+        assert_eq!(found[0].notes, ["the highest feed for this block is 7200 deg/min"]);
         assert!(
             found[0]
                 .values
@@ -256,7 +256,7 @@ mod tests {
     fn a_standing_tip_under_tcp_is_unknown_once() {
         let report = assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",
-            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A30 C0\nN30 G1 C90 F500\n;   ^^^^^^^^^^^ axis-overspeed: whether an axis is overrun is not known: the tip stands\nN40 C0\nN50 M30\n",
+            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A30 C0\nN30 G1 C90 F500\n;   ^^^^^^^^^^^ axis-overspeed: it is not known whether an axis is too fast: the tip does not move\nN40 C0\nN50 M30\n",
         );
         assert_eq!(report.diagnostics[0].count, 2);
     }
@@ -301,7 +301,7 @@ mod tests {
                 .check()
                 .unwrap();
             assert!(
-                report.diagnostics.iter().all(|d| !d.message.contains("stands still")),
+                report.diagnostics.iter().all(|d| !d.message.contains("does not move")),
                 "{:?}",
                 report.diagnostics
             );
@@ -312,7 +312,7 @@ mod tests {
     fn feed_per_revolution_needs_the_spindle() {
         assert_drawn(
             "gcode mill-3axis",
-            "N10 G0 X0 Y0 Z50\nN20 G95 G1 X10 F0.1\n;   ^^^^^^^^^^^^^^^ axis-overspeed: whether an axis is overrun is not known: the feed is per revolution\nN30 S1000 M3\nN40 X0\n",
+            "N10 G0 X0 Y0 Z50\nN20 G95 G1 X10 F0.1\n;   ^^^^^^^^^^^^^^^ axis-overspeed: it is not known whether an axis is too fast: the feed is per revolution\nN30 S1000 M3\nN40 X0\n",
         );
     }
 

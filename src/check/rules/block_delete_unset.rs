@@ -91,8 +91,8 @@ mod tests {
             let found = found.diagnostics.iter().find(|d| d.rule == rule);
             found.and_then(|d| d.notes.last()).map(String::as_str)
         };
-        assert_eq!(note("missing-feed"), Some("only where the blocks with / are skipped"));
-        assert_eq!(note("arc-centre-missing"), Some("only where the blocks with / are run"));
+        assert_eq!(note("missing-feed"), Some("only if the blocks with / are skipped"));
+        assert_eq!(note("arc-centre-missing"), Some("only if the blocks with / run"));
         assert_eq!(found.summary.errors, 2);
         let own = found.diagnostics.iter().find(|d| d.rule == "block-delete-unset");
         assert_eq!(
@@ -120,7 +120,7 @@ mod tests {
         );
         let own = one("block-delete-unset");
         assert!(
-            own.message.starts_with("2 blocks begin with / or have one inside"),
+            own.message.starts_with("2 blocks begin with or contain a /, and"),
             "{}",
             own.message
         );

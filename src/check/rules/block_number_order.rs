@@ -128,7 +128,7 @@ mod tests {
     fn one_finding_counts_all_of_them() {
         let report = assert_drawn(
             "gcode",
-            "N10 G0 X1\n/ N5 X2\n; ^^ block-number-order: N5 stands behind N10\n;^ block-delete-unset: 1 block begins with /\nN5 X3\nn6.5 X4\nN 7 X5\nN6.9 X6\n",
+            "N10 G0 X1\n/ N5 X2\n; ^^ block-number-order: N5 comes after N10\n;^ block-delete-unset: 1 block begins with /\nN5 X3\nn6.5 X4\nN 7 X5\nN6.9 X6\n",
         );
         let found = report
             .diagnostics

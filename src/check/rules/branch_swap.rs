@@ -105,9 +105,9 @@ mod tests {
         let found = report.diagnostics.iter().find(|d| d.rule == "branch-swap").unwrap();
         assert_eq!(
             found.notes[1],
-            "the posture before would need A = -40 deg, outside its limit of -30 deg"
+            "the previous posture would need A = -40 deg, beyond its limit of -30 deg"
         );
-        assert!(!found.help.as_deref().unwrap().contains("posture before"));
+        assert!(!found.help.as_deref().unwrap().contains("previous posture"));
         let flip = report.diagnostics.iter().find(|d| d.rule == "pole-flip").unwrap();
         assert!(flip.fixes.is_empty() && !flip.help.as_deref().unwrap().contains("smooth-pole"));
     }

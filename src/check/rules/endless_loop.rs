@@ -75,6 +75,6 @@ mod tests {
             own.message,
             "this loop never ends: one pass leaves all values as they were before"
         );
-        assert!(own.notes[0].starts_with("proved: "), "{:?}", own.notes);
+        assert!(own.notes[0].starts_with("this is proved: "), "{:?}", own.notes);
     }
 }

@@ -190,7 +190,7 @@ mod tests {
             let said = own.map(|own| own.message.as_str());
             assert_eq!(
                 said,
-                Some("the linear axes run 141.4 mm while the tip runs 0 mm"),
+                Some("the linear axes travel 141.4 mm while the tip travels 0 mm"),
                 "{shift}"
             );
         }
@@ -250,7 +250,7 @@ mod tests {
         assert!(
             notes
                 .iter()
-                .any(|note| note == "inside the block Z runs 9.369 mm above both its ends"),
+                .any(|note| note == "inside the block Z moves 9.369 mm above both its end positions"),
             "{notes:?}"
         );
     }

@@ -119,7 +119,7 @@ mod tests {
         assert_drawn(
             "gcode mill-3axis",
             &format!(
-                "{cut}G0 X90 Y60\nG0 X110 Y70\nG0 Y90\nG0 X90 Y100\nG0 X60 Y110\nG1 X61\n;^^^^^ excess-rapid-travel: the rapid motions to this block run 128 mm across the tool; the direct way is 60 mm\nM30\n"
+                "{cut}G0 X90 Y60\nG0 X110 Y70\nG0 Y90\nG0 X90 Y100\nG0 X60 Y110\nG1 X61\n;^^^^^ excess-rapid-travel: the rapid motions to this block travel 128 mm across the tool; the direct distance is 60 mm\nM30\n"
             ),
         );
     }
@@ -142,7 +142,7 @@ mod tests {
     fn turns_for_nothing_are_told_by_axis() {
         assert_drawn(
             "gcode mikron-ucp710",
-            "G0 X0 Y0 Z0 A0 C0\nG1 X1 F500\nG0 C90\nG0 C1\nG1 X4\n;^^^^ excess-rapid-travel: the rapid motions to this block turn C by 179 deg; the direct way is 1 deg\nM30\n",
+            "G0 X0 Y0 Z0 A0 C0\nG1 X1 F500\nG0 C90\nG0 C1\nG1 X4\n;^^^^ excess-rapid-travel: the rapid motions to this block turn C by 179 deg; the direct turn is 1 deg\nM30\n",
         );
     }
 

@@ -111,7 +111,7 @@ mod tests {
     fn the_length_of_another_tool_is_told() {
         assert_drawn(
             "gcode fanuc-30i",
-            "(trunnion: tool 1 length 120)\n(trunnion: tool 5 length 80.5)\nT1 M6\nS1 M3\nG0 G43 H5 X0. Y0. Z9.\nG1 X1. F100.\n;^^^^^^^^^^^ missing-tool-length: T1 is 120 mm long, but cuts with a length of 80.5 mm\nX2.\nM30\n",
+            "(trunnion: tool 1 length 120)\n(trunnion: tool 5 length 80.5)\nT1 M6\nS1 M3\nG0 G43 H5 X0. Y0. Z9.\nG1 X1. F100.\n;^^^^^^^^^^^ missing-tool-length: T1 is 120 mm long, but cuts with an active length compensation of 80.5 mm\nX2.\nM30\n",
         );
     }
 }

@@ -191,6 +191,6 @@ mod tests {
         let all = found("gcode apt ferrari-bc", text);
         assert_eq!(all.len(), 1, "{all:?}");
         assert_eq!((all[0].status, all[0].count), (Status::Unknown, 2));
-        assert!(all[0].message.contains("ferrari-bc does not say"));
+        assert!(all[0].message.contains("the machine file of ferrari-bc does not say"));
     }
 }

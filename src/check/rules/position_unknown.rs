@@ -193,7 +193,7 @@ mod tests {
     fn a_held_axis_that_moves_ends_what_is_known() {
         let report = assert_drawn(
             "gcode linuxcnc-xyzacb-trsrn",
-            "N1 G0 X0 Y0 Z50 B0 C0\nN2 G1 X10 A0 F500\nN3 X20\nN4 G1 A30\n;  ^^^^^^ position-unknown: the position of X, Y and Z is not known: A stands at 30 deg, the machine file holds it at 0 deg\nN5 X5\nN6 A0 X0\n",
+            "N1 G0 X0 Y0 Z50 B0 C0\nN2 G1 X10 A0 F500\nN3 X20\nN4 G1 A30\n;  ^^^^^^ position-unknown: the position of X, Y and Z is unknown: A is at 30 deg, but the machine file holds it at 0 deg\nN5 X5\nN6 A0 X0\n",
         );
         assert_eq!(report.diagnostics[0].status, crate::Status::Unknown);
         assert_eq!(report.diagnostics[0].count, 2);
@@ -203,7 +203,7 @@ mod tests {
     fn a_rapid_that_moves_a_held_axis_is_told_too() {
         let report = assert_drawn(
             "gcode linuxcnc-xyzacb-trsrn",
-            "N1 G0 X0 Y0 Z50 A0 B0 C0\nN2 G0 A30\n;  ^^^^^^ position-unknown: the position of X, Y and Z is not known: A stands at 30 deg\nN3 M2\n",
+            "N1 G0 X0 Y0 Z50 A0 B0 C0\nN2 G0 A30\n;  ^^^^^^ position-unknown: the position of X, Y and Z is unknown: A is at 30 deg\nN3 M2\n",
         );
         assert_eq!(report.diagnostics[0].status, crate::Status::Unknown);
     }

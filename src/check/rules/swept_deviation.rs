@@ -200,7 +200,11 @@ mod tests {
         let twice = program("").replace("FINI", "GOTO/0,0,50,0,-0.5,0.866\nFINI");
         let all = found(&twice);
         assert_eq!((all.len(), all[0].status, all[0].count), (1, Status::Unknown, 2));
-        assert!(all[0].message.contains("tool length not known"), "{}", all[0].message);
+        assert!(
+            all[0].message.contains("the tool length is not known"),
+            "{}",
+            all[0].message
+        );
         let bound = all[0].values.iter().find(|(key, _)| *key == "above_tip_mm");
         assert_eq!(bound, Some(&("above_tip_mm", crate::ValueKey::Number(1000.0))));
     }

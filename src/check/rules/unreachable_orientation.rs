@@ -115,7 +115,7 @@ mod tests {
         assert_drawn(
             machine,
             &format!(
-                "{};          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ unreachable-orientation: no posture inside the limits is as the program asks for it: A would be 40\nN50 M30\n",
+                "{};          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ unreachable-orientation: no posture within the limits matches the program's choice: A would be 40\nN50 M30\n",
                 text("A3=0 B3=-0.6427876 C3=0.7660444")
             ),
         );

@@ -64,7 +64,7 @@ mod tests {
     fn where_the_control_skips_it_it_is_a_warning() {
         let report = assert_drawn(
             "gcode fanuc-30i",
-            "G1 X1. F100. R5.\n;            ^^^ unused-word: `R5.`: no code of the block, and none in force, reads it\nG4 P100 Q1\n;       ^^ unused-word: \n",
+            "G1 X1. F100. R5.\n;            ^^^ unused-word: `R5.` is not used by any code of the block or any active code\nG4 P100 Q1\n;       ^^ unused-word: \n",
         );
         assert!(
             report

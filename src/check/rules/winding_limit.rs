@@ -125,7 +125,7 @@ mod tests {
     fn thirty_degrees_are_the_reserve_and_runs_are_told_once() {
         let report = assert_drawn(
             "gcode sinumerik-840d mikron-ucp710+A.cable",
-            "G0 X0 Y0 Z50 A0 C0\nG0 A90\nG0 A91\n;  ^^^ winding-limit: A is left 25 deg from\nG0 A95\nG0 A94\nG0 A-0.5\n;  ^^^^^ winding-limit: A is left 29.5 deg from its limit of -30 deg\nM30\n",
+            "G0 X0 Y0 Z50 A0 C0\nG0 A90\nG0 A91\n;  ^^^ winding-limit: A has 25 deg left to\nG0 A95\nG0 A94\nG0 A-0.5\n;  ^^^^^ winding-limit: A has 29.5 deg left to its limit of -30 deg\nM30\n",
         );
         assert_eq!(report.diagnostics[0].count, 3);
     }

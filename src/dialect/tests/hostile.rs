@@ -137,7 +137,7 @@ fn base_names_letters_and_lists() {
     let other = HEAD.replace("iso-6983", "iso");
     let (message, place) = refusal(&other);
     assert!(
-        message.contains("no built-in dialect `iso`") && message.contains("sinumerik-840d"),
+        message.contains("unknown built-in dialect `iso`") && message.contains("sinumerik-840d"),
         "{message}"
     );
     assert_eq!(place, "\"iso\"");
@@ -248,6 +248,6 @@ fn a_broken_shop_table_is_told_with_line_and_column() {
     let error = crate::Dialect::from_table(axis, "shop.toml").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "shop.toml:4:1: `E`: an axis is one of X Y Z A B C U V W"
+        "shop.toml:4:1: `E` is not an axis; the axes are X Y Z A B C U V W"
     );
 }

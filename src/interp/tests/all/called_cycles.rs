@@ -92,7 +92,7 @@ fn what_a_cycle_does_not_tell_is_unknown() {
             "CYCLE84(10,0,3,-20,,0,3,0,1.5,0,300,300,0,1,0,1,2,1)",
             "the steps in the hole",
         ),
-        ("CYCLE84(10,0,3,-20,,0,3,8)", "its pitch"),
+        ("CYCLE84(10,0,3,-20,,0,3,8)", "the pitch"),
         ("CYCLE81(10,0,3,R7)", "without levels"),
         ("CYCLE81(-10,0,3,-20)", "without levels"),
         ("CYCLE81(10,0,3,-20,,0,1)", "numbers that choose other meanings"),

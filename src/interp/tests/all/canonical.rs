@@ -265,7 +265,7 @@ fn what_is_not_modelled_in_a_called_file_names_the_file_and_line() {
     let FaultKind::NotModelled { what } = &kinds[0] else {
         panic!("{kinds:?}");
     };
-    assert_eq!(what, "in subs/probe.ngc, line 2: G38.2: where the probe touches");
+    assert_eq!(what, "in subs/probe.ngc, line 2: G38.2: the probed position");
     assert_eq!(kinds.len(), 1, "{kinds:?}");
 }
 

@@ -215,7 +215,7 @@ fn returns_to_reference_points() {
     assert_eq!(lines("fanuc-30i", source), ["R X1 Y2 Z3", "U X1 Y2", "U Y2"]);
     assert_eq!(
         faults("fanuc-30i", source),
-        [r#"2: G28: NotModelled { what: "reference point 1: where it lies is not declared" }"#]
+        [r#"2: G28: NotModelled { what: "reference point 1: its position is not declared" }"#]
     );
     // without coordinates a Haas returns all axes, a Fanuc none
     assert_eq!(lines("haas-ngc", "G0 X1. Y2. Z3.\nG28\n"), ["R X1 Y2 Z3", "U -"]);

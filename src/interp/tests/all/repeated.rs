@@ -140,7 +140,7 @@ fn threads_whose_lead_changes() {
 fn a_skip_ends_nobody_knows_where() {
     let source = "G0 X1. Y2. Z3.\nG31 Z-5. F9.\nG0 X4.\n";
     assert_eq!(lines("fanuc-30i", source), ["R X1 Y2 Z3", "U X1 Y2", "R X4 Y2"]);
-    assert!(faults("fanuc-30i", source)[0].contains("G31: where the skip signal ends it"));
+    assert!(faults("fanuc-30i", source)[0].contains("G31: the position at which the skip signal ends the motion"));
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn contours_that_cannot_be_known() {
     let source = "G0 X50. Z2.\nG71 U2. R1.\nG71 P10 Q20 F.3\nN10 G0 X20.\nIF[#500GT1.]GOTO20\nG1 Z-10.\nN20 X40.\nG0 X60. Z9.\nM30\n";
     let got = lines(A, source);
     assert_eq!(got, ["R X25 Z2", "U -", "R X30 Z9"]);
-    assert!(faults(A, source).iter().any(|fault| fault.contains("G71: its contour")));
+    assert!(faults(A, source).iter().any(|fault| fault.contains("contour of G71: ")));
 }
 
 #[test]

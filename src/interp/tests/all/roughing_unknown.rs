@@ -38,7 +38,7 @@ fn words_that_are_missing_or_not_documented() {
         (["", "G71 U#500 R1.", SECOND, CONTOUR], "without a depth of cut"),
         (["", "G71 U2.", SECOND, CONTOUR], "without an escape"),
         (["", "G71 U2. R-1.", SECOND, CONTOUR], "without an escape"),
-        (["", FIRST, "G71 P1 Q2 U#500 F.3", CONTOUR], "allowance is not known"),
+        (["", FIRST, "G71 P1 Q2 U#500 F.3", CONTOUR], "allowance is unknown"),
         // one block, tool nose, planes
         (["", FIRST, "G71 P1 Q2 D2000 F.3", CONTOUR], "one block"),
         (

@@ -146,7 +146,7 @@ fn threads_that_cannot_be_worked_out_say_why() {
         (first, "G76 X30. Z-20. R2. P1000 Q300 F1.5", "inside its thread"),
         (first, "G76 X35. Z-20. P1000 Q300 F1.5", "inside its thread"),
         (first, "G76 X30. P1000 Q300 F1.5", "has no length"),
-        (first, "G76 X30. Z#500 P1000 Q300 F1.5", "a place that is not known"),
+        (first, "G76 X30. Z#500 P1000 Q300 F1.5", "an unknown position"),
         (first, "G76 X30. Z-20. R#500 P1000 Q300 F1.5", "its taper"),
         (first, "G76 X30. Z-20. K1. D300 F1.5", "one block"),
     ] {
@@ -155,7 +155,7 @@ fn threads_that_cannot_be_worked_out_say_why() {
         let told = faults(A, &source);
         assert!(
             told.iter()
-                .any(|told| told.contains("G76: its passes: ") && told.contains(why)),
+                .any(|told| told.contains("passes of G76: ") && told.contains(why)),
             "{source}{told:?}"
         );
     }

@@ -101,7 +101,7 @@ fn nutating_heads_leave_their_offsets_open_until_they_are_given() {
             );
         }
         let refused = load("open", &open.toml).expect_err("the chain is not known");
-        assert!(refused.message.contains("not known"), "{refused}");
+        assert!(refused.message.contains("unknown"), "{refused}");
         let mut given = set(&pins);
         given.extend(set(&[("x-offset", 0.0), ("y-offset", 0.0)]));
         let whole = import_linuxcnc("test.ini", &text, &given).expect("valid");
@@ -197,7 +197,7 @@ fn what_is_wrong_with_an_ini_is_named_and_located() {
             "LINEAR_UNITS = inch",
             "LINEAR_UNITS = ell",
             "ell",
-            "no unit that is known",
+            "not a known unit",
         ),
         (
             "MIN_LIMIT = -10",
@@ -206,7 +206,7 @@ fn what_is_wrong_with_an_ini_is_named_and_located() {
             "MIN_LIMIT = \"ten\" of [AXIS_X] is not a number",
         ),
         ("[TRAJ]", "[TRAJ", "[TRAJ", "closing bracket"),
-        ("PIVOT = 120", "PIVOT 120", "PIVOT 120", "neither [SECTION]"),
+        ("PIVOT = 120", "PIVOT 120", "PIVOT 120", "expected [SECTION]"),
         (
             "[MINE]PIVOT",
             "long",
@@ -220,7 +220,7 @@ fn what_is_wrong_with_an_ini_is_named_and_located() {
         assert_eq!(&text[error.span.clone().expect("a place")], at, "{error}");
     }
     let missing = import_linuxcnc("small.ini", "[TRAJ]\nCOORDINATES = XYZ\n", &[]).expect_err("no module");
-    assert!(missing.message.contains("no [KINS] KINEMATICS"), "{missing}");
+    assert!(missing.message.contains("[KINS] KINEMATICS is missing"), "{missing}");
 }
 
 /// A FreeCAD machine of our own: C is mounted on A.

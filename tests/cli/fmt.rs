@@ -116,7 +116,7 @@ fn block_numbers_are_new_and_jumps_follow() {
         "O1\nN100 #1=0\nN150 G1 X#1 F100\nIF [#1 LT 3] GOTO 150\nN200 M98 P2000\nN250 M30\n"
     );
     assert!(
-        text(&output.stderr).contains("calls O2000, not in this file"),
+        text(&output.stderr).contains("calls O2000, which is not in this file"),
         "{}",
         text(&output.stderr)
     );

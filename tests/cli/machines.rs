@@ -26,7 +26,7 @@ fn a_planted_pivot_error_is_found_with_its_block() {
     let said = text(&output.stdout);
     assert_eq!(status(&output), 1, "{said}{}", text(&output.stderr));
     assert!(
-        said.contains("axis A: point (0, 0, 0) against (0, 0.05, 0) mm, 0.05 mm apart"),
+        said.contains("axis A: point (0, 0, 0) versus (0, 0.05, 0) mm, 0.05 mm apart"),
         "{said}"
     );
     // 2 sin(45 deg) 0.05 mm at A90
@@ -121,7 +121,7 @@ fn a_contradicting_row_refuses_the_file_with_its_place() {
     let said = text(&output.stderr);
     assert_eq!(status(&output), 2, "{said}");
     assert!(
-        said.contains("ours.toml:") && said.contains("if the row is right, look at sign"),
+        said.contains("ours.toml:") && said.contains("if the row is right, check sign"),
         "{said}"
     );
 }
@@ -172,7 +172,7 @@ fn an_ini_becomes_a_machine_file_that_says_what_is_open() {
     let output = trunnion(&["machine", "import", str(&broken)]);
     let said = text(&output.stderr);
     assert!(
-        status(&output) == 2 && said.contains("broken.ini:2:14") && said.contains("is not known"),
+        status(&output) == 2 && said.contains("broken.ini:2:14") && said.contains("unknown"),
         "{said}"
     );
 }

@@ -161,7 +161,7 @@ fn a_tool_of_another_length_is_not_held_against_a_surface() {
         let output = trunnion(&[&of[..], &["--dialect", "fanuc-30i"]].concat());
         (text(&output.stdout), text(&output.stderr))
     };
-    assert!(judged("G43 H1 ").0.contains("1 feed blocks judged, 0 not known"));
+    assert!(judged("G43 H1 ").0.contains("1 feed blocks judged, 0 unknown"));
     let (_, refused) = judged("");
     assert!(refused.contains("no feed motion's path is known"), "{refused}");
 }

@@ -154,24 +154,24 @@ fn base_names_letters_and_lists() {
             .0
             .contains("[arc-tolerance]")
     );
-    refused_with("remove = [\"G77\"]\n", "nothing to remove", "\"G77\"");
+    refused_with("remove = [\"G77\"]\n", "there is nothing to remove", "\"G77\"");
     refused_with("remove = [\"G01\"]\n", "leading zero", "\"G01\"");
     refused_with("builder-codes = [\"TRAORI\"]\n", "only G and M", "\"TRAORI\"");
-    refused_with("extensions = [\".nc\"]\n", "without dot", "\".nc\"");
+    refused_with("extensions = [\".nc\"]\n", "without the dot", "\".nc\"");
     refused_with("[roles]\nx = \"axis\"\n", "one upper-case letter", "x");
     refused_with("[roles]\nXY = \"axis\"\n", "upper-case letter", "XY");
     refused_with("[addresses]\n\"AB#\" = \"axis\"\n", "AB#", "AB#");
     refused_with("[addresses]\n\"\" = \"axis\"\n", "upper-case name", "");
-    refused_with("[arc-tolerance]\nmm = 0\nsource = \"s\"\n", "above 0", "0");
-    refused_with("[arc-tolerance]\nmm = nan\nsource = \"s\"\n", "above 0", "nan");
+    refused_with("[arc-tolerance]\nmm = 0\nsource = \"s\"\n", "greater than 0", "0");
+    refused_with("[arc-tolerance]\nmm = nan\nsource = \"s\"\n", "greater than 0", "nan");
     refused_with(
         "[arc-tolerance]\nmm = 0.1\nrelative = inf\nsource = \"s\"\n",
-        "above 0",
+        "greater than 0",
         "inf",
     );
     refused_with(
         "[arc-tolerance]\nmm = 0.1\nsource = \"\"\n",
-        "where the tolerance comes from",
+        "the source of the tolerance",
         "\"\"",
     );
     assert!(

@@ -331,7 +331,7 @@ fn hover_names_the_code_its_group_and_its_source() {
         find("linuxcnc", "M428")
             .unwrap()
             .hover()
-            .contains("builder of the machine")
+            .contains("machine builder")
     );
     assert!(find("haas-ngc", "G150").unwrap().hover().contains("not modelled"));
 }

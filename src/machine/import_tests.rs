@@ -193,12 +193,7 @@ fn what_is_wrong_with_an_ini_is_named_and_located() {
             "6axiskins coordinates=xyzbcwy",
             "6axiskins\"; known modules: trivkins",
         ),
-        (
-            "LINEAR_UNITS = inch",
-            "LINEAR_UNITS = ell",
-            "ell",
-            "not a known unit",
-        ),
+        ("LINEAR_UNITS = inch", "LINEAR_UNITS = ell", "ell", "not a known unit"),
         (
             "MIN_LIMIT = -10",
             "MIN_LIMIT = ten",

@@ -19,7 +19,7 @@
 //! Sound for the dialect's table; the table gives the source of each code.
 //!
 //! # Sources
-//! * grammar/dialects/README.md, the dialect tables and their sources.
+//! * grammar/README.md, the dialect tables and their sources.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {

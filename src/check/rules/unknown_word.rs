@@ -18,7 +18,7 @@
 //! Sound for the dialect's table of letters and names.
 //!
 //! # Sources
-//! * grammar/dialects/README.md, the dialect tables and their sources.
+//! * grammar/README.md, the dialect tables and their sources.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {

@@ -27,7 +27,7 @@
 //! # Sources
 //! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 //! * Grbl 1.1 (2017): error 36.
-//! * grammar/dialects/README.md, the addresses of each code in the Fanuc and Haas tables.
+//! * grammar/README.md, the addresses of each code in the Fanuc and Haas tables.
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 

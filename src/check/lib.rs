@@ -11,6 +11,7 @@ pub mod config;
 mod diagnostic;
 pub mod fixture;
 pub mod header;
+mod nearest;
 mod needs;
 mod open;
 mod pass;
@@ -34,12 +35,13 @@ mod words;
 pub use analysis::{check, check_on};
 pub use config::{Config, ConfigError, RuleLevel, Settings};
 pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
+pub use nearest::{did_you_mean, or_known};
 pub use needs::Needs;
 pub use report::{Report, Summary, Verdict};
 pub use rule::{
     EndRule, Ending, FaultRule, Guarantee, InForce, LegRule, Level, MotionRule, ProgramRule, Rule, TextRule,
 };
-pub use rules::{rule, rules};
+pub use rules::{rule, rule_names, rules};
 pub use session::{BlockInfo, Session, Variables};
 pub use sink::{Draft, Reporter};
 pub use view::{LegView, Overview};

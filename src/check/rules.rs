@@ -172,6 +172,11 @@ pub fn rules() -> &'static [&'static Rule] {
     RULES
 }
 
+/// The names of all rules, sorted.
+pub fn rule_names() -> Vec<&'static str> {
+    rules().iter().map(|rule| rule.name).collect()
+}
+
 /// A rule by name.
 pub fn rule(name: &str) -> Option<&'static Rule> {
     rules().iter().copied().find(|rule| rule.name == name)

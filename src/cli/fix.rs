@@ -91,7 +91,11 @@ fn choose(command: &Fix, loaded: &Loaded) -> Result<Vec<&'static Rewrite>, Failu
         return Ok(rewrites().iter().copied().filter(|r| reported(r)).collect());
     }
     let find = |name: &String| {
-        rewrite(name).ok_or_else(|| Failure::new(format!("unknown rewrite `{name}`; `trunnion rules` lists all")))
+        rewrite(name).ok_or_else(|| {
+            let names: Vec<&str> = rewrites().iter().map(|known| known.name).collect();
+            let hint = trunnion_check::or_known(name, &names, "rewrites");
+            Failure::new(format!("unknown rewrite `{name}`{hint}"))
+        })
     };
     command.rewrite.iter().map(find).collect()
 }

@@ -3,7 +3,7 @@ use crate::{LoadError, Subprograms, find_machine};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use trunnion_check::config::{FormatSettings, parse_tool_flag};
-use trunnion_check::{Config, RuleLevel, Settings};
+use trunnion_check::{Config, RuleLevel, Settings, did_you_mean, or_known, rule_names};
 use trunnion_dialect::{Dialect, Modeline};
 use trunnion_interp::{Library, Setup};
 use trunnion_machine::Machine;
@@ -88,9 +88,8 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let mut rules = config.rules.clone();
     for rule in &overrides.allow {
         if trunnion_check::rule(rule).is_none() {
-            return Err(LoadError::new(format!(
-                "--allow {rule}: unknown rule; `trunnion rules` lists all rules"
-            )));
+            let hint = did_you_mean(rule, &rule_names(), "; `trunnion rules` lists all rules");
+            return Err(LoadError::new(format!("--allow {rule}: unknown rule{hint}")));
         }
         rules.push((rule.clone(), RuleLevel::Allow));
     }
@@ -111,10 +110,8 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let mut port_to = config.port_to.clone();
     for name in &overrides.port_to {
         if trunnion_dialect::builtin(name).is_none() {
-            let known = trunnion_dialect::BUILTIN_NAMES.join(", ");
-            return Err(LoadError::new(format!(
-                "--port-to {name}: unknown dialect; known dialects: {known}"
-            )));
+            let hint = or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
+            return Err(LoadError::new(format!("--port-to {name}: unknown dialect{hint}")));
         }
         port_to.push(name.clone());
     }
@@ -226,10 +223,8 @@ fn dialect_for(
     for (name, reason) in choices {
         let Some(name) = name else { continue };
         let Some(dialect) = trunnion_dialect::builtin(name) else {
-            let known = trunnion_dialect::BUILTIN_NAMES.join(", ");
-            return Err(LoadError::new(format!(
-                "unknown dialect `{name}` ({reason}); known dialects: {known}"
-            )));
+            let hint = or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
+            return Err(LoadError::new(format!("unknown dialect `{name}` ({reason}){hint}")));
         };
         return Ok((dialect, reason.to_owned()));
     }

@@ -1,6 +1,6 @@
 //! The text of `trunnion.toml`: every unknown key, unknown name and value out of range is an error with its place.
 use super::{Config, ConfigError, RuleLevel, TOLERANCES, tool};
-use crate::Severity;
+use crate::{Severity, did_you_mean, or_known};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -141,14 +141,13 @@ fn known_dialect(name: Spanned<String>) -> Result<String, ConfigError> {
     if trunnion_dialect::BUILTIN_NAMES.contains(&name.get_ref().as_str()) {
         return Ok(name.into_inner());
     }
-    let names = trunnion_dialect::BUILTIN_NAMES.join(", ");
-    Err(at(
-        &name,
-        format!(
-            "unknown dialect `{}`; known dialects: {names}; to use your own table, set `dialect_table`",
-            name.get_ref()
-        ),
-    ))
+    let known = trunnion_dialect::BUILTIN_NAMES;
+    let list = format!(
+        "; known dialects: {}; to use your own table, set `dialect_table`",
+        known.join(", ")
+    );
+    let hint = did_you_mean(name.get_ref(), known, &list);
+    Err(at(&name, format!("unknown dialect `{}`{hint}", name.get_ref())))
 }
 
 fn limit(key: &str, value: &Spanned<i64>, most: u64) -> Result<u64, ConfigError> {
@@ -163,10 +162,12 @@ fn limit(key: &str, value: &Spanned<i64>, most: u64) -> Result<u64, ConfigError>
 
 fn rule_level(name: &Spanned<String>, level: &Spanned<String>) -> Result<(String, RuleLevel), ConfigError> {
     if crate::rule(name.get_ref()).is_none() {
-        return Err(at(
-            name,
-            format!("unknown rule `{}`; `trunnion rules` lists all rules", name.get_ref()),
-        ));
+        let hint = did_you_mean(
+            name.get_ref(),
+            &crate::rule_names(),
+            "; `trunnion rules` lists all rules",
+        );
+        return Err(at(name, format!("unknown rule `{}`{hint}", name.get_ref())));
     }
     let value = match level.get_ref().as_str() {
         "allow" => RuleLevel::Allow,
@@ -187,10 +188,8 @@ fn tolerance(name: &Spanned<String>, value: &Spanned<f64>) -> Result<(String, f6
     let key = name.get_ref().as_str();
     if TOLERANCES.iter().all(|(known, _)| *known != key) {
         let names: Vec<&str> = TOLERANCES.iter().map(|(known, _)| *known).collect();
-        return Err(at(
-            name,
-            format!("unknown tolerance `{key}`; known tolerances: {}", names.join(", ")),
-        ));
+        let hint = or_known(key, &names, "tolerances");
+        return Err(at(name, format!("unknown tolerance `{key}`{hint}")));
     }
     let number = *value.get_ref();
     let (least, most, range) = if key.starts_with("feed_drop") {

@@ -33,7 +33,8 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     for (range, directive) in overview.directives {
         match directive {
             Directive::Allow { rule, .. } if crate::rule(rule).is_none() => {
-                out.report(*range, format!("unknown rule `{rule}`"))
+                let hint = crate::did_you_mean(rule, &crate::rule_names(), "");
+                out.report(*range, format!("unknown rule `{rule}`{hint}"))
                     .help("`trunnion rules` lists all rules");
             }
             Directive::Allow { rule, reason } if reason.trim().is_empty() => {

@@ -116,7 +116,7 @@ fn cause(open: &Open, family: &str) -> (String, &'static str) {
         ),
         OpenCause::Direction => (
             text("both match the preferred direction in the program"),
-            "position the rotary axes before",
+            "position the rotary axes before this block",
         ),
         OpenCause::WordsNotDeclared => (
             text(

@@ -10,7 +10,7 @@
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z50 A20 C350
 //! N30 G1 X10 C10 F20
-//! ;          ^^^ angle-wrap: C turns back by 340 deg to reach 10 deg; the shorter way is 20 deg on
+//! ;          ^^^ angle-wrap: C turns back by 340 deg to reach 10 deg; the shorter way is 20 deg forward
 //! N40 M30
 //! ```
 //!
@@ -63,7 +63,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         }
         let short = turn - TAU * (turn / TAU).round();
         let name = letter(axis.letter);
-        let way = |turn: f64| if turn < 0.0 { "back" } else { "on" };
+        let way = |turn: f64| if turn < 0.0 { "back" } else { "forward" };
         let reachable = match axis.limits {
             Limits::Unbounded => true,
             Limits::Range(low, high) => (low..=high).contains(&(start.joints[joint] + short)),

@@ -45,7 +45,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if proved {
         out.report(
             fault.range,
-            "this loop never ends: one pass leaves all values as they were before",
+            "this never ends: one pass leaves all values as they were before",
         )
         .note("this is proved: nothing that the next pass depends on has changed, so every further pass is the same")
         .note("what comes after it was not checked")
@@ -73,7 +73,7 @@ mod tests {
         let own = found.diagnostics.iter().find(|d| d.rule == "endless-loop").unwrap();
         assert_eq!(
             own.message,
-            "this loop never ends: one pass leaves all values as they were before"
+            "this never ends: one pass leaves all values as they were before"
         );
         assert!(own.notes[0].starts_with("this is proved: "), "{:?}", own.notes);
     }

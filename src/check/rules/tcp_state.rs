@@ -67,7 +67,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         TcpMistake::MachineCoordinates => (
             "machine coordinates are programmed under tool centre point control",
             "it depends on the control whether this block suspends tool centre point control",
-            "switch tool centre point control off before",
+            "switch tool centre point control off first",
         ),
     };
     out.report(fault.range, message)

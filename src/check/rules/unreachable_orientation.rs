@@ -86,7 +86,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
                     degrees(*value)
                 ),
             )
-            .note("SEQ, STAT, TU or the solution number select a sign of a rotary axis that the travel does not allow")
+            .note("SEQ, STAT, TU or the solution number selects a sign of a rotary axis that the travel does not allow")
             .help("leave the choice to the control, or select the other posture")
             .value_text("axis", name)
             .value("value_deg", deg(*value))

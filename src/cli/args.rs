@@ -1,4 +1,4 @@
-//! The arguments, as the interface says.
+//! The command line arguments; docs/commands.md lists the commands.
 use super::{convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! The JSON document of `check`, as the interface says.
+//! The JSON document of `check`, documented by its schema name `trunnion-check/1`.
 use super::{check::Checked, failure::Failure, load::Loaded, short};
 use serde::{Serialize, Serializer, ser::SerializeMap};
 use std::io::Write;

@@ -1,4 +1,4 @@
-//! Floor 0: expressions of RS274/NGC and of Fanuc's Macro B: compiled once, evaluated many times.
+//! Floor 1: expressions of RS274/NGC and of Fanuc's Macro B: compiled once, evaluated many times.
 //!
 //! Reading never recurses: a hundred thousand nested brackets need memory in proportion, and no stack. Evaluation needs no memory
 //! for formulas that keep at most eight values at once. A value that is not known is NaN and stays so through arithmetic.

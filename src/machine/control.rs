@@ -7,7 +7,7 @@ use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction,
 use trunnion_geometry::{deg, rad};
 use trunnion_interp::{LengthUnit, TcpCodes};
 
-/// Names that `family` may have (interface, section 7).
+/// Names that `family` may have (docs/contract.md#machine-files).
 const FAMILIES: &[&str] = &[
     "generic",
     "iso-6983",

@@ -269,7 +269,7 @@ fn hover_inside_loops_and_subprograms_tells_of_the_first_time() {
     let mut at = |what: &str| hover(&mut client, uri, LOOP, LOOP.find(what).expect("there")).expect("an answer");
     // 1 * 10 in the first of three turns
     let text = at("g1 x#2");
-    assert!(text.contains("10.0000 mm") && !text.contains("is not run"), "{text}");
+    assert!(text.contains("10.0000 mm") && !text.contains("does not run"), "{text}");
     assert!(text.contains("500.0 mm/min"), "{text}");
     for (what, told) in [
         ("#1 * 10", "**#1** = 1 before this block"),
@@ -287,7 +287,7 @@ fn hover_inside_loops_and_subprograms_tells_of_the_first_time() {
         let text = at(what);
         assert!(text.contains(told), "{what}: {text}");
         assert!(
-            text.contains("**In force**") && !text.contains("is not run"),
+            text.contains("**Active:**") && !text.contains("does not run"),
             "{what}: {text}"
         );
     }

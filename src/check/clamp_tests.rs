@@ -32,7 +32,7 @@ fn an_axis_that_comes_back_on_a_great_circle_has_turned() {
             .filter(|found| found.rule == "clamped-axis-moves");
         let said: Vec<&str> = found.map(|found| found.message.as_str()).collect();
         let wanted = if j == "0" {
-            "whether A turns between"
+            "it is not known whether A turns between"
         } else {
             "A turns by 3"
         };
@@ -58,7 +58,7 @@ fn a_clamp_that_no_code_has_named_is_not_decided() {
 fn a_code_beside_the_motion_is_not_decided_and_holds_behind_it() {
     drawn(
         "fanuc-30i",
-        "M11\nG0 X0. Y0. Z50. A20. C0.\nG0 C9. M10\n;  ^^^ clamped-axis-moves: C may be clamped: whether its clamp moves before\nG0 A9.\nG0 C5.\n;  ^^^ clamped-axis-moves: C turns by 4 deg while it is clamped\nM30\n",
+        "M11\nG0 X0. Y0. Z50. A20. C0.\nG0 C9. M10\n;  ^^^ clamped-axis-moves: C may be clamped: it is not known whether its clamp acts before\nG0 A9.\nG0 C5.\n;  ^^^ clamped-axis-moves: C turns by 4 deg while it is clamped\nM30\n",
     );
 }
 

@@ -125,7 +125,7 @@ fn a_machine_of_trivial_kinematics_keeps_its_rotary_axes_open() {
             "{refused}"
         );
         for letter in ["A", "B"] {
-            let start = format!("axis {letter}: side, dir, point, sign not known");
+            let start = format!("axis {letter}: side, dir, point, sign unknown");
             assert!(
                 imported.open.iter().any(|line| line.starts_with(&start)),
                 "{:?}",
@@ -271,7 +271,7 @@ fn a_freecad_machine_keeps_the_sense_of_its_rotary_axes_open() {
         framed
             .open
             .iter()
-            .any(|line| line.starts_with("base_frame is not read: places and directions"))
+            .any(|line| line.starts_with("base_frame is not read: positions and directions"))
     );
     // it is not known which rotary axis carries which
     let flat = FREECAD.replace("\"parent\": \"A\"", "\"parent\": null");

@@ -159,7 +159,7 @@ mod tests {
     fn sizes_out_of_range_are_refused_with_the_range() {
         assert_eq!(
             count("segments", 2, 3, 10).expect_err("refused").0,
-            "segments 2: from 3 to 10 are possible"
+            "segments 2: must be from 3 to 10"
         );
         assert!(within("tilt", f64::NAN, 0.0, 90.0, "deg").is_err());
     }

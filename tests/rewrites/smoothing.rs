@@ -133,7 +133,7 @@ fn a_tool_that_is_not_a_declared_ball_is_refused() {
         "{reason}"
     );
     let reason = refused(smooth(&text, &settings("sinumerik-840d", tool(ToolShape::Flat)), 0.08));
-    assert!(reason.contains("no ball"), "{reason}");
+    assert!(reason.contains("not a ball"), "{reason}");
     let declared = format!("; trunnion: tool 1 ball diameter 10\nT1 D1\nM6\n{text}");
     certified(smooth(&declared, &settings("sinumerik-840d", Setup::default()), 0.08));
 }

@@ -82,7 +82,7 @@ mod tests {
         );
         assert_drawn(
             "gcode",
-            "N10 G17 G90 G0 X0 Y0\nN20 G2 X10 Y0 I0 J0 F300\n;      ^^^ arc-centre-missing: the arc's centre lies at its start\n",
+            "N10 G17 G90 G0 X0 Y0\nN20 G2 X10 Y0 I0 J0 F300\n;      ^^^ arc-centre-missing: the arc's centre is its start point\n",
         );
     }
 }

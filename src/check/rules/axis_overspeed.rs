@@ -241,11 +241,11 @@ mod tests {
         for feed in ["F7100.", "F7300."] {
             assert_eq!(
                 said(haas, &format!("G1 C90. {feed}")),
-                ["Unknown F with rotary axes alone"]
+                ["Unknown only rotary axes move: t"]
             );
         }
         assert_eq!(said(haas, "G93 G1 C90. F2."), [""; 0]);
-        assert_eq!(said(haas, "G1 X1. C9. F1000."), ["Unknown F with linear and rotary"]);
+        assert_eq!(said(haas, "G1 X1. C9. F1000."), ["Unknown linear and rotary axes m"]);
         // declared: degrees
         let declared = "gcode haas-ngc mikron-ucp710+control.feed=\"xyz\"";
         assert_eq!(said(declared, "G1 C90. F7100."), [""; 0]);

@@ -116,7 +116,7 @@ mod tests {
             one("arc-centre-missing")
                 .notes
                 .iter()
-                .any(|note| note.contains("are run"))
+                .any(|note| note.contains("with / run"))
         );
         let own = one("block-delete-unset");
         assert!(

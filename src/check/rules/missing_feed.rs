@@ -61,7 +61,7 @@ mod tests {
     fn consecutive_blocks_are_told_once() {
         let report = assert_drawn(
             "gcode",
-            "N10 G0 X0 Y0\nN20 G1 X10\n;      ^^^ missing-feed: a feed motion, but no\nN30 X20\nN40 X30\nN50 X40 F100\n",
+            "N10 G0 X0 Y0\nN20 G1 X10\n;      ^^^ missing-feed: this feed motion has no feed\nN30 X20\nN40 X30\nN50 X40 F100\n",
         );
         assert_eq!(report.diagnostics[0].count, 3);
     }

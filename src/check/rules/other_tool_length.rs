@@ -87,7 +87,7 @@ mod tests {
         assert_drawn(
             "gcode linuxcnc mikron-ucp710",
             &format!(
-                "{TOOLS}T1 M6 S100 M3\nG43 H5 G0 X0 Y0 Z200 A0 C0\nA1\nG93 G1 A1.1 F100\n;^^^^^^^^^^^^^^^ missing-tool-length: T1 is 120 mm long\n;^^^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long, but 80.5 mm are in force\nA1.2 F100\nG43 H1\nA1.3 F100\nG49\nA1.4 F100\n;^^^^^^^^ other-tool-length: T1 is 120 mm long, but 0 mm are in force\nM2\n"
+                "{TOOLS}T1 M6 S100 M3\nG43 H5 G0 X0 Y0 Z200 A0 C0\nA1\nG93 G1 A1.1 F100\n;^^^^^^^^^^^^^^^ missing-tool-length: T1 is 120 mm long\n;^^^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long, but the active length compensation is 80.5 mm\nA1.2 F100\nG43 H1\nA1.3 F100\nG49\nA1.4 F100\n;^^^^^^^^ other-tool-length: T1 is 120 mm long, but the active length compensation is 0 mm\nM2\n"
             ),
         );
     }
@@ -97,7 +97,7 @@ mod tests {
         let report = assert_drawn(
             "gcode fanuc-30i mikron-ucp710",
             &format!(
-                "{TOOLS}T1 M6\nM3 S100\nG43.4 H5\nG0 X0. Y0. Z200. A0. C0.\nG1 X40. A10. F100.\n;^^^^^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long, but 80.5 mm are in force\nM30\n"
+                "{TOOLS}T1 M6\nM3 S100\nG43.4 H5\nG0 X0. Y0. Z200. A0. C0.\nG1 X40. A10. F100.\n;^^^^^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long, but the active length compensation is 80.5 mm\nM30\n"
             ),
         );
         assert_eq!(report.verdict(crate::Severity::Error), crate::Verdict::Unknown);

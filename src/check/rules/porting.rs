@@ -23,7 +23,7 @@
 //! #1 = [2**3]
 //! ;      ^^ porting: on fanuc-30i there is no operator `**`
 //! #<depth> = 5
-//! ;^^^^^^^ porting: on fanuc-30i parameters have no names in `< >`
+//! ;^^^^^^^ porting: on fanuc-30i parameters cannot have names in `< >`
 //! M2
 //! ```
 //!

@@ -100,7 +100,10 @@ mod tests {
         let change = "TRAORI\nG0 X0 Y0 Z50 A20 C0\nT2\nM6\nTRAFOOF\nM30\n";
         assert_eq!(found("sinumerik-840d", change), ["the tool is changed x1"]);
         let machine = "TRAORI\nG0 X0 Y0 Z50 A20 C0\nG0 SUPA Z0\nTRAFOOF\nM30\n";
-        assert_eq!(found("sinumerik-840d", machine), ["machine coordinates under tool x1"]);
+        assert_eq!(
+            found("sinumerik-840d", machine),
+            ["machine coordinates are programmed x1"]
+        );
         let length = "T1 M6\nG43.4 H1\nG49\nG43.5 H0\nG0 X0. Y0. Z50. A20. C0.\nG1 X10. F500.\nM30\n";
         assert!(found("fanuc-30i", length).is_empty());
         let none = "T1 M6 D0\nTRAORI\nG0 X0 Y0 Z50 A20 C0 D0\nG1 X10 F500\nX20\nM30\n";

@@ -72,7 +72,7 @@ mod tests {
         // zero and angles are the same in any unit; the first length is reported, once
         assert_drawn(
             "gcode",
-            "G0 X0 Y0\nB45\nX5\n;^ units-unset: nothing says whether lengths are inch or mm\nY7\n",
+            "G0 X0 Y0\nB45\nX5\n;^ units-unset: it is not declared whether lengths are in inches or millimetres\nY7\n",
         );
     }
 

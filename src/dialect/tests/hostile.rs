@@ -111,7 +111,7 @@ fn bad_ids() {
 fn groups_documentation_and_sources() {
     refused_with(
         "[codes]\nG0 = { group = \"moves\", action = \"rapid\", doc = \"x\" }\n",
-        "no group `moves`",
+        "has no group `moves`",
         "\"moves\"",
     );
     refused_with(
@@ -126,7 +126,7 @@ fn groups_documentation_and_sources() {
     );
     refused_with(
         "[codes]\nG0 = { action = \"rapid\", doc = \"x\", source = \"\" }\n",
-        "empty source",
+        "the source is empty",
         "\"\"",
     );
     refused_with("[groups]\n\"Big Group\" = \"x\"\n", "lower-case", "Big Group");

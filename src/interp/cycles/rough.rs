@@ -150,7 +150,7 @@ impl Interpreter<'_> {
         let signs = ways.map(f64::signum);
         let moved = axes.map(|axis| allowance[usize::from(axis == Z)]);
         if (0..2).any(|i| moved[i] * signs[i] > 0.0) {
-            return Err("its finishing allowance is larger than the contour");
+            return Err("its finishing allowance leads beyond the contour");
         }
         let full = ways[0].abs();
         if full / depth > MOST {

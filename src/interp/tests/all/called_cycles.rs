@@ -93,12 +93,12 @@ fn what_a_cycle_does_not_tell_is_unknown() {
             "the steps in the hole",
         ),
         ("CYCLE84(10,0,3,-20,,0,3,8)", "the pitch"),
-        ("CYCLE81(10,0,3,R7)", "without levels"),
-        ("CYCLE81(-10,0,3,-20)", "without levels"),
-        ("CYCLE81(10,0,3,-20,,0,1)", "numbers that choose other meanings"),
+        ("CYCLE81(10,0,3,R7)", "without known levels"),
+        ("CYCLE81(-10,0,3,-20)", "without known levels"),
+        ("CYCLE81(10,0,3,-20,,0,1)", "numbers that select other meanings"),
         (
             "CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0,1)",
-            "numbers that choose other meanings",
+            "numbers that select other meanings",
         ),
     ] {
         let got = faults("sinumerik-840d", &format!("{HEAD}{text}\n"));

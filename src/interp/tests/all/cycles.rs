@@ -190,7 +190,7 @@ fn bores_that_stop_the_spindle() {
     let manual = heights("fanuc-30i", "G0 X1. Y2. Z9.\nG98 G88 Z-3. R1. P100 F100.\n");
     assert_eq!(manual, ["R Z9", "R Z1", "L Z-3 F100", "D0.1 Z-3", "U Z1", "R Z9"]);
     let said = faults("fanuc-30i", "G0 X1. Y2. Z9.\nG98 G88 Z-3. R1. P100 F100.\n");
-    assert!(said.len() == 1 && said[0].contains("by hand"), "{said:?}");
+    assert!(said.len() == 1 && said[0].contains("manual retract"), "{said:?}");
 }
 
 #[test]

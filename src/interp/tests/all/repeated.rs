@@ -38,7 +38,7 @@ fn roughing_in_one_block_ends_where_it_began_behind_its_contour() {
     assert_eq!(lines("fanuc-30i-lathe-c", &source), want);
     let told = faults("fanuc-30i-lathe-c", &source);
     assert!(
-        told.len() == 1 && told[0].contains("G73: its cuts: the format in one block"),
+        told.len() == 1 && told[0].contains("cuts of G73: the format in one block"),
         "{told:?}"
     );
 }
@@ -147,7 +147,7 @@ fn a_skip_ends_nobody_knows_where() {
 fn contours_that_cannot_be_known() {
     let missing = faults(A, &format!("G0 X50. Z2.\nG70 P10 Q99\nM30\n{CONTOUR}"));
     assert!(
-        missing[0].contains("no block N99") && missing[0].contains("PS0063"),
+        missing[0].contains("block N99 does not exist") && missing[0].contains("PS0063"),
         "{missing:?}"
     );
     let none = faults(A, "G0 X50. Z2.\nG70\nM30\n");

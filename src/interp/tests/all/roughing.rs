@@ -89,7 +89,7 @@ fn the_escape_in_rapid_and_untold() {
     assert_eq!(got[4..6], ["U X22.5 Z-28.5", "R X22.5 Z2.5"]);
     let told = faults(A, &source);
     assert!(
-        told.len() == 1 && told[0].contains("roughing_escape says it"),
+        told.len() == 1 && told[0].contains("(declare [control] roughing_escape)"),
         "{told:?}"
     );
     // no escape, no question

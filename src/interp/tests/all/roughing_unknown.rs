@@ -21,7 +21,7 @@ fn are_unknown(cases: &[([&str; 4], &str)]) {
         let told = faults(A, &source);
         assert!(
             told.iter()
-                .any(|told| told.contains("G71: its cuts: ") && told.contains(why)),
+                .any(|told| told.contains("cuts of G71: ") && told.contains(why)),
             "{source}{told:?}"
         );
     }
@@ -45,7 +45,7 @@ fn words_that_are_missing_or_not_documented() {
             ["", FIRST, SECOND, "N1 G0 G42 X20.\nG1 Z-10.\nN2 G40 X50.\n"],
             "nose radius",
         ),
-        (["G17\n", FIRST, SECOND, CONTOUR], "another plane"),
+        (["G17\n", FIRST, SECOND, CONTOUR], "a plane other than"),
     ]);
 }
 
@@ -105,7 +105,7 @@ fn contours_that_are_not_of_type_one() {
             "does not say G0 or G1",
         ),
         (["", FIRST, "G71 P1 Q1 F.3", "N1 G0 X20.\n"], "one block"),
-        (["", FIRST, SECOND, "N1 G0 X20.\nN2 G1 X50.\n"], "begin along one axis"),
+        (["", FIRST, SECOND, "N1 G0 X20.\nN2 G1 X50.\n"], "start along one axis"),
         // other axes, rapids
         (["", FIRST, SECOND, "N1 G0 X20.\nG1 Z-10. C5.\nN2 X50.\n"], "other axes"),
         (["", FIRST, SECOND, "N1 G0 X20.\nG1 Z-10. Y5.\nN2 X50.\n"], "other axes"),

@@ -100,7 +100,7 @@ fn along_the_flank_the_beginning_of_a_cut_is_unknown() {
     assert_eq!(lines(A, source), want);
     let told = faults(A, source);
     assert!(
-        told.len() == 1 && told[0].contains("G76: where in Z its cuts begin"),
+        told.len() == 1 && told[0].contains("G76: where in Z its cuts start"),
         "{told:?}"
     );
     // on a taper neither the radius there, nor that where the pull-out begins
@@ -125,7 +125,7 @@ fn threads_that_cannot_be_worked_out_say_why() {
         ("G76 P020000 Q#500 R.1", second, "without Q in its first block"),
         ("G76 P020000 Q100", second, "without R in its first block"),
         ("G76 P000000 Q100 R.1", second, "no finishing pass"),
-        ("G76 P010045 Q100 R.1", second, "an angle that is none of"),
+        ("G76 P010045 Q100 R.1", second, "an angle other than"),
         (first, "G76 X30. Z-20. P1000 F1.5", "without its height"),
         (first, "G76 X30. Z-20. P0 Q300 F1.5", "without its height"),
         (first, "G76 X30. Z-20. P1000 Q0 F1.5", "without its height"),
@@ -211,7 +211,7 @@ fn a_thread_of_one_pass_may_be_left_before_its_end() {
     let (unsaid, told) = run(None);
     assert_eq!(unsaid, whole);
     assert!(
-        told.contains("G92: whether the tool leaves its thread before the end"),
+        told.contains("G92: whether the tool pulls out before the end of the thread"),
         "{told}"
     );
 }

@@ -124,7 +124,7 @@ fn a_tool_that_nothing_brings_is_said() {
     let said = |source: &str| {
         faults("sinumerik-840d", source)
             .concat()
-            .contains("that T chooses and no M6 brings")
+            .contains("that T selects and no M6 loads")
     };
     assert!(said("T1 D1\nG0 X1 Y1 Z1\nG1 X2 F100\n"));
     assert!(said("T1\nG1 X2 F100\n"));

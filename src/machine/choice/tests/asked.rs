@@ -147,7 +147,7 @@ fn words_for_postures_are_checked() {
         ("posture_words = { turn = { A = 16 } }", "16"),
         ("posture_words = { turn = { A = 0.5 } }", "0.5"),
         ("posture_words = { solutions = { one = \"A+\" } }", "number"),
-        ("posture_words = { solutions = { 1 = \"A\" } }", "as \"A+\""),
+        ("posture_words = { solutions = { 1 = \"A\" } }", "for example \"A+\""),
         (
             "posture_words = { status = { bit = 0, axis = \"A\", set = \"down\" } }",
             "negative, positive",

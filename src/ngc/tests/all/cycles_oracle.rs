@@ -81,7 +81,7 @@ fn a_turning_cycle_from_an_unknown_start_is_not_modelled() {
     let contour = "g18 f100\no1 sub\ng0 x2 z0\ng1 z-3\nx8\no1 endsub\n";
     for code in ["g70", "g71", "g71.1", "g71.2", "g72"] {
         let unknown = listing::list_with(&format!("{contour}{code} q1\nm2\n"), &setup);
-        assert!(unknown.errors[0].contains("not known"), "{:?}", unknown.errors);
+        assert!(unknown.errors[0].contains("unknown value"), "{:?}", unknown.errors);
         let known = listing::list_with(&format!("{contour}{code} q1 x9 z1\nm2\n"), &setup);
         assert!(known.errors.is_empty(), "{:?}", known.errors);
     }

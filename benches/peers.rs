@@ -217,7 +217,7 @@ fn macros(count: usize) -> String {
 fn distinct(count: usize) -> String {
     let mut text = String::from("G21 G90 G17 G94 G64 P0.01 F1000\n");
     for (index, part) in macros(count).split_inclusive("endsub\n").enumerate() {
-        // the numbers that stand for nothing but themselves
+        // the numbers that have no other meaning
         for line in part.lines().skip(usize::from(index == 0)) {
             let own = line
                 .replace("3.5", &format!("3.5{index}"))

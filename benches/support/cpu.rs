@@ -56,7 +56,7 @@ pub(crate) fn rs274(path: &Path, runs: usize) -> Option<f64> {
             .output()
             .ok()
             .filter(|out| out.status.success())?;
-        // the second line tells of the children: user and system, `0m4.21s 0m0.10s`
+        // the second line gives the children: user and system, `0m4.21s 0m0.10s`
         let text = String::from_utf8(out.stdout).ok()?;
         text.lines().nth(1)?.split_whitespace().map(clock).sum::<Option<f64>>()
     };

@@ -6,7 +6,7 @@ use trunnion_check::Session;
 use trunnion_syntax::Program;
 use trunnion_workspace::{LoadError, Overrides, Resolved, resolve};
 
-/// Executed blocks after which a loop is given up while somebody types, where the settings say nothing else: seconds less than
+/// Executed blocks after which a loop is given up while the user types, if the settings do not say otherwise: seconds less than
 /// the command line's ten million.
 const BLOCKS: u64 = 1_000_000;
 
@@ -36,7 +36,7 @@ pub(crate) struct Judged {
     pub(crate) session: Session,
 }
 
-/// Analyses a text; `None` when `cancelled` said that nobody wants it any more.
+/// Analyses a text; `None` when `cancelled` returned true.
 pub(crate) fn analyse(
     uri: Url,
     version: i32,
@@ -46,7 +46,7 @@ pub(crate) fn analyse(
 ) -> Option<Analysed> {
     let begun = Instant::now();
     let path: Option<PathBuf> = uri.to_file_path().ok().or_else(|| {
-        // An unsaved or remote document still has a name whose extension tells the dialect.
+        // An unsaved or remote document still has a name whose extension shows the dialect.
         uri.path_segments().and_then(|mut s| s.next_back().map(PathBuf::from))
     });
     let outcome = match resolve(path.as_deref(), text.as_bytes(), overrides) {

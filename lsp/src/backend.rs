@@ -37,7 +37,7 @@ impl Backend {
         Self { inbox, shutdown }
     }
 
-    /// The owner lives as long as the process; when it is gone there is nobody to tell.
+    /// The owner lives as long as the process; when it is gone there is no one to notify.
     fn post(&self, event: Event) {
         let _ = self.inbox.send(event);
     }

@@ -16,7 +16,7 @@ pub(crate) struct ExitOnExit<S> {
 }
 
 impl<S> ExitOnExit<S> {
-    /// `shutdown` tells whether `shutdown` was seen before.
+    /// `shutdown` shows whether a `shutdown` request was seen before.
     pub(crate) fn new(inner: S, shutdown: Arc<AtomicBool>) -> Self {
         Self { inner, shutdown }
     }

@@ -42,7 +42,7 @@ pub(crate) fn hover(analysed: &Analysed, position: Position, encoding: Encoding)
         shown = word;
     }
     if !info.runs {
-        text.push_str("This block is not run: the program ends before it, or every way leads past it.\n\n");
+        text.push_str("This block does not run: the program ends before it, or every path skips it.\n\n");
     }
     modal(&mut text, &info.after);
     motion(&mut text, &info, judged.resolved.machine.as_ref());
@@ -130,14 +130,14 @@ fn modal(text: &mut String, state: &ModalState) {
     let unit = if state.length_unit_mm == 1.0 { "mm" } else { "inch" };
     let _ = writeln!(
         text,
-        "**In force** feed {feed}, spindle {speed}, tool {tool}, {sense}, {unit}, TCP {mode}\n"
+        "**Active:** feed {feed}, spindle {speed}, tool {tool}, {sense}, {unit}, TCP {mode}\n"
     );
 }
 
 fn motion(text: &mut String, info: &BlockInfo, machine: Option<&Machine>) {
     let Some(machine) = machine else {
         text.push_str(
-            "No machine is named: joints are not known (set `trunnion.machine`, or `machine` in trunnion.toml).\n",
+            "No machine is named, so axis positions are unknown (set `trunnion.machine`, or `machine` in trunnion.toml).\n",
         );
         return;
     };
@@ -178,14 +178,14 @@ fn facts(text: &mut String, row: &Row) {
     if let Some(bound) = row.tip_deviation_mm {
         let _ = writeln!(
             text,
-            "* tip leaves the programmed line by at most {bound:.4} mm (proven)"
+            "* the tip leaves the programmed line by at most {bound:.4} mm (proven)"
         );
     }
     if let Some(limit) = row.feed_limit_mm_min {
         let axis = row
             .limiting_axis
             .map_or_else(String::new, |axis| format!(", limited by {axis}"));
-        let _ = writeln!(text, "* reachable feed {limit:.0} mm/min{axis}");
+        let _ = writeln!(text, "* highest possible feed {limit:.0} mm/min{axis}");
     }
     if let Some(time) = row.duration_s {
         let _ = writeln!(text, "* {time:.4} s at the programmed feed");

@@ -1,4 +1,4 @@
-//! Floor 7: the language server. Only this crate knows LSP, JSON-RPC and tokio.
+//! Floor 8: the language server. Only this crate knows LSP, JSON-RPC and tokio.
 //!
 //! One thread owns all state (`owner`); handlers only put events into its inbox, so that edits stay in wire order, and
 //! await an answer. Work that takes time runs on a pool with a snapshot; newest version wins.

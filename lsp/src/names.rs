@@ -6,7 +6,7 @@ use trunnion_syntax::{Block, Program, TextRange};
 /// Lines of one O-word that are shown.
 const SHOWN: usize = 8;
 
-/// What is said of the variable or O-word at byte `at` of a block, and its bytes.
+/// The hover text for the variable or O-word at byte `at` of a block, and its bytes.
 pub(crate) fn at(program: &Program, block: &Block<'_>, at: u32, info: &BlockInfo) -> Option<(String, TextRange)> {
     variable(program, block, at, info).or_else(|| o_word(program, block, at))
 }
@@ -29,7 +29,7 @@ fn variable(program: &Program, block: &Block<'_>, at: u32, info: &BlockInfo) -> 
     Some((text, word))
 }
 
-/// How many bytes behind `#` belong to the variable; `None` where its number is reckoned.
+/// How many bytes after `#` belong to the variable; `None` where its number is computed.
 fn length(behind: &[u8]) -> Option<usize> {
     let count = |is: fn(&u8) -> bool| behind.iter().take_while(|byte| is(byte)).count();
     match behind.first()? {
@@ -43,7 +43,7 @@ fn length(behind: &[u8]) -> Option<usize> {
 fn worth(value: Option<f64>) -> String {
     match value {
         None => "has no value".to_owned(),
-        Some(value) if value.is_nan() => "has a value that is not known".to_owned(),
+        Some(value) if value.is_nan() => "has an unknown value".to_owned(),
         Some(value) => {
             let digits = format!("{value:.6}");
             let digits = digits.trim_end_matches('0').trim_end_matches('.');
@@ -52,7 +52,7 @@ fn worth(value: Option<f64>) -> String {
     }
 }
 
-/// The O-word at the beginning of a block: its name in lower case without blanks, its bytes, and the keyword behind it.
+/// The O-word at the beginning of a block: its name in lower case without blanks, its bytes, and the keyword after it.
 fn label(program: &Program, block: &Block<'_>) -> Option<(String, TextRange, String)> {
     let range = block.range();
     let text = program.bytes(range);
@@ -78,7 +78,7 @@ fn label(program: &Program, block: &Block<'_>) -> Option<(String, TextRange, Str
     (!keyword.is_empty()).then_some((name, word, keyword))
 }
 
-/// The O-word at the cursor with the lines in which it stands.
+/// The O-word at the cursor with the lines that contain it.
 fn o_word(program: &Program, block: &Block<'_>, at: u32) -> Option<(String, TextRange)> {
     let (name, word, _) = label(program, block).filter(|(_, word, _)| word.touches(at))?;
     let mut lines = Vec::new();
@@ -89,7 +89,7 @@ fn o_word(program: &Program, block: &Block<'_>, at: u32) -> Option<(String, Text
     }
     let written = program.text(word);
     let mut text = match lines.iter().find(|(_, keyword)| keyword == "sub") {
-        Some((line, _)) => format!("**{written}** subprogram, begins in line {line}"),
+        Some((line, _)) => format!("**{written}** subprogram, starts in line {line}"),
         None if lines.iter().any(|(_, keyword)| keyword == "call") => {
             format!("**{written}** is not defined in this file")
         }

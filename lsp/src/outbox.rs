@@ -1,4 +1,4 @@
-//! What goes to the client, in order: one task sends, nobody else.
+//! Messages to the client, in order: only one task sends.
 use serde::{Deserialize, Serialize};
 use tokio::sync::mpsc;
 use tower_lsp::{

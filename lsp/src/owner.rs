@@ -161,7 +161,7 @@ impl Owner {
         });
     }
 
-    /// Takes an analysis, publishes it, and answers who waited for it.
+    /// Takes an analysis, publishes it, and answers the requests that waited for it.
     fn take(&mut self, analysed: &Arc<Analysed>) {
         let Some(document) = self.documents.get_mut(&analysed.uri) else {
             return;

@@ -10,7 +10,7 @@ use tower_lsp::lsp_types::{
 use trunnion_check::{Severity, Status};
 use trunnion_syntax::TextRange;
 
-/// More findings than this help nobody in an editor; the last one then says how many there are.
+/// More findings than this are useless in an editor; the last one then states how many there are.
 const MOST: usize = 2000;
 
 /// The findings of an analysis; a settings error is one finding at the start of the document.
@@ -18,7 +18,7 @@ pub(crate) fn diagnostics(analysed: &Analysed, encoding: Encoding) -> Vec<Diagno
     let judged = match &analysed.outcome {
         Ok(judged) => judged,
         Err(error) => {
-            let text = format!("{error}; until that is mended nothing is checked");
+            let text = format!("{error}; nothing is checked until this is corrected");
             return vec![plain("settings", DiagnosticSeverity::ERROR, text)];
         }
     };

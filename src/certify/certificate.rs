@@ -1,4 +1,4 @@
-//! What a proof leaves behind: digests of the inputs, the claim, and the numbers found.
+//! What a proof records: digests of the inputs, the claim, and the numbers found.
 use crate::Claim;
 use crate::digest::seal_digest;
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ pub struct TextDigest {
     pub bytes: u64,
 }
 
-/// A name and the digest of what it stands for.
+/// A name and the digest of its contents.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NamedDigest {
@@ -212,7 +212,7 @@ impl Certificate {
             worst.path_axis_bound_deg.value
         );
         if self.motions.unknown > 0 {
-            text.push_str("; some positions are unknown, but programmed alike");
+            text.push_str("; some positions are unknown, but both programs program them alike");
         }
         if self.motions.process_changed > 0 {
             text.push_str("; feed or spindle speed differ");

@@ -5,7 +5,7 @@ use trunnion_machine::{AxisKind, Joints, Machine};
 
 /// |W''| of the tip while all joints run linearly. The chain is walked from the tool to the workpiece: a linear axis of speed v adds v
 /// to the bound V of the speed; a rotary axis of speed w at a distance of at most d adds 2 w V + w^2 d to that of the bend, and
-/// w d to V (kinematics notes 3).
+/// w d to V (docs/kinematics.md#between-the-ends-of-a-block).
 pub fn joint_bend(machine: &Machine, ends: &[Joints; 2], tool_length: f64) -> f64 {
     let mut points = [machine.home.gauge_point - machine.home.tool_axis * tool_length; 2];
     let (mut speed, mut bend) = (0.0, 0.0);
@@ -21,7 +21,7 @@ pub fn joint_bend(machine: &Machine, ends: &[Joints; 2], tool_length: f64) -> f6
             }
             AxisKind::Rotary => {
                 let distance = |point: &Vec3| axis.direction.cross(&(point - axis.point)).norm();
-                // between the ends the point is at most half its way farther out than their mean
+                // between the ends the point is farther out than their mean by at most half its travel
                 let reach = 0.5 * (distance(&points[0]) + distance(&points[1]) + speed);
                 for (point, value) in points.iter_mut().zip(values) {
                     *point = rotate(&axis.direction, axis.sign * value, &(*point - axis.point)) + axis.point;

@@ -14,7 +14,7 @@ pub(crate) fn first_difference(given: &Certificate, fresh: &Certificate) -> Opti
     let seals = [&mut given_value, &mut fresh_value].map(|value| value["seal_sha256"].take());
     let found = differ(&given_value, &fresh_value, "").or_else(|| {
         (seals[0] != seals[1]).then(|| {
-            "seal_sha256: the certificate was altered after it was made (its claim or version is not the sealed one)".into()
+            "seal_sha256: the certificate was changed after it was made (its claim or version is not the sealed one)".into()
         })
     });
     Some(found.unwrap_or_else(|| "the certificate differs from the proof".into()))
@@ -31,7 +31,7 @@ fn differ(given: &Value, fresh: &Value, path: &str) -> Option<String> {
             differ(value, b.get(key)?, &path)
         }),
         (Value::Array(a), Value::Array(b)) if a.len() != b.len() => Some(format!(
-            "{path}: certificate has {} entries, the proof {}",
+            "{path}: the certificate has {} entries, the proof has {}",
             a.len(),
             b.len()
         )),
@@ -41,6 +41,6 @@ fn differ(given: &Value, fresh: &Value, path: &str) -> Option<String> {
             .enumerate()
             .find_map(|(i, (a, b))| differ(a, b, &format!("{path}[{i}]"))),
         _ if given == fresh => None,
-        _ => Some(format!("{path}: certificate says {given}, the proof gives {fresh}")),
+        _ => Some(format!("{path}: the certificate says {given}, the proof gives {fresh}")),
     }
 }

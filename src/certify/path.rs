@@ -1,7 +1,7 @@
 //! Where the tool is between the two ends of a motion, and how much its path can bend: the base of every bound.
 //!
 //! For a point that moves on W(t), 0 <= t <= 1, with |W''| <= Q, the distance of W from any chord between two moments h apart
-//! is at most Q h^2 / 8 (kinematics notes 3). The same holds for the difference of two such points.
+//! is at most Q h^2 / 8 (docs/kinematics.md#between-the-ends-of-a-block). The same holds for the difference of two such points.
 use crate::curve::{great_circle, joint_bend};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{angle_between, asin};
@@ -37,7 +37,7 @@ pub(crate) struct Path<'m> {
 }
 
 impl<'m> Path<'m> {
-    /// The path of the point `height` mm above the tip. `None` where the way between the ends is not modelled: arcs, unknown motions.
+    /// The path of the point `height` mm above the tip. `None` where the path between the ends is not modelled: arcs, unknown motions.
     pub(crate) fn new(machine: &'m Machine, leg: &Leg, start: &Stance, end: &Stance, height: f64) -> Option<Self> {
         let motion = &leg.motion;
         let vectors = matches!(motion.orientation, trunnion_interp::Orientation::Vector(..));

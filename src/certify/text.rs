@@ -4,7 +4,7 @@ use trunnion_dialect::{Dialect, Role};
 use trunnion_interp::AxisLetter;
 use trunnion_syntax::{Address, AptArg, Block, Format, Program, TextRange, Value};
 
-/// A coordinate word of a block: who it is, its bytes, and those of its number.
+/// A coordinate word of a block: its name, its bytes, and those of its number.
 struct Coordinate {
     name: (u8, u16),
     word: TextRange,
@@ -89,7 +89,7 @@ fn bytes(program: &Program, range: TextRange) -> &[u8] {
     &program.source()[range.as_usize()]
 }
 
-/// What lies between the blocks, and before the first and after the last.
+/// The text between the blocks, before the first and after the last.
 fn line_ends(program: &Program) -> Vec<u8> {
     let mut out = Vec::new();
     let mut at = 0;

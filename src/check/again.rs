@@ -1,4 +1,4 @@
-//! The same finding in a later pass of a loop, or in a later call: it is counted at the first, not told again.
+//! The same finding in a later pass of a loop, or in a later call: it is counted at the first one, not reported again.
 use crate::{Diagnostic, Severity, Status};
 use std::collections::HashMap;
 use trunnion_interp::{ChainId, Frame};
@@ -32,7 +32,7 @@ impl Passes {
         (diagnostic.rule, key, unknown, diagnostic.range)
     }
 
-    /// Notes a finding that is told, so that later ones at its place are counted there.
+    /// Notes a reported finding, so that later ones at its place are counted there.
     pub(crate) fn told(&mut self, diagnostic: &mut Diagnostic, key: u64) {
         let next = self.later.len() as u32;
         let slot = *self.places.entry(Self::place(diagnostic, key)).or_insert(next);
@@ -46,7 +46,7 @@ impl Passes {
         }
     }
 
-    /// The counter of the finding that was told at this place before.
+    /// The counter of the finding that was reported at this place before.
     pub(crate) fn find(&self, diagnostic: &Diagnostic, key: u64) -> Option<u32> {
         self.places.get(&Self::place(diagnostic, key)).copied()
     }
@@ -89,7 +89,7 @@ impl Passes {
             if later.count > 0 {
                 diagnostic.count = diagnostic.count.saturating_add(later.count);
                 diagnostic.notes.push(format!(
-                    "the block runs more than once: this is found {} times in all, and told at the first",
+                    "the block runs more than once: this was found {} times in all and is reported at the first",
                     diagnostic.count
                 ));
             }

@@ -77,7 +77,7 @@ pub(crate) fn judge(program: &Program, settings: &Settings<'_>, watch: &mut impl
     })
 }
 
-/// Checks as declared, and with the switch for block delete on where nobody says how it stands.
+/// Checks as declared; if the state of the block delete switch is not declared, also with the switch on.
 fn with_both(
     program: &Program,
     settings: &Settings<'_>,

@@ -15,15 +15,15 @@ pub(crate) const WORTH: usize = 1 << 14;
 /// So many steps are handed over at once.
 const BATCH: usize = 2048;
 
-/// So many batches are under way at most. Together they are more than the second cache of a core holds: writing where the other core has just
+/// At most this many batches are in flight. Together they are larger than the second-level cache of a core: writing where the other core has just
 /// read costs more than fetching from memory that both have left.
 const BATCHES: usize = 16;
 
-/// What a run told, in order.
+/// What a run emitted, in order.
 enum Told {
     /// The next of [`Batch::motions`].
     Motion,
-    /// The next of [`Batch::courses`] is that of the line behind it.
+    /// The next item of [`Batch::courses`] belongs to the line after it.
     Course,
     /// A line: see [`Sink::next_line`].
     Line {
@@ -32,7 +32,7 @@ enum Told {
         moved: u16,
         /// Rotary axes of which something was foreseen: it is the next of [`Batch::sines`].
         foreseen: u8,
-        /// Behind it the block has run.
+        /// After it the block has run.
         last: bool,
     },
     /// The next of [`Batch::faults`].
@@ -95,10 +95,10 @@ struct Batch {
     faults: Vec<Fault>,
 }
 
-/// Takes down what a run tells.
+/// Records what a run emits.
 struct Teller<'m> {
     batch: Batch,
-    /// Where the motion told last leads, in this batch or before it, and the course told last.
+    /// The end of the last emitted motion, in this batch or before it, and the last emitted course.
     last: Option<([f64; AXIS_LETTERS.len()], Option<Course>)>,
     foresight: Option<Lookahead<'m>>,
 }
@@ -164,7 +164,7 @@ impl Sink for Teller<'_> {
 }
 
 impl Batch {
-    /// Shows the pass what was told; the batch is empty then and keeps its storage. `last`: the motion told last.
+    /// Shows the pass what was recorded; afterwards the batch is empty and keeps its storage. `last`: the last emitted motion.
     fn show(&mut self, pass: &mut Pass<'_>, last: &mut Option<Motion>) {
         let (mut motions, mut courses) = (self.motions.iter(), self.courses.iter());
         let (mut places, mut sines) = (self.places.iter(), self.sines.iter());
@@ -214,7 +214,7 @@ impl Batch {
     }
 }
 
-/// Runs a program on a thread of its own, lets the pass `read` meanwhile and shows it what is told; the interpreter as it is at the end.
+/// Runs a program on its own thread, lets the pass `read` meanwhile and shows it what the run emits; returns the interpreter at the end.
 pub(crate) fn run(
     program: &Program,
     machine: Option<&Machine>,
@@ -228,7 +228,7 @@ pub(crate) fn run(
         // there is room for all of them
         _ = empty.send(Batch::default());
     }
-    // both ends go with a panic, so that nobody waits for them
+    // both channel ends are dropped on a panic, so that neither thread waits for ever
     std::thread::scope(move |scope| {
         let runner = scope.spawn(move || {
             let foresight = machine.and_then(Lookahead::new);
@@ -239,7 +239,7 @@ pub(crate) fn run(
         let mut last = None;
         for mut batch in filled {
             batch.show(pass, &mut last);
-            // whoever runs the program may have come to its end
+            // the thread that runs the program may have ended
             _ = empty.send(batch);
         }
         match runner.join() {
@@ -249,7 +249,7 @@ pub(crate) fn run(
     })
 }
 
-/// Runs the program and hands over what it tells, as long as anybody listens.
+/// Runs the program and hands over what it emits while the receiver exists.
 fn tell(
     program: &Program,
     interpreter: &mut Interpreter<'static>,

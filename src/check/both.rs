@@ -1,4 +1,4 @@
-//! Programs with blocks that begin with `/`, where nobody says how the switch for block delete stands: both states are judged.
+//! Programs with blocks that begin with `/` while the state of the block delete switch is not declared: both states are judged.
 use crate::report::Summary;
 use crate::{Diagnostic, Report, Settings};
 use std::collections::HashSet;
@@ -8,7 +8,7 @@ use trunnion_syntax::{Block, Item, Program, TextRange};
 /// Rules that find something missing: what the other state has is not missing.
 const ABSENCES: [&str; 2] = ["machine-not-used", "unused-suppression"];
 
-/// The `/` of a block with its level, where it deletes anything: it begins the block, or stands inside it in dialects that know that.
+/// The `/` of a block with its level, if it deletes anything: it begins the block, or is inside it in dialects that allow that.
 pub(crate) fn slash(block: &Block<'_>, dialect: &Dialect) -> Option<(u8, TextRange)> {
     let mut items = block.items();
     let first = items.next()?;
@@ -66,11 +66,11 @@ pub(crate) fn join(off: &mut Report, on: &Report) {
         .retain(|found| !absence(found) || in_on.contains(&key(found)));
     for found in &mut off.diagnostics {
         if !in_on.contains(&key(found)) {
-            found.notes.push("only where the blocks with / are run".to_owned());
+            found.notes.push("only if the blocks with / run".to_owned());
         }
     }
     for found in &mut only_on {
-        found.notes.push("only where the blocks with / are skipped".to_owned());
+        found.notes.push("only if the blocks with / are skipped".to_owned());
     }
     off.diagnostics.append(&mut only_on);
     off.diagnostics

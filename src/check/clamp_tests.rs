@@ -1,4 +1,4 @@
-//! Rule clamped-axis-moves: axes that must stand still, and codes of clamps.
+//! Rule clamped-axis-moves: axes that must not move, and clamp codes.
 use crate::fixture::{assert_drawn, check_with, machine};
 use std::sync::Arc;
 use trunnion_interp::{Files, Library, Loaded, Setup};
@@ -13,7 +13,7 @@ fn a_run_of_blocks_is_told_once_and_the_free_axis_may_turn() {
 }
 
 /// The tool leans by the same angle at both ends and C has turned by half a turn but a little: on the great circle A comes down towards
-/// the pole and goes up again. Straight over the pole nobody knows.
+/// the pole and goes up again. Exactly over the pole it is unknown.
 #[test]
 fn an_axis_that_comes_back_on_a_great_circle_has_turned() {
     let program = |j: &str| {
@@ -32,7 +32,7 @@ fn an_axis_that_comes_back_on_a_great_circle_has_turned() {
             .filter(|found| found.rule == "clamped-axis-moves");
         let said: Vec<&str> = found.map(|found| found.message.as_str()).collect();
         let wanted = if j == "0" {
-            "whether A turns between"
+            "it is not known whether A turns between"
         } else {
             "A turns by 3"
         };
@@ -50,7 +50,7 @@ fn drawn(dialect: &str, text: &str) {
 fn a_clamp_that_no_code_has_named_is_not_decided() {
     drawn(
         "haas-ngc",
-        "G0 X0. Y0. Z50. A20. C0.\n;                    ^^^ clamped-axis-moves: C may be clamped: no M10 or M11 has run yet\nG0 C9.\nX5.\nM30\n",
+        "G0 X0. Y0. Z50. A20. C0.\n;                    ^^^ clamped-axis-moves: C may be clamped: neither M10 nor M11 has run yet\nG0 C9.\nX5.\nM30\n",
     );
 }
 
@@ -58,7 +58,7 @@ fn a_clamp_that_no_code_has_named_is_not_decided() {
 fn a_code_beside_the_motion_is_not_decided_and_holds_behind_it() {
     drawn(
         "fanuc-30i",
-        "M11\nG0 X0. Y0. Z50. A20. C0.\nG0 C9. M10\n;  ^^^ clamped-axis-moves: C may be clamped: whether its clamp moves before\nG0 A9.\nG0 C5.\n;  ^^^ clamped-axis-moves: C turns by 4 deg while it is clamped\nM30\n",
+        "M11\nG0 X0. Y0. Z50. A20. C0.\nG0 C9. M10\n;  ^^^ clamped-axis-moves: C may be clamped: it is not known whether its clamp acts before\nG0 A9.\nG0 C5.\n;  ^^^ clamped-axis-moves: C turns by 4 deg while it is clamped\nM30\n",
     );
 }
 
@@ -79,7 +79,7 @@ fn a_code_by_an_expression_counts_where_its_value_is_known() {
     );
     assert_eq!(
         told("haas-ngc", None, "M11\nG0 X0. Y0. Z50. A20. C0.\nM#500\nG0 C9.\nM30\n"),
-        ["C may be clamped: which code of its clamp ran last is not known"],
+        ["C may be clamped: it is not known which of its clamp codes ran last"],
     );
 }
 
@@ -131,12 +131,12 @@ fn codes_of_a_called_file_without_motion_are_read() {
     assert_eq!(told("fanuc-30i", Some("O7\nM10\nM99\n"), main), [TURNS]);
     let closed = main.replace("M98", "M10\nM98");
     assert_eq!(told("fanuc-30i", Some("O7\nM11\nM99\n"), &closed), [""; 0]);
-    // behind what is not there nothing is known
+    // after a missing part nothing is known
     let gone = "M11\nM98 P7\nG0 X0. Y0. Z50. A20. C0.\nG0 C9.\nM30\n";
     let found = told("fanuc-30i", None, gone);
     assert_eq!(
         found,
-        ["C may be clamped: which code of its clamp ran last is not known"]
+        ["C may be clamped: it is not known which of its clamp codes ran last"]
     );
 }
 
@@ -153,15 +153,15 @@ fn a_linuxcnc_program_is_read_the_same() {
     );
     let skipped = "M11\nG0 X0 Y0 Z50 A20 C0\no1 if [0]\nM10\no1 endif\nG0 C9\nM2\n";
     assert_eq!(told("linuxcnc", None, skipped), [""; 0]);
-    // beside another code it is clear; of two codes of one clamp nobody knows which is the last
+    // beside another code it is clear; of two codes of one clamp it is unknown which comes last
     let beside = "M11\nG0 X0 Y0 Z50 A20 C0\nM10 M8 (M11)\nG0 C9\nM2\n";
     assert_eq!(told("linuxcnc", None, beside), [TURNS]);
     let both = "M11\nG0 X0 Y0 Z50 A20 C0\nM10 m 1 1\nG0 C9\nM2\n";
     assert_eq!(
         told("linuxcnc", None, both),
-        ["C may be clamped: which code of its clamp ran last is not known"]
+        ["C may be clamped: it is not known which of its clamp codes ran last"]
     );
-    // of two clamps each hears its own code, whichever stands last
+    // of two clamps each reacts to its own code, whichever is written last
     for codes in ["M10 M13", "M13 M10"] {
         let text = format!("M11\nM13\nG0 X0 Y0 Z50 A20 C0\n{codes}\nG0 C9\nG0 A29\nM2\n");
         let two = format!("{CODES}+A.clamp_codes={{on=\"M12\",off=\"M13\"}}");

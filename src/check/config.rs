@@ -77,38 +77,38 @@ pub const TOLERANCES: &[(&str, &str)] = &[
     ),
     (
         "swept",
-        "swept-deviation: how far the tool's end at the spindle may leave its path, mm",
+        "swept-deviation: how far the upper end of the tool may leave its path, mm",
     ),
     (
         "rotary_ratio",
-        "excess-rotary-travel: turn of the rotary axes over turn of the tool axis",
+        "excess-rotary-travel: turn of the rotary axes divided by turn of the tool axis",
     ),
     (
         "linear_ratio",
-        "excess-linear-travel: way of the linear axes over way of the tip",
+        "excess-linear-travel: travel of the linear axes divided by travel of the tip",
     ),
     (
         "rapid_ratio",
-        "excess-rapid-travel: way of the rapid motions over the direct way",
+        "excess-rapid-travel: travel of the rapid motions divided by the direct distance",
     ),
     (
         "pivot",
         "pivot-uncertainty: how far the uncertainty of the rotary axes may move the tip, mm",
     ),
-    ("pole_cone", "pole-flip: cone about the pole, deg"),
+    ("pole_cone", "pole-flip: half angle of the cone around the pole, deg"),
     ("pole_angle", "pole-flip: change of the rotary axis, deg"),
     (
         "swap_excess",
-        "branch-swap: rotary excess over the cheapest move without a swap, deg",
+        "branch-swap: rotary travel more than the cheapest move without a swap, deg",
     ),
     ("pole_touch", "pole-crossing: distance to the pole, deg"),
     (
         "feed_drop_warning",
-        "feed-drop: share of the programmed feed, 0 to 1, below which it warns",
+        "feed-drop: part of the programmed feed, 0 to 1, below which it is a warning",
     ),
     (
         "feed_drop_error",
-        "feed-drop: share of the programmed feed, 0 to 1, below which it is an error",
+        "feed-drop: part of the programmed feed, 0 to 1, below which it is an error",
     ),
 ];
 
@@ -127,7 +127,7 @@ impl Config {
         match self.offset_axes.iter().find(|(letter, _)| lacks(*letter)) {
             None => Ok(()),
             Some((letter, span)) => Err(ConfigError {
-                message: format!("{} has no axis {}", machine.id, char::from(*letter)),
+                message: format!("machine {} has no axis {}", machine.id, char::from(*letter)),
                 span: Some(span.clone()),
             }),
         }
@@ -191,7 +191,7 @@ impl<'a> Settings<'a> {
         }
     }
 
-    /// At the start of a program, told what the machine says of its codes.
+    /// At the start of a program, as the machine declares its codes.
     pub(crate) fn interpreter(&self) -> Interpreter<'static> {
         let codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
         if codes == self.setup.control.clamp_codes {

@@ -60,7 +60,7 @@ pub struct Diagnostic {
     pub count: u32,
     /// Range of the last of the consecutive ones.
     pub last: TextRange,
-    /// How the run came to it; told in the notes.
+    /// How the run reached it; the notes report it.
     pub(crate) origin: Origin,
 }
 

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! A line of carets (`;` or `$$`, carets, a rule's name, a colon, text) belongs to the nearest line above that is none. It
-//! is taken out before the program is read. The mark hides the first column: carets directly behind it reach back to it, and
-//! `;^` stands for a width of 1 or 2 there.
+//! is taken out before the program is read. The mark hides the first column: carets directly after it reach back to it, and
+//! `;^` there means a width of 1 or 2.
 use crate::{Report, RuleLevel, Settings, check};
 use std::sync::Arc;
 use trunnion_interp::{Files, Library, Limits, Loaded, Setup};
@@ -190,7 +190,7 @@ fn setup() -> Setup {
 }
 
 /// A built-in machine; `NAME+KEY` has `KEY = true` added to its first rotary axis, `NAME+A.KEY` to axis A, `NAME+A.KEY=5` with
-/// that value, `NAME+control.KEY=5` to the control; `NAME+undeclared` names no rule for postures. Several keys stand behind each other.
+/// that value, `NAME+control.KEY=5` to the control; `NAME+undeclared` names no rule for postures. Several keys come after each other.
 pub(crate) fn machine(name: &str) -> Result<Machine, String> {
     let none = || format!("no machine {name}");
     let Some((builtin, keys)) = name.split_once('+') else {

@@ -61,7 +61,7 @@ const fn is_header_line(bytes: &[u8], at: usize) -> bool {
     at + 2 < bytes.len() && bytes[at] == b'/' && bytes[at + 1] == b'/' && bytes[at + 2] == b'!'
 }
 
-/// Behind `//!` and the one blank that follows it.
+/// After `//!` and the one blank that follows it.
 const fn text_start(bytes: &[u8], at: usize) -> usize {
     if at + 3 < bytes.len() && bytes[at + 3] == b' ' {
         at + 4

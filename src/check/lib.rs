@@ -1,4 +1,4 @@
-//! Floor 5: speaks. Reads text, motions and legs, and turns facts into diagnostics by rules, one rule a file.
+//! Floor 6: reports. Reads text, motions and legs, and turns facts into diagnostics by rules, one rule per file.
 //!
 //! It does no I/O: texts come in, plain data goes out. It does not know terminals, JSON or LSP.
 #![allow(
@@ -15,6 +15,7 @@ pub mod config;
 mod diagnostic;
 pub mod fixture;
 pub mod header;
+mod nearest;
 mod needs;
 mod open;
 mod pass;
@@ -38,12 +39,13 @@ mod words;
 pub use analysis::{check, check_on};
 pub use config::{Config, ConfigError, RuleLevel, Settings};
 pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
+pub use nearest::{did_you_mean, or_known};
 pub use needs::Needs;
 pub use report::{Report, Summary, Verdict};
 pub use rule::{
     EndRule, Ending, FaultRule, Guarantee, InForce, LegRule, Level, MotionRule, ProgramRule, Rule, TextRule,
 };
-pub use rules::{rule, rules};
+pub use rules::{rule, rule_names, rules};
 pub use session::{BlockInfo, Session, Variables};
 pub use sink::{Draft, Reporter};
 pub use view::{LegView, Overview};

@@ -24,7 +24,7 @@ impl Needs {
     pub const LEADS_TIP: Self = Self(1 << 3);
     /// Tool vectors instead of rotary words.
     pub const VECTORS: Self = Self(1 << 4);
-    /// No stance at the end, or an arc from where nobody knows.
+    /// No stance at the end, or an arc from an unknown start.
     pub const LOST: Self = Self(1 << 5);
     /// A posture that is open.
     pub const OPEN: Self = Self(1 << 6);
@@ -49,7 +49,7 @@ impl Needs {
     pub const STRAYS: Self = Self(1 << 15);
     /// An axis that may have to hold the feed back, or one without a declared speed.
     pub const HURRIES: Self = Self(1 << 16);
-    /// Linear joints that may run farther than their ratio to the tip's way allows.
+    /// Linear axes that may travel farther than the allowed ratio to the tip's travel.
     pub const TRAVELS: Self = Self(1 << 17);
     /// Rotary joints that may have turned farther in the last blocks than their ratio to the tool axis allows.
     pub const WINDS: Self = Self(1 << 18);
@@ -64,7 +64,7 @@ impl Needs {
     pub const SURFACE_SPEED: Self = Self(1 << 22);
     /// A feed motion with another tool than the feed motion before it.
     pub const FIRST_CUT: Self = Self(1 << 23);
-    /// A tool of another length than the control reckons with.
+    /// A tool of a length other than the active compensation.
     pub const OTHER_LENGTH: Self = Self(1 << 24);
 
     /// This and that.

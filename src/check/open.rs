@@ -15,7 +15,7 @@ pub(crate) struct Open<R> {
     recent: [usize; RECENT],
     /// Which of them is forgotten next.
     oldest: usize,
-    /// Which of them is tried first: the one behind the last that was found, since blocks ask in the same order.
+    /// The one that is tried first: the one after the last that was found, since blocks ask in the same order.
     next: usize,
 }
 

@@ -27,7 +27,7 @@ pub(crate) struct Pass<'a> {
     /// The tool of the last feed motion.
     last_cut: Option<u32>,
     legs: Vec<Active<(Needs, LegRule)>>,
-    /// What tells of a leg which of them have anything to look at.
+    /// What shows for a leg which of them can have anything to report.
     facts: Option<Facts<'a>>,
     /// Those that the last leg asked, and what held of it.
     asked: (Option<Needs>, Vec<Active<LegRule>>),
@@ -96,7 +96,7 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// The machine as it stands.
+    /// The current position of the machine.
     pub(crate) fn follower(&self) -> Option<&Follower<'a>> {
         self.follower.as_ref()
     }
@@ -114,7 +114,7 @@ impl<'a> Pass<'a> {
     }
 
     pub(crate) fn read_text(&mut self, program: &Program) {
-        // the block whose comment ends too early: what stands behind that end is comment to its author
+        // the block whose comment ends too early: to its author the text after that end is still comment
         let mut nested = None;
         for error in program.errors() {
             let block = program.block_at(error.range.start).unwrap_or_default();
@@ -167,7 +167,7 @@ impl<'a> Pass<'a> {
             let met = self.legs.iter().filter(|rule| rule.run.0.are_met(holds));
             asked.extend(met.map(|rule| rule.with(rule.run.1)));
         }
-        // most blocks give nobody anything to look at
+        // for most blocks no rule has anything to look at
         if !self.asked.1.is_empty() || self.time.is_known() || cfg!(debug_assertions) {
             let view = LegView::new(machine, leg, self.posture, &self.trail);
             for rule in &self.asked.1 {
@@ -187,7 +187,7 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// Whether the text's own rules have told of the place already.
+    /// Whether the rules of the text have already reported this place.
     fn text_has_told(&self, fault: &Fault) -> bool {
         let refused = matches!(
             fault.kind,
@@ -199,7 +199,7 @@ impl<'a> Pass<'a> {
         refused && {
             let program = self.reporter.program();
             let errors = program.errors();
-            // the value that a letter lacks is missed where it should begin, behind the blanks
+            // the missing value is expected where it should begin, after the blanks
             let before = &program.source()[..fault.range.start as usize];
             let blanks = before.iter().rev().take_while(|byte| matches!(byte, b' ' | b'\t'));
             let start = fault.range.start - blanks.count() as u32;
@@ -217,7 +217,7 @@ impl<'a> Pass<'a> {
         (motion || text || machine) && (name != "porting" || self.ported)
     }
 
-    /// What was found; `interpreter` has come to its end and tells the chains of calls.
+    /// What was found; `interpreter` is at its end and knows the call chains.
     pub(crate) fn finish(self, interpreter: &Interpreter<'_>) -> Report {
         let cycle_time_s = if self.follower.is_some() {
             self.time.interval()
@@ -305,7 +305,7 @@ impl Pass<'_> {
 
     /// Judges a line that differs from the motion before it in what [`Sink::next_line`] says and in nothing else.
     pub(crate) fn take_line(&mut self, motion: &Motion) {
-        // there was a motion before it, and it told what is in force
+        // there was a motion before it, and it carries what is active
         if let Some(in_force) = self.in_force {
             self.judge(motion, &in_force, true);
         }
@@ -322,7 +322,7 @@ impl Pass<'_> {
     /// `next`: it is a line as [`Self::take_line`] wants it.
     fn judge(&mut self, motion: &Motion, in_force: &InForce, next: bool) {
         self.summary.motions += 1;
-        // cutter compensation tells a motion when the next block is known: that is no further pass of its block
+        // cutter compensation emits a motion when the next block is known: that is not a further pass of its block
         let late = motion.chain == ChainId::MAIN && self.last_ran == Some(motion.block);
         self.reporter
             .origin(self.visited.has(motion.block) && !late, motion.chain);

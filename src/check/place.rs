@@ -18,7 +18,7 @@ pub(crate) fn axis_word(program: &Program, block: BlockId, letter: u8) -> TextRa
     code(&view)
 }
 
-/// A finding of the code of a motion's block that is told once in a program; `None`: it is told already.
+/// A finding about the code of a motion's block that is reported once per program; `None`: already reported.
 pub(crate) fn once_at<'o>(motion: &Motion, message: &str, out: &'o mut Reporter<'_>) -> Option<&'o mut Draft> {
     if !out.once(0) {
         return None;

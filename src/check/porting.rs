@@ -56,7 +56,7 @@ pub(crate) struct Hit {
     pub(crate) message: String,
     /// What to do.
     pub(crate) help: &'static str,
-    /// Told once per program: what must agree for that; `None`: told at each place.
+    /// Reported once per program: what must agree for that; `None`: reported at each place.
     pub(crate) once: Option<&'static str>,
 }
 

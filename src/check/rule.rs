@@ -7,7 +7,7 @@ use trunnion_syntax::{SyntaxError, TextRange};
 pub type TextRule = fn(&SyntaxError, &mut Reporter<'_>);
 /// Reads the program as a whole.
 pub type ProgramRule = fn(&Overview<'_>, &mut Reporter<'_>);
-/// What is in force with a motion and does not stand in it.
+/// What is active for a motion without being written in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InForce {
     /// Compensated tool length, mm; `None`: off.

@@ -1,4 +1,4 @@
-//! The list of rules, alphabetical. A rule is one file in `rules/`; its name stands in two lists here.
+//! The list of rules, alphabetical. A rule is one file in `rules/`; its name appears in two lists here.
 mod ambiguous_implicit_decimal;
 mod ambiguous_posture;
 mod angle_wrap;
@@ -170,6 +170,11 @@ static RULES: &[&Rule] = table![
 /// All rules, by name.
 pub fn rules() -> &'static [&'static Rule] {
     RULES
+}
+
+/// The names of all rules, sorted.
+pub fn rule_names() -> Vec<&'static str> {
+    rules().iter().map(|rule| rule.name).collect()
 }
 
 /// A rule by name.

@@ -26,7 +26,7 @@ pub(crate) struct Merge {
     pub(crate) badness: f64,
     /// Runs up to this many blocks are reported block by block.
     pub(crate) show: usize,
-    /// Merges over gaps too: a cause that is told once in the whole program.
+    /// Merges over gaps too: a cause that is reported once in the whole program.
     pub(crate) everywhere: bool,
 }
 
@@ -39,13 +39,13 @@ struct Run {
     /// Findings with their badness; one for all blocks once `merged`.
     items: Vec<(f64, Diagnostic)>,
     merged: bool,
-    /// Where the worst lies, once merged.
+    /// Where the worst one is, once merged.
     worst: TextRange,
     /// The last block, where it was only counted.
     last: Option<BlockId>,
     /// The worst leg, where it is not worded yet.
     unworded: Option<Box<Kept>>,
-    /// A run of a later pass: it is counted where the first told of it, and has no items.
+    /// A run of a later pass: it is counted at the first report and has no items.
     later: Option<u32>,
 }
 
@@ -91,7 +91,7 @@ pub(crate) struct Log {
 }
 
 impl Log {
-    /// Adds a finding. `sequence` counts blocks: a run goes on while it grows by one at most.
+    /// Adds a finding. `sequence` counts blocks: a run continues while it grows by one at most.
     pub(crate) fn add(&mut self, program: &Program, diagnostic: Diagnostic, merge: Option<Merge>, sequence: u64) {
         let Some(merge) = merge else {
             self.add_event(diagnostic);
@@ -147,7 +147,7 @@ impl Log {
         }
     }
 
-    /// In a later pass: the counter of the finding that an earlier one told at this place.
+    /// In a later pass: the counter of the finding that an earlier pass reported at this place.
     fn told_before(&self, diagnostic: &Diagnostic, key: u64) -> Option<u32> {
         if self.again {
             self.passes.find(diagnostic, key)
@@ -250,7 +250,7 @@ impl Log {
         run.close(program, &mut self.closed);
     }
 
-    /// All diagnostics, sorted by place, then rule; `chain` tells the calls of a chain.
+    /// All diagnostics, sorted by place, then rule; `chain` returns the calls of a chain.
     pub(crate) fn finish(mut self, program: &Program, chain: &dyn Fn(ChainId) -> Vec<Frame>) -> Vec<Diagnostic> {
         for unworded in self.end(program) {
             self.worded(unworded, None, program);

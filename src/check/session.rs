@@ -9,7 +9,7 @@ use trunnion_syntax::{BlockId, Program};
 /// At most so many blocks are run again to describe one, where a program of loops leaves no check-point nearer to it.
 const MOST_AGAIN: u64 = 1_000_000;
 
-/// A motion that is told late, because its end depends on a later one, is waited for so many blocks.
+/// A motion that is emitted late, because its end depends on a later one, is waited for this many blocks.
 const LATE: u64 = 64;
 
 /// What is known about one block.
@@ -21,7 +21,7 @@ pub struct BlockInfo {
     pub after: ModalState,
     /// What the machine does in it (empty without motion or machine), the first time it runs.
     pub rows: Vec<Row>,
-    /// Whether it is run: false behind the program's end and where every way leads past it. Then the states are those at the end.
+    /// Whether it runs: false after the end of the program and where every path skips it. Then the states are those at the end.
     pub runs: bool,
     /// The values of variables before and after it.
     pub variables: Variables,
@@ -134,7 +134,7 @@ impl Watch for Keeper<'_> {
 }
 
 impl Session {
-    /// Checks and keeps check-points. `cancelled` is polled each 1024 executed blocks; `None` when it said true.
+    /// Checks and keeps check-points. `cancelled` is polled every 1024 executed blocks; `None` when it returned true.
     pub fn new(program: &Program, settings: &Settings<'_>, cancelled: &dyn Fn() -> bool) -> Option<Self> {
         let mut keeper = Keeper {
             blocks: program.block_count(),
@@ -152,7 +152,7 @@ impl Session {
     }
 
     /// Describes a block of the program the session was made of, with the same settings, as it runs the first time: at most
-    /// 1024 blocks are run again, or where loops lie before it a bounded number of them. A block behind the end is described as
+    /// At most 1024 blocks are run again, or a limited number if there are loops before it. A block after the end is described as
     /// the last one.
     pub fn describe(&self, program: &Program, settings: &Settings<'_>, block: BlockId) -> BlockInfo {
         let wanted = BlockId(block.0.min((program.block_count() as u32).saturating_sub(1)));

@@ -94,7 +94,7 @@ impl<'a> Reporter<'a> {
     /// The text of a range to be quoted: its first 40 characters, and `...` where there are more.
     pub fn text(&self, range: TextRange) -> String {
         const MOST: usize = 40;
-        // a character has at most 4 bytes; one cut in two at the end lies behind the last that is shown
+        // a character has at most 4 bytes; one that is cut at the end is after the last one shown
         let some = TextRange::new(
             range.start,
             range.end.min(range.start.saturating_add(4 * MOST as u32 + 4)),
@@ -192,7 +192,7 @@ impl<'a> Reporter<'a> {
         }
     }
 
-    /// True the first time the running rule asks for `cause`, so that one cause is told once.
+    /// True the first time the running rule asks for `cause`, so that one cause is reported once.
     pub fn once(&mut self, cause: u64) -> bool {
         // causes differ more often than rules do, and are compared faster
         let known = |told: &(&'static str, u64)| told.1 == cause && told.0 == self.name;
@@ -258,7 +258,7 @@ impl<'a> Reporter<'a> {
         }
     }
 
-    /// All findings; `chain` tells the calls of a chain.
+    /// All findings; `chain` returns the calls of a chain.
     pub(crate) fn finish(self, chain: &dyn Fn(ChainId) -> Vec<Frame>) -> Vec<Diagnostic> {
         self.log.finish(self.program, chain)
     }
@@ -326,7 +326,7 @@ impl Draft {
         self
     }
 
-    /// In consecutive blocks the finding is told once; `key` must agree (an axis letter, or 0), the largest `badness` is kept.
+    /// In consecutive blocks the finding is reported once; `key` must agree (an axis letter, or 0), the largest `badness` is kept.
     pub fn merge(&mut self, key: u64, badness: f64) -> &mut Self {
         self.merge = Some(Merge {
             key,
@@ -337,7 +337,7 @@ impl Draft {
         self
     }
 
-    /// The finding is told once in the whole program, at its first place; `key` must agree.
+    /// The finding is reported once in the whole program, at its first place; `key` must agree.
     pub fn merge_everywhere(&mut self, key: u64) -> &mut Self {
         self.merge = Some(Merge {
             key,

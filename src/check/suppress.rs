@@ -47,7 +47,7 @@ impl Suppressions {
         found
     }
 
-    /// Whether findings of `rule` in `block` are allowed; whoever asks has one.
+    /// Whether findings of `rule` in `block` are allowed; the caller has such a finding.
     #[inline]
     pub(crate) fn allows(&self, rule: &str, block: BlockId) -> bool {
         let none = self.in_block.is_empty() && self.everywhere.is_empty();

@@ -28,7 +28,7 @@ enum State {
     /// Neither of the two below.
     #[default]
     Other,
-    /// A rapid motion: the path goes on.
+    /// A rapid motion: the path continues.
     Rapid,
     /// The feed motion to which the rapid motions led.
     Arrived,
@@ -74,7 +74,7 @@ pub(crate) struct Rapids {
     pub first: BlockId,
     /// Way of the linear axes across the tool, added up, mm.
     pub way_mm: f64,
-    /// The direct way across the tool from start to end, mm.
+    /// The direct distance across the tool from start to end, mm.
     pub direct_mm: f64,
     /// Turns of the rotary axes, added up, rad.
     pub turned: [f64; 2],
@@ -203,7 +203,7 @@ fn any_sum(values: &[f64; WINDOW]) -> f64 {
     ((a + b) + (c + d)) + ((e + f) + (g + h)) + (i + j)
 }
 
-/// The part of a way at right angles to the tool, mm.
+/// The part of a move perpendicular to the tool, mm.
 fn across(way: &Vec3, tool: &Vec3) -> f64 {
     (way - tool * tool.dot(way)).norm()
 }

@@ -20,7 +20,7 @@ pub struct Overview<'a> {
     pub program: &'a Program,
     /// What it is checked with.
     pub settings: &'a Settings<'a>,
-    /// Comments that speak to Trunnion.
+    /// Comments that address Trunnion.
     pub directives: &'a [(TextRange, Directive)],
 }
 
@@ -69,7 +69,7 @@ impl<'a> LegView<'a> {
         &self.leg.motion
     }
 
-    /// Where the machine stands before and after, when both are known.
+    /// The position of the machine before and after, when both are known.
     pub fn stances(&self) -> Option<(&'a Stance, &'a Stance)> {
         Some((self.leg.start.as_ref()?, self.leg.end.as_ref().ok()?))
     }
@@ -121,7 +121,7 @@ impl<'a> LegView<'a> {
         dialect == "haas-ngc" && only_turns && self.feed_is_by_way() && !says_which
     }
 
-    /// Whether F counts along a way: neither a duration nor unknown.
+    /// Whether F counts along a path: neither a duration nor unknown.
     fn feed_is_by_way(&self) -> bool {
         matches!(self.motion().feed, Feed::PerMinute(_) | Feed::PerRevolution(_))
     }
@@ -179,7 +179,7 @@ impl<'a> LegView<'a> {
     }
 
     /// Programmed feed in its unit ([`Self::feed_unit`]); `None` where it is not known or the block is no feed motion.
-    /// Per revolution: times the spindle speed. Inverse time: the way times F (RS274/NGC, G93).
+    /// Per revolution: times the spindle speed. Inverse time: the length of the path times F (RS274/NGC, G93).
     pub fn programmed_feed(&self) -> Option<f64> {
         match self.motion().feed {
             Feed::PerMinute(feed) => Some(feed),

@@ -1,4 +1,4 @@
-//! Which blocks ran already: one bit a block, so that a finding of a later pass is told apart from one of the first.
+//! Which blocks have run: one bit per block, so that a finding of a later pass is distinguished from one of the first.
 use trunnion_syntax::BlockId;
 
 /// A set of blocks.

@@ -59,7 +59,7 @@ fn fixed(value: f64, decimals: usize) -> String {
     core::str::from_utf8(&text[at..]).unwrap_or_default().to_owned()
 }
 
-/// A feed or speed: fewer digits than [`number`], since nobody sets more.
+/// A feed or speed: fewer digits than [`number`], since more are never programmed.
 pub(crate) fn rate(value: f64) -> String {
     match value.abs() {
         size if size >= 100.0 => fixed(value, 0),
@@ -68,7 +68,7 @@ pub(crate) fn rate(value: f64) -> String {
     }
 }
 
-/// A highest feed, positive: rounded down, so that what is said is never more than what holds.
+/// A highest feed, positive: rounded down, so that the printed value is never more than what holds.
 pub(crate) fn highest_rate(value: f64) -> String {
     let step = match value {
         _ if value >= 100.0 => 1.0,
@@ -79,7 +79,7 @@ pub(crate) fn highest_rate(value: f64) -> String {
     number(((value / step) * (1.0 + 1e-12)).floor() * step)
 }
 
-/// An upper bound in mm, positive: rounded up, so that what is said is never below what is proven.
+/// An upper bound in mm, positive: rounded up, so that the printed value is never below what is proven.
 pub(crate) fn bound_mm(value: f64) -> String {
     let mut scale = 1.0;
     for _ in 0..decimals(value) {
@@ -88,7 +88,7 @@ pub(crate) fn bound_mm(value: f64) -> String {
     format!("{} mm", number(((value * scale) * (1.0 - 1e-12)).ceil() / scale))
 }
 
-/// An upper bound of an angle, positive, rad, told in degrees: rounded up, as [`bound_mm`].
+/// An upper bound of an angle, positive, rad, printed in degrees: rounded up, as [`bound_mm`].
 pub(crate) fn bound_degrees(value: f64) -> String {
     bound_mm(deg(value)).replace(" mm", " deg")
 }
@@ -98,7 +98,7 @@ pub(crate) fn mm(value: f64) -> String {
     format!("{} mm", number(value))
 }
 
-/// An angle in rad, told in degrees.
+/// An angle in rad, printed in degrees.
 pub(crate) fn degrees(angle: f64) -> String {
     format!("{} deg", number(deg(angle)))
 }

@@ -1,10 +1,10 @@
-//! The arguments, as the interface says.
+//! The command line arguments; docs/commands.md lists the commands.
 use super::{convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trunnion_check::Severity;
 
-/// Checks NC programs against the machine that shall run them.
+/// Checks NC programs against the machine that will run them.
 #[derive(Parser)]
 #[command(name = "trunnion", version, about, max_term_width = 110)]
 pub(crate) struct Args {
@@ -20,40 +20,40 @@ pub(crate) struct Global {
     /// The machine: the name of an embedded one (`trunnion machine list`) or a TOML file.
     #[arg(long, global = true, value_name = "NAME|FILE")]
     pub(crate) machine: Option<String>,
-    /// The dialect; default: modeline comment, then trunnion.toml, then file extension and content.
+    /// The dialect of the program. Default: its modeline comment, then trunnion.toml, then file extension and content.
     #[arg(long, global = true, value_name = "NAME")]
     pub(crate) dialect: Option<String>,
-    /// Settings; default: trunnion.toml, looked for upward from the file.
+    /// The settings file. Default: trunnion.toml in the folder of the program or the nearest folder above it.
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) config: Option<PathBuf>,
-    /// The tool in use: shape:diameter[:corner radius] in mm, e.g. ball:10.
+    /// The tool in use: shape:diameter[:corner radius] in mm, for example ball:10.
     #[arg(long, global = true, value_name = "SHAPE:D[:R]")]
     pub(crate) tool: Option<String>,
-    /// Findings of this severity or worse make the exit status 1.
+    /// Exit with status 1 if there is a finding of this severity or worse.
     #[arg(long, global = true, value_enum, default_value = "error")]
     pub(crate) deny: Deny,
-    /// Verdicts that stayed unknown count as findings.
+    /// Treat unknown verdicts as findings.
     #[arg(long, global = true)]
     pub(crate) strict: bool,
-    /// Also say what would change its meaning on this control (a dialect's name; may be repeated).
+    /// Also report what would change its meaning on this control (name of a dialect; may be repeated).
     #[arg(long, global = true, value_name = "DIALECT", action = ArgAction::Append)]
     pub(crate) port_to: Vec<String>,
-    /// Blocks that begin with `/`: run them (off) or skip them (on); default: trunnion.toml, else check judges both.
+    /// Blocks that begin with `/`: run them (off) or skip them (on). Default: trunnion.toml; without it, check judges both.
     #[arg(long, global = true, value_enum, value_name = "STATE")]
     pub(crate) block_delete: Option<Switch>,
     /// Silence a rule (may be repeated).
     #[arg(long, global = true, value_name = "RULE", action = ArgAction::Append)]
     pub(crate) allow: Vec<String>,
-    /// A larger program is refused unread, megabytes: its blocks are all held in memory.
+    /// Refuse to read a program larger than this, in megabytes (all its blocks are kept in memory).
     #[arg(long, global = true, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_file_mb: u64,
-    /// Colours.
+    /// When to use colours.
     #[arg(long, global = true, value_enum, default_value = "auto")]
     pub(crate) color: Color,
-    /// Only findings and failures, no remarks and no progress bar.
+    /// Print only findings and failures, no remarks and no progress bar.
     #[arg(short, long, global = true)]
     pub(crate) quiet: bool,
-    /// Say more: which dialect, machine and settings were taken, and why.
+    /// Print more: which dialect, machine and settings are used, and why.
     #[arg(short, long, global = true)]
     pub(crate) verbose: bool,
 }
@@ -106,39 +106,39 @@ impl Color {
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
-    /// The verdict: parse, run, kinematics, rules.
+    /// Check programs: syntax, motion and kinematics, with all rules.
     Check(Check),
-    /// What the machine will do, one row per motion.
+    /// Print what the machine will do, one row per motion.
     Trace(Trace),
-    /// The canonical calls of a LinuxCNC program, listed as rs274 -g lists them.
+    /// Print the canonical calls of a LinuxCNC program in the format of rs274 -g.
     Canon(Canon),
     /// Propose rewrites, prove them, apply them.
     Fix(Fix),
     /// Re-check a certificate, or prove or refute that AFTER is the same tool path as BEFORE.
     Certify(Certify),
-    /// APT/CL to G-code and back, dialect to dialect, machine to machine. Proved motion for motion, or refused.
+    /// Convert APT/CL to G-code and back, or between dialects and machines. The result is proved motion by motion, or refused.
     Convert(Convert),
-    /// Layout only: spacing, case, indentation, block numbers. Proved not to change what the program does.
+    /// Format the layout: spacing, case, indentation, block numbers. Proved not to change what the program does.
     Fmt(Fmt),
-    /// Where two programs move the tool differently, not where their text differs.
+    /// Show where two programs move the tool differently, not where their text differs.
     Diff(Diff),
-    /// Blocks, motions, tools, distances, cycle time, extents per axis.
+    /// Print blocks, motions, tools, distances, cycle time and extents per axis.
     Stats(Stats),
-    /// The page of a rule or a rewrite.
+    /// Print the page of a rule or a rewrite.
     Explain(Explain),
-    /// The list of rules and rewrites.
+    /// List all rules and rewrites.
     Rules(Rules),
-    /// Print a machine in words and numbers, or self-test it.
+    /// Print, test, compare or import a machine.
     Machine(Machine),
-    /// Pictures of what the machine does, as SVG: joints, tool axis about the pole, deviation, path.
+    /// Draw what the machine does, as SVG: axis positions, tool axis around the pole, deviation, path.
     Plot(Plot),
-    /// How far the real path of the tool strays from a required surface.
+    /// Measure how far the real tool path deviates from a required surface.
     Surface(Surface),
-    /// Test pieces with known answers, as cutter locations or programs, good or with a planted fault.
+    /// Write test pieces with known answers, as cutter locations or programs, correct or with a deliberate fault.
     Sample(Box<Sample>),
-    /// Tokens or tree of a program.
+    /// Print the tokens or the tree of a program.
     Parse(Parse),
-    /// The language server on standard input and output.
+    /// Run the language server on standard input and output.
     Lsp(Lsp),
 }
 
@@ -148,7 +148,7 @@ pub(crate) struct Check {
     /// Files and directories; `-` reads standard input.
     #[arg(required = true)]
     pub(crate) paths: Vec<PathBuf>,
-    /// Default: pretty on a terminal, else short.
+    /// Output format. Default: pretty on a terminal, otherwise short.
     #[arg(long, value_enum)]
     pub(crate) format: Option<CheckFormat>,
     /// Show at most this many findings per file in pretty and short form (0: all).
@@ -185,16 +185,16 @@ pub(crate) enum TraceFormat {
 pub(crate) struct Canon {
     /// The program; `-` reads standard input.
     pub(crate) file: PathBuf,
-    /// INI file of the machine.
+    /// The INI file of the machine.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) ini: Option<PathBuf>,
-    /// Tool table; default: the sample table of rs274.
+    /// The tool table. Default: the sample table of rs274.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) tool_table: Option<PathBuf>,
-    /// Parameter file: read at the start, written back at the end.
+    /// The parameter file: read at the start, written back at the end.
     #[arg(long, value_name = "FILE")]
     pub(crate) parameters: Option<PathBuf>,
-    /// Decimals of each number behind those that rs274 lists.
+    /// Additional decimals of each number after those that rs274 prints.
     #[arg(long, value_name = "N", default_value_t = 0, hide = true)]
     pub(crate) more_decimals: u8,
 }
@@ -204,19 +204,19 @@ pub(crate) struct Canon {
 pub(crate) struct Fix {
     /// The program.
     pub(crate) file: PathBuf,
-    /// Only these rewrites (default: all that cure a reported finding).
+    /// Use only these rewrites. Default: all that fix a reported finding.
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     pub(crate) rewrite: Vec<String>,
-    /// How far the tip (ball tools: the ball's centre) may move, mm.
+    /// How far the tip (for ball tools: the centre of the ball) may move, in mm.
     #[arg(long, value_name = "MM")]
     pub(crate) tolerance_mm: Option<f64>,
-    /// How far the tool axis may turn, degrees.
+    /// How far the tool axis may turn, in degrees.
     #[arg(long, value_name = "DEG")]
     pub(crate) tolerance_deg: Option<f64>,
-    /// Unified diff on standard output (the default).
+    /// Print a unified diff (the default).
     #[arg(long)]
     pub(crate) diff: bool,
-    /// Replace the file: written beside it, flushed, renamed.
+    /// Replace the file safely: write a new file beside it, flush it, rename it.
     #[arg(long)]
     pub(crate) write: bool,
     /// With --write: keep the original as FILE.bak.
@@ -233,9 +233,9 @@ pub(crate) struct Fix {
 /// `certify`
 #[derive(clap::Args)]
 pub(crate) struct Certify {
-    /// The program before.
+    /// The original program.
     pub(crate) before: PathBuf,
-    /// The program after.
+    /// The changed program.
     pub(crate) after: PathBuf,
     /// What is claimed: that all is the same, or the geometry of the tool path alone.
     #[arg(long, value_enum, default_value = "all")]
@@ -243,10 +243,10 @@ pub(crate) struct Certify {
     /// The certificate to re-check; without it the same tool path is proved or refuted.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) certificate: Option<PathBuf>,
-    /// Without certificate: how far the tip may be off, mm.
+    /// Without a certificate: how far the tip may be off, in mm.
     #[arg(long, value_name = "MM", default_value_t = 0.001)]
     pub(crate) tolerance_mm: f64,
-    /// Without certificate: how far the tool axis may be off, degrees.
+    /// Without a certificate: how far the tool axis may be off, in degrees.
     #[arg(long, value_name = "DEG", default_value_t = 0.001)]
     pub(crate) tolerance_deg: f64,
 }
@@ -263,7 +263,7 @@ pub(crate) enum ClaimOf {
 /// `explain`
 #[derive(clap::Args)]
 pub(crate) struct Explain {
-    /// Name of a rule or rewrite.
+    /// The name of a rule or rewrite.
     pub(crate) name: String,
 }
 
@@ -290,51 +290,51 @@ pub(crate) struct Machine {
 
 #[derive(Subcommand)]
 pub(crate) enum MachineCommand {
-    /// Names of the embedded machines.
+    /// List the embedded machines.
     List,
-    /// Chain, signs and limits in words and numbers.
+    /// Print the chain of axes, signs and limits in words and numbers.
     Show {
-        /// Embedded machine or TOML file.
+        /// The name of an embedded machine, or a TOML file.
         name: String,
     },
-    /// Proves that forward kinematics after inverse is the identity on random poses, and says how well.
+    /// Test the kinematics: on random poses, forward after inverse kinematics must return the same pose.
     Check {
-        /// Embedded machine or TOML file.
+        /// The name of an embedded machine, or a TOML file.
         name: String,
-        /// How many random poses.
+        /// The number of random poses.
         #[arg(long, default_value_t = 10_000)]
         poses: usize,
     },
-    /// Where the tip goes when a control believes one machine file and another one is the truth: with a program, on its path; without,
-    /// with the tip held still while the rotary axes sweep, and on random poses.
+    /// Compare two machine files: how far the tip is off if the control believes one and the other is true. With a program, along its path;
+    /// without one, with the tip held still while the rotary axes sweep, and on random poses.
     Compare {
-        /// The machine that the control believes in: embedded or TOML file.
+        /// The machine that the control assumes: an embedded name or a TOML file.
         believed: String,
-        /// The machine as it is, for instance as it was measured: embedded or TOML file.
+        /// The machine as it really is, for example as measured: an embedded name or a TOML file.
         truth: String,
-        /// A program to run on both.
+        /// A program to run on both machines.
         program: Option<PathBuf>,
-        /// Differences of the tip up to this are not told as a finding, mm.
+        /// Tip differences up to this are not a finding, in mm.
         #[arg(long, default_value_t = 0.02, value_name = "MM")]
         tolerance_mm: f64,
-        /// Tool length of the sweep, mm.
+        /// Tool length for the sweep, in mm.
         #[arg(long, default_value_t = 100.0, value_name = "MM")]
         tool_length: f64,
-        /// Where the sweep holds the tip, part frame, mm.
+        /// The tip position during the sweep, in the part frame, in mm.
         #[arg(long, default_value = "0,0,0", value_name = "X,Y,Z", allow_hyphen_values = true)]
         tip: String,
     },
-    /// Writes a machine file from a LinuxCNC INI file or a FreeCAD machine (.fcm), and lists what they do not say.
+    /// Write a machine file from a LinuxCNC INI file or a FreeCAD machine (.fcm), and list what is missing there.
     Import {
-        /// The file to read.
+        /// The file to import.
         file: PathBuf,
-        /// What it is (default: by its extension).
+        /// Its format. Default: by its extension.
         #[arg(long, value_enum)]
         format: Option<ImportFormat>,
-        /// Where to write the machine file (default: standard output).
+        /// Where to write the machine file. Default: standard output.
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
-        /// A value that the INI leaves to HAL files or panels, for instance nut-angle=55; may be repeated.
+        /// A value that the INI file leaves to HAL files or panels, for example nut-angle=55 (may be repeated).
         #[arg(long, value_name = "PIN=VALUE")]
         set: Vec<String>,
     },
@@ -343,9 +343,9 @@ pub(crate) enum MachineCommand {
 /// What `machine import` reads.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ImportFormat {
-    /// LinuxCNC INI with its kinematics module and HALCMD lines.
+    /// A LinuxCNC INI file with its kinematics module and HALCMD lines.
     LinuxcncIni,
-    /// Machine of FreeCAD's CAM workbench (.fcm, JSON).
+    /// A machine of FreeCAD's CAM workbench (.fcm, JSON).
     Freecad,
 }
 
@@ -354,10 +354,10 @@ pub(crate) enum ImportFormat {
 pub(crate) struct Parse {
     /// The program; `-` reads standard input.
     pub(crate) file: PathBuf,
-    /// Tokens, one per line: offset, kind, text (default: the tree of blocks and words).
+    /// Print tokens, one per line: offset, kind, text. Default: the tree of blocks and words.
     #[arg(long)]
     pub(crate) tokens: bool,
-    /// The tree of blocks and words (the default).
+    /// Print the tree of blocks and words (the default).
     #[arg(long, conflicts_with = "tokens")]
     pub(crate) tree: bool,
     #[arg(long, value_enum, default_value = "text")]

@@ -48,15 +48,12 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
         return Err(Failure::file(&command.file, format!("cannot be decided: {why}")));
     }
     if let Step::OutOfFuel(at) = last {
-        let text = format!(
-            "does not end: the loop or call at line {} was left to run no longer",
-            at.line + 1
-        );
+        let text = format!("does not end: the loop or call at line {} was stopped", at.line + 1);
         return Err(Failure::file(&command.file, text));
     }
     if let Step::Endless(at, _) = last {
         let text = format!(
-            "does not end: the loop at line {} says nothing to the machine and comes back to the same values",
+            "does not end: the loop at line {} sends nothing to the machine and returns to the same values",
             at.line + 1
         );
         return Err(Failure::file(&command.file, text));
@@ -198,7 +195,7 @@ impl<W: Write> Printer<W> {
         };
         range.map_or_else(Vec::new, |range| self.text(at.file, range))
     }
-    /// Bytes of a file without the line end behind them.
+    /// Bytes of a file without the final line end.
     fn text(&self, file: FileId, range: TextRange) -> Vec<u8> {
         let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
         let line = sources

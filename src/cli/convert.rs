@@ -24,58 +24,58 @@ use trunnion_workspace::{LoadError, find_machine};
 pub(crate) struct Convert {
     /// The program; `-` reads standard input.
     pub(crate) file: PathBuf,
-    /// What is written: a dialect, or `apt`. Default: the control of the machine it is written for.
+    /// The target: a dialect, or `apt`. Default: the control of the target machine.
     #[arg(long, value_name = "DIALECT|apt")]
     to: Option<String>,
-    /// The machine it is written for. Default: that of --machine, which is the one the program is for.
+    /// The target machine. Default: --machine, which is the machine that the program was written for.
     #[arg(long, value_name = "NAME|FILE")]
     to_machine: Option<String>,
-    /// A post of one's own (TOML): number formats, header, footer and the codes of the machine.
+    /// Your own post (TOML): number formats, header, footer and the codes of the machine.
     #[arg(long, value_name = "FILE")]
     post: Option<PathBuf>,
-    /// The tool's orientation as rotary words or as tool vectors.
+    /// Write the tool orientation as rotary words or as tool vectors.
     #[arg(long, value_enum, default_value = "words")]
     orientation: OrientationChoice,
-    /// Without tool centre point control: joints are written, and cuts in which rotary axes move are linearised.
+    /// Write without tool centre point control: axis positions, with cuts linearised where rotary axes move.
     #[arg(long)]
     no_tcp: bool,
-    /// How far the tip may be from where it was inside a cut, mm. Default: the machine's tolerance.
+    /// How far the tip may deviate from the original inside a cut, in mm. Default: the tolerance of the machine.
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     tolerance_mm: Option<f64>,
-    /// A cut may turn the table to the other posture or wind it back; each place is told.
+    /// Allow cuts to change to the other posture or to wind back; each place is reported.
     #[arg(long)]
     allow_swap: bool,
-    /// Units that are written.
+    /// The units of the output.
     #[arg(long, value_enum, default_value = "mm")]
     units: UnitsChoice,
-    /// Arcs become lines.
+    /// Write arcs as lines.
     #[arg(long)]
     lines_only: bool,
-    /// APT: INSERT records carry remarks only.
+    /// APT: treat INSERT records as remarks.
     #[arg(long)]
     insert_is_remark: bool,
     /// Leave these codes out, for example M10 (may be repeated).
     #[arg(long, value_delimiter = ',', value_name = "CODE")]
     drop: Vec<String>,
-    /// An excerpt: tool centre point control is on at its start.
+    /// For an excerpt: tool centre point control is on at its start.
     #[arg(long)]
     assume_tcp: bool,
-    /// An excerpt: the feed at its start, mm/min.
+    /// For an excerpt: the feed at its start, in mm/min.
     #[arg(long, value_name = "MM_MIN", allow_negative_numbers = true)]
     feed: Option<f64>,
-    /// Name of the program that is written. Default: its own.
+    /// The name of the output program. Default: the name of the input program.
     #[arg(long, value_name = "TEXT")]
     name: Option<String>,
-    /// Number of the program that is written (Fanuc, Haas: O).
+    /// The number of the output program (Fanuc, Haas: O).
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=99_999_999))]
     program_number: u32,
-    /// Work offset, where the program names none.
+    /// The work offset, if the program names none.
     #[arg(long, value_name = "CODE", default_value = "G54")]
     work_offset: String,
-    /// Write the program to this file; default: standard output.
+    /// Write the program to this file. Default: standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The program as text, or one JSON document with program and proof.
+    /// Print the program as text, or one JSON document with program and proof.
     #[arg(long, value_enum, default_value = "text")]
     format: ListFormat,
 }
@@ -176,7 +176,7 @@ fn options(command: &Convert) -> Result<Options, Failure> {
 /// A post of the user's own, with the place of a mistake in it.
 fn own_post(path: &Path) -> Result<Post, Failure> {
     let bytes = load::read(path)?;
-    let text = String::from_utf8(bytes).map_err(|_| Failure::file(path, "is not UTF-8, which TOML must be"))?;
+    let text = String::from_utf8(bytes).map_err(|_| Failure::file(path, "is not UTF-8; a TOML file must be UTF-8"))?;
     load_post(&text).map_err(|error| LoadError::at(path, &text, error.span.as_ref(), &error.message).into())
 }
 
@@ -190,7 +190,7 @@ fn target_post<'p>(
     if let Some(post) = own {
         if command.to.as_ref().is_some_and(|name| *name != post.dialect) {
             return Err(Failure::new(format!(
-                "the post is for {}, --to says otherwise",
+                "the post is for {}, but --to names another dialect",
                 post.dialect
             )));
         }
@@ -203,7 +203,7 @@ fn target_post<'p>(
         Some(name) => name.clone(),
         None => family.filter(known).or(same.filter(known)).ok_or_else(|| {
             Failure::new(format!(
-                "what shall be written? add --to apt, or --to with one of {}",
+                "the target is missing: add --to apt, or --to with one of {}",
                 BUILTIN_POSTS.join(", ")
             ))
         })?,
@@ -213,7 +213,7 @@ fn target_post<'p>(
     }
     builtin_post(&name).map(Some).ok_or_else(|| {
         Failure::new(format!(
-            "there is no post for `{name}`; there are {} and apt, or write one (--post FILE)",
+            "no post for `{name}`; there are posts for {} and apt, or use your own (--post FILE)",
             BUILTIN_POSTS.join(", ")
         ))
     })
@@ -223,8 +223,8 @@ fn target_post<'p>(
 fn summary(name: &str, converted: &Converted) -> Vec<String> {
     let (proof, claim) = (&converted.proof, &converted.claim);
     let mut lines = vec![format!(
-        "{name}: converted to {} and proved by running both: {} motions became {}; at their ends the tip is within {:.6} mm and the tool axis \
-         within {:.6} deg of what it was (allowed {:.6} mm, {:.6} deg)",
+        "{name}: converted to {} and proved by running both programs: {} motions became {}; at their ends the tip is within {:.6} mm and the tool axis \
+         within {:.6} deg of the original (allowed {:.6} mm, {:.6} deg)",
         converted.dialect.name,
         proof.motions_before,
         proof.motions_after,
@@ -244,47 +244,47 @@ fn summary(name: &str, converted: &Converted) -> Vec<String> {
     ));
     if proof.rapid_mm > 1e-3 {
         lines.push(format!(
-            "{name}: rapids are compared at their ends; on the way the tip may be {:.3} mm from where it was",
+            "{name}: rapids are compared at their ends; between them the tip may be {:.3} mm away from the original path",
             proof.rapid_mm
         ));
     }
     if proof.feeds_not_compared > 0 {
         lines.push(format!(
-            "{name}: in {} cuts the tip makes no way, so that their feed could not be compared",
+            "{name}: in {} cuts the tip does not move, so their feed could not be compared",
             proof.feeds_not_compared
         ));
     }
     if proof.left_out > 0 {
         lines.push(format!(
-            "{name}: {} rapids that end nowhere known (before the first known position of a tool, or behind its last) are left out",
+            "{name}: {} rapids with an unknown end (before the first known position of a tool, or after its last) are left out",
             proof.left_out
         ));
     }
     if !converted.swaps.is_empty() {
         let places: Vec<String> = converted.swaps.iter().take(20).map(u32::to_string).collect();
         lines.push(format!(
-            "{name}: {} cuts turn to the other posture or wind back: lines {}",
+            "{name}: {} cuts change to the other posture or wind back: lines {}",
             converted.swaps.len(),
             places.join(", ")
         ));
     }
     for beyond in &converted.beyond {
         lines.push(format!(
-            "{name}:{}: {beyond}; that is reckoned from a zero point at machine zero: declare yours ([work_offsets])",
+            "{name}:{}: {beyond}; this assumes that the part zero is at machine zero: declare yours in [work_offsets]",
             beyond.line
         ));
     }
     if !converted.travel_undecided.is_empty() {
         let places: Vec<String> = converted.travel_undecided.iter().take(20).map(u32::to_string).collect();
         lines.push(format!(
-            "{name}: inside {} motions it is not known whether the axes stay in their travel: lines {}",
+            "{name}: inside {} motions it is not known whether the axes stay within their travel: lines {}",
             converted.travel_undecided.len(),
             places.join(", ")
         ));
     }
     for axis in &converted.clamps {
         lines.push(format!(
-            "{name}: {axis} has a clamp whose codes are not written: put them in, or name them in the machine file (clamp_codes)"
+            "{name}: {axis} has a clamp, but the output contains no codes for it: add them, or declare them in the machine file (clamp_codes)"
         ));
     }
     for (what, line) in &converted.left_out {

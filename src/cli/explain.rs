@@ -8,7 +8,7 @@ use super::{
 };
 use serde_json::json;
 use std::io::Write;
-use trunnion_check::{Guarantee, rule, rules};
+use trunnion_check::{Guarantee, did_you_mean, rule, rule_names, rules};
 use trunnion_rewrite::{rewrite, rewrites};
 
 /// Prints the page of a rule or rewrite.
@@ -16,9 +16,10 @@ pub(super) fn explain(command: &Explain) -> Result<Done, Failure> {
     let name = command.name.to_ascii_lowercase();
     let docs = rule(&name).map(|r| r.docs).or_else(|| rewrite(&name).map(|r| r.docs));
     let Some(docs) = docs else {
-        return Err(Failure::new(format!(
-            "no rule or rewrite is named `{name}`; `trunnion rules` lists them"
-        )));
+        let mut names = rule_names();
+        names.extend(rewrites().iter().map(|known| known.name));
+        let hint = did_you_mean(&name, &names, "; `trunnion rules` lists all");
+        return Err(Failure::new(format!("unknown rule or rewrite `{name}`{hint}")));
     };
     let mut out = std::io::stdout().lock();
     writeln!(out, "{name}\n{}\n\n{}", "=".repeat(name.len()), docs.trim_end())?;

@@ -28,7 +28,7 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
     loaded.machine_or_fail("fix")?;
     if load::is_stdin(&command.file) && command.write {
         return Err(Failure::new(
-            "--write needs a file; standard input cannot be replaced (use -o FILE)",
+            "--write needs a file, because standard input cannot be replaced; use -o FILE",
         ));
     }
     let options = options(command)?;
@@ -36,7 +36,7 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
     if chosen.is_empty() {
         remark(
             global.quiet,
-            &format!("{}: nothing is reported that a rewrite cures", loaded.name),
+            &format!("{}: no reported finding can be fixed by a rewrite", loaded.name),
         );
     }
     let before = loaded.program.source().to_vec();
@@ -45,7 +45,7 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
     if command.certificate.is_some() && outcome.applied.len() > 1 {
         let names: Vec<_> = outcome.applied.iter().map(|(name, _)| *name).collect();
         return Err(Failure::new(format!(
-            "a certificate belongs to one rewrite and {} would be applied; run fix once for each with --rewrite NAME",
+            "a certificate covers one rewrite, but {} would be applied; run fix once for each with --rewrite NAME",
             names.join(", ")
         )));
     }
@@ -91,7 +91,11 @@ fn choose(command: &Fix, loaded: &Loaded) -> Result<Vec<&'static Rewrite>, Failu
         return Ok(rewrites().iter().copied().filter(|r| reported(r)).collect());
     }
     let find = |name: &String| {
-        rewrite(name).ok_or_else(|| Failure::new(format!("no rewrite is named `{name}`; `trunnion rules` lists them")))
+        rewrite(name).ok_or_else(|| {
+            let names: Vec<&str> = rewrites().iter().map(|known| known.name).collect();
+            let hint = trunnion_check::or_known(name, &names, "rewrites");
+            Failure::new(format!("unknown rewrite `{name}`{hint}"))
+        })
     };
     command.rewrite.iter().map(find).collect()
 }
@@ -160,7 +164,7 @@ pub(super) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     file.as_file().sync_all().map_err(|e| fail(&e))?;
     file.persist(&target).map_err(|e| fail(&e.error))?;
     if let Ok(folder) = File::open(folder) {
-        // Makes the rename itself durable; not every file system can, and the file is whole either way.
+        // Makes the rename itself durable; not every file system can do this, and the file is complete either way.
         let _ = folder.sync_all();
     }
     Ok(())

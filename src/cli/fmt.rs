@@ -25,17 +25,17 @@ pub(crate) struct Fmt {
     /// Write nothing; list the files that would change, with exit status 1 if there are any.
     #[arg(long)]
     check: bool,
-    /// Write nothing; unified diff on standard output.
+    /// Write nothing; print a unified diff.
     #[arg(long, conflicts_with = "stdout")]
     diff: bool,
-    /// Write nothing; the new text on standard output (one file).
+    /// Write nothing; print the new text (one file).
     #[arg(long, conflicts_with = "check")]
     stdout: bool,
-    /// Replace the files (the default): written beside them, flushed, renamed.
+    /// Replace the files safely (the default): write new files beside them, flush them, rename them.
     #[arg(long, conflicts_with_all = ["check", "diff", "stdout"])]
     write: bool,
-    /// New block numbers from START, STEP apart (default 10). Jumps, M99 P, M97 P and contours of turning cycles follow; each
-    /// program of a file begins anew. Blocks without number stay without.
+    /// Renumber the blocks from START in steps of STEP (default 10). Jumps, M99 P, M97 P and turning contours follow. Each
+    /// program of a file starts again. Blocks without a number stay without one.
     #[arg(long, value_name = "START[,STEP]", value_parser = numbers)]
     renumber: Option<Numbers>,
 }
@@ -46,7 +46,7 @@ fn numbers(text: &str) -> Result<Numbers, String> {
     let whole = |part: &str| {
         part.trim()
             .parse::<u32>()
-            .map_err(|_| format!("`{part}` is no whole number"))
+            .map_err(|_| format!("`{part}` is not a whole number"))
     };
     match (whole(start)?, whole(step)?) {
         (_, 0) => Err("the step must be 1 or more".to_owned()),
@@ -94,12 +94,9 @@ pub(super) fn run(global: &Global, command: &Fmt) -> Result<Done, Failure> {
         let rest = if failures.is_empty() {
             String::new()
         } else {
-            format!(", {} could not be done", failures.len())
+            format!(", {} failed", failures.len())
         };
-        remark(
-            global.quiet,
-            &format!("{changed} {verb}, {unchanged} as they should be{rest}"),
-        );
+        remark(global.quiet, &format!("{changed} {verb}, {unchanged} unchanged{rest}"));
     }
     let count = failures.len();
     for failure in failures.iter().flatten().take(count.saturating_sub(1)) {
@@ -108,7 +105,7 @@ pub(super) fn run(global: &Global, command: &Fmt) -> Result<Done, Failure> {
     match failures.pop() {
         Some(Some(failure)) => Err(failure),
         Some(None) => Err(Failure::new(format!(
-            "{count} of {} files stay as they are; the reasons stand above",
+            "{count} of {} files were not changed; see the reasons above",
             paths.len()
         ))),
         None if command.check && changed > 0 => Ok(Done::Found),
@@ -133,8 +130,8 @@ fn lay_out(global: &Global, command: &Fmt, path: &Path) -> Result<Outcome, Failu
     }
     let told = match loaded.program.errors().len() {
         0 => None,
-        1 => Some("1 problem of the text; its line stays as it is".to_owned()),
-        many => Some(format!("{many} problems of the text; their lines stay as they are")),
+        1 => Some("1 problem in the text; its line is not changed".to_owned()),
+        many => Some(format!("{many} problems in the text; their lines are not changed")),
     };
     if let Some(told) = told {
         outcome
@@ -168,7 +165,7 @@ fn renumber(loaded: &Loaded, numbers: Numbers, outcome: &mut Outcome) {
             if !called_outside.is_empty() {
                 let names: Vec<String> = called_outside.iter().map(|name| format!("O{name}")).collect();
                 outcome.remarks.push(format!(
-                    "{}: calls {}, not in this file: if one of them returns with M99 P to a block of this file, that number is not \
+                    "{}: calls {}, which is not in this file: if it returns with M99 P to a block of this file, that number is not \
                      followed",
                     loaded.name,
                     names.join(", ")
@@ -177,12 +174,15 @@ fn renumber(loaded: &Loaded, numbers: Numbers, outcome: &mut Outcome) {
         }
         Renumbered::Refused(obstacle) => {
             let at = place(&loaded.program, obstacle.range);
-            outcome.refuse(&format!("{}{at}: block numbers stay: {}", loaded.name, obstacle.why));
+            outcome.refuse(&format!(
+                "{}{at}: block numbers are not changed: {}",
+                loaded.name, obstacle.why
+            ));
         }
         Renumbered::Differs(difference) => {
             let at = place(&loaded.program, loaded.program.block(difference.block).range());
             outcome.refuse(&format!(
-                "{}{at}: block numbers stay: with new ones {} differs",
+                "{}{at}: block numbers are not changed: with new ones, {} would differ",
                 loaded.name, difference.what
             ));
         }
@@ -210,13 +210,15 @@ fn refusal(loaded: &Loaded, why: &Refusal) -> String {
     let name = &loaded.name;
     match why {
         Refusal::Words(range) => format!(
-            "{name}: not laid out: from byte {} on the words would be others",
+            "{name}: not formatted: from byte {} on the words would change",
             range.start
         ),
-        Refusal::NotStable(at) => format!("{name}: not laid out: the layout would not be final at byte {at}"),
+        Refusal::NotStable(at) => {
+            format!("{name}: not formatted: at byte {at} a second run would change the layout again")
+        }
         Refusal::Motions(difference) => {
             let at = place(&loaded.program, loaded.program.block(difference.block).range());
-            format!("{name}{at}: not laid out: {} would differ", difference.what)
+            format!("{name}{at}: not formatted: {} would differ", difference.what)
         }
     }
 }

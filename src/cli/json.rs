@@ -1,4 +1,4 @@
-//! The JSON document of `check`, as the interface says.
+//! The JSON document of `check`, documented by its schema name `trunnion-check/1`.
 use super::{check::Checked, failure::Failure, load::Loaded, short};
 use serde::{Serialize, Serializer, ser::SerializeMap};
 use std::io::Write;
@@ -89,7 +89,7 @@ impl Serialize for Values {
     }
 }
 
-/// Rounded to a millionth of its unit: what lies below is arithmetic, not information.
+/// Rounded to a millionth of its unit: anything smaller is rounding noise.
 pub(super) fn tidy(value: f64) -> f64 {
     let rounded = (value * 1e6).round() / 1e6;
     if rounded.is_finite() { rounded + 0.0 } else { value }

@@ -71,7 +71,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     bytes(path, MOST_MEGABYTES)?.ok_or_else(|| {
         Failure::file(
             path,
-            format!("is larger than {MOST_MEGABYTES} MB, the most that can be read; split it"),
+            format!("is larger than {MOST_MEGABYTES} MB, the largest size that can be read; split it"),
         )
     })
 }
@@ -81,14 +81,14 @@ pub(crate) fn read_program(global: &Global, path: &Path) -> Result<Vec<u8>, Fail
     let most = global.max_file_mb;
     bytes(path, most.min(MOST_MEGABYTES))?.ok_or_else(|| {
         if most >= MOST_MEGABYTES {
-            let text = format!("is larger than {MOST_MEGABYTES} MB, the most that can be read; split it");
+            let text = format!("is larger than {MOST_MEGABYTES} MB, the largest size that can be read; split it");
             return Failure::file(path, text);
         }
         Failure::file(
             path,
             format!(
-                "is larger than {most} MB and was not read; `--max-file-mb N` raises the bound (memory: ten times the \
-                 file or more)"
+                "is larger than {most} MB and was not read; `--max-file-mb N` raises the limit (it needs memory of ten times the \
+                 file size or more)"
             ),
         )
     })
@@ -106,7 +106,7 @@ fn bytes(path: &Path, megabytes: u64) -> Result<Option<Vec<u8>>, Failure> {
             return Err(Failure::file(path, "is a directory; this command takes one program"));
         }
         File::open(path).and_then(|file| {
-            // a regular file tells its size: one that is too large is not read in vain
+            // a regular file reports its size: one that is too large is not read at all
             let told = file.metadata()?.len();
             if told > most {
                 return Ok(most as usize + 1);

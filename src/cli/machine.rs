@@ -80,7 +80,7 @@ fn check(name: &str, poses: usize) -> Result<Done, Failure> {
     match machine.checks {
         0 => writeln!(
             out,
-            "  check rows                none: a wrong sign, point or order goes unnoticed"
+            "  check rows                none: a wrong sign, point or order would not be noticed"
         )?,
         count => writeln!(out, "  check rows                {count}, all hold")?,
     }

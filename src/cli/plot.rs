@@ -24,19 +24,19 @@ pub(crate) struct Plot {
     /// What to draw. The error surface is drawn by `trunnion surface --plot`.
     #[arg(long, value_enum)]
     kind: Kind,
-    /// The picture (SVG); default: standard output.
+    /// Where to write the picture (SVG). Default: standard output.
     #[arg(short, long, value_name = "FILE.svg")]
     output: Option<PathBuf>,
-    /// joints: along the way of the tip, or the time.
+    /// joints: draw over the travel of the tip, or over time.
     #[arg(long, value_enum, default_value = "way")]
     along: Axis,
     /// axis-plane: a second program, drawn over the first as "after".
     #[arg(long, value_name = "FILE")]
     after: Option<PathBuf>,
-    /// axis-plane: only what lies within so many degrees of the pole.
+    /// axis-plane: draw only what is within this many degrees of the pole.
     #[arg(long, value_name = "DEG")]
     around_pole: Option<f64>,
-    /// Only the blocks of these lines, e.g. 100-250.
+    /// Draw only the blocks of these lines, for example 100-250.
     #[arg(long, value_name = "FROM-TO")]
     lines: Option<String>,
 }
@@ -44,9 +44,9 @@ pub(crate) struct Plot {
 /// Kinds of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Kind {
-    /// Each joint with its limits, and the blocks a check finds.
+    /// The position of each axis with its limits, and the blocks with findings.
     Joints,
-    /// The tool axis seen along the pole, over lines of equal rotary joints.
+    /// The tool axis seen along the pole, over lines of equal rotary positions.
     AxisPlane,
     /// Deviation of the tip from the programmed segments.
     Deviation,
@@ -66,7 +66,9 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
     if let Some(angle) = command.around_pole
         && !(angle > 0.0 && angle <= 90.0)
     {
-        return Err(Failure::new(format!("--around-pole {angle}: between 0 and 90 deg")));
+        return Err(Failure::new(format!(
+            "--around-pole {angle}: must be between 0 and 90 deg"
+        )));
     }
     let loaded = load::load(global, &command.file)?;
     let machine = loaded.machine_or_fail("plot")?;
@@ -76,7 +78,7 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         remark(
             global.quiet,
             &format!(
-                "{}: the path of {count} motions is not known and not drawn; see `trunnion check`",
+                "{}: {count} motions with an unknown path are not drawn; see `trunnion check`",
                 loaded.name
             ),
         );
@@ -179,9 +181,11 @@ pub(super) fn span(text: &str) -> Result<(u32, u32), Failure> {
     let parsed = text
         .split_once('-')
         .and_then(|(from, to)| Some((from.trim().parse::<u32>().ok()?, to.trim().parse::<u32>().ok()?)));
-    parsed
-        .filter(|(from, to)| *from >= 1 && from <= to)
-        .ok_or_else(|| Failure::new(format!("--lines {text}: two line numbers from 1, e.g. 100-250")))
+    parsed.filter(|(from, to)| *from >= 1 && from <= to).ok_or_else(|| {
+        Failure::new(format!(
+            "--lines {text}: write two line numbers starting from 1, for example 100-250"
+        ))
+    })
 }
 
 /// Writes a picture to a file or to standard output.

@@ -30,7 +30,7 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
         let excerpt = Excerpt::new(loaded, lines, d.range);
         let repeats = short::repeats(loaded, lines, d);
         let finding = Finding { d, excerpt, repeats };
-        // Writing into a String cannot fail; a rendering error must not hide the finding, so its one-line form stands in.
+        // Writing into a String cannot fail; if rendering fails, the one-line form of the finding replaces it.
         if handler.render_report(&mut out, &finding).is_err() {
             let _ = writeln!(out, "{}[{}] {}", short::severity(d.severity), d.rule, d.message);
         }
@@ -215,7 +215,7 @@ impl SourceCode for Excerpt {
         if span.offset() + span.len() > self.data.len() {
             return Err(MietteError::OutOfBounds);
         }
-        // asked without context for the place that stands above the lines
+        // asked without context for the place shown above the lines
         if before == 0 {
             let (line, column) = self.place;
             return Ok(Box::new(MietteSpanContents::new_named(

@@ -22,19 +22,19 @@ pub(crate) struct Sample {
     /// The piece.
     #[arg(value_enum)]
     piece: Kind,
-    /// Angle between the cone's wall and its axis, deg (cone; default 15).
+    /// Angle between the wall of the cone and its axis, in deg (cone; default 15).
     #[arg(long, value_name = "DEG")]
     half_angle: Option<f64>,
-    /// Tilt, deg: of the cone's axis (default 10), of the whole S-wall (0), of the tool on circles and fixed-tip (20).
+    /// Tilt in deg: of the cone axis (default 10), of the whole S-wall (0), of the tool on circles and fixed-tip (20).
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     tilt: Option<f64>,
-    /// Radius, mm: of the cone's wall at the tip (default 80), of circles (60), of the fixed tip from the zero (40).
+    /// Radius in mm: of the cone wall at the tip (default 80), of circles (60), of the fixed tip from the zero point (40).
     #[arg(long, value_name = "MM")]
     radius: Option<f64>,
     /// Number of blocks (cone, circles, fixed-tip: default 360; staircase: 1000).
     #[arg(long, value_name = "N")]
     segments: Option<usize>,
-    /// Points in a line of the saddle's zigzag (default 20).
+    /// Points per line of the saddle's zigzag (default 20).
     #[arg(long, value_name = "N")]
     columns: Option<usize>,
     /// Lines of the saddle's zigzag (default 20).
@@ -61,19 +61,19 @@ pub(crate) struct Sample {
     /// Feed, mm/min (default 500; corner-set 1000, staircase 5000).
     #[arg(long, value_name = "MM/MIN")]
     feed: Option<f64>,
-    /// Where the part's zero lies: added to every point, mm.
+    /// The position of the part zero, added to every point, in mm.
     #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true)]
     origin: Option<Vec<f64>>,
-    /// What the blocks say (only with --machine; without one the cutter locations are written in APT).
+    /// What the blocks contain (only with --machine; without one the cutter locations are written in APT).
     #[arg(long, value_enum, default_value = "words")]
     style: Style,
-    /// Which posture: as the control chooses, or one throughout.
+    /// The posture: as the control chooses, or the same one throughout.
     #[arg(long, value_enum, default_value = "control")]
     posture: Posture,
-    /// With --posture positive or negative: nearest takes the turn nearest to the last, naive the angle in -180..180 deg.
+    /// With --posture positive or negative: nearest takes the turn nearest to the previous one, naive the angle in -180..180 deg.
     #[arg(long, value_enum, default_value = "nearest")]
     windings: WindingChoice,
-    /// Plant a fault that a check should find; pivot writes the machine file with a rotary axis 0.05 mm off.
+    /// Add a deliberate fault that a check should find; pivot writes the machine file with a rotary axis 0.05 mm off.
     #[arg(long, value_enum)]
     plant: Option<Plant>,
     /// Write the program to this file (default: standard output).
@@ -107,7 +107,7 @@ pub(super) enum Kind {
     CircleA,
     /// Tip on a circle, both rotary axes.
     CircleAc,
-    /// Tip stands still while both rotary axes sweep.
+    /// The tip stays still while both rotary axes sweep.
     FixedTip,
     /// Surface of two humps in zigzag.
     Saddle,
@@ -161,21 +161,21 @@ pub(super) enum WindingChoice {
 /// Faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(super) enum Plant {
-    /// From the middle on in the other posture.
+    /// The second half is in the other posture.
     Swap,
-    /// The axis nearest the workpiece turns the wrong way.
+    /// The axis nearest the workpiece turns in the wrong direction.
     WrongSign,
-    /// A rotary axis 0.1 deg beyond its limit in one block.
+    /// A rotary axis is 0.1 deg beyond its limit in one block.
     Limit,
     /// Tool centre point control is never switched on.
     NoTcp,
-    /// H2 (75 mm) for the tool with 80 mm.
+    /// H2 (75 mm) instead of H1 for the 80 mm tool.
     WrongH,
-    /// G55 for G54: declare `G55 = { X = 5 }` beside it.
+    /// G55 instead of G54: declare `G55 = { X = 5 }` as well.
     ShiftG54,
     /// The feed number of an inch program.
     FeedUnit,
-    /// A machine file whose last rotary axis lies 0.05 mm off.
+    /// A machine file whose last rotary axis is 0.05 mm off.
     Pivot,
 }
 
@@ -220,7 +220,7 @@ fn origin(command: &Sample) -> Result<Vec3, Failure> {
         None => Ok(Vec3::zeros()),
         Some(&[x, y, z]) if x.is_finite() && y.is_finite() && z.is_finite() => Ok(Vec3::new(x, y, z)),
         Some(_) => Err(Failure::new(
-            "--origin X,Y,Z takes three numbers in mm, e.g. --origin 0,0,50",
+            "--origin X,Y,Z takes three numbers in mm, for example --origin 0,0,50",
         )),
     }
 }
@@ -246,7 +246,7 @@ fn posted(global: &Global, command: &Sample, piece: &Piece, machine: &Machine) -
     let turned = matches!(command.plant, Some(Plant::Swap | Plant::WrongSign | Plant::Limit));
     if turned && command.style == Style::Vectors {
         return Err(Failure::new(
-            "vectors name no rotary axis: swap, wrong-sign and limit need --style words or joints",
+            "tool vectors name no rotary axis: swap, wrong-sign and limit need --style words or joints",
         ));
     }
     let mut places = joints::places(piece, machine, command.posture, command.windings)?;

@@ -42,7 +42,7 @@ pub(super) fn repeats(loaded: &Loaded, lines: &LineIndex, d: &Diagnostic) -> Str
 /// The line that counts what `limit` left out.
 pub(super) fn rest(report: &Report, shown: usize, name: &str) -> String {
     match report.diagnostics.len().checked_sub(shown) {
-        Some(more @ 1..) => format!("{name}: {more} more findings, see them all with --limit 0\n"),
+        Some(more @ 1..) => format!("{name}: {more} more findings; --limit 0 shows them all\n"),
         _ => String::new(),
     }
 }

@@ -1,4 +1,4 @@
-//! Why a run was not followed to the end of its program: what comes behind such a place was neither counted nor compared.
+//! Why a run was not followed to the end of its program: nothing after such a place was counted or compared.
 use trunnion_dialect::Dialect;
 use trunnion_interp::{Fault, FaultKind};
 use trunnion_syntax::BlockId;
@@ -23,16 +23,16 @@ pub(super) struct Stops(Option<Stop>);
 impl Stops {
     /// Takes a fault of the run.
     pub(super) fn fault(&mut self, fault: &Fault, dialect: &Dialect) {
-        // LinuxCNC's interpreter goes on behind a refused block, and reads what lies behind the end
+        // LinuxCNC's interpreter continues after a refused block, and reads what follows the end
         let may_stop = !dialect.quirks.rs274;
         let (why, sure) = match &fault.kind {
             FaultKind::EndlessLoop { proved: true, .. } => {
-                ("it never ends: a loop comes back to the same values".to_owned(), true)
+                ("it never ends: a loop returns to the same values".to_owned(), true)
             }
             FaultKind::EndlessLoop { blocks, .. } => (format!("no end within {blocks} executed blocks"), true),
             FaultKind::NotDecided { what } => (format!("not decided: {what}"), true),
             FaultKind::Rejected { message, .. } if may_stop => (format!("the control refuses it: {message}"), false),
-            FaultKind::MissingSubprogram { name, .. } if may_stop => (format!("there is no program {name}"), false),
+            FaultKind::MissingSubprogram { name, .. } if may_stop => (format!("program {name} not found"), false),
             _ => return,
         };
         if self.0.as_ref().is_none_or(|known| sure || !known.sure) {

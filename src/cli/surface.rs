@@ -27,19 +27,19 @@ pub(crate) struct Surface {
     /// The required surface: TOML or JSON with grids of points and Bezier patches, or an STL; mm, in programmed coordinates.
     #[arg(long, value_name = "FILE.toml|.json|.stl")]
     required: PathBuf,
-    /// The tip keeps this distance from the surface: a ball's centre or a flank, mm.
+    /// The distance that the tip keeps from the surface, for a ball centre or a flank, in mm.
     #[arg(long, value_name = "MM", default_value_t = 0.0)]
     offset: f64,
-    /// Feed blocks that start or end farther than this from the surface are taken as approach or retract, and counted, mm.
+    /// Feed blocks that start or end farther than this from the surface count as approach or retract, in mm.
     #[arg(long, value_name = "MM", default_value_t = 1.0)]
     reach: f64,
-    /// Only the blocks of these lines, e.g. 100-250.
+    /// Judge only the blocks of these lines, for example 100-250.
     #[arg(long, value_name = "FROM-TO")]
     lines: Option<String>,
-    /// Errors above this make the exit status 1, mm.
+    /// Exit with status 1 if an error is larger than this, in mm.
     #[arg(long, value_name = "MM")]
     tolerance: Option<f64>,
-    /// How near the proven bound comes to the largest error found, mm.
+    /// How close the proven bound must be to the largest error found, in mm.
     #[arg(long, value_name = "MM", default_value_t = 0.001)]
     close: f64,
     #[arg(long, value_enum, default_value = "text")]
@@ -60,7 +60,9 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
         ("reach", command.reach, 0.0),
     ] {
         if !(value >= least && value <= 1000.0) {
-            return Err(Failure::new(format!("--{name} {value}: between {least} and 1000 mm")));
+            return Err(Failure::new(format!(
+                "--{name} {value}: must be between {least} and 1000 mm"
+            )));
         }
     }
     let loaded = load::load(global, &command.file)?;
@@ -98,8 +100,8 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
 fn nothing(command: &Surface, errors: &Errors) -> String {
     if errors.apart > 0 {
         return format!(
-            "all {} feed blocks start or end farther than {} mm from the surface (up to {:.3} mm): are both in the same frame? \
-             --reach MM takes a wider view, --offset MM a tool that does not run on the surface itself",
+            "all {} feed blocks start or end farther than {} mm from the surface (up to {:.3} mm): check that both are in the same frame; \
+             --reach MM raises this distance, --offset MM is for a tool that does not run on the surface itself",
             errors.apart, command.reach, errors.farthest_apart
         );
     }
@@ -123,7 +125,8 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
                 errors.apart
             )
         } else {
-            "the error is not proven to keep the tolerance; --close 0.0001 proves nearer".to_owned()
+            "it is not proven that the error stays within the tolerance; --close 0.0001 computes a tighter bound"
+                .to_owned()
         };
         remark(global.quiet, &format!("unknown: {why}"));
         return if global.strict { Done::Found } else { Done::Clean };
@@ -222,14 +225,14 @@ impl Report<'_> {
     fn text(&self) -> String {
         let errors = self.errors;
         let mut text = format!(
-            "{} on {}, against {}\n",
+            "{} on {}, compared with {}\n",
             self.loaded.name,
             self.machine.id,
             self.command.required.display()
         );
         let _ = writeln!(
             text,
-            "  {} feed blocks judged, {} not known; surface of {} triangles, at most {:.6} mm off",
+            "  {} feed blocks judged, {} unknown; surface of {} triangles, at most {:.6} mm off",
             errors.judged,
             errors.not_judged,
             self.surface.triangles(),
@@ -247,7 +250,7 @@ impl Report<'_> {
         if let Some(block) = errors.first_not_judged {
             let _ = writeln!(
                 text,
-                "  the path of line {} (and perhaps of others) is not known: see `trunnion check`",
+                "  the path of line {} (and perhaps of others) is unknown: see `trunnion check`",
                 self.line(block)
             );
         }
@@ -256,7 +259,7 @@ impl Report<'_> {
             let Some(found) = found else {
                 let _ = writeln!(
                     text,
-                    "    {name:34} not known: the path does not lie on one sheet of the surface"
+                    "    {name:34} unknown: the path is not on one sheet of the surface"
                 );
                 continue;
             };
@@ -280,7 +283,7 @@ impl Report<'_> {
         if errors.placed < errors.judged && errors.placed > 0 {
             let _ = writeln!(
                 text,
-                "  only {} of the blocks lie on the surface with both ends",
+                "  only {} of the blocks have both ends on the surface",
                 errors.placed
             );
         }

@@ -69,7 +69,7 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
             ),
         );
     }
-    // A trace tells what the machine does and judges nothing: nothing is "found" by it, whatever `check` would say.
+    // A trace shows what the machine does and judges nothing: it never reports a finding, whatever `check` would report.
     Ok(Done::Clean)
 }
 

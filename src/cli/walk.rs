@@ -28,7 +28,7 @@ pub(crate) fn programs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
             return Err(Failure::file(
                 path,
                 format!(
-                    "no program in this directory (looked for .{known}); name the file itself if it ends otherwise"
+                    "no program in this directory (looked for .{known}); name the file itself if it has another extension"
                 ),
             ));
         }

@@ -69,7 +69,7 @@ pub enum Action {
     TcpVectorOn,
     /// TRAFOOF, M129 ...
     TcpOff,
-    /// M428 ...: switches the kinematics. Which code means tool centre point control is said by the machine; unsaid, X Y Z mean nothing
+    /// M428 ...: switches the kinematics. The machine file declares which code means tool centre point control; undeclared, X Y Z mean nothing
     /// from here on.
     Kinematics,
     /// G53: this block in machine coordinates.
@@ -86,7 +86,7 @@ pub enum Action {
     SpindleStop,
     /// M6.
     ToolChange,
-    /// M0, M1: stop, goes on.
+    /// M0, M1: stop, continues.
     ProgramStop,
     /// M2, M30, M17.
     ProgramEnd,
@@ -96,14 +96,14 @@ pub enum Action {
     PathMode,
     /// Recognised, but its motion or its effect on the position is not modelled: what follows is unknown.
     NotModelled,
-    /// Recognised, moves nothing and changes no position, but what it does change (what F counts for, limits) is not modelled: said
+    /// Recognised, moves nothing and changes no position, but its effect (on the meaning of F, on limits) is not modelled: reported
     /// once. A G code of this kind uses up the coordinates of its block.
     NotFollowed,
-    /// Moves, turns, mirrors or scales the coordinates in a way that is not modelled (G68.2, G92, CYCLE800, TRANS): machine
+    /// Moves, turns, mirrors or scales the coordinates in a form that is not modelled (G68.2, G92, CYCLE800, TRANS): machine
     /// positions are unknown from here on, until a [`Action::FrameReset`] of the same group. A name without arguments and
     /// without words in its block (`TRANS`, `CYCLE800()`) resets.
     FrameChange,
-    /// Coordinates, rotary ones too, mean something else in a way that is not modelled (polar and cylindrical interpolation, mirror image of a
+    /// Coordinates, rotary ones too, change their meaning in a form that is not modelled (polar and cylindrical interpolation, mirror image of a
     /// double turret): until a [`Action::FrameReset`] of the same group, or the code itself with a rotary coordinate of zero.
     FrameLost,
     /// G10.9 of a lathe: X1 means that X is a diameter from here on, X0 a radius.
@@ -114,7 +114,7 @@ pub enum Action {
     FrameReset,
     /// G68.2, G68.4: X Y Z are coordinates of a tilted working plane.
     TiltedPlane,
-    /// G53.1: turns the rotary axes so that the tool stands on the tilted plane.
+    /// G53.1: turns the rotary axes so that the tool is perpendicular to the tilted plane.
     TiltedPlaneTurn,
     /// G53.6: the same with the tip held.
     TiltedPlaneTurnTip,
@@ -178,7 +178,7 @@ pub enum Action {
     DataEntryEnd,
     /// G27: rapid to a point that should be the reference point.
     ReferenceCheck,
-    /// G28: rapid to the first reference point by way of the programmed point.
+    /// G28: rapid to the first reference point through the programmed point.
     ReferenceReturn,
     /// G28.1 of grbl: the present point becomes the one to which G28 goes.
     ReferenceStore,
@@ -186,11 +186,11 @@ pub enum Action {
     ReferenceStoreOther,
     /// G30: rapid to another reference point (P).
     ReferenceReturnOther,
-    /// G29: rapid back from the reference point by way of the last intermediate point.
+    /// G29: rapid back from the reference point through the last intermediate point.
     ReferenceFrom,
     /// G33, G32: line coupled to the spindle, F is the lead.
     Thread,
-    /// G34: as `Thread`, with a lead that changes along the way.
+    /// G34: as `Thread`, with a lead that changes along the path.
     VariableThread,
     /// G31: line that ends where a signal comes.
     Skip,
@@ -312,8 +312,8 @@ pub enum Role {
     Increment,
     /// A variable of the program (R1=): no motion; its value is not followed.
     Variable,
-    /// Recognised; it moves nothing, but what it changes (posture, feed limit) is not modelled: said once.
+    /// Recognised; it moves nothing, but its effect (posture, feed limit) is not modelled: reported once.
     NotFollowed,
-    /// Recognised, but it changes the path or calls a program in a way that is not modelled (RND=, CHF=, A2=, L20).
+    /// Recognised, but it changes the path or calls a program in a form that is not modelled (RND=, CHF=, A2=, L20).
     NotModelled,
 }

@@ -55,7 +55,10 @@ pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
         if dialect.codes.len() == before {
             return error(
                 id.span(),
-                format!("`{}` is not in the extended table: nothing to remove", id.get_ref()),
+                format!(
+                    "`{}` is not in the extended table: there is nothing to remove",
+                    id.get_ref()
+                ),
             );
         }
     }
@@ -70,7 +73,10 @@ pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
         match Pattern::parse(id, dialect.lex.format)? {
             Pattern::Numbers(kind, tenths) => dialect.builder_codes.push((kind, tenths)),
             Pattern::Name(name) => {
-                return error(id.span(), format!("`{name}`: only G and M codes can be the builder's"));
+                return error(
+                    id.span(),
+                    format!("`{name}`: only G and M codes can belong to the machine builder"),
+                );
             }
         }
     }
@@ -82,7 +88,10 @@ pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
 /// The dialect that is extended, or an empty one.
 fn start(table: &Table) -> Result<Dialect, DialectError> {
     if !is_kebab(table.name.get_ref()) {
-        return error(table.name.span(), "a dialect's name is lower-case words joined by `-`");
+        return error(
+            table.name.span(),
+            "the name of a dialect must be lower-case words joined by `-`",
+        );
     }
     if let Some(base) = &table.extends {
         if base.get_ref() == table.name.get_ref() {
@@ -93,7 +102,7 @@ fn start(table: &Table) -> Result<Dialect, DialectError> {
             None => error(
                 base.span(),
                 format!(
-                    "no built-in dialect `{}`; there are {}",
+                    "unknown built-in dialect `{}`; known are {}",
                     base.get_ref(),
                     crate::BUILTIN_NAMES.join(", ")
                 ),
@@ -107,7 +116,7 @@ fn start(table: &Table) -> Result<Dialect, DialectError> {
     };
     error(
         table.name.span(),
-        format!("a table that extends no other needs {missing}"),
+        format!("a table that does not extend another one needs {missing}"),
     )
 }
 
@@ -131,12 +140,12 @@ fn arc_tolerance(row: &ArcToleranceRow) -> Result<ArcTolerance, DialectError> {
         } else {
             error(
                 value.span(),
-                format!("{} is no tolerance: give a number above 0", value.get_ref()),
+                format!("{} is not a tolerance: write a number greater than 0", value.get_ref()),
             )
         }
     };
     if row.source.get_ref().trim().is_empty() {
-        return error(row.source.span(), "say where the tolerance comes from");
+        return error(row.source.span(), "name the source of the tolerance");
     }
     let mm = positive(&row.mm)?;
     Ok(ArcTolerance {
@@ -161,7 +170,7 @@ fn extensions(rows: &[Spanned<String>]) -> Result<Vec<String>, DialectError> {
             return error(
                 row.span(),
                 format!(
-                    "`{}`: write a file name extension in lower case without dot",
+                    "`{}`: write a file name extension in lower case, without the dot",
                     row.get_ref()
                 ),
             );
@@ -185,7 +194,7 @@ fn roles(rows: &BTreeMap<Spanned<String>, Role>, dialect: &mut Dialect) -> Resul
         if role == Role::Axis && !b"XYZABCUVW".contains(&letter.get_ref().as_bytes()[0]) {
             return error(
                 letter.span(),
-                format!("`{}`: an axis is one of X Y Z A B C U V W", letter.get_ref()),
+                format!("`{}` is not an axis; the axes are X Y Z A B C U V W", letter.get_ref()),
             );
         }
         dialect.roles[slot] = Some(role);
@@ -198,7 +207,10 @@ fn alarms(rows: &BTreeMap<Spanned<String>, AlarmRow>, source: &str, dialect: &mu
         if !is_kebab(mistake.get_ref()) || row.number.trim().is_empty() {
             return error(
                 mistake.span(),
-                format!("alarm `{}`: give a mistake's name and its `number`", mistake.get_ref()),
+                format!(
+                    "alarm `{}`: write the name of a mistake and its `number`",
+                    mistake.get_ref()
+                ),
             );
         }
         let alarm = Alarm {
@@ -257,7 +269,7 @@ fn codes(rows: BTreeMap<Spanned<String>, CodeRow>, source: &str, dialect: &mut D
     }
     if dialect.codes.len() >= usize::from(u16::MAX) {
         return Err(DialectError {
-            message: "more than 65534 codes".to_owned(),
+            message: "the table has more than 65534 codes".to_owned(),
             span: None,
         });
     }
@@ -270,21 +282,21 @@ fn check_row(id: &Spanned<String>, row: CodeRow, source: &str, dialect: &Dialect
     {
         return error(
             group.span(),
-            format!("`{}`: no group `{}` in [groups]", id.get_ref(), group.get_ref()),
+            format!("`{}`: [groups] has no group `{}`", id.get_ref(), group.get_ref()),
         );
     }
     let doc = row.doc.get_ref();
     if doc.trim().is_empty() || doc.contains('\n') {
         return error(
             row.doc.span(),
-            format!("`{}`: say in one line what the code does", id.get_ref()),
+            format!("`{}`: describe in one line what the code does", id.get_ref()),
         );
     }
     let own = row.source.map(|own| (own.span(), own.into_inner()));
     if let Some((span, text)) = &own
         && text.trim().is_empty()
     {
-        return error(span.clone(), format!("`{}`: an empty source", id.get_ref()));
+        return error(span.clone(), format!("`{}`: the source is empty", id.get_ref()));
     }
     Ok(Code {
         id: String::new(),

@@ -16,7 +16,7 @@ pub const BUILTIN_NAMES: &[&str] = &[
     "apt",
 ];
 
-/// Texts of the tables, in the order of [`BUILTIN_NAMES`]. A table may extend only one that stands before it.
+/// Texts of the tables, in the order of [`BUILTIN_NAMES`]. A table may extend only one that comes before it.
 const TABLES: [&str; 10] = [
     include_str!("../../grammar/dialects/iso-6983.toml"),
     include_str!("../../grammar/dialects/linuxcnc.toml"),

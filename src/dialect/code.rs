@@ -45,18 +45,20 @@ impl Code {
             let _ = write!(text, "\nReads: {}\n", self.words.join(" "));
         }
         if self.owner == Owner::MachineBuilder {
-            text.push_str("\nGiven by the builder of the machine: yours may differ.\n");
+            text.push_str("\nDefined by the machine builder: your machine may differ.\n");
         }
         match self.action {
             Action::NotModelled | Action::CannedCycle | Action::SubprogramCall => {
-                text.push_str("\nWhat it does is not modelled: what follows is unknown until it is programmed anew.\n");
+                text.push_str(
+                    "\nIts effect is not modelled: what it changes is unknown until it is programmed again.\n",
+                );
             }
             Action::FrameChange => text.push_str(
                 "\nThe change of coordinates is not modelled: machine positions are unknown until it ends.\n",
             ),
             Action::CompensationLeft | Action::CompensationRight => {
                 text.push_str(
-                    "\nThe compensated path is modelled on Fanuc and Haas mills, where the radius of D is declared.\n",
+                    "\nThe compensated path is modelled on Fanuc and Haas mills if the radius of D is declared.\n",
                 );
             }
             _ => {}

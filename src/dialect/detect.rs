@@ -42,11 +42,11 @@ pub fn detect(file_name: Option<&str>, source: &[u8], family: Option<&str>) -> D
     let Some((family, dialect)) = family.and_then(|family| Some((family, builtin(family)?))) else {
         return Detected {
             dialect: core_dialect(),
-            reason: "no sign of a particular control".to_owned(),
+            reason: "nothing in the file points to a particular control".to_owned(),
         };
     };
     if let Some(line) = foreign_comment(head, dialect) {
-        let reason = format!("content: a comment in line {line} that {family} does not know");
+        let reason = format!("content: a comment in line {line} of a kind that {family} does not have");
         return Detected {
             dialect: core_dialect(),
             reason,
@@ -80,12 +80,12 @@ pub fn program_extensions() -> Vec<&'static str> {
         .collect()
 }
 
-/// Whether a file's name says that it holds a program; versions behind the name count (`part.ncl.8`).
+/// Whether a file's name says that it contains a program; versions after the name count (`part.ncl.8`).
 pub fn is_program_file_name(name: &str) -> bool {
     extension(name).is_some_and(|extension| program_extensions().contains(&extension.as_str()))
 }
 
-/// Last extension, lower case; a version number behind it (`part.ncl.8`) is left out.
+/// Last extension, lower case; a version number after it (`part.ncl.8`) is left out.
 fn extension(name: &str) -> Option<String> {
     let name = name.rsplit(['/', '\\']).next()?;
     let (stem, last) = name.rsplit_once('.')?;
@@ -234,7 +234,7 @@ fn assigned(code: &str) -> bool {
     })
 }
 
-/// Whether `word` stands in `code` and is not part of a longer name. Words may be packed: `N10G710`.
+/// Whether `word` occurs in `code` and is not part of a longer name. Words may be packed: `N10G710`.
 pub(crate) fn has_word(code: &str, word: &str) -> bool {
     code.match_indices(word).any(|(at, _)| {
         let (before, after) = (&code[..at], &code[at + word.len()..]);

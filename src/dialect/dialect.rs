@@ -57,9 +57,9 @@ pub struct Quirks {
     pub cutter_offset_ambiguous: bool,
     /// What F without a decimal point means is a setting of the control.
     pub whole_feed_ambiguous: bool,
-    /// A `/` inside a block deletes what stands behind it, where the switch for block delete is on (Fanuc); else only one at the start counts.
+    /// A `/` inside a block deletes what follows it, if the block delete switch is on (Fanuc); otherwise only one at the start counts.
     pub delete_rest: bool,
-    /// Axes in the block of a dwell move behind it.
+    /// Axes in the block of a dwell move after it.
     pub dwell_then_moves: bool,
     /// Custom macro B is part of the language: variables, IF, GOTO, WHILE, M98, G65.
     pub macro_b: bool,

@@ -13,7 +13,7 @@ pub struct Modeline {
 }
 
 /// Reads `trunnion: dialect NAME` and `trunnion: machine NAME` from comments in the first ten lines. The dialect is not known
-/// yet, so any comment mark will do: what counts is the word `trunnion:` with a key and a name behind it.
+/// yet, so any comment mark will do: what counts is the word `trunnion:` followed by a key and a name.
 pub fn modeline(source: &[u8]) -> Modeline {
     let mut found = Modeline::default();
     for line in source.split(|&b| b == b'\n').take(LINES) {

@@ -12,7 +12,7 @@ fn error<T>(span: Range<usize>, message: impl Into<String>) -> Result<T, Dialect
     })
 }
 
-/// What an id in a table stands for.
+/// What an id in a table means.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Pattern {
     /// G or M codes from .. to, in tenths.
@@ -33,7 +33,7 @@ impl Pattern {
             } else {
                 error(
                     id.span(),
-                    format!("`{text}` is no code: write `G43.4`, `M6`, `G505..G599` or an upper-case name"),
+                    format!("`{text}` is not a code: write `G43.4`, `M6`, `G505..G599` or an upper-case name"),
                 )
             };
         }
@@ -48,7 +48,7 @@ impl Pattern {
             }
             _ => error(
                 id.span(),
-                format!("`{text}`: codes are 0 to 999.9 with at most one decimal and no leading zero"),
+                format!("`{text}`: code numbers are 0 to 999.9, with at most one decimal and no leading zero"),
             ),
         }
     }

@@ -1,4 +1,4 @@
-//! TextMate grammars made from the tables: first colours in an editor, before the language server speaks.
+//! TextMate grammars made from the tables: first colours in an editor, before the language server answers.
 //!
 //! Only scopes that every theme colours are used. Expressions are written for Oniguruma, the engine of TextMate and VS Code.
 use crate::{Action, Code, CodeKind, Dialect};

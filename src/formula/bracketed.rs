@@ -4,8 +4,8 @@ use crate::code::{Code, Formula};
 use crate::compile::signed;
 use trunnion_syntax::{Decimal, TextRange};
 
-/// `[1.5]` without blanks and nothing else in brackets, as a number: for a place where a value in brackets must stand. The cursor stands
-/// behind it then.
+/// `[1.5]` without blanks and nothing else in brackets, as a number: for a place where a value in brackets must stand. The cursor is
+/// after it then.
 #[inline]
 pub fn number_in_brackets(cursor: &mut Cursor<'_>) -> Option<Formula> {
     let start = cursor.at();
@@ -23,7 +23,7 @@ pub fn number_in_brackets(cursor: &mut Cursor<'_>) -> Option<Formula> {
 }
 
 /// `[1.5]` at the start of a text, of few digits, without a sign and without blanks, and how many bytes it has; `at`: where the text
-/// stands in the file. `None` for all else.
+/// is in the file. `None` for all else.
 #[inline]
 pub fn literal_in_brackets(text: &[u8], at: u32) -> Option<(Formula, usize)> {
     let (value, length) = short_in_brackets(text)?;
@@ -61,7 +61,7 @@ fn short_in_brackets(text: &[u8]) -> Option<(f64, u32)> {
     None
 }
 
-/// `[1.5]` without blanks: a number in brackets, and where the number stands.
+/// `[1.5]` without blanks: a number in brackets, and where the number is.
 #[inline]
 pub(crate) fn bracketed_number(cursor: &mut Cursor<'_>) -> Option<(f64, TextRange)> {
     let (&b'[', rest) = cursor.rest().split_first()? else {

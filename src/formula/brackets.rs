@@ -33,7 +33,7 @@ pub(crate) struct Open {
     pub(crate) bracket: Bracket,
     /// Where the value begins: at the bracket, or at the function's name.
     pub(crate) start: u32,
-    /// Where the bracket itself stands.
+    /// Where the bracket itself is.
     pub(crate) sign: u32,
     /// How many operators wait outside.
     pub(crate) outside: usize,
@@ -91,7 +91,7 @@ impl Compiler<'_, '_> {
         self.depth = self.depth.max(self.starts.len());
     }
 
-    /// Applies the signs and `#` that stand directly before the value that was just read.
+    /// Applies the signs and `#` that come directly before the value that was just read.
     pub(crate) fn apply_signs(&mut self) {
         self.end = self.cursor.behind();
         while let Some(Waiting::Negate(start) | Waiting::Plus(start) | Waiting::Read(start)) = self.waiting.last() {
@@ -136,7 +136,7 @@ impl Compiler<'_, '_> {
         self.steps.push(Step { op, range });
     }
 
-    /// Behind a whole value inside a bracket: an operator (true: an operand must follow) or the end of the bracket.
+    /// After a whole value inside a bracket: an operator (true: an operand must follow) or the end of the bracket.
     pub(crate) fn behind_operand(&mut self) -> Result<bool, FormulaError> {
         let Some(open) = self.open.last() else {
             return Ok(true);
@@ -232,7 +232,7 @@ impl Compiler<'_, '_> {
         Ok(false)
     }
 
-    /// Marks the end of a value in brackets where it may be infinite and something goes on behind it.
+    /// Marks the end of a value in brackets where it may be infinite and something continues after it.
     fn check(&mut self, range: TextRange) {
         if !self.open.is_empty() && self.steps.last().is_some_and(Step::is_binary) {
             self.steps.push(Step {
@@ -242,7 +242,7 @@ impl Compiler<'_, '_> {
         }
     }
 
-    /// Behind `ATAN[y]`: `/[`.
+    /// After `ATAN[y]`: `/[`.
     fn second_of_atan(&mut self, start: u32, call: TextRange) -> Result<bool, FormulaError> {
         let slash = self.cursor.peek() == Some(b'/');
         let bracket = slash && self.cursor.peek_second() == Some(b'[');

@@ -186,10 +186,10 @@ impl Formula {
         }
     }
 
-    /// Moves its ranges by so many bytes (wrapping: 2^32 less leads back), to another place where the same text stands.
+    /// Moves its ranges by this many bytes (wrapping: 2^32 less moves back), to another place with the same text.
     #[inline]
     pub fn shift(&mut self, by: u32) {
-        // a constant stands nowhere
+        // a constant has no place
         if self.range != TextRange::default() {
             self.range = self.range.shifted(by);
         }
@@ -203,7 +203,7 @@ impl Formula {
         }
     }
 
-    /// The variables it reads, in the order in which they stand in the text, each as often as it stands there.
+    /// The variables it reads, in the order of the text, each as often as it occurs there.
     pub fn reads(&self) -> impl Iterator<Item = Variable<'_>> {
         self.steps().iter().filter_map(|step| match &step.op {
             Op::Read(index) | Op::ReadNullable(index) => Some(Variable::Numbered(*index)),

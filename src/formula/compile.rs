@@ -9,9 +9,9 @@ use crate::{Cursor, FormulaError, FormulaErrorKind, Grammar, Name, Target};
 use smallvec::SmallVec;
 use trunnion_syntax::{Decimal, TextRange};
 
-/// Reads one value: a number, `#` parameter, `[expression]`, function, or any of them behind signs.
+/// Reads one value: a number, `#` parameter, `[expression]`, function, or any of them after signs.
 ///
-/// The cursor stands behind the value, or where reading stopped.
+/// The cursor comes after the value, or where reading stopped.
 pub fn value(cursor: &mut Cursor<'_>, grammar: Grammar) -> Result<Formula, FormulaError> {
     match value_or_error(cursor, grammar) {
         (formula, None) => Ok(formula),
@@ -101,7 +101,7 @@ pub fn bracketed(cursor: &mut Cursor<'_>, grammar: Grammar) -> Result<Formula, F
     })
 }
 
-/// Reads what stands behind the `#` of an assignment: a number, `#`, `[expression]`, `<name>`, Macro B `_NAME`.
+/// Reads what follows the `#` of an assignment: a number, `#`, `[expression]`, `<name>`, Macro B `_NAME`.
 pub fn target(cursor: &mut Cursor<'_>, grammar: Grammar) -> Result<Target, FormulaError> {
     match take_variable_name(cursor, grammar, cursor.at())? {
         Some(name) => Ok(Target::Named(name)),
@@ -124,7 +124,7 @@ fn take_variable_name(cursor: &mut Cursor<'_>, grammar: Grammar, hash: u32) -> R
     }
 }
 
-/// The shortest way for what most values are: an unsigned or signed number without blanks.
+/// The shortest path for what most values are: an unsigned or signed number without blanks.
 #[inline]
 fn plain_number(cursor: &mut Cursor<'_>) -> Option<Formula> {
     let rest = cursor.rest();
@@ -176,7 +176,7 @@ fn called(mut cursor: Cursor<'_>) -> TextRange {
     }
 }
 
-/// Whether a number goes on behind the blanks at the start of `rest`.
+/// Whether a number continues after the blanks at the start of `rest`.
 pub(crate) fn continues(rest: &[u8]) -> bool {
     rest.iter()
         .find(|byte| !is_blank(**byte))
@@ -328,7 +328,7 @@ impl Compiler<'_, '_> {
         Ok(false)
     }
 
-    /// `EXISTS[#<name>]`: the cursor stands at `[`. A named parameter is read at once, a numbered one as a value in brackets.
+    /// `EXISTS[#<name>]`: the cursor is at `[`. A named parameter is read at once, a numbered one as a value in brackets.
     fn exists(&mut self, start: u32) -> Result<bool, FormulaError> {
         self.open(Bracket::ExistsNumbered, start)?;
         let hash = self.cursor.at();

@@ -82,7 +82,7 @@ impl<'s> Cursor<'s> {
         self.at
     }
 
-    /// One past the last byte that was taken (blanks behind it not counted).
+    /// One past the last byte that was taken (blanks after it not counted).
     pub fn behind(&self) -> u32 {
         self.behind
     }
@@ -97,7 +97,7 @@ impl<'s> Cursor<'s> {
         TextRange::new(self.at, (self.at + 1).min(self.end))
     }
 
-    /// What is not read yet, as it stands in the file.
+    /// What is not read yet, as it is in the file.
     #[inline]
     pub fn rest(&self) -> &'s [u8] {
         &self.source[self.at as usize..self.end as usize]

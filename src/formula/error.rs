@@ -15,9 +15,9 @@ pub struct FormulaError {
 /// The cause of a [`FormulaError`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum FormulaErrorKind {
-    /// The line ends where a value must stand.
+    /// The line ends where a value is expected.
     MissingValue,
-    /// Something that is no number stands where a value must stand; `text` is what there is of a number (`""`, `-`, `.`).
+    /// Something that is not a number where a value is expected; `text` is what there is of a number (`""`, `-`, `.`).
     NotANumber {
         /// Sign, digits and points as far as they reach.
         text: Box<str>,
@@ -39,7 +39,7 @@ pub enum FormulaErrorKind {
     MissingSecondBracket,
     /// `POW[x` without `,`.
     MissingComma,
-    /// Neither an operator nor `]` behind a value; the letter it begins with, if it is one, in lower case.
+    /// Neither an operator nor `]` after a value; the letter it begins with, if it is one, in lower case.
     UnknownOperator(Option<char>),
     /// `#<` without `>` on the line.
     UnclosedName,
@@ -94,36 +94,28 @@ impl fmt::Display for FormulaErrorKind {
         match self {
             Self::MissingValue => f.write_str("a value is missing at the end of the line"),
             Self::NotANumber { text } if text.is_empty() => {
-                f.write_str("a number, `#`, `[` or a function must stand here")
+                f.write_str("expected a number, `#`, `[` or a function here")
             }
             Self::NotANumber { text } => write!(f, "`{text}` is not a number: it has no digit"),
             Self::TwoPoints { text } => write!(f, "`{text}` is not a number: it has more than one decimal point"),
-            Self::UnclosedBracket => f.write_str("this `[` has no `]` on the line"),
+            Self::UnclosedBracket => f.write_str("missing `]` for this `[`"),
             Self::UnknownFunction(letter) => {
-                write!(
-                    f,
-                    "no function of that name, beginning with {}",
-                    letter.to_ascii_uppercase()
-                )
+                write!(f, "unknown function, starting with {}", letter.to_ascii_uppercase())
             }
-            Self::MissingBracket => f.write_str("the argument of a function must stand in `[ ]`"),
+            Self::MissingBracket => f.write_str("the argument of a function must be in `[ ]`"),
             Self::MissingSlash => f.write_str("ATAN needs two arguments: `ATAN[y]/[x]`"),
-            Self::MissingSecondBracket => f.write_str("the second argument of ATAN must stand in `[ ]`: `ATAN[y]/[x]`"),
+            Self::MissingSecondBracket => f.write_str("the second argument of ATAN must be in `[ ]`: `ATAN[y]/[x]`"),
             Self::MissingComma => f.write_str("POW needs two arguments: `POW[base,exponent]`"),
             Self::UnknownOperator(Some(letter)) => {
-                write!(
-                    f,
-                    "no operator of that name, beginning with {}",
-                    letter.to_ascii_uppercase()
-                )
+                write!(f, "unknown operator, starting with {}", letter.to_ascii_uppercase())
             }
-            Self::UnknownOperator(_) => f.write_str("an operator or `]` must stand here"),
-            Self::UnclosedName => f.write_str("this `#<` has no `>` on the line"),
-            Self::MissingParameter => f.write_str("EXISTS asks for a parameter: `EXISTS[#<name>]`"),
-            Self::MissingClose => f.write_str("EXISTS takes one parameter and nothing else: `]` must stand here"),
+            Self::UnknownOperator(_) => f.write_str("expected an operator or `]` here"),
+            Self::UnclosedName => f.write_str("missing `>` for this `#<`"),
+            Self::MissingParameter => f.write_str("EXISTS needs a parameter: `EXISTS[#<name>]`"),
+            Self::MissingClose => f.write_str("EXISTS takes one parameter and nothing else: expected `]` here"),
             Self::TooDeep { limit } => write!(f, "brackets are nested deeper than {limit} levels"),
             Self::NotInteger(value) => write!(f, "{value} is not a whole number"),
-            Self::ParameterOutOfRange(index) => write!(f, "there is no parameter #{index}"),
+            Self::ParameterOutOfRange(index) => write!(f, "parameter #{index} does not exist"),
             Self::NotDefined(name) => write!(f, "#<{name}> has no value here"),
             Self::NotReadable(reason) => f.write_str(reason),
             Self::DivisionByZero => f.write_str("division by zero"),
@@ -131,9 +123,11 @@ impl fmt::Display for FormulaErrorKind {
             Self::AcosRange => f.write_str("ACOS of a number outside -1 to 1"),
             Self::AsinRange => f.write_str("ASIN of a number outside -1 to 1"),
             Self::LogarithmRange => f.write_str("LN of zero or of a negative number"),
-            Self::NegativePower => f.write_str("a negative number to a power that is not whole"),
-            Self::NotDecimalCoded => f.write_str("no binary coded decimal: eight decimal digits at most, not negative"),
-            Self::Infinite => f.write_str("the result is larger than any number"),
+            Self::NegativePower => f.write_str("a negative number raised to a power that is not a whole number"),
+            Self::NotDecimalCoded => {
+                f.write_str("not a binary coded decimal: write at most eight decimal digits and no sign")
+            }
+            Self::Infinite => f.write_str("the result is too large"),
             Self::Undefined => f.write_str("the operation has no result"),
         }
     }

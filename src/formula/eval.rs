@@ -78,7 +78,7 @@ impl<R: Room> Stack<R> {
         self.height += 1;
         self.last = value;
     }
-    /// Takes the value in front of the last one.
+    /// Takes the value before the last one.
     #[inline]
     fn before_last(&mut self) -> f64 {
         self.height -= 1;

@@ -31,7 +31,7 @@ struct Fast<'t, 'v> {
     open: usize,
 }
 
-/// The value at the cursor, which then stands behind it; `None` where the compiler has to look at it: then `steps` is empty again.
+/// The value at the cursor, which then comes after it; `None` where the compiler has to look at it: then `steps` is empty again.
 #[inline]
 pub(crate) fn value(cursor: &mut Cursor<'_>, steps: &mut Vec<Step>) -> Option<Formula> {
     let text = cursor.rest();
@@ -110,7 +110,7 @@ impl Fast<'_, '_> {
             b'#' => self.parameter(),
             b'[' => self.bracket(start, None),
             sign @ (b'-' | b'+') if !matches!(self.text.get(start + 1)?, b'0'..=b'9' | b'.') => {
-                // a blank behind a sign, and signs without end, are for the compiler
+                // a blank after a sign, and signs without end, are for the compiler
                 if start > 0 && matches!(self.text[start - 1], b'-' | b'+') {
                     return None;
                 }
@@ -145,7 +145,7 @@ impl Fast<'_, '_> {
         }
     }
 
-    /// How many bytes from here on are digits, or points where they may be; `None` where a number goes on behind blanks.
+    /// How many bytes from here on are digits, or points where they may be; `None` where a number continues after blanks.
     #[inline]
     fn digits(&self, from: usize, points: bool) -> Option<usize> {
         let rest = &self.text[from..];
@@ -189,7 +189,7 @@ impl Fast<'_, '_> {
         self.push(op, start, end)
     }
 
-    /// From a bracket to the one that closes it; `call`: the function in front of it, which begins at `start`.
+    /// From a bracket to the one that closes it; `call`: the function before it, which begins at `start`.
     fn bracket(&mut self, start: usize, call: Option<Unary>) -> Option<()> {
         if self.open == MOST {
             return None;
@@ -211,7 +211,7 @@ impl Fast<'_, '_> {
         self.at += 1;
         self.end = self.at;
         let range = range(start, self.end);
-        // the end of a value that may be infinite is marked where something goes on behind it
+        // the end of a value that may be infinite is marked where something continues after it
         let unary = call.or_else(|| {
             let infinite = self.steps.last().is_some_and(Step::is_binary);
             (self.open > 0 && infinite).then_some(Unary::Check)
@@ -278,7 +278,7 @@ mod tests {
     use proptest::prelude::*;
     use trunnion_syntax::TextRange;
 
-    /// Whether this way takes the text; then it is what the compiler makes of it.
+    /// Whether this path accepts the text; then it is what the compiler makes of it.
     fn same(text: &str) -> bool {
         let there = format!("G1 X{text}");
         let all = TextRange::new(4, there.len() as u32);

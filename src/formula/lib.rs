@@ -1,4 +1,4 @@
-//! Floor 0: expressions of RS274/NGC and of Fanuc's Macro B: compiled once, evaluated many times.
+//! Floor 1: expressions of RS274/NGC and of Fanuc's Macro B: compiled once, evaluated many times.
 //!
 //! Reading never recurses: a hundred thousand nested brackets need memory in proportion, and no stack. Evaluation needs no memory
 //! for formulas that keep at most eight values at once. A value that is not known is NaN and stays so through arithmetic.
@@ -41,7 +41,7 @@ pub enum Grammar {
     MacroB,
 }
 
-/// The left side of an assignment, behind its `#`.
+/// The left side of an assignment, after its `#`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     /// `#5=`, `##2=`, `#[1+2]=`: the formula of the variable's number.

@@ -123,14 +123,14 @@ fn macro_function(input: Cursor<'_>) -> Leaf<'_, Function> {
     .parse(input)
 }
 
-/// Runs a leaf parser and moves the cursor behind what it read.
+/// Runs a leaf parser and moves the cursor after what it read.
 fn take<'s, T>(cursor: &mut Cursor<'s>, leaf: impl FnOnce(Cursor<'s>) -> Leaf<'s, T>) -> Option<T> {
     let (rest, found) = leaf(*cursor).ok()?;
     *cursor = rest;
     Some(found)
 }
 
-/// A word of RS274/NGC that stands at the cursor without blanks between its letters: no word begins with another, so that it is
+/// A word of RS274/NGC at the cursor without blanks between its letters: no word begins with another, so that it is
 /// the one the leaf parsers find.
 #[inline]
 fn take_written<T>(cursor: &mut Cursor<'_>, grammar: Grammar, find: fn([u8; 4]) -> Option<(T, u32)>) -> Option<T> {
@@ -217,7 +217,7 @@ pub(crate) fn take_function(cursor: &mut Cursor<'_>, grammar: Grammar) -> Option
     })
 }
 
-/// The text behind `<` up to `>`, blanks removed, in lower case; `None` if there is no `>` on the line.
+/// The text after `<` up to `>`, blanks removed, in lower case; `None` if there is no `>` on the line.
 pub(crate) fn take_angled(cursor: &mut Cursor<'_>) -> Option<Name> {
     if let Some(name) = take_short_angled(cursor) {
         return Some(name);
@@ -253,7 +253,7 @@ pub(crate) fn take_name(cursor: &mut Cursor<'_>) -> Option<Name> {
     Some(Name::new(&text(name)))
 }
 
-/// `[+-]` and then digits and points, as many as stand there; whether it is a number is for the caller to say.
+/// `[+-]` and then digits and points, as many as there are; whether it is a number is for the caller to decide.
 pub(crate) fn take_numeral<'s>(cursor: &mut Cursor<'s>) -> Cursor<'s> {
     take(cursor, |input| {
         recognize((

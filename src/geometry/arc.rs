@@ -51,7 +51,7 @@ pub enum RadiusFault {
 impl Arc {
     /// The arc about a centre (its height along `normal` is irrelevant). `extra_turns` full turns are added. Start and end in the same
     /// direction from the centre give a full circle. The two radii may differ: then it is a spiral, and the caller judges it. `None`
-    /// when start or end lies on the centre, or when a number is not finite. `normal` must have length 1.
+    /// when start or end is on the centre, or when a number is not finite. `normal` must have length 1.
     pub fn from_centre(
         start: Vec3,
         end: Vec3,

@@ -122,7 +122,7 @@ impl Interpreter<'_> {
         scale(&mut words.feed, feed);
     }
 
-    /// Tells F without a decimal point, which a setting of the control reads as it stands or as least increments.
+    /// Reports F without a decimal point, which a setting of the control reads as written or as least increments.
     pub(crate) fn whole_feed(&self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
         let feed = words.feed.number().filter(|feed| !feed.has_point && feed.value != 0.0);
         let Some(feed) = feed.filter(|_| self.state.feed_mode != FeedMode::InverseTime) else {

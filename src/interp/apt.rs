@@ -36,7 +36,7 @@ pub(crate) struct Args {
     count: usize,
     words: [TextRange; 8],
     word_count: usize,
-    /// For each word, how many numbers stand before it.
+    /// For each word, how many numbers come before it.
     before: [usize; 8],
     /// Something is neither a number nor a word.
     pub(crate) odd: bool,
@@ -200,7 +200,7 @@ impl Interpreter<'_> {
         let program = report.program;
         match code.action {
             _ if record.is("INSERT") => {
-                let what = "INSERT: text for the machine is not read".to_owned();
+                let what = "INSERT: the text that it passes to the machine is not read".to_owned();
                 report.fault(record.range, FaultKind::NotModelled { what });
                 self.lose_place();
             }
@@ -348,7 +348,7 @@ impl Interpreter<'_> {
         };
         let on = self.state.compensation != 0 || args.has(program, "ON");
         if on && !std::mem::replace(&mut self.memory.compensation_said, true) {
-            let what = "cutter radius compensation: path is the programmed one".to_owned();
+            let what = "cutter radius compensation: the programmed path is used instead".to_owned();
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
         }
     }

@@ -40,9 +40,9 @@ impl Interpreter<'_> {
         };
         match (delta, self.state.position.xyz()) {
             (Some(delta), Some(from)) => self.go(from + delta, None, args.range, report),
-            // from nowhere to nowhere: nothing is wrong with the record, but nobody knows what it does
+            // from unknown to unknown: the record is correct, but its effect is unknown
             (Some(_), None) => {
-                let what = "GODLTA from a place that is not known".to_owned();
+                let what = "GODLTA from an unknown position".to_owned();
                 report.fault(report.whole(), FaultKind::NotModelled { what });
                 self.unknown_goto(self.held_orientation(), report)
             }

@@ -23,11 +23,11 @@ pub enum Clamp {
     Closed,
     /// Released.
     Open,
-    /// What ran last cannot be told: a code whose number is not known, both codes in one block, or a call that is not followed.
+    /// It is not known what ran last: a code whose number is unknown, both codes in one block, or a call that is not followed.
     Unknown,
 }
 
-/// The clamps of all axes behind a block.
+/// The clamps of all axes after a block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Clamps {
     clamps: [Clamp; AXIS_LETTERS.len()],
@@ -41,7 +41,7 @@ impl Clamps {
         self.clamps.get(usize::from(axis.0)).copied().unwrap_or_default()
     }
 
-    /// Whether a code of the axis's clamp stands in the block itself. Whether it acts before the block's motion or behind it, is the
+    /// Whether a code of the axis's clamp is in the block itself. Whether it acts before the block's motion or after it, is the
     /// builder's affair.
     pub fn named_here(&self, axis: AxisLetter) -> bool {
         self.here >> axis.0 & 1 == 1

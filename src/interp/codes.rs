@@ -23,7 +23,7 @@ pub(crate) struct Found<'d> {
 pub(crate) struct BlockCodes {
     /// Number of codes.
     pub(crate) count: usize,
-    /// The motion code that stands in the block.
+    /// The motion code in the block.
     pub(crate) motion: Option<Action>,
     /// A code whose motion is not modelled.
     pub(crate) not_modelled: bool,
@@ -42,7 +42,7 @@ pub(crate) struct BlockCodes {
     pub(crate) pocket: bool,
     /// Which code of the block is a drilling cycle with its numbers.
     pub(crate) hole_call: Option<usize>,
-    /// MCALL stands before it.
+    /// MCALL comes before it.
     pub(crate) modal_call: bool,
 }
 
@@ -204,7 +204,7 @@ impl<'d> Interpreter<'d> {
             Action::FrameChange => self.frame_change(found, words, block, report),
             Action::FrameLost => self.frame_lost(found, words, block, report),
             Action::CannedCycle => {
-                // MCALL with a cycle behind it begins, MCALL alone ends
+                // MCALL followed by a cycle begins, MCALL alone ends
                 let alone = block.count == 1 && !words.forgets_all;
                 let ends = found.code.kind == CodeKind::Name && !found.with_arguments && alone;
                 if ends {
@@ -220,7 +220,10 @@ impl<'d> Interpreter<'d> {
                 self.memory.travel = Travel::of(found.code.action).unwrap_or_default();
             }
             Action::Skip => {
-                let what = format!("{}: where the skip signal ends it", found.code.id);
+                let what = format!(
+                    "{}: the position at which the skip signal ends the motion",
+                    found.code.id
+                );
                 report.fault(found.range, FaultKind::NotModelled { what });
                 block.not_modelled = true;
                 if words.axes.any() {
@@ -240,7 +243,7 @@ impl<'d> Interpreter<'d> {
                 not_modelled(found, report);
                 self.forget_everything();
                 if found.code.group.as_deref() == Some("macro-call") {
-                    // a macro runs behind each motion, or instead of each block, until G67
+                    // a macro runs after each motion, or instead of each block, until G67
                     self.memory.begin_frame(found.code, false);
                     self.memory.frame_turns_axes(found.code);
                 }

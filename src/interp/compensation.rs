@@ -17,7 +17,7 @@ use trunnion_dialect::Plane;
 /// A motion and what was in force after its block.
 pub(crate) type Told = (Motion, ModalState);
 
-/// Where the compensation stands.
+/// The state of the compensation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Stage {
     /// Off.
@@ -54,9 +54,9 @@ pub(crate) struct Compensation {
     pub(crate) d: Option<u32>,
     plane: Option<Plane>,
     held: Option<Box<Held>>,
-    /// Motions without a way in the plane, behind the held one.
+    /// Motions without a path in the plane, after the held one.
     between: Vec<Told>,
-    /// Motions that can be told now.
+    /// Motions that can be emitted now.
     pub(crate) ready: Vec<Told>,
 }
 
@@ -67,7 +67,7 @@ impl Compensation {
     }
 }
 
-/// The motion with its way in the plane replaced.
+/// The motion with its path in the plane replaced.
 fn moved(told: &Told, element: &Element, from: Point, to: Point) -> Option<Told> {
     let (motion, state) = told;
     let mut motion = *motion;
@@ -108,11 +108,11 @@ impl Interpreter<'_> {
         if let Some(held) = &self.memory.compensation.held
             && !held.element.meets(&element, &held.told.0, motion)
         {
-            self.lose("the path is not known throughout", report);
+            self.lose("part of the path is unknown", report);
         }
         if told.1.plane != plane && now != 0 && self.memory.compensation.stage == Stage::On {
             self.reject(
-                "the plane changes during cutter compensation: end it with G40 first",
+                "the plane changes during cutter compensation: cancel it with G40 first",
                 "plane-change",
                 report,
             );
@@ -127,7 +127,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A motion that does not move in the plane, or whose way is not known.
+    /// A motion that does not move in the plane, or whose path is not known.
     fn without_way(&mut self, told: Told, report: &mut Report<'_>) {
         let motion = &told.0;
         let still = Element::rests(motion, self.memory.compensation.plane.unwrap_or(self.state.plane));
@@ -136,7 +136,7 @@ impl Interpreter<'_> {
             return;
         }
         if !still {
-            self.lose("the path is not known throughout", report);
+            self.lose("part of the path is unknown", report);
         }
         self.memory.compensation.ready.push(told);
     }
@@ -145,12 +145,12 @@ impl Interpreter<'_> {
         self.memory.compensation.stage = Stage::On;
         if element.is_arc() {
             self.reject(
-                "cutter compensation begins with an arc: begin it with a straight motion",
+                "cutter compensation starts with an arc: start it with a straight motion",
                 "arc-start-or-cancel",
                 report,
             );
             self.memory.compensation.ready.push(told);
-            self.lose("it begins with an arc", report);
+            self.lose("it starts with an arc", report);
             return;
         }
         self.memory.compensation.held = Some(Box::new(Held {
@@ -171,11 +171,11 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The next motion of the contour: the held one can be told.
+    /// The next motion of the contour: the held one can be emitted.
     fn follow(&mut self, told: Told, element: Element, report: &mut Report<'_>) {
         let offset = self.side() * self.memory.compensation.radius;
         let Some(held) = self.memory.compensation.held.take() else {
-            // after a start-up that was told already
+            // after a start-up that was already emitted
             self.memory.compensation.held = Some(Box::new(Held {
                 from: element.start,
                 told,
@@ -233,11 +233,11 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Tells a motion, and behind it at its end those without a way in the plane.
+    /// Emits a motion, and after it, at its end, those without a path in the plane.
     fn release(&mut self, mut told: Told, element: &Element, end: Point, unsure: bool, report: &mut Report<'_>) {
         let between = std::mem::take(&mut self.memory.compensation.between);
         if unsure {
-            let what = "cutter radius compensation: a corner behind several motions outside of the plane".to_owned();
+            let what = "cutter radius compensation: a corner after several motions out of the plane".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
             element.forget(&mut told.0.end);
         }
@@ -302,11 +302,11 @@ impl Interpreter<'_> {
         self.settle(report);
         self.memory.compensation.stage = Stage::Lost;
         self.memory.compensation.plane = None;
-        let what = format!("cutter radius compensation: {why}; path is the programmed one");
+        let what = format!("cutter radius compensation: {why}; the programmed path is used instead");
         report.fault(report.whole(), FaultKind::NotModelled { what });
     }
 
-    /// Everything that waits is told: the program ends.
+    /// Everything that waits is emitted: the program ends.
     pub(crate) fn end_compensation(&mut self, report: &mut Report<'_>) {
         self.settle(report);
         let between = std::mem::take(&mut self.memory.compensation.between);

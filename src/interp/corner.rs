@@ -12,7 +12,7 @@ use trunnion_geometry::arc::Arc;
 use trunnion_geometry::math::{atan2, tan};
 use trunnion_syntax::{TextRange, Value, Word};
 
-/// A corner that waits for the motion behind it.
+/// A corner that waits for the motion after it.
 #[derive(Clone, Debug)]
 struct Waiting {
     told: Told,
@@ -92,7 +92,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 
 impl Interpreter<'_> {
     /// R, I or K beside a straight cut of a lathe along one axis: a rounded or chamfered corner (Fanuc Series 30i operator's manual, lathe
-    /// system, chamfering and corner R; with parameter 3405.4 CCR, C instead of I and K). The sign tells the way of the next block, which
+    /// system, chamfering and corner R; with parameter 3405.4 CCR, C instead of I and K). The sign gives the direction of the next block, which
     /// is known from that block.
     pub(crate) fn turned_corner(&self, words: &Words) -> Option<(u8, Number)> {
         let quirks = &self.dialect.quirks;
@@ -131,7 +131,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Nothing comes behind the corner.
+    /// Nothing follows the corner.
     pub(crate) fn end_corners(&mut self, on: &mut Vec<Told>, report: &mut Report<'_>) {
         self.memory.corners.word = None;
         if let Some(waiting) = self.memory.corners.waiting.take() {
@@ -160,7 +160,7 @@ impl Interpreter<'_> {
                 let place = if arcs {
                     "at an arc"
                 } else {
-                    "from or to a place that is not known"
+                    "from or to an unknown position"
                 };
                 let what = format!(",{} {place}", char::from(waiting.letter));
                 report.fault(report.whole(), FaultKind::NotModelled { what });
@@ -169,7 +169,7 @@ impl Interpreter<'_> {
                     next.0.start.forget(*axis);
                 }
             } else {
-                let text = "a straight feed motion in the plane must follow a rounded or chamfered corner";
+                let text = "a rounded or chamfered corner must be followed by a straight feed motion in the plane";
                 self.no_corner(text, "corner-no-move", report);
             }
             on.push(before);

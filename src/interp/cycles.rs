@@ -39,7 +39,7 @@ pub(crate) struct Cycle {
     pub(crate) hole_place: [Option<f64>; 2],
     /// Data of drilling cycles.
     pub(crate) hole: Hole,
-    /// The cycle that runs behind every motion (MCALL).
+    /// The cycle that runs after every motion (MCALL).
     pub(crate) call: Option<std::sync::Arc<HoleCall>>,
     /// Data of turning cycles of many cuts.
     pub(crate) kept: Kept,

@@ -1,4 +1,4 @@
-//! Comments that speak to Trunnion: `(trunnion: tool 1 ball diameter 10)`, `; trunnion: allow pole-flip because ...`.
+//! Comments that address Trunnion: `(trunnion: tool 1 ball diameter 10)`, `; trunnion: allow pole-flip because ...`.
 use crate::{Tool, ToolShape};
 use nom::branch::alt;
 use nom::bytes::complete::{tag_no_case, take_while1};
@@ -84,7 +84,7 @@ fn parse(text: &str) -> Directive {
         "dialect" | "machine" => all_consuming(mode).parse(text).map(|(_, mode)| mode),
         _ => {
             let known = "tool, allow, dialect and machine";
-            return Directive::Broken(format!("`{key}` is not a directive: there are {known}"));
+            return Directive::Broken(format!("`{key}` is not a directive; the directives are {known}"));
         }
     };
     parsed.unwrap_or_else(|_| {
@@ -93,7 +93,7 @@ fn parse(text: &str) -> Directive {
             "allow" => "allow RULE because REASON",
             _ => "dialect NAME, or machine NAME",
         };
-        Directive::Broken(format!("`{text}` cannot be read; the form is: {form}"))
+        Directive::Broken(format!("cannot read `{text}`; write: {form}"))
     })
 }
 

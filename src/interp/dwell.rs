@@ -34,7 +34,7 @@ impl Interpreter<'_> {
         named & !time
     }
 
-    /// Whether axes move in the block of a dwell is told by no manual here: they are not known after it.
+    /// No manual says whether axes move in the block of a dwell: they are unknown after it.
     pub(crate) fn moved_with_dwell(&mut self, axes: u16, words: &Words, report: &mut Report<'_>) -> Motion {
         let what = "axes in the block of a dwell".to_owned();
         report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });

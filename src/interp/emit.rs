@@ -63,7 +63,7 @@ impl Interpreter<'_> {
         let feed = if self.state.motion == Some(Action::Thread) {
             self.lead(words, report)
         } else if self.state.motion == Some(Action::VariableThread) {
-            // the lead changes along the way
+            // the lead changes along the path
             self.feed_of(kind, words, report);
             Feed::Unknown
         } else {
@@ -123,7 +123,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Where the coordinates of the block lead: what is not given stays, what cannot be told is forgotten.
+    /// Where the coordinates of the block lead: what is not given stays, what cannot be computed is forgotten.
     pub(crate) fn targets(&self, axes: &Places<9>, machine: bool, end: &mut Position) {
         let mut rest = axes.given;
         while rest != 0 {
@@ -143,7 +143,7 @@ impl Interpreter<'_> {
             let before = end.get(axis);
             let target = match (incremental, before) {
                 (true, before) => before.map(|before| before + value),
-                // a vector has turned the axis: nobody here knows from where it turns, and how far
+                // a vector has turned the axis: from which position it turns, and how far, is unknown here
                 (false, None) if directed & bit != 0 && self.memory.led_by_vector => None,
                 (false, Some(before)) if axes.shortest & bit != 0 => Some(before + turn_to(value - before)),
                 (false, Some(before)) if axes.positive & bit != 0 => Some(before + (value - before).rem_euclid(360.0)),
@@ -196,7 +196,7 @@ impl Interpreter<'_> {
             turns: self.turns(words),
         };
         if self.is_spiral(words) {
-            let what = "a spiral or cone: Q or L beside an arc".to_owned();
+            let what = "a spiral or cone: Q or L in the block of an arc".to_owned();
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
             return MotionKind::Arc(None);
         }
@@ -247,7 +247,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// F counts degrees, not inches, where only rotary axes move and X Y Z are joints; a linear axis that is named where it stands does
+    /// F counts degrees, not inches, where only rotary axes move and X Y Z are axis positions; a linear axis that is named without moving does
     /// not move. A full circle names none of them and runs all the same.
     fn turning_feed(&self, kind: MotionKind, feed: Feed, words: &Words, [start, end]: [&Position; 2]) -> Feed {
         let named = words.axes.given | words.axes.unread;
@@ -348,7 +348,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// The turn by the shorter way, -180 < turn <= 180 deg.
+/// The turn in the shorter direction, -180 < turn <= 180 deg.
 fn turn_to(difference: f64) -> f64 {
     let turn = difference.rem_euclid(360.0);
     if turn > 180.0 { turn - 360.0 } else { turn }

@@ -1,5 +1,5 @@
 //! Coordinates that the program shifts, turns, scales, mirrors or gives as radius and angle. Shifts are part of the zero point; the
-//! rest is a [`Shape`] between the words and the work coordinates in which motions are told.
+//! rest is a [`Shape`] between the words and the work coordinates in which motions are expressed.
 mod data_entry;
 mod polar;
 mod reference;
@@ -33,7 +33,7 @@ pub(crate) struct Frames {
     pub(crate) shape: Shape,
     /// Radius and angle.
     pub(crate) polar: Option<Polar>,
-    /// The tilted working plane in whose coordinates everything is told until motions are put out.
+    /// The tilted working plane in whose coordinates everything is expressed until motions are emitted.
     pub(crate) tilt: Option<Tilted>,
     /// The position as the words have it, while a shape is in force; good as long as the work position is `synced`.
     programmed: Position,
@@ -60,7 +60,7 @@ pub(crate) struct Frames {
     pub(crate) intermediate: Option<Position>,
     /// Reference points that the program has stored, machine coordinates.
     pub(crate) stored_reference: [Option<Position>; 2],
-    /// The missing reference points were told.
+    /// The missing reference points were reported.
     pub(crate) reference_said: bool,
 }
 

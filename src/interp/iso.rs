@@ -147,7 +147,7 @@ impl<'d> Interpreter<'d> {
         }
     }
 
-    /// The second `%`, or one behind content, ends the text.
+    /// The second `%`, or one after content, ends the text.
     fn percent(&mut self, words: &Words) {
         if words.percent.is_some() {
             let ends = self.memory.percent_seen || self.memory.last_content.is_some();

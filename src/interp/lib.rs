@@ -1,4 +1,4 @@
-//! Floor 2: blocks to motions. A pure fold of blocks through a modal state; the result is a stream of [`Motion`]s and
+//! Floor 3: blocks to motions. A pure fold of blocks through a modal state; the result is a stream of [`Motion`]s and
 //! [`Fault`]s (facts, not words).
 //!
 //! It does not know machines: a [`Motion`] says what is programmed, not what joints do.

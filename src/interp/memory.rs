@@ -1,4 +1,4 @@
-//! What an interpreter remembers beside the modal state: what was already said, and what made positions unknown.
+//! What an interpreter remembers beside the modal state: what was already reported, and what made positions unknown.
 use std::sync::Arc;
 use trunnion_dialect::{Action, Code};
 use trunnion_syntax::BlockId;
@@ -36,7 +36,7 @@ pub(crate) struct Memory<'d> {
     pub(crate) tool_data_written: bool,
     /// Tool centre point control was on since the tool came into the spindle.
     pub(crate) tcp_used: bool,
-    /// The tool for which a missing length under tool centre point control was told.
+    /// The tool for which a missing length under tool centre point control was reported.
     pub(crate) tcp_length_said: Option<u32>,
     /// The group of the code that switched tool centre point control on.
     pub(crate) tcp_group: Option<&'d str>,
@@ -50,7 +50,7 @@ pub(crate) struct Memory<'d> {
     pub(crate) passed_over: Option<(u32, u32)>,
     /// The contour of a turning cycle is read.
     pub(crate) in_contour: bool,
-    /// First blocks of contours whose faults were told.
+    /// First blocks of contours whose faults were reported.
     pub(crate) contours_told: Vec<u32>,
     /// What G10.9 says of X: a diameter, or a radius.
     pub(crate) diameter: Option<bool>,
@@ -61,7 +61,7 @@ pub(crate) struct Memory<'d> {
     pub(crate) in_spindle: Chosen,
     /// A tool vector has turned the rotary axes.
     pub(crate) led_by_vector: bool,
-    /// It was told that no code brings the tool that T chose.
+    /// It was reported that no code loads the tool that T selected.
     pub(crate) tool_never_changed: bool,
     /// Cutting edge in force (D); `None` before the first.
     pub(crate) edge: Option<u32>,

@@ -15,7 +15,7 @@ pub enum FeedMode {
     InverseTime,
 }
 
-/// Whose length is compensated. It tells lengths apart that nobody declared.
+/// Whose length is compensated. It distinguishes lengths that are not declared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum LengthOf {
     /// None is in force.
@@ -33,7 +33,7 @@ impl core::fmt::Display for LengthOf {
             Self::Nothing => f.write_str("none"),
             Self::Tool(Some(number)) => write!(f, "that of tool {number}"),
             Self::Tool(None) => f.write_str("that of the tool in use"),
-            Self::Other => f.write_str("one that is no tool's own"),
+            Self::Other => f.write_str("one that belongs to no tool"),
         }
     }
 }
@@ -49,7 +49,7 @@ pub struct ModalState {
     pub incremental: bool,
     /// Arc centres absolute.
     pub arc_centre_absolute: bool,
-    /// The program or the setup has said whether lengths are mm or inch.
+    /// The program or the setup has set whether lengths are mm or inch.
     pub units_said: bool,
     /// mm per programmed length unit: 1 or 25.4.
     pub length_unit_mm: f64,

@@ -21,7 +21,7 @@ impl AxisLetter {
     }
 }
 
-/// Lengths of a tool that differ by no more are one, mm: what changes of the unit leave behind.
+/// Lengths of a tool that differ by no more are one, mm: the rounding that changes of the unit leave.
 const SAME_LENGTH_MM: f64 = 1e-6;
 
 /// Programmed coordinates of all axes: X Y Z U V W in mm, A B C in degrees, each known or unknown.
@@ -85,7 +85,7 @@ pub enum Posture {
     /// The control's own rule.
     #[default]
     ByRule,
-    /// The lower value of the axis for which the control is told a preferred direction (CYCLE800 with direction -1).
+    /// The lower value of the axis to which the preferred direction refers (CYCLE800 with direction -1).
     Lower,
     /// The higher value of it (CYCLE800 with direction 1).
     Higher,
@@ -100,7 +100,7 @@ pub enum Posture {
     },
 }
 
-/// Whether a motion only turns the rotary axes, so that the tool stands along its vector, and what the linear axes do.
+/// Whether a motion only turns the rotary axes, so that the tool is parallel to its vector, and what the linear axes do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Swivel {
     /// An ordinary motion.
@@ -119,7 +119,7 @@ pub enum Swivel {
 /// What a tilted working plane makes of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Tilt {
-    /// Unit normal, workpiece frame, of the tilted plane in which X Y Z are programmed; the tool has to stand along it. X Y Z of the
+    /// Unit normal, workpiece frame, of the tilted plane in which X Y Z are programmed; the tool must be parallel to it. X Y Z of the
     /// motion are then the tip's in the workpiece frame, as under TCP. `None`: no such plane, or TCP leads the tip anyway.
     pub normal: Option<Vec3>,
     /// Whether the motion only turns the rotary axes.
@@ -156,7 +156,7 @@ impl ChainId {
     pub const MAIN: Self = Self(0);
 }
 
-/// One call in a chain, outermost first; the last may be the block of another file in which a motion stands.
+/// One call in a chain, outermost first; the last may be the block of another file that contains the motion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
     /// The file with the call or block; empty for the main program.
@@ -165,7 +165,7 @@ pub struct Frame {
     pub line: u32,
     /// What is called, as written: `o100 call [1]`, `M98 P1000`, `G65 P9010`; or the block of the motion.
     pub what: String,
-    /// Not a call: the block in which the motion stands, in a file that is called.
+    /// Not a call: the block that contains the motion, in a called file.
     pub is_place: bool,
 }
 
@@ -174,7 +174,7 @@ pub struct Frame {
 pub struct Motion {
     /// The block where it ends: of the main program. For a motion inside another file the block of the call that led there.
     pub block: BlockId,
-    /// How it came about; [`crate::Interpreter::chain`] tells the calls.
+    /// How it came about; [`crate::Interpreter::chain`] returns the calls.
     pub chain: ChainId,
     /// Kind.
     pub kind: MotionKind,
@@ -182,9 +182,9 @@ pub struct Motion {
     pub start: Position,
     /// Programmed coordinates after, without work offset.
     pub end: Position,
-    /// Letters whose words are no plain places. Incremental ones and those with a direction (`ACP`) say the way themselves: no control turns
-    /// such a rotary word another way round. Where such a letter, or one whose value is not known, has no known end, the block moved the
-    /// axis nobody knows where; other letters without a known end were not named. Bits as in [`Position::known`].
+    /// Letters whose words are not plain positions. Incremental ones and those with a direction (`ACP`) define the direction themselves: no control turns
+    /// such a rotary word in another direction. Where such a letter, or one whose value is not known, has no known end, the block moved the
+    /// axis to an unknown position; other letters without a known end were not named. Bits as in [`Position::known`].
     pub says_way: u16,
     /// Words or vector.
     pub orientation: Orientation,
@@ -194,7 +194,7 @@ pub struct Motion {
     pub great_circle: Option<bool>,
     /// Feed.
     pub feed: Feed,
-    /// Spindle on; `None` unknown (before any spindle word: off is assumed by nobody).
+    /// Spindle on; `None` unknown (before any spindle word nothing is assumed).
     pub spindle_on: Option<bool>,
     /// Spindle speed, 1/min.
     pub spindle_rpm: Option<f64>,
@@ -205,7 +205,7 @@ pub struct Motion {
     pub tool_length_mm: f64,
     /// Programmed under G53: machine coordinates.
     pub machine_coordinates: bool,
-    /// The control takes words of X for diameters itself, or was told that they are none (turning dialects, G7 of LinuxCNC): coordinates are
+    /// The control takes words of X for diameters itself, or was set not to (turning dialects, G7 of LinuxCNC): coordinates are
     /// radii, whatever the machine file says of words.
     pub radii: bool,
     /// Number of the tool in use, if known.
@@ -217,8 +217,8 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// A feed motion in axis words that no program tells: nothing is in force beside it (no offset, no tool, no tool centre point control;
-    /// feed and spindle are not said).
+    /// A feed motion in axis words that no program contains: nothing is active with it (no offset, no tool, no tool centre point control;
+    /// feed and spindle are not set).
     pub fn line(start: Position, end: Position) -> Self {
         Self {
             block: BlockId(0),
@@ -246,7 +246,7 @@ impl Motion {
     pub fn is_feed(&self) -> bool {
         matches!(self.kind, MotionKind::Linear | MotionKind::Arc(_))
     }
-    /// Declared length of the tool in use, mm, where the control reckons with another one: then the tip is elsewhere than X Y Z say.
+    /// Declared length of the tool in use, mm, where the active compensation is another one: then the tip is not where X Y Z say.
     #[inline]
     pub fn other_length(&self, declared_mm: Option<f64>) -> Option<f64> {
         declared_mm.filter(|own| (own - self.tool_length_mm).abs() > SAME_LENGTH_MM)

@@ -140,7 +140,7 @@ impl Interpreter<'_> {
             && self.state.tool_length_mm.is_none();
         if waits && !self.memory.tool_never_changed {
             self.memory.tool_never_changed = true;
-            let what = "the length of a tool that T chooses and no M6 brings (machine data 22550 says whether T alone changes tools)";
+            let what = "the length of a tool that T selects and no M6 loads (machine data 22550 decides whether T alone changes tools)";
             let kind = FaultKind::NotModelled { what: what.to_owned() };
             report.fault(words.first.unwrap_or_default(), kind);
         }
@@ -167,7 +167,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Makes a tool's length active, with its name and whose it is; where it is not declared, zero, said once.
+    /// Makes a tool's length active, with its name and whose it is; where it is not declared, zero, reported once.
     fn take_length(
         &mut self,
         tool: Option<Tool>,

@@ -1,5 +1,5 @@
 //! Variables of a Sinumerik program's own (R parameters, DEF) and the arithmetic of its words, followed while the program runs straight
-//! on: behind a label, a jump, a loop or a call no variable has a value that is known.
+//! on: after a label, a jump, a loop or a call no variable has a known value.
 //!
 //! Arithmetic: Sinumerik 840D sl Programming Manual, Job Planning (variables; arithmetic operations and functions): angles in degrees,
 //! MOD and DIV before + and -, INT variables rounded when they are written.
@@ -20,7 +20,7 @@ enum Sort {
 pub(crate) struct Own {
     sorts: HashMap<Box<str>, Sort>,
     values: HashMap<Box<str>, f64>,
-    /// Written in the block in hand: when the control writes is not told, so they are not read in the same block.
+    /// Written in the present block: the sources do not say when the control writes, so they are not read in the same block.
     fresh: Vec<Box<str>>,
 }
 
@@ -65,7 +65,7 @@ impl Own {
         };
         self.fresh.push(key);
     }
-    /// `DEF REAL A, B=3`: all behind DEF.
+    /// `DEF REAL A, B=3`: everything after DEF.
     pub(crate) fn define(&mut self, text: &str) {
         let text = text.trim();
         let (sort, names) = match text.split_once(char::is_whitespace) {
@@ -268,12 +268,12 @@ fn is_operator(text: &str) -> bool {
         .any(|name| text.get(..3).is_some_and(|start| start.eq_ignore_ascii_case(name)))
 }
 
-/// To the nearest whole number; which way a negative half goes is not told.
+/// To the nearest whole number; the rounding direction of a negative half is not documented.
 fn rounded(value: f64) -> Option<f64> {
     (value >= 0.0 || value.fract() != -0.5).then(|| (value + 0.5).floor())
 }
 
-/// DIV and MOD are told of whole numbers that are not negative.
+/// DIV and MOD are documented for whole numbers that are not negative.
 fn whole_operands(a: f64, b: f64) -> Option<()> {
     (a >= 0.0 && b > 0.0 && a.fract() == 0.0 && b.fract() == 0.0).then_some(())
 }

@@ -256,7 +256,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             Role::LengthOffset => self.words.length_offset = self.kept(letter, word),
             Role::EdgeOffset => self.words.edge = self.kept(letter, word),
             Role::Parameter if letter == b'P' => self.words.p = self.kept(letter, word),
-            // nobody may read the others: what is not evaluated is no news
+            // the others must not be read: what is not evaluated is not reported
             Role::Parameter | Role::Increment => {
                 let said = match word.value {
                     Value::Number(decimal) => number(decimal, word.range),
@@ -312,7 +312,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             return self.flow_is_lost(code);
         }
         if clamps_axis {
-            // the machine has said what it does
+            // the machine file has declared its effect
             return;
         }
         let machine_builder = tenths.is_some_and(|tenths| self.dialect.builder_may_own(kind, tenths));

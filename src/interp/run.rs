@@ -62,7 +62,7 @@ impl Report<'_> {
     pub(crate) fn whole(&self) -> TextRange {
         self.record.unwrap_or_else(|| self.program.block(self.block).range())
     }
-    /// A fact; an empty range stands for the whole block.
+    /// A fact; an empty range means the whole block.
     #[cold]
     pub(crate) fn fault(&mut self, range: TextRange, kind: FaultKind) {
         let range = if range == TextRange::default() {

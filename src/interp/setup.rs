@@ -26,7 +26,7 @@ pub struct Tool {
     pub length_mm: Option<f64>,
 }
 
-/// A work offset: where the part's zero lies in machine coordinates.
+/// A work offset: the position of the part zero in machine coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorkOffset {
     /// `G54`.
@@ -129,7 +129,7 @@ impl TcpCodes {
     }
 }
 
-/// What the angles of a tilted plane told by roll, pitch and yaw turn about.
+/// What the angles of a tilted plane given by roll, pitch and yaw turn about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RollPitchYaw {
     /// The axes of the workpiece, which stay (as PLANE SPATIAL of a Heidenhain: A, then B, then C about fixed axes).
@@ -149,10 +149,10 @@ pub struct ControlData {
     pub chip_break_retract_mm: Option<f64>,
     /// G83: how far above the last depth the rapid back into the hole ends, mm (Fanuc parameter 5115).
     pub peck_clearance_mm: Option<f64>,
-    /// G76, G87: along which axis of the plane (0 to 2: X Y Z), and which way (1 or -1), Q takes the stopped tool off the wall (Fanuc
+    /// G76, G87: along which axis of the plane (0 to 2: X Y Z), and in which direction (1 or -1), Q moves the stopped tool off the wall (Fanuc
     /// parameter 5148, Haas setting 27); `None`: not declared, X Y are not known while it is off the wall.
     pub bore_shift: Option<(usize, f64)>,
-    /// G71 and G72 of a lathe: how the tool leaves its cuts; `None`: not declared, that short way is not known.
+    /// G71 and G72 of a lathe: how the tool leaves its cuts; `None`: not declared, that short motion is not known.
     pub roughing_escape: Option<RoughingEscape>,
     /// How many leads before its end the tool leaves a thread of one pass (Fanuc parameter 5130); 0: at its end. `None`: not known.
     pub thread_pull_out: Option<f64>,

@@ -45,7 +45,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The mistake of a motion that is about to be told.
+    /// The mistake of a motion that is about to be emitted.
     pub(crate) fn tcp_mistake(&mut self, motion: &Motion) -> Option<TcpMistake> {
         let state = &self.state;
         if state.tcp {
@@ -72,7 +72,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Whether a rotary axis goes to another value, or to one from nobody knows where.
+/// Whether a rotary axis goes to another value, or to one from an unknown position.
 fn turned(start: &Position, end: &Position) -> bool {
     let rotary = (0..9).filter(|axis| ROTARY & (1 << axis) != 0);
     rotary

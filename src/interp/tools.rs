@@ -33,7 +33,7 @@ impl Interpreter<'_> {
         self.state.tool_data
     }
 
-    /// The program's own declarations count for the whole program, wherever they stand.
+    /// The program's own declarations count for the whole program, wherever they are.
     pub(crate) fn declare(&mut self, program: &Program) {
         self.memory.directives_read = true;
         self.memory.declared = crate::directives(program)

@@ -66,7 +66,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
 }
 
 impl Interpreter<'_> {
-    /// Makes a motion point to point where that is in force, and tells STAT and TU where they are followed or not.
+    /// Makes a motion point to point where that is active, and reports STAT and TU where they are followed or not.
     pub(crate) fn travel(&mut self, motion: &mut Motion, words: &Words, report: &mut Report<'_>) {
         let said = words.posture;
         let straight = matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear);

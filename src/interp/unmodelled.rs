@@ -28,7 +28,7 @@ impl<'d> Interpreter<'d> {
         }
     }
 
-    /// Whether codes of the group decide where a coordinate lies.
+    /// Whether codes of the group decide where a coordinate is.
     fn gives_meaning(&self, group: Option<&str>) -> bool {
         let meaning = |action| {
             matches!(

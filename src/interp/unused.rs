@@ -63,7 +63,7 @@ impl Interpreter<'_> {
                 Some(alarm) => FaultKind::Rejected {
                     refusal: Refusal::UnusedWord,
                     message: format!(
-                        "`{}`: no code of the block reads it",
+                        "`{}` is not used by any code of the block",
                         report.program.text(word.range).trim()
                     ),
                     alarm: Some(alarm.number.clone()),
@@ -104,7 +104,7 @@ impl Interpreter<'_> {
         if opaque || auxiliary || code.owner == Owner::MachineBuilder || of_builder() {
             return ALL;
         }
-        // which letters an arc reads hangs on its plane
+        // which letters an arc reads depends on its plane
         if matches!(code.action, Action::ArcClockwise | Action::ArcCounterClockwise) {
             return 0;
         }
@@ -134,7 +134,7 @@ impl Interpreter<'_> {
         read | match self.state.motion {
             Some(Action::ArcClockwise | Action::ArcCounterClockwise) if moves => self.read_by_arc(words),
             Some(Action::CannedCycle | Action::NotModelled) => ALL,
-            // data of a cycle may stand alone
+            // data of a cycle may be written alone
             Some(motion) if motion.is_hole_cycle() || motion.is_pass_cycle() => self.memory.cycle.letters,
             Some(Action::Thread | Action::VariableThread) if moves => self.memory.cycle.letters,
             Some(Action::Linear) if moves && self.turned_corner(words).is_some() => bit(b'R') | bit(b'I') | bit(b'K'),

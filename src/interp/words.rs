@@ -1,7 +1,7 @@
 //! The words of one ISO block in fixed places: what a block says, without meaning yet.
 use trunnion_syntax::TextRange;
 
-/// A number as it is meant, and where it stands.
+/// A number as it is meant, and its place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Number {
     pub(crate) value: f64,
@@ -48,7 +48,7 @@ pub(crate) struct Places<const N: usize> {
     pub(crate) absolute: u16,
     /// IC(): incremental whatever is modal.
     pub(crate) incremental: u16,
-    /// DC(): absolute, by the shorter way.
+    /// DC(): absolute, in the shorter direction.
     pub(crate) shortest: u16,
     /// ACP(): absolute, turning positive.
     pub(crate) positive: u16,
@@ -92,7 +92,7 @@ impl<const N: usize> Places<N> {
     }
 }
 
-/// The words of a block by their letters. Axes stand in [`Words::axes`]; [`Words::letter`] looks at both.
+/// The words of a block by their letters. Axes are in [`Words::axes`]; [`Words::letter`] looks at both.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Letters {
     values: [f64; 26],
@@ -162,7 +162,7 @@ pub(crate) struct Words {
     pub(crate) first: Option<TextRange>,
     /// A word with a letter beside N, O, G, M: distinguishes `TRANS X1` from `TRANS`.
     pub(crate) has_values: bool,
-    /// A program number stands in the block.
+    /// The block contains a program number.
     pub(crate) program_number: Option<TextRange>,
     /// The block declares names: nothing in it is a position.
     pub(crate) declares: bool,
@@ -174,13 +174,13 @@ pub(crate) struct Words {
     pub(crate) writes_system: bool,
     /// `,R` or `,C` with its value as written: the corner between this motion and the next is rounded or cut off.
     pub(crate) corner: Option<(u8, Number)>,
-    /// An M code that the builder may have given a meaning stands in the block.
+    /// The block contains an M code that the builder may have given a meaning.
     pub(crate) builder_code: bool,
-    /// A G code without meaning stands in the block.
+    /// The block contains a G code without meaning.
     pub(crate) unknown_code: bool,
     /// `%` without a name.
     pub(crate) percent: Option<TextRange>,
-    /// The `/` inside the block behind which the rest of it is deleted.
+    /// The `/` inside the block after which the rest of it is deleted.
     pub(crate) rest_deleted: Option<TextRange>,
     /// Any word, name or code at all.
     pub(crate) has_content: bool,
@@ -188,7 +188,7 @@ pub(crate) struct Words {
     pub(crate) letters: u32,
     /// `<SUB>`: the program that a call names.
     pub(crate) program_name: Option<TextRange>,
-    /// A macro statement, a call or a return stands in the block.
+    /// The block contains a macro statement, a call or a return.
     pub(crate) flow: bool,
 }
 

@@ -48,7 +48,7 @@ pub(crate) fn common_line_end(program: &Program) -> Option<&'static [u8]> {
     }
 }
 
-/// Columns that a text takes on a screen, behind column `from` (from 0): characters, tabs to the next multiple of 8. Bytes that are
+/// Columns that a text takes on a screen, after column `from` (from 0): characters, tabs to the next multiple of 8. Bytes that are
 /// no UTF-8 count one each.
 pub(crate) fn columns(from: usize, text: &[u8]) -> usize {
     let mut at = from;

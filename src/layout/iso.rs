@@ -24,7 +24,7 @@ pub(crate) struct Blocks<'p> {
     pub(crate) style: &'p Style,
 }
 
-/// What stands left of a token.
+/// The token to the left of a token.
 struct Left {
     kind: TokenKind,
     item: Option<Item>,
@@ -60,7 +60,7 @@ impl Blocks<'_> {
         }
     }
 
-    /// Whether a block is words in one piece and comments alone: with blanks between, they cannot be read in another way. The proof of
+    /// Whether a block is words in one piece and comments alone: with blanks between, there is only one way to read them. The proof of
     /// the whole text looks at them once more.
     fn is_simple(&self, block: &Block<'_>) -> bool {
         use TokenKind::{Blank, Comment, Newline, Word};
@@ -69,7 +69,7 @@ impl Blocks<'_> {
         self.style.spacing == Spacing::One && block.tokens().all(simple)
     }
 
-    /// Whether nothing of a block may be touched: too long, problems, program names behind `%`, texts for a printer, bytes without meaning.
+    /// Whether a block must not be changed: too long, problems, program names after `%`, texts for a printer, bytes without meaning.
     pub(crate) fn stays(&self, block: &Block<'_>) -> bool {
         let table = self.program.tokens();
         let range = block.range();
@@ -147,7 +147,7 @@ impl Blocks<'_> {
         }
     }
 
-    /// Whether a blank stands before a token.
+    /// Whether there is a blank before a token.
     fn gap(&self, left: &Left, kind: TokenKind, item: Option<Item>, starts: bool) -> bool {
         if !starts {
             return match (left.kind, kind) {
@@ -162,14 +162,14 @@ impl Blocks<'_> {
             (Some(Item::Other(_) | Item::Percent(_)), _) | (_, Some(Item::Other(_))) => left.gap,
             _ if kind == TokenKind::Comma => left.gap,
             (Some(Item::Word(_)), Some(Item::Word(word))) if self.style.spacing == Spacing::Packed => {
-                // an E behind digits reads as an exponent to some
+                // an E after digits reads as an exponent on some controls
                 !(left.kind == TokenKind::Word && kind == TokenKind::Word && word.address != Address::Letter(b'E'))
             }
             _ => true,
         }
     }
 
-    /// The blanks before a comment behind words.
+    /// The blanks before a comment that follows words.
     fn comment_gap(&self, block: &Block<'_>, comment: TextRange, now: usize, out: &mut Vec<u8>) {
         let wanted = match self.style.comment_column {
             Some(column) => usize::from(column).saturating_sub(1),
@@ -178,7 +178,7 @@ impl Blocks<'_> {
         out.extend(std::iter::repeat_n(b' ', wanted.saturating_sub(now).max(1)));
     }
 
-    /// The column from 0 at which a comment that is set apart stands; 0 for others.
+    /// The column from 0 of a comment that is set apart; 0 for others.
     fn written_column(&self, block: &Block<'_>, comment: TextRange) -> usize {
         let before = self.program.bytes(TextRange::new(block.range().start, comment.start));
         let text = before.trim_ascii_end();
@@ -236,7 +236,7 @@ fn is_number(item: Option<Item>) -> bool {
     matches!(item, Some(Item::Word(word)) if word.address == Address::Letter(b'N'))
 }
 
-/// Whether nothing but a block number or block delete stands on the left, so that a comment there is the content of its line.
+/// Whether only a block number or block delete is on the left, so that a comment there is the content of its line.
 fn numbers_only(item: Option<Item>) -> bool {
     is_number(item) || matches!(item, Some(Item::Skip(..)))
 }

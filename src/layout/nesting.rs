@@ -1,4 +1,4 @@
-//! How deep a block stands in subprograms, loops and conditions, by their words: RS274/NGC `o100 while`, Macro B `WHILE [..] DO1`,
+//! How deeply a block is nested in subprograms, loops and conditions, by their words: RS274/NGC `o100 while`, Macro B `WHILE [..] DO1`,
 //! Sinumerik `IF`, `FOR`, `LOOP`. What does not fit together changes nothing: this is layout, not judgement.
 use trunnion_syntax::{Address, Block, Item, Program, TextRange};
 
@@ -21,7 +21,7 @@ enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Step {
     Open(Kind),
-    /// `else`: belongs to the line that opened, and its body goes on.
+    /// `else`: belongs to the line that opened, and its body continues.
     Middle(Kind),
     Close(Kind),
     /// `o1 while` closes `o1 do`, and opens a loop where none is open.
@@ -37,7 +37,7 @@ pub(crate) struct Nesting {
 }
 
 impl Nesting {
-    /// The depth at which a block stands; what it opens counts for the next one.
+    /// The depth of a block; what it opens counts for the next one.
     pub(crate) fn depth(&mut self, block: &Block<'_>) -> usize {
         let Some((step, label)) = step(block) else {
             return self.now();
@@ -136,7 +136,7 @@ fn labelled(name: &[u8]) -> Option<Step> {
     })
 }
 
-/// Macro B, whose loops have a number behind DO and END, and Sinumerik, whose words stand alone.
+/// Macro B, whose loops have a number after DO and END, and Sinumerik, whose words are written alone.
 fn unlabelled(
     program: &Program,
     name: &[u8],

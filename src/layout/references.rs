@@ -1,5 +1,5 @@
-//! Where a program speaks of its own block numbers: jumps, returns, local subprograms, contours of turning cycles. What cannot be
-//! read as a number is said, never guessed.
+//! Where a program refers to its own block numbers: jumps, returns, local subprograms, contours of turning cycles. What cannot be
+//! read as a number is reported, never guessed.
 use trunnion_dialect::{Action, Dialect};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, TokenKind, Value};
 
@@ -19,7 +19,7 @@ pub(crate) struct Reference {
 /// Why block numbers cannot be changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Obstacle {
-    /// The place that stands in the way.
+    /// The place that prevents it.
     pub range: TextRange,
     /// What it is, and why numbers stay, for people.
     pub why: String,
@@ -109,7 +109,7 @@ impl Reader<'_, '_> {
             let names = word(b'H').or_else(|| word(b'Q').filter(|_| self.dialect.quirks.macro_b));
             if let (Some(h), true) = (names, has((b'M', 98))) {
                 let why = format!(
-                    "`{}` beside M98 may name a block of the program that is called",
+                    "`{}` in a block with M98 may name a block of the called program",
                     self.text(h.range)
                 );
                 self.obstacle(h.range, why);
@@ -156,7 +156,7 @@ impl Reader<'_, '_> {
             _ if named => {}
             _ => {
                 let why = format!(
-                    "the target of `{}` is computed: it is not known which block it means",
+                    "the target of `{}` is computed: it is not known which block it refers to",
                     self.text(range)
                 );
                 self.obstacle(range, why);
@@ -174,7 +174,7 @@ impl Reader<'_, '_> {
             return self.refer(word.value_range, number, of_caller);
         }
         let text = self.text(word.range);
-        let why = format!("the target `{text}` is computed: it is not known which block it means");
+        let why = format!("the target `{text}` is computed: it is not known which block it refers to");
         self.obstacle(word.range, why);
     }
 
@@ -189,7 +189,7 @@ impl Reader<'_, '_> {
             {
                 let range = table.range(id).cover(table.range(next));
                 let why = format!(
-                    "`{}` reads a block number, and what the program does with it is not followed",
+                    "`{}` reads a block number, and it is not known what the program does with it",
                     self.text(range)
                 );
                 self.obstacle(range, why);
@@ -230,7 +230,7 @@ impl Reader<'_, '_> {
         let text = call.arguments.map(|range| self.text(range)).unwrap_or_default();
         if text.contains(['"', '$', '<', '[', '(']) {
             let why = format!(
-                "the target of `{}` is computed: it is not known which block it means",
+                "the target of `{}` is computed: it is not known which block it refers to",
                 self.text(call.range)
             );
             self.obstacle(call.range, why);
@@ -254,7 +254,7 @@ pub(crate) fn begins_program(block: &Block<'_>) -> Option<i64> {
     let mut items = block.items().filter(|item| !matches!(item, Item::Comment(_)));
     match items.next()? {
         Item::Word(word) if word.address == Address::Letter(b'O') => match (word.value, items.next()) {
-            // with a name behind it, it is an O-word of RS274/NGC
+            // with a name after it, it is an O-word of RS274/NGC
             (_, Some(Item::Call(_))) => None,
             (Value::Number(number), _) => Some(number.to_integer().unwrap_or(-1)),
             _ => None,

@@ -53,7 +53,7 @@ struct Part {
     calls: Vec<i64>,
 }
 
-/// Everything that speaks of block numbers.
+/// Everything that refers to block numbers.
 struct Survey {
     parts: Vec<Part>,
     /// The part of each block.
@@ -217,9 +217,11 @@ impl Survey {
         for part in &places {
             match self.parts[*part].blocks.get(&number).map(Vec::as_slice) {
                 None if reference.of_caller => {
-                    return refuse(format!("N{number} is in no program of this file that calls this one"));
+                    return refuse(format!(
+                        "no program of this file that calls this one contains N{number}"
+                    ));
                 }
-                None => return refuse(format!("there is no block N{number} in this program")),
+                None => return refuse(format!("block N{number} does not exist in this program")),
                 Some([block]) => {
                     if target.replace(*block).is_some_and(|other| other != *block) {
                         return refuse(format!("several programs call this one and have a block N{number}"));
@@ -227,14 +229,14 @@ impl Survey {
                 }
                 Some(_) => {
                     return refuse(format!(
-                        "N{number} is there more than once, so it is not certain which is meant"
+                        "N{number} exists more than once, so it is not certain which one is meant"
                     ));
                 }
             }
         }
         match target {
             Some(block) => Ok(block),
-            None => refuse(format!("there is no block N{number}")),
+            None => refuse(format!("block N{number} does not exist")),
         }
     }
 

@@ -1,5 +1,5 @@
 //! Whether two texts say the same words: token by token, with nothing ignored but what a layout may change. That is blanks between
-//! tokens and inside words, empty lines, the kind of line end, case where it has no meaning, and zeros in front of a code's number.
+//! tokens and inside words, empty lines, the kind of line end, case where it has no meaning, and zeros before a code's number.
 use crate::blanks::is_plain_blank;
 use trunnion_syntax::{Address, Item, Program, TextRange, TokenId, TokenKind, Value};
 
@@ -55,7 +55,7 @@ fn letters_of(text: &[u8]) -> impl Iterator<Item = u8> {
         .map(u8::to_ascii_uppercase)
 }
 
-/// The same of a word; of a G or M code without zeros in front of its number.
+/// The same of a word; of a G or M code without zeros before its number.
 fn core_of(text: &[u8]) -> impl Iterator<Item = u8> {
     let code = matches!(text.first(), Some(b'G' | b'g' | b'M' | b'm'));
     let digits = letters_of(&text[1..]).take_while(u8::is_ascii_digit).count();
@@ -139,7 +139,7 @@ struct Shape {
     sort: std::mem::Discriminant<Item>,
     value: Option<std::mem::Discriminant<Value>>,
     visible: usize,
-    /// How many bytes of it are its name, where it has one: digits behind a name may belong to it.
+    /// How many bytes of it are its name, if it has one: digits after a name may belong to it.
     name: usize,
 }
 

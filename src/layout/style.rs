@@ -12,7 +12,7 @@ pub enum Case {
     Keep,
 }
 
-/// What stands between two words.
+/// The text between two words.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Spacing {
     /// One blank: `G1 X5 Y3`.
@@ -22,7 +22,7 @@ pub enum Spacing {
     Packed,
 }
 
-/// Zeros in front of the number of a G or M code. Other numbers are never touched.
+/// Zeros before the number of a G or M code. Other numbers are never touched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Zeros {
     /// As written.
@@ -43,7 +43,7 @@ pub struct Style {
     pub spacing: Spacing,
     /// G01 or G1.
     pub zeros: Zeros,
-    /// Column, from 1, of comments behind words; a comment whose words reach further follows them after one blank.
+    /// Column, from 1, of comments after words; a comment whose words reach further follows them after one blank.
     /// `None`: comments that are set apart by two blanks or more keep their column, others follow after one blank.
     pub comment_column: Option<u16>,
     /// Blanks by which the body of a subprogram, loop or condition is indented.

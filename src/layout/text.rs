@@ -8,7 +8,7 @@ use trunnion_dialect::Dialect;
 use trunnion_syntax::{Block, Format, Item, Program};
 
 /// The text in the given style. A text in which lone carriage returns stand beside other line ends stays as it is, and for LinuxCNC
-/// each one with a lone carriage return, which ends no line there. What stands behind the closing `%` is no program and stays byte for
+/// each one with a lone carriage return, which ends no line there. What follows the closing `%` is no program and stays byte for
 /// byte.
 pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Vec<u8> {
     let ending = common_line_end(program).filter(|ending| !(dialect.quirks.rs274 && *ending == b"\r"));

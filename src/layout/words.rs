@@ -1,4 +1,4 @@
-//! How one token is written: case, blanks inside words, zeros in front of a code's number.
+//! How one token is written: case, blanks inside words, zeros before a code's number.
 use crate::style::{Case, Style, Zeros};
 use trunnion_syntax::TokenKind;
 
@@ -7,7 +7,7 @@ use trunnion_syntax::TokenKind;
 pub(crate) enum Letters {
     /// They are the style's.
     Styled,
-    /// They are the style's, and zeros in front of the number too: a G or M code.
+    /// They are the style's, and zeros before the number too: a G or M code.
     Code,
     /// They stay.
     Kept,
@@ -53,7 +53,7 @@ fn word(out: &mut Vec<u8>, text: &[u8], code: bool, style: Zeros) {
     }
 }
 
-/// `#`, or `#<name>` without blanks in front of the name.
+/// `#`, or `#<name>` without blanks before the name.
 fn hash(out: &mut Vec<u8>, text: &[u8]) {
     out.push(b'#');
     out.extend_from_slice(text[1..].trim_ascii_start());

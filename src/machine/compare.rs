@@ -53,7 +53,7 @@ impl<'m> Comparison<'m> {
                 let [a, b]: [String; 2] = [only(&first, &second), only(&second, &first)];
                 let name = |text: String| if text.is_empty() { "no others".to_owned() } else { text };
                 Err(format!(
-                    "the machines have different axes: {} has {} beside the common ones, {} has {}",
+                    "the machines have different axes: besides the common ones {} has {}, and {} has {}",
                     believed.id,
                     name(a),
                     truth.id,
@@ -82,7 +82,7 @@ impl<'m> Comparison<'m> {
         Some(self.at(&end.joints, end.tool_length))
     }
 
-    /// The tip stands still at `tip` (part frame, mm) while each rotary axis runs through its travel (an endless one: a turn), alone and
+    /// The tip is held at `tip` (part frame, mm) while each rotary axis moves through its travel (an endless one: a turn), alone and
     /// together with the others, in `steps` steps; the linear axes follow as the believed machine solves them. `None` where they cannot.
     pub fn fixed_tip_sweep(&self, tip: &Vec3, tool_length: f64, steps: usize) -> Option<TipDifference> {
         let machine = self.believed;
@@ -112,7 +112,7 @@ impl<'m> Comparison<'m> {
         worst
     }
 
-    /// The worst at `poses` random joints inside the travels (endless: a turn, or 300 mm either way), tool lengths 0 to 200 mm.
+    /// The worst at `poses` random positions within the travel (endless: a turn, or 300 mm in both directions), tool lengths 0 to 200 mm.
     pub fn random_poses(&self, poses: usize, seed: u64) -> Option<TipDifference> {
         let mut random = SplitMix(seed);
         let pose = |_| {
@@ -154,7 +154,7 @@ impl<'m> Comparison<'m> {
         };
         let (first, second) = (order(self.believed), order(self.truth));
         if first != second {
-            out.push(format!("order of the axes: {first} against {second}"));
+            out.push(format!("order of the axes: {first} versus {second}"));
         }
         for (axis, from) in self.truth.axes.iter().zip(&self.order) {
             entries_of(&self.believed.axes[*from], axis, &mut out);
@@ -162,14 +162,14 @@ impl<'m> Comparison<'m> {
         let (a, b) = (&self.believed.home, &self.truth.home);
         if a.tool_axis != b.tool_axis {
             out.push(format!(
-                "tool_axis: {} against {}",
+                "tool_axis: {} versus {}",
                 triple(&a.tool_axis),
                 triple(&b.tool_axis)
             ));
         }
         if a.gauge_point != b.gauge_point {
             let (a, b) = (triple(&a.gauge_point), triple(&b.gauge_point));
-            out.push(format!("gauge_point: {a} against {b} mm"));
+            out.push(format!("gauge_point: {a} versus {b} mm"));
         }
         out
     }
@@ -186,17 +186,17 @@ fn entries_of(a: &Axis, b: &Axis, out: &mut Vec<String>) {
             out.push(format!("axis {letter}: {text}"));
         }
     };
-    say(a.kind != b.kind, format!("kind {:?} against {:?}", a.kind, b.kind));
-    say(a.side != b.side, format!("side {:?} against {:?}", a.side, b.side));
-    say(a.sign != b.sign, format!("sign {:+} against {:+}", a.sign, b.sign));
+    say(a.kind != b.kind, format!("kind {:?} versus {:?}", a.kind, b.kind));
+    say(a.side != b.side, format!("side {:?} versus {:?}", a.side, b.side));
+    say(a.sign != b.sign, format!("sign {:+} versus {:+}", a.sign, b.sign));
     say(
         (a.direction - b.direction).norm() > SAME_DIRECTION,
-        format!("dir {} against {}", triple(&a.direction), triple(&b.direction)),
+        format!("dir {} versus {}", triple(&a.direction), triple(&b.direction)),
     );
     say(
         a.point != b.point && a.kind == AxisKind::Rotary,
         format!(
-            "point {} against {} mm, {} mm apart",
+            "point {} versus {} mm, {} mm apart",
             triple(&a.point),
             triple(&b.point),
             number((a.point - b.point).norm())
@@ -209,22 +209,22 @@ fn entries_of(a: &Axis, b: &Axis, out: &mut Vec<String>) {
     };
     say(
         a.limits != b.limits,
-        format!("travel {} against {}", travel(a), travel(b)),
+        format!("travel {} versus {}", travel(a), travel(b)),
     );
     let speed = |speed: Option<f64>| speed.map_or_else(|| "undeclared".to_owned(), |speed| number(plain(speed)));
     say(
         a.max_speed != b.max_speed,
-        format!("speed {} against {}", speed(a.max_speed), speed(b.max_speed)),
+        format!("speed {} versus {}", speed(a.max_speed), speed(b.max_speed)),
     );
     say(
         a.max_acceleration != b.max_acceleration,
         format!(
-            "acceleration {} against {}",
+            "acceleration {} versus {}",
             speed(a.max_acceleration),
             speed(b.max_acceleration)
         ),
     );
-    say(a.extra.hold != b.extra.hold, "held at another value".to_owned());
+    say(a.extra.hold != b.extra.hold, "held at a different value".to_owned());
 }
 
 /// The one with the larger difference of the tip.

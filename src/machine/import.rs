@@ -1,5 +1,5 @@
 //! Machine files from the files of others: what those say becomes a machine file with its sources, what they do not say is listed and
-//! never guessed. An axis with something that nobody knows gets the key `unknown`, and the file does not load until it is filled in.
+//! never guessed. An axis with something unknown gets the key `unknown`, and the file does not load until it is filled in.
 mod draft;
 mod freecad;
 mod hal;

@@ -1,5 +1,5 @@
-//! Floor 3: joints. A chain of linear and rotary axes of any order: forward and inverse kinematics, postures, limits, and
-//! what happens between two blocks. Formulas: Trunnion's kinematics notes; each function names its source.
+//! Floor 4: joints. A chain of linear and rotary axes of any order: forward and inverse kinematics, postures, limits, and
+//! what happens between two blocks. Formulas: docs/kinematics.md; each function names its source.
 //!
 //! It does not know rules or severities; its only words for people are the description of a machine and what is wrong with its file.
 mod compare;

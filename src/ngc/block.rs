@@ -66,7 +66,7 @@ pub struct Block {
     pub spindle: Option<i32>,
     /// The sequence number N, if there is one.
     pub number: Option<f64>,
-    /// Codes of the machine's own as they stand in the text; the words of the block are their arguments.
+    /// Codes of the machine's own as written in the text; the words of the block are their arguments.
     pub own: Vec<OwnCode>,
 }
 

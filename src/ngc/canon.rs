@@ -1,5 +1,5 @@
-//! Canonical calls: what the interpreter tells the machine to do. Lengths are in the units in force (see [`Canon::Units`]), in
-//! the coordinates of the program: G5x, G92, tool offset and XY rotation are told by calls of their own and not added.
+//! Canonical calls: the interpreter's commands to the machine. Lengths are in the active units (see [`Canon::Units`]), in
+//! the coordinates of the program: G5x, G92, tool offset and XY rotation are set by separate calls and not added.
 use crate::{Plane, Units};
 use std::sync::Arc;
 
@@ -41,7 +41,7 @@ pub enum Stop {
     End,
 }
 
-/// Cutter compensation side, told by comments of the interpreter.
+/// Cutter compensation side, shown by comments of the interpreter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Side {
     /// G40.
@@ -152,7 +152,7 @@ pub enum Canon {
     Probe(u8, Pose),
     /// The probe is to be read: the point where it touched is known to the machine only.
     ProbeResult,
-    /// Rigid tapping to X Y Z and back, with the ratio of the way back.
+    /// Rigid tapping to X Y Z and back, with the speed ratio of the retract.
     RigidTap([f64; 3], f64),
     /// Feed couples to the spindle.
     StartSync(SyncedFeed),
@@ -174,7 +174,7 @@ pub enum Canon {
     Coolant(Coolant),
     /// T.
     SelectTool(i32),
-    /// M6 begins: the spindle may stand still from here on.
+    /// M6 begins: the spindle may be off from here on.
     StartChange,
     /// M6: the tool that is changed in, and its row of the tool table (0: no tool, -1: none was selected).
     ChangeTool {

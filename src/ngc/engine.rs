@@ -35,7 +35,7 @@ pub struct At {
 pub trait Sink {
     /// A canonical call; `state` is what is in force after the part of the line that made it.
     fn call(&mut self, call: &Canon, at: At, state: &State);
-    /// [`Canon::Traverse`] (`rapid`) or [`Canon::Feed`] to a pose, which [`Self::call`] is told otherwise.
+    /// [`Canon::Traverse`] (`rapid`) or [`Canon::Feed`] to a pose, which [`Self::call`] emits differently.
     fn straight(&mut self, rapid: bool, end: &crate::Pose, at: At, state: &State) {
         let call = if rapid {
             Canon::Traverse(*end)
@@ -46,7 +46,7 @@ pub trait Sink {
     }
     /// A line was refused. `main`: the first error, where the control stops; further ones are of the same line.
     fn error(&mut self, error: &Error, at: At);
-    /// A NUL stands in a line that runs: the control does not read the bytes from there to the end of the line.
+    /// A line that runs contains a NUL: the control does not read the bytes from there to the end of the line.
     fn cut(&mut self, _range: TextRange, _at: At) {}
 }
 
@@ -55,7 +55,7 @@ pub trait Sink {
 pub enum Step {
     /// One line was run.
     Line,
-    /// The program has ended (M2, M30, `%`), or the file has: then an error was told before.
+    /// The program has ended (M2, M30, `%`), or the file has: then an error was reported before.
     Ended,
     /// The line was refused; `Engine::step` may be called to go on with the next line as if it had not been there.
     Refused,
@@ -63,7 +63,7 @@ pub enum Step {
     Undecided(String),
     /// The bounds are used up; line that opens the innermost loop or call.
     OutOfFuel(At),
-    /// The loop that this line opens never ends: it tells nothing to the machine, and all values are as they were before. Beside
+    /// The loop that this line opens never ends: it sends nothing to the machine, and all values are as they were before. Beside
     /// it how many lines ran a second time or more often until then.
     Endless(At, u64),
 }
@@ -81,7 +81,7 @@ pub struct Engine {
     pub(crate) block: Option<Box<Block>>,
     /// Parameters.
     pub(crate) store: crate::parameters::Store,
-    /// Moves that cutter compensation holds back, and what waits behind them.
+    /// Moves that cutter compensation holds back, and what waits after them.
     pub(crate) queue: crate::comp::Queue,
     /// The spline that is being described.
     pub(crate) spline: crate::cycles::Spline,
@@ -143,7 +143,7 @@ impl Engine {
             .map_or(&[][..], |(source, range)| &source.bytes()[range.as_usize()]);
         String::from_utf8_lossy(bytes.trim_ascii()).into_owned()
     }
-    /// Tells a canonical call. While cutter compensation holds moves back, calls wait behind them in order.
+    /// Emits a canonical call. While cutter compensation holds moves back, calls wait after them in order.
     #[inline]
     pub(crate) fn emit(&mut self, call: Canon, at: At, sink: &mut dyn Sink) {
         if !self.queue.is_empty() && crate::comp::waits(&call) {

@@ -55,7 +55,7 @@ pub enum Class {
 pub struct Problem {
     /// Sort.
     pub class: Class,
-    /// The control's own message, as `rs274` prints it; `{}` stands for a detail.
+    /// The control's own message, as `rs274` prints it; `{}` is replaced by a detail.
     pub message: &'static str,
     /// What a person should do, one sentence; may be empty.
     pub help: &'static str,
@@ -85,7 +85,7 @@ pub struct Error {
 pub struct Missing {
     /// As it is called.
     pub name: String,
-    /// Folders that were searched, behind the rest of the program.
+    /// Folders that were searched, after the rest of the program.
     pub searched: Vec<String>,
 }
 

@@ -70,7 +70,7 @@ impl Store {
             numbers[5210] = 0.0;
         }
         numbers[5220] = 1.0;
-        // (DEBUG,...) comments are told
+        // (DEBUG,...) comments are emitted
         numbers[5599] = 1.0;
         for &(index, value) in &setup.parameters.values {
             if let Some(place) = numbers.get_mut(index as usize) {

@@ -1,4 +1,4 @@
-//! Canonical calls as text, the way `rs274 -g` lists them.
+//! Canonical calls as text, in the format of `rs274 -g`.
 use crate::{Canon, Coolant, MotionMode, Plane, Pose, SpindleTurn, Stop, Switch, Units};
 use std::io::{Result, Write};
 
@@ -10,7 +10,7 @@ const COLUMN: usize = 6;
 pub struct Listing {
     /// Lines written so far.
     pub count: u64,
-    /// Decimals of each number behind those that `rs274` lists: 0 but for who looks closer.
+    /// Decimals of each number after those that `rs274` prints: 0 except for a closer look.
     pub more: usize,
 }
 

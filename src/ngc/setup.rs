@@ -99,7 +99,7 @@ impl ToolEntry {
 /// The tool table. Row 0 is the spindle.
 #[derive(Clone, Debug, Default)]
 pub struct ToolTable {
-    /// Rows in file order behind row 0.
+    /// Rows in file order after row 0.
     pub rows: Vec<ToolEntry>,
     /// What row 0 holds as a run starts: the last row without P.
     pub spindle: Option<ToolEntry>,
@@ -139,7 +139,7 @@ pub struct Setup {
     pub any_tool: bool,
     /// Lines that begin with `/` are skipped (the switch of the panel).
     pub block_delete: bool,
-    /// Decimals of numbers in messages behind those that the control writes: 0 but for who looks closer.
+    /// Decimals of numbers in messages after those that the control writes: 0 except for a closer look.
     pub more_decimals: usize,
 }
 

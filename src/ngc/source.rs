@@ -15,7 +15,7 @@ impl FileId {
 /// So many lines share one entry of the index: a file of nothing but line ends must not cost four times its size in memory.
 pub(crate) const STRIDE: u32 = 64;
 
-/// So many bytes are looked at together while the index is made.
+/// This many bytes are looked at together while the index is made.
 const BLOCK: usize = 512;
 
 /// Bytes that others may hold, too.
@@ -47,7 +47,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// Finds the lines. A file is at most 4 GiB long; what lies behind is cut off by the callers, who refuse such files.
+    /// Finds the lines. A file is at most 4 GiB long; the callers refuse longer files.
     pub fn new(path: String, bytes: Arc<[u8]>) -> Self {
         Self::of(path, Bytes::Slice(bytes))
     }
@@ -87,7 +87,7 @@ impl Source {
     pub fn line_count(&self) -> u32 {
         self.lines
     }
-    /// Bytes of a line (from 0) with its line end; `None` behind the last.
+    /// Bytes of a line (from 0) with its line end; `None` after the last.
     pub fn line(&self, line: u32) -> Option<TextRange> {
         if line >= self.lines {
             return None;
@@ -105,7 +105,7 @@ impl Source {
         let length = memchr(b'\n', rest).map_or(rest.len(), |at| at + 1);
         TextRange::new(start, start + length as u32)
     }
-    /// The line (from 0) in which a byte lies.
+    /// The line (from 0) that contains a byte.
     pub fn line_of(&self, offset: u32) -> u32 {
         let block = self.starts.partition_point(|&start| start <= offset).saturating_sub(1);
         let from = self.starts[block] as usize;

@@ -75,7 +75,7 @@ pub enum SpindleMode {
     ConstantSurface(f64),
 }
 
-/// What is in force between lines. Lengths are in the units in force unless said otherwise.
+/// What is active between lines. Lengths are in the active units unless stated otherwise.
 #[derive(Clone, Debug)]
 pub struct State {
     /// Units.
@@ -129,7 +129,7 @@ pub struct State {
     pub radius_given: bool,
     /// No compensated move was made yet since G41/G42.
     pub first_compensated: bool,
-    /// Compensation has ended and the tool still stands on its way: the next motion must be straight.
+    /// Compensation has ended and the tool is still on its path: the next motion must be straight.
     pub exit_pending: bool,
     /// G7: X words are diameters.
     pub lathe_diameter: bool,
@@ -161,7 +161,7 @@ pub struct State {
     pub selected_row: i32,
     /// Row of the tool in the spindle.
     pub current_row: i32,
-    /// Whether A, B, C are wrapped rotary axes: absolute words are 0 to below 360 deg, their sign says which way round.
+    /// Whether A, B, C are wrapped rotary axes: absolute words are 0 to below 360 deg, their sign gives the direction.
     pub wrapped: [bool; 3],
     /// What the receiver of the calls takes for the position.
     pub told: Told,
@@ -175,13 +175,13 @@ pub struct State {
     pub feed_hold: bool,
     /// Axes with words in the block in hand: bit i is axis i of a [`Pose`].
     pub named_axes: u16,
-    /// The line that runs while compensation tells what it has held back: the listing numbers calls by it.
+    /// The line that runs while compensation emits what it has held back: the listing numbers calls by it.
     pub told_by: Option<crate::At>,
     /// The spindle's row of the tool table before the last change.
     pub(crate) spindle_row_before: Option<crate::ToolEntry>,
-    /// The motions of the block in hand lead to points that are told in the machine's own frame (G53, G28, G30).
+    /// The motions of the present block lead to points that are given in the machine's own frame (G53, G28, G30).
     pub machine_frame: bool,
-    /// The block in hand is one straight motion and nothing else, compensation is off: nothing changes behind its motion's call.
+    /// The present block is one straight motion and nothing else, compensation is off: nothing changes after its motion's call.
     pub motion_only: bool,
     /// The last probing has touched.
     pub probed: bool,
@@ -278,7 +278,7 @@ impl Told {
 }
 
 impl State {
-    /// Where the tool is, program coordinates: on the contour, or on its compensated way once compensation has led it there.
+    /// Where the tool is, program coordinates: on the contour, or on its compensated path once compensation has moved it there.
     pub fn position(&self) -> Pose {
         *self.place()
     }

@@ -1,4 +1,4 @@
-//! Circles and sweeps with one or two rotary axes turning: the tip runs a known circle, or stands still.
+//! Circles and sweeps with one or two rotary axes turning: the tip runs a known circle, or does not move.
 use crate::piece::{Piece, PieceError, Tool, count, within};
 use core::f64::consts::TAU;
 use trunnion_geometry::math::{rotate, sin};
@@ -57,7 +57,7 @@ pub fn circle(turned: TurnedAxes, radius: f64, tilt_deg: f64, segments: usize, f
     Ok(Piece::along(name, title, feed, BALL, &points))
 }
 
-/// The tip stands on one point, `radius` mm along X from the part's zero, while the turning axis goes once round at `tilt` deg and
+/// The tip is held at one point, `radius` mm along X from the part's zero, while the turning axis turns once round at `tilt` deg and
 /// then the tilting axis back to half of it. Its true deviation is zero: what a control or a machine file makes of it is an error.
 ///
 /// # Errors
@@ -82,7 +82,7 @@ pub fn fixed_tip(radius: f64, tilt_deg: f64, segments: usize, feed: f64) -> Resu
             (tip, axis)
         })
         .collect();
-    let title = format!("fixed tip {radius} mm off the zero, tilt {tilt_deg} deg, {segments} blocks");
+    let title = format!("fixed tip {radius} mm from the zero point, tilt {tilt_deg} deg, {segments} blocks");
     Ok(Piece::along("fixed-tip", title, feed, BALL, &points))
 }
 

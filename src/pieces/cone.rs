@@ -50,7 +50,7 @@ impl ConeAnswers {
     }
 }
 
-/// The smallest |dC/dpsi| for th >= ph where it lies inside the range of the tilt: with A the tilt, dC/dpsi = (cos ph - cos th cos A) / sin2 A,
+/// The smallest |dC/dpsi| for th >= ph where it is inside the range of the tilt: with A the tilt, dC/dpsi = (cos ph - cos th cos A) / sin2 A,
 /// whose derivative by cos A is zero for cos th cos2 A - 2 cos ph cos A + cos th = 0; there it is cos th / (2 cos A).
 fn slowest(th: f64, ph: f64) -> Option<f64> {
     let (p, t) = (cos(ph), cos(th));
@@ -85,7 +85,7 @@ impl Cone {
         }
     }
 
-    /// The tool's flank touches the wall: the tip lies off the wall by the tool's radius along the wall's normal.
+    /// The tool's flank touches the wall: the tip is off the wall by the tool's radius along the wall's normal.
     fn tip_radius(&self) -> f64 {
         self.radius + 0.5 * self.tool_diameter * sin_cos(rad(self.half_angle_deg)).1
     }
@@ -94,7 +94,7 @@ impl Cone {
     pub fn at(&self, psi: f64) -> (Vec3, Vec3) {
         let (sin_half, cos_half) = sin_cos(rad(self.half_angle_deg));
         let cone_axis = rotate(&Vec3::x(), rad(self.tilt_deg), &Vec3::z());
-        // the wall leans to the cone's axis; at psi = 0 it leans the way the axis leans
+        // the wall leans to the cone's axis; at psi = 0 it leans in the direction of the axis
         let out = rotate(&cone_axis, psi, &rotate(&Vec3::x(), rad(self.tilt_deg), &Vec3::y()));
         let axis = cone_axis * cos_half - out * sin_half;
         let lift = 0.5 * self.tool_diameter * sin_half;

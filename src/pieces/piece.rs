@@ -109,22 +109,22 @@ impl Piece {
     }
 }
 
-/// A count that lies within `low..=high`.
+/// A count within `low..=high`.
 pub(crate) fn count(what: &str, value: usize, low: usize, high: usize) -> Result<usize, PieceError> {
     if (low..=high).contains(&value) {
         Ok(value)
     } else {
-        Err(PieceError(format!("{what} {value}: from {low} to {high} are possible")))
+        Err(PieceError(format!("{what} {value}: must be from {low} to {high}")))
     }
 }
 
-/// A number that lies within `low..=high`.
+/// A number within `low..=high`.
 pub(crate) fn within(what: &str, value: f64, low: f64, high: f64, unit: &str) -> Result<f64, PieceError> {
     if (low..=high).contains(&value) {
         Ok(value)
     } else {
         Err(PieceError(format!(
-            "{what} {value} {unit}: from {low} to {high} {unit} are possible"
+            "{what} {value} {unit}: must be from {low} to {high} {unit}"
         )))
     }
 }
@@ -159,7 +159,7 @@ mod tests {
     fn sizes_out_of_range_are_refused_with_the_range() {
         assert_eq!(
             count("segments", 2, 3, 10).expect_err("refused").0,
-            "segments 2: from 3 to 10 are possible"
+            "segments 2: must be from 3 to 10"
         );
         assert!(within("tilt", f64::NAN, 0.0, 90.0, "deg").is_err());
     }

@@ -30,7 +30,7 @@ pub struct SWall {
     pub chord: f64,
     /// The whole part turned about X, deg: 0 puts every change of sign on the pole.
     pub tilt_deg: f64,
-    /// The face to the right of the edge instead of the left one. It is run from the other end, so that both are milled the same way.
+    /// The face to the right of the edge instead of the left one. It is run from the other end, so that both are milled in the same direction.
     pub right: bool,
     /// mm/min.
     pub feed_mm_min: f64,
@@ -44,7 +44,7 @@ impl SWall {
 
     /// Lower edge, unit ruling (also the tool axis) and the direction off the face at the arc length `s` of the left edge, 0..=length; not
     /// tilted. Ruling: cos b z + sin b n with the lean b = b0 sin(2 pi k s / L) and n to the left of the edge. The right face has the same
-    /// rulings, its edge lies beside the left one.
+    /// rulings, its edge is beside the left one.
     fn upright(&self, edge: &Edge, s: f64) -> (Vec3, Vec3, Vec3) {
         let (point, heading) = edge.at(s);
         let lean = rad(self.lean_deg) * sin(TAU * self.waves as f64 * s / LENGTH);
@@ -66,7 +66,7 @@ impl SWall {
         self.tilted(&(point + ruling * (h * self.height / ruling.z)))
     }
 
-    /// Tip and tool axis after the way `s` along the edge: the flank touches the wall at its lower edge.
+    /// Tip and tool axis after the length `s` along the edge: the flank touches the wall at its lower edge.
     pub fn at(&self, s: f64) -> (Vec3, Vec3) {
         self.place(&Edge::new(), s)
     }
@@ -199,7 +199,7 @@ pub fn s_wall(sizes: &SWall) -> Result<Piece, PieceError> {
     Ok(Piece::along("s-wall", title, sizes.feed_mm_min, tool, &points))
 }
 
-/// Adds the points behind `from` up to `to`, halving until the chord is near enough at seven places between.
+/// Adds the points after `from` up to `to`, halving until the chord is near enough at seven places between.
 fn divide(sizes: &SWall, edge: &Edge, from: f64, to: f64, points: &mut Vec<(Vec3, Vec3)>) {
     let (a, b) = (sizes.place(edge, from).0, sizes.place(edge, to));
     let chord = b.0 - a;
@@ -268,7 +268,7 @@ mod tests {
         assert!((deg(angle_between(&tilted.at(0.0).1, &Vec3::z())) - 0.1).abs() < 1e-9);
     }
 
-    /// The tip lies off the wall by the tool's radius: no point of the wall near it is nearer. On either side.
+    /// The tip is off the wall by the tool's radius: no point of the wall near it is nearer. On either side.
     #[test]
     fn the_flank_touches_the_wall() {
         for right in [false, true] {

@@ -16,7 +16,7 @@ fn height(u: f64, v: f64) -> (f64, f64, f64) {
     )
 }
 
-/// Point of the saddle and its unit normal (upwards) at u, v in 0..=1: x = 100 u - 50, y = 100 v - 50. Source: kinematics notes, A7,
+/// Point of the saddle and its unit normal (upwards) at u, v in 0..=1: x = 100 u - 50, y = 100 v - 50. Source: docs/kinematics.md#test-pieces,
 /// after a published case study on a telephone's surface.
 pub fn saddle_point(u: f64, v: f64) -> (Vec3, Vec3) {
     let (z, by_u, by_v) = height(u, v);

@@ -17,7 +17,7 @@ use trunnion_machine::{Machine, Orientations, orientations, tool_axis_at};
 /// Colour of the lines of equal turn.
 const RAY: RGBColor = RGBColor(150, 185, 215);
 
-/// Draws it. `after`: a second run of the same machine, drawn over the first. `within`: only what lies within so many degrees of the pole.
+/// Draws it. `after`: a second run of the same machine, drawn over the first. `within`: only what is within this many degrees of the pole.
 ///
 /// # Errors
 /// The machine has not two rotary axes, or no tool axis is known.
@@ -31,7 +31,9 @@ pub fn axis_plane(
 ) -> Result<String, PlotError> {
     let plane = Plane::new(machine)?;
     if record.samples.is_empty() {
-        return Err(PlotError("no tool axis is known, so there is nothing to draw".into()));
+        return Err(PlotError(
+            "nothing to draw: the tool axis is unknown in every motion".into(),
+        ));
     }
     let rules = rules(marks);
     let letter = |slot: usize| char::from(machine.axes[machine.rotary[slot]].letter);
@@ -149,7 +151,7 @@ impl<'m> Plane<'m> {
     fn new(machine: &'m Machine) -> Result<Self, PlotError> {
         if !machine.constants.has_pair() {
             return Err(PlotError(format!(
-                "the plane of the tool axis needs two rotary axes; {} has {}",
+                "the tool axis plot needs two rotary axes; {} has {}",
                 machine.id,
                 machine.rotary.len()
             )));
@@ -167,7 +169,7 @@ impl<'m> Plane<'m> {
         let across = (across - pole * pole.dot(&across)).normalize();
         let mut upwards = pole.cross(&across);
         if pole.sum() < 0.0 {
-            // i and j (or k) both count upwards whichever way the axis points
+            // i and j (or k) both count upwards whatever the direction of the axis
             upwards = -upwards;
         }
         let at_pole = match orientations(machine, &pole) {

@@ -1,4 +1,4 @@
-//! The sheet of paper: header, legend, colours, and the way from data to text.
+//! The sheet of paper: header, legend, colours, and the steps from data to text.
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -27,7 +27,7 @@ pub(crate) const INK: RGBColor = RGBColor(30, 30, 30);
 pub(crate) const GREY: RGBColor = RGBColor(120, 120, 120);
 pub(crate) const PALE: RGBColor = RGBColor(225, 225, 225);
 
-/// What stands above a picture.
+/// The text above a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Header {
     /// What is shown.

@@ -1,4 +1,4 @@
-//! How far the tip strays from the programmed segments along the way, with the tolerance.
+//! How far the tip strays from the programmed segments along the path, with the tolerance.
 use crate::canvas::{BLUE, Entry, Header, PlotError, SKY, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Block, Record};
@@ -18,7 +18,7 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
         .collect();
     let Some((worst, [most, bound])) = known.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0])) else {
         return Err(PlotError(
-            "the deviation of no feed block is known, so there is nothing to draw".into(),
+            "nothing to draw: the deviation is unknown in every feed block".into(),
         ));
     };
     let unjudged = record
@@ -51,7 +51,7 @@ pub fn deviation(header: &Header, record: &Record, tolerance: f64) -> Result<Str
             &Frame {
                 x: across,
                 y: upwards,
-                x_name: Some("way of the tool tip / mm"),
+                x_name: Some("travel of the tool tip / mm"),
                 y_name: if decades {
                     "deviation of the tip from the programmed segment / mm (log)"
                 } else {
@@ -100,7 +100,7 @@ fn legend(tolerance: f64, unjudged: usize) -> Vec<Entry> {
         (Swatch::Dashed(VERMILION), format!("tolerance {tolerance} mm")),
     ];
     if unjudged > 0 {
-        legend.push((Swatch::Dot(VERMILION), format!("not known in {unjudged} blocks")));
+        legend.push((Swatch::Dot(VERMILION), format!("unknown in {unjudged} blocks")));
     }
     legend
 }

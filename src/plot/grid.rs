@@ -26,7 +26,7 @@ pub(crate) struct Frame<'t> {
 /// A framed field.
 pub(crate) struct Panel<'a> {
     area: Area<'a>,
-    /// The area that the frame was drawn on: what lies beside the field is drawn there.
+    /// The area that the frame was drawn on: what is beside the field is drawn there.
     around: Area<'a>,
     x: [f64; 2],
     y: [f64; 2],

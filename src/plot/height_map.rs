@@ -31,7 +31,7 @@ const SCALE_STOPS: [(u8, u8, u8); 6] = [
 pub fn height_map(header: &Header, errors: &Errors, along: usize) -> Result<String, PlotError> {
     if errors.spots.is_empty() {
         return Err(PlotError(
-            "no feed block could be compared with the surface, so there is nothing to draw".into(),
+            "nothing to draw: no feed block could be compared with the surface".into(),
         ));
     }
     let view = View::new(along);
@@ -48,7 +48,7 @@ pub fn height_map(header: &Header, errors: &Errors, along: usize) -> Result<Stri
         .map_or(worst.error, |found| found.sampled.max(worst.error))
         .max(1e-9);
     let sense = if errors.placed > 0 {
-        "distance of the tip from the point it should be at"
+        "distance of the tip from its nominal point"
     } else {
         "distance of the tip from the surface"
     };

@@ -1,4 +1,4 @@
-//! Joints of the machine against the way or the time, one field an axis, with limits and blocks to look at.
+//! Axis positions of the machine over the path or the time, one field per axis, with limits and blocks to look at.
 use crate::canvas::{BLUE, Entry, GREEN, GREY, Header, ORANGE, PURPLE, PlotError, SKY, Swatch, VERMILION, sheet};
 use crate::grid::{Frame, Panel};
 use crate::record::{Mark, Record, Sample};
@@ -25,7 +25,7 @@ impl Along {
     }
     fn name(self) -> &'static str {
         match self {
-            Self::Way => "way of the tool tip / mm",
+            Self::Way => "travel of the tool tip / mm",
             Self::Time => "time at programmed feed / s",
         }
     }
@@ -69,7 +69,7 @@ pub fn joints(
 ) -> Result<String, PlotError> {
     if record.samples.is_empty() {
         return Err(PlotError(
-            "no motion's joints are known, so there is nothing to draw".into(),
+            "nothing to draw: the axis positions are unknown in every motion".into(),
         ));
     }
     let across = range(record.samples.iter().map(|sample| along.of(sample)), 1e-3);
@@ -77,7 +77,7 @@ pub fn joints(
     let across = [across[0].max(0.0), across[1]];
     if across[1] <= across[0] || record.samples.iter().all(|sample| !along.of(sample).is_finite()) {
         return Err(PlotError(
-            "the time of no motion is known: draw along the way instead".into(),
+            "the time of every motion is unknown: draw over the travel instead".into(),
         ));
     }
     let rules = rules(marks);

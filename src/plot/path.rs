@@ -16,7 +16,7 @@ const FLOOR: RGBColor = RGBColor(170, 170, 170);
 /// No path is known.
 pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, PlotError> {
     if record.samples.is_empty() {
-        return Err(PlotError("no path is known, so there is nothing to draw".into()));
+        return Err(PlotError("nothing to draw: no path is known".into()));
     }
     let strays = |block: &Block| !block.rapid && block.deviation.is_some_and(|[most, _]| most > tolerance);
     let straying = record.blocks.iter().filter(|block| strays(block)).count();
@@ -28,11 +28,11 @@ pub fn path(header: &Header, record: &Record, tolerance: f64) -> Result<String, 
     if straying > 0 {
         legend.push((
             Swatch::Line(VERMILION),
-            format!("strays more than {tolerance} mm ({straying} blocks)"),
+            format!("deviates more than {tolerance} mm ({straying} blocks)"),
         ));
     }
     if record.unknown > 0 {
-        legend.push((Swatch::Dot(GREY), format!("{} motions not known", record.unknown)));
+        legend.push((Swatch::Dot(GREY), format!("{} motions unknown", record.unknown)));
     }
     let cut = record.blocks.iter().filter(|block| !block.rapid);
     let (mut low, mut high) = extent(cut.flat_map(|block| record.of(block)).map(|sample| sample.tip));
@@ -162,7 +162,7 @@ fn step(value: f64) -> f64 {
     base.into_iter().find(|nice| *nice >= value).unwrap_or(value)
 }
 
-/// The tool axis at some of the feed samples, evenly along the way.
+/// The tool axis at some of the feed samples, evenly along the path.
 fn draw_axes(flat: &Panel<'_>, record: &Record, size: f64) -> Result<(), PlotError> {
     let feeds = || {
         record

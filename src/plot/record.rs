@@ -8,7 +8,7 @@ use trunnion_machine::{AxisKind, BlockPath, Joints, Leg, Machine, block_duration
 pub struct Sample {
     /// BlockPath of the tip in the workpiece frame since the first known position, mm.
     pub way: f64,
-    /// Time since then, s; not a number behind a block whose time is not known.
+    /// Time since then, s; not a number after a block whose time is not known.
     pub time: f64,
     /// Joints in chain order, mm or deg.
     pub joints: Joints,

@@ -1,4 +1,4 @@
-//! Floor 6: proposes. A rewrite reads an analysed program and proposes edits with a claim; `certify` decides.
+//! Floor 7: proposes. A rewrite reads an analysed program and proposes edits with a claim; `certify` decides.
 //!
 //! It does no I/O and never vouches for itself.
 mod propose;

@@ -85,7 +85,7 @@ pub fn attempt(rewrite: &Rewrite, program: &Program, settings: &Settings<'_>, op
 
 fn prove(rewrite: &Rewrite, program: &Program, settings: &Settings<'_>, proposal: Proposal) -> Result<Attempt, String> {
     let Some(machine) = settings.machine else {
-        return Err("no machine is given (--machine)".into());
+        return Err("no machine is named (--machine)".into());
     };
     let Proposal { edits, claim, summary } = proposal;
     let before = program.source();
@@ -156,7 +156,7 @@ fn no_new_errors(rewrite: &Rewrite, program: &Program, after: &[u8], settings: &
     };
     let more = |d: &&Diagnostic| !rewrite.cures.contains(&d.rule) && errors(&is, d.rule) > errors(&was, d.rule);
     match is.diagnostics.iter().find(more) {
-        Some(d) => Err(format!("it would make an error: {} ({})", d.message, d.rule)),
+        Some(d) => Err(format!("it would cause an error: {} ({})", d.message, d.rule)),
         None => Ok(()),
     }
 }
@@ -217,7 +217,7 @@ mod tests {
         assert!(more.contains("of C would grow"), "{more}");
         let outside = refusal(|program, _, _| Ok(Some(every_c(program, |c| c - 720.0))));
         assert!(
-            outside.contains("it would make an error") && outside.contains("axis-limit"),
+            outside.contains("it would cause an error") && outside.contains("axis-limit"),
             "{outside}"
         );
     }

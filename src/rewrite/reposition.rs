@@ -101,7 +101,7 @@ impl Writer<'_> {
         let view = self.program.block(block);
         let slots = slots(self.program, &view, self.scheme)?;
         let programmed = self.programmed(stance);
-        // a vector in force stays in force; a rotary word may have to be said again
+        // an active vector stays active; a rotary word may have to be repeated
         let words = if self.scheme.count() == 4 { 4 } else { 3 };
         let mut numbers = Vec::new();
         for (index, &value) in programmed.iter().enumerate().take(words) {
@@ -138,7 +138,7 @@ impl Writer<'_> {
                     let fits = |number: &Number| !allowed(&at(rad(number.value + self.rotary_zero)));
                     fits(a).cmp(&fits(b)).then(off(a).total_cmp(&off(b)))
                 });
-            let number = best.ok_or("no number")?;
+            let number = best.ok_or("not a number")?;
             let written = rad(number.value + self.rotary_zero);
             return Ok(Orientation {
                 axis: at(written),
@@ -226,14 +226,14 @@ impl Writer<'_> {
         let turned = deg(angle_between(&stance.axis, axis));
         if !self.allowed_turn(stance, axis) {
             return Err(format!(
-                "rounding turns the tool axis by {turned:.6} deg, allowed is {} deg",
+                "rounding turns the tool axis by {turned:.6} deg; {} deg is allowed",
                 self.tolerance_deg
             ));
         }
         let shift = ((tip + axis * self.ball_radius) - (stance.tip + stance.axis * self.ball_radius)).norm();
         if shift > self.tolerance_mm {
             return Err(format!(
-                "with the digits this program writes, the ball's centre would shift by {shift:.6} mm; allowed is {} mm (--tolerance-mm)",
+                "with the number of digits in this program the ball centre would shift by {shift:.6} mm; {} mm is allowed (--tolerance-mm)",
                 self.tolerance_mm
             ));
         }
@@ -279,6 +279,11 @@ impl Writer<'_> {
             .scheme
             .letter(index)
             .and_then(|letter| insert_word(self.program, block, letter, text));
-        edit.ok_or_else(|| format!("{} is left out, and there is no place for it", self.scheme.name(index)))
+        edit.ok_or_else(|| {
+            format!(
+                "{} is not written in the block, and there is no place to add it",
+                self.scheme.name(index)
+            )
+        })
     }
 }

@@ -1,4 +1,4 @@
-//! The list of rewrites, alphabetical. A rewrite is one file in `rewrites/`; its name stands in two lists here.
+//! The list of rewrites, alphabetical. A rewrite is one file in `rewrites/`; its name appears in two lists here.
 mod smooth_pole;
 mod unwind_rotary;
 

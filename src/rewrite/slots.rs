@@ -121,7 +121,7 @@ pub(crate) fn slots(program: &Program, block: &Block<'_>, scheme: Scheme) -> Res
             value: value.to_f64(),
         };
         if slots[i].replace(slot).is_some() {
-            return Err(format!("{} is given twice", scheme.name(i)));
+            return Err(format!("{} is written twice", scheme.name(i)));
         }
     }
     Ok(slots)

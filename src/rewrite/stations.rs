@@ -90,7 +90,7 @@ pub(crate) fn window(stations: &[Station], flip: usize, cone: f64) -> Option<(us
 }
 
 /// New values of the rotary joint for the stations of a window, rad; the ends keep theirs. `room`: how far a tool axis
-/// may turn, rad. `None` where a station lies outside the joint's limits.
+/// may turn, rad. `None` where a station is outside the limits of the axis.
 pub(crate) fn straighten(machine: &Machine, window: &[Station], room: f64) -> Option<Vec<f64>> {
     let limits = match machine.axes[machine.rotary[0]].limits {
         Limits::Unbounded => (f64::NEG_INFINITY, f64::INFINITY),
@@ -115,7 +115,7 @@ pub(crate) fn straighten(machine: &Machine, window: &[Station], room: f64) -> Op
 }
 
 /// By how much the azimuth of a tool axis at the angle `pole_angle` from the pole may change so that the axis turns by at most `room`,
-/// rad: 2 asin(sin(room/2) / sin theta), without limit where that has no solution (kinematics notes 6, R3).
+/// rad: 2 asin(sin(room/2) / sin theta), without limit where that has no solution (docs/kinematics.md#smoothing-at-the-pole).
 fn half_width(room: f64, pole_angle: f64) -> f64 {
     if room <= 0.0 {
         return 0.0;

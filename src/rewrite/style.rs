@@ -3,13 +3,13 @@
 /// How the words of one letter are written in a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NumberStyle {
-    /// Most digits behind the point that the program uses.
+    /// The largest number of digits after the point that the program uses.
     pub decimals: usize,
     /// Zeros at the end are left out: `-0.79` beside `2.042`.
     pub trims: bool,
     /// A whole number keeps its point: `10.`.
     pub whole_point: bool,
-    /// A zero stands before the point: `0.5`, not `.5`.
+    /// A zero is written before the point: `0.5`, not `.5`.
     pub leading_zero: bool,
 }
 
@@ -90,7 +90,7 @@ fn finish(mut text: String, plus: bool, leading_zero: bool) -> String {
     text
 }
 
-/// The decimal number `text` with the whole number `add` added, exactly, with as many digits behind the point as before.
+/// The decimal number `text` plus the whole number `add`, exactly, with as many digits after the point as before.
 /// `None` when `text` is no plain decimal or has too many digits.
 pub(crate) fn add_whole(text: &str, add: i64) -> Option<String> {
     let digits = text.trim_start_matches(['+', '-']);

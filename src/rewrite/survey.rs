@@ -42,7 +42,7 @@ pub(crate) struct Point {
     pub from_known: bool,
     /// Sizes of the rotary steps, rad.
     pub rotary_change: [f64; 2],
-    /// Smallest angle to the pole on the way, rad.
+    /// Smallest angle to the pole along the path, rad.
     pub pole_angle_min: f64,
     /// The posture changes by a swap.
     pub swap: bool,
@@ -174,7 +174,7 @@ pub(crate) fn runs_straight(program: &Program, settings: &Settings<'_>) -> Resul
         let source = program.source();
         let (line, _) = LineIndex::new(source).line_column(source, program.block(block).range().start);
         return Err(format!(
-            "the program has loops or calls (line {line}): one word there is many motions, and rewrites lead one motion at a time"
+            "the program has loops or calls (line {line}): there one word drives many motions, and rewrites change one motion at a time"
         ));
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! The taut string: the shortest line through a tube, which is also the one whose steepest part is least steep.
 //!
-//! It minimises every convex function of the slope at once (kinematics notes 6, R3 and 12.3), so one pass gives the least
+//! It minimises every convex function of the slope at once (docs/kinematics.md#smoothing-at-the-pole), so one pass gives the least
 //! total travel and the least peak speed together.
 
 /// The taut string through the tube `lower[i]..=upper[i]` over the stations `s` (strictly increasing), any units. The ends

@@ -1,7 +1,7 @@
 //! Whole turns that bring each value of a rotary axis next to the one before it.
 
 /// How many whole turns to add to each of `values` (deg) so that consecutive ones differ by at most half a turn, as far as
-/// the joint range `limits` (lowest and highest, deg) lets them: kinematics notes 6, R1.
+/// the joint range `limits` (lowest and highest, deg) lets them: docs/kinematics.md#unwinding.
 ///
 /// A value keeps the turns of its predecessor where that already holds, so exact half turns stay as they are written. A value
 /// that no winding brings inside the limits stays as it is.

@@ -71,7 +71,7 @@ pub fn required(text: &str, is_json: bool, tolerance: f64) -> Result<Required, S
     };
     if file.schema != SCHEMA {
         return Err(wrong(format!(
-            "schema = {:?}; `{SCHEMA}` is what this version reads",
+            "unknown schema {:?}; this version reads `{SCHEMA}`",
             file.schema
         )));
     }
@@ -85,7 +85,7 @@ pub fn required(text: &str, is_json: bool, tolerance: f64) -> Result<Required, S
     }
     if sheets.is_empty() {
         return Err(wrong(
-            "no surface: give at least one [[grid]] or [[patch]] with rows of points",
+            "no surface: add at least one [[grid]] or [[patch]] with rows of points",
         ));
     }
     Required::from_sheets(sheets, tolerance).map_err(wrong)
@@ -102,7 +102,7 @@ fn points(rows: Rows, name: &str, most: usize) -> Result<Vec<Vec<Vec3>>, Surface
     let (lines, columns) = (rows.rows.len(), rows.rows.first().map_or(0, Vec::len));
     if lines < 2 || columns < 2 {
         return Err(wrong(format!(
-            "{name}: {lines} rows of {columns} points; at least 2 rows of 2 points are needed"
+            "{name}: {lines} rows of {columns} points; at least 2 rows of 2 points are required"
         )));
     }
     if lines > most || columns > most {
@@ -128,7 +128,7 @@ fn points(rows: Rows, name: &str, most: usize) -> Result<Vec<Vec<Vec3>>, Surface
             .any(|point| !point.iter().all(|value| value.is_finite() && value.abs() < 1e9))
         {
             return Err(wrong(format!(
-                "{name}: row {} holds a number that is no length in mm",
+                "{name}: row {} contains a number that is not a length in mm",
                 index + 1
             )));
         }
@@ -148,7 +148,7 @@ pub fn required_stl(bytes: &[u8]) -> Result<Required, SurfaceError> {
         let count = count.iter().rev().fold(0_u64, |sum, byte| sum << 8 | u64::from(*byte));
         let holds = (bytes.len() as u64 - 84) / 50;
         if count > holds {
-            return Err(broken(format!("it announces {count} triangles and holds {holds}")));
+            return Err(broken(format!("it announces {count} triangles but contains {holds}")));
         }
     }
     let mut cursor = Cursor::new(bytes);
@@ -161,7 +161,7 @@ pub fn required_stl(bytes: &[u8]) -> Result<Required, SurfaceError> {
             let point = Vec3::new(f64::from(vertex[0]), f64::from(vertex[1]), f64::from(vertex[2]));
             if !point.iter().all(|value| value.is_finite()) {
                 return Err(broken(format!(
-                    "triangle {} has a corner that is no number",
+                    "triangle {} has a corner that is not a number",
                     triangles.len() + 1
                 )));
             }

@@ -42,7 +42,7 @@ pub struct Found {
 pub struct Spot {
     /// Running number of the judged block.
     pub leg: u32,
-    /// Where the error is told: the required point (same place) or the surface's nearest point, mm.
+    /// Where the error is reported: the required point (same place) or the surface's nearest point, mm.
     pub place: Vec3,
     /// The tip, mm.
     pub tip: Vec3,
@@ -68,7 +68,7 @@ pub struct Errors {
     pub apart: u32,
     /// The first of them.
     pub first_apart: Option<BlockId>,
-    /// How far, at most, the end of one of them lies from the surface (less the offset), mm.
+    /// How far, at most, the end of one of them is from the surface (less the offset), mm.
     pub farthest_apart: f64,
     /// The first that was not judged.
     pub first_not_judged: Option<BlockId>,
@@ -219,7 +219,7 @@ fn first_pieces(way: &BlockPath<'_>) -> usize {
 }
 
 /// Distance from the nearest point of the surface, less the offset: it changes no faster than the tip moves, and between two moments the
-/// tip is within Q h2 / 8 of its chord (kinematics notes 3).
+/// tip is within Q h2 / 8 of its chord (docs/kinematics.md#between-the-ends-of-a-block).
 struct FromSurface<'a> {
     way: &'a BlockPath<'a>,
     required: &'a Required,

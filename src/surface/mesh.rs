@@ -22,7 +22,7 @@ pub struct Uv {
 /// The nearest point of a required surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
-    /// mm; the truth lies within [`Required::off`] of it.
+    /// mm; the true surface is within [`Required::off`] of it.
     pub distance: f64,
     /// Point, mm.
     pub point: Vec3,

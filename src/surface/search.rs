@@ -2,14 +2,14 @@
 use core::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// A function on a block: its value never changes faster than the way allows.
+/// A function on a block: its value never changes faster than the path allows.
 pub(crate) trait Climb {
     /// What is kept of a sample.
     type Sample: Copy;
     /// The sample at `t`, 0..=1, and its value.
     fn sample(&self, t: f64) -> (Self::Sample, f64);
-    /// How far, at most, the way runs from one sample to another `h` later; and how much more a value between them may be than a
-    /// straight way explains.
+    /// The largest distance that the path covers from one sample to another `h` later; and how much more a value between them may be than a
+    /// straight path explains.
     fn way(&self, from: &Self::Sample, to: &Self::Sample, h: f64) -> (f64, f64);
 }
 

@@ -72,7 +72,7 @@ fn cell(parameter: f64, count: usize) -> (usize, f64) {
     (index, place - index as f64)
 }
 
-/// A linear triangle with legs hu, hv lies off a surface by at most (hu2 |S_uu| + 2 hu hv |S_uv| + hv2 |S_vv|) / 8 (Filip, Magedson and
+/// A linear triangle with legs hu, hv is off a surface by at most (hu2 |S_uu| + 2 hu hv |S_uv| + hv2 |S_vv|) / 8 (Filip, Magedson and
 /// Markot, 1986).
 fn cut_patch(sheet: &Sheet, patch: &Patch, tolerance: f64, most: usize) -> Cut {
     let (uu, uv, vv) = patch.bends();
@@ -159,7 +159,7 @@ mod tests {
         assert_eq!(sheet.point(1.0, 1.0), Vec3::new(20.0, 5.0, 0.0));
     }
 
-    /// Every point of a sheet lies as near to the triangles as the cut claims, measured along the parameters.
+    /// Every point of a sheet is as near to the triangles as the cut claims, measured along the parameters.
     #[test]
     fn cuts_are_as_near_as_they_say() {
         for sheet in [grid(), Sheet::Patch(Patch::new(saddle_net()))] {

@@ -66,7 +66,7 @@ const TEXT_WORDS: [&str; 8] = [
     "PARTNO", "PPRINT", "REMARK", "INSERT", "TEXT", "TITLES", "LETTER", "COMMENT",
 ];
 
-/// Lexes `source`, whose first byte stands at offset 0 of the file if `at_start`, into `out`.
+/// Lexes `source`, whose first byte is at offset 0 of the file if `at_start`, into `out`.
 pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut Builder) {
     let mut lexer = Raw::lexer(source);
     if at_start && source.starts_with(b"\xEF\xBB\xBF") {
@@ -154,7 +154,7 @@ impl Special<'_> {
         memchr::memchr2(b'\n', b'\r', &self.source[from..]).map_or(self.source.len(), |at| from + at)
     }
 
-    /// Behind the line end at `at`, if one is there.
+    /// After the line end at `at`, if one is there.
     fn behind_newline(&self, at: usize) -> usize {
         match &self.source[at..] {
             [b'\r', b'\n', ..] => at + 2,
@@ -226,7 +226,7 @@ impl Special<'_> {
         end
     }
 
-    /// `$` and what stands behind it on the line: the statement goes on.
+    /// `$` and what follows it on the line: the statement continues.
     fn dollar(&mut self) -> usize {
         let end = self.behind_newline(self.line_end(self.end));
         self.push(TokenKind::Continuation);

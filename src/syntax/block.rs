@@ -18,7 +18,7 @@ pub enum Address {
     /// A letter with a number of its own before `=`: `A3=`, `S2=`, `R1=` (letter upper case, number).
     Indexed(u8, u16),
     /// Anything longer, with the range of its text: several letters before `=`, digits and index included (`CR=`, `MX1=`,
-    /// `VAR5[R2]=`, `SPOS[1]=`), a parameter that is assigned (`#1=`, `#<name>=`, `#[#1+2]=`), and letters behind a comma
+    /// `VAR5[R2]=`, `SPOS[1]=`), a parameter that is assigned (`#1=`, `#<name>=`, `#[#1+2]=`), and letters after a comma
     /// (`,R5` has the address `,R`: it is no R word).
     Named(TextRange),
 }
@@ -58,9 +58,9 @@ pub struct Word {
 pub struct Call {
     /// The name's text, digits included (`CYCLE800`; but `GOTO` of `GOTO100`, `DO` of `DO1`).
     pub name: TextRange,
-    /// Inside of the parentheses, if there are any. Of a name without parentheses: the brackets behind it, with their marks
+    /// Inside of the parentheses, if there are any. Of a name without parentheses: the brackets after it, with their marks
     /// (`call [1] [2]`); the condition of `IF`, `WHILE`, `UNTIL`; the target of `GOTO`; the number of `DO1`; the text of
-    /// `CALL "NAME"`; the rest of the block behind `DEF`, `PROC`, `FOR`, `CASE`.
+    /// `CALL "NAME"`; the rest of the block after `DEF`, `PROC`, `FOR`, `CASE`.
     pub arguments: Option<TextRange>,
     /// Bytes of the whole.
     pub range: TextRange,
@@ -136,7 +136,7 @@ impl<'p> Block<'p> {
         self.items()
             .filter_map(|item| if let Item::Word(word) = item { Some(word) } else { None })
     }
-    /// The block number as written (`N2930`), if there is one. Marks and labels may stand in front of it.
+    /// The block number as written (`N2930`), if there is one. Marks and labels may precede it.
     pub fn number(&self) -> Option<TextRange> {
         let first = self
             .items()

@@ -3,7 +3,7 @@ use crate::scan::Scan;
 use crate::straight::Course;
 use crate::{Format, LexOptions, SyntaxError, TokenKind, TokenTable, items, record};
 
-/// So many tokens of the fast way are held back, and go to the table in one piece.
+/// This many tokens of the fast path are held back, and go to the table in one piece.
 pub(crate) const HELD: usize = 512;
 
 /// Tokens that are not in the table yet.
@@ -78,7 +78,7 @@ impl Builder {
             .all(|&kind| kind == TokenKind::Blank)
     }
 
-    /// Ends the block at work behind the last token, which ends at byte `end`.
+    /// Ends the block at work after the last token, which ends at byte `end`.
     #[inline]
     pub(crate) fn end_block(&mut self, source: &[u8], options: LexOptions, end: u32) {
         if !self.course.end() {

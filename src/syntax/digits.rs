@@ -5,7 +5,7 @@ const ZEROS: u64 = 0x3030_3030_3030_3030;
 /// The highest bit of each of eight bytes.
 const TOPS: u64 = 0x8080_8080_8080_8080;
 
-/// Eight bytes, the first of them lowest, in which a digit is its value: the others are told by [`not_digits`].
+/// Eight bytes, the first of them lowest, in which a digit is its value: the others are found by [`not_digits`].
 #[inline]
 #[must_use]
 pub const fn digits(bytes: [u8; 8]) -> u64 {
@@ -19,11 +19,11 @@ pub const fn as_digit(byte: u8) -> u64 {
     byte as u64 ^ 0x30
 }
 
-/// The highest bit of each byte of [`digits`] that is none. What it says of bytes behind one above `z` may be wrong.
+/// The highest bit of each byte of [`digits`] that is none. What it says of bytes after one above `z` may be wrong.
 #[inline]
 #[must_use]
 pub const fn not_digits(digits: u64) -> u64 {
-    // 10 and more reach the highest bit; a sum that overflows, of a byte that has it already, spoils only what stands behind
+    // 10 and more reach the highest bit; a sum that overflows, of a byte that has it already, spoils only what follows
     (digits.wrapping_add(0x7676_7676_7676_7676) | digits) & TOPS
 }
 
@@ -53,7 +53,7 @@ mod tests {
                 let expected = if byte.is_ascii_digit() { 8 } else { place };
                 assert_eq!(other.trailing_zeros() as usize / 8, expected, "{byte} {place}");
                 assert_eq!(digits(bytes) >> (8 * place) & 0xff, as_digit(byte));
-                // up to a letter it says nothing wrong of what stands behind it
+                // up to a letter it says nothing wrong of what follows it
                 let behind = other & other.wrapping_sub(1);
                 assert!(byte > b'z' || behind == 0, "{byte} {place}");
             }

@@ -1,4 +1,4 @@
-//! Edits of a text, the smallest unit in which a rewrite speaks.
+//! Edits of a text, the smallest unit of a rewrite.
 use crate::TextRange;
 
 /// Replace the bytes of `range` by `new_text`.
@@ -6,7 +6,7 @@ use crate::TextRange;
 pub struct TextEdit {
     /// Bytes to replace.
     pub range: TextRange,
-    /// What stands there afterwards.
+    /// The text afterwards.
     pub new_text: String,
 }
 

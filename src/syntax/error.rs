@@ -12,7 +12,7 @@ pub enum SyntaxErrorKind {
     UnexpectedCharacter,
     /// A letter has no value. Range: the letter.
     WordWithoutValue,
-    /// A number stands where no letter owns it. Range: the number.
+    /// A number without a letter. Range: the number.
     NumberWithoutLetter,
     /// Not a number: two points, a sign without digits, more digits than can be held exactly. Range: the number's text.
     BadNumber,
@@ -20,7 +20,7 @@ pub enum SyntaxErrorKind {
     DecimalComma,
     /// Blanks inside a number in a dialect that does not allow them. Range: the number.
     BlankInNumber,
-    /// `=`, an operator, `#` or an opening bracket without a value behind it. Range: that sign.
+    /// `=`, an operator, `#` or an opening bracket without a value after it. Range: that sign.
     MissingValue,
     /// A bracket or parenthesis without its partner. Range: the bracket.
     UnbalancedBracket,
@@ -28,7 +28,7 @@ pub enum SyntaxErrorKind {
     UnclosedText,
     /// APT: a statement is continued by `$` at the end of the file. Range: the `$`.
     DanglingContinuation,
-    /// APT: a statement does not begin with a major word, a comma or slash stands where it may not (range: that place), or GOTO has
+    /// APT: a statement does not begin with a major word, a comma or slash is not allowed there (range: that place), or GOTO has
     /// not the 3, 6 or 7 numbers of a point, a tool axis and a feed (range: the statement).
     BadRecord,
     /// The file is larger than 4 GiB: only the part before is parsed. Range: its last byte.

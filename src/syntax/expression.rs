@@ -29,7 +29,7 @@ pub(crate) fn is_function(text: &[u8]) -> bool {
 }
 
 impl Scan<'_> {
-    /// The token behind the name that starts at `at`: `CYCLE800` and `VAR5B` are one name each.
+    /// The token after the name that starts at `at`: `CYCLE800` and `VAR5B` are one name each.
     pub(crate) fn name_end(&self, at: TokenId) -> TokenId {
         let mut next = at + 1;
         while matches!(
@@ -45,7 +45,7 @@ impl Scan<'_> {
         next
     }
 
-    /// The token behind a binary operator at `at`, if there is one.
+    /// The token after a binary operator at `at`, if there is one.
     pub(crate) fn binary(&self, at: TokenId) -> Option<TokenId> {
         let next = self.kind(at + 1);
         let length = match (self.kind(at), next) {
@@ -67,7 +67,7 @@ impl Scan<'_> {
         Some(at + length)
     }
 
-    /// The token behind the parameter that starts with `#` at `at`: `#1`, `##2`, `#[1+2]`, `#<name>`.
+    /// The token after the parameter that starts with `#` at `at`: `#1`, `##2`, `#[1+2]`, `#<name>`.
     pub(crate) fn parameter(&self, at: TokenId, sink: &mut impl Sink) -> TokenId {
         let mut next = at;
         while self.kind(next) == TokenKind::Hash {
@@ -95,7 +95,7 @@ impl Scan<'_> {
         }
     }
 
-    /// The token behind one operand at `at`, signs not included; `None` if there is none.
+    /// The token after one operand at `at`, signs not included; `None` if there is none.
     pub(crate) fn operand(&self, at: TokenId, sink: &mut impl Sink) -> Option<TokenId> {
         Some(match self.kind(at) {
             TokenKind::Number => self.exponent(at + 1).unwrap_or(at + 1),
@@ -115,7 +115,7 @@ impl Scan<'_> {
         })
     }
 
-    /// Behind an index `[..]` at `at`, if there is one.
+    /// After an index `[..]` at `at`, if there is one.
     pub(crate) fn index(&self, at: TokenId, sink: &mut impl Sink) -> TokenId {
         let bracket = self.skip_blank(at);
         if self.kind(bracket) == TokenKind::BracketOpen {
@@ -125,7 +125,7 @@ impl Scan<'_> {
         }
     }
 
-    /// Behind the exponent `EX-3` of a number (Sinumerik), if one stands at `at`.
+    /// After the exponent `EX-3` of a number (Sinumerik), if one stands at `at`.
     fn exponent(&self, at: TokenId) -> Option<TokenId> {
         if self.kind(at) != TokenKind::Name || !self.text(at).eq_ignore_ascii_case(b"EX") {
             return None;
@@ -135,7 +135,7 @@ impl Scan<'_> {
         (self.kind(digits) == TokenKind::Number).then_some(digits + 1)
     }
 
-    /// Behind signs and `NOT` at `at`.
+    /// After signs and `NOT` at `at`.
     fn unary(&self, mut at: TokenId) -> TokenId {
         loop {
             let signed = match self.kind(at) {
@@ -150,8 +150,8 @@ impl Scan<'_> {
         }
     }
 
-    /// The token behind the expression at `at`; `None` if not even one operand is there. `owner` is the operator or
-    /// `=` in front of it, which is reported if its value is missing.
+    /// The token after the expression at `at`; `None` if not even one operand is there. `owner` is the operator or
+    /// `=` before it, which is reported if its value is missing.
     pub(crate) fn expression(&self, at: TokenId, owner: TextRange, sink: &mut impl Sink) -> Option<TokenId> {
         let (mut owner, mut at) = (owner, self.skip_blank(at));
         let mut behind = None;
@@ -173,12 +173,12 @@ impl Scan<'_> {
         }
     }
 
-    /// Whether a single `=` stands at `at`.
+    /// Whether there is a single `=` at `at`.
     pub(crate) fn assigns(&self, at: TokenId) -> bool {
         self.kind(at) == TokenKind::Equals && self.kind(at + 1) != TokenKind::Equals
     }
 
-    /// Whether the next word of the block starts at `at`, behind a blank or with its own `=`: no operand then.
+    /// Whether the next word of the block starts at `at`, after a blank or with its own `=`: no operand then.
     fn starts_word(&self, at: TokenId, equals: TokenId) -> bool {
         let behind = match self.kind(at) {
             TokenKind::Word
@@ -193,7 +193,7 @@ impl Scan<'_> {
         self.assigns(self.skip_blank(behind))
     }
 
-    /// The value behind `=` at `equals`, its range, and the token behind it.
+    /// The value after `=` at `equals`, its range, and the token after it.
     pub(crate) fn assigned(&self, equals: TokenId, sink: &mut impl Sink) -> (Value, TextRange, TokenId) {
         let at = self.skip_blank(equals + 1);
         if self.kind(at) == TokenKind::Text
@@ -243,7 +243,7 @@ impl Scan<'_> {
         Some((self.number(range, sink), range, digits + 1))
     }
 
-    /// Behind `,5` at `at` directly behind a number that starts at byte `start`: reported as a decimal comma.
+    /// After `,5` at `at` directly after a number that starts at byte `start`: reported as a decimal comma.
     pub(crate) fn decimal_comma(&self, at: TokenId, start: u32, sink: &mut impl Sink) -> Option<TokenId> {
         let mut end = at;
         while self.kind(end) == TokenKind::Comma && self.kind(end + 1) == TokenKind::Number {
@@ -259,7 +259,7 @@ impl Scan<'_> {
         Some(end)
     }
 
-    /// A target such as `DC(90)` at `at`: a known name around one plain number, with no operator behind it.
+    /// A target such as `DC(90)` at `at`: a known name around one plain number, with no operator after it.
     fn target(&self, at: TokenId) -> Option<(Value, TextRange, TokenId)> {
         if self.kind(at) != TokenKind::Name || !is_one_of(self.text(at), &TARGETS) {
             return None;

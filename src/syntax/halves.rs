@@ -19,7 +19,7 @@ pub fn parse_on(source: Vec<u8>, options: LexOptions, threads: usize) -> Program
     }
 }
 
-/// Parses what is before the byte `cut`, behind a line feed, and what is behind it side by side.
+/// Parses what is before the byte `cut`, after a line feed, and what is behind it side by side.
 fn in_halves(source: Vec<u8>, options: LexOptions, cut: usize) -> Program {
     if source.len() >= u32::MAX as usize {
         return parse(source, options);
@@ -40,7 +40,7 @@ fn in_halves(source: Vec<u8>, options: LexOptions, cut: usize) -> Program {
         }
     });
     if out.table.kinds.last() != Some(&TokenKind::Newline) {
-        // what began in the first half goes on behind it
+        // what began in the first half continues after it
         return parse(source, options);
     }
     join(&mut out, &behind, cut as u32);
@@ -71,7 +71,7 @@ mod tests {
     use crate::{Format, LexOptions, parse};
     use proptest::prelude::*;
 
-    /// Cut behind each of its line feeds, a text is parsed as in one piece.
+    /// Cut after each of its line feeds, a text is parsed as in one piece.
     fn compare(source: &[u8]) -> Result<(), TestCaseError> {
         let core = LexOptions::default();
         let no_comments = LexOptions {

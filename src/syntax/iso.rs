@@ -72,12 +72,12 @@ enum Raw {
     Semicolon,
 }
 
-/// Lexes `source`, whose first byte stands at offset 0 of the file if `at_start`, into `out`.
+/// Lexes `source`, whose first byte is at offset 0 of the file if `at_start`, into `out`.
 pub(crate) fn lex(source: &[u8], options: LexOptions, at_start: bool, out: &mut Builder) {
     lex_with(source, options, at_start, out, plain::lex);
 }
 
-/// The same by the general rules alone: what the fast way is compared with.
+/// The same by the general rules alone: what the fast path is compared with.
 #[cfg(test)]
 pub(crate) fn lex_by_rules(source: &[u8], options: LexOptions, at_start: bool, out: &mut Builder) {
     lex_with(source, options, at_start, out, |_, at, _, _| at);
@@ -172,7 +172,7 @@ fn settled(raw: Raw) -> Option<TokenKind> {
     })
 }
 
-/// A token whose end or kind depends on what stands around it, or on the options.
+/// A token whose end or kind depends on its neighbours, or on the options.
 struct Special<'a> {
     source: &'a [u8],
     options: LexOptions,
@@ -219,7 +219,7 @@ impl Special<'_> {
         self.end
     }
 
-    /// A number behind a word or number, with or without blanks between, belongs to it: `X1 2`, `X1.2.3`.
+    /// A number after a word or number, with or without blanks between, belongs to it: `X1 2`, `X1.2.3`.
     fn number(&mut self) -> usize {
         let kinds = &mut self.out.table.kinds;
         let spaced = kinds.ends_with(&[TokenKind::Word, TokenKind::Blank])
@@ -282,7 +282,7 @@ impl Special<'_> {
         close
     }
 
-    /// `%` at the start of a line, with the program name behind it as one token: the name may hold anything.
+    /// `%` at the start of a line, with the program name after it as one token: the name may hold anything.
     fn percent(&mut self) -> usize {
         let first = self.out.block_is_empty();
         self.push(TokenKind::Percent);

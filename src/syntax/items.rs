@@ -10,9 +10,9 @@ use crate::{Address, Comment, Decimal, Item, SyntaxError, TextRange, TokenId, To
 pub(crate) enum Stage {
     /// Nothing but block delete so far.
     Start,
-    /// Behind the block number.
+    /// After the block number.
     Numbered,
-    /// Behind anything else.
+    /// After anything else.
     Inside,
 }
 
@@ -88,7 +88,7 @@ impl<'p> Items<'p> {
         None
     }
 
-    /// A word in one piece with a short number, and no `=` or comma behind it: nearly every token.
+    /// A word in one piece with a short number, and no `=` or comma after it: nearly every token.
     #[inline]
     fn plain_word(&mut self, at: TokenId) -> Option<Word> {
         let scan = self.scan;
@@ -139,7 +139,7 @@ impl<'p> Items<'p> {
         self.plain_word(at).map_or_else(|| self.odd_word(at, sink), Item::Word)
     }
 
-    /// A word with `=` or a comma behind it, or with an odd number.
+    /// A word with `=` or a comma after it, or with an odd number.
     fn odd_word(&mut self, at: TokenId, sink: &mut impl Sink) -> Item {
         let scan = self.scan;
         let range = scan.range(at);
@@ -286,7 +286,7 @@ impl<'p> Items<'p> {
         item
     }
 
-    /// A letter without a number behind it: what else can be its value? `from` is the first token of its word.
+    /// A letter without a number after it: what else can be its value? `from` is the first token of its word.
     fn letter(&mut self, from: TokenId, at: TokenId, sink: &mut impl Sink) -> Item {
         let scan = self.scan;
         let address = Address::Letter(scan.text(at)[0].to_ascii_uppercase());
@@ -338,7 +338,7 @@ impl<'p> Items<'p> {
         })
     }
 
-    /// Behind `SQRT[2]` or `ATAN[1]/[2]` at `at`.
+    /// After `SQRT[2]` or `ATAN[1]/[2]` at `at`.
     fn function(&self, at: TokenId, sink: &mut impl Sink) -> Option<TokenId> {
         let scan = self.scan;
         let open = scan.skip_blank(scan.name_end(at));
@@ -353,7 +353,7 @@ impl<'p> Items<'p> {
         Some(end)
     }
 
-    /// Behind one sign and its operand that is no number: `-#1`, `-[1+2]`, `-SIN[30]`.
+    /// After one sign and its operand that is no number: `-#1`, `-[1+2]`, `-SIN[30]`.
     fn signed(&self, at: TokenId, sink: &mut impl Sink) -> Option<TokenId> {
         let next = self.scan.skip_blank(at + 1);
         match self.scan.kind(next) {

@@ -1,11 +1,11 @@
 //! How long numbers and words are, eight bytes at a time.
 use crate::digits::{as_digit, digits, not_digits};
 
-/// So many bytes show a word whole: letter, sign, sixteen of its number, and what stands behind it.
+/// This many bytes show a word whole: letter, sign, sixteen of its number, and what follows it.
 pub(crate) const WHOLE: usize = 20;
 
 /// How long the word is with which these bytes begin, where it is a letter and a number that shows whole; `None` elsewhere. Two bytes more
-/// stand behind it.
+/// come after it.
 #[inline]
 pub(crate) fn whole(word: &[u8; WHOLE]) -> Option<usize> {
     let [letter, sign, ..] = *word;
@@ -21,7 +21,7 @@ pub(crate) fn whole(word: &[u8; WHOLE]) -> Option<usize> {
     let first = 1 + usize::from(signed);
     let bytes = digits(bytes);
     let other = not_digits(bytes);
-    // bits in front of the first byte that is no digit: 0, 8, .. 56
+    // bits before the first byte that is no digit: 0, 8, .. 56
     let whole = other.trailing_zeros() & 0x38;
     if other == 0 {
         return None;
@@ -40,7 +40,7 @@ pub(crate) fn whole(word: &[u8; WHOLE]) -> Option<usize> {
     (more != 0 && end > whole + 8).then_some(first + end as usize / 8)
 }
 
-/// Behind the number at `first`, digits with perhaps a point and digits behind it, where all of it shows in eight bytes; `None` elsewhere.
+/// After the number at `first`, digits with perhaps a point and digits after it, where all of it shows in eight bytes; `None` elsewhere.
 #[inline]
 pub(crate) fn short(source: &[u8], first: usize) -> Option<usize> {
     let bytes = digits(*source.get(first..)?.first_chunk()?);
@@ -48,7 +48,7 @@ pub(crate) fn short(source: &[u8], first: usize) -> Option<usize> {
     if other == 0 {
         return None;
     }
-    // bits in front of the first byte that is no digit: 0, 8, .. 56
+    // bits before the first byte that is no digit: 0, 8, .. 56
     let whole = other.trailing_zeros() & 0x38;
     if bytes >> whole & 0xff != as_digit(b'.') {
         return (whole > 0).then_some(first + whole as usize / 8);

@@ -87,7 +87,7 @@ impl Items<'_> {
         Some(self.call(at, at + 1, next, stop))
     }
 
-    /// Behind the text at `at`, with what is joined to it: `"PART_"<<R1`.
+    /// After the text at `at`, with what is joined to it: `"PART_"<<R1`.
     fn joined_text(&self, at: TokenId, sink: &mut impl Sink) -> Option<TokenId> {
         self.scan.expression(at, self.scan.range(at), sink)
     }

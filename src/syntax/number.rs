@@ -8,7 +8,7 @@ use core::fmt;
 pub struct Decimal {
     /// All digits with the sign (the sign of `-0` is not kept).
     pub mantissa: i64,
-    /// How many of the digits stand behind the point (negative for `1E6` in APT).
+    /// How many of the digits come after the point (negative for `1E6` in APT).
     pub scale: i16,
     /// Whether a decimal point is written.
     pub has_point: bool,

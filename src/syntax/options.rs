@@ -1,4 +1,4 @@
-//! What the lexer must be told before it can cut a text into tokens: the few lexical facts that differ per dialect.
+//! What the lexer must know before it can cut a text into tokens: the few lexical facts that differ per dialect.
 
 /// The family of notations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -20,7 +20,7 @@ pub struct LexOptions {
     pub semicolon_comment: bool,
     /// `/* ... */` is a comment, also over several lines (else it is lexed as one on its line, and reported).
     pub slash_star_comment: bool,
-    /// Blanks may stand inside a number (`X1 2` is X12, as RS274/NGC says); else that is reported as a bad number.
+    /// Blanks may be inside a number (`X1 2` is X12, as RS274/NGC says); otherwise that is reported as a bad number.
     pub blanks_in_numbers: bool,
 }
 

@@ -17,9 +17,9 @@ enum Class {
     Blank,
     LineFeed,
     Return,
-    /// A token of one byte, whatever stands around it: what it is, is in [`SIGNS`].
+    /// A token of one byte, whatever its neighbours: what it is, is in [`SIGNS`].
     Sign,
-    /// What stands behind it decides.
+    /// What follows it decides.
     Mark,
 }
 
@@ -55,7 +55,7 @@ const SIGNS: [(TokenKind, Sign); 256] = {
     signs
 };
 
-/// What a byte goes on with, as bits.
+/// What a byte continues with, as bits.
 const GOES_ON: [u8; 256] = {
     let mut goes_on = [0; 256];
     let mut byte = 0;
@@ -74,7 +74,7 @@ const NAME: u8 = 1;
 /// The lexer's blanks.
 const BLANK: u8 = 2;
 
-/// Behind the bytes from `at` on that go on with `what`.
+/// After the bytes from `at` on that continue with `what`.
 #[inline]
 fn behind(source: &[u8], mut at: usize, what: u8) -> usize {
     while at < source.len() && GOES_ON[usize::from(source[at])] & what != 0 {
@@ -83,7 +83,7 @@ fn behind(source: &[u8], mut at: usize, what: u8) -> usize {
     at
 }
 
-/// Behind the digits at `at`.
+/// After the digits at `at`.
 #[inline]
 fn digits(source: &[u8], mut at: usize) -> usize {
     while at < source.len() && source[at].wrapping_sub(b'0') < 10 {
@@ -169,7 +169,7 @@ impl Cut<'_> {
         self.count += 1;
     }
 
-    /// The blank at `at`, if one alone stands there, as most often behind a token; where it ends.
+    /// The blank at `at`, if one alone stands there, as most often after a token; where it ends.
     #[inline]
     fn blank(&mut self, source: &[u8], at: usize) -> usize {
         match source.get(at..) {
@@ -181,7 +181,7 @@ impl Cut<'_> {
         }
     }
 
-    /// Whether a number here may belong to the word, letter or number in front of it.
+    /// Whether a number here may belong to the word, letter or number before it.
     #[inline]
     fn may_go_on(&self) -> bool {
         let owns = |kind: TokenKind| matches!(kind, TokenKind::Word | TokenKind::Number | TokenKind::Letter);
@@ -205,7 +205,7 @@ impl Cut<'_> {
         self.count = 0;
     }
 
-    /// A line end behind `start`, and the end of its block.
+    /// A line end after `start`, and the end of its block.
     #[inline]
     fn line_end(&mut self, source: &[u8], options: LexOptions, start: usize, end: usize) {
         self.hold(TokenKind::Newline, start);
@@ -219,7 +219,7 @@ impl Cut<'_> {
     }
 }
 
-/// Lexes from `at` as far as tokens are plain; behind the last of them.
+/// Lexes from `at` as far as tokens are plain; after the last of them.
 pub(crate) fn lex(source: &[u8], at: usize, options: LexOptions, out: &mut Builder) -> usize {
     let cut = Cut {
         course: out.course,
@@ -271,7 +271,7 @@ fn lex_into<'o>(source: &[u8], mut at: usize, options: LexOptions, mut cut: Cut<
                 at = cut.blank(source, at + 1);
             }
             Class::Digit => {
-                // where it goes on with what stands in front of it, the lexer's own rules are asked
+                // where it continues with what precedes it, the lexer's own rules are asked
                 if cut.may_go_on() {
                     break;
                 }
@@ -341,7 +341,7 @@ fn lettered(source: &[u8], at: usize, cut: &mut Cut) -> Option<usize> {
     Some(end)
 }
 
-/// Behind `<name>` at `at`.
+/// After `<name>` at `at`.
 #[inline]
 fn angled(source: &[u8], at: usize) -> Option<usize> {
     let mut end = at + 1;
@@ -354,7 +354,7 @@ fn angled(source: &[u8], at: usize) -> Option<usize> {
     }
 }
 
-/// Behind the comment that opens at `at` and is closed on its line, with no other inside.
+/// After the comment that opens at `at` and is closed on its line, with no other inside.
 #[inline]
 fn comment(source: &[u8], at: usize, options: LexOptions) -> Option<usize> {
     if !options.paren_comment {
@@ -365,7 +365,7 @@ fn comment(source: &[u8], at: usize, options: LexOptions) -> Option<usize> {
     (rest[length] == b')' && !rest[..length].contains(&b'\r')).then_some(at + length + 2)
 }
 
-/// Behind a name of letters at `at`; `None` where it is one letter, or digits follow and may belong to it.
+/// After a name of letters at `at`; `None` where it is one letter, or digits follow and may belong to it.
 #[inline]
 fn name(source: &[u8], at: usize) -> Option<usize> {
     let end = behind(source, at + 1, NAME);

@@ -41,7 +41,7 @@ fn parse_up_to(source: Vec<u8>, options: LexOptions, limit: u32) -> Program {
     Program::of(source, options, out)
 }
 
-/// So many bytes of a longer file say how much room its tokens need.
+/// This many bytes of a longer file say how much room its tokens need.
 const SAMPLE: usize = 1 << 14;
 
 /// Tables with room for the tokens of `source`, as many per byte as in a piece from its middle: growing them would copy them, and

@@ -201,7 +201,7 @@ impl<'p> Arguments<'p> {
         }
     }
 
-    /// A comma with nothing behind it is reported.
+    /// A comma with nothing after it is reported.
     fn finish(&mut self, at: TokenId, sink: &mut impl Sink) -> Option<AptArg> {
         self.at = at;
         if self.any && self.separator == Some(TokenKind::Comma) {
@@ -253,7 +253,7 @@ impl<'p> Arguments<'p> {
         }
     }
 
-    /// Whether an operator stands in front of token `at`: `X=5`, `2*3`, `(A) 1` of an arithmetic IF.
+    /// Whether an operator precedes token `at`: `X=5`, `2*3`, `(A) 1` of an arithmetic IF.
     fn behind_operator(&self, at: TokenId) -> bool {
         let before = (0..at).rev().map(|id| self.scan.kind(id));
         let mut before = before.skip_while(|kind| matches!(kind, TokenKind::Blank | TokenKind::Continuation));
@@ -269,7 +269,7 @@ impl Iterator for Arguments<'_> {
     }
 }
 
-/// A number, with blanks behind its sign if need be.
+/// A number, with blanks after its sign if need be.
 fn number(bytes: &[u8]) -> Option<Decimal> {
     if let Some(number) = Decimal::parse(bytes) {
         return Some(number);

@@ -3,7 +3,7 @@ use crate::error::SyntaxErrorKind;
 use crate::sink::Sink;
 use crate::{Decimal, LexOptions, TextRange, TokenId, TokenKind, TokenTable, Value};
 
-/// The tokens up to `end`, and the text they stand for.
+/// The tokens up to `end`, and their text.
 #[derive(Clone, Copy)]
 pub(crate) struct Scan<'p> {
     pub(crate) source: &'p [u8],
@@ -71,7 +71,7 @@ impl<'p> Scan<'p> {
         at
     }
 
-    /// Behind the last token of `from..to` that is neither blank nor comment nor line end.
+    /// After the last token of `from..to` that is neither blank nor comment nor line end.
     pub(crate) fn trim(&self, from: TokenId, mut to: TokenId) -> TokenId {
         while to > from {
             match self.kind(to - 1) {
@@ -86,7 +86,7 @@ impl<'p> Scan<'p> {
         to
     }
 
-    /// The token behind a bracket group that opens at `at`. Without a partner the group ends with the block, and
+    /// The token after a bracket group that opens at `at`. Without a partner the group ends with the block, and
     /// that is reported.
     pub(crate) fn group(&self, at: TokenId, sink: &mut impl Sink) -> TokenId {
         let (mut brackets, mut parens) = (0u32, 0u32);
@@ -119,7 +119,7 @@ impl<'p> Scan<'p> {
         self.trim(at + 1, self.end)
     }
 
-    /// Whether token `at` is an operator that wants a value behind it.
+    /// Whether token `at` is an operator that wants a value after it.
     fn lacks_operand(&self, at: TokenId) -> bool {
         matches!(
             self.kind(at),

@@ -1,4 +1,4 @@
-//! Where the grammar reports problems: to a list while parsing, to nobody while reading.
+//! Where the grammar reports problems: to a list while parsing, nowhere while reading.
 use crate::{SyntaxError, SyntaxErrorKind, TextRange};
 
 /// Takes problems.

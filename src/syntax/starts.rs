@@ -1,7 +1,7 @@
 //! Where tokens start, in little more than one byte each.
 //!
 //! Fresh memory costs more than what is written there, and a start needs four bytes only in a long file. So sixteen neighbours share one
-//! start in full, that of the first of them, and each keeps how far behind it stands. Where that is more than a byte holds (long
+//! start in full, that of the first of them, and each keeps how far after it stands. Where that is more than a byte holds (long
 //! comments) the sixteen are kept in full elsewhere. Either way a start is found in a fixed number of steps.
 
 /// So many neighbours share one start in full.
@@ -12,11 +12,11 @@ const WIDE: u8 = 1;
 /// Start offsets that never go down.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Starts {
-    /// Of each token, how far it stands behind the first one of its group, bytes; of a wide group, [`WIDE`] and zeros.
+    /// Of each token, how far it comes after the first one of its group, bytes; of a wide group, [`WIDE`] and zeros.
     behind: Vec<u8>,
     /// Of each group, where its first token starts; of a wide one, its place in `wide`.
     groups: Vec<u32>,
-    /// The starts of groups that reach farther than a byte tells, zeros behind the last.
+    /// The starts of groups that reach farther than a byte tells, zeros after the last.
     wide: Vec<[u32; GROUP]>,
 }
 
@@ -118,7 +118,7 @@ impl Starts {
             self.push(start);
         }
     }
-    /// Adds a whole group behind whole groups.
+    /// Adds a whole group after whole groups.
     #[inline]
     fn push_group(&mut self, starts: &[u32; GROUP]) {
         let first = starts[0];

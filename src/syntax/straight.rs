@@ -1,11 +1,11 @@
 //! Blocks of expressions that show by the kinds of their tokens that nothing is wrong with them: most of every macro.
 //!
 //! A block that passes here has no problem by the grammar of the items, which need not read it then (a test compares both); any
-//! other is read. The fast way of the lexer takes one step per token, by a table.
+//! other is read. The fast path of the lexer takes one step per token, by a table.
 use crate::expression::{is_function, is_one_of};
 use crate::names::{CONDITIONS, NUMBERED};
 
-/// What a token is to the table: its kind, told apart further where the grammar does so.
+/// The class of a token in the table: its kind, refined where the grammar does so.
 #[derive(Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub(crate) enum Sign {
@@ -50,35 +50,35 @@ pub(crate) struct Course(u8);
 
 /// Between two items, where a block begins and may end.
 const BETWEEN: u8 = 0;
-/// Behind the letter of a value in brackets or a parameter.
+/// After the letter of a value in brackets or a parameter.
 const LETTER: u8 = 1;
-/// Behind the sign of such a value.
+/// After the sign of such a value.
 const SIGNED: u8 = 2;
-/// Behind the `#` of such a value.
+/// After the `#` of such a value.
 const LETTER_HASH: u8 = 3;
-/// Behind the `#` of a parameter that is assigned to.
+/// After the `#` of a parameter that is assigned to.
 const TARGET_HASH: u8 = 4;
-/// Behind a parameter that is assigned to.
+/// After a parameter that is assigned to.
 const TARGET: u8 = 5;
-/// Behind its `=`.
+/// After its `=`.
 const EQUALS: u8 = 6;
-/// Behind the sign of the value that is assigned.
+/// After the sign of the value that is assigned.
 const EQUALS_SIGNED: u8 = 7;
-/// Behind the `#` of the value that is assigned.
+/// After the `#` of the value that is assigned.
 const EQUALS_HASH: u8 = 8;
-/// Behind the function of the value that is assigned.
+/// After the function of the value that is assigned.
 const FUNCTION: u8 = 9;
-/// Behind a value: no operator may follow.
+/// After a value: no operator may follow.
 const VALUE: u8 = 10;
-/// Behind `IF` and its like.
+/// After `IF` and its like.
 const CONDITION: u8 = 11;
-/// Behind `DO` and its like, which may own a number.
+/// After `DO` and its like, which may own a number.
 const NUMBERED_NAME: u8 = 12;
-/// Behind `call`.
+/// After `call`.
 const CALL: u8 = 13;
-/// Behind the brackets of a call.
+/// After the brackets of a call.
 const CALLED: u8 = 14;
-/// Behind another name.
+/// After another name.
 const NAME: u8 = 15;
 /// Inside brackets, where a value is wanted (even) and where none is (odd), by what the brackets are: the value of a letter, ..
 const LETTER_GROUP: u8 = 16;
@@ -90,12 +90,12 @@ const VALUE_GROUP: u8 = 20;
 const CALL_GROUP: u8 = 22;
 /// The same with one bracket more around it is so much further on; blocks with more brackets than there is room for are odd.
 const DEEPER: u8 = 8;
-/// Behind the last of them.
+/// After the last of them.
 const TOO_DEEP: u8 = 248;
 /// Something that the grammar must look at.
 const ODD: u8 = 255;
 
-/// The state behind a token, by its sign and the state in front.
+/// The state after a token, by its sign and the state in front.
 static NEXT: [[u8; STATES]; SIGNS] = table();
 
 const fn table() -> [[u8; STATES]; SIGNS] {
@@ -112,7 +112,7 @@ const fn table() -> [[u8; STATES]; SIGNS] {
     next
 }
 
-/// The state behind the sign number `sign`.
+/// The state after the sign number `sign`.
 const fn behind(state: u8, sign: usize) -> u8 {
     const fn is(sign: usize, other: Sign) -> bool {
         sign == other as usize
@@ -124,7 +124,7 @@ const fn behind(state: u8, sign: usize) -> u8 {
         return inside(state, sign);
     }
     if is(sign, Sign::Blank) {
-        // directly behind a sign or a function its operand must stand
+        // directly after a sign or a function its operand must stand
         return match state {
             EQUALS_SIGNED | FUNCTION => ODD,
             _ => state,
@@ -161,7 +161,7 @@ const fn behind(state: u8, sign: usize) -> u8 {
     }
 }
 
-/// Behind a token between two items.
+/// After a token between two items.
 const fn item(sign: usize) -> u8 {
     const ENDS: [usize; 3] = [Sign::Newline as usize, Sign::Comment as usize, Sign::Word as usize];
     match sign {
@@ -182,7 +182,7 @@ const fn names(sign: usize) -> bool {
     sign >= Sign::Condition as usize
 }
 
-/// Behind the first token of a parameter or of brackets.
+/// After the first token of a parameter or of brackets.
 const fn operand(sign: usize, hash: u8, group: u8, end: u8) -> u8 {
     match sign {
         _ if sign == Sign::Hash as usize => hash,
@@ -192,7 +192,7 @@ const fn operand(sign: usize, hash: u8, group: u8, end: u8) -> u8 {
     }
 }
 
-/// Behind a token inside brackets: anything may stand there, but in front of each closing one a value must.
+/// After a token inside brackets: anything may stand there, but before each closing one a value must.
 const fn inside(state: u8, sign: usize) -> u8 {
     if state >= TOO_DEEP {
         return ODD;
@@ -213,7 +213,7 @@ const fn inside(state: u8, sign: usize) -> u8 {
             TOO_DEEP.. => ODD,
             deeper => deeper,
         },
-        // cut the fast way, a `#` alone has its value behind it
+        // cut the fast path, a `#` alone has its value after it
         _ if sign == Sign::PlusMinus as usize || sign == Sign::StarSlash as usize || sign == Sign::Equals as usize => {
             group
         }
@@ -249,13 +249,13 @@ impl Sign {
 }
 
 impl Course {
-    /// Behind a token.
+    /// After a token.
     #[inline]
     pub(crate) fn pass(&mut self, sign: Sign) {
         self.0 = NEXT[sign as usize][usize::from(self.0)];
     }
 
-    /// Behind a name.
+    /// After a name.
     #[inline]
     pub(crate) fn name(&mut self, text: &[u8]) {
         let sign = match self.0 {
@@ -272,7 +272,7 @@ impl Course {
         self.0 == BETWEEN
     }
 
-    /// Behind a token that the grammar must look at.
+    /// After a token that the grammar must look at.
     #[inline]
     pub(crate) fn odd(&mut self) {
         self.0 = ODD;

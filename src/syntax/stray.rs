@@ -1,4 +1,4 @@
-//! What stands in a block without belonging to a word or name.
+//! Text in a block that does not belong to a word or name.
 use crate::error::SyntaxErrorKind;
 use crate::items::Items;
 use crate::sink::Sink;
@@ -44,7 +44,7 @@ impl Items<'_> {
             }
             TokenKind::Text if is_unclosed(scan.text(at)) => self.silent(at, at + 1),
             _ => {
-                // One problem for a run of them, such as the dashes behind a comment that ended too early.
+                // One problem for a run of them, such as the dashes after a comment that ended too early.
                 let mut end = at + 1;
                 while self.is_stray(end) {
                     end += 1;
@@ -55,7 +55,7 @@ impl Items<'_> {
         }
     }
 
-    /// Behind `<NAME>` at `at`: nothing but letters, digits and `-+_.` between.
+    /// After `<NAME>` at `at`: nothing but letters, digits and `-+_.` between.
     fn bracketed_name(&self, at: TokenId) -> Option<TokenId> {
         let scan = self.scan;
         let mut end = at + 1;
@@ -75,7 +75,7 @@ impl Items<'_> {
         self.silent(from, to)
     }
 
-    /// Whether the token at `at` can only be out of place, directly behind another one.
+    /// Whether the token at `at` can only be out of place, directly after another one.
     fn is_stray(&self, at: TokenId) -> bool {
         match self.scan.kind(at) {
             TokenKind::Plus | TokenKind::Minus => self.scan.kind(at + 1) != TokenKind::Number,

@@ -10,10 +10,10 @@ pub enum TokenKind {
     Newline,
     /// A letter with its number in one piece: `G1`, `X-.5`, `x 1.5`; also `@1` and `^30` (polar words), and broken numbers (`X1.2.3`).
     Word,
-    /// A single letter (or `@`, `^`) without a number behind it: the `X` of `X=R1`, `X#1`, `X[1+2]`.
+    /// A single letter (or `@`, `^`) without a number after it: the `X` of `X=R1`, `X#1`, `X[1+2]`.
     Letter,
     /// Two or more letters: `TRAORI`, `CYCLE` of `CYCLE800`, `GOTO`. With its digits where a `_` or a leading `$` shows that they
-    /// belong to it: `_X1_HOME`, `$P_AXN1`. Also the program name behind `%`. APT: any identifier, digits included.
+    /// belong to it: `_X1_HOME`, `$P_AXN1`. Also the program name after `%`. APT: any identifier, digits included.
     Name,
     /// A number that follows no letter directly.
     Number,
@@ -39,7 +39,7 @@ pub enum TokenKind {
     Plus,
     /// `-`
     Minus,
-    /// `<`; behind the letter of an O word the whole name: `<name>` of `o<name> call`
+    /// `<`; after the letter of an O word the whole name: `<name>` of `o<name> call`
     Less,
     /// `>`
     Greater,
@@ -53,7 +53,7 @@ pub enum TokenKind {
     Comment,
     /// A comment that is opened and not closed: reaches to the end of its line (`(`) or file (`/*`).
     UnclosedComment,
-    /// APT `$` and the rest of its line including the line end: the statement goes on.
+    /// APT `$` and the rest of its line including the line end: the statement continues.
     Continuation,
     /// APT text that follows PARTNO, PPRINT, REMARK, INSERT ... to the end of the line.
     FreeText,

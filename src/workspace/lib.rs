@@ -1,4 +1,4 @@
-//! Floor 6, beside rewrite: finds on disk what a program is checked with. Settings (`trunnion.toml`, looked for upward),
+//! Floor 7, beside rewrite: finds on disk what a program is checked with. Settings (`trunnion.toml`, looked for upward),
 //! machine (embedded or a file), dialect; and says why each was taken. The command line and the language server share it,
 //! so that both give the same verdict.
 //!

@@ -14,10 +14,8 @@ pub fn find_machine(name: &str, folder: Option<&Path>) -> Result<Machine, LoadEr
     let path = folder.map_or_else(|| PathBuf::from(name), |folder| folder.join(name));
     let is_file = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) || path.is_file();
     if !is_file {
-        let known = trunnion_machine::BUILTIN_MACHINES.join(", ");
-        return Err(LoadError::new(format!(
-            "no embedded machine is named `{name}` and no such file exists; embedded are {known}; or name a TOML file"
-        )));
+        let hint = trunnion_check::or_known(name, trunnion_machine::BUILTIN_MACHINES, "machines");
+        return Err(LoadError::new(format!("unknown machine `{name}`{hint}")));
     }
     let text = std::fs::read_to_string(&path)
         .map_err(|error| LoadError::file(&path, format!("cannot read the machine file: {error}")))?;

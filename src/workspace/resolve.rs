@@ -3,7 +3,7 @@ use crate::{LoadError, Subprograms, find_machine};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use trunnion_check::config::{FormatSettings, parse_tool_flag};
-use trunnion_check::{Config, RuleLevel, Settings};
+use trunnion_check::{Config, RuleLevel, Settings, did_you_mean, or_known, rule_names};
 use trunnion_dialect::{Dialect, Modeline};
 use trunnion_interp::{Library, Setup};
 use trunnion_machine::Machine;
@@ -88,9 +88,8 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let mut rules = config.rules.clone();
     for rule in &overrides.allow {
         if trunnion_check::rule(rule).is_none() {
-            return Err(LoadError::new(format!(
-                "--allow {rule}: no such rule; `trunnion rules` lists them"
-            )));
+            let hint = did_you_mean(rule, &rule_names(), "; `trunnion rules` lists all rules");
+            return Err(LoadError::new(format!("--allow {rule}: unknown rule{hint}")));
         }
         rules.push((rule.clone(), RuleLevel::Allow));
     }
@@ -111,10 +110,8 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let mut port_to = config.port_to.clone();
     for name in &overrides.port_to {
         if trunnion_dialect::builtin(name).is_none() {
-            let known = trunnion_dialect::BUILTIN_NAMES.join(", ");
-            return Err(LoadError::new(format!(
-                "--port-to {name}: no dialect has this name; known are {known}"
-            )));
+            let hint = or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
+            return Err(LoadError::new(format!("--port-to {name}: unknown dialect{hint}")));
         }
         port_to.push(name.clone());
     }
@@ -149,7 +146,7 @@ fn library(
         for (folder, span) in &config.subprogram_path {
             let folder = home.join(folder);
             if !folder.is_dir() {
-                let message = format!("there is no folder {}", folder.display());
+                let message = format!("folder {} does not exist", folder.display());
                 return Err(LoadError::at(file, text, Some(span), message));
             }
             folders.push(folder);
@@ -226,17 +223,15 @@ fn dialect_for(
     for (name, reason) in choices {
         let Some(name) = name else { continue };
         let Some(dialect) = trunnion_dialect::builtin(name) else {
-            let known = trunnion_dialect::BUILTIN_NAMES.join(", ");
-            return Err(LoadError::new(format!(
-                "no dialect is named `{name}` ({reason}); known are {known}"
-            )));
+            let hint = or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
+            return Err(LoadError::new(format!("unknown dialect `{name}` ({reason}){hint}")));
         };
         return Ok((dialect, reason.to_owned()));
     }
     if let (Some((name, span)), Some((file, text))) = (&config.dialect_table, config_file) {
         let path = file.parent().unwrap_or(Path::new("")).join(name);
         if !path.is_file() {
-            let message = format!("there is no file {}", path.display());
+            let message = format!("file {} does not exist", path.display());
             return Err(LoadError::at(file, text, Some(span), message));
         }
         return Ok((

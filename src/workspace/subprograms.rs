@@ -16,7 +16,7 @@ const MOST_ENTRIES: usize = 100_000;
 /// Extensions that are tried, in this order; the first is none.
 const EXTENSIONS: &[&str] = &["", "ngc", "nc", "tap", "mpf", "spf", "cnc", "eia", "gcode"];
 
-/// A folder that is searched, and what it holds once somebody asked.
+/// A folder that is searched, and its file names once they were needed.
 struct Folder {
     path: PathBuf,
     names: OnceLock<Vec<String>>,
@@ -109,17 +109,17 @@ fn stems(name: &str) -> Option<Vec<String>> {
     Some(stems)
 }
 
-/// The bytes of a file that lies in `folder` when links are followed; else why not.
+/// The bytes of a file that is in `folder` after links are followed; otherwise the reason.
 fn read(path: &Path, folder: &Path) -> Result<Arc<[u8]>, &'static str> {
     const UNREADABLE: &str = "cannot be read";
     let real = fs::canonicalize(path).map_err(|_| UNREADABLE)?;
     let home = fs::canonicalize(folder).map_err(|_| UNREADABLE)?;
     if !real.starts_with(home) {
-        return Err("is a link out of the folder");
+        return Err("is a link to outside the folder");
     }
     let file = File::open(real).map_err(|_| UNREADABLE)?;
     let mut bytes = Vec::new();
-    // one byte more than allowed tells that there is more
+    // one byte more than allowed shows that there is more
     file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|_| UNREADABLE)?;
     if bytes.len() as u64 > LARGEST {
         return Err("is larger than 64 MB");
@@ -229,7 +229,7 @@ mod tests {
             let searched = Subprograms::new([folder.path().join("subs")])
                 .load("link")
                 .expect_err("it leads out");
-            assert!(searched[0].contains("is a link out of the folder"), "{searched:?}");
+            assert!(searched[0].contains("is a link to outside the folder"), "{searched:?}");
         }
     }
 

@@ -169,7 +169,7 @@ fn every_run_gives_the_expected_text() {
     );
 }
 
-/// Two lines are the same but for the sign of a zero, or for a fourth decimal that a tie in the fifth rounded the other way: there the
+/// Two lines are the same but for the sign of a zero, or for a fourth decimal that a tie in the fifth rounded in the other direction: there the
 /// last bit of a double decides, which depends on the order of additions.
 fn same(a: &str, b: &str) -> bool {
     let (a, b) = (a.split([' ', ',', '(', ')']), b.split([' ', ',', '(', ')']));

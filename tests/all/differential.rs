@@ -93,7 +93,7 @@ fn ask(folder: &Path, case: &Case, who: Asked) -> Option<Answer> {
         .current_dir(folder)
         .env("HOME", folder);
     let output = command.output().ok()?;
-    // who is stopped has not written its parameters
+    // a stopped process has not written its parameters
     let ended = output.status.code() != Some(STOPPED);
     let parameters = (ended && case.has(PARAMETERS)).then(|| std::fs::read_to_string(folder.join(PARAMETERS)));
     let parameters = parameters.and_then(Result::ok);

@@ -1,8 +1,8 @@
-//! Pages that are made from the headers of source files: compared, or written anew under `UPDATE=1`.
+//! Pages that are made from the headers of source files: compared, or written again under `UPDATE=1`.
 use std::path::Path;
 
 /// Compares the pages (file name, text) with those in `folder` of the repository. Panics, naming the stale ones and `test`, the
-/// test file that writes them anew; a page that nothing makes any more is stale too.
+/// test file that writes them again; a page that nothing makes any more is stale too.
 pub(crate) fn assert_fresh(folder: &str, wanted: &[(String, String)], test: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let update = std::env::var_os("UPDATE").is_some();

@@ -19,7 +19,7 @@ fn page(rewrite: &Rewrite) -> String {
         .collect::<Vec<_>>()
         .join(", ");
     format!(
-        "<!-- made from src/rewrite/rewrites/{file}.rs -->\n# {}\n\n{body}\n\nMay cure: {cures}.\n",
+        "<!-- made from src/rewrite/rewrites/{file}.rs -->\n# {}\n\n{body}\n\nCan fix: {cures}.\n",
         rewrite.name
     )
 }

@@ -1,4 +1,4 @@
-//! The four guide-vane strategies on the Mikron UCP 710: the numbers of the paper of 2006 and of the kinematics notes.
+//! The four guide-vane strategies on the Mikron UCP 710: the numbers of the paper of 2006 and of docs/kinematics.md.
 //!
 //! Each strategy is five blocks, printed as Sinumerik words and as APT vectors. Angles deg, lengths mm, feeds mm/min.
 use std::fmt::Write;
@@ -10,7 +10,7 @@ use trunnion::machine::{Follower, Leg, Machine, Row, builtin as machine, row, ti
 use trunnion::syntax::parse;
 
 /// The five rows of a strategy: cut out of the sample program, and once more from the data set the samples were written
-/// around, where that is there (said aloud where it is not).
+/// around, where that exists (with a printed message where it does not).
 #[expect(clippy::print_stderr, reason = "a test that skips a part says so")]
 fn excerpts(strategy: u32, extension: &str) -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -24,7 +24,7 @@ fn excerpts(strategy: u32, extension: &str) -> Vec<String> {
     found
 }
 
-/// The printed rows of a sample: feed lines of the Sinumerik program, what stands between the dashes of the APT file.
+/// The printed rows of a sample: feed lines of the Sinumerik program, the lines between the dashes of the APT file.
 fn rows_of(sample: &str, extension: &str) -> String {
     let rows: Vec<&str> = if extension == "mpf" {
         sample.lines().filter(|line| line.contains(" G1 ")).collect()
@@ -98,7 +98,7 @@ fn rows(text: &str, name: &str) -> Vec<Row> {
     legs(text, name).iter().map(|leg| row(mikron(), leg)).collect()
 }
 
-/// The value behind a letter in each line of a Sinumerik excerpt.
+/// The value after a letter in each line of a Sinumerik excerpt.
 fn words(text: &str, letter: char) -> Vec<f64> {
     let word = |line: &str| {
         line.split_whitespace()

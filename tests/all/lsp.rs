@@ -76,7 +76,7 @@ fn hover_tells_joints_posture_and_reachable_feed() {
     for part in [
         "mikron-ucp710",
         "52.5950 deg",
-        "reachable feed 46 mm/min, limited by C",
+        "highest possible feed 46 mm/min, limited by C",
         "posture \u{2212}",
         "2000.0 mm/min",
         "**pole-flip**",
@@ -267,7 +267,7 @@ fn hover_inside_loops_and_subprograms_tells_of_the_first_time() {
     let mut at = |what: &str| hover(&mut client, uri, LOOP, LOOP.find(what).expect("there")).expect("an answer");
     // 1 * 10 in the first of three turns
     let text = at("g1 x#2");
-    assert!(text.contains("10.0000 mm") && !text.contains("is not run"), "{text}");
+    assert!(text.contains("10.0000 mm") && !text.contains("does not run"), "{text}");
     assert!(text.contains("500.0 mm/min"), "{text}");
     for (what, told) in [
         ("#1 * 10", "**#1** = 1 before this block"),
@@ -275,9 +275,9 @@ fn hover_inside_loops_and_subprograms_tells_of_the_first_time() {
         ("o101 while", "**o101**\n* line 7: while\n* line 10: endwhile"),
         (
             "o100 call",
-            "**o100** subprogram, begins in line 2\n* line 2: sub\n* line 5: endsub\n* line 8: call",
+            "**o100** subprogram, starts in line 2\n* line 2: sub\n* line 5: endsub\n* line 8: call",
         ),
-        ("o100 sub", "**o100** subprogram, begins in line 2"),
+        ("o100 sub", "**o100** subprogram, starts in line 2"),
         ("#<n> = [#<n> + 1]", "**#<n>** = 1 before this block, = 2 after it"),
         ("o101 endwhile", "* line 10: endwhile"),
         ("g0 x0", "Rapid"),
@@ -285,7 +285,7 @@ fn hover_inside_loops_and_subprograms_tells_of_the_first_time() {
         let text = at(what);
         assert!(text.contains(told), "{what}: {text}");
         assert!(
-            text.contains("**In force**") && !text.contains("is not run"),
+            text.contains("**Active:**") && !text.contains("does not run"),
             "{what}: {text}"
         );
     }

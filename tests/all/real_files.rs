@@ -82,7 +82,7 @@ fn programs_of_hobby_machines_and_plotters() {
     list("loose", "loose", &["ngc", "nc", "tap", "gcode", "txt"]);
 }
 
-/// What each rejected program of LinuxCNC's suite is told: rule, place, and that the missing end is told, too. The first line of the
+/// What is reported for each rejected program of LinuxCNC's suite: rule, place, and also the missing end. The first line of the
 /// program is the control's message.
 #[test]
 fn programs_that_linuxcnc_rejects() {

@@ -3,7 +3,7 @@
 use trunnion::check::fixture::Fixture;
 use trunnion::check::{Rule, rules};
 
-/// Rules that speak of faults which the interpreter of their example does not report yet: the examples are run, and what they lack
+/// Rules about faults which the interpreter of their example does not report yet: the examples are run, and what they lack
 /// is printed. Take a name out of the list once its example holds.
 const PENDING: &[&str] = &[];
 

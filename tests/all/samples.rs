@@ -42,7 +42,7 @@ fn check(program: &Path, machine: Option<&str>) -> (String, Found, Value) {
     (file["verdict"].as_str().expect("a text").to_owned(), found, file)
 }
 
-/// What the comments `expect RULE RULE` of a program announce for the lines behind them.
+/// What the comments `expect RULE RULE` of a program announce for the lines after them.
 fn expected(program: &Path) -> Found {
     let text = std::fs::read_to_string(program).expect("there");
     let mut expected = Found::new();

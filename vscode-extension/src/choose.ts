@@ -17,7 +17,7 @@ export async function chooseMachine(program: string): Promise<void> {
   const choices: Choice[] = [
     ...(await machines(program)),
     { label: '$(file) From a machine file...', value: FILE },
-    { label: '$(circle-slash) No machine', description: 'what trunnion.toml says, else none', value: '' },
+    { label: '$(circle-slash) No machine', description: 'use the machine in trunnion.toml, if any', value: '' },
   ];
   const picked = await ask(choices, current, 'The machine that runs the program');
   if (picked === FILE) {
@@ -39,7 +39,7 @@ export async function chooseDialect(context: vscode.ExtensionContext): Promise<v
     value,
   }));
   const current = vscode.workspace.getConfiguration('trunnion').get<string>('dialect', '');
-  await save('dialect', await ask(choices, current, 'The dialect the programs are written in'));
+  await save('dialect', await ask(choices, current, 'The dialect of the programs'));
 }
 
 async function machines(program: string): Promise<Choice[]> {

@@ -14,7 +14,7 @@ export function firstFolder(): string | undefined {
   return vscode.workspace.workspaceFolders?.find((folder) => folder.uri.scheme === 'file')?.uri.fsPath;
 }
 
-/** Looks for the program anew, so that a changed setting or a new installation is seen at the next start. */
+/** Looks for the program again, so that a changed setting or a new installation is seen at the next start. */
 export function findProgram(context: vscode.ExtensionContext): Found {
   const wanted = vscode.workspace.getConfiguration('trunnion').get<string>('path', '').trim();
   if (wanted !== '') {
@@ -26,7 +26,7 @@ export function findProgram(context: vscode.ExtensionContext): Found {
   const program = [bundled, ...onPath].find(isProgram);
   return program !== undefined
     ? { program }
-    : { problem: `No "${NAME}" program: this extension carries none (${bundled}) and there is none on PATH. Install it, or set trunnion.path.` };
+    : { problem: `No "${NAME}" program: this extension contains none (${bundled}) and there is none on PATH. Install it, or set trunnion.path.` };
 }
 
 function absolute(path: string): string {

@@ -93,7 +93,7 @@ proptest! {
     }
 }
 
-/// The followed point runs along Z through the axis of A while A turns: 2 D V is all that bends its way.
+/// The followed point moves along Z through the axis of A while A turns: only 2 D V bends its path.
 #[test]
 fn a_point_that_runs_outward_bends_twice() {
     let machine = builtin("mikron-ucp710").expect("built in");
@@ -122,7 +122,7 @@ fn a_point_above_the_tip_bends_by_its_own_distance() {
     assert!((path.bend().0 - wanted).abs() < 1e-9, "{} not {wanted}", path.bend().0);
 }
 
-/// Tips that swing to opposite sides of their chords: what lies between two moments is the sum of both bends.
+/// Tips that swing to opposite sides of their chords: between two moments the sum of both bends counts.
 #[test]
 fn two_paths_bend_apart_by_the_sum_of_their_bends() {
     let machine = builtin("mikron-ucp710").expect("built in");

@@ -131,7 +131,7 @@ fn a_forged_certificate_is_refused_though_its_seal_is_right() {
     assert!(
         witness
             .message
-            .starts_with("worst.path_axis_bound_deg.value: certificate says 0.001"),
+            .starts_with("worst.path_axis_bound_deg.value: the certificate says 0.001"),
         "{witness}"
     );
     let mut forged = certificate.clone();

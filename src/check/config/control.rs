@@ -155,7 +155,7 @@ fn bore_shift(way: &Spanned<String>) -> Result<(usize, f64), ConfigError> {
     if let [sign @ (b'+' | b'-'), axis @ b'X'..=b'Z'] = way.get_ref().as_bytes() {
         return Ok((usize::from(axis - b'X'), sense(char::from(*sign))));
     }
-    let message = format!("`bore_shift` is one of +X -X +Y -Y +Z -Z, not {:?}", way.get_ref());
+    let message = format!("`bore_shift` must be one of +X -X +Y -Y +Z -Z, not {:?}", way.get_ref());
     Err(at(way, message))
 }
 
@@ -169,11 +169,14 @@ fn position(point: &BTreeMap<Spanned<String>, Spanned<f64>>) -> Result<Position,
         let Some(axis) = axis else {
             return Err(at(
                 letter,
-                format!("`{}` is no axis: X Y Z A B C U V W", letter.get_ref()),
+                format!("`{}` is not an axis; the axes are X Y Z A B C U V W", letter.get_ref()),
             ));
         };
         if !value.get_ref().is_finite() {
-            return Err(at(value, "a reference point is a number of mm or degrees"));
+            return Err(at(
+                value,
+                "a reference point must be a number in mm or degrees: `X = 0.0`",
+            ));
         }
         position.set(usize::from(axis.0), *value.get_ref());
     }

@@ -1,6 +1,6 @@
 //! The text of `trunnion.toml`: every unknown key, unknown name and value out of range is an error with its place.
 use super::{Config, ConfigError, RuleLevel, TOLERANCES, tool};
-use crate::Severity;
+use crate::{Severity, did_you_mean, or_known};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -76,7 +76,7 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
         if config.dialect.is_some() {
             return Err(at(
                 &table,
-                "`dialect` and `dialect_table` exclude each other: the table itself says which dialect it `extends`",
+                "use either `dialect` or `dialect_table`, not both: the table itself names the dialect that it `extends`",
             ));
         }
         let span = table.span();
@@ -87,7 +87,10 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     }
     for folder in file.subprogram_path {
         if folder.get_ref().is_empty() {
-            return Err(at(&folder, "a folder has a name; `.` is the folder of this file"));
+            return Err(at(
+                &folder,
+                "the folder name is empty; write `.` for the folder of this file",
+            ));
         }
         let span = folder.span();
         config.subprogram_path.push((folder.into_inner(), span));
@@ -138,14 +141,13 @@ fn known_dialect(name: Spanned<String>) -> Result<String, ConfigError> {
     if trunnion_dialect::BUILTIN_NAMES.contains(&name.get_ref().as_str()) {
         return Ok(name.into_inner());
     }
-    let names = trunnion_dialect::BUILTIN_NAMES.join(", ");
-    Err(at(
-        &name,
-        format!(
-            "no dialect is called `{}`; there are {names}; a table of your own is named by `dialect_table`",
-            name.get_ref()
-        ),
-    ))
+    let known = trunnion_dialect::BUILTIN_NAMES;
+    let list = format!(
+        "; known dialects: {}; to use your own table, set `dialect_table`",
+        known.join(", ")
+    );
+    let hint = did_you_mean(name.get_ref(), known, &list);
+    Err(at(&name, format!("unknown dialect `{}`{hint}", name.get_ref())))
 }
 
 fn limit(key: &str, value: &Spanned<i64>, most: u64) -> Result<u64, ConfigError> {
@@ -160,10 +162,12 @@ fn limit(key: &str, value: &Spanned<i64>, most: u64) -> Result<u64, ConfigError>
 
 fn rule_level(name: &Spanned<String>, level: &Spanned<String>) -> Result<(String, RuleLevel), ConfigError> {
     if crate::rule(name.get_ref()).is_none() {
-        return Err(at(
-            name,
-            format!("no rule is called `{}`; `trunnion rules` lists them", name.get_ref()),
-        ));
+        let hint = did_you_mean(
+            name.get_ref(),
+            &crate::rule_names(),
+            "; `trunnion rules` lists all rules",
+        );
+        return Err(at(name, format!("unknown rule `{}`{hint}", name.get_ref())));
     }
     let value = match level.get_ref().as_str() {
         "allow" => RuleLevel::Allow,
@@ -173,7 +177,7 @@ fn rule_level(name: &Spanned<String>, level: &Spanned<String>) -> Result<(String
         other => {
             return Err(at(
                 level,
-                format!("no level is called `{other}`: allow, info, warning or error"),
+                format!("unknown level `{other}`; write allow, info, warning or error"),
             ));
         }
     };
@@ -184,16 +188,14 @@ fn tolerance(name: &Spanned<String>, value: &Spanned<f64>) -> Result<(String, f6
     let key = name.get_ref().as_str();
     if TOLERANCES.iter().all(|(known, _)| *known != key) {
         let names: Vec<&str> = TOLERANCES.iter().map(|(known, _)| *known).collect();
-        return Err(at(
-            name,
-            format!("no tolerance is called `{key}`; there are {}", names.join(", ")),
-        ));
+        let hint = or_known(key, &names, "tolerances");
+        return Err(at(name, format!("unknown tolerance `{key}`{hint}")));
     }
     let number = *value.get_ref();
     let (least, most, range) = if key.starts_with("feed_drop") {
-        (0.0, 1.0, "from 0 to 1, a share of the programmed feed")
+        (0.0, 1.0, "from 0 to 1, a part of the programmed feed")
     } else if key.ends_with("_ratio") {
-        (1.0, f64::MAX, "1 or more, a way over the direct way")
+        (1.0, f64::MAX, "1 or more, a ratio to the direct distance")
     } else {
         (0.0, f64::MAX, "0 or more")
     };
@@ -224,7 +226,7 @@ fn declared_tool(entry: &Spanned<FileTool>) -> Result<Tool, ConfigError> {
                 },
             )?),
             (None, Some(corner)) => {
-                return Err(at(corner, "a corner radius needs a shape: shape = \"bull\""));
+                return Err(at(corner, "`corner_radius` needs a tool shape: add `shape = \"bull\"`"));
             }
             (None, None) => None,
         };
@@ -258,7 +260,10 @@ fn work_offset(
 ) -> Result<WorkOffset, ConfigError> {
     if !is_work_offset(name.get_ref()) {
         let known = "G54 to G59, G59.1 to G59.3, G54.1 P1 and so on, G505 to G599";
-        return Err(at(name, format!("`{}` is no work offset: {known}", name.get_ref())));
+        return Err(at(
+            name,
+            format!("`{}` is not a work offset; known are {known}", name.get_ref()),
+        ));
     }
     let mut offset = WorkOffset {
         name: name.get_ref().clone(),
@@ -272,11 +277,11 @@ fn work_offset(
         let Some(axis) = axis else {
             return Err(at(
                 letter,
-                format!("`{}` is no axis: X Y Z A B C U V W", letter.get_ref()),
+                format!("`{}` is not an axis; the axes are X Y Z A B C U V W", letter.get_ref()),
             ));
         };
         if !value.get_ref().is_finite() {
-            return Err(at(value, "a work offset is a number of mm or degrees"));
+            return Err(at(value, "a work offset must be a number in mm or degrees: `X = 0.0`"));
         }
         offset.values[usize::from(axis.0)] = *value.get_ref();
     }

@@ -6,8 +6,11 @@ pub(super) const SHAPES: &str = "ball, flat or bull";
 
 /// Reads `shape:diameter[:corner radius]`, lengths in mm, for the tool in use: `ball:10`, `bull:16:2`.
 pub fn parse_tool_flag(text: &str) -> Result<Tool, String> {
-    let wanted =
-        || format!("`{text}` is no tool: write shape:diameter[:corner radius] in mm, e.g. ball:10, flat:12, bull:16:2");
+    let wanted = || {
+        format!(
+            "cannot read the tool `{text}`: write shape:diameter[:corner radius] in mm, for example ball:10, flat:12 or bull:16:2"
+        )
+    };
     let mut parts = text.split(':').map(str::trim);
     let (Some(name), Some(diameter)) = (parts.next(), parts.next()) else {
         return Err(wanted());
@@ -42,7 +45,7 @@ pub(super) fn shape(name: &str, diameter: Option<f64>, corner: Option<f64>) -> R
     if let Some(diameter) = diameter
         && !(diameter > 0.0 && diameter.is_finite())
     {
-        let message = format!("a tool's diameter must be above 0 mm, not {diameter}");
+        let message = format!("the tool diameter must be greater than 0 mm, not {diameter}");
         return Err((Part::Diameter, message));
     }
     match (name.to_ascii_lowercase().as_str(), corner) {
@@ -50,19 +53,20 @@ pub(super) fn shape(name: &str, diameter: Option<f64>, corner: Option<f64>) -> R
         ("flat", None) => Ok(ToolShape::Flat),
         ("ball" | "flat", Some(_)) => Err((
             Part::CornerRadius,
-            format!("a {name} tool has no corner radius of its own; write bull for one with a corner radius"),
+            format!("a {name} tool takes no corner radius; for a tool with a corner radius write `bull`"),
         )),
-        ("bull", None) => Err((Part::Shape, "a bull tool needs its corner radius".to_owned())),
+        ("bull", None) => Err((Part::Shape, "a bull tool needs a corner radius".to_owned())),
         ("bull", Some(radius)) => {
             let most = diameter.map_or(f64::INFINITY, |diameter| diameter / 2.0);
             if radius > 0.0 && radius <= most {
                 Ok(ToolShape::Bull(radius))
             } else {
-                let message = format!("a corner radius must be above 0 mm and at most half the diameter, not {radius}");
+                let message =
+                    format!("the corner radius must be greater than 0 mm and at most half the diameter, not {radius}");
                 Err((Part::CornerRadius, message))
             }
         }
-        _ => Err((Part::Shape, format!("no tool shape is called `{name}`: {SHAPES}"))),
+        _ => Err((Part::Shape, format!("unknown tool shape `{name}`; write {SHAPES}"))),
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) fn variables(section: &FileVariables) -> Result<Vec<(u32, Option<f64>
         let held = match value.get_ref() {
             FileValue::Number(number) if number.is_finite() => Some(*number),
             FileValue::Text(text) if text == "vacant" => None,
-            _ => return Err(at(value, "a variable holds a number, or is \"vacant\"")),
+            _ => return Err(at(value, "the value of a variable must be a number or \"vacant\"")),
         };
         if found.iter().any(|(known, _)| *known == number) {
             return Err(at(name, format!("#{number} is declared twice")));
@@ -50,11 +50,11 @@ fn number(name: &Spanned<String>) -> Result<u32, ConfigError> {
     let digits = text.strip_prefix('#').unwrap_or(text);
     let number = digits.parse::<u32>().ok().filter(|number| *number <= LARGEST);
     let why = match number {
-        None => "is no numbered variable: write `\"#500\" = 12.5`",
-        Some(0..=33) => "is local to a program, which begins without it",
-        Some(3000..=3012) => "is an alarm, a message or a clock, not a value that stays",
-        Some(4000..=4199) => "is modal information, which the program itself changes",
-        Some(5001..=5160) => "is a position, which the program itself changes",
+        None => "is not a numbered variable: write `\"#500\" = 12.5`",
+        Some(0..=33) => "is local to a program and has no value when a program starts",
+        Some(3000..=3012) => "is an alarm, a message or a clock, not a stored value",
+        Some(4000..=4199) => "is modal information, which changes while the program runs",
+        Some(5001..=5160) => "is a position, which changes while the program runs",
         Some(5201..=5390) => "is a work offset: declare it in [work_offsets]",
         Some(number) => return Ok(number),
     };

@@ -40,7 +40,7 @@ pub(super) fn rounding(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) 
                 at,
                 3,
                 &message,
-                "see that its argument is never negative, or write it with ABS",
+                "make sure that its argument is never negative, or use ABS",
             ));
         }
     }
@@ -54,8 +54,8 @@ pub(super) fn remainder(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>)
                 line,
                 at,
                 3,
-                "MOD has another sign for negative numbers: LinuxCNC gives 1 for -5 MOD 3, macro B counts with whole numbers and keeps the sign",
-                "see that both sides are whole and never negative",
+                "MOD has another sign for negative numbers: LinuxCNC gives 1 for -5 MOD 3, Macro B works with whole numbers and keeps the sign",
+                "make sure that both operands are whole numbers and never negative",
             ));
         }
     }
@@ -141,8 +141,8 @@ pub(super) fn precedence(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>
             line,
             at,
             length,
-            "this is grouped otherwise: in macro B AND binds like `*` and OR like `+`, before any comparison; in RS274/NGC they come last, from left to right",
-            "put each part into brackets of its own",
+            "this is grouped differently: in Macro B AND binds like `*` and OR like `+`, before any comparison; in RS274/NGC they come last, from left to right",
+            "put each part in its own brackets",
         ));
     }
 }
@@ -175,8 +175,8 @@ pub(super) fn named_parameter(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec
             line,
             at,
             end,
-            "parameters have no names in `< >`",
-            "give each of them a number: #1 to #33 in a macro, #100 to #199, #500 to #999",
+            "parameters cannot have names in `< >`",
+            "use a number for each: #1 to #33 in a macro, #100 to #199, #500 to #999",
         );
         found.once = Some("named");
         hits.push(found);
@@ -229,7 +229,7 @@ pub(super) fn flow(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
                 first,
                 length,
                 "there are no O-words for loops, branches and calls",
-                "write WHILE [..] DO1 ... END1, IF [..] GOTO n, and G65 P or M98 P with a program for each subprogram",
+                "write WHILE [..] DO1 ... END1, IF [..] GOTO n, and G65 P or M98 P with one program per subprogram",
             )
         }
         (Language::MacroB, Language::Ngc) => {
@@ -241,7 +241,7 @@ pub(super) fn flow(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
                 line,
                 at,
                 length,
-                "there is no WHILE, IF and GOTO without O-words",
+                "there is no WHILE, IF or GOTO without O-words",
                 "write o1 while [..] ... o1 endwhile, o2 if [..] ... o2 endif; there is no jump to a number",
             )
         }

@@ -4,7 +4,7 @@ use trunnion_syntax::{Block, TextRange};
 /// One block to be read by lints.
 pub(crate) struct Line<'p> {
     pub(crate) block: Block<'p>,
-    /// Upper case; comments are blanks. Byte `i` lies at `start + i` in the file.
+    /// Upper case, with comments as blanks. Byte `i` is at `start + i` in the file.
     pub(crate) text: Vec<u8>,
     start: u32,
 }
@@ -33,7 +33,7 @@ impl<'p> Line<'p> {
         TextRange::new(start, start + length as u32)
     }
 
-    /// Where `name` stands as a function: directly before a bracket, not as the end of a longer name.
+    /// Where `name` occurs as a function: directly before a bracket, not as the end of a longer name.
     pub(crate) fn functions(&self, name: &'static str) -> impl Iterator<Item = usize> + '_ {
         self.found(name).filter(move |&at| {
             let behind = self.text[at + name.len()..].iter().find(|byte| !byte.is_ascii_blank());

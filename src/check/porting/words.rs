@@ -52,7 +52,7 @@ pub(super) fn same_group(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>
             hits.push(hit(
                 word.range,
                 format!(
-                    "{} and {} may not stand in one block: both belong to the group `{group}`",
+                    "{} and {} must not be in the same block: both belong to the group `{group}`",
                     other.id, found.id
                 ),
                 "write them in two blocks",
@@ -63,7 +63,7 @@ pub(super) fn same_group(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>
     }
 }
 
-/// Whether the two codes exclude each other in the source's own table, and it refuses that: then its own rule tells of it.
+/// Whether the source's own table says that the two codes exclude each other, and refuses them: then its own rule reports it.
 fn clashes_here(from: &Dialect, other: &str, word: &Word) -> bool {
     let group = |code: Option<&Code>| code.and_then(|code| code.group.clone());
     let first = from.codes().iter().find(|code| code.id == other);
@@ -90,7 +90,7 @@ pub(super) fn repeated_word(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<H
             hits.push(hit(
                 word.range,
                 format!("a second {name} word in a block is refused; here the last one wins"),
-                "remove the one that does not count",
+                "remove the one that has no effect",
                 None,
             ));
         }
@@ -110,8 +110,8 @@ pub(super) fn unknown_code(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hi
         }
         hits.push(hit(
             word.range,
-            format!("there is no {}: here it is \"{}\"", here.id, here.doc),
-            "see how that control says it",
+            format!("there is no {}; here it means \"{}\"", here.id, here.doc),
+            "find out how that control programs this",
             None,
         ));
     }
@@ -127,13 +127,13 @@ pub(super) fn dwell_unit(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>
     }
     let (there, help) = if route.to.quirks.dwell_in_ms {
         (
-            "P of G4 without a decimal point counts milliseconds, here it is seconds",
-            "write 1000 times the number",
+            "P of G4 without a decimal point is in milliseconds; here it is in seconds",
+            "multiply the number by 1000",
         )
     } else {
         (
-            "P of G4 is seconds, here a P without a decimal point counts milliseconds",
-            "write a thousandth of the number",
+            "P of G4 is in seconds; here P without a decimal point is in milliseconds",
+            "divide the number by 1000",
         )
     };
     let times = line.block.words().filter(|word| word.address == Address::Letter(b'P'));
@@ -154,8 +154,8 @@ pub(super) fn skip_inside(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit
             b'/' if begun && depth == 0 => {
                 hits.push(hit(
                     line.range(at, 1),
-                    "`/` is allowed at the start of a block only".to_owned(),
-                    "write the part that may be skipped as a block of its own",
+                    "`/` is allowed only at the start of a block".to_owned(),
+                    "write the part that may be skipped as a separate block",
                     None,
                 ));
                 return;
@@ -187,7 +187,7 @@ pub(super) fn implicit_decimal(line: &Line<'_>, route: &Route<'_>, hits: &mut Ve
         let text = line.block.program().text(word.range).into_owned();
         hits.push(hit(
             word.range,
-            format!("a parameter decides whether `{text}` counts millimetres or thousandths of them"),
+            format!("a parameter decides whether `{text}` means millimetres or thousandths of a millimetre"),
             "write a decimal point in every coordinate",
             Some("decimal"),
         ));
@@ -202,14 +202,14 @@ pub(super) fn comment_marks(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<H
         let (strange, message, key) = match source.get(comment.range.start as usize) {
             Some(b';') => (
                 !route.to.lex.semicolon_comment,
-                "`;` begins no comment: it ends the block, and what follows is read as words",
+                "`;` does not begin a comment: it ends the block, and what follows is read as words",
                 "semicolon",
             ),
-            Some(b'(') => (!route.to.lex.paren_comment, "`( )` is no comment", "parenthesis"),
+            Some(b'(') => (!route.to.lex.paren_comment, "`( )` is not a comment", "parenthesis"),
             _ => continue,
         };
         if strange {
-            let help = "write the comment with the marks of that control";
+            let help = "use the comment marks of that control";
             hits.push(hit(comment.range, message.to_owned(), help, Some(key)));
         }
     }

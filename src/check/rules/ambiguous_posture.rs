@@ -1,12 +1,13 @@
-//! Several postures give the programmed tool vector, and which one the control takes is not settled.
+//! Several postures give the programmed tool vector, and it is not settled which one the control takes.
 //!
 //! # Why
-//! Two settings of the rotary axes give the same tool direction. Controls pick one by rules of their own; where these are not
-//! documented, depend on a parameter that the machine file does not give, or leave two postures equal, a verdict for one of them would
-//! be a guess. The other posture needs other travel, and the way to it sweeps through other places.
+//! Two positions of the rotary axes give the same tool direction. Each control picks one by its own rule. Where
+//! that rule is not documented, depends on a parameter that the machine file does not give, or rates two postures
+//! as equal, a verdict for one of them would be a guess. The other posture needs different axis travel, and the
+//! axes sweep through different space on the way to it.
 //!
 //! # Example
-//! The family documents no rule, and the machine file names none.
+//! No rule is documented for this control family, and the machine file declares none.
 //!
 //! ```gcode sinumerik-840d mikron-ucp710+undeclared
 //! N10 TRAORI
@@ -26,15 +27,17 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: wherever what is documented and declared leaves more than one posture inside the travel of the axes, it is said, once per
-//! cause. The run goes on with the first of the two that are named.
+//! Sound: wherever the documentation and the machine file leave more than one posture within the travel of the
+//! axes, this is reported, once per cause. The run continues with the first of the two postures that the message
+//! names.
 //!
 //! # Thresholds
 //! Postures that differ by 5 deg or less in every rotary axis count as one.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 5 (CTRL-AMBIG) and 8; Fanuc Series 30i operator's manual, tool centre point control type 2;
-//! Mitsubishi M700V programming manual, G43.4/G43.5.
+//! * docs/kinematics.md#which-posture-a-control-takes
+//! * FANUC Series 30i B-64484EN-2 (machining centre): tool centre point control type 2.
+//! * Mitsubishi M700V IB-1500922: tool center point control, G43.4 and G43.5.
 use crate::prelude::*;
 use trunnion_machine::{Open, OpenCause};
 
@@ -68,7 +71,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         ),
     )
     .note(why)
-    .note("what follows is checked for the first of them")
+    .note("everything after this block is checked for the first of the two")
     .help(help)
     .value("taken_first_deg", deg(open.taken[0]))
     .value("taken_second_deg", deg(open.taken[1]))
@@ -83,55 +86,59 @@ fn cause(open: &Open, family: &str) -> (String, &'static str) {
     match open.cause {
         OpenCause::RuleNotDeclared => (
             format!(
-                "which one a control of the family {family} takes is not documented, and the machine file does not say"
+                "it is not documented which one a control of the family {family} takes, and the machine file does not say"
             ),
-            "program the rotary axes, or declare the rule in the machine file: [control] branch = { rule = ... }",
+            "program the rotary axes themselves, or declare the rule in the machine file: [control] branch = { rule = ... }",
         ),
         OpenCause::Tie => (
-            text("by the control's rule both are equal"),
-            "program the rotary axes, or a vector a little off this one",
+            text("the control's rule rates both as equal"),
+            "program the rotary axes themselves, or a slightly different vector",
         ),
         OpenCause::HalfTurn => (
-            text("it is half a turn either way: which way the axis turns is not documented"),
-            "program a point in between",
+            text("it is half a turn in both directions: it is not documented which way the axis turns"),
+            "program an intermediate point",
         ),
         OpenCause::PassingTypeNotDeclared => (
-            text("the two types of passing the pole differ here, and the machine file does not say which one is set"),
+            text(
+                "the two settings for passing the pole give different results here, and the machine file does not say which one is set",
+            ),
             "declare it in the machine file: [control] pole = { passing_type = 1 } or 2",
         ),
         OpenCause::RangeNotDeclared => (
             text(
-                "the second one is nearer, but outside the travel: whether the control is told so (parameters 19741 to 19744) is not declared",
+                "the second one is nearer but outside the travel: it is not declared whether the control knows the travel (parameters 19741 to 19744)",
             ),
             "declare the ranges in the machine file: [control] branch = { range = { A = [-30, 120] } }",
         ),
         OpenCause::StartUnknown => (
-            text("what the control does goes from the posture before, which is not known here"),
+            text("the control starts from the previous posture, which is not known here"),
             "position the rotary axes before the first vector",
         ),
         OpenCause::Direction => (
-            text("the preferred direction that is programmed fits both"),
-            "position the rotary axes before",
+            text("both match the preferred direction in the program"),
+            "position the rotary axes before this block",
         ),
         OpenCause::WordsNotDeclared => (
-            text("the program asks for a posture by words (STAT, TU, P) whose meaning the machine file does not say"),
+            text(
+                "the program selects a posture by words (STAT, TU, P) whose meaning the machine file does not declare",
+            ),
             "declare it in the machine file: [control] posture_words = { turn = { A = 3, C = 4 }, solutions = { 1 = \"A+\" } }",
         ),
         OpenCause::PoleHeld => (
             text(
-                "inside its cone about the pole the control holds the first rotary axis: how it leaves the cone is not modelled",
+                "inside its cone around the pole the control holds the first rotary axis: how it leaves the cone is not modelled",
             ),
             "keep the tool axis out of the cone",
         ),
         OpenCause::PoleAlarm => (
-            text("inside its cone about the pole the control stops with an alarm, as the machine file says"),
+            text("according to the machine file the control stops with an alarm inside its cone around the pole"),
             "keep the tool axis out of the cone",
         ),
         OpenCause::GreatCircle => (
             text(
-                "the control's rule takes the first one, but on a great circle off the pole the posture cannot change: which gives way is not documented",
+                "the control's rule takes the first one, but on a great circle away from the pole the posture cannot change: it is not documented which of the two the control ignores",
             ),
-            "lead the tool axis farther from the pole, or over the pole itself, or program the rotary axes",
+            "guide the tool axis farther from the pole, or exactly over it, or program the rotary axes themselves",
         ),
     }
 }
@@ -157,7 +164,7 @@ mod tests {
         assert_eq!(found[0].values.len(), 4);
     }
 
-    /// PTP with TU, whose bits nobody declared; with the bits of the axes declared the program says what it means.
+    /// PTP with TU, whose bits are not declared; if the bits of the axes are declared, the program is unambiguous.
     #[test]
     fn words_for_postures_need_their_meaning() {
         let text = "N10 TRAORI\nN20 G0 X0 Y0 Z50 A20 C0\nN30 PTP\nN40 G0 X10 A3=0.1 B3=-0.3 C3=0.95 TU=16\n";
@@ -174,7 +181,7 @@ mod tests {
         );
     }
 
-    /// C stays where it stands, and nobody said where.
+    /// C stays where it is, and where that is was never programmed.
     #[test]
     fn a_first_vector_along_the_pole_leaves_the_first_axis_unknown() {
         let text = "N10 TRAORI\nN20 G0 X0 Y0 Z50 A3=0 B3=0 C3=1\n";

@@ -1,15 +1,16 @@
-//! A rotary axis turns the long way round, because its word is taken as it is written.
+//! A rotary axis turns the long way round, because the control takes its word literally.
 //!
 //! # Why
-//! From 350 to 10 deg it is 20 deg on, or 340 deg back. A control that takes rotary words literally goes back: in the cut the tool
-//! sweeps around the part. Where a control takes the shorter way by itself (M126, a rollover axis), the machine file says so.
+//! From 350 deg to 10 deg the axis can turn 20 deg forward or 340 deg back. A control that takes rotary words
+//! literally turns back: in the cut the tool then sweeps around the part. Where a control takes the shorter turn by
+//! itself (M126, a rollover axis), the machine file says so.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z50 A20 C350
 //! N30 G1 X10 C10 F20
-//! ;          ^^^ angle-wrap: C turns back by 340 deg to reach 10 deg; the shorter way is 20 deg on
+//! ;          ^^^ angle-wrap: C turns back by 340 deg to reach 10 deg; the shorter way is 20 deg forward
 //! N40 M30
 //! ```
 //!
@@ -22,14 +23,15 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for feed motions between known positions; a rapid that turns the long way is an info. Without tool centre point control a
-//! word that turns by a whole turn or more is taken for meant.
+//! Sound for feed motions between known positions; a rapid that turns the long way round is an info. Without tool
+//! centre point control a word that turns the axis by a full turn or more is assumed to be intended.
 //!
 //! # Thresholds
 //! Half a turn.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 5 (ANGLE-WRAP); HEIDENHAIN TNC user's manual, M126.
+//! * docs/kinematics.md#rotary-words-and-full-turns
+//! * HEIDENHAIN TNC 640 34059x-05 (ISO programming): M126.
 use crate::prelude::*;
 use core::f64::consts::{PI, TAU};
 use trunnion_interp::{AXIS_LETTERS, Orientation};
@@ -61,7 +63,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         }
         let short = turn - TAU * (turn / TAU).round();
         let name = letter(axis.letter);
-        let way = |turn: f64| if turn < 0.0 { "back" } else { "on" };
+        let way = |turn: f64| if turn < 0.0 { "back" } else { "forward" };
         let reachable = match axis.limits {
             Limits::Unbounded => true,
             Limits::Range(low, high) => (low..=high).contains(&(start.joints[joint] + short)),
@@ -88,8 +90,8 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             draft.fix("unwind-rotary");
         } else {
             draft
-                .note(format!("the shorter way would leave the travel of {name}"))
-                .help("retract and turn back out of the cut");
+                .note(format!("the shorter way would take {name} out of its travel"))
+                .help("retract, and turn the axis back out of the cut");
         }
         if !motion.is_feed() {
             draft.severity(Severity::Info);

@@ -1,12 +1,13 @@
-//! An APT record is not known.
+//! An APT record is unknown to Trunnion.
 //!
 //! # Why
-//! It is skipped. It may move the tool or change how later records are meant, so positions are unknown from there on.
+//! The record is skipped. It may move the tool or change the meaning of later records, so positions are unknown
+//! from there on.
 //!
 //! # Example
 //! ```gcode apt
 //! WIGGLE/1,2
-//! $$^^^^ apt-unknown-record: APT record WIGGLE is not known
+//! $$^^^^ apt-unknown-record: unknown APT record WIGGLE
 //! $$^^^^^^^^ not-modelled: not modelled: WIGGLE
 //! FINI
 //! ```
@@ -21,7 +22,8 @@
 //! Heuristic: a post-processor may know words that the table does not.
 //!
 //! # Sources
-//! The table `grammar/dialects/apt.toml`.
+//! * grammar/dialects/apt.toml, the table of APT words.
+//! * ISO 4343:2000, the post-processor commands of APT.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -34,9 +36,11 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::AptUnknownRecord {
         let text = out.text(fault.range);
         let major: String = text.split('/').next().unwrap_or_default().trim().to_owned();
-        out.report(fault.range, format!("APT record {major} is not known"))
-            .note("it is skipped; it may move the tool or the coordinates, so positions are unknown from here on")
-            .help("check its spelling; if it matters only to the post-processor, allow it with a comment")
+        out.report(fault.range, format!("unknown APT record {major}"))
+            .note(
+                "the record is skipped; it may move the tool or the coordinates, so positions are unknown from here on",
+            )
+            .help("check its spelling; if only the post-processor needs it, allow it with a comment")
             .merge(hash(&major), 0.0);
     }
 }

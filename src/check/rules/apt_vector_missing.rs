@@ -1,7 +1,8 @@
 //! MULTAX is on and a GOTO has no tool vector.
 //!
 //! # Why
-//! The tool axis stays as it was. That may be meant, or the vector may have been lost on the way.
+//! The tool axis keeps its direction. That may be intended, or the vector may have been lost in an earlier
+//! processing step.
 //!
 //! # Example
 //! ```gcode apt
@@ -25,7 +26,8 @@
 //! Sound; the last vector is kept.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 12.6 (MULTAX).
+//! * docs/kinematics.md#apt-vectors
+//! * ISO 4343:2000, MULTAX.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -38,7 +40,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::AptVectorMissing {
         out.report(fault.range, "MULTAX is on, but GOTO has no tool vector")
             .note("the last tool vector is kept")
-            .help("write i, j, k behind x, y, z, or switch off with MULTAX/OFF")
+            .help("write i, j, k after x, y, z, or switch off with MULTAX/OFF")
             .merge(0, 0.0);
     }
 }

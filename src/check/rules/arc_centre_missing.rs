@@ -1,7 +1,7 @@
-//! An arc has neither centre nor radius.
+//! An arc has neither a centre nor a radius.
 //!
 //! # Why
-//! The control cannot know which arc is meant; most stop, some run a line.
+//! The control cannot know which arc is meant. Most controls stop, some move in a straight line.
 //!
 //! # Example
 //! ```gcode
@@ -20,7 +20,7 @@
 //! Sound.
 //!
 //! # Sources
-//! The NIST RS274/NGC interpreter, version 3, on arcs at feed rate (G2, G3).
+//! * NISTIR 6556 (2000), section 3.5.3 on arcs at feed rate (G2, G3).
 use crate::prelude::*;
 use trunnion_syntax::{Address, BlockId, Program, Value, Word};
 
@@ -62,9 +62,11 @@ fn cause(program: &Program, block: BlockId) -> (&'static str, &'static str) {
             "the arc has neither centre nor radius",
             "write the centre words of the plane (G17: I J, G18: K I, G19: J K), or a radius",
         ),
-        _ if words().filter(is_centre).all(is_zero) => ("the arc's centre lies at its start: there is no circle", help),
-        1 => ("the arc's centre lacks a coordinate of the plane", help),
-        _ => ("the arc's centre lies at its start: there is no circle", help),
+        _ if words().filter(is_centre).all(is_zero) => {
+            ("the arc's centre is its start point: this is not a circle", help)
+        }
+        1 => ("the arc's centre lacks a coordinate in the plane", help),
+        _ => ("the arc's centre is its start point: this is not a circle", help),
     }
 }
 
@@ -80,7 +82,7 @@ mod tests {
         );
         assert_drawn(
             "gcode",
-            "N10 G17 G90 G0 X0 Y0\nN20 G2 X10 Y0 I0 J0 F300\n;      ^^^ arc-centre-missing: the arc's centre lies at its start\n",
+            "N10 G17 G90 G0 X0 Y0\nN20 G2 X10 Y0 I0 J0 F300\n;      ^^^ arc-centre-missing: the arc's centre is its start point\n",
         );
     }
 }

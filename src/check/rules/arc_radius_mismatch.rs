@@ -1,7 +1,8 @@
-//! The start and end of an arc lie at different distances from its centre, or no circle of the radius joins them.
+//! The start and end of an arc lie at different distances from its centre, or no circle of the given radius connects them.
 //!
 //! # Why
-//! The control alarms, or silently cuts a spiral. The larger the mismatch, the deeper the gouge.
+//! The control stops with an alarm, or cuts a spiral without a message. The larger the mismatch, the deeper the
+//! gouge.
 //!
 //! # Example
 //! ```gcode
@@ -20,10 +21,10 @@
 //! Sound for arcs whose start is known.
 //!
 //! # Thresholds
-//! `arc_tolerance` of the dialect's table, with its source there.
+//! `arc_tolerance` of the dialect's table, which names its source.
 //!
 //! # Sources
-//! The NIST RS274/NGC interpreter, version 3, on arcs at feed rate (G2, G3).
+//! * NISTIR 6556 (2000), section 3.5.3 on arcs at feed rate (G2, G3).
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -44,7 +45,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
                 ),
             )
             .note(format!(
-                "the end point is not on the circle; they may differ by {}",
+                "the end point is not on the circle; the two distances may differ by {}",
                 mm(tolerance)
             ))
             .help("correct the end point or the centre")
@@ -56,7 +57,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             out.report(
                 fault.range,
                 format!(
-                    "no circle of radius {} joins points that lie {} apart",
+                    "no circle of radius {} connects two points {} apart",
                     mm(radius),
                     mm(2.0 * half_chord)
                 ),
@@ -81,7 +82,7 @@ mod tests {
     fn a_radius_too_small_for_its_chord() {
         let report = assert_drawn(
             "gcode",
-            "N10 G17 G90 G0 X0 Y0\nN20 G2 X10 Y0 R4 F300\n;      ^^^ arc-radius-mismatch: no circle of radius 4 mm joins points that lie 10 mm apart\n",
+            "N10 G17 G90 G0 X0 Y0\nN20 G2 X10 Y0 R4 F300\n;      ^^^ arc-radius-mismatch: no circle of radius 4 mm connects two points 10 mm apart\n",
         );
         assert_eq!(report.summary.errors, 1);
     }

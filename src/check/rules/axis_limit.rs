@@ -1,8 +1,8 @@
 //! An axis leaves its travel, at the end of a block or inside it.
 //!
 //! # Why
-//! The control stops with an alarm in the middle of the cut, or an axis runs onto its end switch. With tool centre point
-//! control a linear axis can leave its travel inside a block although both ends are legal.
+//! The control stops with an alarm in the middle of the cut, or the axis runs onto its limit switch. With tool
+//! centre point control a linear axis can leave its travel inside a block although both ends are within it.
 //!
 //! # Example
 //! ```gcode mill-3axis
@@ -18,15 +18,17 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for axes whose position is known: inside a block by a bound on the joints' motion, not by samples.
-//! An axis that was never positioned is not judged. Where the machine file does not say whether the axes of a rapid motion arrive together,
-//! and where it says that they do not but the control leads the tip, what an axis would reach between two legal ends is unknown.
+//! Sound for axes whose position is known: inside a block it uses a bound on the motion of the axes, not samples.
+//! An axis that was never positioned is not judged. Travel inside a rapid block is unknown where the machine file
+//! does not say whether the axes arrive together, and also where it says that they do not while the control guides
+//! the tip.
 //!
 //! # Thresholds
 //! The limits of the machine file.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 3 and 5 (LIM-END, LIM-MID).
+//! * docs/kinematics.md#between-the-ends-of-a-block
+//! * docs/kinematics.md#limits-inside-a-block
 use crate::prelude::*;
 use trunnion_machine::{AxisKind, Excess, RapidPath, limit_excess};
 
@@ -36,7 +38,7 @@ pub(super) const RULE: Body = Body {
     level: Level::Leg(Needs::BEYOND, check),
 };
 
-/// Key of the way that is not known; those of findings are letters and more.
+/// Key of the unknown path; the keys of findings are letters and more.
 const UNSETTLED: u64 = 0;
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
@@ -46,17 +48,17 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         let range = orientation_range(out.program(), view.motion().block);
         out.report(
             range,
-            "the way of the axes between the ends of this block is not known: whether one leaves its travel is not proven",
+            "the path of the axes between the ends of this block is not known: it is not proven that every axis stays within its travel",
         )
-        .note("the great circle does not lead to the posture at the end: it passes over the pole, where the first rotary axis jumps, or past it to the other posture")
-        .help("lead the tool axis farther from the pole, or program the block in smaller steps")
+        .note("the great circle does not lead to the posture at the end of the block: it passes over the pole, where the first rotary axis jumps, or past it to the other posture")
+        .help("guide the tool axis farther from the pole, or divide the block into smaller steps")
         .unknown()
         .merge_everywhere(UNSETTLED);
     }
     for excess in found {
         let axis = &view.machine.axes[excess.axis];
         let beyond = (excess.value - excess.limit).abs();
-        // the lower limit behind the upper one is another finding, however near the blocks
+        // the lower limit after the upper one is a separate finding, however close the blocks
         let key =
             u64::from(axis.letter) + 256 * u64::from(excess.value > excess.limit) + 512 * u64::from(excess.if_together);
         if out.repeats(view, key, beyond) {
@@ -64,7 +66,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         }
         let name = letter(axis.letter);
         let inside = if excess.inside {
-            " inside the block, while both ends are legal"
+            " inside the block, although both ends are within its travel"
         } else {
             ""
         };
@@ -82,15 +84,15 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         };
         let draft = out.report(range, message);
         draft.note(format!(
-            "values are those of the joint, work offset and tool length included, on {}",
+            "values are axis positions on {}, with work offset and tool length included",
             view.machine.id
         ));
         if excess.if_together {
             let dogleg = view.machine.control.rapid == RapidPath::Dogleg;
             draft.unknown().help(if dogleg {
-                "rise before the tool turns: nobody says that each axis runs for itself (rapid = \"dogleg\") while the control leads the tip"
+                "raise the tool before it turns: it is not known whether the axes move independently (rapid = \"dogleg\") while the control guides the tip"
             } else {
-                "say in the machine file whether they do ([control] rapid = \"synchronous\" or \"dogleg\"), or rise before the tool turns"
+                "declare in the machine file whether they do ([control] rapid = \"synchronous\" or \"dogleg\"), or raise the tool before it turns"
             });
         } else {
             draft.help("move the part, choose another posture, or correct the program");
@@ -144,12 +146,12 @@ mod tests {
         );
     }
 
-    /// The tip stands 410 mm above A: Z is 371.6 mm at A-25 and 314.1 mm at A40, and 410 mm in between, where A passes 0.
+    /// The tip is 410 mm above A: Z is 371.6 mm at A-25 and 314.1 mm at A40, and 410 mm in between, where A passes 0.
     #[test]
     fn a_limit_broken_between_two_legal_ends_is_found() {
         assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",
-            "TRAORI\nG0 X0 Y0 Z410 A-25 C0\nG1 X200 A40 F500\n;^^^^^^^^^^^^^^^ axis-limit: Z reaches 410 mm inside the block, while both ends are legal, 10 mm beyond its limit of 400 mm\n;       ^^^ only-one-posture: \n;       ^^^ pole-crossing: \nM30\n",
+            "TRAORI\nG0 X0 Y0 Z410 A-25 C0\nG1 X200 A40 F500\n;^^^^^^^^^^^^^^^ axis-limit: Z reaches 410 mm inside the block, although both ends are within its travel, 10 mm beyond its limit of 400 mm\n;       ^^^ only-one-posture: \n;       ^^^ pole-crossing: \nM30\n",
         );
         assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",
@@ -166,7 +168,7 @@ mod tests {
         for (rapid, wanted) in [
             (RapidPath::Undeclared, vec![Status::Unknown]),
             (RapidPath::Synchronous, vec![Status::Fail]),
-            // nobody says that it holds while the tip is led
+            // it is not declared that this holds while the tip is guided
             (RapidPath::Dogleg, vec![Status::Unknown]),
         ] {
             machine.control.rapid = rapid;

@@ -1,8 +1,8 @@
 //! At the programmed feed an axis would have to move faster than it can.
 //!
 //! # Why
-//! The control slows the whole block down, or follows with an error. The tool then cuts slower than meant, rubs, and leaves a
-//! mark; the program takes longer than its feeds say.
+//! The control slows the whole block down, or the axis lags behind. The tool then cuts more slowly than intended,
+//! rubs and leaves a mark, and the program takes longer than its feeds suggest.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
@@ -22,19 +22,21 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for axes with a declared speed, at the worst moment inside the block; an axis that moves without a declared speed is
-//! reported as unknown, once. Where linear and rotary axes move together without tool centre point control and a parameter of
-//! the control says whether F counts along X Y Z or along all axes (Fanuc and its like), silence holds for both; where an axis
-//! is overrun in the reading along X Y Z, the fastest, this rule says unknown, once, and `feed-drop` is silent. Where only rotary
-//! axes turn on a Haas, whose settings say how F counts, it says unknown, once. Up to 8 consecutive blocks are reported one by one,
-//! longer runs as one with their worst.
+//! Sound for axes with a declared speed, at the worst moment inside the block. An axis that moves and has no
+//! declared speed is reported as unknown, once. Where linear and rotary axes move together without tool centre
+//! point control, a parameter of some controls (Fanuc and similar) decides whether F counts along X Y Z or along
+//! all axes. Silence then holds for both meanings. Where an axis is too fast if F counts along X Y Z, which is the
+//! faster case, this rule says unknown, once, and `feed-drop` is silent. Where only rotary axes turn on a Haas,
+//! whose settings decide what F means, it says unknown, once. Up to 8 consecutive blocks are reported one by one; a
+//! longer run is reported as one finding with its worst block.
 //!
 //! # Thresholds
 //! `vmax` of each axis in the machine file.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 4.1 and 5 (VEL-AXIS). Haas mill operator's manual, G93: settings 34 and 79 (diameters of the 4th
-//! and 5th axis) are not needed there, hence are under G94.
+//! * docs/kinematics.md#axis-speed-and-feed
+//! * Haas 96-8210 (mill operator's manual): G93 does not need settings 34 and 79 (diameters of the 4th and 5th
+//!   axis), so G94 does.
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 use crate::view::NO_TURN;
@@ -80,18 +82,18 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let draft = out.report(
         range,
         format!(
-            "{name} would have to run at {}{at}, it reaches {}",
+            "{name} would have to run at {}{at}, but its maximum is {}",
             speed(axis, needed),
             speed(axis, limit.axis_limit)
         ),
     );
     draft
         .note(format!(
-            "the block can run at {} {} at most",
+            "the highest feed for this block is {} {}",
             highest_rate(limit.feed_mm_min),
             view.feed_unit()
         ))
-        .help("lower the feed in this block, or lead the tool so that the axis moves less")
+        .help("reduce the feed in this block, or change the path so that the axis moves less")
         .value_text("axis", name.clone())
         .value_text("limiting_axis", name)
         .value(feed_keys(view)[1], limit.feed_mm_min);
@@ -126,16 +128,16 @@ pub(super) fn feed_keys(view: &LegView<'_>) -> [&'static str; 2] {
 
 /// The fastest reading of F overruns an axis, another one may not.
 const AMBIGUOUS: [&str; 3] = [
-    "F with linear and rotary axes moving together: this control may count mm/min of X Y Z or sqrt(mm2+deg2); not judged",
-    "counted along X Y Z an axis is overrun here; a parameter of the control says what F means",
+    "linear and rotary axes move together: a parameter of this control decides whether F is mm/min along X Y Z or sqrt(mm2+deg2); speeds are not judged",
+    "if F counts along X Y Z, an axis is too fast here",
     "switch tool centre point control on, or program inverse time (G93)",
 ];
 
 /// A Haas counts F of a turn along circles whose diameters are settings.
 const BY_DIAMETER: [&str; 3] = [
-    "F with rotary axes alone: this control counts it along circles whose diameters are its settings 34 and 79; not judged",
-    "the axes may turn faster than by F in degrees per minute",
-    "program inverse time (G93), or declare [control] feed = \"xyz\" where F is in degrees",
+    "only rotary axes move: this control measures F along circles with the diameters in its settings 34 and 79; speeds are not judged",
+    "the axes may turn faster than F in degrees per minute",
+    "program inverse time (G93), or declare [control] feed = \"xyz\" if F is in degrees per minute",
 ];
 
 /// What F means is not settled: message, note and help, once.
@@ -152,7 +154,7 @@ fn unsettled(view: &LegView<'_>, out: &mut Reporter<'_>, [message, note, help]: 
         .merge_everywhere(cause);
 }
 
-/// A block whose speed cannot be told although its ends and its feed are known: told once per cause.
+/// A block whose speed cannot be computed although its ends and its feed are known: reported once per cause.
 fn undecided(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let Some((start, end)) = view.stances() else { return };
     let moves = |i: usize| (start.joints[i] - end.joints[i]).abs() > NO_TURN;
@@ -161,27 +163,27 @@ fn undecided(view: &LegView<'_>, out: &mut Reporter<'_>) {
         return;
     }
     let why = match (view.motion().feed, view.motion().kind) {
-        // the faults that took the feed or the arc's centre are told by their own rules
+        // the faults that removed the feed or the centre of the arc are reported by their own rules
         (Feed::Unknown | Feed::Rapid, _) | (_, MotionKind::Arc(None)) => return,
         (Feed::PerRevolution(_), _) if view.motion().spindle_rpm.is_none() => {
             "the feed is per revolution and the spindle speed is not known"
         }
         _ if view.leg.length <= 0.0 && view.rotary_turns() => {
-            "the tip stands still while rotary axes turn: what F means then is the control's own affair"
+            "the tip does not move while rotary axes turn: what F means then depends on the control"
         }
-        _ if view.leg.length <= 0.0 => "linear axes move although X Y Z stay: how far F counts there is not known",
+        _ if view.leg.length <= 0.0 => "linear axes move although X Y Z stay the same: what F means there is not known",
         _ => "the motion is not modelled",
     };
     if out.repeats_unknown(view, hash(why), 0.0) {
         return;
     }
     let range = code_range(out.program(), view.motion().block);
-    out.report(range, format!("whether an axis is overrun is not known: {why}"))
+    out.report(range, format!("it is not known whether an axis is too fast: {why}"))
         .unknown()
         .merge_everywhere(hash(why));
 }
 
-/// An axis that moves but has no declared speed cannot be judged: told once per axis.
+/// An axis that moves but has no declared speed cannot be judged: reported once per axis.
 fn undeclared(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let Some((start, end)) = view.stances() else { return };
     for (i, axis) in view.machine.axes.iter().enumerate() {
@@ -191,11 +193,11 @@ fn undeclared(view: &LegView<'_>, out: &mut Reporter<'_>) {
             out.report(
                 range,
                 format!(
-                    "{} declares no speed for {name}: whether {name} is overrun is not known",
+                    "machine {} declares no speed for {name}: it is not known whether {name} is too fast",
                     view.machine.id
                 ),
             )
-            .help("declare it in the machine file: dyn = { vmax = ... }, mm/s or deg/s")
+            .help("declare it in the machine file: dyn = { vmax = ... }, in mm/s or deg/s")
             .value_text("axis", name)
             .unknown();
         }
@@ -218,7 +220,7 @@ mod tests {
             .filter(|d| d.rule == "axis-overspeed")
             .collect();
         assert_eq!((found.len(), found[0].block.as_deref()), (1, Some("N30")));
-        assert_eq!(found[0].notes, ["the block can run at 7200 deg/min at most"]);
+        assert_eq!(found[0].notes, ["the highest feed for this block is 7200 deg/min"]);
         assert!(
             found[0]
                 .values
@@ -239,12 +241,12 @@ mod tests {
         for feed in ["F7100.", "F7300."] {
             assert_eq!(
                 said(haas, &format!("G1 C90. {feed}")),
-                ["Unknown F with rotary axes alone"]
+                ["Unknown only rotary axes move: t"]
             );
         }
         assert_eq!(said(haas, "G93 G1 C90. F2."), [""; 0]);
-        assert_eq!(said(haas, "G1 X1. C9. F1000."), ["Unknown F with linear and rotary"]);
-        // said: degrees
+        assert_eq!(said(haas, "G1 X1. C9. F1000."), ["Unknown linear and rotary axes m"]);
+        // declared: degrees
         let declared = "gcode haas-ngc mikron-ucp710+control.feed=\"xyz\"";
         assert_eq!(said(declared, "G1 C90. F7100."), [""; 0]);
         assert_eq!(said(declared, "G1 C90. F7300.").len(), 1);
@@ -254,7 +256,7 @@ mod tests {
     fn a_standing_tip_under_tcp_is_unknown_once() {
         let report = assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",
-            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A30 C0\nN30 G1 C90 F500\n;   ^^^^^^^^^^^ axis-overspeed: whether an axis is overrun is not known: the tip stands\nN40 C0\nN50 M30\n",
+            "N10 TRAORI\nN20 G0 X0 Y0 Z50 A30 C0\nN30 G1 C90 F500\n;   ^^^^^^^^^^^ axis-overspeed: it is not known whether an axis is too fast: the tip does not move\nN40 C0\nN50 M30\n",
         );
         assert_eq!(report.diagnostics[0].count, 2);
     }
@@ -299,7 +301,7 @@ mod tests {
                 .check()
                 .unwrap();
             assert!(
-                report.diagnostics.iter().all(|d| !d.message.contains("stands still")),
+                report.diagnostics.iter().all(|d| !d.message.contains("does not move")),
                 "{:?}",
                 report.diagnostics
             );
@@ -310,7 +312,7 @@ mod tests {
     fn feed_per_revolution_needs_the_spindle() {
         assert_drawn(
             "gcode mill-3axis",
-            "N10 G0 X0 Y0 Z50\nN20 G95 G1 X10 F0.1\n;   ^^^^^^^^^^^^^^^ axis-overspeed: whether an axis is overrun is not known: the feed is per revolution\nN30 S1000 M3\nN40 X0\n",
+            "N10 G0 X0 Y0 Z50\nN20 G95 G1 X10 F0.1\n;   ^^^^^^^^^^^^^^^ axis-overspeed: it is not known whether an axis is too fast: the feed is per revolution\nN30 S1000 M3\nN40 X0\n",
         );
     }
 

@@ -1,8 +1,9 @@
 //! An expression cannot be read, or has no value.
 //!
 //! # Why
-//! A division by zero, the root of a negative number or a bracket too few stops the control where it comes to the block: in a
-//! loop perhaps only in the hundredth pass. LinuxCNC says `Attempt to divide by zero` and `Negative argument to sqrt`.
+//! A division by zero, the root of a negative number or a missing bracket stops the control when it reaches the
+//! block. In a loop that may be as late as the hundredth pass. LinuxCNC says `Attempt to divide by zero` and
+//! `Negative argument to sqrt`.
 //!
 //! # Example
 //! ```gcode fanuc-30i
@@ -20,10 +21,12 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound where the run reaches the block with known values; an expression of unknown values is said to be not decided.
+//! Sound where the run reaches the block with known values. An expression of unknown values is reported as not
+//! decided.
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9; the Fanuc manuals on custom macro arithmetic.
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
+//! * FANUC Series 16i/18i-PB B-63684EN/01: custom macro, arithmetic.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {

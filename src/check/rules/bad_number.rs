@@ -1,8 +1,8 @@
-//! A number cannot be read as one.
+//! A number cannot be read.
 //!
 //! # Why
-//! Two decimal points, a sign without digits or more digits than can be held exactly: controls cut such a number where they
-//! like, and the axis goes elsewhere.
+//! The number has two decimal points, a sign without digits, or more digits than can be stored exactly. Controls
+//! cut off such a number in different places, and the axis moves to a different position.
 //!
 //! # Example
 //! ```gcode
@@ -16,10 +16,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: a number that is not reported here is held exactly as written.
+//! Sound: a number that is not reported here is stored exactly as written.
 //!
 //! # Sources
-//! The NIST RS274/NGC interpreter, version 3, on numbers.
+//! * NISTIR 6556 (2000), section 3.3.2.1 on numbers.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -38,10 +38,10 @@ fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     match error.kind {
         SyntaxErrorKind::BadNumber => {
             out.report(error.range, format!("`{text}` is not a number"))
-                .help("write digits with at most one decimal point and one sign in front, at most 18 digits in all");
+                .help("write at most 18 digits, with at most one decimal point and one leading sign");
         }
         SyntaxErrorKind::BlankInNumber => {
-            out.report(error.range, format!("blanks stand inside the number `{text}`"))
+            out.report(error.range, format!("the number `{text}` contains blanks"))
                 .note("some controls join the digits, others read two numbers")
                 .help("remove the blanks");
         }

@@ -1,25 +1,28 @@
-//! Blocks begin with `/`, and nobody says whether the control skips them.
+//! Blocks begin with `/`, and it is not declared whether the control skips them.
 //!
 //! # Why
-//! A switch on the panel decides whether such blocks run. A program can be safe in one state and hit something in the other. Where the
-//! state is not declared, both are judged: all of these blocks run, and all are skipped. With several switches (`/1`, `/2`) there are
-//! more states than these two, and they stay unknown.
+//! A switch on the operator panel decides whether such blocks run. A program can be safe in one state of the switch
+//! and cause a crash in the other. Where the state is not declared, both are judged: all of these blocks run, and
+//! all are skipped. Several switches (`/1`, `/2`) have more combinations than these two; the mixed ones stay
+//! unknown.
 //!
 //! # Example
 //! ```gcode
 //! N10 G0 X0 Y0
 //! /N20 G0 X100
-//! ;^ block-delete-unset: 1 block begins with / and the state of the switch is not declared: judged with the block run and skipped
+//! ;^ block-delete-unset: 1 block begins with /, and the state of the block delete switch is not declared: judged both with the block run and with it skipped
 //! ```
 //!
 //! # Use instead
-//! Declare the state in `trunnion.toml`: `[control] block_delete = true` (skipped) or `false` (run), or with `--block-delete on|off`.
+//! Declare the state in `trunnion.toml`: `[control] block_delete = true` (skipped) or `false` (run), or with
+//! `--block-delete on|off`.
 //!
 //! # Guarantee
-//! Sound; told once per program.
+//! Sound; reported once per program.
 //!
 //! # Sources
-//! ISO 6983-1: block delete. Fanuc Series 30i operator's manual: optional block skip with levels 1 to 9.
+//! * ISO 6983-1:2009, block delete.
+//! * FANUC Series 30i B-64484EN: optional block skip, levels 1 to 9.
 use crate::both::{levels, slash};
 use crate::prelude::*;
 use trunnion_syntax::{Block, Item};
@@ -45,20 +48,21 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         return;
     };
     let all_begin = slashes().all(|(_, first)| first);
-    let (begin, them) = match (count, all_begin) {
-        (1, true) => ("block begins with /", "the block"),
-        (_, true) => ("blocks begin with /", "them"),
-        (1, false) => ("block has a /", "what stands behind it"),
-        (_, false) => ("blocks begin with / or have one inside", "what stands behind it"),
+    let (begin, them, it) = match (count, all_begin) {
+        (1, true) => ("block begins with /,", "the block", "it"),
+        (_, true) => ("blocks begin with /,", "them", "them"),
+        (1, false) => ("block contains a /,", "what follows it", "it"),
+        (_, false) => ("blocks begin with or contain a /,", "what follows it", "it"),
     };
-    let text =
-        format!("{count} {begin} and the state of the switch is not declared: judged with {them} run and skipped");
+    let text = format!(
+        "{count} {begin} and the state of the block delete switch is not declared: judged both with {them} run and with {it} skipped"
+    );
     let draft = out.report(first, text);
     draft.help("declare it: [control] block_delete = true or false in trunnion.toml, or --block-delete on or off");
     if levels.len() > 1 {
         let names: Vec<String> = levels.iter().map(|level| format!("/{level}")).collect();
         draft.note(format!(
-            "{} are switches of their own: their mixed states are not judged",
+            "{} are separate switches: their mixed states are not judged",
             names.join(" ")
         ));
         draft.unknown();
@@ -87,8 +91,8 @@ mod tests {
             let found = found.diagnostics.iter().find(|d| d.rule == rule);
             found.and_then(|d| d.notes.last()).map(String::as_str)
         };
-        assert_eq!(note("missing-feed"), Some("only where the blocks with / are skipped"));
-        assert_eq!(note("arc-centre-missing"), Some("only where the blocks with / are run"));
+        assert_eq!(note("missing-feed"), Some("only if the blocks with / are skipped"));
+        assert_eq!(note("arc-centre-missing"), Some("only if the blocks with / run"));
         assert_eq!(found.summary.errors, 2);
         let own = found.diagnostics.iter().find(|d| d.rule == "block-delete-unset");
         assert_eq!(
@@ -112,17 +116,17 @@ mod tests {
             one("arc-centre-missing")
                 .notes
                 .iter()
-                .any(|note| note.contains("are run"))
+                .any(|note| note.contains("with / run"))
         );
         let own = one("block-delete-unset");
         assert!(
-            own.message.starts_with("2 blocks begin with / or have one inside"),
+            own.message.starts_with("2 blocks begin with or contain a /, and"),
             "{}",
             own.message
         );
         assert_eq!(own.status, crate::Status::Unknown, "two switches");
         assert!(found.diagnostics.iter().all(|d| d.rule != "not-modelled"));
-        // where nobody says that the control knows it, nothing is guessed
+        // if it is not declared that the control knows it, nothing is guessed
         let found = report(text);
         assert_eq!(found.diagnostics.iter().filter(|d| d.rule == "not-modelled").count(), 2);
     }

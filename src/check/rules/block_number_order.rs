@@ -1,15 +1,15 @@
-//! Block numbers do not rise.
+//! Block numbers do not increase.
 //!
 //! # Why
-//! Numbers are how people and controls find a block: a search for N30 stops at the first one. Numbers that fall or repeat are mostly
-//! harmless, and sometimes the trace of a block that was copied, moved or lost.
+//! People and controls use the numbers to find a block: a search for N30 stops at the first one. Numbers that
+//! decrease or repeat are mostly harmless, but sometimes they show that a block was copied, moved or lost.
 //!
 //! # Example
 //! ```gcode
 //! N10 G0 X10
 //! N30 X20
 //! N20 X30
-//! ;^^ block-number-order: N20 stands behind N30
+//! ;^^ block-number-order: N20 comes after N30
 //! ```
 //!
 //! # Use instead
@@ -20,10 +20,11 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; told once per file, with the count of such blocks. Numbers start anew behind a program number and behind `%`.
+//! Sound; reported once per file, with the count of such blocks. Numbering starts again after a program number and
+//! after `%`.
 //!
 //! # Sources
-//! ISO 6983-1 on block numbers.
+//! * ISO 6983-1:2009, sequence numbers.
 use crate::prelude::*;
 use trunnion_syntax::Format;
 
@@ -61,13 +62,13 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
                 {
                     let (this, that) = (out.text(range), out.text(place));
                     let message = if value == before {
-                        format!("{this} is there twice in a row")
+                        format!("{this} is used twice in a row")
                     } else {
-                        format!("{this} stands behind {that}")
+                        format!("{this} comes after {that}")
                     };
                     out.report(range, message)
-                        .help("number the blocks anew where numbers are searched for")
-                        .related(place, "the number before is here")
+                        .help("renumber the blocks if their numbers are used for searching")
+                        .related(place, "the previous number is here")
                         .merge_everywhere(0);
                 }
                 last = Some((value, range));
@@ -127,7 +128,7 @@ mod tests {
     fn one_finding_counts_all_of_them() {
         let report = assert_drawn(
             "gcode",
-            "N10 G0 X1\n/ N5 X2\n; ^^ block-number-order: N5 stands behind N10\n;^ block-delete-unset: 1 block begins with /\nN5 X3\nn6.5 X4\nN 7 X5\nN6.9 X6\n",
+            "N10 G0 X1\n/ N5 X2\n; ^^ block-number-order: N5 comes after N10\n;^ block-delete-unset: 1 block begins with /\nN5 X3\nn6.5 X4\nN 7 X5\nN6.9 X6\n",
         );
         let found = report
             .diagnostics

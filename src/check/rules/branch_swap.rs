@@ -1,15 +1,16 @@
-//! The machine changes its posture in a block, with far more rotary travel than staying in it would need.
+//! The machine changes its posture within a block, with much more rotary travel than the same posture would need.
 //!
 //! # Why
-//! Two postures of the rotary axes give the same tool direction. Changing from one to the other turns an axis by up to half a
-//! turn while the tool is meant to hardly move: in the cut that is a gouge or a mark, in the air it is lost time.
+//! Two postures of the rotary axes give the same tool direction. Changing from one to the other turns an axis by up
+//! to half a turn while the tool should hardly move. In the cut that is a gouge or a mark; in the air it is lost
+//! time.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z50 A20 C0
 //! N30 G1 X10 A-20 C180 F300
-//! ;          ^^^^^^^^^ branch-swap: the posture changes with 220 deg more rotary travel than needed
+//! ;          ^^^^^^^^^ branch-swap: the posture changes and costs 220 deg more rotary travel than needed
 //! ;               ^^^^ pole-flip: C turns 180 deg
 //! N40 M30
 //! ```
@@ -23,14 +24,16 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for blocks between known positions: the posture is the sign of e1 . (R1 e2 x u), the cheapest move without a swap is
-//! found among all windings, limits aside: a swap that a limit forces is a swap all the same. Judges feed motions; a rapid that swaps is an info.
+//! Sound for blocks between known positions. The posture is the sign of e1 . (R1 e2 x u). The cheapest move without
+//! a swap is found among all full turns, ignoring limits: a swap that a limit forces is still a swap. Feed motions
+//! are judged; a rapid that swaps is an info.
 //!
 //! # Thresholds
-//! `swap_excess`: rotary travel over the cheapest move of the same posture, 5 deg.
+//! `swap_excess`: 5 deg of rotary travel more than the cheapest move of the same posture.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 5 (BRANCH-SWAP); the guide-vane paper of 2006 on swaps at an axis limit.
+//! * docs/kinematics.md#change-of-posture
+//! * Guide-vane paper (2006), on posture swaps at an axis limit.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -50,13 +53,13 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let draft = out.report(
         range,
         format!(
-            "the posture changes with {} more rotary travel than needed",
+            "the posture changes and costs {} more rotary travel than needed",
             degrees(excess)
         ),
     );
     draft
         .note(format!("{first} turns {} and {second} {}", degrees(d1), degrees(d2)))
-        .help("give the rotary words of the posture before, or retract and swap out of the cut")
+        .help("program the rotary positions of the previous posture, or retract and change the posture out of the cut")
         .value("rotary_change_second_deg", deg(d2))
         .value("rotary_excess_deg", deg(excess))
         .value("rotary_change_deg", deg(d1))
@@ -65,11 +68,11 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         let name = letter(view.machine.axes[beyond.axis].letter);
         draft
             .note(format!(
-                "the posture before would need {name} = {}, outside its limit of {}",
+                "the previous posture would need {name} = {}, beyond its limit of {}",
                 degrees(beyond.value),
                 degrees(beyond.limit)
             ))
-            .help("retract and swap out of the cut, or set the part up so that the limit is not met")
+            .help("retract and change the posture out of the cut, or set up the part so that the limit is not reached")
             .value_text("axis", name)
             .value("value_deg", deg(beyond.value))
             .value("limit_deg", deg(beyond.limit));
@@ -102,9 +105,9 @@ mod tests {
         let found = report.diagnostics.iter().find(|d| d.rule == "branch-swap").unwrap();
         assert_eq!(
             found.notes[1],
-            "the posture before would need A = -40 deg, outside its limit of -30 deg"
+            "the previous posture would need A = -40 deg, beyond its limit of -30 deg"
         );
-        assert!(!found.help.as_deref().unwrap().contains("posture before"));
+        assert!(!found.help.as_deref().unwrap().contains("previous posture"));
         let flip = report.diagnostics.iter().find(|d| d.rule == "pole-flip").unwrap();
         assert!(flip.fixes.is_empty() && !flip.help.as_deref().unwrap().contains("smooth-pole"));
     }
@@ -137,7 +140,7 @@ mod tests {
             })
         };
         assert!((value("rotary_change_deg").unwrap() - 180.0).abs() < 1e-4, "{found:?}");
-        // at 30 deg A still stands on its limit; the block to 35 deg swaps
+        // at 30 deg A is still at its limit; the block to 35 deg swaps
         assert!(
             (value("rotary_change_second_deg").unwrap() - 65.0).abs() < 1e-4,
             "{found:?}"

@@ -1,8 +1,8 @@
-//! A comment speaks to Trunnion, but cannot be followed.
+//! A comment addresses Trunnion but cannot be carried out.
 //!
 //! # Why
-//! A comment that is meant to allow a rule, or to declare a tool, and is misspelt does nothing. An `allow` without a reason
-//! does nothing either: who reads it later cannot tell whether it still holds.
+//! A misspelt comment that should allow a rule or declare a tool has no effect. An `allow` without a reason has no
+//! effect either: a later reader could not tell whether it still applies.
 //!
 //! # Example
 //! ```gcode
@@ -19,7 +19,7 @@
 //! Sound for comments that begin with `trunnion:`.
 //!
 //! # Sources
-//! Trunnion's interface, section 5.
+//! * docs/contract.md#comments-that-trunnion-reads
 use crate::prelude::*;
 use trunnion_interp::Directive;
 
@@ -33,12 +33,13 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     for (range, directive) in overview.directives {
         match directive {
             Directive::Allow { rule, .. } if crate::rule(rule).is_none() => {
-                out.report(*range, format!("no rule is called `{rule}`"))
-                    .help("`trunnion rules` lists them");
+                let hint = crate::did_you_mean(rule, &crate::rule_names(), "");
+                out.report(*range, format!("unknown rule `{rule}`{hint}"))
+                    .help("`trunnion rules` lists all rules");
             }
             Directive::Allow { rule, reason } if reason.trim().is_empty() => {
                 out.report(*range, format!("`allow {rule}` has no reason and is ignored"))
-                    .help(format!("say why: allow {rule} because ..."));
+                    .help(format!("give the reason: allow {rule} because ..."));
             }
             Directive::Broken(what) => {
                 out.report(*range, what.clone())

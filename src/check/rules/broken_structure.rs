@@ -1,8 +1,8 @@
 //! Loops, branches and subprograms do not fit together.
 //!
 //! # Why
-//! A loop without its end, an `else` without its `if`, or an end that belongs to something else: the control stops, or runs
-//! on where nobody expects it.
+//! A loop without its end, an `else` without its `if`, or an end that belongs to something else: the control stops,
+//! or continues at an unexpected place.
 //!
 //! # Example
 //! ```gcode fanuc-30i
@@ -24,7 +24,8 @@
 //! Sound where the run reaches it.
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9; the Fanuc manuals on branch and repetition.
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
+//! * FANUC Series 16i/18i-PB B-63684EN/01: custom macro, branch and repetition.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {

@@ -1,8 +1,9 @@
-//! A canned cycle is used wrongly.
+//! A canned cycle is programmed incorrectly.
 //!
 //! # Why
-//! A cycle without its retract plane, without depth, or with the plane below the bottom stops the control, or drives the tool
-//! through the part in rapid. LinuxCNC says `R clearance plane unspecified in cycle`.
+//! A cycle without a retract plane, without a depth, or with the retract plane below the bottom of the hole stops
+//! the control or drives the tool through the part in rapid. LinuxCNC says `R clearance plane unspecified in
+//! cycle`.
 //!
 //! # Example
 //! ```gcode fanuc-30i
@@ -21,10 +22,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for the cycles that are modelled; others are said to be not modelled.
+//! Sound for the cycles that are modelled; others are reported as not modelled.
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9.
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {

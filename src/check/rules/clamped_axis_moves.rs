@@ -1,12 +1,12 @@
-//! A rotary axis turns that must stand still while cutting, or that a code has clamped.
+//! A rotary axis turns although it must stand still while cutting, or although the program has clamped it.
 //!
 //! # Why
-//! On 3+2 machines, and on indexing tables with a clamp, rotary axes are positioned out of the cut. A feed motion that turns them
-//! works against the clamp, or stops with an alarm in the cut. Where codes of the program close and open the clamp, no motion at all may
-//! turn the axis while it is closed.
+//! On 3+2 machines, and on indexing tables with a clamp, rotary axes are positioned out of the cut. A feed motion
+//! that turns them works against the clamp, or stops with an alarm in the cut. Where the program closes and opens
+//! the clamp by codes, no motion at all may turn the axis while the clamp is closed.
 //!
 //! # Example
-//! The machine file has `clamp = true` at C.
+//! The machine file says `clamp = true` for C.
 //!
 //! ```gcode sinumerik-840d mikron-ucp710+C.clamp
 //! N10 TRAORI
@@ -16,7 +16,7 @@
 //! N40 M30
 //! ```
 //!
-//! The machine file has `clamp_codes = { on = "M10", off = "M11" }` at C.
+//! The machine file says `clamp_codes = { on = "M10", off = "M11" }` for C.
 //!
 //! ```gcode fanuc-30i mikron-ucp710+C.clamp_codes={on="M10",off="M11"}
 //! N10 M11
@@ -38,12 +38,14 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for motions between known positions. Where it is not known whether a motion turns a clamped axis, or its clamp is not yet named,
-//! named in the same block, or behind a code or call whose effect is not known, the finding is unknown. Codes of called files count. On a
-//! great circle an axis that leaves its value and comes back to it has turned; over the pole, where its way is not known, it may have.
+//! Sound for motions between known positions. The finding is unknown where it is not known whether a motion turns a
+//! clamped axis, and where the state of the clamp is not known: before the first clamp code, in the block of a
+//! clamp code, and after a code or call with an unknown effect. Codes in called files count. On a great circle an
+//! axis that leaves its value and returns to it has turned; over the pole, where its path is not known, it may have
+//! turned.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 5 (LOCK-3P2).
+//! * docs/kinematics.md#clamped-axes
 use crate::prelude::*;
 use crate::view::NO_TURN;
 use trunnion_interp::{AxisLetter, Clamp, MotionKind, Orientation};
@@ -66,7 +68,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     }
 }
 
-/// Axes that must stand still while cutting.
+/// Axes that must not move while cutting.
 fn in_the_cut(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if !view.machine.axes.iter().any(|axis| axis.extra.clamp) {
         return;
@@ -84,13 +86,13 @@ fn in_the_cut(view: &LegView<'_>, out: &mut Reporter<'_>) {
             let range = axis_word(out.program(), view.motion().block, axis.letter);
             out.report(
                 range,
-                format!("whether {name} turns between the ends of this cut is not known"),
+                format!("it is not known whether {name} turns between the ends of this cut"),
             )
             .note(format!(
-                "the machine file of {} says clamp = true at {name}",
+                "the machine file of {} says clamp = true for {name}",
                 view.machine.id
             ))
-            .help("turn the other axis in smaller steps, or out of the cut")
+            .help("divide the turn of the other axis into smaller steps, or turn it out of the cut")
             .value_text("axis", name)
             .unknown()
             .merge_everywhere(key + 4096);
@@ -108,7 +110,7 @@ fn in_the_cut(view: &LegView<'_>, out: &mut Reporter<'_>) {
             ),
         )
         .note(format!(
-            "the machine file of {} says clamp = true at {name}",
+            "the machine file of {} says clamp = true for {name}",
             view.machine.id
         ))
         .help("turn the axis in a rapid motion out of the cut")
@@ -144,7 +146,7 @@ fn turn(view: &LegView<'_>, axis: usize) -> Turn {
     match (motion.kind, motion.orientation) {
         (MotionKind::Dwell(_), _) => Turn::No,
         (MotionKind::Unknown, _) | (_, Orientation::Vector(..)) => Turn::Perhaps,
-        // neither before nor behind this block the program knows it: the block does not name it
+        // neither before nor after this block does the program know it: the block does not name it
         _ if to.is_none() || from == to => Turn::No,
         _ => Turn::Perhaps,
     }
@@ -179,26 +181,34 @@ fn by_code(view: &LegView<'_>, axis: usize, out: &mut Reporter<'_>) {
             }
             out.report(range, format!("{name} turns by {} while it is clamped", degrees(by)))
                 .note(note)
-                .help(format!("release it before (M{}), and clamp it again behind", codes.off))
+                .help(format!(
+                    "release it before (M{}), and clamp it again afterwards",
+                    codes.off
+                ))
                 .value_text("axis", name)
                 .value("rotary_change_deg", deg(by))
                 .merge(key, by);
             return;
         }
-        (Clamp::Closed, _) => format!("{name} is clamped, and it is not known whether this turns it"),
-        (Clamp::Unsaid, _) => format!("{name} may be clamped: no M{} or M{} has run yet", codes.on, codes.off),
+        (Clamp::Closed, _) => format!("{name} is clamped, and it is not known whether this motion turns it"),
+        (Clamp::Unsaid, _) => format!(
+            "{name} may be clamped: neither M{} nor M{} has run yet",
+            codes.on, codes.off
+        ),
         (Clamp::Unknown, _) if here => {
-            format!("{name} may be clamped: whether its clamp moves before this block's motion or behind is not known")
+            format!(
+                "{name} may be clamped: it is not known whether its clamp acts before or after the motion of this block"
+            )
         }
         (Clamp::Unknown, _) => {
-            format!("{name} may be clamped: which code of its clamp ran last is not known")
+            format!("{name} may be clamped: it is not known which of its clamp codes ran last")
         }
     };
     let cause = clamp as u64 * 2 + u64::from(here);
     out.report(range, message)
         .note(note)
         .help(format!(
-            "program M{} in a block of its own before the axis turns",
+            "program M{} in a separate block before the axis turns",
             codes.off
         ))
         .value_text("axis", name)

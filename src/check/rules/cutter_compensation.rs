@@ -1,8 +1,9 @@
-//! Cutter radius compensation is impossible here, or used wrongly.
+//! Cutter radius compensation is impossible here, or programmed incorrectly.
 //!
 //! # Why
-//! Where the tool does not fit into a corner or an arc the control stops, or it cuts into the part. Planes, offsets and some codes
-//! may not change while it is on: LinuxCNC says `Cannot change planes with cutter radius compensation on`.
+//! Where the tool does not fit into a corner or an arc, the control stops or the tool cuts into the part. Planes,
+//! offsets and some codes must not change while compensation is on: LinuxCNC says `Cannot change planes with cutter
+//! radius compensation on`.
 //!
 //! # Example
 //! ```gcode fanuc-30i
@@ -31,10 +32,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for the contours that are modelled; others are said to be not modelled.
+//! Sound for the contours that are modelled; others are reported as not modelled.
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9.
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {

@@ -1,12 +1,12 @@
-//! A comma stands where a decimal point is meant.
+//! A comma is written in place of a decimal point.
 //!
 //! # Why
-//! Only Klartext writes decimal commas. An ISO control stops, or reads `X1,5` as X1 and goes on.
+//! Only Klartext uses decimal commas. An ISO control stops, or reads `X1,5` as X1 and continues.
 //!
 //! # Example
 //! ```gcode
 //! N10 G0 X1,5
-//! ;       ^^^ decimal-comma: `1,5` has a comma for a decimal point
+//! ;       ^^^ decimal-comma: `1,5` has a comma in place of the decimal point
 //! ```
 //!
 //! # Use instead
@@ -18,7 +18,8 @@
 //! Sound for dialects without decimal commas.
 //!
 //! # Sources
-//! ISO 6983-1 knows the point only; HEIDENHAIN Klartext writes both.
+//! * ISO 6983-1:2009, which allows the point only.
+//! * HEIDENHAIN TNC 640 34059x-05 (ISO programming): Klartext accepts both.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -30,7 +31,10 @@ pub(super) const RULE: Body = Body {
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     if error.kind == SyntaxErrorKind::DecimalComma {
         let text = out.text(error.range);
-        out.report(error.range, format!("`{text}` has a comma for a decimal point"))
-            .help(format!("write {}", text.replace(',', ".")));
+        out.report(
+            error.range,
+            format!("`{text}` has a comma in place of the decimal point"),
+        )
+        .help(format!("write {}", text.replace(',', ".")));
     }
 }

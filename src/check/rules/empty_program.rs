@@ -1,12 +1,13 @@
-//! The file holds no block that does anything.
+//! The file contains no block that does anything.
 //!
 //! # Why
-//! A transfer that broke off leaves a file of nothing, of blanks or of NUL bytes. Nothing is wrong in it, and nothing was checked.
+//! A broken transfer leaves a file that is empty, blank or filled with NUL bytes. Such a file contains no error,
+//! but nothing was checked either.
 //!
 //! # Example
 //! ```gcode
 //! (the rest was lost)
-//! ;^ empty-program: the file holds no block that does anything; was it transferred completely?
+//! ;^ empty-program: the file contains no block that does anything; was it transferred completely?
 //! ```
 //!
 //! # Use instead
@@ -16,10 +17,11 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; told once per file, at its first byte. Comments, `%`, labels, block numbers and program numbers do nothing.
+//! Sound; reported once per file, at its first byte. Comments, `%`, labels, block numbers and program numbers do
+//! nothing.
 //!
 //! # Sources
-//! Trunnion's interface: what cannot be decided is unknown, and says what is missing.
+//! * docs/contract.md#verdicts
 use crate::prelude::*;
 use trunnion_syntax::{Address, Block, Item};
 
@@ -37,7 +39,7 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     let first = u32::from(!overview.program.source().is_empty());
     out.report(
         TextRange::new(0, first),
-        "the file holds no block that does anything; was it transferred completely?",
+        "the file contains no block that does anything; was it transferred completely?",
     )
     .note("there was nothing to check")
     .help("transfer the program again and compare the sizes")

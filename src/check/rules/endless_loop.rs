@@ -1,14 +1,14 @@
-//! A loop, or a chain of calls, does not come to an end.
+//! A loop, or a chain of calls, does not end.
 //!
 //! # Why
-//! The machine runs until somebody stops it. A loop that is meant to run for ever (a bar feeder, a warm-up) is told too: allow the
-//! rule there with the reason.
+//! The machine runs until someone stops it. A loop that is meant to run for ever (a bar feeder, a warm-up) is
+//! reported too: allow the rule there and give the reason.
 //!
 //! # Example
 //! ```gcode fanuc-30i
 //! N10 #1 = 0
 //! N20 WHILE [#1 LT 3] DO 1
-//! ;^^^^^^^^^^^^^^^^^^^^^^^ endless-loop: this did not come to an end
+//! ;^^^^^^^^^^^^^^^^^^^^^^^ endless-loop: this did not end within
 //! N30 #2 = #2 + 1
 //! N40 END 1
 //! N50 M30
@@ -24,12 +24,12 @@
 //! ```
 //!
 //! # Guarantee
-//! A loop of which it is said that it never ends is proved to: a pass came back to the same values. Of others it is said that they did
-//! not end within the bounds of the run (`[limits] blocks` in `trunnion.toml`, else 10 000 000 executed blocks). A program that is not
-//! reported ends, where everything in it was decided.
+//! Where the message says that a loop never ends, this is proved: a pass returned to the same values. Other loops
+//! are reported because they did not end within the limits of the run (`[limits] blocks` in `trunnion.toml`, by
+//! default 10 000 000 executed blocks). A program without this finding ends, if everything in it was decided.
 //!
 //! # Sources
-//! Engineering judgement.
+//! * docs/contract.md#limits-of-a-run
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -45,18 +45,18 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if proved {
         out.report(
             fault.range,
-            "this never ends: a pass leaves all values as they were before it",
+            "this never ends: one pass leaves all values as they were before",
         )
-        .note("proved: nothing that the next pass depends on has changed, so every further pass is the same")
-        .note("what comes behind it was not checked")
-        .help("change in the loop what its condition asks for");
+        .note("this is proved: nothing that the next pass depends on has changed, so every further pass is the same")
+        .note("what comes after it was not checked")
+        .help("change, inside the loop, a value that its condition tests");
     } else {
         out.report(
             fault.range,
-            format!("this did not come to an end within {blocks} executed blocks"),
+            format!("this did not end within {blocks} executed blocks"),
         )
-        .note("what comes behind it was not checked")
-        .help("change in the loop what its condition asks for; where it only runs long, raise `blocks` of [limits] in trunnion.toml")
+        .note("what comes after it was not checked")
+        .help("change, inside the loop, a value that its condition tests; if the program is only long, raise `blocks` of [limits] in trunnion.toml")
         .value("executed_blocks", blocks as f64);
     }
 }
@@ -73,8 +73,8 @@ mod tests {
         let own = found.diagnostics.iter().find(|d| d.rule == "endless-loop").unwrap();
         assert_eq!(
             own.message,
-            "this never ends: a pass leaves all values as they were before it"
+            "this never ends: one pass leaves all values as they were before"
         );
-        assert!(own.notes[0].starts_with("proved: "), "{:?}", own.notes);
+        assert!(own.notes[0].starts_with("this is proved: "), "{:?}", own.notes);
     }
 }

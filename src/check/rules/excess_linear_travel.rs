@@ -1,15 +1,16 @@
-//! In a feed motion the linear axes run much farther than the tip does.
+//! In a feed motion the linear axes travel much farther than the tip.
 //!
 //! # Why
-//! While the tool is turned the linear axes carry the tip along: far from the rotary axes, or near the pole, they run loops for
-//! a short cut. That costs time and accuracy, and the loop may lead out of the travel or into a clamp.
+//! While the tool turns, the linear axes carry the tip along. Far from the rotary axes, or near the pole, they
+//! travel in large loops for a short cut. That costs time and accuracy, and a loop may lead out of the travel or
+//! into a clamp.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z200 A10 C0
 //! N30 G1 X5 A25 F50
-//! ;         ^^^ excess-linear-travel: the linear axes run
+//! ;         ^^^ excess-linear-travel: the linear axes travel
 //! N40 M30
 //! ```
 //!
@@ -22,18 +23,18 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound where the path of the axes is known: the length is bounded from both sides until it is on one side of what is allowed;
-//! where that does not come about the rule says unknown, with both bounds. Over the pole on a great circle it is not
-//! known, and `axis-limit` says so. Blocks without rotary motion are not judged: there the axes run as far as the tip. A tip
-//! path below 0.1 mm counts as 0.1 mm; without tool centre point control it counts from tip to tip in the workpiece.
+//! Sound where the path of the axes is known: their travel is bounded from both sides until it is clearly above or
+//! below the allowed value. Where the bounds do not settle it, the rule says unknown and gives both. On a great
+//! circle over the pole the path is unknown, and `axis-limit` says so. Blocks without rotary motion are not judged:
+//! there the axes travel as far as the tip. A tip path shorter than 0.1 mm counts as 0.1 mm; without tool centre
+//! point control it is the distance between the tips in the workpiece.
 //!
 //! # Thresholds
-//! `linear_ratio`: 5, way of the linear axes (root of the sum of squares) over way of the tip. Noted are axes that run more
-//! than 1 mm beyond both their ends.
+//! `linear_ratio`: 5, the travel of the linear axes (root of the sum of squares) divided by the travel of the tip.
+//! A note names each axis that runs more than 1 mm beyond both its ends.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 5 (LIN-EXCESS, LIM-LIN-INTERNAL); the paper on tool-path optimisation on loops of
-//! machines with two rotary axes.
+//! * docs/kinematics.md#travel-ratios
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 use trunnion_machine::{LinearTravel, Machine, excursions, linear_travel};
@@ -89,18 +90,18 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let draft = out.report(
         range,
         format!(
-            "the linear axes run {} while the tip runs {}",
+            "the linear axes travel {} while the tip travels {}",
             mm(travel.least_mm),
             mm(tip)
         ),
     );
     draft
         .note(format!(
-            "{} times as far; allowed are {} times, a tip path below {LEAST_MM} mm counting as that",
+            "{} times as far; up to {} times is allowed, and a tip path below {LEAST_MM} mm counts as {LEAST_MM} mm",
             number(times),
             number(ratio)
         ))
-        .help("lead the tool axis more evenly, set the part nearer to the rotary axes, or turn the axes out of the cut")
+        .help("turn the tool axis more evenly, set up the part closer to the rotary axes, or turn the axes out of the cut")
         .value("value_mm", travel.least_mm)
         .value("tip_mm", tip)
         .value("limit_mm", allowed)
@@ -109,7 +110,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         let name = letter(view.machine.axes[excursion.axis].letter);
         let side = if excursion.upward { "above" } else { "below" };
         draft.note(format!(
-            "inside the block {name} runs {} {side} both its ends",
+            "inside the block {name} moves {} {side} both its end positions",
             mm(excursion.beyond_mm)
         ));
     }
@@ -129,28 +130,28 @@ fn turning_word(view: &LegView<'_>, program: &Program) -> TextRange {
     )
 }
 
-/// The threshold lies between the bounds.
+/// The threshold is between the bounds.
 fn between(view: &LegView<'_>, out: &mut Reporter<'_>, travel: &LinearTravel, tip: f64, allowed: f64) {
     if out.repeats_unknown(view, BETWEEN, travel.most_mm) {
         return;
     }
     let range = turning_word(view, out.program());
     let most = if travel.most_mm.is_finite() {
-        format!("{} at most", bound_mm(travel.most_mm))
+        format!("at most {}", bound_mm(travel.most_mm))
     } else {
-        "an upper bound is not known".to_owned()
+        "no upper bound is known".to_owned()
     };
     let draft = out.report(
         range,
         format!(
-            "whether the linear axes run more than {} while the tip runs {} is not proven: {} at least, {most}",
+            "it is not proven whether the linear axes travel more than {} while the tip travels {}: at least {}, {most}",
             mm(allowed),
             mm(tip),
             mm(travel.least_mm)
         ),
     );
     draft
-        .help("program the block in smaller steps")
+        .help("divide the block into smaller steps")
         .value("least_mm", travel.least_mm)
         .value("tip_mm", tip)
         .value("limit_mm", allowed)
@@ -177,7 +178,7 @@ mod tests {
         }
     }
 
-    /// C turns by 90 deg and X and Y carry the tool along, so that the tip stands still on the part while they run 141 mm: a zero point that
+    /// C turns by 90 deg and X and Y carry the tool along, so that the tip does not move on the part while they run 141 mm: a zero point that
     /// changes between the blocks moves nothing.
     #[test]
     fn the_way_of_the_tip_is_that_on_the_part_whatever_the_zero_point() {
@@ -189,7 +190,7 @@ mod tests {
             let said = own.map(|own| own.message.as_str());
             assert_eq!(
                 said,
-                Some("the linear axes run 141.4 mm while the tip runs 0 mm"),
+                Some("the linear axes travel 141.4 mm while the tip travels 0 mm"),
                 "{shift}"
             );
         }
@@ -208,7 +209,7 @@ mod tests {
         found.map(|found| (found.status, found.values))
     }
 
-    /// Between ratios that fail and ratios that hold lies one that is not proven: it is not silent, and names both bounds.
+    /// Between ratios that fail and ratios that hold there is one that is not proven: it is reported, with both bounds.
     #[test]
     fn a_length_at_the_threshold_is_not_proven() {
         let (mut low, mut high) = (5.0, 200.0);
@@ -249,7 +250,7 @@ mod tests {
         assert!(
             notes
                 .iter()
-                .any(|note| note == "inside the block Z runs 9.369 mm above both its ends"),
+                .any(|note| note == "inside the block Z moves 9.369 mm above both its end positions"),
             "{notes:?}"
         );
     }

@@ -1,8 +1,8 @@
-//! The rapid motions from one cut to the next go a long way round.
+//! The rapid motions from one cut to the next make a long detour.
 //!
 //! # Why
-//! Rapid motions cut nothing: what they run beyond the direct way is lost time in each part. Often it is a point left behind by
-//! an edit, or a return to a safe place that nothing needs.
+//! Rapid motions cut nothing: every detour is lost time in each part. Often the cause is a point left over from an
+//! edit, or a return to a safe position that nothing needs.
 //!
 //! # Example
 //! ```gcode mill-3axis
@@ -13,7 +13,7 @@
 //! N50 G0 X20
 //! N60 G0 Y0
 //! N70 G1 X30
-//! ;   ^^^^^^ excess-rapid-travel: the rapid motions to this block run 410 mm across the tool; the direct way is 10 mm
+//! ;   ^^^^^^ excess-rapid-travel: the rapid motions to this block travel 410 mm across the tool; the direct distance is 10 mm
 //! N80 M30
 //! ```
 //!
@@ -28,16 +28,17 @@
 //! ```
 //!
 //! # Guarantee
-//! Heuristic: what stands in the way is not known, and a way round a clamp is no waste. Judged are rapid motions in a row
-//! between two feed motions, with one tool, by the way of the linear axes across the tool (a retract along it counts nothing)
-//! and by the turn of each rotary axis, against the direct way between the same ends. A direct way below 0.1 mm or 0.1 deg counts as
-//! that; less than 10 mm or 10 deg of detour is not told.
+//! Heuristic: obstacles are not known, and a detour around a clamp is not wasted. The rule judges consecutive rapid
+//! motions between two feed motions with one tool. It compares the travel of the linear axes across the tool (a
+//! retract along the tool counts nothing) and the turn of each rotary axis with the direct distance between the
+//! same ends. A direct distance below 0.1 mm or 0.1 deg counts as that; a detour below 10 mm or 10 deg is not
+//! reported.
 //!
 //! # Thresholds
 //! `rapid_ratio`: 2.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 1 and 6 (R5); the paper on a minimum route for machine tool travel.
+//! * docs/kinematics.md#travel-ratios
 use crate::prelude::*;
 use trunnion_geometry::rad;
 
@@ -47,10 +48,10 @@ pub(super) const RULE: Body = Body {
     level: Level::Leg(Needs::ARRIVES, check),
 };
 
-/// A shorter direct way counts as this, mm or deg.
+/// A shorter direct distance counts as this, mm or deg.
 const LEAST: f64 = 0.1;
 
-/// A smaller detour is not told, mm or deg.
+/// A smaller detour is not reported, mm or deg.
 const DETOUR: f64 = 10.0;
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
@@ -66,12 +67,12 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         let draft = out.report(range, message);
         draft
             .note(format!(
-                "{} rapid motions; allowed are {} times the direct way",
+                "{} rapid motions; up to {} times the direct distance is allowed",
                 rapids.count,
                 number(ratio)
             ))
-            .help("go there directly where nothing stands in the way")
-            .related(first, "the rapid motions begin here");
+            .help("move there directly if nothing is in the way")
+            .related(first, "the rapid motions start here");
         for (key, value) in values {
             draft.value(key, value);
         }
@@ -81,7 +82,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     };
     if far(rapids.way_mm, rapids.direct_mm, 1.0) {
         let message = format!(
-            "the rapid motions to this block run {} across the tool; the direct way is {}",
+            "the rapid motions to this block travel {} across the tool; the direct distance is {}",
             mm(rapids.way_mm),
             mm(rapids.direct_mm)
         );
@@ -93,7 +94,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         if far(turned, direct, rad(1.0)) {
             let name = letter(view.machine.axes[axis].letter);
             let message = format!(
-                "the rapid motions to this block turn {name} by {}; the direct way is {}",
+                "the rapid motions to this block turn {name} by {}; the direct turn is {}",
                 degrees(turned),
                 degrees(direct)
             );
@@ -107,7 +108,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
 mod tests {
     use crate::fixture::{Fixture, assert_drawn};
 
-    /// The obstacle of the paper, ten times as large: the long way round it is 127.97 mm, the shortest 84.72 mm, the direct way 60 mm.
+    /// The obstacle of the paper, ten times as large: the long way round it is 127.97 mm, the shortest 84.72 mm, the direct distance 60 mm.
     #[test]
     fn the_long_way_round_the_barrier_of_the_paper_is_told() {
         let cut = "G0 X59 Y50 Z0\nG1 X60 F500\n";
@@ -118,7 +119,7 @@ mod tests {
         assert_drawn(
             "gcode mill-3axis",
             &format!(
-                "{cut}G0 X90 Y60\nG0 X110 Y70\nG0 Y90\nG0 X90 Y100\nG0 X60 Y110\nG1 X61\n;^^^^^ excess-rapid-travel: the rapid motions to this block run 128 mm across the tool; the direct way is 60 mm\nM30\n"
+                "{cut}G0 X90 Y60\nG0 X110 Y70\nG0 Y90\nG0 X90 Y100\nG0 X60 Y110\nG1 X61\n;^^^^^ excess-rapid-travel: the rapid motions to this block travel 128 mm across the tool; the direct distance is 60 mm\nM30\n"
             ),
         );
     }
@@ -141,13 +142,13 @@ mod tests {
     fn turns_for_nothing_are_told_by_axis() {
         assert_drawn(
             "gcode mikron-ucp710",
-            "G0 X0 Y0 Z0 A0 C0\nG1 X1 F500\nG0 C90\nG0 C1\nG1 X4\n;^^^^ excess-rapid-travel: the rapid motions to this block turn C by 179 deg; the direct way is 1 deg\nM30\n",
+            "G0 X0 Y0 Z0 A0 C0\nG1 X1 F500\nG0 C90\nG0 C1\nG1 X4\n;^^^^ excess-rapid-travel: the rapid motions to this block turn C by 179 deg; the direct turn is 1 deg\nM30\n",
         );
     }
 
     #[test]
     fn a_tilted_head_retracts_along_its_tool() {
-        // B 90: the tool lies along X
+        // B 90: the tool is parallel to X
         assert_drawn(
             "gcode ferrari-bc",
             "G0 X0 Y0 Z0 B90 C0\nG1 Y1 F500\nG0 X200\nG0 Y2\nG0 X0\nG1 Y3\nM30\n",

@@ -1,8 +1,8 @@
-//! Over ten feed blocks the rotary axes turn much farther than the tool axis does.
+//! Over ten feed blocks the rotary axes turn much farther than the tool axis.
 //!
 //! # Why
-//! Close to the pole, or along a posture that does not suit the part, the rotary axes turn back and forth for small changes of
-//! direction. The feed drops block after block, the axes heat up and wear, and the surface shows it.
+//! Close to the pole, or in a posture that does not suit the part, the rotary axes turn back and forth for small
+//! changes of direction. The feed drops in block after block, the axes heat up and wear, and the surface shows it.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
@@ -40,16 +40,17 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for machines with two rotary axes: turns of the last ten feed blocks between known positions are added up, rapids in
-//! between are left out. Fewer than ten are not judged; a single block that turns far is `pole-flip` or `branch-swap`. A tool
-//! axis that turns by less than 0.1 deg counts as 0.1 deg. Without tool centre point control, blocks in which the tool axis stands
-//! still do not count: there a turning table feeds the part under the tool. Consecutive blocks are told as one.
+//! Sound for machines with two rotary axes: the turns of the last ten feed blocks between known positions are added
+//! up, leaving out rapids in between. Fewer than ten blocks are not judged; a single block that turns far is
+//! `pole-flip` or `branch-swap`. A turn of the tool axis below 0.1 deg counts as 0.1 deg. Without tool centre point
+//! control, blocks in which the tool axis does not turn are left out: there a rotary table feeds the part under the
+//! tool. Consecutive blocks are reported as one.
 //!
 //! # Thresholds
-//! `rotary_ratio`: 20, turns of both rotary axes over turns of the tool axis.
+//! `rotary_ratio`: 20, the turn of both rotary axes divided by the turn of the tool axis.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 5 (ROT-EXCESS).
+//! * docs/kinematics.md#travel-ratios
 use crate::prelude::*;
 use crate::trail::Trail;
 use trunnion_geometry::rad;
@@ -93,11 +94,11 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     );
     draft
         .note(format!(
-            "{} times as far; allowed are {} times, a turn of the tool axis below {LEAST_DEG} deg counting as that",
+            "{} times as far; up to {} times is allowed, and a turn of the tool axis below {LEAST_DEG} deg counts as {LEAST_DEG} deg",
             number(times),
             number(ratio)
         ))
-        .help("tilt the path away from the pole, or give the rotary words of the posture that turns less")
+        .help("tilt the path away from the pole, or program the rotary positions of the posture that turns less")
         .value("rotary_change_deg", deg(turned))
         .value("tool_axis_change_deg", deg(tilted))
         .value("limit_deg", ratio * deg(tilted).max(LEAST_DEG))

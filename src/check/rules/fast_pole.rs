@@ -1,16 +1,16 @@
-//! The tool axis passes the pole nearer than the first rotary axis can follow at the programmed feed.
+//! The tool axis passes closer to the pole than the first rotary axis can follow at the programmed feed.
 //!
 //! # Why
-//! A straight pass at a distance d from the pole, at w deg/s, asks the first rotary axis for w/d. The nearer and the faster, the more,
-//! until the axis holds the tool back and it leaves a mark. How near is too near depends on the feed and the axis, not on a fixed
-//! cone.
+//! A straight pass at a distance d from the pole at w deg/s needs w/d from the first rotary axis. The closer and
+//! faster the pass, the more it needs, until the axis slows the tool down and the tool leaves a mark. How close is
+//! too close depends on the feed and the axis, not on a fixed cone.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z50 A3 C0
 //! N30 G1 X2 A3 C8 F2000
-//! ;            ^^ fast-pole: at F2000 the tool axis has to keep 3.329 deg away from the pole for C to follow; it passes 3 deg
+//! ;            ^^ fast-pole: at F2000 the tool axis must stay 3.329 deg away from the pole so that C can follow; it passes 3 deg
 //! ;            ^^ axis-overspeed: C would have to run at
 //! N40 M30
 //! ```
@@ -24,16 +24,17 @@
 //! ```
 //!
 //! # Guarantee
-//! Heuristic: the distance at the end or inside the block is exact, the asked speed and acceleration are those of a straight pass at the
-//! block's mean turning speed. Blocks in which the first axis turns less than five times as far as the tool axis are silent: that is not
-//! the pole's doing, and straight over the pole the tool can pass with that axis at rest. Only what the machine file declares of the first axis is judged; `axis-overspeed` is the proof
-//! for its speed.
+//! Heuristic: the distance from the pole at the end of or inside the block is exact; the speed and acceleration are
+//! those of a straight pass at the mean turning speed of the block. Blocks in which the first axis turns less than
+//! five times as far as the tool axis are not reported: there the pole is not the cause, and straight over the pole
+//! the tool can pass with that axis at rest. The rule uses only what the machine file declares for the first axis;
+//! `axis-overspeed` proves its speed.
 //!
 //! # Thresholds
-//! d = max(w / vmax, w sqrt(0.6495 / amax)), `vmax` and `amax` of the rotary axis nearest the workpiece.
+//! d = max(w / vmax, w sqrt(0.6495 / amax)), with `vmax` and `amax` of the rotary axis nearest the workpiece.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 2.4 and 5 (POLE-DYN).
+//! * docs/kinematics.md#how-fast-the-first-axis-turns-near-the-pole
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 use crate::trail::axes_chord;
@@ -50,13 +51,13 @@ pub(super) const RULE: Body = Body {
 /// Where the first axis turns less than this many times as far as the tool axis the pole is not to blame.
 const AMPLIFIED: f64 = 5.0;
 
-/// A tool axis that turns less stands still, rad: 1e-4 deg.
+/// A tool axis that turns less than this does not turn, rad: 1e-4 deg.
 const STILL: f64 = 1.7e-6;
 
-/// Peak acceleration of the first axis on a straight pass is this times w^2 / d^2 (kinematics notes 2.4).
+/// Peak acceleration of the first axis on a straight pass is this times w^2 / d^2 (docs/kinematics.md#how-fast-the-first-axis-turns-near-the-pole).
 const PASS: f64 = 0.6495;
 
-/// Seconds that an axis needs for a pass at 1 rad from the pole, per rad that the tool axis turns (kinematics notes 2.4).
+/// Seconds that an axis needs for a pass at 1 rad from the pole, per rad that the tool axis turns (docs/kinematics.md#how-fast-the-first-axis-turns-near-the-pole).
 pub(crate) fn pass(axis: &Axis) -> f64 {
     let by_speed = axis.max_speed.map_or(0.0, |speed| 1.0 / speed);
     let by_acceleration = axis.max_acceleration.map_or(0.0, |limit| (PASS / limit).sqrt());
@@ -111,7 +112,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let draft = out.report(
         range,
         format!(
-            "{at}the tool axis has to keep {} away from the pole for {name} to follow; it passes {}",
+            "{at}the tool axis must stay {} away from the pole so that {name} can follow; it passes {}",
             degrees(distance),
             past_pole(passes)
         ),
@@ -122,7 +123,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             number(deg(angle / seconds)),
             degrees(turn)
         ))
-        .help("lower the feed near the pole, or tilt the path away from it")
+        .help("reduce the feed near the pole, or tilt the path away from it")
         .value_text("axis", name)
         .value("pole_angle_deg", deg(passes))
         .value("limit_deg", deg(distance))

@@ -1,8 +1,8 @@
-//! In a block the axes allow only a small share of the programmed feed.
+//! In a block the axes allow only a small part of the programmed feed.
 //!
 //! # Why
-//! The tool slows down in the cut. It rubs instead of cutting, leaves a mark, and the time the program takes is not what its
-//! feeds say.
+//! The tool slows down in the cut. It rubs instead of cutting and leaves a mark, and the program takes longer than
+//! its feeds suggest.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
@@ -23,14 +23,15 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for axes with a declared speed: the worst moment inside the block counts, not its average. Acceleration is not
-//! considered. Up to 8 consecutive blocks are reported one by one, longer runs as one with their worst.
+//! Sound for axes with a declared speed: the worst moment inside the block counts, not its average. Acceleration is
+//! not considered. Up to 8 consecutive blocks are reported one by one; a longer run is reported as one finding with
+//! its worst block.
 //!
 //! # Thresholds
 //! `feed_drop_warning`: 0.8 of the programmed feed; `feed_drop_error`: 0.3.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 4.1 and 5 (FEED-DROP).
+//! * docs/kinematics.md#axis-speed-and-feed
 use super::axis_overspeed::feed_keys;
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
@@ -57,7 +58,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if share >= tolerances.feed_drop_warning * (1.0 - ROUNDING) {
         return;
     }
-    // told by axis-overspeed: the axis that drops the feed is overrun at the programmed one
+    // reported by axis-overspeed: the axis that drops the feed is too fast at the programmed one
     if view.feed_is_ambiguous(out.dialect()) {
         return;
     }
@@ -84,7 +85,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     );
     draft
         .note(format!("{name} limits the block"))
-        .help("lower the feed in this block, or lead the tool axis so that the axis moves less")
+        .help("reduce the feed in this block, or change the path so that the axis moves less")
         .value(keys[0], feed)
         .value(keys[1], limit.feed_mm_min)
         .value("share_percent", share * 100.0)

@@ -1,14 +1,15 @@
-//! The machine file declares something that no check reads.
+//! The machine file declares something that no check uses.
 //!
 //! # Why
-//! Who declares that an axis has to keep a distance from its limits expects it to be checked. A verdict must not pass over it.
+//! Anyone who declares that an axis must keep a margin to its limits expects that to be checked. A verdict must not
+//! ignore it silently.
 //!
 //! # Example
-//! The machine file has `limit_margin = 5` at A.
+//! The machine file says `limit_margin = 5` for A.
 //!
 //! ```gcode mikron-ucp710+A.limit_margin=5
 //! N10 G0 X0 Y0 Z0 A0 C0
-//! ;^ machine-not-used: the machine file of mikron-ucp710 says more than is checked: limit_margin on A
+//! ;^ machine-not-used: the machine file of mikron-ucp710 declares something that is not checked: limit_margin of A
 //! N20 M30
 //! ```
 //!
@@ -19,11 +20,11 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for what could change a verdict of the rules there are: margins before limits. `trunnion machine show` lists everything else
-//! that is declared and not used yet. Each fact is told once per file, at its first byte.
+//! Sound for what could change a verdict of the present rules: margins before limits. `trunnion machine show` lists
+//! everything else that is declared and not used yet. Each item is reported once per file, at its first byte.
 //!
 //! # Sources
-//! Trunnion's interface: what cannot be decided is unknown, and says what is missing.
+//! * docs/contract.md#verdicts
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -40,9 +41,12 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     for fact in &machine.not_judged {
         out.report(
             TextRange::new(0, first),
-            format!("the machine file of {} says more than is checked: {fact}", machine.id),
+            format!(
+                "the machine file of {} declares something that is not checked: {fact}",
+                machine.id
+            ),
         )
-        .help("take it out of the machine file, or allow this rule where it does not matter")
+        .help("remove it from the machine file, or allow this rule if it does not matter")
         .unknown();
     }
 }

@@ -1,8 +1,8 @@
 //! No machine is named, so axes, limits and speeds were not checked.
 //!
 //! # Why
-//! The same program is right on one machine and wrong on another. Without a machine only text and programmed motion are
-//! judged, and the verdict is unknown rather than pass.
+//! The same program is right on one machine and wrong on another. Without a machine only the text and the
+//! programmed motion are judged, and the verdict is unknown rather than pass.
 //!
 //! # Example
 //! ```gcode
@@ -18,10 +18,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; told once per file, at its first byte.
+//! Sound; reported once per file, at its first byte.
 //!
 //! # Sources
-//! Trunnion's interface: what cannot be decided is unknown, and says what is missing.
+//! * docs/contract.md#verdicts
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -37,7 +37,7 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
             TextRange::new(0, first),
             "no machine is named: axes, limits and speeds were not checked",
         )
-        .help("name one: --machine NAME or FILE, or `machine = \"NAME\"` in trunnion.toml")
+        .help("name the machine: --machine NAME or FILE, or `machine = \"NAME\"` in trunnion.toml")
         .unknown();
     }
 }

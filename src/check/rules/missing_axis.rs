@@ -1,7 +1,7 @@
 //! The program moves an axis that the machine does not have.
 //!
 //! # Why
-//! The control stops with an alarm; the program was written for another machine.
+//! The control stops with an alarm. The program was probably written for another machine.
 //!
 //! # Example
 //! ```gcode mill-3axis
@@ -17,10 +17,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; told once per axis, with the number of blocks.
+//! Sound; reported once per axis, with the number of blocks.
 //!
 //! # Sources
-//! The machine file.
+//! * docs/contract.md#machine-files
 use crate::prelude::*;
 use trunnion_machine::NoStance;
 
@@ -40,7 +40,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         let axes: Vec<String> = view.machine.axes.iter().map(|axis| letter(axis.letter)).collect();
         out.report(range, format!("{} has no axis {name}", view.machine.id))
             .note(format!("its axes are {}", axes.join(" ")))
-            .help("name the machine that the program is for, or remove the word")
+            .help("name the machine that the program was written for, or remove the word")
             .value_text("axis", name)
             .merge_everywhere(u64::from(axis));
     }

@@ -1,14 +1,14 @@
 //! A feed motion has no feed.
 //!
 //! # Why
-//! The control stops with an alarm, or runs at whatever feed was left in force by the program before.
-//! Under inverse time (G93) each feed motion needs an F of its own.
+//! The control stops with an alarm, or uses whatever feed the previous program left active. Under inverse time
+//! (G93) each feed motion needs its own F.
 //!
 //! # Example
 //! ```gcode
 //! N10 G0 X0 Y0
 //! N20 G1 X10
-//! ;      ^^^ missing-feed: a feed motion, but no feed is programmed
+//! ;      ^^^ missing-feed: this feed motion has no feed: no F is active
 //! ```
 //!
 //! # Use instead
@@ -18,11 +18,11 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: in a program that is not reported each feed motion has a feed above zero, or a feed that is not modelled and said
-//! to be so.
+//! Sound: in a program without this finding each feed motion has a feed above zero, or a feed that is not modelled
+//! and is reported as such.
 //!
 //! # Sources
-//! The NIST RS274/NGC interpreter, version 3, on feed rate and inverse time (G93).
+//! * NISTIR 6556 (2000), sections 2.1.2.5 on feed rate and 3.5.19 on inverse time (G93).
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -37,13 +37,16 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         return;
     };
     let (message, help) = match (zero, inverse_time) {
-        (true, _) => ("a feed motion at a feed of zero or less", "write a feed above zero"),
+        (true, _) => (
+            "this feed motion has a feed of zero or less",
+            "write a feed greater than zero",
+        ),
         (false, true) => (
-            "a feed motion under G93 without its own F",
-            "write F in each feed motion, or go back to G94",
+            "this feed motion under G93 has no F of its own",
+            "write F in each feed motion, or return to G94",
         ),
         (false, false) => (
-            "a feed motion, but no feed is programmed",
+            "this feed motion has no feed: no F is active",
             "write F in this block or before it",
         ),
     };
@@ -58,7 +61,7 @@ mod tests {
     fn consecutive_blocks_are_told_once() {
         let report = assert_drawn(
             "gcode",
-            "N10 G0 X0 Y0\nN20 G1 X10\n;      ^^^ missing-feed: a feed motion, but no\nN30 X20\nN40 X30\nN50 X40 F100\n",
+            "N10 G0 X0 Y0\nN20 G1 X10\n;      ^^^ missing-feed: this feed motion has no feed\nN30 X20\nN40 X30\nN50 X40 F100\n",
         );
         assert_eq!(report.diagnostics[0].count, 3);
     }

@@ -1,8 +1,8 @@
-//! A jump, loop or call names a label, sequence number or O-word that is not there, or is there twice.
+//! A jump, loop or call names a label, sequence number or O-word that does not exist, or exists twice.
 //!
 //! # Why
-//! The control stops in the middle of the program, with the tool where it happens to be. Where the number is there twice,
-//! controls differ in which of them they take.
+//! The control stops in the middle of the program, with the tool wherever it happens to be. Where the number exists
+//! twice, controls differ in which one they take.
 //!
 //! # Example
 //! ```gcode fanuc-30i
@@ -21,7 +21,8 @@
 //! Sound where the run reaches the jump.
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9; the Fanuc manuals on branch and repetition.
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
+//! * FANUC Series 16i/18i-PB B-63684EN/01: custom macro, branch and repetition.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -32,6 +33,6 @@ pub(super) const RULE: Body = Body {
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let Some(draft) = refused(fault, out, &[Refusal::Label]) {
-        draft.help("correct the number, or write the label where the program is to go on");
+        draft.help("correct the number, or add the label where the program should continue");
     }
 }

@@ -1,8 +1,8 @@
 //! The program has no end code.
 //!
 //! # Why
-//! Without M2 or M30 the file may be cut short, and the control does not stop spindle and coolant. LinuxCNC refuses such a
-//! file, unless it is framed by `%`.
+//! A file without M2 or M30 may be cut short, and the control does not stop the spindle and coolant. LinuxCNC
+//! refuses such a file unless it is framed by `%`.
 //!
 //! # Example
 //! ```gcode
@@ -19,10 +19,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for the end codes of the dialect's table. An error on LinuxCNC, else a warning.
+//! Sound for the end codes of the dialect's table. An error on LinuxCNC, a warning elsewhere.
 //!
 //! # Sources
-//! The NIST RS274/NGC interpreter, version 3, on program ending (M2, M30) and on files framed by `%`.
+//! * NISTIR 6556 (2000), section 3.6.1 on program ending (M2, M30), and on files framed by `%`.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -37,8 +37,8 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         let strict = out.dialect() == "linuxcnc";
         let draft = out.report(fault.range, "the program ends without an end code");
         draft
-            .note("the file may have been cut short")
-            .help("end the program with M30, or the code your control wants");
+            .note("the file may be incomplete")
+            .help("end the program with M30, or with the code that your control expects");
         if strict {
             draft.severity(Severity::Error);
         }

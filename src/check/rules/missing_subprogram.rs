@@ -1,12 +1,13 @@
 //! A called program is not found.
 //!
 //! # Why
-//! The control stops at the call. What the subprogram would have done is not known here, so nothing behind the call is proved.
+//! The control stops at the call. What the subprogram would do is not known here, so nothing after the call is
+//! proved.
 //!
 //! # Example
 //! ```gcode fanuc-30i
 //! N10 M98 P1234
-//! ;   ^^^^^^^^^ missing-subprogram: there is no program `O1234`
+//! ;   ^^^^^^^^^ missing-subprogram: program `O1234` not found
 //! N20 M30
 //! ```
 //!
@@ -14,10 +15,12 @@
 //! Put the program beside the one that calls it, or name its folder in `trunnion.toml`: `subprogram_path = ["subs"]`.
 //!
 //! # Guarantee
-//! Sound for the calls that are modelled: the program's own text, its folder and the folders of the settings were searched, and no others.
+//! Sound for the calls that are modelled. Only the program itself, its folder and the folders in the settings are
+//! searched.
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9; Trunnion's interface: the folders that were searched are named.
+//! * docs/contract.md#where-subprograms-are-searched
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -37,9 +40,9 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         let caller = caller
             .as_ref()
             .map_or_else(String::new, |place| format!(", called in {place}"));
-        let draft = out.report(fault.range, format!("there is no program `{name}`{caller}"));
+        let draft = out.report(fault.range, format!("program `{name}` not found{caller}"));
         draft.note(if searched.is_empty() {
-            "only the text of the program itself was searched".to_owned()
+            "only the program itself was searched".to_owned()
         } else {
             format!("searched: the program itself, {}", searched.join(", "))
         });
@@ -48,7 +51,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             draft.value_text("alarm", alarm.clone());
         }
         draft
-            .help("put it beside the program, or name its folder in trunnion.toml: subprogram_path = [\"subs\"]")
+            .help("put it in the folder of the program, or name its folder in trunnion.toml: subprogram_path = [\"subs\"]")
             .merge_everywhere(hash(name));
         return;
     }

@@ -1,8 +1,9 @@
-//! A tool cuts before its length is compensated, or with the length of another one.
+//! A tool cuts before its length is compensated, or with the length of another tool.
 //!
 //! # Why
-//! Without G43 the control moves the spindle's nose, not the tip: the tool goes in too deep by its whole length, or does not reach
-//! the part. What counts is what is in force at the tool's first feed motion, in whichever block it was switched on.
+//! Without G43 the control moves the spindle nose, not the tip, to the programmed point: the tool goes too deep by
+//! its whole length, or does not reach the part. What counts is the compensation that is active at the tool's first
+//! feed motion, in whichever block it was switched on.
 //!
 //! # Example
 //! ```gcode fanuc-30i
@@ -25,11 +26,12 @@
 //! ```
 //!
 //! # Guarantee
-//! Heuristic: where all lengths stand in the work offset, or the builder's tool change switches the length on, it is right without G43.
-//! Told once for each tool. Only for controls that switch the length on by G43, and for tools that the program changes to.
+//! Heuristic: a program without G43 is right where all lengths are included in the work offset, or where the
+//! builder's tool change switches the length on. Reported once for each tool. Only for controls that switch the
+//! length on by G43, and for tools that the program changes to.
 //!
 //! # Sources
-//! Trunnion's interface, section 7.
+//! * docs/contract.md#offsets-and-tool-lengths
 use crate::InForce;
 use crate::prelude::*;
 use trunnion_interp::Motion;
@@ -53,14 +55,12 @@ fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
         out.report(
             range,
             format!(
-                "T{tool} is {} long, but cuts with a length of {}",
+                "T{tool} is {} long, but cuts with an active length compensation of {}",
                 mm(own),
                 mm(in_force)
             ),
         )
-        .help(format!(
-            "write G43 H{tool} with the first move of Z after the tool change"
-        ))
+        .help(format!("write G43 H{tool} with the first Z move after the tool change"))
         .value("tool_length_mm", own)
         .value("length_in_force_mm", in_force);
         return;
@@ -70,11 +70,9 @@ fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
     }
     out.report(
         range,
-        format!("T{tool} cuts without its length: no tool length compensation is in force"),
+        format!("T{tool} cuts without its length: no tool length compensation is active"),
     )
-    .help(format!(
-        "write G43 H{tool} with the first move of Z after the tool change"
-    ));
+    .help(format!("write G43 H{tool} with the first Z move after the tool change"));
 }
 
 /// Whether the control switches the length on by G43. On lathes and on Sinumerik the tool word does it.
@@ -113,7 +111,7 @@ mod tests {
     fn the_length_of_another_tool_is_told() {
         assert_drawn(
             "gcode fanuc-30i",
-            "(trunnion: tool 1 length 120)\n(trunnion: tool 5 length 80.5)\nT1 M6\nS1 M3\nG0 G43 H5 X0. Y0. Z9.\nG1 X1. F100.\n;^^^^^^^^^^^ missing-tool-length: T1 is 120 mm long, but cuts with a length of 80.5 mm\nX2.\nM30\n",
+            "(trunnion: tool 1 length 120)\n(trunnion: tool 5 length 80.5)\nT1 M6\nS1 M3\nG0 G43 H5 X0. Y0. Z9.\nG1 X1. F100.\n;^^^^^^^^^^^ missing-tool-length: T1 is 120 mm long, but cuts with an active length compensation of 80.5 mm\nX2.\nM30\n",
         );
     }
 }

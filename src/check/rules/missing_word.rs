@@ -1,7 +1,8 @@
-//! A code stands in a block without a word that it needs.
+//! A code is in a block without a word that it needs.
 //!
 //! # Why
-//! The control stops, or takes a value from a block before. LinuxCNC says for example `Dwell time missing with g4`.
+//! The control stops, or takes a value from an earlier block. LinuxCNC says for example `Dwell time missing with
+//! g4`.
 //!
 //! # Example
 //! ```gcode fanuc-30i
@@ -19,10 +20,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for the codes whose words are modelled. Feed, arc centres and cycles have rules of their own.
+//! Sound for the codes whose words are modelled. Feed, arc centres and cycles have their own rules.
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9.
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {

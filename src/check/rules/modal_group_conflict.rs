@@ -1,8 +1,8 @@
-//! Two codes of one modal group stand in a block.
+//! A block contains two codes of one modal group.
 //!
 //! # Why
-//! Only one of them can be in force. RS274/NGC controls stop; others take the last one, so the block does not do what one of
-//! its codes says.
+//! Only one of them can be active. RS274/NGC controls stop; others take the last one, so the block does not do what
+//! one of its codes says.
 //!
 //! # Example
 //! ```gcode
@@ -19,7 +19,8 @@
 //! Sound for the groups of the dialect's table.
 //!
 //! # Sources
-//! The NIST RS274/NGC interpreter, version 3, on modal groups; the groups are those of the dialect's table.
+//! * NISTIR 6556 (2000), section 3.4 on modal groups.
+//! * grammar/dialects/iso-6983.toml and the other tables beside it, for the groups of each control.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -43,6 +44,6 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         fault.range,
         format!("{second} contradicts {first}: both belong to the modal group `{group}`"),
     )
-    .help("keep the one that is meant, or write them in two blocks")
+    .help("keep the one that you need, or write them in two blocks")
     .related(*first_range, format!("{first} is here"));
 }

@@ -1,13 +1,13 @@
-//! Where the program goes on depends on something that is not known here.
+//! Where the program continues depends on something that is not known here.
 //!
 //! # Why
-//! A condition on a probed value, on an input of the machine or on the hour of the day is decided at the machine. What runs behind
-//! it was not checked, and a verdict must not rest on a guess.
+//! A condition on a probed value, a machine input or the time of day is decided at the machine. What runs after it
+//! was not checked, and a verdict must not rest on a guess.
 //!
 //! # Example
 //! ```gcode fanuc-30i
 //! N10 IF [#1000 EQ 1] GOTO 30
-//! ;      ^^^^^^^^^^^^ not-decided: where the program goes on depends on #1000
+//! ;      ^^^^^^^^^^^^ not-decided: where the program continues depends on #1000
 //! N20 G0 X10.
 //! N30 M30
 //! ```
@@ -21,10 +21,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: a program in which it is not reported was followed to its end, on the one way that it can take.
+//! Sound: a program without this finding was followed to its end, on the only path that it can take.
 //!
 //! # Sources
-//! Trunnion's interface: what cannot be decided is unknown, and says what is missing.
+//! * docs/contract.md#verdicts
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -35,8 +35,8 @@ pub(super) const RULE: Body = Body {
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::NotDecided { what } = &fault.kind {
-        out.report(fault.range, format!("where the program goes on depends on {what}"))
-            .note("what runs behind it was not checked")
+        out.report(fault.range, format!("where the program continues depends on {what}"))
+            .note("what runs after it was not checked")
             .unknown();
     }
 }

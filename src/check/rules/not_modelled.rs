@@ -1,8 +1,8 @@
-//! Something is recognised, but Trunnion does not run it: what depends on it is unknown.
+//! Trunnion recognises something but does not simulate it: everything that depends on it is unknown.
 //!
 //! # Why
-//! A verdict must not rest on a guess. Where an expression, a cycle or a call is not evaluated, the positions it feeds are
-//! unknown until the program gives them anew, and nothing is checked from them.
+//! A verdict must not rest on a guess. Where an expression, a cycle or a call is not evaluated, the positions that
+//! depend on it are unknown until the program sets them again, and nothing is checked from them.
 //!
 //! # Example
 //! ```gcode sinumerik-840d
@@ -19,7 +19,7 @@
 //! Sound: what is not modelled is reported, once per cause.
 //!
 //! # Sources
-//! Engineering judgement.
+//! * docs/contract.md#verdicts
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -31,7 +31,7 @@ pub(super) const RULE: Body = Body {
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::NotModelled { what } = &fault.kind {
         out.report(fault.range, format!("not modelled: {}", short(what)))
-            .note("positions that depend on it are unknown until the program gives them anew; nothing is checked from them")
+            .note("positions that depend on it are unknown until the program sets them again; nothing is checked from them")
             .unknown()
             .merge_everywhere(hash(what));
     }

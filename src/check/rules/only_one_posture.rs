@@ -1,8 +1,9 @@
-//! From here on only one posture of the rotary axes lies inside their travel.
+//! From here on only one posture of the rotary axes is within their travel.
 //!
 //! # Why
-//! While two postures are legal, the tool can be led around a limit or the pole by changing from one to the other. Beyond a limit of
-//! the tilting axis only one is left: the program cannot be unwound or swapped there, and another machine may not reach it at all.
+//! While two postures are possible, the tool can be guided around a limit or the pole by changing from one to the
+//! other. Beyond a limit of the tilting axis only one is left: the program cannot be unwound or swapped there, and
+//! another machine may not reach the position at all.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
@@ -22,10 +23,11 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for feed motions under tool centre point control between known positions; told where the second posture is lost.
+//! Sound for feed motions under tool centre point control between known positions; reported where the second
+//! posture is lost.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 5 (ORI-ONE-BRANCH).
+//! * docs/kinematics.md#two-postures
 use crate::prelude::*;
 use core::f64::consts::TAU;
 use trunnion_machine::{Limits, Machine, Orientations, Stance, orientations, windings};

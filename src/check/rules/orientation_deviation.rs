@@ -1,8 +1,9 @@
 //! Between the ends of a feed motion the tool axis leaves the programmed plane by more than the tolerance.
 //!
 //! # Why
-//! Two tool vectors mean the great circle between them. A control that turns its rotary axes evenly leads the tool axis along
-//! another way, the farther off the closer the pole: the flank of the tool gouges, although both ends are right.
+//! Two tool vectors define the great circle between them. A control that interpolates its rotary axes linearly
+//! moves the tool axis along a different path; the closer to the pole, the larger the difference. The flank of the
+//! tool gouges although both ends are right.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
@@ -10,7 +11,7 @@
 //! N20 G0 X0 Y0 Z50 A3=0 B3=-0.5 C3=0.866
 //! N30 G1 X100 A3=0.25 B3=-0.433 C3=0.866 F500
 //! ;           ^^^^^^^^^^^^^^^^^^^^^^^^^^ orientation-deviation: the tool axis leaves the great circle between the vectors by
-//! ;           ^^^^^^^^^^^^^^^^^^^^^^^^^^ swept-deviation: whether the body of the tool keeps its path is not known
+//! ;           ^^^^^^^^^^^^^^^^^^^^^^^^^^ swept-deviation: it is not known whether the body of the tool keeps to its path
 //! N40 M30
 //! ```
 //!
@@ -24,17 +25,19 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: silence rests on a proven bound, not on samples. The deviation is the angle to the great-circle arc between the two
-//! vectors. Rotary words that the control runs evenly are what was programmed and have none, nor have vectors under a control
-//! that keeps the great circle. Where neither the program nor the machine file says which it is, and an even run would leave the
-//! tolerance, the rule says unknown, once; so it does where samples keep the tolerance but the bound does not prove it, and
-//! where the ends are opposite. Up to 8 consecutive blocks are reported one by one, longer runs as one with their worst.
+//! Sound: silence rests on a proven bound, not on samples. The deviation is the angle to the great-circle arc
+//! between the two vectors. There is none where the program gives rotary words and the control interpolates them
+//! linearly, or where it gives vectors and the control keeps to the great circle. The rule says unknown, once,
+//! where neither the program nor the machine file says which applies and linear interpolation would exceed the
+//! tolerance. It also says unknown where samples are within the tolerance but the bound does not prove it, and
+//! where the vectors at the ends are opposite. Up to 8 consecutive blocks are reported one by one; a longer run is
+//! reported as one finding with its worst block.
 //!
 //! # Thresholds
 //! `orientation`: 0.1 deg.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 3 and 5 (KIN-ORI).
+//! * docs/kinematics.md#deviation-of-the-tool-axis
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 use trunnion_machine::{OrientationDeviation, orientation_deviation};
@@ -84,24 +87,24 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             ),
         )
         .note(format!(
-            "farthest after {} % of the block; proven to be at most {}; allowed are {}",
+            "largest after {} % of the block; proven to be at most {}; the tolerance is {}",
             number((deviation.at * 100.0).round()),
             bound_degrees(deviation.bound),
             degrees(tolerance)
         ))
-        .help("let the control keep the great circle (ORIVECT, G43.5 with vectors), or program the block in smaller steps")
+        .help("make the control keep to the great circle (ORIVECT, G43.5 with vectors), or divide the block into smaller steps")
         .merge_runs_over(SHORT_RUN, FOUND, deviation.sampled)
     } else {
         out.report(
             range,
             format!(
-                "the tool axis leaves the great circle by between {} and {}: not proven to keep {}",
+                "the tool axis leaves the great circle by between {} and {}: the tolerance of {} is not proven",
                 degrees(deviation.sampled),
                 bound_degrees(deviation.bound),
                 degrees(tolerance)
             ),
         )
-        .help("program the block in smaller steps, or allow a little more tolerance")
+        .help("divide the block into smaller steps, or allow a slightly larger tolerance")
         .unknown()
         .merge_runs_over(SHORT_RUN, BETWEEN, deviation.bound)
     };
@@ -120,7 +123,7 @@ fn assumed(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &OrientationDe
     out.report(
         range,
         format!(
-            "the tool axis leaves the great circle by {} if the control turns its axes evenly: {} does not say whether it does",
+            "the tool axis leaves the great circle by {} if the control interpolates its rotary axes linearly: the machine file of {} does not say whether it does",
             degrees(deviation.sampled),
             view.machine.id
         ),
@@ -132,7 +135,7 @@ fn assumed(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &OrientationDe
 }
 
 fn opposite(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    // an arc without a known centre is told by the fault that took it
+    // the fault that removed the centre of an arc reports it
     let lost = matches!(view.motion().kind, trunnion_interp::MotionKind::Arc(None));
     if lost || out.repeats_unknown(view, OPPOSITE, 0.0) {
         return;
@@ -140,9 +143,9 @@ fn opposite(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let range = orientation_range(out.program(), view.motion().block);
     out.report(
         range,
-        "the tool axes at both ends are opposite: which great circle is meant is not known",
+        "the tool vectors at the two ends are opposite: it is not known which great circle is meant",
     )
-    .help("program a vector between them")
+    .help("program an intermediate vector")
     .unknown()
     .merge_everywhere(OPPOSITE);
 }
@@ -168,7 +171,7 @@ mod tests {
 
     #[test]
     fn a_tenth_of_a_degree_is_the_threshold() {
-        // at a tilt of A the way round the cone lies about dC^2 sin A cos A / 8 beside the great circle
+        // at a tilt of A the path round the cone is about dC^2 sin A cos A / 8 away from the great circle
         let text = |j: f64| {
             let (sin, cos) = trunnion_geometry::math::sin_cos(trunnion_geometry::rad(j));
             let (sin, cos) = (0.5 * sin, 0.5 * cos);
@@ -188,6 +191,6 @@ mod tests {
         let all = found("gcode apt ferrari-bc", text);
         assert_eq!(all.len(), 1, "{all:?}");
         assert_eq!((all[0].status, all[0].count), (Status::Unknown, 2));
-        assert!(all[0].message.contains("ferrari-bc does not say"));
+        assert!(all[0].message.contains("the machine file of ferrari-bc does not say"));
     }
 }

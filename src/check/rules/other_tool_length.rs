@@ -1,9 +1,9 @@
-//! Rotary axes turn in a cut while the control reckons with another length than that of the tool in use.
+//! Rotary axes turn in a cut while the control compensates a length other than that of the tool in use.
 //!
 //! # Why
-//! The control leads the point that lies the compensated length below the spindle's gauge point. Where that is not the tool's tip (no G43,
-//! or the H of another tool), the tip is carried round that point by every turn of the tool against the workpiece: what is true of the
-//! one's path is not true of the other's.
+//! The control guides the point that lies the compensated length below the gauge point of the spindle. Where that
+//! point is not the tip (no G43, or the H number of another tool), every turn of the tool against the workpiece
+//! carries the tip around that point: what is true of one path is not true of the other.
 //!
 //! # Example
 //! ```gcode fanuc-30i mikron-ucp710
@@ -14,7 +14,7 @@
 //! N40 G1 Z149. F200.
 //! N50 G49
 //! N60 G1 A0.05
-//! ;   ^^^^^^^^ other-tool-length: T1 is 120 mm long, but 0 mm are in force
+//! ;   ^^^^^^^^ other-tool-length: T1 is 120 mm long, but the active length compensation is 0 mm
 //! N70 M30
 //! ```
 //!
@@ -30,12 +30,12 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for tools of declared length: where the tip's way rests on a length that is not the tool's, the verdict is unknown, once for each
-//! tool and length. Findings of other rules hold for the point that the control leads. Where nothing turns the tip runs beside that point,
-//! by the same way, and `missing-tool-length` judges.
+//! Sound for tools of declared length: where the path of the tip depends on a length that is not the tool's own,
+//! the verdict is unknown, once for each tool and length. Findings of other rules hold for the point that the
+//! control guides. Where nothing turns, the tip moves parallel to that point, and `missing-tool-length` judges it.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 2.1: the tip is the gauge point less the length times the tool axis.
+//! * docs/kinematics.md#machine-model
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -63,12 +63,12 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     out.report(
         range,
         format!(
-            "{tool} is {} long, but {} are in force: where its tip goes while rotary axes turn is not judged",
+            "{tool} is {} long, but the active length compensation is {}: the path of its tip is not judged while rotary axes turn",
             mm(own),
             mm(motion.tool_length_mm)
         ),
     )
-    .help("switch the tool's own length on (G43 H), or declare the length that is meant")
+    .help("activate the tool's own length (G43 H), or declare the length that is meant")
     .value("tool_length_mm", own)
     .value("length_in_force_mm", motion.tool_length_mm)
     .unknown()
@@ -87,7 +87,7 @@ mod tests {
         assert_drawn(
             "gcode linuxcnc mikron-ucp710",
             &format!(
-                "{TOOLS}T1 M6 S100 M3\nG43 H5 G0 X0 Y0 Z200 A0 C0\nA1\nG93 G1 A1.1 F100\n;^^^^^^^^^^^^^^^ missing-tool-length: T1 is 120 mm long\n;^^^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long, but 80.5 mm are in force\nA1.2 F100\nG43 H1\nA1.3 F100\nG49\nA1.4 F100\n;^^^^^^^^ other-tool-length: T1 is 120 mm long, but 0 mm are in force\nM2\n"
+                "{TOOLS}T1 M6 S100 M3\nG43 H5 G0 X0 Y0 Z200 A0 C0\nA1\nG93 G1 A1.1 F100\n;^^^^^^^^^^^^^^^ missing-tool-length: T1 is 120 mm long\n;^^^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long, but the active length compensation is 80.5 mm\nA1.2 F100\nG43 H1\nA1.3 F100\nG49\nA1.4 F100\n;^^^^^^^^ other-tool-length: T1 is 120 mm long, but the active length compensation is 0 mm\nM2\n"
             ),
         );
     }
@@ -97,7 +97,7 @@ mod tests {
         let report = assert_drawn(
             "gcode fanuc-30i mikron-ucp710",
             &format!(
-                "{TOOLS}T1 M6\nM3 S100\nG43.4 H5\nG0 X0. Y0. Z200. A0. C0.\nG1 X40. A10. F100.\n;^^^^^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long, but 80.5 mm are in force\nM30\n"
+                "{TOOLS}T1 M6\nM3 S100\nG43.4 H5\nG0 X0. Y0. Z200. A0. C0.\nG1 X40. A10. F100.\n;^^^^^^^^^^^^^^^^^ other-tool-length: T1 is 120 mm long, but the active length compensation is 80.5 mm\nM30\n"
             ),
         );
         assert_eq!(report.verdict(crate::Severity::Error), crate::Verdict::Unknown);

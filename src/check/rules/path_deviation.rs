@@ -1,8 +1,8 @@
 //! Between the ends of a feed motion the tool tip leaves the programmed path by more than the tolerance.
 //!
 //! # Why
-//! Without tool centre point control all axes run linearly, and while a rotary axis turns the tip runs on a curve instead of
-//! the line: it gouges or leaves material, although both ends are right.
+//! Without tool centre point control all axes move linearly. While a rotary axis turns, the tip moves on a curve
+//! instead of the line: it gouges or leaves material although both ends are right.
 //!
 //! # Example
 //! ```gcode mikron-ucp710
@@ -21,17 +21,19 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: silence rests on a proven bound, not on samples. Where samples keep the tolerance but the bound does not prove it,
-//! and where a motion is not modelled, the rule says unknown. The deviation is the distance to the programmed segment: the line
-//! between the tips at both ends in the workpiece, or the arc as it lies in the workpiece at the start of the block, its end
-//! carried evenly to where the tip ends. With tool centre point control the control keeps the tip on its path. Up to 8
-//! consecutive blocks are reported one by one, longer runs as one with their worst.
+//! Sound: silence rests on a proven bound, not on samples. The rule says unknown where samples are within the
+//! tolerance but the bound does not prove it, and where a motion is not modelled. The deviation is the distance to
+//! the programmed segment: the line between the tips at both ends in the workpiece, or the arc in its position in
+//! the workpiece at the start of the block, with its end carried linearly to where the tip ends. With tool centre
+//! point control the control keeps the tip on its path. Up to 8 consecutive blocks are reported one by one; a
+//! longer run is reported as one finding with its worst block.
 //!
 //! # Thresholds
 //! `tip`: 0.01 mm.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 3 and 5 (KIN-TIP).
+//! * docs/kinematics.md#between-the-ends-of-a-block
+//! * docs/kinematics.md#deviation-of-the-tip
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 use trunnion_interp::MotionKind;
@@ -43,7 +45,7 @@ pub(super) const RULE: Body = Body {
 };
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    // an arc without a known centre is told by the fault that took it
+    // the fault that removed the centre of an arc reports it
     let lost = matches!(view.motion().kind, MotionKind::Arc(None));
     if !view.motion().is_feed() || lost || view.stances().is_none() {
         return;
@@ -57,7 +59,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         let range = range(out);
         out.report(
             range,
-            "the tip's path is not modelled in this block: its deviation is not known",
+            "the path of the tip is not modelled in this block: its deviation is not known",
         )
         .unknown()
         .merge_everywhere(0);
@@ -82,7 +84,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         );
         draft
             .note(format!(
-                "farthest after {} % of the block; proven to be at most {}; allowed are {}",
+                "largest after {} % of the block; proven to be at most {}; the tolerance is {}",
                 number((deviation.at * 100.0).round()),
                 bound_mm(deviation.bound_mm),
                 mm(tolerance)
@@ -104,9 +106,12 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         );
         out.report(
             range,
-            format!("the tip's deviation is {found}: not proven to keep {}", mm(tolerance)),
+            format!(
+                "the deviation of the tip is {found}: the tolerance of {} is not proven",
+                mm(tolerance)
+            ),
         )
-        .help("insert points, or allow a little more tolerance")
+        .help("insert points, or allow a slightly larger tolerance")
         .value("deviation_mm", deviation.sampled_mm)
         .value("deviation_bound_mm", deviation.bound_mm)
         .value("limit_mm", tolerance)

@@ -1,18 +1,19 @@
-//! How well the rotary axes are known moves the tip by more than the tolerance.
+//! The declared uncertainty of the rotary axes moves the tip by more than the tolerance.
 //!
 //! # Why
-//! A control that leads the tip believes the rotary axes to pass through the places of its machine data. Where these are known to 0.01 mm
-//! only, the tip is off by up to twice that after half a turn, and by more where the direction of an axis is not known either and the tip
-//! stands far from it. No program can be better than that: measure the axes again, or cut nearer to the posture in which the zero was set.
+//! A control that guides the tip trusts the positions of the rotary axes in its machine data. If a position is
+//! known to 0.01 mm only, the tip can be off by up to twice that after half a turn, and by more if the direction of
+//! an axis is uncertain too and the tip is far from it. No program can be more accurate than that: measure the axes
+//! again, or cut closer to the posture in which the zero point was set.
 //!
 //! # Example
-//! The machine file says that the place of C is known to 0.02 mm.
+//! The machine file says that the position of C is known to 0.02 mm.
 //!
 //! ```gcode sinumerik-840d mikron-ucp710+C.uncertainty={point=0.02}
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z50 A40 C130
 //! N30 G1 X100 C180 F1000
-//! ;   ^^^^^^^^^^^^^^^^^^ pivot-uncertainty: the tip may be off by 0.04 mm: the rotary axes are not known better
+//! ;   ^^^^^^^^^^^^^^^^^^ pivot-uncertainty: the tip may be off by 0.04 mm, because of the declared uncertainty of the rotary axes
 //! N40 M30
 //! ```
 //!
@@ -25,15 +26,15 @@
 //! ```
 //!
 //! # Guarantee
-//! First order, worst direction, the errors of all axes added up; the zero point was set with the axes at zero. Judged are both ends of
-//! feed motions, and between them the turn that moves the tip most; silence where the machine file declares no uncertainty proves
-//! nothing.
+//! First order, in the worst direction, with the errors of all axes added up, and with the zero point set while the
+//! axes were at zero. The rule judges both ends of feed motions and, between them, the turn that moves the tip
+//! most. Where the machine file declares no uncertainty, silence proves nothing.
 //!
 //! # Thresholds
 //! `pivot`: 0.02 mm.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 5 (PIVOT-SENS): (I - R) dc, whose length is at most 2 |sin(q/2)| |dc|.
+//! * docs/kinematics.md#uncertainty-of-the-rotary-axes
 use crate::prelude::*;
 use trunnion_machine::{AxisUncertainty, Stance, pivot_sensitivity_between};
 
@@ -65,7 +66,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .filter(|axis| axis.tip_mm > 0.0)
         .map(|axis| {
             format!(
-                "{} {}, of it {} by its place",
+                "{} {}, of which {} from its position",
                 letter(axis.letter),
                 mm(axis.tip_mm),
                 mm(axis.of_point_mm)
@@ -75,12 +76,16 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     out.report(
         range,
         format!(
-            "the tip may be off by {}: the rotary axes are not known better",
+            "the tip may be off by {}, because of the declared uncertainty of the rotary axes",
             mm(sum)
         ),
     )
-    .note(format!("by axis: {}; allowed are {}", each.join("; "), mm(allowed)))
-    .help("measure the rotary axes again, or allow more: [tolerances] pivot")
+    .note(format!(
+        "by axis: {}; the tolerance is {}",
+        each.join("; "),
+        mm(allowed)
+    ))
+    .help("measure the rotary axes again, or allow more with `pivot` in [tolerances]")
     .value("value_mm", sum)
     .value("limit_mm", allowed)
     .merge(0, sum);

@@ -1,8 +1,8 @@
-//! The tool axis passes through the pole and the posture's sign changes, without needless rotary travel.
+//! The tool axis passes through the pole and the posture changes its sign, without needless rotary travel.
 //!
 //! # Why
-//! A crossing is legal. It is worth knowing, because close to it small changes of the program make the first rotary axis flip,
-//! and because not every control takes the same way through.
+//! A crossing is allowed. It is worth knowing because close to it small changes of the program make the first
+//! rotary axis flip, and because not every control passes through in the same way.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
@@ -25,10 +25,11 @@
 //! Sound for feed motions between known positions; a stop exactly at the pole belongs to the block that leaves it.
 //!
 //! # Thresholds
-//! `swap_excess`: with more rotary travel than that over the cheapest move of the same posture it is `branch-swap`.
+//! `swap_excess`: above that much rotary travel more than the cheapest move of the same posture, it is
+//! `branch-swap`.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 5 (POLE-CROSS).
+//! * docs/kinematics.md#change-of-posture
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -51,7 +52,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let [first, _] = view.rotary_letters();
     let range = orientation_range(out.program(), view.motion().block);
     let message = format!(
-        "the tool axis passes {} and the posture changes sign",
+        "the tool axis passes {} and the posture changes its sign",
         past_pole(view.leg.pole_angle_min)
     );
     out.report(range, message)

@@ -1,9 +1,9 @@
-//! Close to the pole the first rotary axis turns far, while the tool axis hardly moves.
+//! Close to the pole the first rotary axis turns far while the tool axis hardly moves.
 //!
 //! # Why
-//! At the pole the tool axis is parallel to the rotary axis nearest the workpiece, and that axis may stand anywhere. Near it a
-//! change of direction by a fraction of a degree can need half a turn: the tool slows down or stops in the cut and leaves a
-//! mark, and without tool centre point control it leaves its path.
+//! At the pole the tool axis is parallel to the rotary axis nearest the workpiece, and that axis can be at any
+//! angle. Near the pole a change of direction by a fraction of a degree can need half a turn: the tool slows down
+//! or stops in the cut and leaves a mark, and without tool centre point control it leaves its path.
 //!
 //! # Example
 //! ```gcode sinumerik-840d mikron-ucp710
@@ -12,13 +12,13 @@
 //! N2920 G1 X-28.38474 Y-1.84041 Z59.90263 A1.047 C4.822
 //! N2930 G1 X-28.38709 Y-1.53565 Z59.93222 A0.081 C52.595 F40
 //! ;                                              ^^^^^^^ pole-flip: C turns 47.773 deg while the tool axis passes 0.081 deg
-//! ;                                              ^^^^^^^ excess-linear-travel: the linear axes run 23.132 mm
-//! ;                                              ^^^^^^^ fast-pole: at F40 the tool axis has to keep
+//! ;                                              ^^^^^^^ excess-linear-travel: the linear axes travel 23.132 mm
+//! ;                                              ^^^^^^^ fast-pole: at F40 the tool axis must stay
 //! N2940 M30
 //! ```
 //!
 //! # Use instead
-//! Let `trunnion fix --rewrite smooth-pole` lead the tool axis around the pole, or tilt the path away from it:
+//! Let `trunnion fix --rewrite smooth-pole` guide the tool axis around the pole, or tilt the path away from it:
 //! ```gcode sinumerik-840d mikron-ucp710
 //! N2900 TRAORI
 //! N2910 G1 X-28.38197 Y-2.14469 Z59.86773 A12.042 C3.358 F2000
@@ -27,13 +27,15 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for feed motions between known positions: the angle to the pole is the smallest inside the block.
+//! Sound for feed motions between known positions: the angle to the pole is the smallest one inside the block.
 //!
 //! # Thresholds
-//! `pole_cone`: 2 deg about the pole; `pole_angle`: 10 deg of the first rotary axis. An error where it turns 175 to 185 deg.
+//! `pole_cone`: 2 deg around the pole; `pole_angle`: 10 deg of the first rotary axis. An error where that axis
+//! turns 175 to 185 deg.
 //!
 //! # Sources
-//! The guide-vane paper of 2006 on the C axis near the singularity; Trunnion's kinematics notes, section 5 (POLE-FLIP).
+//! * docs/kinematics.md#the-pole
+//! * Guide-vane paper (2006), on the C axis near the singularity.
 use super::axis_overspeed::feed_keys;
 use crate::prelude::*;
 use trunnion_geometry::rad;
@@ -69,7 +71,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         .value("rotary_change_deg", deg(turn))
         .value("pole_angle_deg", deg(view.leg.pole_angle_min));
     if view.forced_swap().is_some() {
-        draft.help("tilt the path away from the pole, or retract and swap the posture out of the cut");
+        draft.help("tilt the path away from the pole, or retract and change the posture out of the cut");
     } else {
         draft
             .help("tilt the path away from the pole, or try `trunnion fix --rewrite smooth-pole`")
@@ -81,7 +83,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     {
         draft
             .note(format!(
-                "no axis is overrun up to a feed of {} {}",
+                "no axis exceeds its speed up to a feed of {} {}",
                 highest_rate(limit.feed_mm_min),
                 view.feed_unit()
             ))
@@ -90,7 +92,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     if (rad(175.0)..=rad(185.0)).contains(&turn) {
         draft
             .severity(Severity::Error)
-            .note("half a turn: the tool axis runs straight over the pole, or the posture is swapped");
+            .note("half a turn: the tool axis passes straight over the pole, or the posture changes");
     }
 }
 

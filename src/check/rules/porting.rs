@@ -1,14 +1,15 @@
-//! The program would mean something else, or be refused, on a control that it is to be carried over to.
+//! The program would mean something else, or be refused, on a control that it is to be moved to.
 //!
 //! # Why
-//! Controls read the same text differently: a dwell is seconds here and milliseconds there, `AND` binds before a comparison or after
-//! it, a second word wins or stops the machine. The rule is silent until `trunnion.toml` says `port_to = ["linuxcnc"]`, or the command
-//! line `--port-to linuxcnc`; then it compares the two controls, place by place.
+//! Controls read the same text differently: a dwell is in seconds on one and in milliseconds on another, `AND`
+//! binds before or after a comparison, a repeated word wins or stops the machine. The rule is silent until
+//! `trunnion.toml` says `port_to = ["linuxcnc"]`, or the command line says `--port-to linuxcnc`. Then it compares
+//! the two controls, place by place.
 //!
 //! # Example
 //! ```gcode fanuc-30i port=linuxcnc
 //! N10 G4 P500
-//! ;      ^^^^ porting: on linuxcnc P of G4 is seconds
+//! ;      ^^^^ porting: on linuxcnc P of G4 is in seconds
 //! N20 #1 = FIX[#2]
 //! ;        ^^^ porting: on linuxcnc FIX rounds down: FIX[-2.8] is -3 there, -2 here
 //! N30 #3 = [#4 MOD 3]
@@ -17,12 +18,12 @@
 //! ```
 //! ```gcode linuxcnc port=fanuc-30i
 //! G21 G90 G0 X10 Y0.5 ; to the start
-//! ;          ^^^ porting: on fanuc-30i a parameter decides whether `X10` counts millimetres
-//! ;                   ^^^^^^^^^^^^^^ porting: on fanuc-30i `;` begins no comment
+//! ;          ^^^ porting: on fanuc-30i a parameter decides whether `X10` means millimetres
+//! ;                   ^^^^^^^^^^^^^^ porting: on fanuc-30i `;` does not begin a comment
 //! #1 = [2**3]
 //! ;      ^^ porting: on fanuc-30i there is no operator `**`
 //! #<depth> = 5
-//! ;^^^^^^^ porting: on fanuc-30i parameters have no names in `< >`
+//! ;^^^^^^^ porting: on fanuc-30i parameters cannot have names in `< >`
 //! M2
 //! ```
 //!
@@ -34,10 +35,13 @@
 //! ```
 //!
 //! # Guarantee
-//! Heuristic: what the list knows is told, and there is more that differs. Check the program in the other dialect too.
+//! Heuristic: the differences on the list are reported, but there are more. Check the program in the other dialect
+//! too.
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9; the Fanuc manuals on custom macros; the two dialect tables.
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
+//! * FANUC Series 16i/18i-PB B-63684EN/01: custom macro.
+//! * grammar/dialects/fanuc-30i.toml and grammar/dialects/linuxcnc.toml, the two tables.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -104,8 +108,8 @@ mod tests {
         }
     }
 
-    /// Each lint with a wrong and a right line, in both directions where both controls take the line: what differs for the one who comes from
-    /// Fanuc differs for the one who comes from LinuxCNC.
+    /// Each lint with a wrong and a right line, in both directions where both controls accept the line: what changes when moving from
+    /// Fanuc also changes when moving from LinuxCNC.
     #[test]
     fn wrong_and_right_in_both_directions() {
         const THERE: &str = "gcode fanuc-30i port=linuxcnc";

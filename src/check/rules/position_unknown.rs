@@ -1,15 +1,16 @@
-//! A feed motion, or a rapid from a known place or by an increment, ends at a position that is not known, or is an arc that begins there.
+//! A feed motion ends at an unknown position, or a rapid from a known position does, or an arc begins at one.
 //!
 //! # Why
-//! Some axis was never positioned, or its position was lost where something is not modelled. Nobody can say where the joints
-//! are, so limits, postures, speeds and the tip's path were not checked there. An axis that was not named is not taken to be at zero.
-//! A work offset in a rotary axis under tool centre point control is reported the same way: controls differ in what it does to X Y Z.
+//! Some axis was never positioned, or its position was lost where something is not modelled. The positions of the
+//! axes are unknown, so limits, postures, speeds and the tip's path were not checked there. An axis that is not
+//! programmed is not assumed to be at zero. A work offset in a rotary axis under tool centre point control is
+//! reported in the same way: controls differ in what it does to X Y Z.
 //!
 //! # Example
 //! ```gcode mikron-ucp710
 //! N10 G0 X0 Y0 Z50
 //! N20 G1 X10 F500
-//! ;   ^^^^^^^^^^^ position-unknown: the position of A and C is not known
+//! ;   ^^^^^^^^^^^ position-unknown: the position of A and C is unknown
 //! ```
 //!
 //! # Use instead
@@ -19,10 +20,11 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound; told once for each set of axes. Rapid moves to places before everything is positioned are normal and not reported.
+//! Sound; reported once for each set of axes. Rapid moves before every axis has been positioned are normal and are
+//! not reported.
 //!
 //! # Sources
-//! Trunnion's interface: the position before the first motion is unknown, and nothing is checked from it.
+//! * docs/contract.md#unknown-positions
 use crate::prelude::*;
 use trunnion_interp::{AXIS_LETTERS, Motion, MotionKind};
 use trunnion_machine::NoStance;
@@ -55,46 +57,48 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         [one] => one.clone(),
         [most @ .., last] => format!("{} and {last}", most.join(", ")),
     };
+    let verb = if letters.len() > 1 { "are" } else { "is" };
     let range = code_range(out.program(), view.motion().block);
     let rapid = !view.motion().is_feed();
     let (message, why, help) = if rapid {
         (
-            format!("this rapid leads nobody knows where: the position of {names} is not known behind it"),
-            "it depends on a value that only the machine knows, on a reference point that is not declared, or on a place that was lost before",
-            format!(
-                "position {names} by numbers, or declare what is missing ([control] reference_points, [variables])"
-            ),
+            format!("end position of this rapid is unknown: {names} {verb} not determined"),
+            "it depends on a value that only the machine knows, on an undeclared reference point, or on a position that was already unknown",
+            format!("program {names} as numbers, or declare what is missing ([control] reference_points, [variables])"),
         )
     } else {
         (
-            format!("the position of {names} is not known"),
-            "it was never given, or lost where something is not modelled",
+            format!("the position of {names} is unknown"),
+            "it was never programmed, or it was lost where something is not modelled",
             format!("position {names} before the first feed motion"),
         )
     };
     out.report(range, message)
-        .note(format!("{why}: the joints of {} are unknown here", view.machine.id))
+        .note(format!(
+            "{why}: the axis positions of {} are unknown here",
+            view.machine.id
+        ))
         .note("limits, postures, speeds and the tip's path are not checked until every axis has a position")
         .help(help)
         .unknown()
         .merge_everywhere(cause);
 }
 
-/// Whether it is an arc that nobody can draw because X, Y or Z of its start is not known, as behind a switch of tool centre point control.
+/// Whether it is an arc that cannot be drawn because X, Y or Z of its start is unknown, as after a switch of tool centre point control.
 pub(crate) fn is_arc_from_nowhere(motion: &Motion) -> bool {
     motion.kind == MotionKind::Arc(None) && motion.start.xyz().is_none()
 }
 
-/// Its end is known, its way is not: told once.
+/// Its end is known, its path is not: reported once.
 fn arc_from_nowhere(view: &LegView<'_>, out: &mut Reporter<'_>) {
     const CAUSE: u64 = u64::MAX;
     if out.repeats_unknown(view, CAUSE, 0.0) {
         return;
     }
     let range = code_range(out.program(), view.motion().block);
-    out.report(range, "the way of this arc is not known: where X, Y and Z stand at its start was never given, or is lost")
+    out.report(range, "the path of this arc is unknown: X, Y and Z at its start were never programmed, or were lost")
         .note("limits, speeds and the tip's path are not checked in this block")
-        .help("program X, Y and Z in a straight motion before the arc: behind a switch of tool centre point control they count from elsewhere")
+        .help("program X, Y and Z in a straight motion before the arc: after tool centre point control is switched, they refer to a different point")
         .unknown()
         .merge_everywhere(CAUSE);
 }
@@ -107,7 +111,7 @@ fn is_told(view: &LegView<'_>) -> bool {
     motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()
 }
 
-/// A work offset turns the workpiece frame: told once for each axis.
+/// A work offset turns the workpiece frame: reported once for each axis.
 fn rotary_offset(axis: u8, view: &LegView<'_>, out: &mut Reporter<'_>) {
     let cause = u64::from(axis);
     if !is_told(view) || out.repeats_unknown(view, cause, 0.0) {
@@ -115,18 +119,18 @@ fn rotary_offset(axis: u8, view: &LegView<'_>, out: &mut Reporter<'_>) {
     }
     let name = letter(axis);
     let range = code_range(out.program(), view.motion().block);
-    out.report(range, format!("the position of X, Y and Z is not known: the work offset turns {name}"))
+    out.report(range, format!("the position of X, Y and Z is unknown: the work offset turns {name}"))
         .note(format!(
-            "whether X Y Z of the tip turn with an offset in {name} depends on the control: the joints of {} are unknown here",
+            "it depends on the control whether X Y Z of the tip turn with an offset in {name}: the axis positions of {} are unknown here",
             view.machine.id
         ))
         .note("limits, postures, speeds and the tip's path are not checked here")
-        .help(format!("put the turn of {name} into the program instead of the work offset"))
+        .help(format!("program the turn of {name} instead of setting it in the work offset"))
         .unknown()
         .merge_everywhere(cause);
 }
 
-/// The program moves an axis that the machine file holds: told once for each axis and place.
+/// The program moves an axis that the machine file holds: reported once for each axis and position.
 fn held_elsewhere(axis: u8, [value, held]: [f64; 2], view: &LegView<'_>, out: &mut Reporter<'_>) {
     let cause = hash(&format!("{} {value}", char::from(axis)));
     if !is_told(view) || out.repeats_unknown(view, cause, 0.0) {
@@ -137,18 +141,18 @@ fn held_elsewhere(axis: u8, [value, held]: [f64; 2], view: &LegView<'_>, out: &m
     out.report(
         range,
         format!(
-            "the position of X, Y and Z is not known: {name} stands at {}, the machine file holds it at {}",
+            "the position of X, Y and Z is unknown: {name} is at {}, but the machine file holds it at {}",
             degrees(value),
             degrees(held)
         ),
     )
     .note(format!(
-        "{} has more rotary axes than kinematics are solved for, so {name} is held where the file says",
+        "{} has more rotary axes than the kinematics can solve, so {name} is held at the position in the machine file",
         view.machine.id
     ))
     .note("limits, postures, speeds and the tip's path are not checked here")
     .help(format!(
-        "check this part of the program with a copy of the machine file that says hold = {} at {name}",
+        "check this part of the program with a copy of the machine file that says hold = {} for {name}",
         deg(value)
     ))
     .unknown()
@@ -189,7 +193,7 @@ mod tests {
     fn a_held_axis_that_moves_ends_what_is_known() {
         let report = assert_drawn(
             "gcode linuxcnc-xyzacb-trsrn",
-            "N1 G0 X0 Y0 Z50 B0 C0\nN2 G1 X10 A0 F500\nN3 X20\nN4 G1 A30\n;  ^^^^^^ position-unknown: the position of X, Y and Z is not known: A stands at 30 deg, the machine file holds it at 0 deg\nN5 X5\nN6 A0 X0\n",
+            "N1 G0 X0 Y0 Z50 B0 C0\nN2 G1 X10 A0 F500\nN3 X20\nN4 G1 A30\n;  ^^^^^^ position-unknown: the position of X, Y and Z is unknown: A is at 30 deg, but the machine file holds it at 0 deg\nN5 X5\nN6 A0 X0\n",
         );
         assert_eq!(report.diagnostics[0].status, crate::Status::Unknown);
         assert_eq!(report.diagnostics[0].count, 2);
@@ -199,7 +203,7 @@ mod tests {
     fn a_rapid_that_moves_a_held_axis_is_told_too() {
         let report = assert_drawn(
             "gcode linuxcnc-xyzacb-trsrn",
-            "N1 G0 X0 Y0 Z50 A0 B0 C0\nN2 G0 A30\n;  ^^^^^^ position-unknown: the position of X, Y and Z is not known: A stands at 30 deg\nN3 M2\n",
+            "N1 G0 X0 Y0 Z50 A0 B0 C0\nN2 G0 A30\n;  ^^^^^^ position-unknown: the position of X, Y and Z is unknown: A is at 30 deg\nN3 M2\n",
         );
         assert_eq!(report.diagnostics[0].status, crate::Status::Unknown);
     }
@@ -214,17 +218,17 @@ mod tests {
         assert_eq!(report.diagnostics[0].count, 3);
     }
 
-    /// Behind a switch of tool centre point control nobody knows from where an increment counts, in a rapid either.
+    /// After a switch of tool centre point control the start of an increment is unknown, in a rapid as well.
     #[test]
     fn a_rapid_by_an_increment_from_nowhere_is_told() {
         let report = assert_drawn(
             "gcode fanuc-30i mikron-ucp710",
-            "N1 G90 G21 G0 X0. Y0. Z50. A0. C0.\nN2 G43.4 H1\n;  ^^^^^ tool-length-unset: \nN3 G91 G0 X5000.\n;  ^^^^^^^^^^^^^ position-unknown: this rapid leads nobody knows where\nN4 G90 G0 X0. Y0. Z60.\nN5 M30\n",
+            "N1 G90 G21 G0 X0. Y0. Z50. A0. C0.\nN2 G43.4 H1\n;  ^^^^^ tool-length-unset: \nN3 G91 G0 X5000.\n;  ^^^^^^^^^^^^^ position-unknown: end position of this rapid is unknown\nN4 G90 G0 X0. Y0. Z60.\nN5 M30\n",
         );
         assert_eq!(report.diagnostics[1].status, crate::Status::Unknown);
     }
 
-    /// What only the machine knows: where a probe touched, where its reference point lies.
+    /// What only the machine knows: where a probe touched, where its reference point is.
     #[test]
     fn a_rapid_to_what_only_the_machine_knows_is_told() {
         for line in ["G0 X#5061", "G0 X[1 + #5161]", "G28 Z60", "#1 = #5063\nG0 Z#1"] {
@@ -241,7 +245,7 @@ mod tests {
         }
     }
 
-    /// Where the centre of an arc lies that is told from its start, nobody knows behind a switch of tool centre point control.
+    /// An arc centre given relative to its start is unknown after a switch of tool centre point control.
     #[test]
     fn an_arc_behind_a_switch_of_tool_centre_point_control_is_told() {
         for arc in [

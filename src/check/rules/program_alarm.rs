@@ -1,8 +1,8 @@
 //! The program stops itself here with an alarm.
 //!
 //! # Why
-//! Macros guard themselves: `#3000 = 1 (NO TOOL)` on Fanuc, `(ABORT, no tool)` on LinuxCNC. The run comes to it, so with these
-//! values the program ends there, and what follows is never run.
+//! Macros protect themselves: `#3000 = 1 (NO TOOL)` on Fanuc, `(ABORT, no tool)` on LinuxCNC. The run reaches this
+//! place, so with these values the program ends here, and what follows never runs.
 //!
 //! # Example
 //! ```gcode fanuc-30i
@@ -22,10 +22,11 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: it is reported only where the run proves that it is reached.
+//! Sound: reported only where the run proves that the place is reached.
 //!
 //! # Sources
-//! The Fanuc manuals on system variables; answers of the interpreter of LinuxCNC 2.9.
+//! * FANUC Series 16i/18i-PB B-63684EN/01: custom macro, system variables.
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -45,7 +46,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
                 format!("the program stops itself here with the alarm \"{text}\"")
             },
         )
-        .note("what follows is not run")
-        .help("see which condition before it leads here");
+        .note("what follows does not run")
+        .help("check which condition leads here");
     }
 }

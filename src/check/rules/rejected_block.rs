@@ -1,7 +1,7 @@
 //! The control refuses the block.
 //!
 //! # Why
-//! The program stops there. What the control says of it stands in the note, where that is known.
+//! The program stops there. Where the control's own message is known, the note quotes it.
 //!
 //! # Example
 //! ```gcode fanuc-30i
@@ -17,10 +17,11 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for what is modelled. Refusals that other rules name (feed, arcs, expressions, labels) are theirs.
+//! Sound for what is modelled. Other rules report the refusals they are named after (feed, arcs, expressions,
+//! labels).
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9.
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {

@@ -1,12 +1,12 @@
-//! A word is given twice in a block.
+//! A block contains a word twice.
 //!
 //! # Why
-//! The control stops (RS274/NGC), or the last one wins (Fanuc) and the first value is never used.
+//! The control stops (RS274/NGC), or the last word wins (Fanuc) and the first value is never used.
 //!
 //! # Example
 //! ```gcode
 //! N10 G0 X10 Y5 X20
-//! ;             ^^^ repeated-word: `X20` repeats a word of the block
+//! ;             ^^^ repeated-word: `X20` repeats a word of this block
 //! ```
 //!
 //! # Use instead
@@ -16,10 +16,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for words that a block may hold once; a warning on Fanuc, where the last one wins.
+//! Sound for words that a block may contain only once; a warning on Fanuc, where the last one wins.
 //!
 //! # Sources
-//! The NIST RS274/NGC interpreter, version 3, on item repeats.
+//! * NISTIR 6556 (2000), section 3.3.4 on item repeats.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -33,8 +33,8 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::RepeatedWord {
         let text = out.text(fault.range);
         let fanuc = out.dialect().starts_with("fanuc");
-        let draft = out.report(fault.range, format!("`{text}` repeats a word of the block"));
-        draft.help("remove the one that is not meant");
+        let draft = out.report(fault.range, format!("`{text}` repeats a word of this block"));
+        draft.help("remove the one that you do not need");
         if fanuc {
             draft
                 .severity(Severity::Warning)

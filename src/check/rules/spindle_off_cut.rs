@@ -1,15 +1,15 @@
-//! A feed motion while the spindle stands still.
+//! A feed motion while the spindle is off.
 //!
 //! # Why
-//! The tool is pushed through the material without turning: it breaks, or tears the part out of its clamping. M5 where M3 was meant,
-//! or a spindle that is not switched on again after a tool change, is found by nobody but the operator.
+//! The tool is pushed through the material without turning: it breaks, or tears the part out of its fixture.
+//! Typical causes are M5 instead of M3, and a spindle that is not switched on again after a tool change.
 //!
 //! # Example
 //! ```gcode
 //! N10 M5
 //! N20 G0 X0 Y0 Z2
 //! N30 G1 Z-5 F200
-//! ;   ^^^^^^^^^^^ spindle-off-cut: a feed motion with the spindle off
+//! ;   ^^^^^^^^^^^ spindle-off-cut: this feed motion runs with the spindle off
 //! ```
 //!
 //! # Use instead
@@ -20,11 +20,12 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for programs that switch the spindle off by a code that is modelled. Before the first spindle code nobody knows whether it turns,
-//! and nothing is said. Feed motions in machine coordinates, and probing, are not judged; whether there is material is not known.
+//! Sound for programs that switch the spindle off by a code that is modelled. Before the first spindle code its
+//! state is unknown, and nothing is reported. Feed motions in machine coordinates, and probing, are not judged.
+//! Whether there is material is not known.
 //!
 //! # Sources
-//! Trunnion's interface, section 7: until stock is known, a feed motion is a cut.
+//! * docs/contract.md#what-counts-as-a-cut
 use crate::InForce;
 use crate::prelude::*;
 use trunnion_interp::Motion;
@@ -40,9 +41,9 @@ fn check(motion: &Motion, _: InForce, out: &mut Reporter<'_>) {
         return;
     }
     let range = code_range(out.program(), motion.block);
-    out.report(range, "a feed motion with the spindle off")
-        .note("the program has switched it off before")
-        .help("switch the spindle on (M3, M4), or move in rapid; where the tool does not turn (probe, drag knife), allow the rule with that reason")
+    out.report(range, "this feed motion runs with the spindle off")
+        .note("the program switched the spindle off earlier")
+        .help("switch the spindle on (M3, M4), or use a rapid; if the tool does not turn (probe, drag knife), allow the rule and give that reason")
         .merge(0, 0.0);
 }
 

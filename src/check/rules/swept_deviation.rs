@@ -1,8 +1,9 @@
 //! Between the ends of a feed motion the body of the tool leaves its path by more than the tolerance.
 //!
 //! # Why
-//! The tip may be led exactly while the tool axis takes another way than the vectors mean: what lies above the tip then swings
-//! out, the more the longer the tool is. Where the flank cuts, that is the surface of the part.
+//! The tip may be guided exactly while the tool axis takes a different path from the one the vectors define. The
+//! part of the tool above the tip then swings out; the longer the tool, the farther. Where the flank cuts, that
+//! changes the surface of the part.
 //!
 //! # Example
 //! ```gcode apt mikron-ucp710
@@ -27,17 +28,18 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: silence rests on a proven bound, not on samples. Judged is the point on the tool axis at the tool's length above the
-//! tip, against the path it has when the tip runs along its segment and the tool axis evenly on the great circle. Without tool
-//! centre point control the tip itself strays and `path-deviation` judges it. Where the length of the tool is not known, silence
-//! holds for tools of up to 1 m, and where one of 1 m would leave the tolerance the rule says unknown (tool length not known),
-//! once, with how far it would; so it does where it is not known how the control turns the axes between vectors.
+//! Sound: silence rests on a proven bound, not on samples. The rule judges the point on the tool axis at the tool's
+//! length above the tip, against the path that it has when the tip moves along its segment and the tool axis turns
+//! at a constant rate on the great circle. Without tool centre point control the tip itself deviates, and
+//! `path-deviation` judges it. Where the length of the tool is not known, silence holds for tools up to 1 m long;
+//! where a 1 m tool would exceed the tolerance, the rule says unknown (tool length not known), once, with the
+//! amount. It also says unknown where it is not known how the control turns the axes between vectors.
 //!
 //! # Thresholds
 //! `swept`: 0.05 mm.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 3 and 5 (KIN-SWEEP).
+//! * docs/kinematics.md#deviation-of-the-tool-body
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 use trunnion_machine::{Deviation, swept_deviation};
@@ -64,7 +66,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let tolerance = view.machine.tolerances.swept_mm;
     let declared = end.tool_length > 0.0;
     let length = if declared { end.tool_length } else { LONGEST_MM };
-    // opposite tool axes are told by orientation-deviation, a straying tip by path-deviation
+    // opposite tool axes are reported by orientation-deviation, a deviating tip by path-deviation
     let Some(deviation) = swept_deviation(view.machine, view.leg, length, tolerance) else {
         return;
     };
@@ -77,7 +79,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             out,
             &deviation,
             length,
-            "tool length not known; a tool of 1 m would leave it",
+            "the tool length is not known, and a 1 m tool would exceed the tolerance",
             "declare the tool's length in trunnion.toml: [[tool]] number = ..., length = ...",
         );
     }
@@ -116,25 +118,25 @@ fn found(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &Deviation, leng
             ),
         )
         .note(format!(
-            "farthest after {} % of the block; proven to be at most {}; allowed are {}",
+            "largest after {} % of the block; proven to be at most {}; the tolerance is {}",
             number((deviation.at * 100.0).round()),
             bound_mm(deviation.bound_mm),
             mm(tolerance)
         ))
-        .help("let the control keep the great circle (ORIVECT, G43.5 with vectors), or program the block in smaller steps")
+        .help("make the control keep to the great circle (ORIVECT, G43.5 with vectors), or divide the block into smaller steps")
         .merge_runs_over(SHORT_RUN, FOUND, deviation.sampled_mm)
     } else {
         out.report(
             range,
             format!(
-                "{} above its tip the tool leaves its path by between {} and {}: not proven to keep {}",
+                "{} above its tip the tool leaves its path by between {} and {}: the tolerance of {} is not proven",
                 mm(length),
                 mm(deviation.sampled_mm),
                 bound_mm(deviation.bound_mm),
                 mm(tolerance)
             ),
         )
-        .help("program the block in smaller steps, or allow a little more tolerance")
+        .help("divide the block into smaller steps, or allow a slightly larger tolerance")
         .unknown()
         .merge_runs_over(SHORT_RUN, BETWEEN, deviation.bound_mm)
     };
@@ -153,10 +155,10 @@ fn not_known(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &Deviation, 
     let range = orientation_range(out.program(), view.motion().block);
     out.report(
         range,
-        format!("whether the body of the tool keeps its path is not known: {why}"),
+        format!("it is not known whether the body of the tool keeps to its path: {why}"),
     )
     .note(format!(
-        "between these tool vectors the rotary axes, turning evenly, leave the great circle: {} above the tip by at most {}, allowed are {}",
+        "linearly interpolated rotary axes leave the great circle between these tool vectors: by at most {1} at {0} above the tip; the tolerance is {2}",
         mm(length),
         bound_mm(deviation.bound_mm),
         mm(view.machine.tolerances.swept_mm)
@@ -198,7 +200,11 @@ mod tests {
         let twice = program("").replace("FINI", "GOTO/0,0,50,0,-0.5,0.866\nFINI");
         let all = found(&twice);
         assert_eq!((all.len(), all[0].status, all[0].count), (1, Status::Unknown, 2));
-        assert!(all[0].message.contains("tool length not known"), "{}", all[0].message);
+        assert!(
+            all[0].message.contains("the tool length is not known"),
+            "{}",
+            all[0].message
+        );
         let bound = all[0].values.iter().find(|(key, _)| *key == "above_tip_mm");
         assert_eq!(bound, Some(&("above_tip_mm", crate::ValueKey::Number(1000.0))));
     }

@@ -1,14 +1,15 @@
 //! A piece of text belongs to no word, record or comment.
 //!
 //! # Why
-//! A control stops at such a place, skips it, or reads something else than was meant. What stands there cannot be checked.
+//! A control stops at such a place, skips it, or reads something other than what was intended. What is written
+//! there cannot be checked.
 //!
 //! # Example
 //! ```gcode
 //! N10 G1 X F500
 //! ;      ^ syntax-error: `X` has no value
 //! N20 G1 X10 ?
-//! ;          ^ syntax-error: `?` belongs to no word
+//! ;          ^ syntax-error: `?` does not belong to any word
 //! ```
 //!
 //! # Use instead
@@ -18,11 +19,12 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: every byte of the file belongs to a word, a record, a comment or a blank, or is reported here, by `bad-number`,
-//! by `decimal-comma` or by `unclosed-comment`.
+//! Sound: every byte of the file belongs to a word, a record, a comment or a blank, or is reported here, by
+//! `bad-number`, by `decimal-comma` or by `unclosed-comment`.
 //!
 //! # Sources
-//! The NIST RS274/NGC interpreter, version 3, on the format of a line; ISO 6983-1 on the format of a block.
+//! * NISTIR 6556 (2000), section 3.3 on the format of a line.
+//! * ISO 6983-1:2009, the format of a block.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -40,11 +42,11 @@ fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     let text = out.text(error.range);
     let (message, help) = match error.kind {
         SyntaxErrorKind::NestedComment => (
-            "a comment opens inside a comment".to_owned(),
-            "close the first comment before it, or leave the inner opening mark out",
+            "a comment starts inside another comment".to_owned(),
+            "close the first comment before it, or remove the inner opening mark",
         ),
         SyntaxErrorKind::UnexpectedCharacter => (
-            format!("`{text}` belongs to no word"),
+            format!("`{text}` does not belong to any word"),
             "remove it, or put it into a comment",
         ),
         SyntaxErrorKind::WordWithoutValue => (
@@ -52,28 +54,27 @@ fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
             "write its value, or remove the letter",
         ),
         SyntaxErrorKind::NumberWithoutLetter => (
-            format!("no letter owns the number `{text}`"),
+            format!("the number `{text}` has no letter"),
             "write the letter it belongs to",
         ),
-        SyntaxErrorKind::MissingValue => (
-            format!("nothing stands behind `{text}`"),
-            "write the value that is meant",
-        ),
-        SyntaxErrorKind::UnbalancedBracket => (format!("`{text}` has no partner"), "close or open the bracket"),
+        SyntaxErrorKind::MissingValue => (format!("nothing follows `{text}`"), "write the missing value"),
+        SyntaxErrorKind::UnbalancedBracket => {
+            (format!("`{text}` has no matching bracket"), "close or open the bracket")
+        }
         SyntaxErrorKind::UnclosedText => (
-            "a quoted text is not closed on its line".to_owned(),
+            "a quoted text is not closed at the end of its line".to_owned(),
             "write the closing quote",
         ),
         SyntaxErrorKind::DanglingContinuation => (
-            "`$` continues a statement, but the file ends".to_owned(),
+            "`$` continues the statement, but the file ends here".to_owned(),
             "remove the `$`, or write the rest of the statement",
         ),
         SyntaxErrorKind::BadRecord => (
-            format!("`{text}` stands where an APT statement cannot have it"),
-            "a statement is a major word, then `/` and arguments with commas between them",
+            format!("`{text}` is not allowed at this place in an APT statement"),
+            "a statement is a major word, then `/`, then arguments separated by commas",
         ),
         SyntaxErrorKind::TooLarge => (
-            "the file is larger than 4 GiB and is read only to here".to_owned(),
+            "the file is larger than 4 GiB: it was read only up to here".to_owned(),
             "split the program",
         ),
         SyntaxErrorKind::UnclosedComment
@@ -100,7 +101,7 @@ pub(crate) fn is_utf16(source: &[u8]) -> bool {
 /// Says that a file is UTF-16, in place of a problem for each of its bytes.
 pub(crate) fn report_utf16(out: &mut Reporter<'_>) {
     out.report(TextRange::new(0, 2), "this file is UTF-16; save it as UTF-8 or ASCII")
-        .note("controls read one byte for a character; nothing was checked");
+        .note("controls read one byte per character; nothing was checked");
 }
 
 #[cfg(test)]

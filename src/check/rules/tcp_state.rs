@@ -1,9 +1,9 @@
 //! Tool centre point control is in the wrong state for what the block does.
 //!
 //! # Why
-//! With tool centre point control X Y Z lead the tip and the control makes up for the rotary axes; without it they lead the axes.
-//! Rotary words after it was switched off, a tool without length under it, a tool change or machine coordinates under it: each is
-//! legal text and sends the tip elsewhere.
+//! With tool centre point control X Y Z position the tip, and the control compensates for the rotary axes. Without
+//! it X Y Z position the axes. Rotary words after it was switched off, a tool without active length under it, a
+//! tool change or machine coordinates under it: each is correct syntax and sends the tip to another place.
 //!
 //! # Example
 //! ```gcode fanuc-30i mikron-ucp710
@@ -29,11 +29,12 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for what it names: rotary words in a feed motion after tool centre point control was on with the same tool; a feed motion under
-//! it with a tool whose length is not in force; a tool change or machine coordinates under it. `path-deviation` judges what comes of it.
+//! Sound for what it names: rotary words in a feed motion after tool centre point control was on with the same
+//! tool; a feed motion under it with a tool whose length is not active; a tool change or machine coordinates under
+//! it. `path-deviation` judges the resulting path.
 //!
 //! # Sources
-//! Trunnion's interface, section 7; kinematics notes, section 5 (TCP-STATE).
+//! * docs/contract.md#tool-centre-point-control
 use crate::prelude::*;
 use trunnion_interp::TcpMistake;
 
@@ -49,24 +50,24 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     };
     let (message, note, help) = match mistake {
         TcpMistake::RotaryWithout => (
-            "a rotary axis turns in a feed motion without tool centre point control, which was on before with this tool",
-            "X Y Z lead the axes here: the tip does not stay on the programmed line",
+            "a rotary axis turns in a feed motion without tool centre point control, which was on earlier with this tool",
+            "here X Y Z position the axes, not the tip: the tip does not stay on the programmed line",
             "switch tool centre point control on again, or position the rotary axis in a rapid motion",
         ),
         TcpMistake::NoLength => (
-            "the tool cuts under tool centre point control while no tool length is in force",
-            "the control leads the spindle's nose as if it were the tip",
-            "activate the tool's length (H or D) before",
+            "the tool cuts under tool centre point control while no tool length is active",
+            "the control guides the spindle nose as if it were the tip",
+            "activate the tool length (H or D) first",
         ),
         TcpMistake::ToolChange => (
             "the tool is changed under tool centre point control",
-            "the length changes while the axes follow the tip",
+            "the tool length changes while the axes follow the tip",
             "switch tool centre point control off before the tool change",
         ),
         TcpMistake::MachineCoordinates => (
-            "machine coordinates under tool centre point control",
-            "whether they suspend it for the block depends on the control",
-            "switch tool centre point control off before",
+            "machine coordinates are programmed under tool centre point control",
+            "it depends on the control whether this block suspends tool centre point control",
+            "switch tool centre point control off first",
         ),
     };
     out.report(fault.range, message)
@@ -99,7 +100,10 @@ mod tests {
         let change = "TRAORI\nG0 X0 Y0 Z50 A20 C0\nT2\nM6\nTRAFOOF\nM30\n";
         assert_eq!(found("sinumerik-840d", change), ["the tool is changed x1"]);
         let machine = "TRAORI\nG0 X0 Y0 Z50 A20 C0\nG0 SUPA Z0\nTRAFOOF\nM30\n";
-        assert_eq!(found("sinumerik-840d", machine), ["machine coordinates under tool x1"]);
+        assert_eq!(
+            found("sinumerik-840d", machine),
+            ["machine coordinates are programmed x1"]
+        );
         let length = "T1 M6\nG43.4 H1\nG49\nG43.5 H0\nG0 X0. Y0. Z50. A20. C0.\nG1 X10. F500.\nM30\n";
         assert!(found("fanuc-30i", length).is_empty());
         let none = "T1 M6 D0\nTRAORI\nG0 X0 Y0 Z50 A20 C0 D0\nG1 X10 F500\nX20\nM30\n";

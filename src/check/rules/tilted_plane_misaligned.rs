@@ -1,8 +1,9 @@
-//! The tool cuts in a tilted working plane on which it does not stand.
+//! The tool cuts in a tilted working plane without being perpendicular to it.
 //!
 //! # Why
-//! A tilted plane turns the coordinates; the tool is turned by another code (G53.1), by the cycle's direction, or by hand. Where that is
-//! missing, or the rotary axes stand elsewhere, the tool cuts at a slant, with its length along the wrong line.
+//! A tilted plane rotates the coordinates. The tool itself is turned by another code (G53.1), by the cycle's
+//! direction, or by hand. Where that is missing, or the rotary axes are elsewhere, the tool cuts at an angle, and
+//! its length acts along the wrong line.
 //!
 //! # Example
 //! ```gcode fanuc-30i mikron-ucp710
@@ -10,7 +11,7 @@
 //! N20 G68.2 X0. Y0. Z0. I0. J30. K0.
 //! N30 G0 X0. Y0. Z20.
 //! N40 G1 Z5. F500.
-//! ;   ^^^^^^^^^^^^ tilted-plane-misaligned: the tool stands 30 deg off the tilted plane's normal
+//! ;   ^^^^^^^^^^^^ tilted-plane-misaligned: the tool is 30 deg off the normal of the tilted plane
 //! N50 G69
 //! N60 M30
 //! ```
@@ -27,14 +28,15 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for feed motions in planes that are modelled (G68.2 and G68.4 by Euler angles, CYCLE800 axis by axis) where the rotary axes'
-//! positions are known. Where the tool stands off, the linear axes are not followed.
+//! Sound for feed motions in planes that are modelled (G68.2 and G68.4 by Euler angles, CYCLE800 axis by axis)
+//! where the positions of the rotary axes are known. While the tool is not perpendicular, the linear axes are not
+//! followed.
 //!
 //! # Thresholds
-//! 0.01 deg between tool axis and normal.
+//! 0.01 deg between the tool axis and the normal.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 5 (TWP-ALIGN) and 12.6.
+//! * docs/kinematics.md#tilted-planes
 use crate::prelude::*;
 use trunnion_machine::NoStance;
 
@@ -54,11 +56,11 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let range = code_range(out.program(), view.motion().block);
     out.report(
         range,
-        format!("the tool stands {} off the tilted plane's normal", degrees(off)),
+        format!("the tool is {} off the normal of the tilted plane", degrees(off)),
     )
-    .note("X Y Z are coordinates of the tilted plane; where the axes go while the tool stands off it is not followed")
+    .note("X Y Z are coordinates of the tilted plane; while the tool is not perpendicular to it, the axes are not followed")
     .help(
-        "turn the tool onto the plane before (G53.1, or CYCLE800 with a direction), or end the plane (G69, CYCLE800())",
+        "turn the tool perpendicular to the plane first (G53.1, or CYCLE800 with a direction), or cancel the plane (G69, CYCLE800())",
     )
     .value("value_deg", deg(off))
     .value("limit_deg", 0.01)
@@ -96,7 +98,7 @@ mod tests {
     fn a_swivel_cycle_without_direction_turns_nothing() {
         assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",
-            "G0 X0 Y0 Z50 A0 C0\nCYCLE800(0,\"\",0,57,0,0,0,30,0,0,0,0,0,0)\nG0 X0 Y0 Z20\nG1 Z5 F500\n;^^^^^^^^^ tilted-plane-misaligned: the tool stands 30 deg\nCYCLE800()\nM30\n",
+            "G0 X0 Y0 Z50 A0 C0\nCYCLE800(0,\"\",0,57,0,0,0,30,0,0,0,0,0,0)\nG0 X0 Y0 Z20\nG1 Z5 F500\n;^^^^^^^^^ tilted-plane-misaligned: the tool is 30 deg\nCYCLE800()\nM30\n",
         );
         assert_drawn(
             "gcode sinumerik-840d mikron-ucp710",

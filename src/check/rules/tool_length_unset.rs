@@ -1,23 +1,23 @@
-//! The length of a tool is used that nobody declared: it is taken as zero.
+//! The program uses a tool length that is not declared: it is taken as zero.
 //!
 //! # Why
-//! With tool centre point control the linear axes move with the rotary ones, and the farther the longer the tool is. With a
-//! length of zero travel and speed of the linear axes come out too small.
+//! With tool centre point control the linear axes move together with the rotary axes; the longer the tool, the
+//! farther. With a length of zero the computed travel and speed of the linear axes are too small.
 //!
 //! # Example
 //! ```gcode fanuc-30i
 //! N10 G0 G43 H5 Z10.
-//! ;      ^^^ tool-length-unset: the length of H5 is not declared and taken as zero
+//! ;      ^^^ tool-length-unset: the length of H5 is not declared and is taken as zero
 //! ```
 //!
 //! # Use instead
 //! Declare it in `trunnion.toml`: `[[tool]] number = 5, length = 120.5`, in mm.
 //!
 //! # Guarantee
-//! Sound; told once per tool.
+//! Sound; reported once per tool.
 //!
 //! # Sources
-//! Trunnion's interface: lengths of tools are a setting, not a guess.
+//! * docs/contract.md#offsets-and-tool-lengths
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -37,9 +37,9 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         let name = if tool == "T" { "the tool in use" } else { tool };
         out.report(
             fault.range,
-            format!("the length of {name} is not declared and taken as zero"),
+            format!("the length of {name} is not declared and is taken as zero"),
         )
-        .note("tool length is measured from the gauge point of the spindle to the tip, mm")
+        .note("the tool length is measured from the gauge point of the spindle to the tip, in mm")
         .help(format!(
             "declare it in trunnion.toml: [[tool]] number = {number}, length = ..."
         ))

@@ -1,7 +1,7 @@
 //! The length of a tool vector is not 1.
 //!
 //! # Why
-//! A direction is told by a vector of length 1. Another length means that a digit is wrong or missing, and then the
+//! A vector of length 1 gives a direction. Another length means that a digit is wrong or missing, and then the
 //! direction is wrong too. A vector of length zero has no direction at all.
 //!
 //! # Example
@@ -21,14 +21,14 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for APT, LN and G43.5. The length of A3= B3= C3= means nothing, so there only a zero vector is reported.
+//! Sound for APT, LN and G43.5. The length of A3= B3= C3= means nothing, so only a zero vector is reported there.
 //! The direction is used as it is, scaled to length 1.
 //!
 //! # Thresholds
 //! A warning above 0.0001, an error above 0.01; a zero vector is an error.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 2.3; the thresholds are engineering judgement.
+//! * docs/kinematics.md#tool-vectors
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -59,7 +59,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         };
         format!("the tool vector has length {length}, not 1")
     } else {
-        "the tool vector has length 0 and no direction".to_owned()
+        "the tool vector has length 0 and therefore no direction".to_owned()
     };
     let draft = out.report(fault.range, message);
     draft

@@ -1,8 +1,8 @@
 //! A comment is opened and not closed.
 //!
 //! # Why
-//! Controls differ: one reports an alarm, another takes the rest of the line, or of the file, as comment and leaves out the
-//! motions in it.
+//! Controls differ: one reports an alarm, another takes the rest of the line, or of the file, as a comment and
+//! skips the motions in it.
 //!
 //! # Example
 //! ```gcode
@@ -21,7 +21,7 @@
 //! Sound for the comment marks of the dialect.
 //!
 //! # Sources
-//! The NIST RS274/NGC interpreter, version 3, on comments and messages.
+//! * NISTIR 6556 (2000), section 3.3.3 on comments and messages.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -33,7 +33,7 @@ pub(super) const RULE: Body = Body {
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     if error.kind == SyntaxErrorKind::UnclosedComment {
         out.report(error.range, "the comment is not closed")
-            .note("everything up to the end of the comment is not run")
-            .help("write the closing mark");
+            .note("nothing up to the end of the comment runs")
+            .help("add the closing mark");
     }
 }

@@ -1,8 +1,9 @@
-//! A variable is used that has no value, does not exist, or may not be written.
+//! A variable is used that has no value, does not exist, or must not be written.
 //!
 //! # Why
-//! A misspelt name reads as another variable, or as none: the control stops there, or moves to a place nobody has chosen.
-//! LinuxCNC says `Named parameter #<...> not defined`, and `Parameter number out of range` for a number it does not have.
+//! A misspelt name refers to another variable, or to none: the control stops there, or moves to an unintended
+//! position. LinuxCNC says `Named parameter #<...> not defined`, and `Parameter number out of range` for a number
+//! it does not have.
 //!
 //! # Example
 //! ```gcode fanuc-30i
@@ -18,10 +19,12 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound where the run reaches the block: a block behind a condition that could not be decided is said to be not decided.
+//! Sound where the run reaches the block: a block after a condition that could not be decided is reported as not
+//! decided.
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9; the Fanuc manuals on custom macro variables.
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
+//! * FANUC Series 16i/18i-PB B-63684EN/01: custom macro, variables.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {

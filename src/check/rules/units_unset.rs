@@ -1,13 +1,13 @@
-//! Nothing says whether lengths are inch or mm: they are taken as mm.
+//! Neither the program nor the settings say whether lengths are in inches or millimetres: they are taken as mm.
 //!
 //! # Why
-//! Without G20 or G21 the unit is whatever the control has been left in, or what a parameter says: a program for the other unit is cut
-//! 25.4 times too large or too small.
+//! Without G20 or G21 the unit is whatever the control was left in, or what a parameter says. A program for the
+//! other unit is cut 25.4 times too large or too small.
 //!
 //! # Example
 //! ```gcode
 //! N10 G0 X10 Y20
-//! ;   ^^^^^^^^^^ units-unset: nothing says whether lengths are inch or mm
+//! ;   ^^^^^^^^^^ units-unset: it is not declared whether lengths are in inches or millimetres
 //! N20 X30
 //! ```
 //!
@@ -17,14 +17,16 @@
 //! N10 G0 X10 Y20
 //! N20 X30
 //! ```
-//! Or declare what the control begins with, in `trunnion.toml` or in the machine's file: `[control] units = "mm"`. APT programs say
+//! Or declare the unit that the control starts with, in `trunnion.toml` or in the machine file: `[control] units =
+//! "mm"`. APT programs say
 //! UNITS/MM.
 //!
 //! # Guarantee
-//! Sound: told once per program, at the first motion whose length depends on it.
+//! Sound: reported once per program, at the first motion whose length depends on it.
 //!
 //! # Sources
-//! RS274/NGC Interpreter, version 3 (NIST), section 3.5.7; the Fanuc manuals on G20 and G21, which keep the unit of before power-off.
+//! * NISTIR 6556 (2000), section 3.5.7 on length units.
+//! * FANUC Series 30i B-64484EN: G20 and G21, which keep the unit of the last session after power-off.
 use crate::InForce;
 use crate::prelude::*;
 use trunnion_interp::Motion;
@@ -52,13 +54,13 @@ fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
     if !LINEAR.iter().any(counts) {
         return;
     }
-    let message = "nothing says whether lengths are inch or mm: they are taken as mm";
+    let message = "it is not declared whether lengths are in inches or millimetres: they are taken as mm";
     let Some(draft) = once_at(motion, message, out) else {
         return;
     };
     draft
-        .note("the unit is what the control was left in, or what its parameters say")
-        .help("write G21 or G20 (G71 or G70, UNITS/MM), or declare `[control] units = \"mm\"` in trunnion.toml or in the machine's file");
+        .note("the control uses the unit that it was left in, or that its parameters set")
+        .help("write G21 or G20 (G71 or G70, UNITS/MM), or declare `[control] units = \"mm\"` in trunnion.toml or in the machine file");
 }
 
 #[cfg(test)]
@@ -67,10 +69,10 @@ mod tests {
 
     #[test]
     fn only_lengths_count() {
-        // zero and angles are the same in any unit; the first length is told, once
+        // zero and angles are the same in any unit; the first length is reported, once
         assert_drawn(
             "gcode",
-            "G0 X0 Y0\nB45\nX5\n;^ units-unset: nothing says whether lengths are inch or mm\nY7\n",
+            "G0 X0 Y0\nB45\nX5\n;^ units-unset: it is not declared whether lengths are in inches or millimetres\nY7\n",
         );
     }
 

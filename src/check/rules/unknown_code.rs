@@ -1,13 +1,13 @@
-//! The dialect knows no such code.
+//! The dialect has no such code.
 //!
 //! # Why
-//! The control stops, or, worse, has a code of that number that does something else: what follows cannot be judged.
-//! M codes that a control leaves to the machine builder are no error, but what they do is not known.
+//! The control stops or, worse, uses that code number for something else: what follows cannot be judged. M codes
+//! that a control leaves to the machine builder are not an error, but their effect is unknown.
 //!
 //! # Example
 //! ```gcode
 //! N10 G0 G198 X10
-//! ;      ^^^^ unknown-code: iso-6983 knows no code G198
+//! ;      ^^^^ unknown-code: iso-6983 has no code G198
 //! ```
 //!
 //! # Use instead
@@ -16,10 +16,10 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for the dialect's table; the table says where each code comes from.
+//! Sound for the dialect's table; the table gives the source of each code.
 //!
 //! # Sources
-//! The dialect tables in `grammar/dialects`.
+//! * grammar/README.md, the dialect tables and their sources.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -32,11 +32,11 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     let text = out.text(fault.range);
     let dialect = out.dialect().to_owned();
     let FaultKind::UnknownCode { machine_builder } = fault.kind else {
-        let message = format!("{dialect} knows no code {text}");
+        let message = format!("{dialect} has no code {text}");
         if let Some(draft) = refused(fault, out, &[Refusal::UnknownCode]) {
             draft
                 .reword(message)
-                .help("correct the code, or name the dialect the program is written in: --dialect NAME")
+                .help("correct the code, or name the dialect of the program: --dialect NAME")
                 .merge(hash(&text), 0.0);
         }
         return;
@@ -44,18 +44,18 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if machine_builder {
         out.report(
             fault.range,
-            format!("{dialect} leaves {text} to the machine builder: what it does is not known"),
+            format!("{dialect} leaves {text} to the machine builder: its effect is not known"),
         )
-        .note("it is taken to move nothing and to change nothing that is checked")
+        .note("it is assumed to move nothing and to change nothing that is checked")
         .help(format!(
             "if it is harmless, say so: (trunnion: allow unknown-code because {text} only ...)"
         ))
         .unknown()
         .merge_everywhere(hash(&text));
     } else {
-        out.report(fault.range, format!("{dialect} knows no code {text}"))
-            .note("it is not run; what follows is checked as if it were not there")
-            .help("correct the code, or name the dialect the program is written in: --dialect NAME")
+        out.report(fault.range, format!("{dialect} has no code {text}"))
+            .note("it is ignored: what follows is checked as if it were not there")
+            .help("correct the code, or name the dialect of the program: --dialect NAME")
             .merge(hash(&text), 0.0);
     }
 }

@@ -1,12 +1,12 @@
-//! The dialect gives a letter or a name no meaning.
+//! A letter or name has no meaning in the dialect.
 //!
 //! # Why
-//! A word that the control does not know stops it, or is skipped together with what was meant by it.
+//! A word that the control does not know stops it, or the control skips it together with its intended effect.
 //!
 //! # Example
 //! ```gcode
 //! N10 G0 X10 SPEED=3
-//! ;          ^^^^^^^ unknown-word: iso-6983 has no meaning for `SPEED=3`
+//! ;          ^^^^^^^ unknown-word: `SPEED=3` has no meaning in iso-6983
 //! ```
 //!
 //! # Use instead
@@ -18,7 +18,7 @@
 //! Sound for the dialect's table of letters and names.
 //!
 //! # Sources
-//! The dialect tables in `grammar/dialects`.
+//! * grammar/README.md, the dialect tables and their sources.
 use crate::prelude::*;
 
 pub(super) const RULE: Body = Body {
@@ -32,8 +32,8 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::UnknownWord {
         let text = out.text(fault.range);
         let dialect = out.dialect();
-        out.report(fault.range, format!("{dialect} has no meaning for `{text}`"))
-            .help("correct the word, or name the dialect the program is written in: --dialect NAME")
+        out.report(fault.range, format!("`{text}` has no meaning in {dialect}"))
+            .help("correct the word, or name the dialect of the program: --dialect NAME")
             .merge(hash(&text), 0.0);
     }
 }

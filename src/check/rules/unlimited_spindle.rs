@@ -1,15 +1,15 @@
-//! A cut with constant surface speed while no limit of the spindle's speed is programmed.
+//! A cut with constant surface speed while no spindle speed limit is programmed.
 //!
 //! # Why
-//! Under G96 the spindle turns the faster the nearer the tool comes to the axis: without a limit it runs up to what the machine can give,
-//! whatever the chuck and the part can bear.
+//! Under G96 the spindle turns faster as the tool comes closer to the centre line. Without a limit it reaches the
+//! machine's maximum speed, whether or not the chuck and the part can take it.
 //!
 //! # Example
 //! ```gcode fanuc-30i-lathe-a
 //! N10 G96 S200 M3
 //! N20 G0 X50. Z0.
 //! N30 G1 X0. F0.1
-//! ;   ^^^^^^^^^^^ unlimited-spindle: constant surface speed without a limit of the spindle's speed
+//! ;   ^^^^^^^^^^^ unlimited-spindle: constant surface speed without a spindle speed limit
 //! ```
 //!
 //! # Use instead
@@ -22,11 +22,11 @@
 //! In G code systems B and C the limit is G92 S2000.
 //!
 //! # Guarantee
-//! Sound for the Fanuc dialects: told once per program, at the first feed motion under G96 before any limit. A limit that a subprogram of
-//! the builder or a parameter sets is not known.
+//! Sound for the Fanuc dialects: reported once per program, at the first feed motion under G96 before any limit. A
+//! limit that a builder's subprogram or a parameter sets is not known.
 //!
 //! # Sources
-//! The Fanuc Series 30i operator's manual, lathe system, on constant surface speed control and maximum spindle speed clamp.
+//! * FANUC Series 30i B-64484EN-1 (lathe system): constant surface speed control and maximum spindle speed clamp.
 use crate::InForce;
 use crate::prelude::*;
 use trunnion_interp::Motion;
@@ -48,13 +48,13 @@ fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
     if !out.dialect().starts_with("fanuc") {
         return;
     }
-    let message = "constant surface speed without a limit of the spindle's speed";
+    let message = "constant surface speed without a spindle speed limit";
     let Some(draft) = once_at(motion, message, out) else {
         return;
     };
     draft
-        .note("the spindle runs up to the machine's highest speed as the tool comes near the axis")
-        .help("write the limit before: G50 S2000 (G92 S2000 in G code systems B and C and on mills)");
+        .note("the spindle runs up to the machine's maximum speed as the tool approaches the centre line")
+        .help("program a limit first: G50 S2000 (G92 S2000 in G code systems B and C and on mills)");
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! No posture of the machine gives the tool this direction.
 //!
 //! # Why
-//! The rotary axes cannot turn the tool, or the part, so far: the control stops, or goes to a direction of its own choice.
+//! The rotary axes cannot turn the tool, or the part, that far: the control stops, or moves to a direction of its
+//! own choice.
 //!
 //! # Example
 //! ```gcode apt mikron-ucp710
@@ -23,13 +24,13 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: the solver is exact and finds all postures; windings are tried inside the limits.
+//! Sound: the solver is exact and finds all postures; full turns are tried within the limits.
 //!
 //! # Thresholds
 //! The limits of the machine file.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, sections 2.3 and 5 (ORI-UNREACH).
+//! * docs/kinematics.md#two-postures
 use crate::prelude::*;
 use trunnion_machine::NoStance;
 
@@ -46,15 +47,12 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             out.report(
                 range,
                 format!(
-                    "no posture reaches this tool axis: it lies {} outside the reach",
+                    "no posture reaches this tool axis: it is {} outside the reach",
                     degrees(*angle)
                 ),
             )
-            .note(format!(
-                "the rotary axes of {} sweep a cone that ends before it",
-                view.machine.id
-            ))
-            .help("tilt the tool path, or set the part up differently")
+            .note(format!("the rotary axes of {} cannot tilt that far", view.machine.id))
+            .help("tilt the tool path, or set up the part differently")
             .value("excess_deg", deg(*angle))
             .merge(0, *angle);
         }
@@ -65,13 +63,13 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             out.report(
                 range,
                 format!(
-                    "no posture inside the limits reaches this tool axis: {name} would be {}, its limit is {}",
+                    "no posture within the limits reaches this tool axis: {name} would be {}, its limit is {}",
                     degrees(*value),
                     degrees(*limit)
                 ),
             )
-            .note("postures exist, but each needs a rotary axis outside its travel; this is the nearest one")
-            .help("tilt the tool path, or set the part up differently")
+            .note("every posture needs a rotary axis outside its travel; this is the nearest one")
+            .help("tilt the tool path, or set up the part differently")
             .value_text("axis", name)
             .value("value_deg", deg(*value))
             .value("limit_deg", deg(*limit))
@@ -84,12 +82,12 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             out.report(
                 range,
                 format!(
-                    "no posture inside the limits is as the program asks for it: {name} would be {}",
+                    "no posture within the limits matches the program's choice: {name} would be {}",
                     degrees(*value)
                 ),
             )
-            .note("SEQ, STAT, TU or the solution's number ask for another sign of a rotary axis than the travel leaves")
-            .help("leave the choice to the control, or ask for the other posture")
+            .note("SEQ, STAT, TU or the solution number selects a sign of a rotary axis that the travel does not allow")
+            .help("leave the choice to the control, or select the other posture")
             .value_text("axis", name)
             .value("value_deg", deg(*value))
             .merge(256 + u64::from(*axis), value.abs());
@@ -117,7 +115,7 @@ mod tests {
         assert_drawn(
             machine,
             &format!(
-                "{};          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ unreachable-orientation: no posture inside the limits is as the program asks for it: A would be 40\nN50 M30\n",
+                "{};          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ unreachable-orientation: no posture within the limits matches the program's choice: A would be 40\nN50 M30\n",
                 text("A3=0 B3=-0.6427876 C3=0.7660444")
             ),
         );

@@ -1,13 +1,13 @@
 //! A comment allows a rule that finds nothing there.
 //!
 //! # Why
-//! The reason it gives is no longer true, or the comment stands at another block than it was meant for: then it hides the next
-//! mistake instead of the one it was written for.
+//! Its reason no longer applies, or the comment is at the wrong block: then it hides the next mistake instead of
+//! the one it was written for.
 //!
 //! # Example
 //! ```gcode
 //! N10 G0 X10 (trunnion: allow repeated-word because this control takes the last)
-//! ;          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ unused-suppression: nothing is found here that `allow repeated-word`
+//! ;          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ unused-suppression: `allow repeated-word` silences nothing here
 //! ```
 //!
 //! # Use instead
@@ -16,11 +16,11 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for rules that were looked for: not for those that need a machine where none is named, nor for those that the settings
-//! switch off.
+//! Sound for rules that were checked: not for those that need a machine where none is named, nor for those that the
+//! settings switch off.
 //!
 //! # Sources
-//! Trunnion's interface, section 5.
+//! * docs/contract.md#comments-that-trunnion-reads
 use crate::prelude::*;
 use crate::rule::Ending;
 
@@ -32,11 +32,8 @@ pub(super) const RULE: Body = Body {
 
 fn check(ending: &Ending<'_>, out: &mut Reporter<'_>) {
     for (range, rule) in &ending.unused {
-        out.report(
-            *range,
-            format!("nothing is found here that `allow {rule}` would silence"),
-        )
-        .help("remove the comment, or put it beside the block that it is meant for");
+        out.report(*range, format!("`allow {rule}` silences nothing here"))
+            .help("remove the comment, or move it to the block that it is meant for");
     }
 }
 

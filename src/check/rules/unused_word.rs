@@ -1,8 +1,8 @@
-//! A word stands in a block in which nothing uses it.
+//! A block contains a word that nothing in it uses.
 //!
 //! # Why
-//! Something was meant by the word: a code is missing beside it, or the letter is wrong. LinuxCNC refuses the block (`P word with no
-//! G2 G3 G4 ... to use it`), grbl too (error 36); other controls skip the word.
+//! The word had a purpose: a code is missing beside it, or the letter is wrong. LinuxCNC refuses the block (`P word
+//! with no G2 G3 G4 ... to use it`), and so does grbl (error 36); other controls skip the word.
 //!
 //! # Example
 //! ```gcode linuxcnc
@@ -19,12 +19,15 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for LinuxCNC and grbl, which refuse such a block: an error there. Elsewhere the control skips the word: a warning where neither a
-//! code of the block nor one in force has the address. Words beside codes of the machine's builder, and beside codes that are not
-//! modelled, are not judged; on a Sinumerik, where single letters are the program's own, nothing is.
+//! Sound for LinuxCNC and grbl, which refuse such a block: an error there. Elsewhere the control skips the word: a
+//! warning where neither a code of the block nor an active code uses the address. Words beside codes of the machine
+//! builder, and beside codes that are not modelled, are not judged. On a Sinumerik, where the program defines
+//! single letters itself, nothing is judged.
 //!
 //! # Sources
-//! Answers of the interpreter of LinuxCNC 2.9; grbl 1.1, error 36; the addresses of each code in the Fanuc and Haas manuals.
+//! * LinuxCNC 2.9 (2023): the answers of its interpreter.
+//! * Grbl 1.1 (2017): error 36.
+//! * grammar/README.md, the addresses of each code in the Fanuc and Haas tables.
 use crate::prelude::*;
 use crate::runs::SHORT_RUN;
 
@@ -36,18 +39,18 @@ pub(super) const RULE: Body = Body {
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let Some(draft) = refused(fault, out, &[Refusal::UnusedWord]) {
-        draft.help("remove the word, or write the code that it belongs to");
+        draft.help("remove the word, or add the code that it belongs to");
     }
     if fault.kind == FaultKind::UnusedWord {
         let text = out.text(fault.range);
         let text = text.trim();
         out.report(
             fault.range,
-            format!("`{text}`: no code of the block, and none in force, reads it"),
+            format!("`{text}` is not used by any code of the block or any active code"),
         )
         .severity(Severity::Warning)
-        .note("the control skips it, or reads it in a way that is not known here")
-        .help("remove the word, or write the code that it belongs to")
+        .note("the control ignores it, or uses it in a way that is not known here")
+        .help("remove the word, or add the code that it belongs to")
         .merge_runs_over(SHORT_RUN, hash(text), 0.0);
     }
 }
@@ -61,7 +64,7 @@ mod tests {
     fn where_the_control_skips_it_it_is_a_warning() {
         let report = assert_drawn(
             "gcode fanuc-30i",
-            "G1 X1. F100. R5.\n;            ^^^ unused-word: `R5.`: no code of the block, and none in force, reads it\nG4 P100 Q1\n;       ^^ unused-word: \n",
+            "G1 X1. F100. R5.\n;            ^^^ unused-word: `R5.` is not used by any code of the block or any active code\nG4 P100 Q1\n;       ^^ unused-word: \n",
         );
         assert!(
             report

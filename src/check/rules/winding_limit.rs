@@ -1,17 +1,17 @@
-//! An axis whose turns wind up a cable or hose comes near the end of its travel.
+//! An axis that winds up a cable or hose comes close to the end of its travel.
 //!
 //! # Why
-//! Such an axis has to turn back before its cable is taut. Near the end of its travel there is no reserve left for the next operation,
-//! and the control stops in the cut or turns back through it.
+//! Such an axis must turn back before its cable is taut. Close to the end of its travel no reserve is left for the
+//! next operation, and the control stops in the cut or turns the axis back through it.
 //!
 //! # Example
-//! The machine file has `cable = true` at A, whose travel is -30 to 120 deg.
+//! The machine file says `cable = true` for A, whose travel is -30 to 120 deg.
 //!
 //! ```gcode sinumerik-840d mikron-ucp710+A.cable
 //! N10 TRAORI
 //! N20 G0 X0 Y0 Z50 A20 C0
 //! N30 G1 X99 A100 F500
-//! ;          ^^^^ winding-limit: A is left 20 deg from its limit of 120 deg
+//! ;          ^^^^ winding-limit: A has 20 deg left to its limit of 120 deg
 //! ;          ^^^^ only-one-posture: only one posture is left
 //! N40 M30
 //! ```
@@ -25,13 +25,14 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound at the ends of motions whose joints are known. An axis with a cable and without limits cannot be judged, and is told once.
+//! Sound at the ends of motions whose axis positions are known. An axis with a cable and without limits cannot be
+//! judged, and is reported once.
 //!
 //! # Thresholds
 //! 30 deg of reserve.
 //!
 //! # Sources
-//! Trunnion's kinematics notes, section 5 (WIND-LIMIT).
+//! * docs/kinematics.md#rotary-words-and-full-turns
 use crate::prelude::*;
 use trunnion_geometry::rad;
 use trunnion_machine::Limits;
@@ -56,9 +57,12 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         let Limits::Range(low, high) = axis.limits else {
             if out.once(key) {
                 let range = axis_word(out.program(), view.motion().block, axis.letter);
-                out.report(range, format!("how far {name} may wind its cable up is not declared"))
-                    .help(format!("give {name} limits in the machine file"))
-                    .unknown();
+                out.report(
+                    range,
+                    format!("it is not declared how far {name} may wind up its cable"),
+                )
+                .help(format!("declare limits for {name} in the machine file"))
+                .unknown();
             }
             continue;
         };
@@ -73,7 +77,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             continue;
         }
         let badness = rad(RESERVE_DEG) - reserve;
-        // the lower end behind the upper one is another finding, however near the blocks
+        // the lower end after the upper one is a separate finding, however close the blocks
         let key = key + 256 * u64::from(limit == high);
         if out.repeats(view, key, badness) {
             continue;
@@ -82,15 +86,15 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         out.report(
             range,
             format!(
-                "{name} is left {} from its limit of {}",
+                "{name} has {} left to its limit of {}",
                 degrees(reserve),
                 degrees(limit)
             ),
         )
         .note(format!(
-            "the turns of {name} wind up a cable: {RESERVE_DEG} deg of reserve are wanted"
+            "{name} winds up a cable: {RESERVE_DEG} deg of reserve are required"
         ))
-        .help(format!("unwind {name} before, or set the part up turned"))
+        .help(format!("unwind {name} first, or set up the part rotated"))
         .value_text("axis", name)
         .value("reserve_deg", deg(reserve))
         .value("value_deg", deg(value))
@@ -121,7 +125,7 @@ mod tests {
     fn thirty_degrees_are_the_reserve_and_runs_are_told_once() {
         let report = assert_drawn(
             "gcode sinumerik-840d mikron-ucp710+A.cable",
-            "G0 X0 Y0 Z50 A0 C0\nG0 A90\nG0 A91\n;  ^^^ winding-limit: A is left 25 deg from\nG0 A95\nG0 A94\nG0 A-0.5\n;  ^^^^^ winding-limit: A is left 29.5 deg from its limit of -30 deg\nM30\n",
+            "G0 X0 Y0 Z50 A0 C0\nG0 A90\nG0 A91\n;  ^^^ winding-limit: A has 25 deg left to\nG0 A95\nG0 A94\nG0 A-0.5\n;  ^^^^^ winding-limit: A has 29.5 deg left to its limit of -30 deg\nM30\n",
         );
         assert_eq!(report.diagnostics[0].count, 3);
     }

@@ -54,7 +54,7 @@ pub(super) fn run(global: &Global, options: &Options<'_>) -> Result<Done, Failur
     if everywhere.is_finite() {
         writeln!(
             out,
-            "at every pose inside the travel, with tools of up to {longest} mm: tip off by at most {:.6} mm (proven)",
+            "at every pose within the travel, with tools up to {longest} mm long: tip off by at most {:.6} mm (proven)",
             round_up(everywhere)
         )?;
     }
@@ -75,7 +75,7 @@ pub(super) fn run(global: &Global, options: &Options<'_>) -> Result<Done, Failur
 /// Random poses have tools of up to this length, mm.
 const RANDOM_TOOLS_MM: f64 = 200.0;
 
-/// Digits that are told of a bound.
+/// Digits that are printed of a bound.
 fn round_up(bound: f64) -> f64 {
     (bound * 1e6 * (1.0 - 1e-12)).ceil() / 1e6
 }
@@ -103,18 +103,18 @@ impl Found {
                 everywhere
             };
             let bound = round_up(bound);
-            return format!("PASS: the tip is off by at most {bound} mm, {tolerance} mm are allowed (proven)");
+            return format!("PASS: the tip is off by at most {bound} mm (proven); the tolerance is {tolerance} mm");
         }
         let mut why = self.open.clone();
         if self.worst_mm.is_none() {
             why.push("no pose could be compared".to_owned());
         } else if self.bound_mm > tolerance && self.bound_mm.is_finite() && self.open.is_empty() {
-            why.push(format!("proven is only {} mm", round_up(self.bound_mm)));
+            why.push(format!("only {} mm is proven", round_up(self.bound_mm)));
         } else if self.bound_mm.is_infinite() && self.open.is_empty() {
             why.push("no bound is known".to_owned());
         }
         format!(
-            "UNKNOWN: the tip is not proven to be off by {tolerance} mm at most: {}",
+            "UNKNOWN: it is not proven that the tip is off by at most {tolerance} mm: {}",
             why.join("; ")
         )
     }
@@ -134,7 +134,7 @@ fn sweep(
         .collect();
     let [x, y, z] = numbers[..] else {
         return Err(Failure::new(format!(
-            "--tip {}: three numbers are needed, as 0,0,50",
+            "--tip {}: write three numbers, for example 0,0,50",
             options.tip
         )));
     };
@@ -144,14 +144,14 @@ fn sweep(
     }
     let random = comparison.random_poses(POSES, 20_261_121);
     if let Some(found) = &random {
-        tell(out, &format!("{POSES} random poses inside the travels"), machine, found)?;
+        tell(out, &format!("{POSES} random poses within the travel"), machine, found)?;
     }
     let worst = [swept, random].into_iter().flatten().map(|found| found.tip_mm);
     Ok(Found {
         worst_mm: worst.reduce(f64::max),
         bound_mm: f64::INFINITY,
         open: vec![format!(
-            "{STEPS} steps of each sweep and {POSES} poses keep it, poses between them were not compared; a program is judged along its whole path"
+            "it holds at {STEPS} steps of each sweep and at {POSES} poses, but poses between them were not compared; with a program the whole path is judged"
         )],
     })
 }
@@ -173,7 +173,7 @@ fn tell(out: &mut impl Write, what: &str, machine: &Machine, found: &TipDifferen
         .collect();
     writeln!(
         out,
-        "{what}: tip off by up to {:.6} mm, tool axis there by {:.6} deg, at {}",
+        "{what}: tip off by up to {:.6} mm, tool axis off by {:.6} deg there, at {}",
         found.tip_mm,
         deg(found.axis),
         joints.join(" ")
@@ -213,8 +213,8 @@ fn program(
             open.push(format!("{many} motion{} {why}", if many == 1 { "" } else { "s" }));
         }
     };
-    count(both.unknown, "could not be compared: the end or the path is not known");
-    count(both.at_end, "compared at the end only: the start is not known");
+    count(both.unknown, "could not be compared: the end or the path is unknown");
+    count(both.at_end, "compared at the end only: the start is unknown");
     for text in &open {
         remark(global.quiet, &format!("{}: {text}", loaded.name));
     }

@@ -28,7 +28,7 @@ pub(super) fn run(
         (None, "ini") => ImportFormat::LinuxcncIni,
         (None, "fcm" | "json") => ImportFormat::Freecad,
         (None, _) => {
-            let message = "its extension does not say what it is; give --format linuxcnc-ini or --format freecad";
+            let message = "its extension does not show its format; add --format linuxcnc-ini or --format freecad";
             return Err(Failure::file(file, message));
         }
     };
@@ -38,7 +38,7 @@ pub(super) fn run(
     let imported = match format {
         ImportFormat::LinuxcncIni => import_linuxcnc(name, &text, &given).map_err(failed)?,
         ImportFormat::Freecad if !given.is_empty() => {
-            return Err(Failure::new("--set gives HAL pins; a FreeCAD machine has none"));
+            return Err(Failure::new("--set sets HAL pins; a FreeCAD machine has none"));
         }
         ImportFormat::Freecad => import_freecad(name, &text).map_err(failed)?,
     };
@@ -73,6 +73,8 @@ fn pins(set: &[String]) -> Result<Vec<(String, f64)>, Failure> {
         value.is_finite().then(|| (pin.trim().to_owned(), value))
     };
     set.iter()
-        .map(|text| pin(text).ok_or_else(|| Failure::new(format!("--set {text}: write PIN=VALUE, as nut-angle=55"))))
+        .map(|text| {
+            pin(text).ok_or_else(|| Failure::new(format!("--set {text}: write PIN=VALUE, for example nut-angle=55")))
+        })
         .collect()
 }

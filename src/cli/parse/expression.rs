@@ -1,4 +1,4 @@
-//! The parts of an expression in order, each with the depth of the brackets it stands in. A list with depths and not a tree of
+//! The parts of an expression in order, each with its bracket depth. A list with depths and not a tree of
 //! boxes, so that a hundred thousand brackets are as easy as one.
 use trunnion_syntax::{Block, Program, TextRange, TokenKind};
 
@@ -63,7 +63,7 @@ pub(super) fn parts(program: &Program, block: &Block<'_>, range: TextRange) -> V
     parts
 }
 
-/// The first token of the block that starts at or behind `offset`.
+/// The first token of the block that starts at or after `offset`.
 fn first_from(program: &Program, block: &Block<'_>, offset: u32) -> u32 {
     let table = program.tokens();
     let tokens = block.tokens();

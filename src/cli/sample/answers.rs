@@ -43,7 +43,7 @@ pub(super) fn print(command: &Sample) -> Result<Done, Failure> {
             "block_time_s": command.size.unwrap_or(0.02) * 60.0 / piece.feed_mm_min,
         }),
         Kind::Saddle | Kind::CornerSet | Kind::CircleDiamondSquare => {
-            return Err(Failure::new("this piece has no closed-form answers"));
+            return Err(Failure::new("this test piece has no closed-form answers"));
         }
     };
     let mut out = std::io::stdout().lock();

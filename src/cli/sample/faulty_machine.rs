@@ -44,7 +44,7 @@ pub(super) fn pivot_off(name: &str) -> Result<String, Failure> {
         .unwrap_or(2);
     point[across] += OFF;
     rotary.insert("point".into(), Value::Array(point.map(Value::Float).to_vec()));
-    // the rows by which a file checks itself would refuse it: this is the file of someone who has none
+    // the rows by which a file checks itself would refuse it: this is a file without such rows
     table.remove("check");
     toml::to_string(&table).map_err(|error| broken(&error.to_string()))
 }

@@ -10,7 +10,7 @@ use trunnion_machine::{
 };
 use trunnion_pieces::{Move, Piece};
 
-/// Where the machine stands.
+/// The position of the machine.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) joints: Joints,
@@ -63,12 +63,12 @@ fn words(why: &NoStance) -> String {
     match why {
         NoStance::Unreachable(off) => format!("outside its reach by {:.3} deg", deg(*off)),
         NoStance::OutsideLimits { axis, value, limit } => format!(
-            "{} would stand at {:.3} deg, its limit is {:.3} deg",
+            "{} would be at {:.3} deg, its limit is {:.3} deg",
             char::from(*axis),
             deg(*value),
             deg(*limit)
         ),
-        NoStance::PositionUnknown(letters) => format!("nothing says where {letters} stand"),
+        NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown"),
         _ => "it cannot be followed".to_owned(),
     }
 }
@@ -87,7 +87,7 @@ fn one_posture(
             Orientations::Unreachable(off) => {
                 return Err(refusal(index, step, &words(&NoStance::Unreachable(off))));
             }
-            // the first rotary axis is free: it stays, or (naive) stands at zero as an arc tangent of nothing does
+            // the first rotary axis is free: it stays, or (naive) is at zero, as atan2 of zeros gives
             Orientations::Pole(second) => [if windings == WindingChoice::Nearest { q[0] } else { 0.0 }, second],
             Orientations::Postures(postures) => pick(&postures, posture).q,
         };
@@ -98,7 +98,7 @@ fn one_posture(
             };
         }
         let joints =
-            solve(machine, q, &step.tip).ok_or_else(|| refusal(index, step, "its linear axes cannot get there"))?;
+            solve(machine, q, &step.tip).ok_or_else(|| refusal(index, step, "its linear axes cannot reach it"))?;
         places.push(Place { joints });
     }
     Ok(places)

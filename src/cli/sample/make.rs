@@ -98,12 +98,12 @@ fn foreign_options(command: &Sample) -> Result<(), Failure> {
     for (name, given, kinds) in table {
         if given && !kinds.contains(&command.piece) {
             return Err(Failure::new(format!(
-                "--{name} has no meaning for this piece; `trunnion sample --help` says which pieces have it"
+                "--{name} has no meaning for this piece; `trunnion sample --help` lists the pieces that use it"
             )));
         }
     }
     if command.tool_diameter.is_some() && ![Cone, SWall, CircleDiamondSquare].contains(&command.piece) {
-        return Err(Failure::new("--tool-diameter: this piece has a tool of its own"));
+        return Err(Failure::new("--tool-diameter: this piece defines its own tool"));
     }
     Ok(())
 }

@@ -184,7 +184,7 @@ impl<'a> Codes<'a> {
         };
         if form.plant == Some(Plant::WrongH) && !post.numbers_its_lengths() {
             return Err(Failure::new(format!(
-                "--plant wrong-h: a program for `{}` calls no length by a number of its own",
+                "--plant wrong-h: a program for `{}` does not call the length by a separate number",
                 form.dialect
             )));
         }

@@ -19,7 +19,7 @@ pub(super) fn surface(command: &Sample, origin: Vec3) -> Result<String, Failure>
         ),
         _ => {
             return Err(Failure::new(
-                "--required: only the saddle and the s-wall have a surface to be compared with",
+                "--required: only the saddle and the s-wall have a required surface",
             ));
         }
     };

@@ -62,7 +62,7 @@ pub(super) fn text(loaded: &Loaded, tally: &Tally) -> String {
     });
     rows(&mut row, "not modelled", &unmodelled.collect::<Vec<_>>());
     let stop = tally.stop.as_ref();
-    let stop = stop.map(|(line, why)| format!("from line {line}: {why}; nothing behind it is counted"));
+    let stop = stop.map(|(line, why)| format!("from line {line}: {why}; nothing after it is counted"));
     rows(&mut row, "not followed", stop.as_slice());
     out
 }
@@ -98,14 +98,14 @@ fn path(tally: &Tally) -> String {
     if tally.spindle_off_mm > 0.0 {
         let _ = write!(
             text,
-            " (of it {} mm with the spindle not known to turn)",
+            " (of which {} mm with the spindle not known to turn)",
             decimal(tally.spindle_off_mm, 3)
         );
     }
     if tally.unmeasured > 0 {
         let _ = write!(
             text,
-            "; {} from or to an unknown place not counted",
+            "; {} from or to an unknown position not counted",
             many(tally.unmeasured, "motion")
         );
     }
@@ -115,12 +115,12 @@ fn path(tally: &Tally) -> String {
 fn time(loaded: &Loaded, tally: &Tally) -> String {
     let mut text = match (tally.cycle_time_s, &loaded.resolved.machine) {
         (Some([low, high]), _) => format!("cycle {} to {}", duration(low), duration(high)),
-        (None, Some(_)) => "cycle not known: some block's time is not known on this machine".to_owned(),
-        (None, None) => "cycle not known without --machine".to_owned(),
+        (None, Some(_)) => "cycle unknown: the time of some block is unknown on this machine".to_owned(),
+        (None, None) => "cycle unknown without --machine".to_owned(),
     };
     let _ = write!(text, "; feed motions at the programmed feed {}", duration(tally.feed_s));
     if tally.untimed > 0 {
-        let _ = write!(text, " ({} without a known time not counted)", number(tally.untimed));
+        let _ = write!(text, " ({} of unknown time not counted)", number(tally.untimed));
     }
     if tally.dwell_s > 0.0 {
         let _ = write!(text, "; dwell {}", duration(tally.dwell_s));

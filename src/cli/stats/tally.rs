@@ -66,7 +66,7 @@ pub(super) struct Tally {
     pub(super) calls: Vec<Call>,
     /// What is recognised and not modelled, with how often.
     pub(super) not_modelled: BTreeMap<String, u64>,
-    /// Line where the run stopped before the end, and why: nothing behind it is counted.
+    /// Line where the run stopped before the end, and why: nothing after it is counted.
     pub(super) stop: Option<(u32, String)>,
     /// From the check.
     pub(super) cycle_time_s: Option<[f64; 2]>,

@@ -80,12 +80,12 @@ fn then_the_content_then_the_machine() {
         is(
             &named(name, "G0 X1", Some("generic")),
             "iso-6983",
-            "no sign of a particular control",
+            "nothing in the file points to a particular control",
         );
         is(
             &named(name, "G0 X1", None),
             "iso-6983",
-            "no sign of a particular control",
+            "nothing in the file points to a particular control",
         );
     }
 }
@@ -106,12 +106,12 @@ fn signs_in_the_content() {
     is(
         &content("; roughing\nG1 X1 ; cut\n"),
         "iso-6983",
-        "no sign of a particular control",
+        "nothing in the file points to a particular control",
     );
     is(
         &content("G1 X1 (CIRCLE DIAMOND) ; TRAORI\nM5(R1=2)\n"),
         "iso-6983",
-        "no sign of a particular control",
+        "nothing in the file points to a particular control",
     );
     is(
         &content("N10G54G710DIAMON\n"),
@@ -149,15 +149,23 @@ fn signs_in_the_content() {
     is(
         &content("(TRAORI and R1=5)\nG0 X1\n"),
         "iso-6983",
-        "no sign of a particular control",
+        "nothing in the file points to a particular control",
     );
     is(
         &content("/* Start */\nN0G5M3\n"),
         "iso-6983",
-        "no sign of a particular control",
+        "nothing in the file points to a particular control",
     );
-    is(&content(""), "iso-6983", "no sign of a particular control");
-    is(&content("N10 GOTO 20\n"), "iso-6983", "no sign of a particular control");
+    is(
+        &content(""),
+        "iso-6983",
+        "nothing in the file points to a particular control",
+    );
+    is(
+        &content("N10 GOTO 20\n"),
+        "iso-6983",
+        "nothing in the file points to a particular control",
+    );
 }
 
 #[test]
@@ -271,7 +279,7 @@ fn programs_of_known_origin() {
             assert_eq!(found.dialect.name, expected, "{} by {}", path.display(), found.reason);
             // by content alone; a program that shows no sign of its control is no error
             let alone = detect(None, &text, None);
-            let silent = alone.reason == "no sign of a particular control";
+            let silent = alone.reason == "nothing in the file points to a particular control";
             if alone.dialect.name == expected {
                 right += 1;
             } else if !silent {

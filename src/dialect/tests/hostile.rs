@@ -111,7 +111,7 @@ fn bad_ids() {
 fn groups_documentation_and_sources() {
     refused_with(
         "[codes]\nG0 = { group = \"moves\", action = \"rapid\", doc = \"x\" }\n",
-        "no group `moves`",
+        "has no group `moves`",
         "\"moves\"",
     );
     refused_with(
@@ -126,7 +126,7 @@ fn groups_documentation_and_sources() {
     );
     refused_with(
         "[codes]\nG0 = { action = \"rapid\", doc = \"x\", source = \"\" }\n",
-        "empty source",
+        "the source is empty",
         "\"\"",
     );
     refused_with("[groups]\n\"Big Group\" = \"x\"\n", "lower-case", "Big Group");
@@ -137,7 +137,7 @@ fn base_names_letters_and_lists() {
     let other = HEAD.replace("iso-6983", "iso");
     let (message, place) = refusal(&other);
     assert!(
-        message.contains("no built-in dialect `iso`") && message.contains("sinumerik-840d"),
+        message.contains("unknown built-in dialect `iso`") && message.contains("sinumerik-840d"),
         "{message}"
     );
     assert_eq!(place, "\"iso\"");
@@ -154,24 +154,24 @@ fn base_names_letters_and_lists() {
             .0
             .contains("[arc-tolerance]")
     );
-    refused_with("remove = [\"G77\"]\n", "nothing to remove", "\"G77\"");
+    refused_with("remove = [\"G77\"]\n", "there is nothing to remove", "\"G77\"");
     refused_with("remove = [\"G01\"]\n", "leading zero", "\"G01\"");
     refused_with("builder-codes = [\"TRAORI\"]\n", "only G and M", "\"TRAORI\"");
-    refused_with("extensions = [\".nc\"]\n", "without dot", "\".nc\"");
+    refused_with("extensions = [\".nc\"]\n", "without the dot", "\".nc\"");
     refused_with("[roles]\nx = \"axis\"\n", "one upper-case letter", "x");
     refused_with("[roles]\nXY = \"axis\"\n", "upper-case letter", "XY");
     refused_with("[addresses]\n\"AB#\" = \"axis\"\n", "AB#", "AB#");
     refused_with("[addresses]\n\"\" = \"axis\"\n", "upper-case name", "");
-    refused_with("[arc-tolerance]\nmm = 0\nsource = \"s\"\n", "above 0", "0");
-    refused_with("[arc-tolerance]\nmm = nan\nsource = \"s\"\n", "above 0", "nan");
+    refused_with("[arc-tolerance]\nmm = 0\nsource = \"s\"\n", "greater than 0", "0");
+    refused_with("[arc-tolerance]\nmm = nan\nsource = \"s\"\n", "greater than 0", "nan");
     refused_with(
         "[arc-tolerance]\nmm = 0.1\nrelative = inf\nsource = \"s\"\n",
-        "above 0",
+        "greater than 0",
         "inf",
     );
     refused_with(
         "[arc-tolerance]\nmm = 0.1\nsource = \"\"\n",
-        "where the tolerance comes from",
+        "the source of the tolerance",
         "\"\"",
     );
     assert!(
@@ -248,6 +248,6 @@ fn a_broken_shop_table_is_told_with_line_and_column() {
     let error = crate::Dialect::from_table(axis, "shop.toml").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "shop.toml:4:1: `E`: an axis is one of X Y Z A B C U V W"
+        "shop.toml:4:1: `E` is not an axis; the axes are X Y Z A B C U V W"
     );
 }

@@ -6,7 +6,7 @@ use crate::OuterCorner;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Link {
     pub(super) to: Point,
-    /// Centre of an arc, and which way it turns; else a line.
+    /// Centre of an arc, and its direction of rotation; otherwise a line.
     pub(super) about: Option<(Point, f64)>,
 }
 
@@ -35,11 +35,11 @@ impl Trouble {
     pub(super) fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Interference => (
-                "the tool is too large for the contour: compensated, it would run backwards or does not fit into an arc",
+                "the tool is too large for the contour: its compensated path would run backwards, or it does not fit into an arc",
                 "interference",
             ),
             Self::NoIntersection => (
-                "the compensated paths on both sides of a corner do not meet: the tool is too large, or the contour too short",
+                "the compensated paths on both sides of a corner do not meet: the tool is too large, or the contour is too short",
                 "no-intersection",
             ),
         }

@@ -64,7 +64,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// `None` for motions that rest in the plane or whose way is not known.
+    /// `None` for motions that do not move in the plane or whose path is not known.
     pub(super) fn of(motion: &Motion, plane: Plane) -> Option<Self> {
         let axes = plane_axes(plane);
         let at = |position: &Position| Some([position.get(axes[0])?, position.get(axes[1])?]);
@@ -181,7 +181,7 @@ impl Element {
             radius_end: distance(corner, to),
         })
     }
-    /// Whether the compensated motion runs the way that is programmed.
+    /// Whether the compensated motion runs in the programmed direction.
     pub(super) fn keeps_direction(&self, offset: f64, from: Point, to: Point) -> bool {
         match &self.circle {
             None => dot(sub(to, from), self.departs()) > -SAME,

@@ -13,7 +13,7 @@ impl<'d> Interpreter<'d> {
         let plane = self.dialect.quirks.offset_compensation && matches!(found.code.id.as_str(), "G41" | "G42");
         if !plane {
             if !std::mem::replace(&mut self.memory.compensation_said, true) {
-                let what = "cutter radius compensation: path is the programmed one".to_owned();
+                let what = "cutter radius compensation: the programmed path is used instead".to_owned();
                 report.fault(found.range, FaultKind::NotModelled { what });
             }
             return;
@@ -46,7 +46,7 @@ impl<'d> Interpreter<'d> {
                 if !std::mem::replace(&mut self.memory.compensation_said, true) {
                     let d = d.map_or_else(|| "D".to_owned(), |d| format!("D{d}"));
                     let what = format!(
-                        "cutter radius compensation: the radius of {d} is not declared; path is the programmed one"
+                        "cutter radius compensation: the radius of {d} is not declared; the programmed path is used instead"
                     );
                     report.fault(found.range, FaultKind::NotModelled { what });
                 }

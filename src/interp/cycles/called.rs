@@ -1,5 +1,5 @@
-//! Drilling cycles that are called with their numbers between parentheses (Sinumerik CYCLE81 to CYCLE89), where the tool stands or, after
-//! MCALL, behind every motion.
+//! Drilling cycles that are called with their numbers between parentheses (Sinumerik CYCLE81 to CYCLE89), at the present position or, after
+//! MCALL, after every motion.
 //!
 //! Order of the numbers and of the motions: Sinumerik 840D sl Programming Manual, Cycles (drilling cycles). All begin with RTP, RFP, SDIS,
 //! DP, DPR: level of the retraction, level of the surface, clearance above it, depth as a coordinate, depth below the surface; where both
@@ -110,7 +110,7 @@ impl HoleCall {
 }
 
 impl Interpreter<'_> {
-    /// A cycle with its numbers in the block, or behind the block's motion under MCALL, which then goes out before it.
+    /// A cycle with its numbers in the block, or after the block's motion under MCALL, which is then emitted before it.
     pub(crate) fn called_cycle(
         &mut self,
         codes: &[Found<'_>],
@@ -144,7 +144,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// What stands in the parentheses of a call.
+    /// The text in the parentheses of a call.
     fn call_numbers(&self, text: &str) -> Vec<Given> {
         let Some(inside) = text
             .split_once('(')
@@ -153,7 +153,7 @@ impl Interpreter<'_> {
             return Vec::new();
         };
         if inside.contains(['"', '(']) {
-            // nested commas are not told apart
+            // nested commas are not distinguished
             return vec![Given::Unread; 5];
         }
         inside
@@ -166,7 +166,7 @@ impl Interpreter<'_> {
             .collect()
     }
 
-    /// Runs a cycle where the tool stands.
+    /// Runs a cycle at the present position.
     fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
         let axis = plane_axes(self.state.plane)[2];
         let other_axis = match call.sort {
@@ -174,9 +174,9 @@ impl Interpreter<'_> {
             _ => false,
         };
         let why = if call.further || other_axis {
-            Some("with numbers that choose other meanings")
+            Some("with numbers that select other meanings")
         } else if call.levels().is_none() {
-            Some("without levels that are known and make a hole")
+            Some("without known levels that make a hole")
         } else {
             None
         };
@@ -203,7 +203,7 @@ impl Interpreter<'_> {
         self.down(&plan, MotionKind::Rapid, plan.r, report);
         self.in_hole(call, &plan, report);
         if call.sort == Sort::Tap {
-            // direction after the cycle: 3, 4, else the spindle stands
+            // direction after the cycle: 3, 4, otherwise the spindle is off
             let after = call.number(6).or_zero();
             self.state.spindle_on = after.map(|code| code == 3.0 || code == 4.0);
         }
@@ -229,7 +229,7 @@ impl Interpreter<'_> {
                     _ => None,
                 };
                 if pitch.is_none() {
-                    let what = format!("{}: its pitch", call.id);
+                    let what = format!("{}: the pitch", call.id);
                     report.fault(TextRange::default(), FaultKind::NotModelled { what });
                 }
                 pitch.map_or(Feed::Unknown, Feed::PerRevolution)

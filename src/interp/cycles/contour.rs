@@ -1,6 +1,6 @@
 //! The contour of a turning cycle: the blocks between two sequence numbers, run on a copy of the interpreter.
 //!
-//! An arc of a lathe that has no Y lies in the plane of X and Z all the same: a second run takes Y as 0, and counts only where nothing names
+//! An arc of a lathe without Y is in the plane of X and Z all the same: a second run takes Y as 0, and counts only where nothing names
 //! or reads Y.
 use crate::run::{Interpreter, Report, Sink};
 use crate::words::{Said, Words};
@@ -15,11 +15,11 @@ const MOST_MOTIONS: usize = 100_000;
 /// A contour as its blocks tell it, from where the cycle begins.
 pub(super) struct Contour {
     pub(super) motions: Vec<Motion>,
-    /// Its first and last block, and whether it begins right behind the cycle's own block.
+    /// Its first and last block, and whether it begins directly after the cycle's own block.
     pub(super) first: u32,
     pub(super) last: u32,
     pub(super) follows: bool,
-    /// F in force behind it.
+    /// The F active after it.
     pub(super) feed: Option<f64>,
     /// Cutter compensation is on somewhere in it.
     pub(super) compensated: bool,
@@ -48,7 +48,7 @@ impl Sink for Collected {
 }
 
 impl Interpreter<'_> {
-    /// Reads the contour that P and Q of the cycle name. Faults of its blocks are told once. `None`: it cannot be known, which is told.
+    /// Reads the contour that P and Q of the cycle name. Faults of its blocks are reported once. `None`: it is unknown, and that is reported.
     pub(super) fn contour(&mut self, words: &Words, report: &mut Report<'_>) -> Option<Contour> {
         let program = report.program;
         let (first, last) = self.contour_blocks(program, words, report)?;
@@ -76,9 +76,9 @@ impl Interpreter<'_> {
         } else if found.motions.is_empty() || found.motions.len() > MOST_MOTIONS {
             "it has no motions, or more than 100000"
         } else if ends {
-            "coordinates are turned, scaled or unknown"
+            "its coordinates are rotated, scaled or unknown"
         } else if !found.motions.iter().all(known) {
-            "not every point of it is known"
+            "some of its points are unknown"
         } else {
             return Some(Contour {
                 motions: found.motions,
@@ -92,7 +92,7 @@ impl Interpreter<'_> {
         if follows {
             self.memory.passed_over = Some((here, last));
         }
-        let what = format!("{}: its contour: {why}", self.memory.cycle.id);
+        let what = format!("contour of {}: {why}", self.memory.cycle.id);
         report.fault(report.whole(), FaultKind::NotModelled { what });
         None
     }
@@ -115,7 +115,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Runs blocks on a copy of the interpreter, which may be told where Y stands.
+    /// Runs blocks on a copy of the interpreter, which may be given the position of Y.
     fn run_blocks(&self, program: &Program, first: u32, last: u32, y: Option<f64>) -> Collected {
         let mut ghost = self.clone();
         ghost.flow.follows = false;
@@ -162,16 +162,13 @@ impl Interpreter<'_> {
             (None, _) => first,
             _ => last,
         };
-        let message = format!(
-            "there is no block N{missing} for the contour of {}",
-            self.memory.cycle.id
-        );
+        let message = format!("contour of {}: block N{missing} does not exist", self.memory.cycle.id);
         self.refuse(words, Refusal::Label, message, Some("contour-missing"), report);
         None
     }
 }
 
-/// Whether nothing but comments stands between two blocks.
+/// Whether only comments are between two blocks.
 fn is_next(program: &Program, from: u32, to: u32) -> bool {
     let says = |block: u32| {
         let block = program.block(BlockId(block));

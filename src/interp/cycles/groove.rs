@@ -3,7 +3,7 @@
 //! Steps of Q (Z) or P (X) with a lift after each, back in rapid to where the cut began, aside by P or Q, again until the end is
 //! reached; the end is back at the start. P and Q are radii in least increments, without sign. Sources: Fanuc Series 30i operator's manual,
 //! lathe system; Adtech CNC4620 programming manual, sections 3.6.5 and 3.6.6. Whether the first cut is relieved at its bottom (R of the second block) is
-//! told differently, so that is unknown.
+//! described differently, so that is unknown.
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
 use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
@@ -68,11 +68,11 @@ impl Interpreter<'_> {
         let way = |place: usize| (end.values[axes[place]] - start.values[axes[place]]).abs();
         let count = |place: usize| way(place) / steps[place].filter(|step| *step > 0.0).unwrap_or(f64::MAX);
         let why = if self.memory.frames.active || self.state.frame_unknown || !known {
-            Some("from or to a place that is not known")
+            Some("from or to an unknown position")
         } else if relieved {
             Some("with a relief at the bottom (R)")
         } else if way(1) > 0.0 && steps[1].is_none_or(|step| step == 0.0) {
-            Some("with a way aside and no step for it")
+            Some("with a sideways move and no step for it")
         } else if count(0) * (count(1) + 1.0) > MOST {
             Some("with more than 10000 steps")
         } else {
@@ -119,7 +119,7 @@ impl Interpreter<'_> {
         self.rapid_straight(grooves.start, report);
     }
 
-    /// From where the tool stands down to the end, in steps.
+    /// From the present position down to the end, in steps.
     fn pecks(&mut self, grooves: &Grooves, report: &Report<'_>) {
         let axis = grooves.axes[0];
         let from = self.state.position.values[axis];

@@ -38,15 +38,15 @@ impl Interpreter<'_> {
             self.lost(
                 words,
                 axis,
-                "a number of repeats that is not known or above 10000",
+                "a number of repeats that is unknown or above 10000",
                 report,
             );
             return;
         };
         if repeats == 0 {
-            // data only; whether the tool goes to the coordinates is not told
+            // data only; the sources do not say whether the tool moves to the coordinates
             if (words.axes.given | words.axes.unread) & !(1 << axis) != 0 {
-                self.lost(words, axis, "coordinates with no repeats", report);
+                self.lost(words, axis, "coordinates in a cycle with zero repeats", report);
             }
             return;
         }
@@ -99,13 +99,13 @@ impl Interpreter<'_> {
     fn plan(&mut self, words: &Words, axis: usize, report: &mut Report<'_>) -> Option<Plan> {
         let hole = self.memory.cycle.hole;
         let missing = match (hole.r, hole.bottom) {
-            (Stored::Nothing, _) => Some("R, the level where the feed begins"),
+            (Stored::Nothing, _) => Some("R, the level where the feed starts"),
             (_, Stored::Nothing) => Some("the depth of the hole"),
             _ => None,
         };
         if let Some(missing) = missing {
             let message = format!(
-                "{} without {missing}: give it in the block of the cycle",
+                "{} without {missing}: program it in the block of the cycle",
                 self.memory.cycle.id
             );
             self.refuse(words, Refusal::CannedCycle, message, None, report);
@@ -115,7 +115,7 @@ impl Interpreter<'_> {
         let Some(bottom) = hole.bottom.from(r) else {
             let letter = char::from(crate::AXIS_LETTERS[axis]);
             let what = format!(
-                "{}: its levels count from {letter}, whose position is not known here",
+                "{}: its levels refer to {letter}, whose position is unknown here",
                 self.memory.cycle.id
             );
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
@@ -210,7 +210,7 @@ impl Interpreter<'_> {
         self.memory.out.push(motion);
     }
 
-    /// One hole, from where the tool stands above it.
+    /// One hole, from the present position above it.
     fn hole(&mut self, plan: &Plan, report: &mut Report<'_>) {
         let dwell = self.memory.cycle.hole.dwell;
         let feed_out = |interpreter: &mut Self, plan: &Plan, report: &Report<'_>| {
@@ -249,7 +249,7 @@ impl Interpreter<'_> {
             }),
             Action::BoreManualCycle => {
                 self.wait(dwell, report);
-                let what = format!("{}: the way out of the hole, by hand", self.memory.cycle.id);
+                let what = format!("{}: the manual retract out of the hole", self.memory.cycle.id);
                 report.fault(report.whole(), FaultKind::NotModelled { what });
                 self.with_spindle_off(|interpreter| interpreter.down(plan, MotionKind::Unknown, plan.r, report));
                 self.down(plan, MotionKind::Rapid, plan.back, report);
@@ -273,7 +273,7 @@ impl Interpreter<'_> {
         self.state.spindle_on = before;
     }
 
-    /// By how much the tool goes off the wall, first and second axis of the plane; `None`: a parameter of the control says which way, and
+    /// How far the tool moves off the wall, first and second axis of the plane; `None`: a parameter of the control decides the direction, and
     /// it is not declared, or turned by a frame.
     fn aside(&self, report: &mut Report<'_>) -> Option<[f64; 2]> {
         let hole = &self.memory.cycle.hole;
@@ -291,7 +291,7 @@ impl Interpreter<'_> {
             return Some([a, b].map(|other| if other == axis { sense * q } else { 0.0 }));
         }
         let what = format!(
-            "{}: which way Q takes the tool off the wall ([control] bore_shift says it)",
+            "{}: the direction in which Q moves the tool off the wall (declare [control] bore_shift)",
             self.memory.cycle.id
         );
         report.fault(report.whole(), FaultKind::NotModelled { what });

@@ -15,7 +15,7 @@ const ROUNDED: f64 = 2e-3;
 pub(super) struct Frame {
     /// The axis into the work and the one along the cuts.
     pub(super) axes: [usize; 2],
-    /// 1 or -1: which way depth and along grow.
+    /// 1 or -1: the direction in which depth and distance along grow.
     pub(super) signs: [f64; 2],
     /// Where both are 0, mm.
     pub(super) origin: [f64; 2],
@@ -56,7 +56,7 @@ impl Path {
         let mut pieces = Vec::with_capacity(motions.len());
         for motion in motions {
             let arc = match motion.kind {
-                MotionKind::Arc(None) => return Err("an arc of its contour is not known"),
+                MotionKind::Arc(None) => return Err("an arc of its contour is unknown"),
                 MotionKind::Arc(arc) => arc,
                 _ => None,
             };
@@ -67,7 +67,7 @@ impl Path {
             };
             let [rise, way] = [piece.from[0] - piece.to[0], piece.to[1] - piece.from[1]];
             if rise < -1e-9 || way < -1e-9 {
-                return Err("its contour has a pocket, or does not rise and go along evenly");
+                return Err("its contour has a pocket, or does not rise and advance steadily");
             }
             if let Some(arc) = arc {
                 in_a_quadrant(&arc, &piece, &frame)?;
@@ -77,7 +77,7 @@ impl Path {
         Ok(Self { frame, pieces })
     }
 
-    /// Where a cut at this depth, which lies above the contour's first point, meets the contour. `None` where it does not, and where it runs
+    /// Where a cut at this depth, which is above the contour's first point, meets the contour. `None` where it does not, and where it runs
     /// along a part of it, so that the first and the last point that they share differ.
     pub(super) fn meet(&self, depth: f64) -> Option<f64> {
         let at = self.pieces.partition_point(|piece| piece.to[0] > depth + SAME);
@@ -109,7 +109,7 @@ impl Path {
 /// An arc rises and goes along evenly where it stays in one quadrant of its circle.
 fn in_a_quadrant(arc: &Arc, piece: &Piece, frame: &Frame) -> Result<(), &'static str> {
     if arc.normal.y.abs() < 0.5 {
-        return Err("an arc of its contour lies in another plane");
+        return Err("an arc of its contour is in another plane");
     }
     if (arc.radius_start - arc.radius_end).abs() > ROUNDED {
         return Err("the radii of an arc of its contour differ");

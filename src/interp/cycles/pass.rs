@@ -1,7 +1,7 @@
 //! Turning cycles of one pass (G90, G94 and G92 of system A): in, cut, out, back to the start.
 //!
 //! A thread may be left before its end: parameter 5130 says how many leads before (Fanuc Series 30i operator's manual, lathe system, threading
-//! cycle), and how the tool goes out there is told by pictures alone.
+//! cycle), and the sources show only in pictures how the tool retracts there.
 use super::Stored;
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
@@ -31,7 +31,7 @@ impl Interpreter<'_> {
             start.get(Z),
         );
         let (Some(x), Some(z), Some(taper), Some(x_start), Some(z_start)) = ends else {
-            let what = format!("{} from or to a place that is not known", self.memory.cycle.id);
+            let what = format!("{} from or to an unknown position", self.memory.cycle.id);
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
             let mut motion = self.unknown_motion(words, report);
             motion.end.known &= !crate::offsets::LINEAR;
@@ -108,10 +108,11 @@ impl Interpreter<'_> {
         }
     }
 
-    /// What becomes of the corners of a thread that is left before its end. Where nobody says whether it is, they stay, and it is told.
+    /// What happens to the corners of a thread that is left before its end. If it is not declared whether it is, they stay, and that is reported.
     fn pull_out(&self, corners: &mut Vec<((f64, f64), MotionKind)>, lead: Feed, report: &mut Report<'_>) {
         let (Some(leads), Feed::PerRevolution(lead)) = (self.setup.control.thread_pull_out, lead) else {
-            let why = "whether the tool leaves its thread before the end ([control] thread_pull_out says it, in leads)";
+            let why =
+                "whether the tool pulls out before the end of the thread (declare [control] thread_pull_out, in leads)";
             return self.not_worked_out(why, report);
         };
         let [((x0, z0), _), ((x, z), _), _, (start, _)] = corners[..] else {
@@ -127,7 +128,7 @@ impl Interpreter<'_> {
             (start, MotionKind::Unknown),
         ];
         self.not_worked_out(
-            "the shape of its pull-out (parameter 5131), and the way back behind it",
+            "the shape of its pull-out (parameter 5131), and the return after it",
             report,
         );
     }

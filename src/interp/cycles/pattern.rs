@@ -37,7 +37,7 @@ impl Interpreter<'_> {
     pub(crate) fn pattern(&mut self, pattern: Pattern, words: &Words, report: &mut Report<'_>) {
         let [a, b, _] = plane_axes(self.state.plane);
         if !self.state.motion.is_some_and(Action::is_hole_cycle) {
-            let message = "a pattern of holes without a canned cycle: begin the cycle first, with L0".to_owned();
+            let message = "a pattern of holes without a canned cycle: program the cycle first, with L0".to_owned();
             self.refuse(words, Refusal::CannedCycle, message, None, report);
             return;
         }
@@ -63,7 +63,7 @@ impl Interpreter<'_> {
         let mut centre = self.memory.frames.programmed(&position);
         self.place(words, &mut centre);
         let (Some(x), Some(y)) = (centre.get(a), centre.get(b)) else {
-            let what = "a pattern of holes about a point that is not known".to_owned();
+            let what = "a pattern of holes around an unknown point".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
             self.forget_linear();
             return;

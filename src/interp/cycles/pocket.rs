@@ -1,4 +1,4 @@
-//! Circular pockets (Haas G12, G13): from the centre, around, and back to it. How the tool goes out to the wall is not told by the
+//! Circular pockets (Haas G12, G13): from the centre, around, and back to it. How the tool moves out to the wall is not described in the
 //! manual in numbers, so the path is unknown; where it ends is known.
 use crate::run::{Interpreter, Report};
 use crate::words::Words;

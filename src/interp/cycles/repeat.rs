@@ -97,13 +97,13 @@ impl Interpreter<'_> {
             return;
         };
         if contour.follows {
-            // behind its contour the control goes on; G70 goes on with the next block
+            // after its contour the control continues; G70 continues with the next block
             if action != Action::FinishCycle {
                 self.memory.passed_over = Some((report.block.0, contour.last));
             }
         } else if action != Action::FinishCycle {
             let what = format!(
-                "{}: where the program goes on when its contour does not follow it at once",
+                "{}: where the program continues if its contour does not follow it directly",
                 self.memory.cycle.id
             );
             report.fault(report.whole(), FaultKind::NotModelled { what });
@@ -124,7 +124,7 @@ impl Interpreter<'_> {
         }
         self.rapid_straight(start, report);
         if contour.feed != self.state.feed {
-            // whether F of the contour stays is not told
+            // the sources do not say whether F of the contour stays
             self.state.feed = None;
             self.memory.feed_unread = true;
         }
@@ -135,13 +135,13 @@ impl Interpreter<'_> {
         let kept = self.memory.cycle.kept;
         let (Some([x, z]), Some(runs @ 2..)) = (kept.relief, kept.runs) else {
             let what = format!(
-                "{} without U, W and two runs or more (R of its first block)",
+                "{} without U, W and at least two passes (R of its first block)",
                 self.memory.cycle.id
             );
             return self.somehow_back(&what, start, report);
         };
         let Some(allowance) = self.allowance(words) else {
-            let what = format!("{} with an allowance that is not known", self.memory.cycle.id);
+            let what = format!("{} with an unknown allowance", self.memory.cycle.id);
             return self.somehow_back(&what, start, report);
         };
         let feed = self.feed_of(MotionKind::Linear, words, report);
@@ -182,7 +182,7 @@ impl Interpreter<'_> {
         Some([x * if diameter { 0.5 } else { 1.0 }, z])
     }
 
-    /// U and W, mm; 0 where they are not said, `None` where one of them is not known.
+    /// U and W, mm; 0 where they are not programmed, `None` where one of them is unknown.
     fn lengths(&self, words: &Words) -> Option<[f64; 2]> {
         let length = |letter| match self.length_word(words, letter) {
             None if words.letter(letter).is_said() => None,
@@ -195,7 +195,7 @@ impl Interpreter<'_> {
     pub(super) fn somehow_back(&mut self, what: &str, start: Position, report: &mut Report<'_>) {
         report.fault(report.whole(), FaultKind::NotModelled { what: what.to_owned() });
         let orientation = self.held_orientation();
-        // a cycle that is given up half way has moved the tool already
+        // a cycle that is given up half way has already moved the tool
         let from = std::mem::replace(&mut self.state.position, start);
         let mut motion = self.new_motion(MotionKind::Unknown, from, start, orientation, Feed::Unknown, report);
         if self.state.frame_unknown {
@@ -204,7 +204,7 @@ impl Interpreter<'_> {
         self.memory.out.push(motion);
     }
 
-    /// Neither the way nor the end of a cycle is known.
+    /// Neither the path nor the end of a cycle is known.
     pub(super) fn nowhere(&mut self, start: Position, report: &Report<'_>) {
         self.forget_linear();
         let end = self.state.position;

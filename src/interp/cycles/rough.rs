@@ -3,12 +3,12 @@
 //! From the start point in rapid by the finishing allowance; in by the depth of cut as the first block of the contour says (G0 or G1); along the
 //! axis at the feed up to the contour, which is moved by the allowance; off at 45 degrees by the escape; back in rapid to the start line; in by
 //! depth and escape; and where the first point of the contour is reached or would be passed, in to that point and along the whole contour, then
-//! back to the start point in rapid. Depth and escape stay until they are said again (parameters 5132 and 5133), for both cycles.
+//! back to the start point in rapid. Depth and escape stay until they are programmed again (parameters 5132 and 5133), for both cycles.
 //!
 //! Sources: Robur concise guide to Fanuc lathe cycles, page 48; GSK988T user manual, G71, page 69 (the same cycle, with the order of its motions);
 //! Rockwell 9/Series lathe manual, page 24-9. Fanuc's own (Series 30i operator's manual, lathe system, stock removal in turning and facing) was
 //! not at hand. They differ in whether the tool leaves its cuts at the feed or in rapid, and say nothing of cuts that miss the contour, run along a part of it, or are
-//! shorter than the escape: there the way is unknown, and what comes behind is known again.
+//! shorter than the escape: there the path is unknown, and what follows is known again.
 use super::contour::Contour;
 use super::levels::{Frame, Path};
 use crate::run::{Interpreter, Report};
@@ -24,7 +24,7 @@ const MOST: f64 = 10_000.0;
 /// What positions may be off, mm.
 const OFF: f64 = 1e-6;
 
-/// What the first block of G71 and G72 keeps, mm; `None`: not said, or not known.
+/// What the first block of G71 and G72 keeps, mm; `None`: not programmed, or unknown.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Roughing {
     depth: Option<f64>,
@@ -78,7 +78,10 @@ impl Interpreter<'_> {
         match self.plan_roughing(action, contour, start, feed, words, report) {
             Ok(plan) => self.cuts(&plan, contour, start, report),
             Err(why) => {
-                let what = format!("{}: its cuts: {why}; it ends where it began", self.memory.cycle.id);
+                let what = format!(
+                    "cuts of {}: {why}; the cycle is taken to end where it started",
+                    self.memory.cycle.id
+                );
                 self.somehow_back(&what, start, report);
             }
         }
@@ -93,7 +96,7 @@ impl Interpreter<'_> {
         });
         if !straight {
             let message = format!(
-                "the first block of the contour of {} must go to its first level by G0 or G1",
+                "the first block of the contour of {} must move to its first level with G0 or G1",
                 self.memory.cycle.id
             );
             self.refuse(
@@ -130,30 +133,30 @@ impl Interpreter<'_> {
         let Roughing { depth, escape } = self.memory.cycle.kept.roughing;
         let depth = depth.ok_or("without a depth of cut above 0 in its first block (parameter 5132)")?;
         let escape = escape.ok_or("without an escape in its first block (parameter 5133)")?;
-        let allowance = self.allowance(words).ok_or("its finishing allowance is not known")?;
+        let allowance = self.allowance(words).ok_or("its finishing allowance is unknown")?;
         if self.state.plane != Plane::Zx {
-            return Err("another plane than that of X and Z");
+            return Err("a plane other than that of X and Z");
         }
         let motions = self.outline(contour, axes, start, report)?;
         let (first, rest) = motions.split_first().ok_or("its contour has no motions")?;
-        let last = rest.last().ok_or("its contour is one block")?;
+        let last = rest.last().ok_or("its contour is only one block")?;
         let ways = [
             first.end.values[axes[0]] - start.values[axes[0]],
             last.end.values[axes[1]] - first.end.values[axes[1]],
         ];
         if ways.iter().any(|way| way.abs() < OFF) || (first.end.values[axes[1]] - start.values[axes[1]]).abs() > OFF {
-            return Err("its contour does not begin along one axis and go on along the other");
+            return Err("its contour does not start along one axis and continue along the other");
         }
         let signs = ways.map(f64::signum);
         let moved = axes.map(|axis| allowance[usize::from(axis == Z)]);
         if (0..2).any(|i| moved[i] * signs[i] > 0.0) {
-            return Err("its finishing allowance lies beyond the contour");
+            return Err("its finishing allowance leads beyond the contour");
         }
         let full = ways[0].abs();
         if full / depth > MOST {
             return Err("more than 10000 cuts");
         }
-        // depths and places along the contour are the same before and behind its move
+        // depths and positions along the contour are the same before and after its move
         let frame = Frame {
             axes,
             signs,
@@ -217,7 +220,7 @@ impl Interpreter<'_> {
             .first()
             .is_some_and(|first| matches!(first.kind, MotionKind::Rapid | MotionKind::Linear))
         {
-            return Err("its first block is no straight motion");
+            return Err("its first block is not a straight motion");
         }
         if motions.iter().skip(1).any(|motion| motion.kind == MotionKind::Rapid) {
             return Err("a rapid motion inside its contour");
@@ -264,11 +267,11 @@ impl Interpreter<'_> {
         self.along(&contour.motions[1..], plan.allowance, plan.feed, report);
         self.rapid_straight(start, report);
         if missed {
-            let why = "cuts that miss its contour, run along a part of it, or are shorter than the escape";
+            let why = "cuts that miss its contour, run along part of it, or are shorter than the escape";
             self.not_worked_out(why, report);
         }
         if lifted && lift == MotionKind::Unknown {
-            let why = "whether the tool leaves its cuts at the feed or in rapid ([control] roughing_escape says it)";
+            let why = "whether the tool leaves its cuts at feed or in rapid (declare [control] roughing_escape)";
             self.not_worked_out(why, report);
         }
     }

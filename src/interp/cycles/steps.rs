@@ -1,7 +1,7 @@
 //! Drilling in steps: G73, which breaks the chip, and G83, which leaves the hole.
 //!
 //! Fanuc: steps of Q. Haas: steps of Q; or of I, each J less than the one before, none below K; and G73 with Q and K leaves the hole
-//! whenever its steps add up to K (Haas Mill Operator's Manual, G73, G83). Any other mixture has no meaning that the manual tells.
+//! whenever its steps add up to K (Haas Mill Operator's Manual, G73, G83). Any other combination has no meaning in the manual.
 use super::hole::Plan;
 use crate::run::{Interpreter, Report};
 use crate::{FaultKind, MotionKind};
@@ -21,7 +21,7 @@ struct Steps {
 }
 
 impl Steps {
-    /// The step behind one, where more is left of the depth.
+    /// The step after one, where some of the depth is left.
     fn next(&self, step: f64, depth: f64) -> f64 {
         let next = (step - self.less).max(self.least);
         if next > 0.0 { next } else { depth }
@@ -29,7 +29,7 @@ impl Steps {
 }
 
 impl Interpreter<'_> {
-    /// Steps as the words say them; `None` where they say nothing that is told.
+    /// Steps as the words give them; `None` where the words have no documented meaning.
     fn step_words(&self, action: Action, depth: f64) -> Option<Steps> {
         let hole = &self.memory.cycle.hole;
         let [i, j, k] = hole.ijk.map(|length| length.map(f64::abs));
@@ -63,7 +63,7 @@ impl Interpreter<'_> {
         let steps = self.step_words(action, depth);
         let Some(steps) = steps.filter(|steps| steps.first * MOST_STEPS >= depth) else {
             let why = if steps.is_none() {
-                "this mixture of I, J, K and Q"
+                "this combination of I, J, K and Q"
             } else {
                 "more than 10000 steps"
             };

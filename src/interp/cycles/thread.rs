@@ -3,12 +3,12 @@
 //! First block: P is six digits, two each for the number of finishing passes, the pull-out in tenths of the lead, and the angle of the tool; Q the
 //! least depth of a cut, R the finishing allowance (parameters 5142, 5130, 5143, 5140, 5141). Second block: X and Z the root of the thread at its
 //! end, R the radius at its beginning less that at its end, P the height, Q the depth of the first cut, F the lead. P and Q are radii in
-//! least increments. The nth cut lies Q times the root of n below the crest, and at least the least depth below the one before; at the height less the
+//! least increments. The nth cut is Q times the root of n below the crest, and at least the least depth below the one before; at the height less the
 //! allowance the finishing passes follow at the whole height. In in rapid, along the thread by the lead, out and back in rapid.
 //!
 //! Sources: HUST H6D-T manual, pages 3-59 and 3-60 (the same cycle: the least depth, and rapids everywhere but along the thread). Fanuc's own (Series
 //! 30i operator's manual, lathe system, multiple threading cycle) was not at hand. Where in Z a cut begins that goes in along the flank (angle above 0), and
-//! the shape of the pull-out (parameter 5131), are told by pictures alone: unknown.
+//! the shape of the pull-out (parameter 5131), are shown in pictures only: unknown.
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
 use crate::{Feed, MotionKind, Position};
@@ -20,7 +20,7 @@ const MOST: usize = 10_000;
 /// Angles of the tool that a control takes, degrees.
 const ANGLES: [u32; 6] = [0, 29, 30, 55, 60, 80];
 
-/// What the first block keeps; `None`: not said, or not known.
+/// What the first block keeps; `None`: not programmed, or unknown.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Thread {
     /// Finishing passes, pull-out in tenths of the lead, angle in degrees.
@@ -60,7 +60,10 @@ impl Interpreter<'_> {
         match self.plan_thread(start, lead, words) {
             Ok(plan) => self.thread(&plan, report),
             Err(why) => {
-                let what = format!("{}: its passes: {why}; it ends where it began", self.memory.cycle.id);
+                let what = format!(
+                    "passes of {}: {why}; the cycle is taken to end where it started",
+                    self.memory.cycle.id
+                );
                 self.somehow_back(&what, start, report);
             }
         }
@@ -104,7 +107,7 @@ impl Interpreter<'_> {
         let least = least.ok_or("without Q in its first block (parameter 5140)")?;
         let allowance = allowance.ok_or("without R in its first block (parameter 5141)")?;
         if finishing == 0 || !ANGLES.contains(&angle) {
-            return Err("no finishing pass, or an angle that is none of 0, 29, 30, 55, 60 and 80");
+            return Err("no finishing pass, or an angle other than 0, 29, 30, 55, 60 or 80");
         }
         let mut end = start;
         self.targets(&words.axes, false, &mut end);
@@ -112,15 +115,15 @@ impl Interpreter<'_> {
             .iter()
             .all(|place| place.get(X).is_some() && place.get(Z).is_some());
         if !known || self.memory.frames.active || self.state.frame_unknown {
-            return Err("from or to a place that is not known");
+            return Err("from or to an unknown position");
         }
         let taper = match self.length_word(words, b'R') {
-            None if words.radius.is_said() => return Err("its taper (R) is not known"),
+            None if words.radius.is_said() => return Err("its taper (R) is unknown"),
             taper => taper.unwrap_or(0.0),
         };
         let size = |letter| self.increment_word(words, letter).filter(|size| *size > 0.0);
         let (Some(height), Some(first)) = (size(b'P'), size(b'Q')) else {
-            return Err("without its height (P) and the depth of its first cut (Q), both above 0");
+            return Err("without its height (P) and the depth of its first cut (Q), both greater than 0");
         };
         let Feed::PerRevolution(pitch) = lead else {
             return Err("without its lead (F)");
@@ -128,7 +131,7 @@ impl Interpreter<'_> {
         let root = [end.values[X], end.values[Z]];
         let (rise, way) = (start.values[X] - root[X], root[1] - start.values[Z]);
         let out = rise.signum();
-        // the start lies outside of the thread at both ends
+        // the start is outside the thread at both ends
         if rise * out < height - 1e-9 || (rise - taper) * out < height - 1e-9 || way == 0.0 {
             return Err("it starts inside its thread, or has no length");
         }
@@ -183,13 +186,13 @@ impl Interpreter<'_> {
         }
         if plan.flank {
             self.not_worked_out(
-                "where in Z its cuts begin, which go in along the flank (angle of the tool above 0)",
+                "where in Z its cuts start, which feed in along the flank (tool angle greater than 0)",
                 report,
             );
         }
         if plan.pull_out > 0.0 {
             self.not_worked_out(
-                "the shape of its pull-out (parameter 5131), and the way back behind it",
+                "the shape of its pull-out (parameter 5131), and the return after it",
                 report,
             );
         }

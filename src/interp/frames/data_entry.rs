@@ -157,7 +157,7 @@ impl<'d> Interpreter<'d> {
         // when the new length acts is a parameter of the control; the next G43 or G49 makes it plain
         let in_force = self.memory.length_offset == Some(number) && self.state.tool_length_mm.is_some();
         if l <= 11 && in_force {
-            let what = format!("{} of the length offset in force", found.code.id);
+            let what = format!("{} of the active length offset", found.code.id);
             report.fault(found.range, FaultKind::NotModelled { what });
             if let Some(code) = self.dialect.g(490) {
                 self.memory.begin_frame(code, true);

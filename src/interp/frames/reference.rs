@@ -80,7 +80,7 @@ impl Interpreter<'_> {
         self.rapid_to(point, report);
     }
 
-    /// Rapid of the named axes to a reference point: in machine coordinates where it is declared, else to nobody knows where.
+    /// Rapid of the named axes to a reference point: in machine coordinates where it is declared, otherwise to an unknown position.
     fn reach_reference(&mut self, named: u16, number: u32, range: TextRange, report: &mut Report<'_>) {
         let place = (number.max(1) - 1) as usize;
         let stored = self.memory.frames.stored_reference.get(place).copied().flatten();
@@ -107,7 +107,7 @@ impl Interpreter<'_> {
             return;
         }
         if !std::mem::replace(&mut self.memory.frames.reference_said, true) {
-            let what = format!("reference point {number}: where it lies is not declared");
+            let what = format!("reference point {number}: its position is not declared");
             report.fault(range, FaultKind::NotModelled { what });
         }
         let start = self.state.position;
@@ -120,7 +120,7 @@ impl Interpreter<'_> {
         self.memory.out.push(motion);
     }
 
-    /// A motion to a place that is told as words tell it; it is put out with the others of the block.
+    /// A motion to a position that is given as words give it; it is emitted with the others of the block.
     pub(crate) fn goes(&mut self, kind: MotionKind, to: Position, feed: Feed, report: &Report<'_>) {
         self.cycle_motions += 1;
         let start = self.state.position;

@@ -21,7 +21,7 @@ impl<'d> Interpreter<'d> {
         words.axes.get(axis).map(|value| value * unit)
     }
 
-    /// Shifts can be told only where words are work coordinates.
+    /// Shifts can be applied only where words are work coordinates.
     fn shifts_plainly(&self, words: &Words) -> bool {
         let frames = &self.memory.frames;
         frames.shape.is_identity() && words.axes.unread == 0 && !self.state.tcp && frames.tilt.is_none()
@@ -36,7 +36,7 @@ impl<'d> Interpreter<'d> {
         report: &mut Report<'_>,
     ) {
         block.takes_coordinates = true;
-        // whether the distance counts from the last shift is not told anywhere
+        // the sources do not say whether the distance counts from the last shift
         let unclear =
             self.state.incremental && (0..9).any(|axis| words.axes.get(axis).is_some_and(|value| value != 0.0));
         if unclear || !self.shifts_plainly(words) {

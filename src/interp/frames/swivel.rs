@@ -18,11 +18,11 @@ impl<'d> Interpreter<'d> {
         }
     }
 
-    /// Positions are told in the coordinates of another plane from here on. The machine stays where it is; rotary axes that were set by
+    /// Positions are expressed in the coordinates of another plane from here on. The machine stays where it is; rotary axes that were set by
     /// a vector are not known.
     fn tilt_to(&mut self, tilt: Option<Tilted>, report: &mut Report<'_>) {
         if self.memory.compensation.is_busy() || self.memory.corners.is_busy() {
-            let what = "a tilted plane begins or ends under cutter compensation".to_owned();
+            let what = "a tilted plane starts or ends under cutter compensation".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
             self.forget_position();
         }
@@ -52,8 +52,8 @@ impl<'d> Interpreter<'d> {
     }
 
     /// G68.2 X Y Z I J K: zero of the plane, and Euler angles about Z, the turned X, the turned Z (Series 30i operator's manual, tilted
-    /// working plane). P1 tells turns about X, Y, Z with their order in Q; whether about fixed or turned axes is a parameter of the run
-    /// and makes no difference where at most one is not zero. The other ways of P are not modelled. G68.4 is told in the plane in force.
+    /// working plane). P1 gives turns about X, Y, Z with their order in Q; whether about fixed or turned axes is a parameter of the run
+    /// and makes no difference where at most one is not zero. The other kinds of P are not modelled. G68.4 is relative to the active plane.
     pub(crate) fn tilted_plane(
         &mut self,
         found: &Found<'d>,
@@ -107,7 +107,7 @@ impl<'d> Interpreter<'d> {
         (!words.letter(b'Q').is_said()).then_some([(2, i), (0, j), (2, k)])
     }
 
-    /// G68.2 P1: turns about X, Y, Z by I, J, K in the order that Q tells (Q123: first X).
+    /// G68.2 P1: turns about X, Y, Z by I, J, K in the order that Q gives (Q123: first X).
     fn roll_pitch_yaw(&self, angles: [f64; 3], order: Said) -> Option<[(usize, f64); 3]> {
         let turn = |axis: usize| (axis, angles[axis]);
         if angles.iter().filter(|angle| **angle != 0.0).count() <= 1 {
@@ -126,7 +126,7 @@ impl<'d> Interpreter<'d> {
         }
     }
 
-    /// G53.1: the rotary axes turn so that the tool stands on the plane; the linear axes stay. G53.6: the tip stays.
+    /// G53.1: the rotary axes turn the tool perpendicular to the plane; the linear axes stay. G53.6: the tip stays.
     pub(crate) fn tilted_plane_turn(
         &mut self,
         found: &Found<'d>,
@@ -136,7 +136,7 @@ impl<'d> Interpreter<'d> {
     ) {
         let posture = match words.letter(b'P') {
             Said::Nothing => Some(Posture::ByRule),
-            // which of the solutions a number means is said by the machine
+            // the machine file declares which of the solutions a number means
             said => said
                 .index()
                 .and_then(|number| u8::try_from(number).ok())
@@ -174,7 +174,7 @@ impl<'d> Interpreter<'d> {
         self.memory.out.push(motion);
     }
 
-    /// CYCLE800(retract, data record, state, mode, X0, Y0, Z0, A, B, C, X1, Y1, Z1, direction, retract way): shift, turns about the axes
+    /// CYCLE800(retract, data record, state, mode, X0, Y0, Z0, A, B, C, X1, Y1, Z1, direction, retract distance): shift, turns about the axes
     /// that the mode names in their order, shift in the turned plane; direction -1 or 1 turns the rotary axes, 0 does not (Sinumerik
     /// 840D sl Programming Manual, Cycles).
     pub(crate) fn swivel_cycle(
@@ -191,7 +191,7 @@ impl<'d> Interpreter<'d> {
         }
         let text = report.program.text(found.range).into_owned();
         let outer = self.memory.frames.tilt;
-        // whether a shift by TRANS ends with it, or lies inside it, is not modelled
+        // whether a shift by TRANS ends with it, or is inside it, is not modelled
         let shifted = self.memory.frames.local != [0.0; 9];
         let plain = self.memory.frames.shape.is_identity() && !self.memory.compensation.is_busy() && !shifted;
         let Some(call) = SwivelCall::read(&text).filter(|call| plain && (!call.adds || outer.is_some())) else {

@@ -1,4 +1,4 @@
-//! A tilted working plane: its place and turn in the workpiece frame. While one is in force all positions of the interpreter are told in
+//! A tilted working plane: its position and rotation in the workpiece frame. While one is active all positions of the interpreter are expressed in
 //! its coordinates, so that cycles, compensation and lengths work as in any plane; motions are turned into the workpiece frame when they
 //! are put out.
 use super::XYZ;
@@ -37,14 +37,14 @@ impl Tilted {
         });
         Self { origin, turn }
     }
-    /// A plane that is told in the coordinates of this one, in the workpiece frame.
+    /// A plane that is given in the coordinates of this one, in the workpiece frame.
     pub(crate) fn then(&self, inner: &Self) -> Self {
         Self {
             origin: self.origin + self.turn * inner.origin,
             turn: self.turn * inner.turn,
         }
     }
-    /// The direction in which the tool has to stand.
+    /// The direction that the tool must have.
     pub(crate) fn normal(&self) -> Vec3 {
         self.turn.column(2).into()
     }

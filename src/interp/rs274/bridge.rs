@@ -11,11 +11,11 @@ use trunnion_geometry::arc::{Arc, Turning};
 use trunnion_ngc::{At, Canon, Error, FileId, OwnCode, Pose, State};
 use trunnion_syntax::{BlockId, Program, TextRange};
 
-/// What calls have told that a motion needs and [`State`] does not tell in step with them: compensation of the cutter radius holds
+/// What calls have set that a motion needs and [`State`] does not set in step with them: compensation of the cutter radius holds
 /// calls back while the state runs ahead.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Told {
-    /// The control has told its own unit of lengths.
+    /// The control has reported its own unit of lengths.
     pub(super) own_units: bool,
     /// Where the machine is, mm and deg, as far as it is known.
     pub(super) machine: Position,
@@ -32,11 +32,11 @@ pub(super) struct Told {
     pub(super) tool_offset: Pose,
     /// The block in which each line begins, where that is not its number.
     pub(super) blocks: Option<std::sync::Arc<[u32]>>,
-    /// Where lines stand and from where the main program called them.
+    /// Where lines are and from where the main program called them.
     pub(super) places: Places,
     /// The files of the run as people are shown them; the main program first.
     pub(super) paths: Vec<std::sync::Arc<str>>,
-    /// Compensation of the cutter radius was on behind the last line.
+    /// Compensation of the cutter radius was on after the last line.
     pub(super) compensated: bool,
     /// Something has happened after which X Y Z U V W are not known.
     pub(super) lost: bool,
@@ -77,7 +77,7 @@ pub(super) struct Bridge<'i, 'd, 'p, S: Sink> {
 }
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
-    /// The block of the main program that stands for a place.
+    /// The block of the main program that represents a place.
     pub(super) fn block(&self, at: At) -> BlockId {
         if at.file == FileId::MAIN {
             let last = (self.program.block_count() as u32).saturating_sub(1);
@@ -121,7 +121,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let on = state.side != trunnion_ngc::Side::Off;
         let was = std::mem::replace(&mut self.told.compensated, on);
         if on && !was && state.radius == 0.0 && !state.radius_given {
-            let what = "cutter radius compensation: the diameter of the tool is not declared and taken as zero";
+            let what = "cutter radius compensation: the diameter of the tool is not declared and is taken as zero";
             self.not_modelled(at, 410..=422, what.to_owned());
         }
     }
@@ -177,7 +177,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             kind,
             start,
             end,
-            // lines that are told by what differs may name other rotary axes
+            // lines that are emitted as differences may name other rotary axes
             says_way: if modal.incremental {
                 crate::offsets::ROTARY | state.named_axes
             } else {
@@ -296,7 +296,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
             Canon::Dwell(seconds) => {
                 let shift = self.shift(state);
                 let end = shift.programmed(&self.told.machine);
-                // what a machine makes of a negative time, which the interpreter takes, nobody says
+                // it is not known what a machine does with a negative time, which the interpreter accepts
                 let is_time = seconds.is_finite() && *seconds >= 0.0;
                 let kind = MotionKind::Dwell(is_time.then_some(*seconds));
                 self.motion(kind, end, &shift, Feed::Unknown, at, state);
@@ -353,7 +353,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let places = chords(order as usize, points, knots, tolerance);
         let judged = if places.is_some() {
             format!(
-                "spline: judged along chords within {SPLINE_TOLERANCE_MM} mm of it; the control runs it as arcs of its own"
+                "spline: judged along chords within {SPLINE_TOLERANCE_MM} mm of it; the control runs it as its own arcs"
             )
         } else {
             "spline: its path".to_owned()
@@ -392,7 +392,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 end.forget(axis);
             }
         }
-        self.not_modelled(at, 382..=385, format!("G38.{kind}: where the probe touches"));
+        self.not_modelled(at, 382..=385, format!("G38.{kind}: the probed position"));
         self.motion(MotionKind::Unknown, end, &shift, Feed::Unknown, at, state);
     }
 

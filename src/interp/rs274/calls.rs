@@ -11,7 +11,7 @@ use trunnion_syntax::{Address, BlockId, TextRange, Value};
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// The codes of the machine's own of one block. Which of them runs first is for the machine to say, so that of several that do more
-    /// than switch something it is not known what they leave behind.
+    /// than switch something it is not known what they leave active.
     pub(super) fn own_codes(&mut self, codes: &[OwnCode], at: At, state: &State) {
         for own in codes {
             self.own_code(*own, at, state);
@@ -21,10 +21,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let moving: Vec<&OwnCode> = codes.iter().filter(moves).collect();
         let [_, .., last] = moving[..] else { return };
         let names: Vec<String> = moving.iter().map(ToString::to_string).collect();
-        let what = format!(
-            "{} in one block: their order is for the machine to say",
-            names.join(" and ")
-        );
+        let what = format!("{} in one block: the machine decides their order", names.join(" and "));
         self.fault(at, last.range, FaultKind::NotModelled { what });
         self.lose_kinematics();
     }
@@ -37,7 +34,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.interpreter.state.frame_unknown = true;
     }
 
-    /// A code of the machine's own: what the dialect's table says of it, else nothing is known of the position behind it.
+    /// A code of the machine's own: what the dialect's table says of it, otherwise the position after it is unknown.
     fn own_code(&mut self, own: OwnCode, at: At, state: &State) {
         let code = table_entry(self.interpreter.dialect, own);
         let clamps_axis = self.clamp_code(own, state);
@@ -57,8 +54,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 | Action::ProgramStop
         );
         if state.side != Side::Off && !is_harmless(code.action) {
-            // motions before it in the text come behind it
-            let what = format!("{} under compensation of the cutter radius", code.id);
+            // motions before it in the text come after it
+            let what = format!("{} under cutter radius compensation", code.id);
             self.fault(at, own.range, FaultKind::NotModelled { what });
             self.told.kinematics_unknown = true;
             self.told.lost_rotary = true;
@@ -101,7 +98,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let codes = &interpreter.setup.control.clamp_codes;
         let clamps = &mut interpreter.state.clamps;
         let is_one = clamps.hear(codes, own.tenths);
-        // motions before it in the text may come behind it
+        // motions before it in the text may come after it
         if is_one && state.side != Side::Off {
             clamps.hear_unread(codes);
         }
@@ -116,9 +113,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.tcp(on);
             return;
         }
-        let what = format!(
-            "{code}: to which kinematics it switches is for the machine to say ([control] tcp_codes), and nothing says it"
-        );
+        let what =
+            format!("{code}: the machine file does not declare which kinematics it selects ([control] tcp_codes)");
         self.fault(at, own.range, FaultKind::NotModelled { what });
         self.tcp(false);
         self.told.lost = true;
@@ -127,8 +123,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// G53, G28 or G30 while tool centre point control is on.
     pub(super) fn frame_unknown(&mut self, at: At) {
-        let what = "G53, G28 or G30 while tool centre point control is on: machine coordinates of the tip or of the joints, as the \
-                    machine's kinematics have it";
+        let what = "G53, G28 or G30 while tool centre point control is on: machine coordinates mean the tip or the axes, as the \
+                    machine's kinematics define";
         let range = self.code_range(at, b'G', |code| matches!(code, 280 | 300 | 530));
         self.fault(at, range, FaultKind::NotModelled { what: what.to_owned() });
         self.told.lost = true;
@@ -261,7 +257,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
-    /// The program has no end: told at its last line that is not blank.
+    /// The program has no end: reported at its last line that is not blank.
     pub(super) fn missing_end(&mut self) {
         let blocks = (0..self.program.block_count() as u32).rev().map(BlockId);
         let mut written = blocks.filter(|&block| {

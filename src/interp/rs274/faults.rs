@@ -2,7 +2,7 @@
 use crate::FaultKind;
 use trunnion_ngc::{Class, Error};
 
-/// A fact about a line of a called file, told at the call.
+/// A fact about a line of a called file, reported at the call.
 pub(super) fn placed(kind: FaultKind, place: String) -> FaultKind {
     match kind {
         FaultKind::Rejected {
@@ -32,7 +32,7 @@ pub(super) fn placed(kind: FaultKind, place: String) -> FaultKind {
     }
 }
 
-/// The fact that tells an error.
+/// The fact that reports an error.
 pub(super) fn fault_of(error: &Error) -> FaultKind {
     if let Some(missing) = &error.missing {
         return FaultKind::MissingSubprogram {

@@ -1,4 +1,4 @@
-//! The feed of a motion, from the rate that the control was told for it.
+//! The feed of a motion, from the rate that the control set for it.
 use super::bridge::{Bridge, LINEAR_AXES};
 use crate::{Feed, Position, Sink};
 use trunnion_ngc::{At, Side, State, Units};
@@ -13,7 +13,7 @@ pub(super) struct Rate {
 /// The control feeds no slower under G93, program units per minute.
 const SLOWEST_INVERSE_TIME: f64 = 0.1;
 
-/// Rounding of a coordinate on its way through offsets and units, mm or deg.
+/// Rounding of a coordinate that passes through offsets and units, mm or deg.
 const ROUNDING: f64 = 1e-9;
 
 /// What a motion moves.
@@ -26,7 +26,7 @@ enum Moves {
 }
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
-    /// Whether one of the axes moves on the way to `end`, machine coordinates.
+    /// Whether one of the axes moves on the path to `end`, machine coordinates.
     fn any_moves(&self, axes: &[usize], end: &Position, state: &State) -> Option<bool> {
         let mut found = Some(false);
         for &axis in axes {
@@ -50,7 +50,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
     }
 
-    /// The feed of a feed motion to `end` (machine coordinates) as the control was told it; `curve`: along an arc or a spline, which runs
+    /// The feed of a feed motion to `end` (machine coordinates) as the control set it; `curve`: along an arc or a spline, which runs
     /// on also where it ends in the place where it began.
     pub(super) fn feed(&mut self, end: &Position, curve: bool, at: At, state: &State) -> Feed {
         let rate = match (self.told.synced, self.told.rate) {
@@ -60,7 +60,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let Some(rate) = rate else { return Feed::Unknown };
         let per_revolution = self.told.synced.is_some() || self.told.per_revolution;
         let inverse_time = state.feed_mode == trunnion_ngc::FeedMode::InverseTime && !per_revolution;
-        // the rate is that of the contour: the way of the cutter's centre takes longer or shorter than 1/F
+        // the rate is that of the contour: the path of the cutter's centre takes longer or shorter than 1/F
         let slowest = rate.deg <= SLOWEST_INVERSE_TIME;
         if inverse_time && state.side == Side::Off && !slowest && state.inverse_time > 0.0 {
             return Feed::InverseTime(state.inverse_time);
@@ -78,7 +78,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Moves::Linear => Feed::PerMinute(rate.mm),
             Moves::RotaryOnly if !per_revolution => Feed::PerMinute(rate.deg),
             Moves::RotaryOnly | Moves::Unknown => {
-                let what = "F in inch: whether it counts degrees or inches in this block is not known".to_owned();
+                let what = "F in inch: it is not known whether it means degrees or inches in this block".to_owned();
                 self.not_modelled(at, 0..=0, what);
                 Feed::Unknown
             }

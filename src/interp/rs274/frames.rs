@@ -1,4 +1,4 @@
-//! Between the coordinates of canonical calls and those of motions: mm and degrees, offsets told apart from what is programmed.
+//! Between the coordinates of canonical calls and those of motions: mm and degrees, offsets separated from what is programmed.
 use crate::Position;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::sin_cos;
@@ -29,7 +29,7 @@ pub(super) struct Shift {
 }
 
 impl Shift {
-    /// `g92`, `tool`: the shift and the tool offset that the machine was told last, mm and deg. Under compensation of the cutter radius,
+    /// `g92`, `tool`: the last shift and the last tool offset that were set, mm and deg. Under compensation of the cutter radius,
     /// and when the unit changes, the interpreter changes its own without telling the machine.
     pub(super) fn of(state: &State, g92: &Pose, tool: &Pose) -> Self {
         let unit = state.units.mm();
@@ -86,7 +86,7 @@ impl Shift {
     }
 
     /// Moves the named axes (bit per axis) of an end, and of the same in coordinates of the machine, to a pose, whose other axes lead to
-    /// where these two are already. `false` where that is no short way: then the two are of no use.
+    /// where these two are already. `false` where the short path does not apply: then the two are of no use.
     #[inline]
     pub(super) fn reach(&self, pose: &Pose, named: u16, end: &mut Position, machine: &mut Position) -> bool {
         if self.rotation.is_some() {

@@ -179,7 +179,7 @@ impl Interpreter<'_> {
 
     fn step_rs274(&mut self, run: &mut Rs274, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         let Rs274 { engine, told, done } = run;
-        // a line of a file runs in a step behind the one that opened it
+        // a line of a file runs in a step after the one that opened it
         if told.paths.len() != engine.file_count() {
             told.paths = (0..engine.file_count() as u32)
                 .map(|file| engine.path(FileId(file)).into())
@@ -197,7 +197,7 @@ impl Interpreter<'_> {
         bridge.interpreter.state.clamps.begin_block();
         let step = engine.step(&mut bridge);
         let at = engine.at();
-        // behind the last line nothing runs, and nothing in a program without anything in it
+        // after the last line nothing runs, and nothing in a program without any content
         let nothing_ran = matches!(step, Step::Ended);
         let block = bridge.block(at);
         let ran = matches!(step, Step::Line);

@@ -1,10 +1,10 @@
-//! Where lines of called files stand: the calls that led there, the line itself, and the block of the main program that stands for it.
+//! Where lines of called files are: the calls that led there, the line itself, and the block of the main program that represents it.
 use std::collections::HashMap;
 use std::sync::Arc;
 use trunnion_ngc::{At, ChainId, FileId};
 use trunnion_syntax::BlockId;
 
-/// Places kept; motions of lines beyond them are told with their calls alone.
+/// Places kept; motions of lines beyond them are emitted with their calls alone.
 const KEPT: usize = 1 << 16;
 
 #[derive(Clone, Debug, Default)]
@@ -44,7 +44,7 @@ impl Places {
     pub(super) fn caller(&self, chain: ChainId) -> BlockId {
         self.table.callers.get(&chain).copied().unwrap_or(self.last)
     }
-    /// The chain that a motion at a line is told with: in a called file it ends with the line itself.
+    /// The chain with which a motion at a line is emitted: in a called file it ends with the line itself.
     #[inline]
     pub(super) fn chain(&mut self, at: At) -> crate::ChainId {
         if at.file == FileId::MAIN && at.chain == ChainId::default() {

@@ -1,4 +1,4 @@
-//! What LinuxCNC's interpreter is told of a run's setup.
+//! What LinuxCNC's interpreter learns of a run's setup.
 use crate::{LengthUnit, Setup, Tool};
 use trunnion_dialect::{Code, CodeKind, Dialect};
 use trunnion_ngc::{Ini, Parameters, Setup as Told, Start, ToolEntry, ToolTable, Units};
@@ -79,7 +79,7 @@ pub(super) fn told(setup: &Setup, declared: &[Tool], dialect: &Dialect) -> Told 
     );
     values.sort_unstable_by_key(|(number, _)| *number);
     let mut own: Vec<(u8, u32)> = dialect.codes().iter().filter_map(numbered).collect();
-    // what a code of a clamp does the machine has said; those that the control knows itself it does not ask for
+    // the machine file has declared the effect of a clamp code; those that the control knows itself it does not ask for
     let clamps = setup.control.clamp_codes.iter().flatten();
     own.extend(clamps.flat_map(|codes| [codes.on, codes.off].map(|code| (b'M', u32::from(code) * 10))));
     own.sort_unstable();

@@ -1,16 +1,16 @@
-//! Straight motions one after the other, while lines are motions and nothing else: no offset changes, and each is told by what differs.
+//! Straight motions one after the other, while lines are motions and nothing else: no offset changes, and each is emitted as a difference.
 use super::bridge::Bridge;
 use super::frames::Shift;
 use super::modal;
 use crate::{Feed, Motion, MotionKind, Position, Sink};
 use trunnion_ngc::{At, Pose, State};
 
-/// The offsets, and the motion told last.
+/// The offsets, and the last emitted motion.
 #[derive(Clone, Debug)]
 pub(super) struct Steady {
     shift: Shift,
     motion: Motion,
-    /// That was the line in hand: what is in force behind it was taken over with the motion.
+    /// That was the present line: what is active after it was taken over with the motion.
     pub(super) settled: bool,
 }
 
@@ -21,7 +21,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if let Some(mut steady) = self.told.steady.take() {
             let on = self.next_line(&mut steady, rapid, pose, at, state);
             steady.settled = true;
-            // what comes next is told by what differs, unless an offset is not known
+            // what follows is emitted as differences, unless an offset is not known
             self.told.steady = Some(steady).filter(|_| on);
             return;
         }
@@ -90,8 +90,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     }
 }
 
-/// Whether a line behind a motion may be told by what differs: not where an offset is not known, nor where increments go from nobody
-/// knows where, since which letters a line names is told with whole motions only.
+/// Whether a line after a motion may be emitted as a difference: not where an offset is not known, nor where increments start from an unknown
+/// position, since only whole motions carry which letters a line names.
 #[inline]
 fn goes_on(motion: &Motion, machine: &Position) -> bool {
     machine.known == motion.end.known && (motion.says_way == 0 || motion.end.xyz().is_some())

@@ -33,7 +33,7 @@ impl Comparison<'_> {
     /// where it already proves this. `None`: a stance or the path between the two is not known or not modelled.
     ///
     /// With both tip paths W1, W2 bending by at most Q1 and Q2 their difference is on a piece of length h at most its largest end +
-    /// (Q1 + Q2) h^2 / 8; the piece with the largest bound is halved first. Source: kinematics notes 3.
+    /// (Q1 + Q2) h^2 / 8; the piece with the largest bound is halved first. Source: docs/kinematics.md#between-the-ends-of-a-block.
     pub fn along(&self, leg: &Leg, tolerance_mm: f64) -> Option<AlongBlock> {
         if runs_dogleg(self.believed, leg) {
             return None;

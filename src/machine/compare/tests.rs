@@ -109,7 +109,7 @@ fn along_a_block_the_bound_closes_on_the_truth() {
     );
 }
 
-/// C turns the other way round: from 0 to 180 deg both machines end at one place, and half way the tips are on opposite sides of the axis,
+/// C turns in the opposite direction: from 0 to 180 deg both machines end at one place, and half way the tips are on opposite sides of the axis,
 /// two radii apart. Both bends are needed for the first bound, 2 pi^2 r / 8 = 2.467 r: half of it would pass for less than 1.5 r.
 #[test]
 fn both_paths_bend() {
@@ -195,7 +195,7 @@ fn bounds_of_planted_errors_are_never_below_random_poses() {
     assert!(judged > 100, "{judged}");
 }
 
-/// A block between two random poses, joints straight: what is said along it, and the worst of many samples.
+/// A block between two random poses, with linear interpolation: the bound along it, and the worst of many samples.
 fn along_and_sampled(
     comparison: &Comparison<'_>,
     machine: &Machine,

@@ -26,7 +26,7 @@ pub(crate) fn verify(rows: &[Spanned<RawCheck>], machine: &Machine) -> Result<()
         };
         let limits = written.travel.len() + written.speed.len() + written.acceleration.len() + written.words.len();
         if written.tip.is_none() && written.axis.is_none() && limits == 0 {
-            let message = format!("{about} says nothing: give tip, axis, travel, speed, acceleration or words");
+            let message = format!("{about} is empty: add tip, axis, travel, speed, acceleration or words");
             return Err(Fault {
                 message,
                 span: row.span(),
@@ -63,7 +63,7 @@ fn plain(machine: &Machine, joint: usize, value: f64) -> f64 {
 
 fn pose(about: &str, row: &RawCheck, machine: &Machine) -> Result<(), Fault> {
     let mut joints: Joints = [0.0; MAX_AXES];
-    // a held axis that the row does not name stands where it is held
+    // a held axis that the row does not name is where it is held
     for (joint, value) in machine.held() {
         joints[joint] = value;
     }
@@ -91,7 +91,7 @@ fn pose(about: &str, row: &RawCheck, machine: &Machine) -> Result<(), Fault> {
         let off = (wanted - found.tip).norm();
         if off.is_nan() || off > within {
             let message = format!(
-                "{about}: the row puts the tip at {} mm, the axes of this file at {} mm, {} mm away; {look}",
+                "{about}: by this row the tip is at {} mm, by the axes of this file at {} mm, {} mm away; {look}",
                 triple(&wanted),
                 triple(&found.tip),
                 number(off)
@@ -107,7 +107,7 @@ fn pose(about: &str, row: &RawCheck, machine: &Machine) -> Result<(), Fault> {
         let off = angle_between(&wanted, &found.axis);
         if off.is_nan() || off > AXIS.max(within * 0.01) {
             let message = format!(
-                "{about}: the row points the tool along {}, the axes of this file along {}, {} deg away; {look}",
+                "{about}: by this row the tool points along {}, by the axes of this file along {}, {} deg away; {look}",
                 triple(&wanted),
                 triple(&found.axis),
                 number(deg(off))
@@ -124,12 +124,12 @@ fn pose(about: &str, row: &RawCheck, machine: &Machine) -> Result<(), Fault> {
 /// Where the fault must be if the row is right.
 fn look(moved: &str) -> String {
     match moved.len() {
-        0 => "with all joints at zero only tool_axis, gauge_point and hold count".to_owned(),
-        1 => format!("if the row is right, look at sign, dir, point, kind and place of axis {moved}"),
+        0 => "with all axes at zero only tool_axis, gauge_point and hold matter".to_owned(),
+        1 => format!("if the row is right, check sign, dir, point, kind and position in the list of axis {moved}"),
         _ => {
             let letters: Vec<String> = moved.chars().map(String::from).collect();
             format!(
-                "if the row is right, look at sign, dir and point of {}, and at the order of the axes",
+                "if the row is right, check sign, dir and point of {}, and the order of the axes",
                 letters.join(", ")
             )
         }
@@ -158,7 +158,7 @@ fn travel(about: &str, rows: &BTreeMap<Word, Spanned<RawLimits>>, machine: &Mach
                 Limits::Unbounded => "not declared".to_owned(),
             };
             let message = format!(
-                "{about}: the travel of {} is another one than its limits say: {own}; one of them is wrong",
+                "{about}: the travel of {} differs from its limits: {own}; one of them is wrong",
                 word.get_ref()
             );
             return Err(Fault {
@@ -184,7 +184,7 @@ fn highest(about: &str, what: &str, rows: &BTreeMap<Word, Number>, machine: &Mac
         if !own.is_some_and(|own| near(wanted, own)) {
             let own = own.map_or_else(|| "not declared".to_owned(), number);
             let message = format!(
-                "{about}: the {what} of {} is another one than its `dyn` says: {own}; one of them is wrong",
+                "{about}: the {what} of {} differs from its `dyn`: {own}; one of them is wrong",
                 word.get_ref()
             );
             return Err(Fault {
@@ -213,7 +213,7 @@ fn words(about: &str, rows: &BTreeMap<Word, Word>, machine: &Machine) -> Result<
         };
         if written.get_ref() != own {
             let message = format!(
-                "{about}: the words of {} are {:?} here and {own:?} at the axis; one of them is wrong",
+                "{about}: the words of {} are {:?} here but {own:?} at the axis; one of them is wrong",
                 word.get_ref(),
                 written.get_ref()
             );

@@ -7,7 +7,7 @@ use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction,
 use trunnion_geometry::{deg, rad};
 use trunnion_interp::{LengthUnit, TcpCodes};
 
-/// Names that `family` may have (interface, section 7).
+/// Names that `family` may have (docs/contract.md#machine-files).
 const FAMILIES: &[&str] = &[
     "generic",
     "iso-6983",
@@ -77,7 +77,7 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         ) {
             return Err(Fault {
                 message: format!(
-                    "action {:?} needs the cone in which the control does it: give cone in degrees",
+                    "action {:?} needs a cone: add `cone`, the half angle around the pole in degrees",
                     word.get_ref()
                 ),
                 span: word.span(),
@@ -109,7 +109,7 @@ fn tcp_codes(raw: &RawTcpCodes) -> Result<TcpCodes, Fault> {
         if !is_code(word.get_ref()) {
             return Err(Fault {
                 message: format!(
-                    "{:?} is no code: write G or M and its number, as \"M428\"",
+                    "{:?} is not a code: write G or M and a number, for example \"M428\"",
                     word.get_ref()
                 ),
                 span: word.span(),
@@ -175,7 +175,7 @@ fn branch(raw: Option<&RawBranch>, family: &str, axes: &[Axis]) -> Result<Branch
     branch.solution_negative = one_of("seq", raw.seq.as_ref(), &["+", "-"])?.map(|sign| sign == "-");
     if let (Some(word), true) = (&raw.seq, branch.rule != Some(PostureRule::Heidenhain)) {
         return Err(Fault {
-            message: "seq is the tilting solution of a Heidenhain: name the rule \"heidenhain\"".to_owned(),
+            message: "`seq` is the tilting solution of a Heidenhain control: set rule = \"heidenhain\"".to_owned(),
             span: word.span(),
         });
     }
@@ -193,7 +193,7 @@ fn branch(raw: Option<&RawBranch>, family: &str, axes: &[Axis]) -> Result<Branch
     }
     if let (None, Some(word)) = (branch.rule, raw.order.first()) {
         return Err(Fault {
-            message: format!("the family {family:?} has no documented rule that order could refine; name a rule too"),
+            message: format!("no rule is documented for family {family:?} that `order` could refine; add `rule`"),
             span: word.span(),
         });
     }
@@ -211,7 +211,7 @@ fn branch(raw: Option<&RawBranch>, family: &str, axes: &[Axis]) -> Result<Branch
         if axes.iter().any(|axis| linear(&axis)) {
             return Err(Fault {
                 message: format!(
-                    "{:?} is a linear axis; a posture is a choice of rotary axes",
+                    "{:?} is a linear axis; a posture concerns rotary axes only",
                     letter.get_ref()
                 ),
                 span: letter.span(),
@@ -225,7 +225,7 @@ fn branch(raw: Option<&RawBranch>, family: &str, axes: &[Axis]) -> Result<Branch
 fn passing_type(number: Option<&Number>) -> Result<Option<u8>, Fault> {
     match number {
         Some(number) if ![1.0, 2.0].contains(number.get_ref()) => Err(Fault {
-            message: format!("passing_type = {}; 1 and 2 are known", number.get_ref()),
+            message: format!("passing_type = {} is unknown; write 1 or 2", number.get_ref()),
             span: number.span(),
         }),
         number => Ok(number.map(|number| if *number.get_ref() < 1.5 { 1 } else { 2 })),
@@ -240,12 +240,12 @@ pub(crate) fn in_words(control: &Control) -> Vec<String> {
         Some(PostureRule::Generic) if !branch.declared => {}
         Some(rule) => {
             let said = if branch.declared { "" } else { " (documented for the family)" };
-            lines.push(format!("picks postures for tool vectors by the rule {:?}{said}", rule.name()));
+            lines.push(format!("chooses postures for tool vectors by the rule {:?}{said}", rule.name()));
         }
         // programmed without tool vectors
         None if matches!(control.family.as_str(), "linuxcnc" | "grbl") => {}
         None => lines.push(
-            "which posture it picks for tool vectors is neither documented nor declared: reported as unknown where it matters"
+            "its choice of posture for tool vectors is neither documented nor declared: reported as unknown where it matters"
                 .to_owned(),
         ),
     }
@@ -266,7 +266,7 @@ pub(crate) fn in_words(control: &Control) -> Vec<String> {
         ));
     }
     if let Some(passing) = branch.passing_type {
-        lines.push(format!("passes the pole by type {passing}"));
+        lines.push(format!("passes the pole according to type {passing}"));
     }
     match (control.pole_action, control.pole_cone) {
         (PoleAction::Hold, Some(cone)) => lines.push(format!(
@@ -287,7 +287,7 @@ pub(crate) fn in_words(control: &Control) -> Vec<String> {
         // RS274/NGC says it, Sinumerik counts along the geometry axes
         None if matches!(control.family.as_str(), "linuxcnc" | "grbl" | "sinumerik-840d" | "generic" | "apt") => {}
         None => lines.push(
-            "what F counts along where rotary and linear axes move together without tool centre point control is not declared: reported as unknown where it matters"
+            "it is not declared what F means when rotary and linear axes move together without tool centre point control: reported as unknown where it matters"
                 .to_owned(),
         ),
     }

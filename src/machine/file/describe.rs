@@ -206,7 +206,7 @@ fn axis(machine: &Machine, joint: usize) -> AxisDescription {
     }
 }
 
-/// Distance of the tip from the axis' point for which an uncertain direction is told, mm.
+/// Distance of the tip from the axis' point for which an uncertain direction is printed, mm.
 const ARM: f64 = 100.0;
 
 /// What the declared uncertainty of an axis does to the tip.
@@ -229,21 +229,17 @@ fn uncertainty(machine: &Machine, joint: usize) -> Option<String> {
 fn remarks(machine: &Machine) -> Vec<String> {
     let mut lines: Vec<String> = machine.warnings.iter().map(|line| format!("Warning: {line}")).collect();
     lines.push(match machine.checks {
-        0 => "Check rows: none; a wrong sign, point or order in this file would go unnoticed".to_owned(),
+        0 => "Check rows: none; a wrong sign, point or order in this file would not be noticed".to_owned(),
         count => format!("Check rows: {count}, all hold"),
     });
     lines
 }
 
-/// What a positive motion of the axis does (kinematics notes 2.1 and 7).
+/// What a positive motion of the axis does (docs/kinematics.md#machine-model).
 fn sentence(axis: &Axis) -> String {
     let letter = char::from(axis.letter);
     let turned = axis.sign < 0.0;
-    let odd = if turned {
-        " (sign -1: the other way round than ISO 841)"
-    } else {
-        ""
-    };
+    let odd = if turned { " (sign -1: opposite to ISO 841)" } else { "" };
     match (axis.kind, axis.side) {
         (AxisKind::Linear, side) => {
             let tool = axis.direction * axis.sign;
@@ -293,7 +289,7 @@ fn notes(axis: &Axis, unit: &str, plain: impl Fn(f64) -> f64) -> Vec<String> {
     }
     if let Some(value) = extra.hold {
         notes.push(format!(
-            "held at {} {unit}: kinematics are solved for the other rotary axes; a program that moves it is not followed",
+            "held at {} {unit}: the kinematics are solved for the other rotary axes; a program that moves this axis is not followed",
             number(plain(value))
         ));
     }
@@ -326,7 +322,7 @@ fn control(machine: &Machine) -> Vec<String> {
     };
     let mut lines = vec![
         format!("family {}", control.family),
-        format!("with tool centre point control the tip runs straight and the orientation {orientation}{said}"),
+        format!("with tool centre point control the tip moves straight and the orientation {orientation}{said}"),
     ];
     if let Some(unit) = control.units {
         let name = match unit {
@@ -344,7 +340,7 @@ fn control(machine: &Machine) -> Vec<String> {
             }
         };
         let start = if codes.at_start {
-            "; it is on when a program begins"
+            "; it is on when a program starts"
         } else {
             ""
         };
@@ -366,7 +362,7 @@ fn control(machine: &Machine) -> Vec<String> {
     lines.extend(crate::file::control::in_words(control));
     lines.extend(machine.gantries.iter().map(|gantry| {
         format!(
-            "axis {} mirrors {}: travel and speed are what both allow",
+            "axis {} mirrors {}: travel and speed are limited to what both allow",
             char::from(gantry.letter),
             char::from(gantry.leader)
         )

@@ -23,43 +23,43 @@ axes | {letter="X", sign=1,limits=[0,inf]} | [0,inf] | finite
 axes | {letter="X", sign=1,limits="none"} | "none" | "unbounded" or [min, max]
 axes | {letter="X", sign=1,limits=[1,2,3]} | [1,2,3] | [min, max]
 axes | {letter="X", sign=1,limit_margin=-1} | -1 | negative
-axes | {letter="X", sign=1,resolution=0} | 0 | above zero
-axes | {letter="X", sign=1,dyn={vmax=0}} | 0 | above zero
-axes | {letter="X", sign=1,dyn={vmax=-1}} | -1 | above zero
+axes | {letter="X", sign=1,resolution=0} | 0 | greater than zero
+axes | {letter="X", sign=1,dyn={vmax=0}} | 0 | greater than zero
+axes | {letter="X", sign=1,dyn={vmax=-1}} | -1 | greater than zero
 axes | {letter="X", sign=1,dyn={vmax=nan}} | nan | a number
 axes | {letter="X", sign=1,dyn={vmax="fast"}} | "fast" | invalid type
 axes | {letter="X", sign=1,dyn={speed=1}} | speed | unknown field
-axes | {letter="X", sign=1,dyn={kff=1.5}} | 1.5 | a share
+axes | {letter="X", sign=1,dyn={kff=1.5}} | 1.5 | must be at most 1
 axes | {letter="A", sign=1,side="head",mode="diameter"} | "diameter" | linear axis
 axes | XYZ,{letter="X", sign=-1} | "X" | listed twice
 axes | {letter="x", sign=1} | "x" | write "X"
 axes | XYZ,{letter="V",follow="y"} | "y" | write "Y"
-axes | {letter="X"} | "X" | say sign = 1 (ISO 841
-axes | {letter="C",side="table"} | "C" | sign = -1 (turned round) explicitly
+axes | {letter="X"} | "X" | write sign = 1 (ISO 841
+axes | {letter="C",side="table"} | "C" | sign = -1 (reversed)
 axes | XYZ,{letter="V",follow="U"} | "U" | not an axis of this machine
 axes | {letter="V",follow="V"} | "V" | cannot follow itself
 axes | XYZ,{letter="C", sign=1,side="table"} | "C" | from workpiece to tool
 axes | {letter="X", sign=1},{letter="Z", sign=1} | [{letter="X", sign=1},{letter="Z", sign=1}] | there are X, Z
 axes |  | [] | there is none
-axes | {letter="X", sign=1},{letter="Y", sign=1},{letter="Z", sign=1,dir=[0,1,0]} | [{letter="X", sign=1},{letter="Y", sign=1},{letter="Z", sign=1,dir=[0,1,0]}] | span space
+axes | {letter="X", sign=1},{letter="Y", sign=1},{letter="Z", sign=1,dir=[0,1,0]} | [{letter="X", sign=1},{letter="Y", sign=1},{letter="Z", sign=1,dir=[0,1,0]}] | in independent directions
 axes | {letter="C", sign=1,side="table"},{letter="A", sign=1,side="table",dir=[0,0,-1]},XYZ | {letter="A", sign=1,side="table",dir=[0,0,-1]} | C and A are parallel
 axes | {letter="A", sign=1,side="table"},{letter="C", sign=1,side="table"},XYZ | {letter="C", sign=1,side="table"} | about the tool axis itself
 axes | {letter="C", sign=1,side="table"},{letter="A", sign=1,side="table"},{letter="B", sign=1,side="table"},XYZ | {letter="B", sign=1,side="table"} | at most 2
 axes | {letter="A", sign=1,side="table",hold=0,limits=[10,20]},XYZ | 0 | outside the limits
-axes | {letter="X", sign=1,hold=0},{letter="Y", sign=1},{letter="Z", sign=1} | 0 | belongs to a rotary axis
-axes | {letter="A",side="table",unknown=["sign","point"]},XYZ | "sign" | `sign`, `point` are not known
-axes | {letter="A",unknown=["side"]},XYZ | "side" | `side` is not known
-axes | XYZ,{letter="V",follow="Y",limits=[0,10]},{letter="U",follow="Y",limits=[20,30]} | "Y" | inside the limits of both
+axes | {letter="X", sign=1,hold=0},{letter="Y", sign=1},{letter="Z", sign=1} | 0 | only for a rotary axis
+axes | {letter="A",side="table",unknown=["sign","point"]},XYZ | "sign" | `sign`, `point` are unknown
+axes | {letter="A",unknown=["side"]},XYZ | "side" | `side` is unknown
+axes | XYZ,{letter="V",follow="Y",limits=[0,10]},{letter="U",follow="Y",limits=[20,30]} | "Y" | within the limits of both
 axes | {letter="C", sign=1,side="table"},XYZ,{letter="A",sign=1,side="table",follow="X"} | "X" | linear and the other rotary
-head | unknown = ["order"] | "order" | `order` of this machine is not known
-tail | [[check]];;joints = { A = 90 };;tool_length = 10;;tip = [0, 1, 0] | [0, 1, 0] | look at sign, dir, point, kind and place of axis A
+head | unknown = ["order"] | "order" | `order` of this machine is unknown
+tail | [[check]];;joints = { A = 90 };;tool_length = 10;;tip = [0, 1, 0] | [0, 1, 0] | check sign, dir, point, kind and position in the list of axis A
 tail | [[check]];;tip = [0, 1, 0] | [0, 1, 0] | only tool_axis, gauge_point and hold
 tail | [[check]];;joints = { A = 90 };;axis = [0, 1, 0] | [0, 1, 0] | 180 deg away
 tail | [[check]];;joints = { Q = 90 };;axis = [0, 1, 0] | Q | not an axis
 tail | [[check]];;travel = { A = [0, 1] } | [0, 1] | not declared
 tail | [[check]];;speed = { A = 1 } | 1 | not declared
 tail | [[check]];;words = { A = "shortest" } | "shortest" | "literal" at the axis
-tail | [[check]];;say = "x" | [[check]] | says nothing
+tail | [[check]];;say = "x" | [[check]] | is empty
 tail | [[check]];;axis = [0, 2, 0] | [0, 2, 0] | length 2
 tail | [control];;family = "siemens" | "siemens" | known: generic
 tail | [control];;rapid = "fast" | "fast" | unknown variant
@@ -69,20 +69,20 @@ tail | [control];;branch = { order = ["move3"] } | "move3" | known: time, move1
 tail | [control];;branch = { rule = "nearest" } | "nearest" | known: generic
 tail | [control];;branch = { range = { X = [0, 1] } } | X | linear axis
 tail | [control];;feed = "tip" | "tip" | known: xyz
-tail | [control];;pole = { action = "hold" } | "hold" | needs the cone
+tail | [control];;pole = { action = "hold" } | "hold" | needs a cone
 tail | [control];;branch = { range = { Q = [0, 1] } } | Q | not an axis
 tail | [control];;branch = { range = { A = [1, 1] } } | [1, 1] | below the upper
-tail | [control];;pole = { passing_type = 3 } | 3 | 1 and 2
+tail | [control];;pole = { passing_type = 3 } | 3 | write 1 or 2
 tail | [control];;pole = { action = "jump" } | "jump" | known: through
 tail | [control];;corner = { model = "round" } | "round" | known: axis-jump
 tail | [control];;units = "cm" | "cm" | units
-tail | [control];;tcp_codes = { on = ["428"] } | "428" | no code
+tail | [control];;tcp_codes = { on = ["428"] } | "428" | is not a code
 tail | [control];;tcp_codes = { on = ["M428"], off = ["M428"] } | "M428" | both on and off
 tail | [control];;planner = { block_time = -1 } | -1 | negative
-tail | [tolerances];;tip = -0.1 | -0.1 | above zero
+tail | [tolerances];;tip = -0.1 | -0.1 | greater than zero
 tail | [tolerances];;feed_drop = 2 | 2 | at most 1
 tail | [tolerances];;tipp = 1 | tipp | unknown field
-tail | [[body]];;carrier = "Q";;mesh = "a" | "Q" | carries nothing
+tail | [[body]];;carrier = "Q";;mesh = "a" | "Q" | cannot carry a body
 "#;
 
 const SCHEMA: &str = "schema = \"ncmachine/1\"\n";

@@ -6,7 +6,7 @@ use trunnion_geometry::Vec3;
 /// Coefficients below this are rounding and are left out.
 const NOTHING: f64 = 1e-12;
 
-/// `(sin A sin C, -sin A cos C, cos A)`: u = Rot(e1, s1 q1) Rot(e2, s2 q2) k0 (kinematics notes 2.1) multiplied out.
+/// `(sin A sin C, -sin A cos C, cos A)`: u = Rot(e1, s1 q1) Rot(e2, s2 q2) k0 (docs/kinematics.md#machine-model) multiplied out.
 pub(crate) fn tool_axis_formula(machine: &Machine) -> String {
     let constants = &machine.constants;
     // the vector as a sum of terms: coefficient vector and the product of sines and cosines that goes with it

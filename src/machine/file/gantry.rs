@@ -78,7 +78,7 @@ impl Rails {
                 (Limits::Range(low, high), Limits::Range(min, max)) if low.max(min) < high.min(max) => {
                     Limits::Range(low.max(min), high.min(max))
                 }
-                _ => return fault("but no position is inside the limits of both".to_owned()),
+                _ => return fault("but no position is within the limits of both".to_owned()),
             };
             leader.max_speed = lower(leader.max_speed, follower.max_speed);
             leader.max_acceleration = lower(leader.max_acceleration, follower.max_acceleration);
@@ -93,7 +93,7 @@ impl Rails {
 }
 
 impl Rail {
-    /// The follower's limits in terms of its leader: both move one body, so where a positive value moves it the other way (sign times
+    /// The follower's limits in terms of its leader: both move one body, so if a positive value moves it in the opposite direction (sign times
     /// direction), the follower has the leader's value with the opposite sign.
     fn limits_for(&self, leader: &Axis) -> Limits {
         let turned = self.signed && self.axis.sign * leader.sign < 0.0;

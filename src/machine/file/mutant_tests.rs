@@ -197,7 +197,7 @@ fn differs(honest: &Machine, mutant: &Machine) -> bool {
     pose || a != b || comparison.entries().iter().any(entry)
 }
 
-/// Who noticed: 0 validation, 1 self-test, 2 check rows, 3 nobody; `None` where the mutant does what the honest machine does.
+/// What detects it: 0 validation, 1 self-test, 2 check rows, 3 nothing; `None` where the mutant does what the original machine does.
 fn noticed(honest: &Machine, file: &Table) -> Option<usize> {
     let mut bare = file.clone();
     bare.remove("check");

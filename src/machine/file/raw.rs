@@ -5,11 +5,11 @@ use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use std::collections::BTreeMap;
 use toml::Spanned;
 
-/// A number and where it stands.
+/// A number and its place in the file.
 pub(crate) type Number = Spanned<f64>;
-/// A word and where it stands.
+/// A word and its place in the file.
 pub(crate) type Word = Spanned<String>;
-/// A vector and where it stands.
+/// A vector and its place in the file.
 pub(crate) type Triple = Spanned<[f64; 3]>;
 
 #[derive(Deserialize)]

@@ -15,7 +15,7 @@ use trunnion_interp::AXIS_LETTERS;
 /// Two directions nearer than this count as parallel, rad.
 const PARALLEL: f64 = 1e-3;
 
-/// Above this condition number of the linear axes the machine is warned about (kinematics notes 2.2).
+/// Above this condition number of the linear axes the machine is warned about (docs/kinematics.md#linear-axes-for-a-given-tip).
 const ILL_CONDITIONED: f64 = 1e3;
 
 /// Why a machine file cannot be used.
@@ -61,7 +61,7 @@ fn build(id: &str, raw: &RawMachine) -> Result<Machine, Fault> {
     units(&raw.units)?;
     if let Some(first) = raw.unknown.first() {
         let message = format!(
-            "`{}` of this machine is not known; find out, bring the file in order and take the list `unknown` out",
+            "`{}` of this machine is unknown; find it out, correct the file and remove the list `unknown`",
             first.get_ref()
         );
         return Err(Fault {
@@ -138,7 +138,7 @@ fn warnings(axes: &[Axis], constants: &Constants) -> Vec<String> {
         let along = usual.dot(&axis.direction);
         if along < -1e-9 && axis.kind == AxisKind::Rotary {
             out.push(format!(
-                "axis {}: dir points against the usual one, which turns the sense of its sign; turn dir round and change sign instead",
+                "axis {}: `dir` is opposite to the usual direction, which reverses the meaning of `sign`; reverse `dir` and change `sign` instead",
                 char::from(axis.letter)
             ));
         }
@@ -162,7 +162,7 @@ impl Chain {
             let axis = axis(written)?;
             if letters.contains(&axis.letter) {
                 let message = format!(
-                    "axis {} is listed twice; every letter may occur once",
+                    "axis {} is listed twice; list each letter once",
                     char::from(axis.letter)
                 );
                 return Err(Fault {
@@ -177,7 +177,7 @@ impl Chain {
             }
             if axis.side == Side::Table && axes.iter().any(|other| other.side == Side::Head) {
                 let message = format!(
-                    "axis {} moves the table but stands after an axis of the head; list the axes from workpiece to tool",
+                    "axis {} moves the table but comes after an axis of the head; list the axes from workpiece to tool",
                     char::from(axis.letter)
                 );
                 return Err(Fault {
@@ -198,19 +198,19 @@ impl Chain {
     }
 }
 
-/// Number of axes, rank of the linear ones, and that each rotary axis can turn the tool (kinematics notes 7, validation at load).
+/// Number of axes, rank of the linear ones, and that each rotary axis can turn the tool (docs/kinematics.md#machine-model).
 fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Vec3) -> Result<Constants, Fault> {
     let moves = |axis: &Axis| axis.kind == AxisKind::Rotary && axis.extra.hold.is_none();
     let rotary: Vec<usize> = (0..axes.len()).filter(|&i| moves(&axes[i])).collect();
     if axes.len() > MAX_AXES {
         return Err(Fault {
-            message: format!("{} axes; at most {MAX_AXES} are possible", axes.len()),
+            message: format!("this machine has {} axes; at most {MAX_AXES} are possible", axes.len()),
             span: all,
         });
     }
     if let Some(&third) = rotary.get(2) {
         let message = format!(
-            "{} rotary axes; kinematics are solved for at most 2. Say `hold = ANGLE` at those that stand still while cutting ({} is the third)",
+            "this machine has {} rotary axes, but kinematics are solved for at most 2. Add `hold = ANGLE` to those that do not move while cutting ({} is the third)",
             rotary.len(),
             char::from(axes[third].letter)
         );
@@ -224,7 +224,7 @@ fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Ve
             let angle = angle_between(a, b);
             !(PARALLEL..=core::f64::consts::PI - PARALLEL).contains(&angle)
         };
-        // a held axis turns what stands behind it
+        // a held axis turns what follows it in the chain
         let turned = |joint: usize| Carried::by(&axes[..joint]).turn(&axes[joint].direction);
         let (e1, e2, k0) = (&turned(first), &turned(second), &Carried::by(axes).turn(k0));
         let (l1, l2) = (char::from(axes[first].letter), char::from(axes[second].letter));
@@ -258,7 +258,7 @@ fn check_chain(axes: &[Axis], spans: &[Range<usize>], all: Range<usize>, k0: &Ve
         } else {
             format!("there are {}", letters.join(", "))
         };
-        let message = format!("the linear axes must span space: three in independent directions are needed, {has}");
+        let message = format!("three linear axes in independent directions are needed, {has}");
         Fault { message, span: all }
     })
 }
@@ -291,14 +291,14 @@ fn tolerances(raw: &RawTolerances) -> Result<Tolerances, Fault> {
     let angle = |name, written, value: f64| Ok(rad(positive(name, written)?.unwrap_or(deg(value))));
     let share = |name, written: Option<&Number>, value: f64| match positive(name, written)? {
         Some(share) if share > 1.0 => Err(Fault {
-            message: format!("{name} is a share of the programmed feed, at most 1; {share} was given"),
+            message: format!("{name} is a part of the programmed feed, at most 1, not {share}"),
             span: written.map_or(0..0, toml::Spanned::span),
         }),
         share => Ok(share.unwrap_or(value)),
     };
     let ratio = |name, written: Option<&Number>, value: f64| match positive(name, written)? {
         Some(ratio) if ratio < 1.0 => Err(Fault {
-            message: format!("{name} is a way over the direct way, at least 1; {ratio} was given"),
+            message: format!("{name} is a ratio to the direct distance, at least 1, not {ratio}"),
             span: written.map_or(0..0, toml::Spanned::span),
         }),
         ratio => Ok(ratio.unwrap_or(value)),
@@ -334,7 +334,7 @@ fn bodies(raw: &[RawBody], axes: &[Axis]) -> Result<Vec<Body>, Fault> {
                 })
             } else {
                 let message = format!(
-                    "{:?} carries nothing: name an axis, base, spindle or workpiece",
+                    "{:?} cannot carry a body: name an axis, base, spindle or workpiece",
                     body.carrier.get_ref()
                 );
                 Err(Fault {

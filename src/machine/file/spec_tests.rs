@@ -105,7 +105,7 @@ fn every_shipped_file_loads_and_says_where_it_comes_from() {
     }
 }
 
-/// Both motors of a gantry move one body: where the follower's positive way is the leader's, so are its limits, else they are mirrored.
+/// Both motors of a gantry move one body: if the follower's positive direction is the leader's, so are its limits, otherwise they are mirrored.
 #[test]
 fn the_limits_of_a_gantry_are_those_of_both() {
     let limits = |leader: &str, follower: &str| {
@@ -210,7 +210,7 @@ fn every_key_is_read() {
     );
 }
 
-/// What is declared and honoured by nothing is said, in the machine and in its description; nothing of the kind is in the samples.
+/// What is declared and not used is reported, in the machine and in its description; the samples contain nothing of the kind.
 #[test]
 fn what_is_not_used_is_said() {
     let machine = load("everything", EVERYTHING).expect("valid");
@@ -237,7 +237,7 @@ fn what_is_not_used_is_said() {
     );
 }
 
-/// The compact forms of kinematics notes 7.
+/// The compact forms of docs/kinematics.md#machine-model.
 #[test]
 fn compact_chains_load() {
     let head_head = r#"schema = "ncmachine/1"

@@ -18,9 +18,9 @@ pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {
     out
 }
 
-/// Those that could change a verdict of the rules there are: what moves, and which way, is not what is judged.
+/// Those that could change a verdict of the present rules: what moves, and in which direction, is not what is judged.
 pub(crate) fn not_judged(raw: &RawMachine) -> Vec<String> {
-    let decisive = ["limit_margin on"];
+    let decisive = ["limit_margin of"];
     let mut all = not_used(raw);
     all.retain(|text| decisive.iter().any(|start| text.starts_with(start)));
     all
@@ -35,17 +35,17 @@ fn of_axis(axis: &RawAxis, out: &mut Vec<String>) {
     };
     say(
         axis.spindle,
-        format!("spindle on {letter}: speeds as a spindle are not judged"),
+        format!("spindle of {letter}: its speeds as a spindle are not judged"),
     );
     say(
         axis.limit_margin.is_some(),
-        format!("limit_margin on {letter}: only the limits themselves are judged"),
+        format!("limit_margin of {letter}: only the limits themselves are judged"),
     );
     let uncertainty = &axis.uncertainty;
     say(
         uncertainty.point.is_some() || uncertainty.dir_arcsec.is_some(),
         format!(
-            "uncertainty on {letter}: `machine show` and pivot-uncertainty say what it does to the tip; bounds are for the axis as it is declared"
+            "uncertainty of {letter}: `machine show` and pivot-uncertainty show its effect on the tip; all other bounds are for the axis as declared"
         ),
     );
     let dynamics = &axis.dynamics;
@@ -57,18 +57,18 @@ fn of_axis(axis: &RawAxis, out: &mut Vec<String>) {
     for (name, set) in smooth {
         say(
             set,
-            format!("{name} on {letter}: jerk and lag of the position loop are not considered"),
+            format!("{name} of {letter}: jerk and position-loop lag are not considered"),
         );
     }
     say(
         axis.resolution.is_some(),
-        format!("resolution on {letter}: joint values are not rounded to it"),
+        format!("resolution of {letter}: axis positions are not rounded to it"),
     );
 }
 
 fn of_control(control: &RawControl, out: &mut Vec<String>) {
     if control.corner.is_some() {
-        out.push("[control] corner: speed at corners is not considered".to_owned());
+        out.push("[control] corner: the speed at corners is not considered".to_owned());
     }
     if control.planner.is_some() {
         out.push("[control] planner: block time, look-ahead and filters are not considered".to_owned());

@@ -21,7 +21,7 @@ pub(crate) fn finite(name: &str, number: &Number) -> Result<f64, Fault> {
     if value.is_finite() && value.abs() <= LARGEST {
         Ok(value)
     } else {
-        let message = format!("{name} = {value}: a number between -{LARGEST:e} and {LARGEST:e} is needed");
+        let message = format!("{name} = {value}: write a number between -{LARGEST:e} and {LARGEST:e}");
         Err(Fault {
             message,
             span: number.span(),
@@ -37,7 +37,7 @@ pub(crate) fn positive(name: &str, number: Option<&Number>) -> Result<Option<f64
         Ok(Some(value))
     } else {
         Err(Fault {
-            message: format!("{name} = {value} must be above zero"),
+            message: format!("{name} = {value} must be greater than zero"),
             span: number.span(),
         })
     }
@@ -63,7 +63,7 @@ pub(crate) fn point(name: &str, triple: &Triple) -> Result<Vec3, Fault> {
     if values.iter().all(|value| value.is_finite() && value.abs() <= LARGEST) {
         Ok(Vec3::from(values))
     } else {
-        let message = format!("{name} = {values:?}: three numbers between -{LARGEST:e} and {LARGEST:e} are needed");
+        let message = format!("{name} = {values:?}: write three numbers between -{LARGEST:e} and {LARGEST:e}");
         Err(Fault {
             message,
             span: triple.span(),
@@ -76,7 +76,7 @@ pub(crate) fn unit_vector(name: &str, triple: &Triple) -> Result<Vec3, Fault> {
     let vector = point(name, triple)?;
     let norm = vector.norm();
     if norm < 1e-12 {
-        let message = format!("{name} is the zero vector; a direction is needed, for example [0, 0, 1]");
+        let message = format!("{name} is the zero vector; write a direction, for example [0, 0, 1]");
         return Err(Fault {
             message,
             span: triple.span(),
@@ -133,7 +133,7 @@ fn all_known(raw: &RawAxis, letter: u8) -> Result<(), Fault> {
     if let Some(first) = raw.unknown.first() {
         let keys: Vec<&str> = raw.unknown.iter().map(|word| word.get_ref().as_str()).collect();
         let message = format!(
-            "axis {}: {} not known; find out, write {} and take the list `unknown` out",
+            "axis {}: {} unknown; find out, write {} and remove the list `unknown`",
             char::from(letter),
             if keys.len() == 1 {
                 format!("`{}` is", keys[0])
@@ -187,8 +187,8 @@ pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
         None if raw.follow.is_some() => 1.0,
         None => {
             let message = format!(
-                "axis {} declares no sign: say sign = 1 (ISO 841: a positive word moves the tool positively relative to the part) or \
-                 sign = -1 (turned round) explicitly",
+                "axis {} declares no sign: write sign = 1 (ISO 841: a positive word moves the tool positively relative to the part) or \
+                 sign = -1 (reversed)",
                 char::from(letter)
             );
             return Err(Fault {
@@ -198,8 +198,7 @@ pub(crate) fn axis(raw: &RawAxis) -> Result<Axis, Fault> {
         }
         Some(number) if number.get_ref().abs() == 1.0 => *number.get_ref(),
         Some(number) => {
-            let message =
-                "sign must be 1 (ISO 841: the tool moves relative to the part) or -1 (turned round)".to_owned();
+            let message = "sign must be 1 (ISO 841: the tool moves relative to the part) or -1 (reversed)".to_owned();
             return Err(Fault {
                 message,
                 span: number.span(),
@@ -257,7 +256,7 @@ fn extra(raw: &RawAxis, kind: AxisKind, scale: impl Fn(f64) -> f64) -> Result<Ax
         && share > 1.0
     {
         return Err(Fault {
-            message: format!("kff = {share} is a share, at most 1"),
+            message: format!("kff = {share} must be at most 1"),
             span: written.span(),
         });
     }
@@ -299,7 +298,10 @@ fn clamp_codes(raw: &RawAxis, kind: AxisKind) -> Result<Option<ClampCodes>, Faul
     };
     let number = |word: &Word| match word.get_ref().strip_prefix('M').map(str::parse) {
         Some(Ok(number)) => Ok(number),
-        _ => Err(fault(word, "is no M code: write M and its number, as \"M10\"")),
+        _ => Err(fault(
+            word,
+            "is not an M code: write M and a number, for example \"M10\"",
+        )),
     };
     let codes = ClampCodes {
         on: number(&written.on)?,
@@ -308,11 +310,11 @@ fn clamp_codes(raw: &RawAxis, kind: AxisKind) -> Result<Option<ClampCodes>, Faul
     if kind == AxisKind::Linear {
         return Err(fault(
             &written.on,
-            "belongs to a rotary axis: linear ones are not clamped by codes here",
+            "is for rotary axes: linear axes cannot be clamped by codes here",
         ));
     }
     if codes.on == codes.off {
-        return Err(fault(&written.off, "cannot both clamp the axis and release it"));
+        return Err(fault(&written.off, "cannot both clamp and release the axis"));
     }
     Ok(Some(codes))
 }
@@ -321,7 +323,7 @@ fn clamp_codes(raw: &RawAxis, kind: AxisKind) -> Result<Option<ClampCodes>, Faul
 fn hold(raw: &RawAxis, kind: AxisKind) -> Result<Option<f64>, Fault> {
     let Some(written) = &raw.hold else { return Ok(None) };
     if kind == AxisKind::Linear || raw.follow.is_some() {
-        let message = "`hold` belongs to a rotary axis beyond the two that are solved for".to_owned();
+        let message = "`hold` is only for a rotary axis beyond the two that are solved".to_owned();
         return Err(Fault {
             message,
             span: written.span(),

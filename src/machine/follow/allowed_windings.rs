@@ -13,7 +13,7 @@ pub(crate) struct Outside {
 }
 
 /// The winding of `q` inside limits that is nearest to `near`, rad; of two equally near the one nearer zero, of two equally near zero
-/// the positive one. Also whether both ways of half a turn are legal.
+/// the positive one. Also whether both directions of half a turn are legal.
 pub(crate) fn legal_winding(limits: Limits, q: f64, near: f64) -> Result<(f64, bool), Outside> {
     match *windings_in(limits, q, near) {
         [] => Err(least_bad(limits, q)),
@@ -66,7 +66,7 @@ pub(crate) fn no_winding((axis, Outside { value, limit }): (u8, Outside)) -> NoS
     NoStance::OutsideLimits { axis, value, limit }
 }
 
-/// The posture `q` with its best legal windings, and the axis that can turn to it by half a turn either way; or the letter of the axis
+/// The posture `q` with its best legal windings, and the axis that can turn to it by half a turn in either direction; or the letter of the axis
 /// that has no legal winding.
 pub(crate) fn legal(
     machine: &Machine,

@@ -13,7 +13,7 @@ use core::f64::consts::{PI, TAU};
 use trunnion_geometry::Vec3;
 use trunnion_interp::Posture;
 
-/// Postures that differ by less than this in every rotary axis are not told as a choice, rad: 5 deg (kinematics notes 5, CTRL-AMBIG).
+/// Postures that differ by less than this in every rotary axis are not reported as a choice, rad: 5 deg (docs/kinematics.md#which-posture-a-control-takes).
 const DIFFERENT: f64 = 5.0 * PI / 180.0;
 
 /// What a choice starts from.
@@ -27,7 +27,7 @@ pub(crate) struct Before {
     pub(crate) sign: i8,
     /// Angle to the pole, rad.
     pub(crate) pole_angle: f64,
-    /// The tool axis runs on a great circle that does not touch the pole: the posture cannot change on the way.
+    /// The tool axis follows a great circle that does not touch the pole: the posture cannot change along it.
     pub(crate) continuous: bool,
     /// What the program asks for.
     pub(crate) wish: Posture,
@@ -114,7 +114,7 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
     })
 }
 
-/// At the pole the first rotary axis stays where it stands. Where nobody knows where that is, it may stand half a turn off as well.
+/// At the pole the first rotary axis stays where it is. If that position is unknown, it may be half a turn off as well.
 fn stays_unknown(machine: &Machine, q: [f64; 2], before: &Before) -> Option<Open> {
     if before.known || machine.control.branch.rule == Some(PostureRule::Generic) {
         return None;
@@ -132,7 +132,7 @@ fn stays_unknown(machine: &Machine, q: [f64; 2], before: &Before) -> Option<Open
     })
 }
 
-/// A Fanuc is told by parameters 19741 to 19744 in which range it looks for values. Where these are not declared and the choice without
+/// Parameters 19741 to 19744 of a Fanuc set the range in which it looks for values. Where these are not declared and the choice without
 /// the axes' travel would be another, it is open which one is taken.
 fn unfiltered(machine: &Machine, postures: &[Solution], before: &Before, chosen: &Item) -> Option<Open> {
     let branch = &machine.control.branch;
@@ -161,7 +161,7 @@ fn unfiltered(machine: &Machine, postures: &[Solution], before: &Before, chosen:
 struct Item {
     candidate: Candidate,
     branch: i8,
-    /// The rotary axis that can reach its value by half a turn either way.
+    /// The rotary axis that can reach its value by half a turn in either direction.
     half_turn: Option<usize>,
 }
 
@@ -238,7 +238,7 @@ impl Found {
     }
 
     /// On a great circle that keeps off the pole the posture stays; where the control's rule takes the other one, the documents of the
-    /// control do not say which of the two gives way.
+    /// control do not say which of the two it ignores.
     fn torn(&self, taken: usize, before: &Before) -> Option<Open> {
         let (chosen, other) = (self.items.get(taken)?, self.items.get(1 - taken.min(1))?);
         let stays = before.continuous && before.known && before.sign != 0 && other.branch == before.sign;
@@ -284,7 +284,7 @@ impl Found {
             }
             PostureRule::Shortest => self.shortest(generic()),
             PostureRule::Heidenhain => {
-                // of equal ways the manual's example has the axis nearest the tool above zero
+                // of equal moves the manual's example has the axis nearest the tool above zero
                 let [first, second] = self.items.map(|item| item.candidate.q[1]);
                 self.shortest(usize::from(second > first))
             }
@@ -350,7 +350,7 @@ impl Found {
         }
     }
 
-    /// The lower or higher value of the axis that a preferred direction is told for.
+    /// The lower or higher value of the axis to which a preferred direction refers.
     fn by_direction(&self, machine: &Machine, wish: Posture) -> (usize, Option<OpenCause>) {
         let axis = direction_axis(machine);
         let [first, second] = self.items.map(|item| item.candidate.q[axis]);
@@ -362,7 +362,7 @@ impl Found {
     }
 }
 
-/// The axis that a preferred direction is told for (CYCLE800, `_DIR`: rotary axis 1 of the swivel data; G53.1 P of LinuxCNC: the primary
+/// The axis to which a preferred direction refers (CYCLE800, `_DIR`: rotary axis 1 of the swivel data; G53.1 P of LinuxCNC: the primary
 /// axis): the one nearer the machine's bed on a table or in a head, the head's on a machine with one axis on each side.
 fn direction_axis(machine: &Machine) -> usize {
     let side = |index: usize| {
@@ -372,8 +372,8 @@ fn direction_axis(machine: &Machine) -> usize {
     usize::from(!(side(0) == Some(Side::Head) && side(1) == Some(Side::Head)))
 }
 
-/// Sum of the rotary moves, rad, of the cheapest way from `from` to the tool axis `axis` in the posture with the sign `branch`, limits
-/// aside: Dmin of branch-swap, kinematics notes 5. A swap that a limit enforces is a swap all the same. `None`: no such posture.
+/// Sum of the rotary moves, rad, of the cheapest move from `from` to the tool axis `axis` in the posture with the sign `branch`, limits
+/// aside: the least travel of docs/kinematics.md#change-of-posture. A swap that a limit enforces is a swap all the same. `None`: no such posture.
 pub(crate) fn cheapest_in_posture(machine: &Machine, axis: &Vec3, branch: i8, from: [f64; 2]) -> Option<f64> {
     let Orientations::Postures(postures) = orientations(machine, axis) else {
         return None;

@@ -1,11 +1,11 @@
-//! What an interpreter is told of the machine that a program runs on.
+//! What an interpreter learns about the machine that a program runs on.
 use crate::Machine;
 use crate::follow::words::Words;
 use trunnion_interp::ControlData;
 
 impl Machine {
     /// Sets what the machine says into the data of its control: the codes of its kinematics and clamps, its further axes, and where its tool
-    /// points at home. What a control said before of another machine is gone; without a machine, all of it.
+    /// points at home. What was set for another machine before is gone; without a machine, all of it.
     pub fn tell(machine: Option<&Self>, control: &mut ControlData) {
         control.tcp_codes = machine.and_then(|machine| machine.control.tcp_codes.clone());
         control.clamp_codes = machine.map(Self::clamp_codes).unwrap_or_default();

@@ -58,7 +58,7 @@ impl Follower<'_> {
         }
     }
 
-    /// Whether [`Self::straight`] does for a motion: the words name all joints, and nothing stands between words and joints but offsets.
+    /// Whether [`Self::straight`] applies to a motion: the words name all axes, and only offsets separate words and axis positions.
     #[inline]
     pub(crate) fn is_straight(&self, motion: &Motion) -> bool {
         let tilt = &motion.tilt;
@@ -72,7 +72,7 @@ impl Follower<'_> {
             && self.goes_on(motion)
     }
 
-    /// What of [`Self::is_straight`] hangs on where a motion leads and on its kind: the rest is as it was where the motion before was straight
+    /// The part of [`Self::is_straight`] that depends on the end of a motion and on its kind: the rest is unchanged if the motion before was straight
     /// and no more differs.
     #[inline]
     fn goes_on(&self, motion: &Motion) -> bool {
@@ -82,7 +82,7 @@ impl Follower<'_> {
             && self.words.foreign(motion).is_none()
     }
 
-    /// Follows the motion in a leg's storage, of which [`Self::is_straight`] holds, as the general way would (a test compares both).
+    /// Follows the motion in a leg's storage, for which [`Self::is_straight`] holds, as the general path would (a test compares both).
     /// [`Self::lines`] are those of the motion.
     #[inline]
     fn straight(&mut self, leg: &mut Leg) {
@@ -214,7 +214,7 @@ pub(crate) mod tests {
     }
 
     proptest! {
-        /// On every machine both ways give the same legs and leave the same state.
+        /// On every machine both paths give the same legs and leave the same state.
         #[test]
         fn the_short_way_is_the_general_way(
             machine in proptest::sample::select(machines()),
@@ -223,13 +223,13 @@ pub(crate) mod tests {
         ) {
             let mut short = Follower::new(&machine);
             let (mut at, mut leg): (_, Option<Box<Leg>>) = (Position::default(), None);
-            // told line by line from its first motion on
+            // emitted line by line from its first motion on
             let (mut lines, mut line, mut before) = (short.clone(), None, f64::NAN);
             for (values, held, (rapid, shifted)) in places {
                 let offset = if shifted && held < 5 { 3.0 - offset } else { offset };
                 let mut to = at;
                 for (axis, value) in values.into_iter().enumerate() {
-                    // seldom an axis that the machine lacks, and one that stands still
+                    // rarely an axis that the machine lacks, or one that does not move
                     let own = machine.axes.iter().any(|own| own.letter == AXIS_LETTERS[axis]);
                     if at.known & (1 << axis) == 0 || ((own || held == 11) && axis != usize::from(held)) {
                         to.set(axis, value);
@@ -250,7 +250,7 @@ pub(crate) mod tests {
                     leg.start_given = true;
                     leg.open = Some(Open { cause: OpenCause::Tie, taken: [7.0; 2], other: [7.0; 2] });
                 }
-                // told by what differs where no more does
+                // emitted as a difference if nothing else differs
                 let next = leg.as_deref().is_some_and(|leg| leg.motion.end == at) && offset == before;
                 before = offset;
                 if next {

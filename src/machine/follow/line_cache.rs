@@ -57,7 +57,7 @@ impl LineCache {
         same(&self.tool_length, &motion.tool_length_mm) && offsets.into_iter().all(|(a, b)| same(a, b))
     }
 
-    /// Fills in all but the joints of a stance as the general way does (a test compares both), on a machine with two rotary axes whose linear
+    /// Fills in all of a stance but the axis positions, as the general path does (a test compares both), on a machine with two rotary axes whose linear
     /// ones lie along X, Y and Z in one piece; `false` where this is not so, or a joint is out of all reason.
     #[inline]
     pub(crate) fn stand(&self, machine: &Machine, sines: &[Sine; 2], start: &Stance, end: &mut Stance) -> bool {
@@ -78,7 +78,7 @@ impl LineCache {
         let turns = end.turns.iter_mut().zip(start.turns.iter().zip([first, second]));
         for ((turn, (before, rotary)), seen) in turns.zip(sines) {
             let q = end.joints[rotary.joint];
-            // a rotary axis that stands still needs no sine
+            // a rotary axis that does not move needs no sine
             *turn = if q == start.joints[rotary.joint] {
                 *before
             } else {

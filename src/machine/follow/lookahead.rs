@@ -1,4 +1,4 @@
-//! Sines of the rotary axes, foreseen: what a line costs the follower most hangs on the words of the line alone, and can be worked out on
+//! Sines of the rotary axes, computed ahead: what a line costs the follower most depends on the words of the line alone, and can be computed on
 //! another thread.
 //!
 //! The follower takes a sine only where it is that of the very angle it asks for, so that nothing hangs on what was foreseen.
@@ -35,7 +35,7 @@ impl Sine {
     }
 }
 
-/// Foresees the sines of lines in words of the joints on a machine with two rotary axes, as they are told by [`trunnion_interp::Sink`].
+/// Computes ahead the sines of lines in words of the axes on a machine with two rotary axes, as [`trunnion_interp::Sink`] passes them.
 #[derive(Clone, Debug)]
 pub struct Lookahead<'m> {
     rotary: &'m [RotaryAxis; 2],
@@ -62,7 +62,7 @@ impl<'m> Lookahead<'m> {
         self.added = Some(self.words.added(motion)).filter(|_| !motion.tcp);
     }
 
-    /// A line: `told` hears of the rotary axes that turn in it, workpiece side first, and of their sines at its end.
+    /// A line: `told` receives the rotary axes that turn in it, workpiece side first, and their sines at its end.
     #[inline]
     pub fn line(&mut self, end: &Position, mut told: impl FnMut(usize, Sine)) {
         let Some(added) = &self.added else { return };

@@ -7,8 +7,8 @@
 //!   centre point control type 2, and the same order for G53.1).
 //! * mitsubishi: passing type 1 keeps the sign of the tilting axis (from the pole: the wider stroke, then minus), passing type 2 takes the
 //!   smaller move of the other axis (M700V programming manual, G43.4/G43.5, movement near the singular point).
-//! * heidenhain: of the postures inside the travel the one with the shortest way from the present position (TNC7 user's manual, tilting
-//!   solution without SYM or SEQ); taken as the one whose moves are both no larger, since the manual does not say how ways of two axes
+//! * heidenhain: of the postures within the travel the one with the shortest path from the present position (TNC7 user's manual, tilting
+//!   solution without SYM or SEQ); taken as the one whose moves are both no larger, since the manual does not say how moves of two axes
 //!   are weighed. SEQ+ and SEQ- are in [`crate::asked`].
 //! * shortest: the posture whose moves are both the smaller ones; where neither is, the rule says nothing.
 use crate::{Machine, Side};
@@ -26,7 +26,7 @@ pub(crate) enum PostureRule {
     Shortest,
     /// Fanuc's four steps.
     Fanuc,
-    /// Mitsubishi's two ways of passing the pole.
+    /// Mitsubishi's two types of passing the pole.
     Mitsubishi,
     /// Heidenhain's tilting solution.
     Heidenhain,
@@ -92,7 +92,7 @@ pub(crate) struct Branch {
     pub range: Vec<(u8, f64, f64)>,
     /// Mitsubishi: type of passing the pole, 1 or 2; `None`: not declared.
     pub passing_type: Option<u8>,
-    /// Heidenhain: SEQ- (`true`) or SEQ+; `None`: not set, the shortest way.
+    /// Heidenhain: SEQ- (`true`) or SEQ+; `None`: not set, the shortest path.
     pub solution_negative: Option<bool>,
 }
 

@@ -1,8 +1,8 @@
 //! What a program asks of the choice between postures beside the tool vector, and what the machine file says that it means.
 //!
 //! * SEQ+ and SEQ- of a Heidenhain: the sign of the primary rotary axis, which is the first seen from the tool, or seen from the table the
-//!   last (TNC7 user's manual, tilting solution). Where no posture with it lies inside the travel, the control stops with an error.
-//! * G53.1 P1 and P2: which solution the number means is said by the machine file.
+//!   last (TNC7 user's manual, tilting solution). If no posture with it is within the travel, the control stops with an error.
+//! * G53.1 P1 and P2: the machine file declares which solution the number means.
 //! * STAT and TU of a Sinumerik in point-to-point motions: bits of TU are the signs of the rotary axes, 0 for 0 <= value < 360 deg, 1 for
 //!   -360 < value < 0 deg, counted by the channel's axis numbers; an axis whose travel is more than 360 deg either way takes the shortest
 //!   way whatever they say (840D sl Function Manual, Extended Functions, 03/2013, section 6.6.2; Programming Manual, Job Planning, 03/2013,
@@ -28,7 +28,7 @@ pub(crate) struct AxisSign {
 pub(crate) struct PostureWords {
     /// Bit numbers of TU: letter of the rotary axis, bit.
     pub turn: Vec<(u8, u8)>,
-    /// The bit of STAT that tells the posture, and the sign that it means when it is set (the other one when it is not).
+    /// The bit of STAT that selects the posture, and the sign that it means when it is set (the other one when it is not).
     pub status: Option<(u8, AxisSign)>,
     /// Solutions by number (G53.1 P1).
     pub solutions: Vec<(u8, AxisSign)>,
@@ -41,7 +41,7 @@ pub(crate) struct Requested {
     turns: [Option<bool>; 2],
     /// Index of the rotary axis and whether its value has to be below zero.
     signs: [Option<(usize, bool)>; 2],
-    /// The program asks for something whose meaning nobody declared.
+    /// The program selects a posture by a word whose meaning is not declared.
     pub(crate) unsaid: bool,
 }
 
@@ -191,7 +191,7 @@ pub(crate) fn posture_words(raw: &RawPostureWords, axes: &[Axis]) -> Result<Post
             Some(axis) if axis.kind == AxisKind::Rotary => Ok(axis.letter),
             _ => Err(fault(
                 word,
-                format!("{:?} is no rotary axis of this machine", word.get_ref()),
+                format!("{:?} is not a rotary axis of this machine", word.get_ref()),
             )),
         }
     };
@@ -206,7 +206,10 @@ pub(crate) fn posture_words(raw: &RawPostureWords, axes: &[Axis]) -> Result<Post
     }
     for (number, said) in &raw.solutions {
         let Ok(value) = number.get_ref().parse::<u8>() else {
-            return Err(fault(number, "a solution is named by its number, as \"1\"".to_owned()));
+            return Err(fault(
+                number,
+                "name a solution by its number, for example \"1\"".to_owned(),
+            ));
         };
         let text = said.get_ref();
         let known = text.split_at_checked(1).and_then(|(letter, sign)| {
@@ -224,7 +227,7 @@ pub(crate) fn posture_words(raw: &RawPostureWords, axes: &[Axis]) -> Result<Post
         let Some(sign) = known else {
             return Err(fault(
                 said,
-                format!("{text:?} is no sign of a rotary axis: write its letter and + or -, as \"A+\""),
+                format!("{text:?} is not the sign of a rotary axis: write its letter and + or -, for example \"A+\""),
             ));
         };
         words.solutions.push((value, sign));
@@ -256,7 +259,7 @@ fn bit(number: &Number) -> Result<u8, Fault> {
         return Ok(value as u8);
     }
     Err(Fault {
-        message: format!("{value} is no number of a bit: 0 to 15"),
+        message: format!("{value} is not a bit number: write 0 to 15"),
         span: number.span(),
     })
 }

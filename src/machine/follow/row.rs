@@ -7,7 +7,7 @@ use trunnion_geometry::deg;
 use trunnion_interp::{Feed, MotionKind};
 use trunnion_syntax::BlockId;
 
-/// One row; see the interface's section on `trace`. mm, deg, mm/min, s.
+/// One row of `trace`. mm, deg, mm/min, s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Block.

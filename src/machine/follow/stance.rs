@@ -4,7 +4,7 @@ use crate::{Joints, Machine};
 use trunnion_geometry::Vec3;
 use trunnion_interp::Motion;
 
-/// Where the machine stands between two blocks.
+/// The position of the machine between two blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stance {
     /// Joint values, mm or rad.
@@ -48,7 +48,7 @@ impl Stance {
             self.point + self.axis * (self.tool_length - tool_length)
         }
     }
-    /// How far the tip stands from it in another stance, with that one's tool, mm: in the workpiece, whatever work offset each is told in.
+    /// How far the tip is from it in another stance, with that one's tool, mm: in the workpiece, whatever work offset each is expressed in.
     #[inline]
     pub fn tip_distance_to(&self, end: &Self) -> f64 {
         (end.point - self.point_with(end.tool_length)).norm()
@@ -77,15 +77,15 @@ pub enum OpenCause {
     RuleNotDeclared,
     /// By the control's rule two postures are equal.
     Tie,
-    /// A rotary axis can reach its value by half a turn either way.
+    /// A rotary axis can reach its value by half a turn in either direction.
     HalfTurn,
     /// Mitsubishi: the types of passing the pole give different postures, and the machine file does not say which is set.
     PassingTypeNotDeclared,
     /// Fanuc: the ranges of parameters 19741 to 19744 are not declared, and without them another posture would be taken.
     RangeNotDeclared,
-    /// The control's rule compares ways from the previous posture, which is not known.
+    /// The control's rule compares moves from the previous posture, which is not known.
     StartUnknown,
-    /// The preferred direction that the program tells fits both postures.
+    /// The preferred direction in the program fits both postures.
     Direction,
     /// The program asks for a posture by words (STAT, TU, G53.1 P) whose meaning the machine file does not say.
     WordsNotDeclared,
@@ -167,7 +167,7 @@ pub enum NoStance {
     /// A work offset turns the axis with this letter while X Y Z are tip coordinates: how a control turns the workpiece frame with it
     /// differs, so that no joint follows from the words for certain.
     RotaryOffset(u8),
-    /// The tool does not stand on the tilted plane in which X Y Z are programmed: angle between tool axis and normal, rad.
+    /// The tool is not perpendicular to the tilted plane in which X Y Z are programmed: angle between tool axis and normal, rad.
     PlaneMisaligned(f64),
 }
 
@@ -178,7 +178,7 @@ pub struct Leg {
     pub motion: Motion,
     /// Before; `None`: unknown.
     pub start: Option<Stance>,
-    /// The start was told by the program (APT FROM), not reached by a motion: no leg before this one ends there.
+    /// The start was stated by the program (APT FROM), not reached by a motion: no leg before this one ends there.
     pub start_given: bool,
     /// After.
     pub end: Result<Stance, NoStance>,
@@ -193,7 +193,7 @@ pub struct Leg {
     /// Rotary excess over the cheapest move of the start's posture, rad, when the posture sign changes; else 0.
     pub rotary_excess: f64,
     /// Length of the tip path with TCP or vectors, of the programmed X Y Z path without, mm; 0 where it is not known. A
-    /// coordinate that the program does not know at the start (first words after TCP was switched) counts with the way of its joint.
+    /// coordinate that the program does not know at the start (first words after TCP was switched) counts with the travel of its axis.
     pub length: f64,
 }
 

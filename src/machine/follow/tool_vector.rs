@@ -10,7 +10,7 @@ use trunnion_geometry::Vec3;
 use trunnion_interp::{Motion, Orientation, Swivel};
 
 impl Follower<'_> {
-    /// Sets the rotary joints for the unit tool axis `axis`; tells what is open about it.
+    /// Sets the rotary axes for the unit tool axis `axis`; returns what is open about it.
     pub(crate) fn aim(
         &self,
         motion: &Motion,
@@ -39,7 +39,7 @@ impl Follower<'_> {
         Ok(chosen.open)
     }
 
-    /// The rotary axes turn to the motion's vector; the linear axes stay, or go where nobody knows.
+    /// The rotary axes turn to the motion's vector; the linear axes stay, or move to an unknown position.
     pub(crate) fn swivel(
         &self,
         motion: &Motion,

@@ -17,7 +17,7 @@ pub(crate) struct Words {
     letter: [u8; MAX_AXES],
     /// mm (rad) of joint per mm (degree) of word.
     scale: [f64; MAX_AXES],
-    /// The same for work offsets, which are never diameters, and for coordinates that the control tells as radii.
+    /// The same for work offsets, which are never diameters, and for coordinates that the control treats as radii.
     zero_scale: [f64; MAX_AXES],
     /// mm of joint per mm of tool length: the tool axis at home in terms of the linear joints.
     per_length: Joints,
@@ -84,7 +84,7 @@ impl Words {
         words
     }
 
-    /// Whether a position tells all joints.
+    /// Whether a position gives all axes.
     #[inline]
     pub(crate) fn names_all(&self, position: &Position) -> bool {
         position.known & self.letters == self.letters
@@ -151,7 +151,7 @@ impl Words {
     }
 
     /// [`Self::joints`] where words are literal, name all joints, and are no machine coordinates; `added` is that of their motion. What is
-    /// behind the last joint stays.
+    /// after the last axis stays.
     #[inline]
     pub(crate) fn put_literal_joints(&self, end: &Position, added: &Added, joints: &mut Joints) {
         for (joint, slot) in joints.iter_mut().enumerate().take(self.count) {
@@ -181,12 +181,12 @@ impl Words {
         added
     }
 
-    /// The turns that a control adds to rotary words it does not take literally, from where the machine stands: the shortest way (M126), or
-    /// the way that the word's sign says to the word's amount (LinuxCNC wrapped rotary axes). A word that stays as it was moves nothing, and an
-    /// incremental one turns as far as it says: the shorter way is for absolute words (trade knowledge of WRAPPED_ROTARY and of Fanuc's
+    /// The turns that a control adds to rotary words that it does not take literally, from the present position: the shortest turn (M126), or
+    /// the direction of the word's sign to the word's amount (LinuxCNC wrapped rotary axes). A word that stays the same moves nothing, and an
+    /// incremental one turns by its full amount: the shorter way is for absolute words (trade knowledge of WRAPPED_ROTARY and of Fanuc's
     /// roll-over, not read in a manual).
-    /// Half a turn either way is the same way: which one is taken is open. `from`: where the joints stand, where that is known; how often
-    /// they have turned round is then open, and the first word tells the place.
+    /// Half a turn in either direction is equally long: which one is taken is open. `from`: the axis positions, where known; how many times
+    /// they have turned is then open, and the first word gives the position.
     pub(crate) fn wrap(
         &self,
         machine: &Machine,

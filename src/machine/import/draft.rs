@@ -48,7 +48,7 @@ impl DraftAxis {
             side: Some("head"),
             dir: Some(usual(letter)),
             sign: Some(1),
-            notes: vec!["side assumed: it has no part in the motion".to_owned()],
+            notes: vec!["side assumed: it does not affect the motion".to_owned()],
             ..Self::default()
         }
     }
@@ -72,7 +72,7 @@ impl DraftAxis {
             ..Self::default()
         }
     }
-    /// The keys that nobody knows.
+    /// The unknown keys.
     fn unknown(&self) -> Vec<&'static str> {
         if self.follow.is_some() {
             return Vec::new();
@@ -107,7 +107,7 @@ impl Draft {
             let keys = axis.unknown();
             if !keys.is_empty() {
                 self.open.push(format!(
-                    "axis {}: {} not known; the file does not load before they are filled in",
+                    "axis {}: {} unknown; the file does not load until they are filled in",
                     axis.letter,
                     keys.join(", ")
                 ));
@@ -115,7 +115,7 @@ impl Draft {
         }
         for key in &self.unknown {
             self.open.push(format!(
-                "{key}: not known; the file does not load before it is brought in order"
+                "{key}: unknown; the file does not load until this is corrected"
             ));
         }
         let mut text = String::new();
@@ -124,7 +124,7 @@ impl Draft {
         }
         line_of(
             &mut text,
-            "# Read every axis aloud beside the machine (`trunnion machine show`), then add [[check]] rows with measured poses.",
+            "# Compare every axis with the machine (`trunnion machine show`), then add [[check]] rows with measured poses.",
         );
         line_of(&mut text, "schema = \"ncmachine/1\"");
         line_of(&mut text, &format!("name = {}", quoted(&self.name)));

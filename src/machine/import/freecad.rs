@@ -1,6 +1,6 @@
 //! A machine file from a machine of FreeCAD's CAM workbench (`.fcm`, JSON): axes with type, role, parent, joint, limits and highest speed.
 //!
-//! Speeds are per minute. The file has no accelerations, and does not say which way a positive rotary word turns (dir is the axis of
+//! Speeds are per minute. The file has no accelerations, and does not say in which direction a positive rotary word turns (dir is the axis of
 //! rotation, its sense depends on the post processor), so that the sign of rotary axes stays open.
 use super::Imported;
 use super::draft::{Draft, DraftAxis};
@@ -99,12 +99,11 @@ pub fn import_freecad(name: &str, text: &str) -> Result<Imported, MachineError> 
         Some("metric") => 1.0,
         Some("imperial") => 25.4,
         None => {
-            let message =
-                "units is missing: \"metric\" or \"imperial\" is needed, else lengths mean nothing".to_owned();
+            let message = "`units` is missing: write \"metric\" or \"imperial\"".to_owned();
             return Err(MachineError { message, span: None });
         }
         Some(other) => {
-            let message = format!("units {other:?}: \"metric\" and \"imperial\" are known");
+            let message = format!("unknown units {other:?}; write \"metric\" or \"imperial\"");
             return Err(MachineError { message, span: None });
         }
     };
@@ -116,7 +115,7 @@ pub fn import_freecad(name: &str, text: &str) -> Result<Imported, MachineError> 
             .collect::<Vec<_>>()
             .join(" "),
         sources: vec![format!(
-            "FreeCAD machine {name}: axes, directions, places, travels and speeds{}",
+            "FreeCAD machine {name}: axes, directions, positions, travels and speeds{}",
             if scale == 1.0 { "" } else { ", converted from inch" }
         )],
         family: "generic",
@@ -131,7 +130,7 @@ pub fn import_freecad(name: &str, text: &str) -> Result<Imported, MachineError> 
             && !machine.axes.contains_key(parent)
         {
             let message = format!(
-                "axis {} is mounted on {parent:?}, which is no axis of this machine",
+                "axis {} is mounted on {parent:?}, which is not an axis of this machine",
                 one.axis.letter
             );
             return Err(source.error(raw.get(), message));
@@ -150,7 +149,7 @@ pub fn import_freecad(name: &str, text: &str) -> Result<Imported, MachineError> 
     );
     draft
         .open
-        .push("whether the control keeps the tip on its path (TCP) is not known".to_owned());
+        .push("it is not known whether the control keeps the tip on its path (TCP)".to_owned());
     Ok(draft.finish())
 }
 
@@ -178,7 +177,7 @@ fn axis(
         other => {
             return Err(source.error(
                 text,
-                format!("axis {name}: type {other:?}; linear and rotary are known"),
+                format!("axis {name}: unknown type {other:?}; write linear or rotary"),
             ));
         }
     };
@@ -186,7 +185,7 @@ fn axis(
         Some("table_linear" | "table_rotary") => Some("table"),
         Some("head_linear" | "head_rotary") => Some("head"),
         None => None,
-        Some(other) => return Err(source.error(text, format!("axis {name}: role {other:?} is not known"))),
+        Some(other) => return Err(source.error(text, format!("axis {name}: unknown role {other:?}"))),
     };
     let (origin, direction) = match entry.joint {
         Some(Joint::Named { origin, axis }) => (Some(origin), Some(axis)),
@@ -245,7 +244,7 @@ fn unread<'a>(
         .partition(|key| key.contains("frame") || *key == "reference_system");
     for key in frames {
         open.push(format!(
-            "{key} is not read: places and directions are taken as they stand; where it is more than the identity they are wrong"
+            "{key} is not read: positions and directions are used as written; they are wrong if it is not the identity"
         ));
     }
     if !others.is_empty() {
@@ -277,7 +276,7 @@ fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     (norm > 1e-6).then(|| v.map(|c| c / norm))
 }
 
-/// From workpiece to tool: of the table's axes those that stand on another one come first, of the head's the other way round.
+/// From workpiece to tool: of the table's axes those mounted on another one come first, of the head's in the opposite order.
 fn order(placed: Vec<Placed>, draft: &mut Draft) -> Result<(), MachineError> {
     let parents: BTreeMap<String, Option<String>> = placed
         .iter()
@@ -298,7 +297,7 @@ fn order(placed: Vec<Placed>, draft: &mut Draft) -> Result<(), MachineError> {
     let mut ranked = Vec::new();
     for one in placed {
         let Some(depth) = depth(one.axis.letter) else {
-            let message = format!("axis {} is mounted on itself by way of others", one.axis.letter);
+            let message = format!("axis {} is mounted on itself through other axes", one.axis.letter);
             return Err(MachineError { message, span: None });
         };
         let head = one.axis.side == Some("head");
@@ -312,7 +311,7 @@ fn order(placed: Vec<Placed>, draft: &mut Draft) -> Result<(), MachineError> {
     if turning.windows(2).any(|pair| tied(pair[0], pair[1])) {
         draft.unknown.push("order");
         draft.open.push(
-            "which rotary axis stands on which is not said: give them a parent in FreeCAD, or order the axes here"
+            "it is not known which rotary axis is mounted on which: set their parents in FreeCAD, or put the axes in order here"
                 .to_owned(),
         );
     } else if turning
@@ -320,7 +319,7 @@ fn order(placed: Vec<Placed>, draft: &mut Draft) -> Result<(), MachineError> {
         .any(|one| ranked.iter().any(|other| !other.2.rotary && tied(one, other)))
     {
         draft.open.push(
-            "some linear and rotary axes have no parent: a rotary axis is taken to carry no linear one, so the rotary axes of the table stand first and those of the head last".to_owned(),
+            "some linear and rotary axes have no parent: it is assumed that no rotary axis carries a linear one, so the rotary axes of the table come first and those of the head last".to_owned(),
         );
         ranked.sort_by_key(|(head, rank, axis)| (*head, if *head { axis.rotary } else { !axis.rotary }, *rank));
     }

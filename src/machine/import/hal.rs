@@ -58,7 +58,7 @@ impl<'a> Pins<'a> {
         pins
     }
 
-    /// A pin of the component by the part behind the dot.
+    /// A pin of the component by the part after the dot.
     pub(super) fn get(&self, name: &str) -> Result<Pin, MachineError> {
         let given = |(pin, _): &&(String, f64)| plain(pin) == plain(name) || self.is(pin, name);
         if let Some((_, value)) = self.given.iter().find(given) {

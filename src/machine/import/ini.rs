@@ -46,7 +46,7 @@ impl<'a> Ini<'a> {
             } else if line.is_empty() || line.starts_with(['#', ';']) {
             } else if let Some(name) = line.strip_prefix('[') {
                 let Some((name, _)) = name.split_once(']') else {
-                    return Err(error("a section needs its closing bracket"));
+                    return Err(error("this section has no closing bracket"));
                 };
                 section = name.trim();
             } else if let Some((key, value)) = line.split_once('=') {
@@ -59,7 +59,7 @@ impl<'a> Ini<'a> {
                     span: value_at..value_at + value.len(),
                 });
             } else {
-                return Err(error("neither [SECTION], nor KEY = VALUE, nor a comment"));
+                return Err(error("expected [SECTION], KEY = VALUE or a comment"));
             }
         }
         Ok(ini)

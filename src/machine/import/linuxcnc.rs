@@ -21,7 +21,7 @@ pub fn import_linuxcnc(name: &str, text: &str, given: &[(String, f64)]) -> Resul
     let Some(Chain { axes, tcp, unknown }) = chain(&kins.module, &letters, &mut offsets)? else {
         return Err(MachineError {
             message: format!(
-                "kinematics module {:?} is not known; known: {}",
+                "unknown kinematics module {:?}; known modules: {}",
                 kins.module,
                 KNOWN.join(", ")
             ),
@@ -55,23 +55,23 @@ pub fn import_linuxcnc(name: &str, text: &str, given: &[(String, f64)]) -> Resul
         .iter()
         .filter(|letter| !draft.axes.iter().any(|axis| axis.letter == **letter))
     {
-        let text = format!("axis {letter}: the module hands it through without saying what it moves; it is left out");
+        let text = format!("axis {letter}: the module passes it on without defining what it moves; it is left out");
         draft.open.push(text);
     }
     if draft.tcp && ini.entries.iter().any(|entry| entry.key == "REMAP") {
         draft.open.push(
-            "which codes switch the kinematics stands in the files of REMAP, which are not read: declare [control] tcp_codes".to_owned(),
+            "the REMAP files define which codes switch the kinematics, and they are not read: declare [control] tcp_codes".to_owned(),
         );
     }
     for file in &ini.includes {
         draft
             .open
-            .push(format!("#INCLUDE {file}: not read; what it says is missing here"));
+            .push(format!("#INCLUDE {file}: not read; its contents are missing here"));
     }
     if kins.section != "KINS" {
         draft
             .open
-            .push(format!("the module stands in [{}], not in [KINS]", kins.section));
+            .push(format!("the module is named in [{}], not in [KINS]", kins.section));
     }
     if ini
         .entries
@@ -97,7 +97,7 @@ fn kinematics(ini: &Ini<'_>) -> Result<Kinematics, MachineError> {
     let entry = ini.get("KINS", "KINEMATICS");
     let entry = entry.or_else(|| ini.entries.iter().find(|entry| entry.key == "KINEMATICS"));
     let Some(entry) = entry else {
-        let message = "there is no [KINS] KINEMATICS: which module moves the joints is not known".to_owned();
+        let message = "[KINS] KINEMATICS is missing: it is not known which module moves the joints".to_owned();
         return Err(MachineError { message, span: None });
     };
     let mut words = entry.value.split_whitespace().map(str::to_owned);
@@ -139,7 +139,7 @@ impl Scale {
     fn read(ini: &Ini<'_>) -> Result<Self, MachineError> {
         let read = |key: &str, names: &[(&str, f64)]| match ini.get("TRAJ", key) {
             None => Err(MachineError {
-                message: format!("[TRAJ] {key} is missing: the unit of the numbers is not known"),
+                message: format!("[TRAJ] {key} is missing: the unit of the numbers is unknown"),
                 span: None,
             }),
             Some(entry) => {
@@ -151,7 +151,7 @@ impl Scale {
                 match entry.number() {
                     Ok(units) if units > 0.0 => Ok(1.0 / units),
                     _ => Err(MachineError {
-                        message: format!("[TRAJ] {key} = {:?} is no unit that is known", entry.value),
+                        message: format!("[TRAJ] {key} = {:?} is not a known unit", entry.value),
                         span: Some(entry.span.clone()),
                     }),
                 }
@@ -221,7 +221,7 @@ fn limits(
     let mut sections = vec![format!("AXIS_{named}")];
     if let Some(joint) = joint {
         sections.push(format!("JOINT_{joint}"));
-        // before joints and axes were told apart (2.7 and older), axes were numbered
+        // before LinuxCNC distinguished joints and axes (2.7 and older), axes were numbered
         sections.push(format!("AXIS_{joint}"));
     }
     let factor = if axis.rotary { scale.angle } else { scale.length };
@@ -233,7 +233,7 @@ fn limits(
             }
         }
         if found.is_none() {
-            open.push(format!("axis {}: {key} is not given and stays undeclared", axis.letter));
+            open.push(format!("axis {}: {key} is missing and stays undeclared", axis.letter));
         }
         Ok(found.map(|value| value * factor))
     };

@@ -102,7 +102,7 @@ fn tcp(axes: Vec<DraftAxis>) -> Chain {
     }
 }
 
-/// Joints are words: linear axes are what they are called; of rotary axes nothing is said.
+/// Joints are words: linear axes are what their letters say; nothing is assumed about rotary axes.
 fn trivial(letters: &[char]) -> Chain {
     let rotary = |letter: &&char| ('A'..='C').contains(*letter);
     let extra = |letter: &&char| ('U'..='W').contains(*letter);

@@ -101,7 +101,7 @@ fn nutating_heads_leave_their_offsets_open_until_they_are_given() {
             );
         }
         let refused = load("open", &open.toml).expect_err("the chain is not known");
-        assert!(refused.message.contains("not known"), "{refused}");
+        assert!(refused.message.contains("unknown"), "{refused}");
         let mut given = set(&pins);
         given.extend(set(&[("x-offset", 0.0), ("y-offset", 0.0)]));
         let whole = import_linuxcnc("test.ini", &text, &given).expect("valid");
@@ -121,11 +121,11 @@ fn a_machine_of_trivial_kinematics_keeps_its_rotary_axes_open() {
         let imported = import_linuxcnc("PocketNC.ini", &text, &[]).expect("an INI file");
         let refused = load("open", &imported.toml).expect_err("nothing says where A and B are");
         assert!(
-            refused.message.contains("`order` of this machine is not known"),
+            refused.message.contains("`order` of this machine is unknown"),
             "{refused}"
         );
         for letter in ["A", "B"] {
-            let start = format!("axis {letter}: side, dir, point, sign not known");
+            let start = format!("axis {letter}: side, dir, point, sign unknown");
             assert!(
                 imported.open.iter().any(|line| line.starts_with(&start)),
                 "{:?}",
@@ -180,7 +180,7 @@ fn an_own_configuration() {
     assert!(
         imported
             .open
-            .contains(&"axis W: MIN_LIMIT is not given and stays undeclared".to_owned())
+            .contains(&"axis W: MIN_LIMIT is missing and stays undeclared".to_owned())
     );
 }
 
@@ -191,14 +191,9 @@ fn what_is_wrong_with_an_ini_is_named_and_located() {
             "5axiskins coordinates",
             "6axiskins coordinates",
             "6axiskins coordinates=xyzbcwy",
-            "6axiskins\" is not known; known: trivkins",
+            "6axiskins\"; known modules: trivkins",
         ),
-        (
-            "LINEAR_UNITS = inch",
-            "LINEAR_UNITS = ell",
-            "ell",
-            "no unit that is known",
-        ),
+        ("LINEAR_UNITS = inch", "LINEAR_UNITS = ell", "ell", "not a known unit"),
         (
             "MIN_LIMIT = -10",
             "MIN_LIMIT = ten",
@@ -206,7 +201,7 @@ fn what_is_wrong_with_an_ini_is_named_and_located() {
             "MIN_LIMIT = \"ten\" of [AXIS_X] is not a number",
         ),
         ("[TRAJ]", "[TRAJ", "[TRAJ", "closing bracket"),
-        ("PIVOT = 120", "PIVOT 120", "PIVOT 120", "neither [SECTION]"),
+        ("PIVOT = 120", "PIVOT 120", "PIVOT 120", "expected [SECTION]"),
         (
             "[MINE]PIVOT",
             "long",
@@ -220,10 +215,10 @@ fn what_is_wrong_with_an_ini_is_named_and_located() {
         assert_eq!(&text[error.span.clone().expect("a place")], at, "{error}");
     }
     let missing = import_linuxcnc("small.ini", "[TRAJ]\nCOORDINATES = XYZ\n", &[]).expect_err("no module");
-    assert!(missing.message.contains("no [KINS] KINEMATICS"), "{missing}");
+    assert!(missing.message.contains("[KINS] KINEMATICS is missing"), "{missing}");
 }
 
-/// An own FreeCAD machine: C stands on A.
+/// A FreeCAD machine of our own: C is mounted on A.
 const FREECAD: &str = r#"{
   "freecad_version": "1.2.0",
   "machine": {
@@ -249,7 +244,7 @@ const FREECAD: &str = r#"{
 fn a_freecad_machine_keeps_the_sense_of_its_rotary_axes_open() {
     let imported = import_freecad("own.fcm", FREECAD).expect("a machine");
     let refused = load("own", &imported.toml).expect_err("signs are not known");
-    assert!(refused.message.contains("`sign` is not known"), "{refused}");
+    assert!(refused.message.contains("`sign` is unknown"), "{refused}");
     let filled = imported.toml.replace("unknown = [\"sign\"]", "sign = 1");
     let machine = load("own", &filled).unwrap_or_else(|error| panic!("{error}\n{filled}"));
     let letters: String = machine.axes.iter().map(|axis| char::from(axis.letter)).collect();
@@ -262,7 +257,7 @@ fn a_freecad_machine_keeps_the_sense_of_its_rotary_axes_open() {
     assert_eq!(x.limits, crate::Limits::Range(-254.0, 254.0));
     assert_eq!(machine.axes[4].max_speed, None);
     assert!(imported.open.contains(&"axis Z: max_velocity not given".to_owned()));
-    // what is not read is told, above all a frame that would move everything
+    // what is not read is reported, above all a frame that would move everything
     assert!(
         imported
             .open
@@ -276,9 +271,9 @@ fn a_freecad_machine_keeps_the_sense_of_its_rotary_axes_open() {
         framed
             .open
             .iter()
-            .any(|line| line.starts_with("base_frame is not read: places and directions"))
+            .any(|line| line.starts_with("base_frame is not read: positions and directions"))
     );
-    // nobody says which rotary axis carries which
+    // it is not known which rotary axis carries which
     let flat = FREECAD.replace("\"parent\": \"A\"", "\"parent\": null");
     let refused = load("flat", &import_freecad("own.fcm", &flat).expect("a machine").toml).expect_err("no order");
     assert!(refused.message.contains("`order`"), "{refused}");
@@ -291,7 +286,7 @@ fn what_is_wrong_with_a_freecad_machine_is_named_and_located() {
             "\"head_linear\", \"parent\": null",
             "\"tail\", \"parent\": null",
             6,
-            "role \"tail\" is not known",
+            "unknown role \"tail\"",
         ),
         (
             "\"type\": \"linear\", \"role\": \"head_linear\", \"parent\": \"X\"",

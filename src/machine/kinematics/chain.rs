@@ -70,7 +70,7 @@ pub enum Wrap {
     /// The value as written, with its turns.
     #[default]
     Literal,
-    /// The shortest way to the angle (M126).
+    /// The shortest turn to the angle (M126).
     Shortest,
     /// The angle modulo 360 deg; the sign of the word is the direction of turning.
     ModuloSign,
@@ -107,7 +107,7 @@ pub struct AxisExtra {
     pub point_uncertainty: Option<f64>,
     /// Uncertainty of the axis' direction, rad; `None`: not declared.
     pub direction_uncertainty: Option<f64>,
-    /// A rotary axis beyond the two that inverse kinematics solves for stands at this value, rad; `None`: it moves.
+    /// A rotary axis beyond the two that inverse kinematics solves for is held at this value, rad; `None`: it moves.
     pub hold: Option<f64>,
 }
 
@@ -147,13 +147,13 @@ pub(crate) enum PoleAction {
 /// What F counts along where rotary and linear axes move together without TCP.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeedMeaning {
-    /// The path of X Y Z, mm; where these stand still the angle, deg (RS274/NGC).
+    /// The path of X Y Z, mm; where these do not move the angle, deg (RS274/NGC).
     Xyz,
     /// The root of the squares of mm and deg of all axes.
     Combined,
 }
 
-/// A rigid body that hangs on a part of the machine (for clearance checks).
+/// A rigid body that is attached to a part of the machine (for clearance checks).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Body {
     /// Axis letter, `base`, `spindle` or `workpiece`.
@@ -169,7 +169,7 @@ pub struct Control {
     pub family: String,
     /// With TCP: orientation on the great circle (true) or joint-linear (false).
     pub tcp_great_circle: bool,
-    /// Whether the machine file said so, or it is the default.
+    /// Whether the machine file declares it, or it is the default.
     pub tcp_declared: bool,
     /// How rapid motions run.
     pub rapid: RapidPath,
@@ -216,9 +216,9 @@ pub struct Tolerances {
     pub swept_mm: f64,
     /// excess-rotary-travel: turn of the rotary axes over turn of the tool axis.
     pub rotary_ratio: f64,
-    /// excess-linear-travel: way of the linear axes over way of the tip.
+    /// excess-linear-travel: travel of the linear axes divided by travel of the tip.
     pub linear_ratio: f64,
-    /// excess-rapid-travel: way of the rapid motions over the direct way.
+    /// excess-rapid-travel: travel of the rapid motions divided by the direct distance.
     pub rapid_ratio: f64,
     /// pivot-uncertainty, mm.
     pub pivot_mm: f64,

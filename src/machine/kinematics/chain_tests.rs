@@ -98,7 +98,7 @@ fn random_machine(random: &mut SplitMix) -> Machine {
     }
 }
 
-/// The chain product as kinematics notes 2.1 write it, one axis after the other.
+/// The chain product as in docs/kinematics.md#machine-model, one axis after the other.
 fn naive_forward(machine: &Machine, joints: &Joints, length: f64) -> (Vec3, Vec3) {
     let (mut tip, mut direction) = (machine.gauge_point - machine.tool_axis * length, machine.tool_axis);
     for (axis, q) in machine.axes.iter().zip(joints).rev() {

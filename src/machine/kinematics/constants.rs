@@ -28,7 +28,7 @@ pub struct LinearAxis {
     pub segment: usize,
 }
 
-/// Constants of the orientation solver (kinematics notes 2.3); only for machines with two rotary axes.
+/// Constants of the orientation solver (docs/kinematics.md#two-postures); only for machines with two rotary axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PairConstants {
     /// c = e1 . e2.
@@ -97,7 +97,7 @@ const NO_LINEAR: LinearAxis = LinearAxis {
 };
 
 impl Constants {
-    /// From the axes (workpiece to tool) and the tool axis at home. Held axes are no joints here: they carry what stands behind them.
+    /// From the axes (workpiece to tool) and the tool axis at home. Held axes are not joints here: they only move what follows them in the chain.
     /// `None` when the linear axes do not span space, when more than two rotary axes move, or when both of them are parallel.
     pub(crate) fn new(axes: &[Axis], tool_axis: &Vec3) -> Option<Self> {
         let (mut rotary, mut rotary_count) = ([NO_ROTARY; 2], 0);
@@ -213,7 +213,7 @@ impl PairConstants {
     }
 }
 
-/// Rounding residues of unit vectors become the zero they stand for, so that an exact pole is one.
+/// Rounding residues of unit vectors become exactly zero, so that an exact pole is one.
 fn snap(value: f64) -> f64 {
     if value.abs() < 1e-15 { 0.0 } else { value }
 }

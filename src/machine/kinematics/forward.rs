@@ -56,7 +56,7 @@ impl Turn {
     }
 }
 
-/// How the axis of a turn lies: most lie along a coordinate, which a turn about them leaves as it is.
+/// The direction of the axis of a turn: most are parallel to a coordinate axis, whose component the turn leaves unchanged.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Along {
     /// Its direction along X, 1 or -1.
@@ -81,7 +81,7 @@ impl Along {
         }
     }
 
-    /// A vector turned about the axis `e`, of which this is told, by the angle with this sine and cosine (Rodrigues' formula).
+    /// A vector turned about the axis `e`, which this describes, by the angle with this sine and cosine (Rodrigues' formula).
     #[inline]
     pub(crate) fn turn(self, e: &Vec3, (sin, cos): (f64, f64), v: &Vec3) -> Vec3 {
         match self {
@@ -151,7 +151,7 @@ pub(crate) fn segment_shifts(constants: &Constants, joints: &Joints) -> [Vec3; 3
     shifts
 }
 
-/// Forward kinematics: kinematics notes 2.1 (product of the chain's motions, workpiece to tool). `tool_length` in mm. A held axis counts
+/// Forward kinematics: docs/kinematics.md#machine-model (product of the chain's motions, workpiece to tool). `tool_length` in mm. A held axis counts
 /// with its value in `joints`.
 pub fn forward(machine: &Machine, joints: &Joints, tool_length: f64) -> Pose {
     if let Some(other) = machine.held_elsewhere(joints) {
@@ -170,7 +170,7 @@ pub fn forward(machine: &Machine, joints: &Joints, tool_length: f64) -> Pose {
     Pose { tip, axis }
 }
 
-/// Tool axis in the workpiece frame for two rotary joint values, rad (a missing one is ignored): u = R1 R2 k0, kinematics notes 2.1.
+/// Tool axis in the workpiece frame for two rotary joint values, rad (a missing one is ignored): u = R1 R2 k0, docs/kinematics.md#machine-model.
 pub fn tool_axis_at(machine: &Machine, q: [f64; 2]) -> Vec3 {
     let constants = &machine.constants;
     let mut axis = machine.tool_axis;
@@ -188,7 +188,7 @@ mod tests {
     use trunnion_geometry::math::{rotate, sin_cos};
 
     proptest! {
-        /// Along each coordinate, both ways, and askew: as the formula without its short cuts, and back again.
+        /// Along each coordinate, in both directions, and skewed: same as the formula without its short cuts, and back again.
         #[test]
         fn turns_are_those_of_rodrigues(
             axis in prop_oneof![

@@ -1,5 +1,5 @@
 //! Rotary axes beyond the two that inverse kinematics solves for. The machine file holds each of them at a value; it then only carries
-//! what stands behind it in the chain: with H its motion, A H B = (A)(H B H^-1)(H), so that directions and points behind it are turned
+//! what follows it in the chain: with H its motion, A H B = (A)(H B H^-1)(H), so that directions and points after it are turned
 //! and moved by H once, and the solver sees two rotary axes.
 use crate::{Axis, Constants, Joints, Machine, NoStance};
 use core::f64::consts::TAU;
@@ -75,7 +75,7 @@ impl Machine {
     }
 }
 
-/// Held axes that no word names stand where the machine file holds them; one that a word moves elsewhere ends what can be said.
+/// Held axes that no word names are where the machine file holds them; one that a word moves elsewhere makes the rest unknown.
 pub(crate) fn settle_held(machine: &Machine, known: &mut (Joints, u16)) -> Result<(), NoStance> {
     if machine.all_move() {
         return Ok(());

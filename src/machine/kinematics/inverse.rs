@@ -58,7 +58,7 @@ impl<'a> IntoIterator for &'a Postures {
 /// All orientations that reach a tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Orientations {
-    /// No posture: the tool axis lies outside the cone the machine reaches; angle to it, rad.
+    /// No posture: the tool axis is outside the cone that the machine reaches; angle to it, rad.
     Unreachable(f64),
     /// One or two postures (one at the edge of the reach, and on machines with fewer than two rotary axes).
     Postures(Postures),
@@ -66,7 +66,7 @@ pub enum Orientations {
     Pole(f64),
 }
 
-/// Exact orientation solver, kinematics notes 2.3 and 2.5. `axis` must have length 1. Windings and limits are not applied.
+/// Exact orientation solver, docs/kinematics.md#two-postures. `axis` must have length 1. Windings and limits are not applied.
 pub fn orientations(machine: &Machine, axis: &Vec3) -> Orientations {
     let constants = &machine.constants;
     match (constants.rotary_count, &constants.pair) {
@@ -86,7 +86,7 @@ fn no_rotary(tool_axis: &Vec3, axis: &Vec3) -> Orientations {
     }
 }
 
-/// One rotary axis: u = Rot(e, q) k0 keeps its angle to e (kinematics notes 2.5).
+/// One rotary axis: u = Rot(e, q) k0 keeps its angle to e (docs/kinematics.md#fewer-rotary-axes).
 fn one_rotary(constants: &Constants, tool_axis: &Vec3, axis: &Vec3) -> Orientations {
     let rotary = &constants.rotary[0];
     let e = rotary.direction;

@@ -23,7 +23,7 @@ fn changed(name: &str, replace: &[(&str, &str)]) -> Machine {
     load(name, &text).expect("valid")
 }
 
-/// A shipped machine whose rotary axes turn the other way round.
+/// A built-in machine with its rotary axes reversed.
 fn turned(name: &str) -> Machine {
     let source = builtin_source(name).expect("shipped");
     let axes = source.split("[[check]]").next().expect("a part");
@@ -78,13 +78,13 @@ fn agree(machine: &Machine, formula: impl Fn(&Given) -> [f64; 3]) {
 }
 
 /// A table turns by an angle: where the coordinates (a, b) of a point on it go, seen from the machine, in the plane of the turn with a
-/// turning towards b. The table turns the other way round than the tool would.
+/// turning towards b. The table turns in the opposite direction to the tool.
 fn turned_plane(angle: f64, (a, b): (f64, f64)) -> (f64, f64) {
     (a * cos(angle) + b * sin(angle), b * cos(angle) - a * sin(angle))
 }
 
-/// xyzac-trt: `con` +1 conventional, -1 the default; offsets y, z of A against C; rotation point. C lies on A: first the point goes round
-/// C, then round A, whose axis passes by the offsets; the position is measured from the spindle's nose, so the tool's length lies
+/// xyzac-trt: `con` +1 conventional, -1 the default; offsets y, z of A relative to C; rotation point. C is mounted on A: first the point turns about
+/// C, then about A, whose axis passes at the offsets; the position is measured from the spindle nose, so the tool's length is
 /// between it and the axis.
 fn xyzac(g: &Given, con: f64, [dy, dz]: [f64; 2], r: [f64; 3]) -> [f64; 3] {
     let (x, y) = turned_plane(con * g.c, (g.p.x - r[0], g.p.y - r[1]));
@@ -150,7 +150,7 @@ fn xyzbc_trt_in_both_conventions() {
     }
 }
 
-/// xyzab-tdr: the part turns with A, which lies on B and is dz above its point; the x offset of the module cancels out.
+/// xyzab-tdr: the part turns with A, which is mounted on B and is dz above its point; the x offset of the module cancels out.
 fn xyzab_tdr(g: &Given, s: f64, r: [f64; 3], dz: f64) -> [f64; 3] {
     let (y, z) = turned_plane(s * g.a, (g.p.y - r[1], g.p.z - r[2] - dz - g.length));
     let (z, x) = turned_plane(s * g.b, (z + dz, g.p.x - r[0]));
@@ -222,7 +222,7 @@ fn max5_in_both_conventions() {
 fn nutating(angle: f64, s: f64, along: f64, up: f64) -> [f64; 3] {
     let nu = 55_f64.to_radians();
     let (sv, cv) = (sin(nu), cos(nu));
-    // what lies along the nutating axis stays, what lies across it goes round
+    // what is parallel to the nutating axis stays, what is perpendicular to it turns
     let (stays, goes) = (sv * along + cv * up, cv * along - sv * up);
     let (level, across) = (goes * cos(angle), -goes * s * sin(angle));
     [across, stays * sv + level * cv, stays * cv - level * sv]
@@ -261,7 +261,7 @@ fn nutating_heads_in_both_conventions() {
     agree(&turned("linuxcnc-xyzbca-trsrn"), |g| xyzbca(g, -1.0));
 }
 
-/// The table of kinematics notes 2.1.
+/// Published machines in the form of docs/kinematics.md#machine-model.
 #[test]
 fn tool_axes_of_the_notes() {
     type Formula = fn([f64; 3], [f64; 3]) -> [f64; 3];

@@ -1,6 +1,6 @@
 //! Posture sign and distance from the pole.
 //!
-//! With tau = s2 q2 + azimuth of k0 about e2: e1.u = c y + rho cos tau and S = -rho sin tau (from kinematics notes 2.3), so that the
+//! With tau = s2 q2 + azimuth of k0 about e2: e1.u = c y + rho cos tau and S = -rho sin tau (from docs/kinematics.md#two-postures), so that the
 //! angle to the pole depends on the second rotary joint alone and has its extremes where S is zero, at the multiples of pi of tau.
 use crate::{Constants, Machine, PairConstants};
 use core::f64::consts::{FRAC_PI_2, PI};
@@ -70,7 +70,7 @@ pub(crate) fn pole_angle_min(constants: &Constants, pair: &PairConstants, from: 
         return ends;
     }
     let (a, b) = (a / PI, b / PI);
-    // the way of most blocks is between the same two multiples of pi, 0 and one beside it
+    // most blocks stay between the same two multiples of pi, 0 and one beside it
     if a.min(b) > 0.0 && a.max(b) < 1.0 || a.min(b) > -1.0 && a.max(b) < 0.0 {
         return ends;
     }

@@ -12,7 +12,7 @@ pub(crate) fn reach(machine: &Machine) -> String {
         return match constants.rotary_count {
             0 => format!("the tool axis is always {home}"),
             _ => format!(
-                "the cone that {home} describes about {}",
+                "the cone that {home} sweeps around {}",
                 direction(&constants.rotary[0].direction)
             ),
         };
@@ -33,7 +33,7 @@ pub(crate) fn reach(machine: &Machine) -> String {
     };
     let [low, high] = legal_cone(machine, [min, max]);
     format!(
-        "{whole} by geometry; inside the travel of {}: {} to {} deg from {first}",
+        "{whole} by geometry; within the travel of {}: {} to {} deg from {first}",
         char::from(second.letter),
         number(deg(low)),
         number(deg(high))
@@ -86,10 +86,10 @@ pub(crate) fn pole(machine: &Machine) -> String {
         })
         .collect();
     if ends.is_empty() {
-        return format!("none: the tool never stands along the axis of {first}");
+        return format!("none: the tool is never parallel to the axis of {first}");
     }
     format!(
-        "{first} is free where the tool stands along {}; near it, {first} must turn fast",
+        "{first} is free where the tool is parallel to {}; near it, {first} must turn fast",
         ends.join(" or ")
     )
 }

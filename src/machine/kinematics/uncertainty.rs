@@ -1,4 +1,4 @@
-//! What the declared uncertainty of an axis does to the tip (PIVOT-SENS, kinematics notes 5): first order, worst direction.
+//! What the declared uncertainty of an axis does to the tip (docs/kinematics.md#uncertainty-of-the-rotary-axes): first order, worst direction.
 //!
 //! A control that believes a rotary axis to pass through c while it passes through c + dc, and that was zeroed with the axis at zero,
 //! misses the tip by (I - R) dc, whose length is at most 2 |sin(q/2)| |dc|. An axis that is tilted by a small angle e about a line
@@ -62,7 +62,7 @@ pub fn pivot_sensitivity_between(
     found
 }
 
-/// Largest |sin(q / 2)| for q between two angles: 1 where half a turn (and any whole turns) lies between them.
+/// Largest |sin(q / 2)| for q between two angles: 1 where half a turn (plus any full turns) is between them.
 fn largest_half_sine([a, b]: [f64; 2]) -> f64 {
     let (low, high) = (a.min(b), a.max(b));
     // the first odd multiple of pi that is not below `low`

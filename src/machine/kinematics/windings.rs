@@ -24,7 +24,7 @@ impl core::ops::Deref for Windings {
 }
 
 /// The values q + 2 pi m inside the limits of axis `axis` (joint index), nearest to `near` first, at most three; empty when no winding
-/// is legal or when the axis is missing. A value 1e-5 deg or less beyond a limit becomes the limit. All in rad. Source: kinematics notes 2.3.
+/// is legal or when the axis is missing. A value 1e-5 deg or less beyond a limit becomes the limit. All in rad. Source: docs/kinematics.md#two-postures.
 pub fn windings(machine: &Machine, axis: usize, q: f64, near: f64) -> Windings {
     match machine.axes.get(axis) {
         Some(axis) => windings_in(axis.limits, q, near),
@@ -71,7 +71,7 @@ pub(crate) fn windings_in(limits: Limits, q: f64, near: f64) -> Windings {
 }
 
 /// S = e1 . (R1 e2 x u) of a posture, signed; |S| = sqrt(g2) D. It depends on q2 alone (rad), since R1 keeps e1: S = (e1 x e2) . R2 k0.
-/// 0 for machines with fewer than two rotary axes. Source: kinematics notes 2.3.
+/// 0 for machines with fewer than two rotary axes. Source: docs/kinematics.md#two-postures.
 pub fn solution_s(machine: &Machine, q2: f64) -> f64 {
     let (Some(pair), [_, second]) = (&machine.constants.pair, &machine.constants.rotary) else {
         return 0.0;

@@ -51,12 +51,12 @@ impl<'a> BlockPath<'a> {
     }
 
     /// Upper bound of the second derivative of the tip path, mm per block squared: between two moments that lie the share h apart the tip
-    /// is no farther than `tip_bend() h^2 / 8` from where it would be on the straight line between them. Source: kinematics notes 3.
+    /// is no farther than `tip_bend() h^2 / 8` from where it would be on the straight line between them. Source: docs/kinematics.md#between-the-ends-of-a-block.
     pub fn tip_bend(&self) -> f64 {
         self.bend
     }
 
-    /// Q of kinematics notes 3, axis by axis from the tool to the workpiece: turning a point with rate v and second derivative a by the
+    /// Q of docs/kinematics.md#between-the-ends-of-a-block, axis by axis from the tool to the workpiece: turning a point with rate v and second derivative a by the
     /// even rate D gives at most v + D r and a + 2 D v + D^2 r, r its largest distance from the axis: at an end, or above the chord
     /// between them by a / 8.
     fn tip_bend_bound(&self) -> f64 {

@@ -222,7 +222,7 @@ impl Shift {
 /// A point that is carried through the chain: its ends, and bounds of its first and second derivative over a piece of a block.
 ///
 /// Turning by an angle with rate at most D and second derivative at most E adds D r to the rate and 2 D v + (D^2 + E) r to the second
-/// derivative, r being the largest distance from the axis (kinematics notes 3, taken axis by axis). r is largest at an end or above its
+/// derivative, r being the largest distance from the axis (docs/kinematics.md#between-the-ends-of-a-block, taken axis by axis). r is largest at an end or above its
 /// chord by bend h^2 / 8.
 pub(crate) struct Carried {
     pub(crate) start: Vec3,

@@ -14,7 +14,7 @@ pub(crate) struct CurveDistance<W, S> {
     pub(crate) curve_bend: f64,
 }
 
-/// What was found; mm, and the share of the block where the largest sample lies.
+/// What was found; mm, and where in the block the largest sample is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Found {
     /// Never above the truth.
@@ -76,7 +76,7 @@ impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> CurveDistance<W, S> {
     ///
     /// On a piece of t of length h any choice of s for each t gives an upper bound. Taken are s running evenly between the feet of both
     /// ends, |E''| <= point bend h^2 + curve bend ds^2 with E = W - S, and s standing at either foot: largest end + |E''| / 8
-    /// (kinematics notes 3). The second closes where the nearest point jumps from one part of the curve to another.
+    /// (docs/kinematics.md#between-the-ends-of-a-block). The second closes where the nearest point jumps from one part of the curve to another.
     pub(crate) fn farthest(&self, enough: impl Fn(f64, f64, u32) -> bool) -> Found {
         let loose = Cell::new(0.0_f64);
         let found = peak_tagged(
@@ -106,7 +106,7 @@ impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> CurveDistance<W, S> {
             .min(still(piece.value_to, &to.foot, &from.point))
     }
 
-    /// Distance of W(t) from the curve, at most [`slack`] above the truth, and where the foot lies: the piece of the curve whose lower
+    /// Distance of W(t) from the curve, at most [`slack`] above the true value, and where the foot is: the piece of the curve whose lower
     /// bound (distance from its chord less bend ds^2 / 8) is smallest is halved first. Where that takes too long, `loose` grows to how far
     /// above the truth it may lie.
     fn nearest(&self, t: f64, loose: &Cell<f64>) -> (f64, Radii) {
@@ -226,7 +226,7 @@ mod tests {
         assert!((over([0.2, 0.6], [9.0, 0.5]) - 2.25).abs() < 1e-12);
     }
 
-    /// A spike of the curve that a thousand looks miss comes within 0.01 mm of the point: what is said to be sampled is no more.
+    /// A spike of the curve that a thousand samples miss comes within 0.01 mm of the point: the sampled value is not larger.
     #[test]
     fn a_foot_that_was_not_found_is_allowed_for() {
         let spike = |s: f64| {

@@ -13,7 +13,7 @@ pub struct Deviation {
     pub sampled_mm: f64,
     /// Proven upper bound, mm (never below the truth).
     pub bound_mm: f64,
-    /// Share of the block, 0..=1, where the largest sample lies.
+    /// Where in the block, 0..=1, the largest sample is.
     pub at: f64,
 }
 
@@ -35,10 +35,10 @@ pub(crate) const RATIO: f64 = 1.19;
 /// Set distance of the tip path to the programmed segment. `tolerance_mm`: the bound may be loose where it already proves
 /// this; above it, it is at most 1.2 times the truth. `None`: not modelled, an unknown stance, or a rapid whose axes run each for itself.
 ///
-/// The segment of a line joins the tips at both ends in the workpiece frame; that of an arc is the arc as it lies in the workpiece at the
+/// The segment of a line joins the tips at both ends in the workpiece frame; that of an arc is the arc in its position in the workpiece at the
 /// start of the block, its end carried evenly to where the tip ends. With TCP or vectors the control keeps the tip on the programmed
 /// path, so the deviation is zero by construction, and so it is where no rotary axis moves. Without TCP the joints run linearly (X Y Z
-/// along the arc) and the tip on W(t); bound: largest sample + Q h^2 / 8 per piece of length h, Q >= |W''|. Source: kinematics notes 3.
+/// along the arc) and the tip on W(t); bound: largest sample + Q h^2 / 8 per piece of length h, Q >= |W''|. Source: docs/kinematics.md#between-the-ends-of-a-block.
 pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<Deviation> {
     if runs_dogleg(machine, leg) {
         return None;

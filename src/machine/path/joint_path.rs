@@ -210,7 +210,7 @@ impl<'a> JointPath<'a> {
     }
 
     /// Linear joints and their rates at t. Without TCP the joints follow the track, with TCP they are solved from the tip:
-    /// J q = P - p0, J q' = P' - p0' - J' q (kinematics notes 2.2, differentiated).
+    /// J q = P - p0, J q' = P' - p0' - J' q (docs/kinematics.md#linear-axes-for-a-given-tip, differentiated).
     pub(crate) fn moment(&self, t: f64) -> Moment {
         if !self.tip {
             return self.joint_moment(t);

@@ -5,17 +5,17 @@ use trunnion_geometry::math::hypot;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, MotionKind};
 
-/// A way below this is none, mm: what sums of increments, unit conversions and changes of the frame leave behind at coordinates of up to
+/// A shorter path counts as none, mm: what sums of increments, unit conversions and changes of the frame leave at coordinates of up to
 /// 100 m. No control resolves it, and a speed along it would be noise over noise.
 const NO_WAY: f64 = 1e-9;
 
-/// The length of a way, 0 where it is none.
+/// The length of a path, 0 where there is none.
 #[inline]
 pub(crate) fn way(length: f64) -> f64 {
     if length < NO_WAY { 0.0 } else { length }
 }
 
-/// What the rotary axes add to the way along which F counts, deg: nothing unless the control counts all axes together.
+/// What the rotary axes add to the path along which F counts, deg: nothing unless the control counts all axes together.
 pub(crate) fn rotary_part(machine: &Machine, leg: &Leg) -> f64 {
     let motion = &leg.motion;
     let combined = machine.control.feed == Some(FeedMeaning::Combined);

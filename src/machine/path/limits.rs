@@ -30,7 +30,7 @@ const CLOSE_MM: f64 = 1e-3;
 
 /// All joints outside their travel in this leg, each limit once with the worst value. At the end: the known joints, also
 /// where the stance is not known; at a start that the program gave without a motion, all of them. Inside the block, whatever its ends
-/// are: linear joints under TCP or along arcs, and rotary ones on a great circle, by the bound of kinematics notes 3 and bisection;
+/// are: linear joints under TCP or along arcs, and rotary ones on a great circle, by the bound of docs/kinematics.md#between-the-ends-of-a-block and bisection;
 /// other joints run straight from end to end, so that an end is their worst. A joint that only returns from beyond its limit is not
 /// named again: the block before named it.
 ///
@@ -42,7 +42,7 @@ pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) -> bool
     }
     let (joints, known) = (&leg.known_joints.0, leg.known_joints.1);
     ends(machine, joints, known, out);
-    // an arc that does not exist has no way between its ends: it is a fault of the program, told as one
+    // an arc that does not exist has no path between its ends: it is a fault of the program, reported as one
     if leg.motion.kind == MotionKind::Arc(None) || !may_bend(machine, leg) {
         return true;
     }
@@ -53,13 +53,13 @@ pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) -> bool
     true
 }
 
-/// Whether the axes of a rapid may arrive together or each for itself: what lies between the ends is then known for neither. Of a control
-/// whose axes run each for itself nobody says whether they still do while it leads the tip.
+/// Whether the axes of a rapid may arrive together or each separately: what happens between the ends is then known for neither. Of a control
+/// whose axes run separately it is not known whether they still do while it guides the tip.
 fn is_undeclared(machine: &Machine, leg: &Leg) -> bool {
     leg.motion.kind == MotionKind::Rapid && machine.control.rapid != RapidPath::Synchronous
 }
 
-/// The joints of a mask that stand outside their travel.
+/// The axes of a mask that are outside their travel.
 fn ends(machine: &Machine, joints: &Joints, known: u16, out: &mut Vec<Excess>) {
     for (axis, entry) in machine.axes.iter().enumerate() {
         if known & (1 << axis) != 0
@@ -188,7 +188,7 @@ fn judge(
             tag_from: (),
             tag_to: (),
         };
-        // what the ends reach is told already, here or by the block before
+        // what the ends reach is already reported, here or by the block before
         let told = over(from).max(over(to)).max(0.0) + SLACK;
         // where an end is beyond it, that much is certain
         let certain = if_together && told > 2.0 * SLACK;

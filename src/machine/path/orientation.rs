@@ -16,7 +16,7 @@ pub struct OrientationDeviation {
     pub sampled: f64,
     /// Proven upper bound, rad (never below the truth).
     pub bound: f64,
-    /// Share of the block, 0..=1, where the largest sample lies.
+    /// Where in the block, 0..=1, the largest sample is.
     pub at: f64,
 }
 
@@ -47,7 +47,7 @@ pub(crate) fn strays(machine: &Machine, leg: &Leg) -> bool {
 ///
 /// Zero by construction where no vectors are programmed, where the control runs them on the great circle, and where no rotary axis moves.
 /// With |u''| <= Q (at most (D1 + D2)^2) the axis keeps within asin(Q / 8) of the arc; on a piece of length h the sine of the distance, which
-/// is the distance of u from the convex cone over the arc, is at most its largest end + Q h^2 / 8. Source: kinematics notes 3.
+/// is the distance of u from the convex cone over the arc, is at most its largest end + Q h^2 / 8. Source: docs/kinematics.md#between-the-ends-of-a-block.
 pub fn orientation_deviation(machine: &Machine, leg: &Leg, tolerance: f64) -> Option<OrientationDeviation> {
     if crate::path::deviation::runs_dogleg(machine, leg) {
         return None;
@@ -114,7 +114,7 @@ fn asin_or_pi(sine: f64) -> f64 {
 }
 
 /// Q: bound of |u''| while the rotary joints run evenly, per block squared, taken axis by axis from the tool: turning a vector with rate v
-/// and second derivative a by D adds D r and 2 D v + D^2 r, r its largest distance from the axis (kinematics notes 3).
+/// and second derivative a by D adds D r and 2 D v + D^2 r, r its largest distance from the axis (docs/kinematics.md#between-the-ends-of-a-block).
 pub(crate) fn axis_bend(machine: &Machine, start: &Stance, end: &Stance) -> f64 {
     let rotary = machine.constants.rotary();
     let (from, to) = (start.rotary(machine), end.rotary(machine));

@@ -7,7 +7,7 @@ use std::collections::BinaryHeap;
 pub(crate) struct Peak {
     /// Largest value at a sample: never above the truth.
     pub(crate) sampled: f64,
-    /// Where that sample lies, 0..=1.
+    /// Where that sample is, 0..=1.
     pub(crate) at: f64,
     /// Never below the truth.
     pub(crate) bound: f64,
@@ -26,7 +26,7 @@ pub(crate) struct Piece<T = ()> {
 
 impl<T> Piece<T> {
     /// Bound where the second derivative is at most `curvature` (of a function whose chord has no value above its ends, such as the
-    /// distance to a convex set): ends + q h^2 / 8, kinematics notes 3.
+    /// distance to a convex set): ends + q h^2 / 8, docs/kinematics.md#between-the-ends-of-a-block.
     pub(crate) fn below_parabola(&self, curvature: f64) -> f64 {
         let h = self.to - self.from;
         self.value_from.max(self.value_to) + curvature * h * h * 0.125

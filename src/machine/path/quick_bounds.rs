@@ -59,9 +59,9 @@ impl Allowances {
 pub struct QuickBounds {
     /// All joints stay inside their travel ([`crate::limit_excess`] finds nothing).
     pub inside: bool,
-    /// Seconds that the slowest axis needs for its way; infinite where an axis that moves declares no speed.
+    /// Seconds that the slowest axis needs for its travel; infinite where an axis that moves declares no speed.
     pub axes_s: f64,
-    /// Length of the way of the linear joints, mm ([`crate::linear_travel`]).
+    /// Length of the path of the linear axes, mm ([`crate::linear_travel`]).
     pub linear_mm: f64,
     /// Way of the tip from end to end, mm ([`crate::Stance::tip_distance_to`]): no bound.
     pub tip_mm: f64,
@@ -91,7 +91,7 @@ pub fn quick_bounds(
         if !(value >= own.low && value <= own.high) {
             inside = false;
         }
-        // an axis that stands still needs no speed: then the product is not a number, which is not larger
+        // an axis that does not move needs no speed: then the product is not a number, which is not larger
         let seconds = way * own.per_speed;
         if seconds > axes_s {
             axes_s = seconds;
@@ -129,7 +129,7 @@ mod tests {
     use trunnion_interp::{AXIS_LETTERS, MotionKind, Position};
 
     proptest! {
-        /// What a look rules out the functions behind it rule out too, and no bound is below what they find.
+        /// What a glance rules out, the full functions rule out too, and no bound is below what they find.
         #[test]
         fn a_look_promises_no_more_than_the_full_functions(
             machine in 0..BUILTIN_MACHINES.len(),

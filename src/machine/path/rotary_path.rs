@@ -77,8 +77,8 @@ impl<'a> RotaryPath<'a> {
 }
 
 /// How far the rotary axes get from where they start in a block, rad, workpiece side first: at its end, or half-way on a great circle,
-/// where an axis may leave a value that it comes back to. Never above the truth; zero only for an axis that stands still. `None` where a
-/// stance or the way between them is not known.
+/// where an axis may leave a value that it returns to. Never above the true value; zero only for an axis that does not move. `None` where a
+/// stance or the path between them is not known.
 pub fn rotary_turns(machine: &Machine, leg: &Leg) -> Option<[f64; 2]> {
     let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
     let mut turns = leg.rotary_change;
@@ -118,7 +118,7 @@ impl<'a> GreatCircle<'a> {
     }
 
     /// By how much the azimuth of `u` about e1 leads that of the second axis in this posture, rad. S keeps its sign in a posture, so that it
-    /// stays between 0 and pi, or between -pi and 0: gamma of kinematics notes 2.3 with the posture's sign.
+    /// stays between 0 and pi, or between -pi and 0: gamma of docs/kinematics.md#two-postures with the posture's sign.
     fn lead(&self, u: &Vec3) -> f64 {
         let pair = self.pair;
         let x = self.machine.constants.rotary[0].direction.dot(u);

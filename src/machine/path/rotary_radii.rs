@@ -25,7 +25,7 @@ struct Radii {
     rounding: f64,
 }
 
-/// Whether the chain is linear axes at right angles behind two rotary ones.
+/// Whether the chain is two rotary axes followed by linear axes at right angles.
 #[inline]
 fn is_table(constants: &Constants) -> bool {
     let at_right_angles = constants.linear_count == 3 && constants.cartesian.is_some();
@@ -80,7 +80,7 @@ impl Radii {
         self.point = end.point;
         self.linear = linear(constants, end);
         self.radius = [(first + chord) * ROUNDED_SUM, (second + way) * ROUNDED_SUM];
-        // a sum of coordinates grows by less than twice a way through space, and both ways count twice in the size of a run
+        // a sum of coordinates grows by less than twice a distance in space, and both distances count twice in the size of a run
         self.rounding = (self.rounding + 4.0 * ROUNDING * (way + chord)) * ROUNDED_SUM;
     }
 }
@@ -88,7 +88,7 @@ impl Radii {
 impl RotaryRadii {
     /// A bound of the distance between the tip's path and its chord while all joints run straight from one stance to the other, mm.
     /// It may be loose where it proves `enough`. `turned`: by how much both rotary joints turn, rad; `tip`: how far the tip goes, mm; `way`: how
-    /// far the linear joints go at most, mm. Source: kinematics notes 3; the distances from the axes are those at an earlier block and what the tool went since.
+    /// far the linear joints go at most, mm. Source: docs/kinematics.md#between-the-ends-of-a-block; the distances from the axes are those at an earlier block and what the tool went since.
     #[inline]
     pub(crate) fn stray(
         &mut self,

@@ -32,7 +32,7 @@ const TIGHT: f64 = 1e-3;
 /// below, a coarser bound with any of the linear axes may be given, which settles that no axis is overrun and no more; so it may on chains whose linear axes lie in different places, near postures where they hardly
 /// span space. Without TCP the joints run linearly and the feed is that of the programmed X Y Z path; with
 /// TCP (or vectors) the rotary joints run linearly and the linear joints' rates change within the block: samples of their exact rates
-/// and a bound of their second derivative (kinematics notes 3 and 4.1).
+/// and a bound of their second derivative (docs/kinematics.md#axis-speed-and-feed).
 pub fn feed_limit(machine: &Machine, leg: &Leg) -> Option<FeedLimit> {
     limit(machine, leg, programmed_feed(leg).unwrap_or(f64::INFINITY))
 }
@@ -303,7 +303,7 @@ fn programmed_feed(leg: &Leg) -> Option<f64> {
 /// How long the block takes at the programmed feed, without acceleration, s. `None`: unknown.
 ///
 /// Rapid: the slowest axis. Feed: length over F, or the angle (root of the sum of squares of the rotary increments, degrees) over F
-/// where no linear axis moves (RS274/NGC); in both cases not less than the slowest axis needs for its way.
+/// where no linear axis moves (RS274/NGC); in both cases not less than the slowest axis needs for its travel.
 pub fn block_duration_s(machine: &Machine, leg: &Leg) -> Option<f64> {
     match leg.motion.kind {
         MotionKind::Dwell(seconds) => return seconds,
@@ -339,7 +339,7 @@ struct AxesTime {
     complete: bool,
 }
 
-/// Time of the slowest axis over its whole way; `None` where the stances are not known.
+/// Time of the slowest axis over its whole travel; `None` where the stances are not known.
 fn axes_time(machine: &Machine, leg: &Leg) -> Option<AxesTime> {
     let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
     let mut time = AxesTime {

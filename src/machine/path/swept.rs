@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1e-13;
 /// itself strays and the whole tool with it ([`crate::tip_deviation`]), or a rapid whose axes run each for itself.
 ///
 /// Zero where the axis does not stray ([`crate::orientation_deviation`]). At the same moment both points differ by at most
-/// L (Q + angle^2) / 8 with |u''| <= Q, L the distance above the tip; closer bounds by bisection. Source: kinematics notes 3 (KIN-SWEEP).
+/// L (Q + angle^2) / 8 with |u''| <= Q, L the distance above the tip; closer bounds by bisection. Source: docs/kinematics.md#deviation-of-the-tool-body.
 pub fn swept_deviation(machine: &Machine, leg: &Leg, above_tip: f64, tolerance_mm: f64) -> Option<Deviation> {
     if runs_dogleg(machine, leg) {
         return None;

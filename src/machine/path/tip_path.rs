@@ -62,7 +62,7 @@ impl Bulge {
         self.arc.point_at(t) - self.arc.start - (self.arc.end - self.arc.start) * t
     }
 
-    /// Largest rate of the way beside the chord and largest second derivative.
+    /// Largest rate of the path relative to the chord, and largest second derivative.
     fn bounds(&self) -> (f64, f64) {
         let (fastest, _, bend) = crate::path::joint_path::Track::Arc(self.arc).bounds();
         (fastest + (self.arc.end - self.arc.start).norm(), bend)
@@ -141,7 +141,7 @@ impl<'a> Run<'a> {
     /// `bend` and `rounding` of a path, axis by axis from the tool to the workpiece: turning a point with rate v and second derivative at
     /// most a by D adds D r to v and 2 D v + D^2 r to a, r its largest distance from the axis: at an end, or above the chord by a / 8.
     /// Before the axis nearest the tool the point runs straight or along an arc; after the axis nearest the workpiece it is the tip itself,
-    /// and a turn keeps distances from its axis: with two rotary axes no point needs to be turned. Source: kinematics notes 3.
+    /// and a turn keeps distances from its axis: with two rotary axes no point needs to be turned. Source: docs/kinematics.md#between-the-ends-of-a-block.
     #[inline]
     pub(crate) fn bound(&self, bulge: Option<&Bulge>) -> (f64, f64) {
         let rotary = self.machine.constants.rotary();
@@ -171,7 +171,7 @@ impl<'a> Run<'a> {
 }
 
 /// Bound of the distance between the tip's path and its chord while all joints run straight from `start` to `end`, mm: the eighth of the
-/// largest second derivative, and rounding. Source: kinematics notes 3.
+/// largest second derivative, and rounding. Source: docs/kinematics.md#between-the-ends-of-a-block.
 #[inline]
 pub(crate) fn straight_stray(machine: &Machine, start: &Stance, end: &Stance) -> f64 {
     let (bend, rounding) = Run::new(machine, start, end).bound(None);
@@ -222,7 +222,7 @@ impl<'a> TipPath<'a> {
         place(&run.machine.constants, &turns, &shifts, &run.tool) - run.from
     }
 
-    /// The segment that an arc programs, in the workpiece: the arc as it lies in the workpiece at the start of the block, its end carried
+    /// The segment that an arc programs, in the workpiece: the arc in its position in the workpiece at the start of the block, its end carried
     /// evenly to where the tip ends. Without rotary motion it is the arc itself.
     pub(crate) fn laid_arc(&self) -> Option<LaidArc<'_>> {
         let bulge = self.bulge.as_ref()?;

@@ -33,14 +33,14 @@ const TIGHT: f64 = 1e-3;
 /// So many pieces are enough where the length is known to be more than asked for, or has no bound.
 const COARSE: u32 = 1024;
 
-/// Most pieces a block is cut into, to tell on which side of a threshold its length lies.
+/// Most pieces a block is cut into, to decide on which side of a threshold its length is.
 const PIECES: u32 = 16_384;
 
 /// How near an excursion is brought to the truth, mm.
 const CLOSE_MM: f64 = 1e-3;
 
 /// Length of the path of the linear joints. Bounds may be coarse where they prove that it is at most `enough_mm`; else they are closed in
-/// until they prove that it is more, or until the block would be cut into more than 16 384 pieces: then `enough_mm` lies between them.
+/// until they prove that it is more, or until the block would be cut into more than 16 384 pieces: then `enough_mm` is between them.
 /// `None`: an unknown stance or path, or a rapid whose axes run each for itself.
 ///
 /// Without TCP along a line the joints run straight. Else, on a piece of length h with |q''| <= Q the path is at least its chord and at most

@@ -1,7 +1,7 @@
 //! Active comments: `(MSG,`, `(DEBUG,`, `(PRINT,`, `(LOG,`, `(LOGOPEN,`, `(LOGAPPEND,`, `(LOGCLOSE)`, `(ABORT,`, `(PY,`.
 //!
-//! Of the comments of a line only the last one in parentheses counts; what stands behind `;` counts for nothing, unless it is
-//! `;py,`. The comment is told before the line's block is run.
+//! Of the comments of a line only the last one in parentheses counts; text after `;` does not count, unless it is
+//! `;py,`. The comment is emitted before the line's block is run.
 mod text;
 
 use crate::flow::{Halt, Why};
@@ -16,7 +16,7 @@ const ABORT: Problem = Problem {
     help: "The program itself stops here with (ABORT,...).",
 };
 
-/// Words that make a comment active, in lower case, with what is done with the text behind.
+/// Words that make a comment active, in lower case, with what is done with the text after them.
 const ACTIVE: [(&[u8], Kind); 7] = [
     (b"msg,", Kind::Message),
     (b"debug,", Kind::Debug),
@@ -105,7 +105,7 @@ fn log(name: &str, text: &[u8]) -> Canon {
 }
 
 fn python() -> Halt {
-    Why::Undecided("the line runs Python, which may change anything; Trunnion does not run it".to_owned()).into()
+    Why::Undecided("this line runs Python, which may change anything; Trunnion does not run it".to_owned()).into()
 }
 
 fn starts_with(text: &[u8], word: &[u8]) -> bool {

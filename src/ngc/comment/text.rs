@@ -7,7 +7,7 @@ use trunnion_formula::Variables;
 const DECIMALS: usize = 6;
 /// Decimals of `%f`.
 const SHORT: usize = 4;
-/// What stands for a parameter that does not exist.
+/// The text that replaces a parameter that does not exist.
 const MISSING: &[u8] = b"######";
 
 /// The text with the values of its parameters.
@@ -55,7 +55,7 @@ enum Name {
     Number(Option<i64>),
 }
 
-/// The parameter behind a `#`, and how long its text is.
+/// The parameter after a `#`, and how long its text is.
 fn parameter(rest: &[u8]) -> Option<(usize, Name)> {
     if rest.first() == Some(&b'<') {
         let end = rest.iter().position(|&byte| byte == b'>')?;
@@ -71,7 +71,7 @@ fn parameter(rest: &[u8]) -> Option<(usize, Name)> {
 enum Format {
     /// Length of its text, decimals from here on.
     Decimals(usize, usize),
-    /// `%.` and no digit with f behind: the sign alone vanishes.
+    /// `%.` followed by f without a digit: only the sign vanishes.
     Broken,
     None,
 }

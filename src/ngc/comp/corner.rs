@@ -1,4 +1,4 @@
-//! The corner between two moves: which kind it is and where the centre's ways meet.
+//! The corner between two moves: which kind it is and where the centre's paths meet.
 use super::plane::{self, Point};
 use crate::{Engine, Side};
 use std::f64::consts::{PI, TAU};
@@ -9,16 +9,16 @@ const FLAT: f64 = 0.05;
 /// A corner seen from the cutter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Corner {
-    /// Both ways are joined as they are.
+    /// Both paths are joined as they are.
     Flat,
     /// The cutter goes around the corner.
     Outside,
-    /// The ways are cut where they meet.
+    /// The paths are cut where they meet.
     Inside,
 }
 
 /// The corner between two directions from the contour to the cutter. `bulging`: the cutter runs around the outside of an arc at this
-/// corner, so that the ways meet even where the contour turns back.
+/// corner, so that the paths meet even where the contour turns back.
 pub(super) fn corner(side: Side, before: Point, behind: Point, bulging: bool) -> Corner {
     let angle = if side == Side::Left {
         plane::turn(before, behind)
@@ -51,7 +51,7 @@ pub(super) enum Way {
 }
 
 impl Way {
-    /// Direction of motion at a point of the way; not of length 1.
+    /// Direction of motion at a point of the path; not of length 1.
     fn along(self, at: Point) -> Point {
         match self {
             Self::Line(_, along) => along,
@@ -62,7 +62,7 @@ impl Way {
     }
 }
 
-/// The last way of the centre, an arc or the line square to the direction to the cutter.
+/// The last path of the centre, an arc or the line perpendicular to the direction to the cutter.
 pub(super) fn last_way(engine: &Engine, centre: Point, normal: Point) -> Way {
     match engine.queue.last_arc() {
         Some((middle, turns)) => Way::Circle(middle, plane::length(plane::sub(centre, middle)), turns > 0),
@@ -70,7 +70,7 @@ pub(super) fn last_way(engine: &Engine, centre: Point, normal: Point) -> Way {
     }
 }
 
-/// Where the way `a` turns inward onto the way `b`; `None`: nowhere.
+/// Where the path `a` turns inward onto the path `b`; `None`: nowhere.
 pub(super) fn meeting(side: Side, a: Way, b: Way) -> Option<Point> {
     let (foot, step) = match (a, b) {
         (Way::Line(start, along), Way::Line(other, other_along)) => {

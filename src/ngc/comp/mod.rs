@@ -1,7 +1,7 @@
-//! Cutter radius compensation (G40-G42.1): the programmed contour becomes the way of the cutter's centre.
+//! Cutter radius compensation (G40-G42.1): the programmed contour becomes the path of the cutter's centre.
 //!
 //! The end of a move is known only when the next one is: it is held in the [`Queue`] until then, and calls that come in between
-//! wait behind it. At outside corners the centre goes around the corner point on an arc, at inside corners both ways end where they
+//! wait after it. At outside corners the centre goes around the corner point on an arc, at inside corners both paths end where they
 //! meet; moves that would then run backwards are refused. All of this is observed from `rs274` and written down in the tests.
 mod corner;
 mod moves;
@@ -36,13 +36,13 @@ pub(crate) fn begin(engine: &mut Engine, side: Side, radius: f64, orientation: i
     state.compensated = state.current;
 }
 
-/// G40: what is held is told, compensation ends; the next motion starts where the cutter is and must be straight.
+/// G40: the held moves are emitted, compensation ends; the next motion starts where the cutter is and must be straight.
 pub(crate) fn end(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) -> Result<(), Error> {
     flush(engine, block, sink)?;
     let text = "interpreter: cutter radius compensation off";
     engine.emit(Canon::Comment(Shared::from(text.as_bytes())), at, sink);
     let state = &mut engine.state;
-    // the first move behind compensation leads from the cutter's way to the contour: an arc cannot
+    // the first move after compensation leads from the cutter's path to the contour: an arc cannot
     state.exit_pending = state.side != Side::Off && state.radius != 0.0 && !state.first_compensated;
     state.side = Side::Off;
     Ok(())
@@ -58,7 +58,7 @@ pub(crate) fn flush(engine: &mut Engine, block: &Block, sink: &mut dyn Sink) -> 
     queue::settle(engine, last, block.range, sink)
 }
 
-/// Whether a call waits behind held moves. Those that do not reach the machine in time order anyway are told at once, as `rs274` does.
+/// Whether a call waits after held moves. Those that do not reach the machine in time order anyway are emitted at once, as `rs274` does.
 pub(crate) fn waits(call: &Canon) -> bool {
     match call {
         Canon::Comment(text) => !text.starts_with(b"interpreter: Lathe diameter mode"),

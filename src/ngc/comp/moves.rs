@@ -1,4 +1,4 @@
-//! One move of the contour: entry, the corner before it, the centre's way.
+//! One move of the contour: entry, the corner before it, the centre's path.
 use super::corner::{self, Corner, Way};
 use super::plane::{self, Point};
 use super::{problems, queue};
@@ -34,7 +34,7 @@ struct Here {
     contour: Point,
     /// Centre.
     centre: Point,
-    /// A point of the straight way before, where it is cut with an arc whose radii differ.
+    /// A point of the straight path before, where it is cut with an arc whose radii differ.
     fitted: Point,
     radius: f64,
     /// From the contour to the cutter.
@@ -125,7 +125,7 @@ pub(crate) fn along(
         end: plane::with_point(plane, end, centre),
         along,
     };
-    // a motion along the axis leaves the way before it in force as long as that is still held
+    // a motion along the axis leaves the path before it in effect as long as that is still held
     if way != [0.0; 2] || engine.queue.is_empty() {
         engine.queue.moves(None);
     }
@@ -275,7 +275,7 @@ fn entry(engine: &mut Engine, arc: &Arc, here: &Here, end: Point, at: At) -> que
     }
 }
 
-/// The move behind a corner.
+/// The move after a corner.
 struct Coming {
     kind: Kind,
     /// From the contour to the cutter, at its start.
@@ -285,7 +285,7 @@ struct Coming {
     end: Pose,
 }
 
-/// Ends the held moves at the corner before the new one, and goes around it where it is an outside corner. On the way around the control
+/// Ends the held moves at the corner before the new one, and goes around it where it is an outside corner. On the path around the control
 /// turns the rotary axes to where the new move ends.
 fn turn(
     engine: &mut Engine,

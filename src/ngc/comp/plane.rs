@@ -37,7 +37,7 @@ const EDGES: [Point; 10] = [
     [0.0, 0.0],
 ];
 
-/// What is added to the centre's way before it is told to the machine.
+/// What is added to the centre's path before it is sent to the machine.
 pub(super) fn shift(state: &State) -> Point {
     let edge = usize::try_from(state.orientation)
         .ok()

@@ -31,12 +31,12 @@ pub(super) const ARC_TO_ARC: Problem = Problem {
 pub(super) const ENTRY_LENGTH: Problem = Problem {
     class: Class::Compensation,
     message: "Length of cutter compensation entry move is not greater than the tool radius",
-    help: "Begin compensation with a straight motion in the plane that is longer than the tool radius.",
+    help: "Start compensation with a straight motion in the plane that is longer than the tool radius.",
 };
 pub(super) const ENTRY_ARC: Problem = Problem {
     class: Class::Compensation,
     message: "Radius of cutter compensation entry arc is not greater than the tool radius",
-    help: "Begin compensation farther away from the contour, or with a straight motion.",
+    help: "Start compensation farther away from the contour, or with a straight motion.",
 };
 pub(super) const TIGHT_ARC: Problem = Problem {
     class: Class::Compensation,
@@ -51,5 +51,5 @@ pub(super) const NOT_G0_G1: Problem = Problem {
 pub(super) const MISMATCH: Problem = Problem {
     class: Class::Compensation,
     message: "BUG: cutter compensation has generated an invalid arc with mismatched radii r1 {} r2 {}",
-    help: "Begin compensation of a turning tool with a straight motion.",
+    help: "Start compensation of a turning tool with a straight motion.",
 };

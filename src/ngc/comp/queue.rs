@@ -1,4 +1,4 @@
-//! Moves that are held back because their end depends on the corner that follows, and calls that wait behind them.
+//! Moves that are held back because their end depends on the corner that follows, and calls that wait after them.
 use super::plane::{self, Point};
 use super::problems;
 use crate::{At, Canon, DistanceMode, Engine, Error, FeedMode, Pose, Sink, State, Units};
@@ -16,7 +16,7 @@ enum Held {
     Bow(Bow, Modes, At),
 }
 
-/// What was in force when a motion was held: it is told with that, not with what later lines have changed.
+/// What was active when a motion was held: it is emitted with that, not with what later lines have changed.
 #[derive(Clone, Copy, Debug)]
 struct Modes {
     motion: i16,
@@ -76,11 +76,11 @@ pub(super) struct Bow {
     pub(super) fixed: bool,
 }
 
-/// What follows decides where the last move ends; until then it and the calls behind it are here.
+/// What follows decides where the last move ends; until then it and the calls after it are here.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Queue {
     held: Vec<Held>,
-    /// Centre of the cutter after the last call that was told.
+    /// Centre of the cutter after the last call that was emitted.
     told: Point,
     /// Middle and turns of the last move of the contour in the plane, if it was an arc.
     last_arc: Option<(Point, i32)>,
@@ -91,7 +91,7 @@ impl Queue {
     pub(crate) fn is_empty(&self) -> bool {
         self.held.is_empty()
     }
-    /// The centre stands here, nothing is held.
+    /// The centre is here, nothing is held.
     pub(super) fn start(&mut self, at: Point) {
         self.held.clear();
         self.told = at;
@@ -154,7 +154,7 @@ pub(super) fn release(engine: &mut Engine, sink: &mut dyn Sink) {
     engine.queue.held = held;
 }
 
-/// The held motions end at `corner` instead; then everything is told.
+/// The held motions end at `corner` instead; then everything is emitted.
 pub(super) fn settle(engine: &mut Engine, corner: Point, range: TextRange, sink: &mut dyn Sink) -> Result<(), Error> {
     let plane = engine.state.plane;
     let mut held = std::mem::take(&mut engine.queue.held);
@@ -198,7 +198,7 @@ pub(super) fn settle(engine: &mut Engine, corner: Point, range: TextRange, sink:
     Ok(())
 }
 
-/// An arc whose cutter sweeps more than the contour by this angle, rad, is refused: so does one whose end lies before its start, and one
+/// An arc whose cutter sweeps more than the contour by this angle, rad, is refused: so is one whose end is before its start, and one
 /// that a nearly tangent line leads too early into. Observed from `rs274` by bisection: the same for every radius, another one for inches.
 fn overrun(units: Units) -> f64 {
     match units {

@@ -1,4 +1,4 @@
-//! G73, G74, G81-G89: what all have in common, and each one's way in the hole.
+//! G73, G74, G81-G89: what all have in common, and the motion of each one in the hole.
 use super::hole::{self, Axes, Hole};
 use super::{Work, problems};
 use crate::state::CycleWords;
@@ -273,7 +273,7 @@ fn peck(work: &mut Work<'_>, code: i16, hole: &Hole, peck: f64) -> Result<(), Er
     Ok(())
 }
 
-/// G74 and G84: feed in, turn the other way, feed out, without overrides. In the XZ and YZ planes the control hands the coordinates of
+/// G74 and G84: feed in, reverse the spindle, feed out, without overrides. In the XZ and YZ planes the control passes the coordinates of
 /// both feeds on in the wrong order; it does the same here, because that is where the machine would go.
 fn tap(work: &mut Work<'_>, code: i16, hole: &Hole, dwell: f64) -> Result<(), Error> {
     let (spindle, turning) = work.turning();
@@ -306,7 +306,7 @@ fn tap(work: &mut Work<'_>, code: i16, hole: &Hole, dwell: f64) -> Result<(), Er
     Ok(())
 }
 
-/// A feed whose three coordinates are told as X, Y, Z in the order of [`tap`].
+/// A feed whose three coordinates are emitted as X, Y, Z in the order of [`tap`].
 fn mixed_feed(work: &mut Work<'_>, hole: &Hole, level: f64) {
     let [first, second] = hole.at;
     let order = match hole.places {
@@ -322,7 +322,7 @@ fn mixed_feed(work: &mut Work<'_>, hole: &Hole, level: f64) {
     work.emit(Canon::Feed(pose));
 }
 
-/// G87: down beside the hole with the spindle oriented, up into the material with it turning, and out the same way.
+/// G87: down beside the hole with the spindle oriented, up into the material with it turning, and out along the same path.
 fn back_bore(work: &mut Work<'_>, hole: &Hole, words: &CycleWords) -> Result<(), Error> {
     let (spindle, turning) = work.turning();
     if turning == 0 {

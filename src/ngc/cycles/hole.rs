@@ -1,4 +1,4 @@
-//! One hole: where it lies and how the tool gets there.
+//! One hole: where it is and how the tool gets there.
 use super::Work;
 use crate::{Canon, Plane, Pose};
 

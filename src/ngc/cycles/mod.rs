@@ -1,6 +1,6 @@
 //! Canned cycles (G73-G89), threads (G33, G33.1, G76), splines (G5-G5.3), turning cycles (G70-G72.2).
 //!
-//! Everything is told as the calls that `rs274` makes, in its order; the tests hold the programs they were compared with.
+//! Everything is emitted as the calls that `rs274` makes, in its order; the tests hold the programs they were compared with.
 mod drill;
 mod hole;
 mod problems;
@@ -56,14 +56,14 @@ impl Work<'_> {
         self.engine.state.chosen_spindle = spindle.ok_or_else(|| self.refuse(problem))?;
         Ok(())
     }
-    /// The spindle whose turning counts, and which way it turns: 0, 1, -1.
+    /// The spindle whose state counts, and its direction: 0, 1, -1.
     fn turning(&self) -> (i32, i8) {
         let spindle = self.engine.state.chosen_spindle;
         (spindle as i32, self.engine.state.turning[spindle])
     }
 }
 
-/// Before anything of a block is done: G5.3 stands beside no other motion.
+/// Before anything of a block is done: G5.3 is not allowed with another motion.
 pub(crate) fn check_between(block: &Block) -> Result<(), Error> {
     if matches!(block.g[0], 53 | 63) && block.g[1] >= 0 && block.g[1] != 52 {
         return Err(Error::new(&problems::NURBS_BETWEEN, block.g_range(1)));

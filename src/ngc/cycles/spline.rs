@@ -99,7 +99,7 @@ pub(super) fn quadratic(work: &mut Work<'_>) -> Result<(), Error> {
     bezier(work, &points, end)
 }
 
-/// G5.2 and the lines behind it: one control point.
+/// G5.2 and the lines after it: one control point.
 pub(super) fn point(work: &mut Work<'_>) -> Result<(), Error> {
     let result = add_point(work);
     work.engine.spline.incomplete |= result.is_err();

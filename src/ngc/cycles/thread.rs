@@ -59,7 +59,7 @@ pub(super) fn synchronized(work: &mut Work<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-/// G33.1: down and back with the spindle reversed; I is how much faster it turns on the way back. The tool ends where it began in X Y Z.
+/// G33.1: down and back with the spindle reversed; I is how much faster it turns on the retract. The tool ends where it began in X Y Z.
 pub(super) fn rigid(work: &mut Work<'_>) -> Result<(), Error> {
     let pitch = pitch(work)?;
     if is_held(work) {

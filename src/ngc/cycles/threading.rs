@@ -79,7 +79,7 @@ fn words(work: &mut Work<'_>) -> Result<Thread, Error> {
         return Err(Error::with(&problems::STILL_G76, work.code_range(), text));
     }
     let end = exec::end_of(state, block)?;
-    // observed: a rotary word that leads nowhere is none; whether one leads from a place that nobody knows is not known either
+    // observed: a rotary word that does not move counts as none; whether one moves from an unknown position is unknown too
     let moves = |axis: usize| (end[axis] - state.current[axis]).abs() > 0.0;
     if let Some((&letter, _)) = b"ABC".iter().zip(3..).find(|&(_, axis)| moves(axis)) {
         return Err(Error::new(&problems::ROTARY_G76, block.range_of(letter)));

@@ -15,9 +15,9 @@ macro_rules! problems {
 problems! {
     NO_CENTRE ArcCentre "R i j k words all missing for arc" "Add the centre (I, J, K) or the radius (R)."
     MIXED ArcCentre "Mixed radius ijk format for arc" "Write either the centre or the radius."
-    NO_END_XY ArcCentre "X and y words missing for arc in xy plane" "With R the end must be another point: write X or Y, or the centre for a full circle."
-    NO_END_XZ ArcCentre "X and z words missing for arc in xz plane" "With R the end must be another point: write X or Z, or the centre for a full circle."
-    NO_END_YZ ArcCentre "Y and z words missing for arc in yz plane" "With R the end must be another point: write Y or Z, or the centre for a full circle."
+    NO_END_XY ArcCentre "X and y words missing for arc in xy plane" "With R the end must be a different point: write X or Y, or write the centre for a full circle."
+    NO_END_XZ ArcCentre "X and z words missing for arc in xz plane" "With R the end must be a different point: write X or Z, or write the centre for a full circle."
+    NO_END_YZ ArcCentre "Y and z words missing for arc in yz plane" "With R the end must be a different point: write Y or Z, or write the centre for a full circle."
     I_IN_YZ UnusedWord "I word given for arc in yz plane" "In G19 the centre is written as J and K."
     J_IN_XZ UnusedWord "J word given for arc in xz plane" "In G18 the centre is written as I and K."
     K_IN_XY UnusedWord "K word given for arc in xy plane" "In G17 the centre is written as I and J."
@@ -25,11 +25,11 @@ problems! {
     J_MISSING ArcCentre "J word missing in absolute center arc" "Under G90.1 both coordinates of the centre are needed."
     K_MISSING ArcCentre "K word missing in absolute center arc" "Under G90.1 both coordinates of the centre are needed."
     SAME_POINT ArcRadius "Current point same as end point of arc" "Write the centre instead of R for a full circle."
-    TOO_SMALL ArcRadius "Arc radius too small to reach end point" "R is at least half the distance between start and end."
-    DIFFERENT ArcRadius "Radius to end of arc differs from radius to start: {}" "Correct the end or the centre, or write more decimals."
+    TOO_SMALL ArcRadius "Arc radius too small to reach end point" "R must be at least half the distance between start and end."
+    DIFFERENT ArcRadius "Radius to end of arc differs from radius to start: {}" "Correct the end point or the centre, or write more decimals."
     ZERO ArcRadius "Zero-radius arc: {}" "Correct the centre."
     BEHIND_COMPENSATION Compensation "The move just after exiting cutter compensation mode must be straight, not an arc"
-        "Write a straight move behind G40 first."
+        "Write a straight move after G40 first."
     OTHER_PLANE Other "Cannot do an arc in planes G17.1, G18.1, or G19.1" "Write G17, G18 or G19."
 }
 

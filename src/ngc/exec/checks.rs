@@ -153,7 +153,7 @@ fn check_g10(block: &Block) -> Result<(), Error> {
     };
     let at_least = |least: f64| p.is_some_and(|p| p.is_nan() || p >= least);
     let code = block.word(b'L').map_or(-1, |l| l as i32);
-    // observed: what lies below a whole number is taken, what lies above it is not
+    // observed: a little less than a whole number is accepted, a little more is not
     let above = written.zip(p).is_some_and(|(written, whole)| written - whole > WHOLE);
     if above && matches!(code, 0 | 1 | 2 | 10 | 11 | 20) {
         return Err(Error::new(&problems::G10_P, p_range));

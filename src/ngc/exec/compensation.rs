@@ -13,8 +13,8 @@ problems! {
     ALREADY_ON "Cannot turn cutter radius comp on when on" "Write G40 first."
     NO_D "{} with no D word" "Add D with the cutter's diameter."
     D_NOT_WHOLE "{} requires D word to be a whole number" "D is the number of a tool; a diameter needs G41.1 or G42.1."
-    LATHE_TOOL "{} with lathe tool, but plane is not G18" "Write G18, or take the orientation out of the tool table."
-    L_NOT_LATHE "{} with L word, but plane is not G18" "Take L out, or write G18 first."
+    LATHE_TOOL "{} with lathe tool, but plane is not G18" "Write G18, or remove the orientation from the tool table."
+    L_NOT_LATHE "{} with L word, but plane is not G18" "Remove L, or write G18 first."
 }
 
 /// G40, G41, G41.1, G42, G42.1.

@@ -79,7 +79,7 @@ pub(crate) fn put_words(pose: &mut Pose, block: &Block) {
     }
 }
 
-/// Where an absolute word leads from `here`: on a wrapped rotary axis the way round that its sign says.
+/// Where an absolute word leads from `here`: on a wrapped rotary axis in the direction of its sign.
 fn absolute(state: &State, block: &Block, place: usize, here: f64, value: f64) -> Result<f64, Error> {
     if !is_wrapped(state, place) {
         return Ok(value);
@@ -88,7 +88,7 @@ fn absolute(state: &State, block: &Block, place: usize, here: f64, value: f64) -
     Ok(turned_to(here, value.is_sign_negative(), value.abs()))
 }
 
-/// From `here` forward or backward to the next place at `size` deg behind a full turn.
+/// From `here` forward or backward to the next position at `size` deg after a full turn.
 fn turned_to(here: f64, backward: bool, size: f64) -> f64 {
     let end = (here / TURN).floor() * TURN + size;
     if backward && end > here {
@@ -101,7 +101,7 @@ fn turned_to(here: f64, backward: bool, size: f64) -> f64 {
 }
 
 /// Where an axis goes to a place of the machine (G28, G30, G53), `end` in program coordinates: on a wrapped rotary axis the sign of the
-/// machine coordinate says which way round, and the program coordinate counts without its sign. Observed from `rs274`.
+/// machine coordinate gives the direction, and the program coordinate counts without its sign. Observed from `rs274`.
 pub(crate) fn named_end(
     state: &State,
     block: &Block,

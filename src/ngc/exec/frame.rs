@@ -54,7 +54,7 @@ pub(crate) fn named_point(state: &State, machine: &Pose) -> Pose {
     })
 }
 
-/// Another coordinate system comes into force while the machine stands still.
+/// Another coordinate system becomes active while the machine does not move.
 pub(crate) fn move_origin(state: &mut State, origin: Pose, rotation: f64) {
     let machine = [to_machine(state, &state.current), to_machine(state, &state.compensated)];
     state.origin_offset = origin;
@@ -62,7 +62,7 @@ pub(crate) fn move_origin(state: &mut State, origin: Pose, rotation: f64) {
     [state.current, state.compensated] = machine.map(|machine| to_program(state, &machine));
 }
 
-/// The coordinate system in force is written: another origin and rotation while the machine stands still. As on the control, G92 does
+/// The active coordinate system is written: another origin and rotation while the machine does not move. As on the control, G92 does
 /// not take part in the rotation here.
 pub(crate) fn change_origin(state: &mut State, origin: Pose, rotation: f64) {
     let shift = difference(&state.origin_offset, &origin);
@@ -73,7 +73,7 @@ pub(crate) fn change_origin(state: &mut State, origin: Pose, rotation: f64) {
     state.rotation_xy = rotation;
 }
 
-/// The tool offset changes while the machine stands still: X and Y through the rotation.
+/// The tool offset changes while the machine does not move: X and Y through the rotation.
 pub(crate) fn change_tool_offset(state: &mut State, offset: Pose) {
     let shift = difference(&state.tool_offset, &offset);
     let shift = turned(shift, -state.rotation_xy);

@@ -29,7 +29,7 @@ pub(crate) use motion::{code_range, inverse_time, length, traverse};
 /// How a block ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum After {
-    /// The program goes on.
+    /// The program continues.
     Go,
     /// M2, M30.
     Ended,
@@ -39,7 +39,7 @@ pub(crate) enum After {
 /// [`execute`].
 pub(crate) fn check(engine: &Engine, block: &mut Block) -> Result<(), Error> {
     if !block.own.is_empty() {
-        // what its words mean is the machine's own affair; a motion code beside M codes is in force behind them all the same
+        // what its words mean depends on the machine; a motion code beside M codes is active after them all the same
         if block.own.iter().all(|own| own.letter == b'M') {
             return checks::choose_motion(block, &engine.state);
         }
@@ -76,7 +76,7 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
     geometry(engine, block, at, sink)?;
     setting(engine, block, at, sink)?;
     move_tool(engine, block, at, sink)?;
-    // after a change of the tool or its table the control asks where the machine is; in a check nobody can answer otherwise
+    // after a change of the tool or its table the control asks where the machine is; in a check there is no answer
     let reloads = block.g[0] == 100 && block.word(b'L') == Some(0.0);
     if (matches!(block.m[6], 6 | 61) || reloads) && engine.setup.start == crate::Start::Zero {
         let told = engine.state.told.position;
@@ -92,7 +92,7 @@ pub(crate) fn execute(engine: &mut Engine, block: &mut Block, at: At, sink: &mut
     Ok(after)
 }
 
-/// Codes of the machine's own: told, and what they may leave behind.
+/// Codes of the machine's own: emitted, and what they may leave active.
 #[cold]
 fn own_codes(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
     engine.emit(Canon::OwnCodes(block.own.clone()), at, sink);

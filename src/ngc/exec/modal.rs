@@ -70,7 +70,7 @@ pub(crate) fn plane(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
     Ok(())
 }
 
-/// G20, G21: what is in force is told in the new units.
+/// G20, G21: what is active is expressed in the new units.
 pub(crate) fn units(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
     let Some(code) = block.g_code(6) else { return };
     let units = if code == 200 { Units::Inch } else { Units::Millimetre };
@@ -243,7 +243,7 @@ pub(crate) fn spindle_mode(engine: &mut Engine, block: &Block, at: At, sink: &mu
     let mode = if code == 970 {
         SpindleMode::ConstantRpm
     } else {
-        // no D: no ceiling, told as the largest number that the control uses for it
+        // no D: no ceiling, emitted as the largest number that the control uses for it
         SpindleMode::ConstantSurface(block.word(b'D').map_or(1e30, f64::abs))
     };
     engine.state.spindle_mode[spindle] = mode;

@@ -37,7 +37,7 @@ pub(crate) fn coordinate_system(engine: &mut Engine, block: &Block, at: At, sink
     Ok(())
 }
 
-/// The origin for which the place where the machine stands has the programmed coordinates.
+/// The origin for which the present position of the machine has the programmed coordinates.
 fn origin_of_position(engine: &Engine, block: &Block, stored: &Pose, rotation: f64) -> Pose {
     let state = &engine.state;
     let machine = frame::to_machine(state, &state.current);

@@ -128,7 +128,7 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
                 return Err(Error::new(&problems::M61_Q, range));
             };
             let tool = number as i32;
-            // rs274 goes on from the place that it has told last, which is not where compensation is
+            // rs274 continues from the position that it has emitted last, which is not where compensation is
             if engine.state.side != Side::Off {
                 return Err(Error::new(&problems::TOOL_NUMBER_COMPENSATION, range));
             }
@@ -152,7 +152,7 @@ pub(crate) fn change(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
     Ok(())
 }
 
-/// The change may move the machine: in a check nobody knows where X Y Z U V W are behind it, also for a motion of the same block. A
+/// The change may move the machine: in a check X Y Z U V W are unknown after it, also for a motion of the same block. A
 /// position that the INI file gives to the changer is a known one only with that file.
 fn forget_place(engine: &mut Engine) {
     if engine.setup.start != crate::Start::Unknown {
@@ -165,7 +165,7 @@ fn forget_place(engine: &mut Engine) {
 }
 
 /// Without random tool changer a row is copied to the spindle's row; with it the two change places. `rs274` leaves the spindle's row as
-/// it is for T0; on a machine the spindle is empty behind it.
+/// it is for T0; on a machine the spindle is empty after it.
 fn put_in_spindle(engine: &mut Engine, row: i32) {
     engine.state.current_row = row;
     if row == 0 && engine.setup.start == Start::Unknown && !engine.setup.random_tool_changer() {
@@ -246,7 +246,7 @@ pub(crate) fn length(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn 
     Ok(())
 }
 
-/// H0 of G43 and G43.2: the row of the spindle as it was before a change in the same block, which the control takes over behind the
+/// H0 of G43 and G43.2: the row of the spindle as it was before a change in the same block, which the control takes over after the
 /// block. In a check that row is not relied upon.
 fn spindle_row_offset(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
     let before = engine.state.spindle_row_before.filter(|_| block.m[6] == 6);
@@ -315,7 +315,7 @@ pub(crate) fn table(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn S
     Ok(())
 }
 
-/// The offset with which the tool stands at the programmed coordinates (L10), or at those of G59.3 without G92 (L11).
+/// The offset with which the tool is at the programmed coordinates (L10), or at those of G59.3 without G92 (L11).
 fn offset_of_position(engine: &Engine, block: &Block, stored: &Pose, fixture: bool) -> Pose {
     let state = &engine.state;
     let machine = frame::to_machine(state, &state.current);

@@ -7,7 +7,7 @@ macro_rules! unused {
         $(const $name: Problem = Problem {
             class: Class::UnusedWord,
             message: $message,
-            help: "Take the word out, or add the code it belongs to.",
+            help: "Remove the word, or add the code that it belongs to.",
         };)*
     };
 }
@@ -31,7 +31,7 @@ macro_rules! rotary {
         $(const $name: Problem = Problem {
             class: Class::CannedCycle,
             message: $message,
-            help: "Take the rotary axis out, or move it in a line of its own.",
+            help: "Remove the rotary axis, or move it in a separate line.",
         };)*
     };
 }
@@ -42,7 +42,7 @@ rotary! {
     AXIS_C "Cannot put a c in canned cycle"
 }
 
-/// Which codes a block has, for the question who uses its words.
+/// Which codes a block has, to decide which of them uses its words.
 struct Codes<'b>(&'b Block);
 
 impl Codes<'_> {

@@ -285,7 +285,7 @@ impl Engine {
         self.store.set_returned(value);
         Ok(())
     }
-    /// Back to the line behind the call; what M73 saved is restored.
+    /// Back to the line after the call; what M73 saved is restored.
     pub(super) fn leave_call(&mut self, sink: &mut dyn Sink) -> Result<(), Halt> {
         let context = self.flow.calls.last_mut().and_then(|call| call.context.take());
         let turning = self.take_turning();
@@ -298,9 +298,9 @@ impl Engine {
         }
         Ok(())
     }
-    /// Back to the line behind the call, nothing else.
+    /// Back to the line after the call, nothing else.
     pub(super) fn abandon_call(&mut self) {
-        // a contour that is left on the way of an error is gone
+        // a contour that is left by an error is gone
         self.take_turning();
         self.flow.watch.stir();
         let Some(call) = self.flow.calls.pop() else { return };

@@ -23,11 +23,11 @@ struct Table {
     known: Known,
 }
 
-/// Chains by their keys. A program that calls as it goes on meets them in order, and needs no more than a list.
+/// Chains by their keys. A program that calls as it continues meets them in order, and needs no more than a list.
 #[derive(Clone, Debug, Default)]
 struct Known {
     in_order: Vec<(Key, ChainId)>,
-    /// Those that were met behind a greater one.
+    /// Those that were met after a greater one.
     others: HashMap<Key, ChainId>,
 }
 

@@ -1,5 +1,5 @@
 //! M70 to M73: the modal state is saved and restored. What is restored is what differs, by a block of the codes that set it, so that
-//! the machine is told in the order and with the quirks of the control: M51 comes back as on, F 0 stays where G94 has cleared it.
+//! the machine is commanded in the order and with the quirks of the control: M51 comes back as on, F 0 stays where G94 has cleared it.
 use crate::exec;
 use crate::{
     At, Block, DistanceMode, Engine, Error, FeedMode, MotionMode, Plane, RetractMode, Side, Sink, SpindleMode, State,
@@ -251,7 +251,7 @@ fn path_code(mode: MotionMode) -> i16 {
     }
 }
 
-/// M codes of coolant and overrides: group, and the code that is wanted and the one in force; -1: none tells it.
+/// M codes of coolant and overrides: group, and the code that is wanted and the active one; -1: none shows it.
 fn switches(now: &State, saved: &State) -> [(usize, [i16; 2]); 5] {
     let mist = |state: &State| match (state.mist, state.flood) {
         (true, _) => 7,

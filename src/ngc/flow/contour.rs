@@ -73,7 +73,7 @@ impl Engine {
         }
         ended
     }
-    /// Runs the cycle behind its contour.
+    /// Runs the cycle after its contour.
     pub(super) fn finish_turning(&mut self, turning: Turning, sink: &mut dyn Sink) -> Result<(), Halt> {
         let at = self.flow.at;
         let range = self.files[at.file.0 as usize].line(at.line).unwrap_or_default();

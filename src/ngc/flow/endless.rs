@@ -1,7 +1,7 @@
 //! A proof that a program never ends: it goes around without a word to the machine, and all that it depends on is as it was before.
 //!
 //! Between two passes of a loop's condition only conditions, loops and assignments ran, so that parameters and names are everything that
-//! can differ. They are compared with those of an earlier pass (Brent's way of finding a cycle: the one kept is renewed after 1024,
+//! can differ. They are compared with those of an earlier pass (Brent's method of finding a cycle: the one kept is renewed after 1024,
 //! 2048, 4096... passes), which costs nothing where a loop moves the machine.
 use super::labels::Place;
 use crate::Engine;
@@ -10,7 +10,7 @@ use crate::parameters::Store;
 /// So many quiet passes go by before the first is kept.
 const FIRST: u64 = 1024;
 
-/// Passes of loops since something was told to the machine last.
+/// Passes of loops since something was last sent to the machine.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watch {
     /// Nothing but conditions, loops and assignments ran since the last pass.

@@ -40,7 +40,7 @@ impl Engine {
         self.emit(Canon::Reset, At::default(), sink);
         None
     }
-    /// The last line is behind: the end of the program is missing, or what is looked for.
+    /// The last line is passed: the end of the program is missing, or what is looked for.
     pub(super) fn end_of_file(&mut self, sink: &mut dyn Sink) -> Step {
         match self.flow.seeking {
             Some(Seeking {
@@ -116,7 +116,7 @@ impl Engine {
         (self.flow.at.file, self.flow.at.line) = (place.file(), place.line());
         let name = self.flow.labels.text(name);
         Some(format!(
-            "the program that calls o<{name}>: this file defines it and runs nothing"
+            "the program that calls o<{name}>: this file only defines it and runs nothing"
         ))
     }
     /// A line's text without blanks at its ends.

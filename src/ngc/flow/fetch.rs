@@ -1,4 +1,4 @@
-//! From the bytes of a line to its read form, and the way lines are kept.
+//! From the bytes of a line to its read form, and how lines are kept.
 use super::labels::Place;
 use super::lines::Kept;
 use super::oline::{self, Keyword};
@@ -14,13 +14,13 @@ pub(super) const LONGEST: u32 = 253;
 
 /// How a line begins.
 pub(super) struct Head<'s> {
-    /// Behind `/` and N.
+    /// After `/` and N.
     pub(super) cursor: Cursor<'s>,
     /// The line begins with `/`.
     pub(super) delete: bool,
     /// There was an N, and where it is no number.
     pub(super) flaw: Option<TextRange>,
-    /// The first byte behind them, in lower case; `None`: nothing is there.
+    /// The first byte after them, in lower case; `None`: nothing is there.
     pub(super) first: Option<u8>,
 }
 
@@ -55,7 +55,7 @@ pub(super) fn trimmed(source: &[u8], range: TextRange) -> TextRange {
     ends_at(bytes, memchr::memchr(0, bytes), range)
 }
 
-/// The same where it is known where the first NUL stands.
+/// The same where the place of the first NUL is known.
 fn ends_at(bytes: &[u8], nul: Option<usize>, range: TextRange) -> TextRange {
     let end = nul.unwrap_or(bytes.len());
     let length = bytes[..end]
@@ -82,7 +82,7 @@ impl Engine {
     pub(super) fn range_at(&self, place: Place) -> TextRange {
         self.files[place.file().0 as usize].line_at(place.offset)
     }
-    /// The place of the line behind one.
+    /// The place of the line after one.
     pub(super) fn behind(place: Place, range: TextRange) -> Place {
         place.further(1, range.end)
     }

@@ -23,7 +23,7 @@ pub(super) struct Passed {
     pub(super) lines: usize,
     /// Their bytes.
     pub(super) length: usize,
-    /// The line behind them is an O line with the label that is looked for.
+    /// The line after them is an O line with the label that is looked for.
     pub(super) counts: bool,
 }
 
@@ -116,13 +116,13 @@ pub(super) fn look(text: &[u8], bracket: bool) -> Look<'_> {
     }
 }
 
-/// Whether `M98` may stand there: the control reads such a line as a whole.
+/// Whether `M98` may be there: the control reads such a line as a whole.
 fn may_call(rest: &[u8]) -> bool {
     let first = rest.iter().find(|byte| !matches!(byte, b' ' | b'\t'));
     matches!(first, Some(b'9' | b'0' | b'[' | b'+'))
 }
 
-/// What stands behind the O: digits without a zero in front, or `<name>`, and a keyword without blanks inside.
+/// What follows the O: digits without a leading zero, or `<name>`, and a keyword without blanks inside.
 #[inline]
 fn label(rest: &[u8]) -> Option<Look<'_>> {
     let named = rest.first() == Some(&b'<');
@@ -179,7 +179,7 @@ fn keyword(text: &[u8]) -> Letters {
     };
     let of = |byte: u8| u64::from_le_bytes([byte; 8]);
     let lower = u64::from_le_bytes(*bytes) | of(0x20);
-    // the highest bit of each byte: not ASCII, from `a` on, behind `z`
+    // the highest bit of each byte: not ASCII, from `a` on, after `z`
     let plain = lower & of(0x7f);
     let letter = (plain + of(0x80 - b'a')) & !(plain + of(0x80 - b'z' - 1)) & !lower;
     let others = !letter & of(0x80);
@@ -194,7 +194,7 @@ fn keyword(text: &[u8]) -> Letters {
     Letters { word, len }
 }
 
-/// The keyword that a text begins with, where it needs no value and a letter behind it would belong to it; how many letters it has.
+/// The keyword that a text begins with, where it needs no value and a letter after it would belong to it; how many letters it has.
 #[inline]
 pub(super) fn plain_keyword(text: &[u8]) -> Option<(Keyword, usize)> {
     let letters = keyword(text);

@@ -1,7 +1,7 @@
 //! The label of an O line: a number, a name, or an expression whose value is the number.
 use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Name, Pool, Target, target};
 
-/// What stands behind the O.
+/// What follows the O.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Label {
     /// A number of up to nine digits.

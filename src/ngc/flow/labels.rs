@@ -82,7 +82,7 @@ impl Opener {
 pub(crate) struct Structure {
     pub(crate) opener: Opener,
     pub(crate) place: Place,
-    /// Rounds of a repeat that are left, this one counted; 0: it counts anew when it is met again.
+    /// Rounds of a repeat that are left, this one included; 0: it starts counting again when it is met again.
     pub(crate) rounds: i64,
     /// What was left of the bound on executed lines when it was entered from above; 0: it is not gone through.
     pub(crate) fuel: u64,
@@ -105,7 +105,7 @@ pub(crate) struct Subprogram {
     pub(crate) style: Style,
     /// Its first line.
     pub(crate) place: Place,
-    /// The line behind.
+    /// The line after it.
     pub(crate) body: Place,
 }
 
@@ -246,7 +246,7 @@ impl Labels {
     }
 }
 
-/// A whole number of up to nine digits that is written in one way only: without zeros in front.
+/// A whole number of up to nine digits that can be written in one form only: without leading zeros.
 #[inline]
 fn number(text: &[u8]) -> Option<u32> {
     if text.is_empty() || text.len() > 9 || (text[0] == b'0' && text.len() > 1) {

@@ -31,7 +31,7 @@ pub(crate) struct Lines {
     order: VecDeque<u32>,
 }
 
-/// A copy finds out again: check-points must not copy what can be had anew.
+/// A copy finds out again: check-points must not copy what can be computed again.
 impl Clone for Lines {
     fn clone(&self) -> Self {
         Self {

@@ -47,7 +47,7 @@ pub(crate) struct Halt(Box<Why>);
 pub(crate) enum Why {
     /// The control refuses it.
     Refused(Error),
-    /// The control refuses it, and the errors are told.
+    /// The control refuses it, and the errors are reported.
     Told,
     /// What happens depends on something unknown: the sentence that says so.
     Undecided(String),
@@ -81,7 +81,7 @@ enum Kind {
     Words,
     /// An O line.
     Label,
-    /// `M98`, the words behind it.
+    /// `M98`, the words after it.
     CallNumbered,
     /// `M99`: a return inside a call, words outside.
     ReturnNumbered,
@@ -111,7 +111,7 @@ pub(crate) struct Compiled {
     o: Option<Box<OLine>>,
     /// An O line that it was before, kept for its storage.
     spare: Option<Box<OLine>>,
-    /// What a NUL cuts off, until it was told.
+    /// What a NUL cuts off, until it was reported.
     cut: Option<TextRange>,
     /// What is wrong with its text as a whole; it is not read further then.
     flaw: Option<Error>,
@@ -140,7 +140,7 @@ struct Seeking {
     opener: Place,
     /// `break` or `continue` began it.
     leaving: bool,
-    /// `continue`: the loop goes on where it ends.
+    /// `continue`: the loop continues where it ends.
     again: bool,
     /// A branch of this `if` has run.
     satisfied: bool,
@@ -153,7 +153,7 @@ struct Seeking {
 /// A call in progress.
 #[derive(Clone, Debug)]
 struct Call {
-    /// The line behind the call.
+    /// The line after the call.
     back: Place,
     /// The line of the call.
     site: At,

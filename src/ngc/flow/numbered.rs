@@ -57,7 +57,7 @@ impl Engine {
         self.apply(&compiled.line)?;
         for (value, letter) in [(number, 'P'), (rounds.unwrap_or(1.0), 'L')] {
             if value.is_nan() {
-                let why = Self::undecided_word(letter, "which subprogram runs, and how often,");
+                let why = Self::undecided_word(letter, "which subprogram runs, and how many times,");
                 return Err(Why::Undecided(why).into());
             }
         }

@@ -59,7 +59,7 @@ const KEYWORDS: [(&str, Keyword); 15] = [
     ("continue", Keyword::Continue),
 ];
 
-/// Something on the line that no value will mend.
+/// Something on the line that no value can correct.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Flaw {
     pub(crate) problem: &'static Problem,
@@ -78,9 +78,9 @@ pub(crate) struct OLine {
     pub(crate) values: Vec<Formula>,
     /// Where a condition should begin, or what makes the keyword unreadable: found before any value counts.
     pub(crate) flaw: Option<Flaw>,
-    /// What stands behind the end of the line's sense.
+    /// What follows the end of the line's meaning.
     pub(crate) tail: Option<Flaw>,
-    /// The text behind `M98`.
+    /// The text after `M98`.
     pub(crate) rest: TextRange,
     /// What is wrong with the text of its values.
     pub(crate) errors: Vec<FormulaError>,
@@ -89,7 +89,7 @@ pub(crate) struct OLine {
 /// Most arguments of a call: they become #1 to #30.
 pub(super) const ARGUMENTS: usize = 30;
 
-/// Reads an O line; the cursor stands before the O. `line` lends its storage.
+/// Reads an O line; the cursor is before the O. `line` lends its storage.
 pub(crate) fn read(cursor: &mut Cursor<'_>, pool: &mut Pool, line: &mut OLine) {
     let start = cursor.at();
     cursor.bump();
@@ -115,7 +115,7 @@ pub(crate) fn read(cursor: &mut Cursor<'_>, pool: &mut Pool, line: &mut OLine) {
     values(cursor, line, pool);
 }
 
-/// Reads the `M98` or `M99` a line begins with, if it does; the cursor stands before the M.
+/// Reads the `M98` or `M99` a line begins with, if it does; the cursor is before the M.
 pub(crate) fn numbered(cursor: &mut Cursor<'_>, pool: &mut Pool) -> Option<OLine> {
     let start = cursor.at();
     let mut number = *cursor;
@@ -131,7 +131,7 @@ pub(crate) fn numbered(cursor: &mut Cursor<'_>, pool: &mut Pool) -> Option<OLine
         99.0 => Keyword::ReturnNumbered,
         _ => return None,
     };
-    // as on the control, two signs are taken whatever they are: `M098 P1` goes on with `8P1`
+    // as on the control, two signs are taken whatever they are: `M098 P1` continues with `8P1`
     for _ in 0..3 {
         cursor.bump();
     }
@@ -215,7 +215,7 @@ pub(super) fn keyword_of(word: &[u8]) -> Option<Keyword> {
     })
 }
 
-/// The keyword that a word without blanks is, behind which no letter can follow that would make it longer, and its length.
+/// The keyword that a word without blanks is, after which no letter can follow that would make it longer, and its length.
 fn written(rest: &[u8]) -> Option<(Keyword, usize)> {
     let length = rest
         .iter()

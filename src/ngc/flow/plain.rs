@@ -4,7 +4,7 @@ use crate::exec::{self, After};
 use crate::{At, Block, Engine, Error, Sink, Step, read};
 
 impl Engine {
-    /// Runs the line at `here` if it is plain and never ran before; `None` where the general way has to look at it.
+    /// Runs the line at `here` if it is plain and never ran before; `None` where the general path has to look at it.
     #[inline]
     pub(super) fn plain_line(&mut self, sink: &mut dyn Sink) -> Option<Step> {
         let here = self.flow.here;

@@ -8,7 +8,7 @@ const fn problem(class: Class, message: &'static str, help: &'static str) -> Pro
 pub(crate) const UNKNOWN_KEYWORD: Problem = problem(
     Class::Structure,
     "Unknown control command in o word",
-    "Behind an O word stands sub, endsub, call, return, if, elseif, else, endif, while, endwhile, do, repeat, endrepeat, break or continue.",
+    "After an O word write sub, endsub, call, return, if, elseif, else, endif, while, endwhile, do, repeat, endrepeat, break or continue.",
 );
 pub(crate) const NO_CONDITION_IF: Problem = problem(
     Class::Structure,
@@ -38,37 +38,37 @@ pub(crate) const TOO_MANY_ARGUMENTS: Problem = problem(
 pub(crate) const TAIL: Problem = problem(
     Class::Structure,
     "Unexpected character after O-word",
-    "Nothing but a comment may follow here; arguments and returned values stand in square brackets.",
+    "Only a comment may follow here; write arguments and return values in square brackets.",
 );
 pub(crate) const LABEL: Problem = problem(
     Class::Label,
     "Non integer value for integer",
-    "The number of an O word is whole.",
+    "The number of an O word must be a whole number.",
 );
 pub(crate) const DUPLICATE: Problem = problem(
     Class::Label,
     "duplicate O-word label",
-    "Give each if, while and repeat of a program or subprogram a number of its own.",
+    "Give each if, while and repeat of a program or subprogram its own number.",
 );
 pub(crate) const UNDEFINED: Problem = problem(
     Class::Label,
     "undefined O-word label",
-    "There is no opening line with this number before it; look for a misspelt number.",
+    "No line before this one opens a structure with this number; check the number.",
 );
 pub(crate) const MISMATCH: Problem = problem(
     Class::Structure,
     "no matching label",
-    "The structure that was opened under this number is of another kind.",
+    "The structure that was opened with this number is of a different kind.",
 );
 pub(crate) const NO_LOOP: Problem = problem(
     Class::Structure,
     "no matching while/do label",
-    "break and continue carry the number of the while or do loop they belong to; they do not work in repeat.",
+    "Give break and continue the number of the while or do loop they belong to; they do not work in repeat.",
 );
 pub(crate) const NOT_IN_SUB: Problem = problem(
     Class::Structure,
     "not in a subroutine definition",
-    "endsub and return stand inside a subprogram that was called; look for a misspelt number or a call into the wrong place.",
+    "endsub and return belong inside a called subprogram; check the number, and check where the call leads.",
 );
 pub(crate) const SEEKING_END: Problem = problem(
     Class::Structure,
@@ -78,17 +78,17 @@ pub(crate) const SEEKING_END: Problem = problem(
 pub(crate) const NESTED_SUB: Problem = problem(
     Class::Structure,
     "Nested subroutine definition",
-    "End the subprogram with endsub before the next one begins.",
+    "End the subprogram with endsub before the next one starts.",
 );
 pub(crate) const REDEFINED: Problem = problem(
     Class::Subprogram,
     "redefining sub",
-    "Give each subprogram a name of its own.",
+    "Give each subprogram its own name.",
 );
 pub(crate) const ILLEGAL_PLACE: Problem = problem(
     Class::Subprogram,
     "sub found in illegal location",
-    "A subprogram that was called before its definition is run into here: define it before its first call, or behind the program's end.",
+    "The program runs into a subprogram that was called before its definition: define it before its first call, or after the end of the program.",
 );
 pub(crate) const CALL_WITH_M98: Problem = problem(
     Class::Subprogram,
@@ -113,7 +113,7 @@ pub(crate) const END_WITH_ENDSUB: Problem = problem(
 pub(crate) const LATE_M99: Problem = problem(
     Class::Subprogram,
     "Bug:  Reached convert_stop() from M99 as subprogram return",
-    "M99 returns from a subprogram only where it stands first in its line.",
+    "M99 returns from a subprogram only if it is the first word of its line.",
 );
 pub(crate) const FANUC_CALL_OFF: Problem = problem(
     Class::Subprogram,
@@ -138,22 +138,22 @@ pub(crate) const NO_P: Problem = problem(
 pub(crate) const NEGATIVE_L: Problem = problem(
     Class::Number,
     "Negative l word used",
-    "L says how often the subprogram runs.",
+    "L is the number of times the subprogram runs.",
 );
 pub(crate) const TOO_DEEP: Problem = problem(
     Class::Subprogram,
     "Too many subroutine levels",
-    "Subprograms call each other deeper than the control allows, most often one that calls itself without an end.",
+    "Subprograms are nested deeper than the control allows; often one calls itself without an end.",
 );
 pub(crate) const NOT_FOUND: Problem = problem(
     Class::Subprogram,
     "EOF in file seeking o-word",
-    "The subprogram is neither in this file behind the call nor a file of its own on the searched paths.",
+    "The subprogram is neither in this file after the call nor a separate file on the searched paths.",
 );
 pub(crate) const NOT_FOUND_PERCENT: Problem = problem(
     Class::Subprogram,
     "Failed to find sub before EOF",
-    "The program ends with % before the end of the structure or the subprogram that is looked for.",
+    "The program ends with % before the end of the structure, or before the subprogram that it looks for.",
 );
 pub(crate) const NO_END: Problem = problem(
     Class::ProgramEnd,
@@ -163,22 +163,22 @@ pub(crate) const NO_END: Problem = problem(
 pub(crate) const NO_STRUCTURE_END: Problem = problem(
     Class::Structure,
     "File ended with no percent sign or program end",
-    "The line that ends what is opened or skipped here (endif, endwhile, endrepeat, endsub) is missing.",
+    "The line that ends the structure opened or skipped here (endif, endwhile, endrepeat, endsub) is missing.",
 );
 pub(crate) const NO_END_PERCENT: Problem = problem(
     Class::ProgramEnd,
     "File ended with no percent sign",
-    "A program that begins with % ends with M2, M30 or %.",
+    "End a program that starts with % by M2, M30 or %.",
 );
 pub(crate) const TOO_LONG: Problem = problem(
     Class::Syntax,
     "Command too long",
-    "A line is at most 253 bytes long, its line end counted.",
+    "A line can be at most 253 bytes long, including its line end.",
 );
 pub(crate) const STRAY_PERCENT: Problem = problem(
     Class::Syntax,
     "Bad character '%' used",
-    "% stands in the first line and the last line, or nowhere.",
+    "Write % in the first and last line, or nowhere.",
 );
 pub(crate) const SEQUENCE_NUMBER: Problem = problem(
     Class::Number,
@@ -188,5 +188,5 @@ pub(crate) const SEQUENCE_NUMBER: Problem = problem(
 pub(crate) const NO_CONTEXT: Problem = problem(
     Class::Other,
     "Cannot restore context from invalid stack frame - missing M70/M73?",
-    "Save the modal state with M70 or M73 before, at the same level of calls.",
+    "Save the modal state with M70 or M73 first, at the same call level.",
 );

@@ -1,4 +1,4 @@
-//! What a refused line names: the control would have stopped there, so that nobody knows what became of it.
+//! What a refused line names: the control would have stopped there, so the effect is unknown.
 use super::{Compiled, Kind};
 use crate::Block;
 
@@ -7,7 +7,7 @@ use crate::Block;
 pub struct Refused {
     /// Axes with words, bit i for axis i of X Y Z A B C U V W. Polar words lead along X and Y.
     pub axes: u16,
-    /// M3, M4 or M5, or an M code of which nobody knows which one it is.
+    /// M3, M4 or M5, or an M code whose number is unknown.
     pub spindle: bool,
 }
 
@@ -34,7 +34,7 @@ impl Refused {
         refused
     }
 
-    /// Of a line in its read form, whose text (up to a NUL) is `text`. Where something is wrong with the text, words are not told apart
+    /// Of a line in its read form, whose text (up to a NUL) is `text`. Where something is wrong with the text, words are not distinguished
     /// from the rest, so that each letter outside comments counts.
     pub(super) fn of_line(compiled: &Compiled, text: &[u8]) -> Self {
         let mut refused = Self::default();

@@ -1,4 +1,4 @@
-//! Lines that never ran: their text is read all the same, so that a check tells every mistake of a program.
+//! Lines that never ran: their text is read all the same, so that a check reports every mistake of a program.
 use super::labels::Place;
 use super::oline::Keyword;
 use super::{Compiled, Kind};
@@ -6,7 +6,7 @@ use crate::{At, Engine, Error, FileId, Sink};
 
 impl Engine {
     /// Tells the errors of the text of lines that did not run: skipped branches, subprograms that are never called, what follows an
-    /// undecided jump. Behind the end of the main program only subprograms are read: other text there is no program.
+    /// undecided jump. After the end of the main program only subprograms are read: other text there is no program.
     ///
     /// Values are not computed and codes are not run, so that this is less than what a run finds.
     pub fn read_rest(&mut self, sink: &mut dyn Sink) {
@@ -49,7 +49,7 @@ impl Engine {
 }
 
 impl Engine {
-    /// Behind lines that all ran, where the line at `place` begins a stretch of them before the end of the program: there is nothing to
+    /// After lines that all ran, where the line at `place` begins a stretch of them before the end of the program: there is nothing to
     /// tell of them.
     fn behind_what_ran(&self, place: Place) -> Option<Place> {
         let stretch = crate::source::STRIDE;

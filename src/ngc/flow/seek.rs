@@ -120,7 +120,7 @@ impl Engine {
         self.flow.texts.skip();
         self.flow.lines(place.file()).run(place.line());
     }
-    /// Passes lines that by their first signs count for nothing; whether the line behind them counts by its first signs.
+    /// Passes lines whose first characters show that they do not count; whether the line after them counts by its first characters.
     fn pass(&mut self, seeking: &Seeking) -> bool {
         let from = self.flow.here;
         let glanced = self.flow.lines(from.file()).glanced();

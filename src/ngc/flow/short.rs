@@ -1,6 +1,6 @@
 //! O lines as most of them are written, in one pass over their bytes: `o12 endif`, `o<name> call [1] [2.5]`, `o3 sub (a comment)`.
 //!
-//! It takes only what [`oline::read`] would read in the same way without a flaw (a test compares both), and only lines that are read to run
+//! It accepts only what [`oline::read`] would read in the same way without a flaw (a test compares both), and only lines that are read to run
 //! once: what runs again is found by its text.
 use super::fetch::LONGEST;
 use super::glance;
@@ -60,7 +60,7 @@ impl Engine {
     }
 }
 
-/// Label and keyword of the O line whose O stands at `start`.
+/// Label and keyword of the O line whose O is at `start`.
 #[inline]
 fn head(text: &[u8], start: usize) -> Option<Head> {
     let behind = &text[start + 1..];
@@ -82,7 +82,7 @@ fn head(text: &[u8], start: usize) -> Option<Head> {
     })
 }
 
-/// Arguments of a call into `line`, then a comment and the line end: where the line ends. `offset`: where the text stands in the file.
+/// Arguments of a call into `line`, then a comment and the line end: where the line ends. `offset`: where the text is in the file.
 #[inline]
 fn rest(text: &[u8], head: &Head, offset: u32, line: &mut OLine) -> Option<usize> {
     let mut at = head.at[3];
@@ -112,7 +112,7 @@ fn rest(text: &[u8], head: &Head, offset: u32, line: &mut OLine) -> Option<usize
     (text.get(at) == Some(&b'\n')).then_some(at + 1)
 }
 
-/// What is left to say of a line that has its values; `offset`: where the text stands in the file.
+/// What is left to emit of a line that has its values; `offset`: where the text is in the file.
 #[inline]
 fn complete(line: &mut OLine, head: Head, offset: u32) {
     let [start, label_end, word, end] = head.at.map(|at| offset + at as u32);
@@ -136,7 +136,7 @@ mod tests {
     use trunnion_formula::Pool;
     use trunnion_syntax::TextRange;
 
-    /// Whether this way takes the line; then it is what the general way reads.
+    /// Whether this path accepts the line; then it is what the general path reads.
     fn same(text: &str) -> bool {
         let there = format!("G1 X1\n{text}");
         let bytes = there.as_bytes();

@@ -10,7 +10,7 @@ use crate::{At, ChainId, Engine, Error, Frame, Sink, Step, comment};
 use trunnion_formula::Formula;
 
 impl Engine {
-    /// Runs the next line in the control's order. After [`Step::Refused`] the next step goes on as if the refused line had not
+    /// Runs the next line in the control's order. After [`Step::Refused`] the next step continues as if the refused line had not
     /// been there; an `if` or `while` that was refused is gone into once, so that the errors inside are found, too.
     pub fn step(&mut self, sink: &mut dyn Sink) -> Step {
         if self.flow.ended {
@@ -47,7 +47,7 @@ impl Engine {
         }
         if compiled.only_sets && self.turning.is_none() {
             self.goes_on_behind(&compiled);
-            // what is refused is evaluated again in the general way
+            // what is refused is evaluated again by the general path
             if self.apply(&compiled.line).is_ok() {
                 self.put_back(compiled, keep);
                 return Step::Line;
@@ -55,7 +55,7 @@ impl Engine {
         }
         self.finish_line(compiled, None, keep, sink)
     }
-    /// The line in hand runs: it is where the run is, and what comes next stands behind it.
+    /// The present line runs: it is where the run is, and what comes next follows it.
     #[inline]
     fn goes_on_behind(&mut self, compiled: &Compiled) {
         let place = compiled.place;
@@ -177,7 +177,7 @@ impl Engine {
         self.block = Some(block);
         result
     }
-    /// What a refused line would have left in force, so that the lines behind it are judged as they were meant: they are run in the
+    /// What a refused line would have left active, so that the lines after it are judged as they were meant: they are run in the
     /// mode of its motion code and not in the one before, and its F is a feed, of which nothing is known.
     #[cold]
     pub(super) fn after_refusal(&mut self, motion: i16, not_modelled: bool, feed: bool) {
@@ -229,7 +229,7 @@ impl Engine {
         if block.m[4] != 99 {
             return Ok(exec::execute(self, block, at, sink)?);
         }
-        // M99 ends the main program like M2; behind other words in a subprogram it is no return
+        // M99 ends the main program like M2; after other words in a subprogram it is no return
         let range = block.m_range(4);
         let inside = !self.flow.calls.is_empty();
         block.m[4] = if inside { -1 } else { 2 };
@@ -239,7 +239,7 @@ impl Engine {
         }
         Ok(after)
     }
-    /// Assignments take effect behind the line, all at once.
+    /// Assignments take effect after the line, all at once.
     pub(super) fn apply(&mut self, line: &read::Line) -> Result<(), Error> {
         read::apply(self, line)
     }

@@ -1,7 +1,7 @@
 //! O lines of structures: if, while, do, repeat and what belongs to them.
 //!
 //! Labels become known when their opening line runs and stay known: an `endwhile` that is met again jumps back again, a repeat that
-//! was left by `return` goes on with the rounds that were left. That is what the control does.
+//! was left by `return` continues with the rounds that were left. That is what the control does.
 use super::label::{Label, whole};
 use super::labels::{LabelId, NameId, Opener, Structure};
 use super::oline::{Keyword, OLine};
@@ -94,7 +94,7 @@ impl Engine {
     ) -> Result<(), Halt> {
         let label = self.label_of(compiled, line, name);
         let goal = Goal::Label(label, name);
-        // the control computes the condition while it reads the line, before it asks whether the line may stand here
+        // the control computes the condition while it reads the line, before it asks whether the line is allowed here
         let value = match line.values.first() {
             Some(formula) => self.decided(formula, line)?,
             None => 0.0,
@@ -181,7 +181,7 @@ impl Engine {
             }
         }
     }
-    /// A loop is at its end: when it is met again, it begins anew.
+    /// A loop is at its end: when it is met again, it starts again.
     fn left(&mut self, label: LabelId) {
         self.flow.looping = false;
         if let Some(structure) = self.flow.labels.structure_mut(label) {

@@ -1,7 +1,7 @@
-//! Lines in their read form, found again by their text: what was read once is not read again where it stands a second time, in a loop, in
+//! Lines in their read form, found again by their text: what was read once is not read again when it occurs a second time, in a loop, in
 //! another subprogram, or under another O number.
 //!
-//! What a line says depends on its text alone; only its ranges know where it stands, and they are moved. A text is kept from the second
+//! What a line says depends on its text alone; only its ranges depend on its place, and they are moved. A text is kept from the second
 //! time on, so that programs whose lines all differ fill no memory.
 use super::Compiled;
 use super::fetch::LONGEST;
@@ -19,17 +19,17 @@ use trunnion_syntax::TextRange;
 const SLOTS: usize = 8192;
 /// The slot of a line that is not kept.
 const NOWHERE: u32 = u32::MAX;
-/// So many read forms that nobody needs are kept at most.
+/// At most this many unused read forms are kept.
 const SPARE: usize = 64;
 
-/// Which part of a line its read form hangs on.
+/// The part of a line on which its read form depends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Part {
     #[default]
     Whole,
-    /// What stands behind an O and a plain number.
+    /// What follows an O and a plain number.
     BehindNumber,
-    /// What stands behind an O and a plain name.
+    /// What follows an O and a plain name.
     BehindName,
 }
 
@@ -85,7 +85,7 @@ fn plain_label(line: &[u8]) -> Option<(usize, usize, Label)> {
     (length < rest.len()).then_some((start, start + length + 1, Label::Number(number)))
 }
 
-/// Where the O stands that a line begins with.
+/// Where the O is with which a line begins.
 #[inline]
 fn o_word(line: &[u8]) -> Option<usize> {
     let mut start = 0;
@@ -121,7 +121,7 @@ struct Slot {
     hash: u64,
     /// It was met twice, or runs in a loop.
     read: Option<Box<Compiled>>,
-    /// Slots of the texts that were read behind it the last time: where no line was skipped in between, and where some were.
+    /// Slots of the texts that were read after it the last time: where no line was skipped in between, and where some were.
     after: [u32; 2],
 }
 
@@ -138,7 +138,7 @@ pub(crate) struct Texts {
     skipped: bool,
 }
 
-/// A copy reads its lines again: check-points must not copy what can be had anew.
+/// A copy reads its lines again: check-points must not copy what can be read again.
 impl Clone for Texts {
     fn clone(&self) -> Self {
         Self::default()
@@ -154,12 +154,12 @@ impl Texts {
             .read
             .take_if(|read| read.place == place)
     }
-    /// Lines are skipped: what is read next does not stand behind what was read last.
+    /// Lines are skipped: what is read next does not follow what was read last.
     #[inline]
     pub(super) fn skip(&mut self) {
         self.skipped = true;
     }
-    /// The line at a place, if it says what stood the last time behind the line that was read before it: then its text need not be looked for.
+    /// The line at a place, if it says what came last time after the line that was read before it: then its text need not be looked up.
     #[inline]
     pub(super) fn guess(&mut self, source: &[u8], place: Place) -> Option<Box<Compiled>> {
         let at = self.slots.get(self.last as usize)?.after[usize::from(self.skipped)];
@@ -195,7 +195,7 @@ impl Texts {
         self.skipped = false;
         slot.read.take()
     }
-    /// Notes that the text of this slot stands behind the one that was read last.
+    /// Notes that the text of this slot follows the one that was read last.
     #[inline]
     pub(super) fn follows(&mut self, slot: u32) {
         if (slot as usize) < self.slots.len() {
@@ -206,7 +206,7 @@ impl Texts {
             self.skipped = false;
         }
     }
-    /// The read form of a text, with `true`, to be moved to where it stands now; else room to read it into. `keep`: it will run again.
+    /// The read form of a text, with `true`, to be moved to its present place; otherwise room to read it into. `keep`: it will run again.
     #[inline]
     pub(super) fn find(
         &mut self,
@@ -290,7 +290,7 @@ impl Compiled {
     pub(super) fn slot(&self) -> u32 {
         self.origin.slot
     }
-    /// It was just read at `file` from the text of this key: from now on it stands for all lines of that text, unless it says more than that.
+    /// It was just read at `file` from the text of this key: from now on it serves all lines of that text, unless it says more than that.
     pub(super) fn comes_from(&mut self, key: &Key, file: FileId) {
         self.origin.part = key.part;
         self.origin.file = file;
@@ -311,7 +311,7 @@ impl Compiled {
             self.origin.slot = NOWHERE;
         }
     }
-    /// Moves it from where its text was run last to a line where the text stands at `text`.
+    /// Moves it from where its text was run last to a line where the text is at `text`.
     #[inline]
     pub(super) fn stands_at(&mut self, place: Place, text: TextRange) {
         self.place = place;
@@ -361,7 +361,7 @@ impl Compiled {
 }
 
 impl OLine {
-    /// It stands behind another label, whose place this is.
+    /// It follows another label, whose place this is.
     #[inline]
     fn label_stands_at(&mut self, range: TextRange) {
         if self.keyword_range == self.label_range {

@@ -1,4 +1,4 @@
-//! Why it cannot be said what runs next: which values are not known, and where they come from.
+//! Why it is unknown what runs next: which values are not known, and where they come from.
 use super::oline::{Keyword, OLine};
 use crate::Engine;
 use trunnion_formula::{Formula, Variable, Variables};
@@ -11,8 +11,8 @@ impl Engine {
     pub(super) fn undecided(&self, formula: &Formula, line: &OLine) -> String {
         let what = match line.keyword {
             Keyword::If | Keyword::ElseIf => "whether this branch runs",
-            Keyword::While => "whether this loop goes on",
-            Keyword::Repeat => "how often this loop runs",
+            Keyword::While => "whether this loop continues",
+            Keyword::Repeat => "how many times this loop runs",
             _ => "which label this is",
         };
         let reasons = self.reasons(formula);
@@ -41,7 +41,7 @@ impl Engine {
                     let at = self.at();
                     let bytes = self.files[at.file.0 as usize].bytes();
                     let text = bytes.get(range.as_usize()).unwrap_or_default();
-                    format!("{}, whose number or value is not known", String::from_utf8_lossy(text))
+                    format!("{}, whose number or value is unknown", String::from_utf8_lossy(text))
                 }
                 _ => continue,
             };
@@ -56,15 +56,15 @@ impl Engine {
 /// Where a numbered parameter that is not known gets its value.
 fn numbered(index: i64) -> &'static str {
     match index {
-        5061..=5069 => "where the probe touched",
+        5061..=5069 => "the position where the probe touched",
         5070 => "whether the probe touched",
         5161..=5189 => "a position of the machine (G28, G30)",
         5210..=5390 => "an offset set on the machine",
         5399 => "the result of M66",
         5400..=5413 => "data of the tool in the spindle",
         5420..=5428 => "the position of the machine",
-        1..=5000 => "which keeps its value from program to program and is not set here",
-        _ => "which was computed from values that are not known",
+        1..=5000 => "which keeps its value between programs and is not set here",
+        _ => "which was computed from unknown values",
     }
 }
 
@@ -78,6 +78,6 @@ fn named(name: &str) -> &'static str {
     {
         "the position of the machine"
     } else {
-        "which was computed from values that are not known"
+        "which was computed from unknown values"
     }
 }

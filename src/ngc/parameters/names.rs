@@ -1,8 +1,8 @@
-//! Named parameters and their values: a few stand in a list that is searched from the front, the rest in order.
+//! Named parameters and their values: a few are in a list that is searched from the front, the rest in order.
 use std::collections::BTreeMap;
 use trunnion_formula::Name;
 
-/// So many stand in the list: more are found faster in order.
+/// This many are in the list: more are found faster in order.
 const FEW: usize = 12;
 
 /// Values by name.

@@ -80,5 +80,5 @@ pub(super) fn m_group(code: i32) -> Option<usize> {
     })
 }
 
-/// G80: gives way to any other motion code of the line, whichever stands first.
+/// G80: gives way to any other motion code of the line, whichever comes first.
 pub(super) const CANCEL: i16 = 800;

@@ -60,7 +60,7 @@ pub(crate) fn errors(line: &Line, values: &Values<'_>, block: &mut Block) -> Vec
 /// Sets the parameters of a line, all at once: each right side has the values from before the line.
 ///
 /// # Errors
-/// A name that programs only read: the control finds it when it sets it, behind its checks of the block.
+/// A name that programs only read: the control finds it when it sets it, after its checks of the block.
 pub(crate) fn apply(engine: &mut Engine, line: &Line) -> Result<(), Error> {
     match &line.assignments[..] {
         [] => Ok(()),
@@ -337,6 +337,6 @@ fn own(letter: u8, tenths: u32, range: TextRange, values: &Values<'_>, block: &m
 }
 
 fn undecided(range: TextRange, letter: char) -> Error {
-    let text = format!("which {letter} code this is depends on a value that is not known");
+    let text = format!("which {letter} code this is depends on an unknown value");
     Error::with(&problems::UNDECIDED, range, text)
 }

@@ -23,7 +23,7 @@ pub(crate) struct Assignment {
     pub(crate) value: Formula,
 }
 
-/// What stands on the line, in the order in which the control reads it.
+/// What is on the line, in the order in which the control reads it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Item {
     /// Index of a word.
@@ -39,7 +39,7 @@ pub(crate) enum Item {
 pub(crate) struct Line {
     /// Its bytes without the line end.
     pub(crate) range: TextRange,
-    /// The number behind N.
+    /// The number after N.
     pub(crate) number: Option<f64>,
     /// It begins with `/`.
     pub(crate) delete: bool,
@@ -48,7 +48,7 @@ pub(crate) struct Line {
     pub(crate) assignments: Vec<Assignment>,
     /// The last comment in parentheses, parentheses included: the one that counts.
     pub(crate) comment: Option<TextRange>,
-    /// The comment behind `;`, that sign included.
+    /// The comment after `;`, that sign included.
     pub(crate) remark: Option<TextRange>,
     /// All that is wrong with the text. The first one the control reports, unless a value before it has none.
     pub(crate) errors: Vec<Error>,
@@ -62,7 +62,7 @@ pub(crate) struct Line {
 const SPINDLE: u32 = 1 << 26;
 
 impl Line {
-    /// Reads one line. `text` is the line without its end, and without what a NUL cuts off; a line that begins with an O word (behind
+    /// Reads one line. `text` is the line without its end, and without what a NUL cuts off; a line that begins with an O word (after
     /// `/` and N) is not for this reader.
     pub(crate) fn read(source: &[u8], text: TextRange, into: &mut Self) {
         into.clear(text);
@@ -131,7 +131,7 @@ impl Line {
         let range = cursor.since(start);
         if last == b'.' {
             self.fail(Error::new(&problems::SEQUENCE_NUMBER, range));
-            // what stands there instead of digits is not read again
+            // what is there instead of digits is not read again
             while matches!(cursor.peek(), Some(b'+' | b'-' | b'.' | b'0'..=b'9')) {
                 cursor.bump();
             }
@@ -163,7 +163,7 @@ impl Line {
         }
     }
 
-    /// A sign that begins nothing. Letters of several bytes and the rest of a word are told once.
+    /// A sign that begins nothing. Letters of several bytes and the rest of a word are reported once.
     fn stray(&mut self, cursor: &mut Cursor<'_>) {
         let start = cursor.at();
         let Some(first) = cursor.bump() else {
@@ -260,7 +260,7 @@ impl Line {
         });
     }
 
-    /// Behind a value: where it is wrong, the error is kept and reading goes on where the next word may begin.
+    /// After a value: where it is wrong, the error is kept and reading continues where the next word may begin.
     #[inline]
     fn recover(&mut self, error: Option<FormulaError>, start: u32, source: &[u8], cursor: &mut Cursor<'_>) {
         if let Some(error) = error {

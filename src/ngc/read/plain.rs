@@ -1,6 +1,6 @@
 //! The line that programs are full of, words with plain numbers, straight into a block: no read form in between.
 //!
-//! It takes only lines that the line reader and [`super::evaluate`] would read in the same way without an error; all others it leaves
+//! It accepts only lines that the line reader and [`super::evaluate`] would read in the same way without an error; all others it leaves
 //! to them (a test compares both).
 use super::evaluate::put;
 use crate::Block;
@@ -17,7 +17,7 @@ const EXACT: u64 = 1 << 53;
 const LETTERS: u32 = 0x03ff_ffff & !bit(b'N') & !bit(b'O');
 /// Letters of words that take any value: the axes.
 const ANY_VALUE: u32 = crate::block::AXES;
-/// Letters that may stand in a line twice: they name codes.
+/// Letters that may occur twice in a line: they name codes.
 const CODES: u32 = bit(b'G') | bit(b'M');
 /// The modal group of motion codes.
 const MOTION: usize = 1;
@@ -77,7 +77,7 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
         }
         open &= !(1 << place) | CODES;
         (at, stop) = (end, end);
-        // what goes on behind blanks must be a word: a digit or a point there belongs to the number before them
+        // what continues after blanks must be a word: a digit or a point there belongs to the number before them
         next = behind_blanks(text, &mut at)?;
     }
     at += usize::from(text[at] == b'\r');
@@ -88,7 +88,7 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
     Some(start + at as u32 + 1)
 }
 
-/// The byte behind the blanks at `at`, which goes there.
+/// The byte after the blanks at `at`, which moves there.
 #[inline]
 fn behind_blanks(text: &[u8], at: &mut usize) -> Option<u8> {
     let mut next = *text.get(*at)?;
@@ -99,7 +99,7 @@ fn behind_blanks(text: &[u8], at: &mut usize) -> Option<u8> {
     Some(next)
 }
 
-/// N at the line's start and the blanks behind its number: digits, perhaps with one point between them.
+/// N at the line's start and the blanks after its number: digits, perhaps with one point between them.
 fn sequence_number(text: &[u8]) -> Option<(Option<f64>, usize)> {
     text.get(1).filter(|byte| byte.is_ascii_digit())?;
     let (mantissa, places, mut end) = short(text, 1).or_else(|| long(text, 1))?;
@@ -113,7 +113,7 @@ fn sequence_number(text: &[u8]) -> Option<(Option<f64>, usize)> {
     Some((Some(value), end))
 }
 
-/// Sign, digits and point at `at`, and what stands behind them.
+/// Sign, digits and point at `at`, and what follows them.
 #[inline(never)]
 fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
     let sign = *text.get(at)?;
@@ -123,11 +123,11 @@ fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
     Some((if sign == b'-' { -value } else { value }, end))
 }
 
-/// The longest word of at most seven digits and a point: letter, sign, and the byte behind it.
+/// The longest word of at most seven digits and a point: letter, sign, and the byte after it.
 const CLOSE: usize = 11;
 
 /// The number of a word, and how long the word is, all at once: of at most seven digits and a point; `None` elsewhere. A line's end is no digit,
-/// so that nothing behind it is taken.
+/// so that nothing after it is taken.
 #[inline]
 fn close(word: &[u8; CLOSE]) -> Option<(f64, usize)> {
     let [_, sign, ..] = *word;
@@ -147,14 +147,14 @@ fn close(word: &[u8; CLOSE]) -> Option<(f64, usize)> {
     ))
 }
 
-/// A number by its digits and how many of them stand behind the point.
+/// A number by its digits and how many of them are after the point.
 #[inline]
 fn quotient(mantissa: u64, places: usize) -> f64 {
     // both operands are exact, so the one operation rounds correctly
     mantissa as i64 as f64 / POWERS[places]
 }
 
-/// All digits as a whole number, how many stand behind the point, and how many bytes they are with it: of at most seven digits and a point.
+/// All digits as a whole number, how many are after the point, and how many bytes they are with it: of at most seven digits and a point.
 #[inline]
 fn few(bytes: [u8; 8], ninth: u8) -> Option<(u64, usize, usize)> {
     let word = digits(bytes);
@@ -162,7 +162,7 @@ fn few(bytes: [u8; 8], ninth: u8) -> Option<(u64, usize, usize)> {
     if other == 0 {
         return None;
     }
-    // bits in front of the first byte that is no digit: 0, 8, .. 56
+    // bits before the first byte that is no digit: 0, 8, .. 56
     let whole = other.trailing_zeros() & 0x38;
     if word >> whole & 0xff != as_digit(b'.') {
         let found = (whole_number(word, whole), 0, (whole / 8) as usize);
@@ -176,14 +176,14 @@ fn few(bytes: [u8; 8], ninth: u8) -> Option<(u64, usize, usize)> {
         None if ninth.is_ascii_digit() => return None,
         None => 56,
     };
-    // the digits behind the point move up to those in front of it
+    // the digits after the point move up to those before it
     let before = (1 << whole) - 1;
     let joined = word & before | word >> 8 & !before;
     let places = ((count - whole) / 8) as usize;
     Some((whole_number(joined, count), places, (count / 8) as usize + 1))
 }
 
-/// Digits and point one by one: all digits as a whole number, how many stand behind the point, and where they end.
+/// Digits and point one by one: all digits as a whole number, how many are after the point, and where they end.
 fn long(text: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     let (mut mantissa, mut end, mut point) = (0u64, first, usize::MAX);
     loop {
@@ -206,8 +206,8 @@ fn long(text: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     Some((mantissa, places, end))
 }
 
-/// Digits and point eight bytes at a time on either side of the point, where at most seven digits stand on each; `None` elsewhere. A line's end is no digit,
-/// so that nothing behind it is taken.
+/// Digits and point eight bytes at a time on either side of the point, with at most seven digits on each; `None` elsewhere. A line's end is no digit,
+/// so that nothing after it is taken.
 #[inline]
 fn short(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     let (whole, before) = eight(wide, first)?;
@@ -227,7 +227,7 @@ const SCALES: [u64; 8] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_
 fn eight(wide: &[u8], at: usize) -> Option<(u64, usize)> {
     let word = digits(*wide.get(at..)?.first_chunk()?);
     let other = not_digits(word);
-    // bits in front of the first byte that is no digit: 0, 8, .. 56
+    // bits before the first byte that is no digit: 0, 8, .. 56
     let bits = other.trailing_zeros() & 0x38;
     (other != 0).then(|| (whole_number(word, bits), (bits / 8) as usize))
 }
@@ -242,7 +242,7 @@ mod tests {
     use std::sync::Arc;
     use trunnion_syntax::TextRange;
 
-    /// What both ways make of a line; `None` where the short way leaves it to the other.
+    /// The results of both paths for a line; `None` where the short path leaves it to the other.
     fn both(text: &str) -> Option<(Block, u32, Block)> {
         let bytes = text.as_bytes();
         let engine = Engine::new(Arc::new(Source::new(String::new(), bytes.into())), &Setup::default());

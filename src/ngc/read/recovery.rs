@@ -1,4 +1,4 @@
-//! Where reading goes on behind a value that is wrong, so that all mistakes of a line are told at once.
+//! Where reading continues after a wrong value, so that all mistakes of a line are reported at once.
 //!
 //! The control strips blanks before it reads, and so nothing here may depend on them.
 
@@ -29,8 +29,8 @@ fn behind_brackets(text: &[u8], from: usize) -> Option<usize> {
     None
 }
 
-/// The first place from `from` on that looks like the begin of something: a comment; `#` behind a value; a letter that stands alone. Letters
-/// beside each other are a name that nobody knows, but for two at `text`'s begin: there a word has no value, and the next one follows.
+/// The first place from `from` on that looks like the start of something: a comment; `#` after a value; a letter that is alone. Letters
+/// beside each other are an unknown name, except two at the start of `text`: there a word has no value, and the next one follows.
 fn item(text: &[u8], from: usize) -> usize {
     let solid = |byte: &u8| !matches!(byte, b' ' | b'\t' | b'\r');
     let mut letters = 0u32;

@@ -1,5 +1,5 @@
-//! Lines against the control: every line of `tests/lines.tsv` was given to `rs274` (2.9.0~pre1), most with ` ^` behind it, which no line
-//! survives; beside it stands the message.
+//! Lines compared with the control: every line of `tests/lines.tsv` was given to `rs274` (2.9.0~pre1), most with ` ^` after it, which no line
+//! survives; the message is beside it.
 use super::{Line, apply, errors, evaluate, problems};
 use crate::parameters::Values;
 use crate::{Block, Engine, Error, Setup, Source, Start};
@@ -64,7 +64,7 @@ fn every_answer_of_the_control() {
         let (text, answer) = case.rsplit_once('\t').expect("two columns");
         let ours = first_error(text, &engine);
         let ours = ours.as_ref().map_or("", Error::message);
-        // what the control finds only behind the line's end belongs to other modules
+        // what the control finds only after the line's end belongs to other modules
         let later = answer.contains("read-only")
             || !problems::ALL.iter().any(|problem| {
                 let (before, behind) = problem.message.split_once("{}").unwrap_or((problem.message, ""));
@@ -173,7 +173,7 @@ fn all_errors_of_a_line_with_their_places() {
             ],
         ),
         (
-            // a name that nobody knows is no row of words
+            // an unknown name is not a row of words
             "X Y1.2.3 CYCLE800 S-1",
             &[
                 ("Unknown word where unary operation could be", "Y"),

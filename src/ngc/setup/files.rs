@@ -43,9 +43,9 @@ impl Ini {
 
 impl ToolTable {
     /// Reads lines of words: T number, P pocket, X Y Z A B C U V W offsets, D diameter, I and J angles, Q orientation; `;` begins a
-    /// comment. Lines that are no row are told beside the rows. Each P takes a row, also a second P of one line and those of a line that
-    /// is no row (so `rs274`): tools behind it move down. A row without P is that of the spindle, as a run starts, and takes no other; a
-    /// tool that stands there and in a later row has that row's values in both (observed).
+    /// comment. Lines that are no row are reported with the rows. Each P takes a row, also a second P of one line and those of a line that
+    /// is no row (so `rs274`): tools after it move down. A row without P is that of the spindle, as a run starts, and takes no other; a
+    /// tool that is there and in a later row has that row's values in both (observed).
     pub fn parse(bytes: &[u8]) -> (Self, Vec<BadLine>) {
         let mut rows = Vec::new();
         let mut spindle: Option<ToolEntry> = None;
@@ -94,7 +94,7 @@ impl ToolTable {
     }
 }
 
-/// How many P words with a number a line has, whatever else stands there.
+/// How many P words with a number a line has, whatever else it contains.
 fn pockets(words: &str) -> usize {
     let is_pocket = |word: &&str| {
         let number = word
@@ -114,7 +114,7 @@ fn row(words: &str) -> Result<ToolEntry, String> {
         let number = word.get(1..).unwrap_or("");
         let value: f64 = number
             .parse()
-            .map_err(|_| format!("`{word}` is no word: a letter and a number are expected"))?;
+            .map_err(|_| format!("`{word}` is not a word: expected a letter and a number"))?;
         match letter {
             b'T' => {
                 entry.number = value as i32;
@@ -127,7 +127,7 @@ fn row(words: &str) -> Result<ToolEntry, String> {
             b'Q' => entry.orientation = value as i32,
             _ => match b"XYZABCUVW".iter().position(|&axis| axis == letter) {
                 Some(axis) => entry.offset[axis] = value,
-                None => return Err(format!("`{word}`: no column of a tool table has this letter")),
+                None => return Err(format!("`{word}`: a tool table has no column with this letter")),
             },
         }
     }

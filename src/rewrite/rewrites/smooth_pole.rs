@@ -1,15 +1,15 @@
-//! Turns the tool axis a little where it passes near the pole, so that the rotary table need not spin.
+//! Turns the tool axis a little where it passes near the pole, so that the rotary table does not have to spin.
 //!
 //! # Why
-//! Near the pole (tool axis parallel to the first rotary axis) a hair's breadth of tool axis asks for a large turn of the
-//! table. The feed breaks down, and the dwell leaves a mark. Seen from above, the tool axis walks round the pole; this rewrite
-//! lets it walk straight, as far as the tolerance allows.
+//! Near the pole (tool axis parallel to the first rotary axis) a tiny change of the tool axis needs a large turn of the table. The
+//! feed drops, and the dwell leaves a mark. Seen from above, the tool axis walks around the pole; this rewrite makes it walk
+//! straight, as far as the tolerance allows.
 //!
 //! # How
-//! In each run of straight feed motions round a `pole-flip`, the second rotary axis stays as it is. The first gets the taut
-//! string through the tube `|C' - C| <= 2 asin(sin(tol / 2) / sin theta)`: the least travel and the least peak speed at once. The
-//! ends of the window (the first points outside the pole cone, or the ends of the run) stay. The tip moves by `r (u - u')`, so
-//! that the centre of the ball, and with it the contact with the surface, stays where it was.
+//! In each run of straight feed motions around a `pole-flip`, the second rotary axis keeps its values. The first one follows the
+//! taut string through the tube `|C' - C| <= 2 asin(sin(tol / 2) / sin theta)`: the least total travel and the least peak speed at
+//! once. The ends of the window (the first points outside the pole cone, or the ends of the run) stay. The tip moves by
+//! `r (u - u')`, so that the centre of the ball, and with it the contact with the surface, stays where it was.
 //!
 //! # Example
 //! ```gcode before sinumerik-840d mikron-ucp710
@@ -36,21 +36,20 @@
 //! ```
 //!
 //! # Claim
-//! At every block end the tool axis turns about the part by at most the tolerance, and the centre of the ball stays within
-//! `--tolerance-mm`. No feed, no spindle word, no other byte changes. How far the paths lie apart between block ends is measured
-//! and bounded in the certificate.
+//! At every block end the tool axis turns relative to the part by at most the tolerance, and the centre of the ball stays within
+//! `--tolerance-mm`. No feed, no spindle word and no other byte changes. The certificate states a measured value and a proven bound
+//! of how far apart the paths are between block ends.
 //!
 //! # Traps
-//! - Only a ball keeps its contact when the tool axis turns. The tool's shape must be declared; a flat or bull-nosed tool needs
-//!   the surface normal, which a program does not hold.
-//! - A word that was left out because its value did not change may have to be written out.
-//! - Near the pole rounded numbers matter: `A0.081` and `k = 0.999999` are not the same tool axis. The rewrite works from what
-//!   the program says, digit by digit, and is verified after rounding.
+//! - Only a ball keeps its contact when the tool axis turns. The shape of the tool must be declared; a flat or bull-nosed tool
+//!   needs the surface normal, which a program does not contain.
+//! - A word that was omitted because its value did not change may have to be written.
+//! - Near the pole rounded numbers matter: `A0.081` and `k = 0.999999` are not the same tool axis. The rewrite works on the words
+//!   of the program, digit by digit, and is verified after rounding.
 //! - Shank and holder turn with the tool axis, by at most the tolerance.
 //!
 //! # Sources
-//! The guide-vane paper of 2006 (deformation on the circle i^2 + j^2 = 1 - k^2); Trunnion's kinematics notes 1 (003:
-//! P' = P + r (u - u')), 6 (R3) and 12.3 (taut string).
+//! Guide-vane paper (2006), deformation on the circle i^2 + j^2 = 1 - k^2; docs/kinematics.md#smoothing-at-the-pole.
 use super::Body;
 use crate::reposition::Writer;
 use crate::slots::{Scheme, Styles, styles};
@@ -98,7 +97,7 @@ struct Task<'a> {
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
     let Some(machine) = settings.machine else {
-        return Err("no machine is given: poles belong to a machine (--machine)".into());
+        return Err("no machine is named, and poles depend on the machine (--machine)".into());
     };
     if machine.rotary.len() < 2 {
         return Ok(None);
@@ -129,7 +128,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
                 windows.push(smoothed);
             }
             Ok(_) => reasons.push(format!(
-                "line {}: another ball radius, which needs a run of its own",
+                "line {}: a different ball radius, which needs a separate run",
                 task.line(flip)
             )),
             Err(reason) => reasons.push(format!("line {}: {reason}", task.line(flip))),
@@ -146,7 +145,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
     let letter = char::from(machine.axes[machine.rotary[0]].letter);
     let mut summary = summary(&windows, letter);
     if !reasons.is_empty() {
-        summary.push_str("; left as it is: ");
+        summary.push_str("; not changed: ");
         summary.push_str(&some_of(&reasons));
     }
     Ok(Some(Proposal {
@@ -209,10 +208,10 @@ fn obstacle(point: &Point) -> Option<String> {
 fn tool_obstacle(point: &Point) -> Option<String> {
     match point.tip {
         Tip::Undeclared => Some(
-            "the tool's shape is not declared, and only a ball keeps its contact: (trunnion: tool 1 ball diameter 10), [[tool]] in trunnion.toml, or --tool ball:10"
+            "the tool shape is not declared, and only a ball keeps its contact point: declare it by (trunnion: tool 1 ball diameter 10), by [[tool]] in trunnion.toml, or by --tool ball:10"
                 .into(),
         ),
-        Tip::Other => Some("the tool is declared but is no ball: its contact with the surface would move".into()),
+        Tip::Other => Some("the tool is not a ball: its contact with the surface would move".into()),
         Tip::Ball(_) if point.incremental => Some("coordinates are incremental (G91)".into()),
         Tip::Ball(_) => None,
     }
@@ -256,12 +255,15 @@ impl Task<'_> {
             Err(NoStance::PositionUnknown(letters)) => format!("the position of {} is unknown", in_words(letters)),
             Err(NoStance::RotaryOffset(letter)) => format!("the work offset turns {}", char::from(*letter)),
             Err(NoStance::HeldElsewhere { axis, .. }) => {
-                format!("axis {} is held elsewhere by the machine file", char::from(*axis))
+                format!(
+                    "the machine file holds axis {} at a different position",
+                    char::from(*axis)
+                )
             }
             _ => "the motion is not modelled".into(),
         };
         Some(format!(
-            "line {}: {why}, so whether the table flips at the pole is unknown",
+            "line {}: {why}, so it is unknown whether the table flips at the pole",
             self.line(index)
         ))
     }
@@ -273,7 +275,7 @@ impl Task<'_> {
             return Err(obstacle);
         }
         let Tip::Ball(ball_radius) = point.tip else {
-            return Err("the tool is no ball".into());
+            return Err("the tool is not a ball".into());
         };
         let covers = memory.chain.first().is_some_and(|station| station.first <= flip)
             && memory.chain.last().is_some_and(|station| flip <= station.last);
@@ -282,19 +284,19 @@ impl Task<'_> {
         }
         let stations = &memory.chain;
         let Some((left, right)) = window(stations, flip, self.machine.tolerances.pole_cone) else {
-            return Err("no point lies between the two ends that must stay".into());
+            return Err("there is no point between the two fixed ends".into());
         };
         let stations = &stations[left..=right];
         let writer = self.writer(point, ball_radius, &mut memory.styles);
         // a hair less than allowed, so that the last bit of a double decides nothing
         let room = rad(self.options.tolerance_deg) * (1.0 - 1e-8);
         let q = straighten(self.machine, stations, room)
-            .ok_or_else(|| "the rotary axis is outside its limits already".to_string())?;
+            .ok_or_else(|| "the rotary axis is already outside its limits".to_string())?;
         let before = largest_step(stations.iter().map(|station| station.q));
         let after = largest_step(q.iter().copied());
         if after > 0.99 * before {
             return Err(format!(
-                "within {} deg the largest step of {:.3} deg can only become {:.3} deg (--tolerance-deg)",
+                "within {} deg the largest step can only be reduced from {:.3} deg to {:.3} deg (--tolerance-deg)",
                 self.options.tolerance_deg,
                 deg(before),
                 deg(after)

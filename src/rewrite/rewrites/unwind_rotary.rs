@@ -1,8 +1,8 @@
-//! Adds whole turns to the words of a rotary axis so that it never turns the long way round.
+//! Adds full turns to the words of a rotary axis so that it never turns the long way round.
 //!
 //! # Why
-//! A control that takes rotary words literally turns from `C359` to `C1` through 358 degrees: under feed the tool dwells and
-//! marks the part, in rapid it costs seconds and winds cables. `C361` is the same pose, two degrees away.
+//! A control that takes rotary words literally turns from `C359` to `C1` through 358 degrees. Under feed the tool dwells and marks
+//! the part; in rapid it costs seconds and winds up cables. `C361` is the same pose, two degrees away.
 //!
 //! # Example
 //! ```gcode before sinumerik-840d mikron-ucp710
@@ -23,19 +23,19 @@
 //! ```
 //!
 //! # Claim
-//! Every motion ends in the same pose, and rotary joints differ by whole turns only. Where the number of turns is the same at both
-//! ends of a motion, its path is the same too; where it changes, the axis now takes the shorter way (the certificate says by how
-//! much the paths differ there).
+//! Every motion ends in the same pose, and rotary positions differ by full turns only. Where the number of turns is the same at
+//! both ends of a motion, its path is the same too. Where it changes, the axis now takes the shorter way, and the certificate states
+//! by how much the paths differ there.
 //!
 //! # Traps
-//! - Only whole turns that keep the axis inside its limits are added; a jump that the limits enforce stays.
-//! - Exact half turns stay as they are written: both ways are as long.
-//! - The program may end some turns away from where it ended before; a program that goes on from there, or a control that shows
-//!   0 to 360 degrees, must be able to live with that.
+//! - Only full turns that keep the axis within its limits are added; a jump that the limits force stays.
+//! - Exact half turns stay as they are written: both directions are equally long.
+//! - The program may end some full turns away from where it ended before. A program that continues from there, or a control that
+//!   shows 0 to 360 degrees, must accept that.
 //! - `C=DC(..)`, `IC(..)`, `ACP(..)`, `ACN(..)`, G91, expressions and tool vectors do not take values literally: refused.
 //!
 //! # Sources
-//! Trunnion's kinematics notes 6 (R1: q_i += 2 pi round((q_(i-1) - q_i) / 2 pi)).
+//! docs/kinematics.md#unwinding: q_i += 2 pi round((q_(i-1) - q_i) / 2 pi).
 use super::Body;
 use crate::style::add_whole;
 use crate::survey::{ProgrammedMotion, programmed};
@@ -54,7 +54,7 @@ pub(super) const REWRITE: Body = Body {
 
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Result<Option<Proposal>, String> {
     let Some(machine) = settings.machine else {
-        return Err("no machine is given: limits of rotary axes belong to a machine (--machine)".into());
+        return Err("no machine is named, and the limits of rotary axes depend on the machine (--machine)".into());
     };
     let motions = programmed(program, settings.dialect, &settings.setup).motions;
     let (mut edits, mut summaries, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
@@ -76,7 +76,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options) -> Res
         };
     }
     edits.sort_by_key(|edit| edit.range.start);
-    summaries.extend(reasons.into_iter().map(|reason| format!("left as it is: {reason}")));
+    summaries.extend(reasons.into_iter().map(|reason| format!("not changed: {reason}")));
     let claim = Claim::SamePoses {
         tolerance_mm: options.tolerance_mm,
         tolerance_deg: options.tolerance_deg,
@@ -120,7 +120,7 @@ fn unwind(
     let after = long_way_steps(&values, &turns);
     if after >= before {
         return Err(format!(
-            "{name} turns the long way round {before} times, and its limits leave no other way"
+            "{name} turns the long way round {before} times, and its limits allow nothing else"
         ));
     }
     let mut edits = Vec::new();
@@ -178,7 +178,7 @@ fn refuse_what_is_not_literal(program: &Program, letter: u8, motions: &[Programm
             }
         }
         if words(program, block.id(), letter).count() > 1 {
-            return Err(format!("line {}: {name} is given twice", line(program, block.id())));
+            return Err(format!("line {}: {name} is written twice", line(program, block.id())));
         }
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! The fast way beside the lexer's own rules.
+//! The fast path beside the lexer's own rules.
 use crate::{LexOptions, SyntaxError, TokenKind, iso, parse};
 use proptest::prelude::*;
 
@@ -118,7 +118,7 @@ fn pieces() -> impl Strategy<Value = String> {
     proptest::collection::vec(piece, 0..14).prop_map(|pieces| pieces.concat())
 }
 
-/// Whether the fast way cuts all of a line and finds that nothing is wrong with it.
+/// Whether the fast path cuts all of a line and finds that nothing is wrong with it.
 fn is_sound(line: &str) -> bool {
     let mut out = crate::builder::Builder::default();
     let end = super::lex(line.as_bytes(), 0, OPTIONS[0], &mut out);

@@ -1,4 +1,4 @@
-//! The command line as the interface says: formats, exit statuses, errors with their place.
+//! The command line as docs/commands.md says: formats, exit statuses, errors with their place.
 
 use super::tools::{FLIP, json, status, str, text, trunnion, write};
 use serde_json::Value;

@@ -79,7 +79,7 @@ fn every_post_is_looked_at() {
     }
 }
 
-/// The travel of the machine: told where the zero point is nobody's, refused where it is declared.
+/// The travel of the machine: reported if the zero point is not declared, refused if it is.
 #[test]
 fn a_program_that_leaves_the_travel_is_told_or_refused() {
     let folder = TempDir::new().expect("works");
@@ -93,7 +93,7 @@ fn a_program_that_leaves_the_travel_is_told_or_refused() {
     let summary = text(&told.stderr);
     assert_eq!(status(&told), 0, "{summary}");
     assert!(
-        summary.contains(":7: X would go to 400.0000 mm, its limit is 355.0000 mm; that is reckoned from a zero point at machine zero"),
+        summary.contains(":7: X would go to 400.0000 mm, its limit is 355.0000 mm; this assumes that the part zero is at machine zero"),
         "{summary}"
     );
     let document = json(&trunnion(&[&arguments[..], &["--format", "json"]].concat()));
@@ -184,9 +184,9 @@ fn a_refusal_writes_nothing_and_tells_the_place() {
     for (arguments, why) in [
         (
             &["--to", "heidenhain-klartext"][..],
-            "there is no post for `heidenhain-klartext`",
+            "no post for `heidenhain-klartext`",
         ),
-        (&[], "what shall be written?"),
+        (&[], "the target is missing"),
         (&["--to", "apt", "--tolerance-mm", "-1"], "positive number"),
         (&["--to", "linuxcnc", "--to-machine", "nowhere"], "nowhere"),
     ] {

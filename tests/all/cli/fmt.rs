@@ -116,7 +116,7 @@ fn block_numbers_are_new_and_jumps_follow() {
         "O1\nN100 #1=0\nN150 G1 X#1 F100\nIF [#1 LT 3] GOTO 150\nN200 M98 P2000\nN250 M30\n"
     );
     assert!(
-        text(&output.stderr).contains("calls O2000, not in this file"),
+        text(&output.stderr).contains("calls O2000, which is not in this file"),
         "{}",
         text(&output.stderr)
     );
@@ -125,7 +125,7 @@ fn block_numbers_are_new_and_jumps_follow() {
     assert_eq!(status(&output), 2);
     let message = text(&output.stderr);
     assert!(
-        message.contains("b.nc:3:1: block numbers stay: the target of `GOTO #1` is computed"),
+        message.contains("b.nc:3:1: block numbers are not changed: the target of `GOTO #1` is computed"),
         "{message}"
     );
     assert_eq!(
@@ -191,8 +191,8 @@ fn several_files_are_counted() {
     assert_eq!(status(&output), 0);
     let told = text(&output.stderr);
     assert!(
-        told.contains("c.mpf: 1 problem of the text; its line stays as it is"),
+        told.contains("c.mpf: 1 problem in the text; its line is not changed"),
         "{told}"
     );
-    assert!(told.contains("1 changed, 2 as they should be"), "{told}");
+    assert!(told.contains("1 changed, 2 unchanged"), "{told}");
 }

@@ -1,4 +1,4 @@
-//! Input that nobody writes in earnest: every command ends with a status of its own and a message, whatever it reads.
+//! Deliberately bad input: every command ends with its exit status and a message, whatever it reads.
 
 use super::tools::{status, str, text};
 use std::{
@@ -82,12 +82,12 @@ fn inputs() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         (
             "while.ngc",
             "g21 g90 f100\no1 while [1]\ng1 x1\ng1 x2\no1 endwhile\nm2\n".into(),
-            "did not come to an end",
+            "did not end within",
         ),
         (
             "repeat.ngc",
             "g21\no1 repeat [1000000000]\no1 endrepeat\nm2\n".into(),
-            "did not come to an end",
+            "did not end within",
         ),
         (
             "while.nc",
@@ -97,12 +97,12 @@ fn inputs() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         (
             "count.nc",
             "O1\nG21\nWHILE[1EQ1]DO1\n#1=#1+1\nEND1\nM30\n".into(),
-            "did not come to an end",
+            "did not end within",
         ),
         (
             "goto.nc",
             "O1\nG21 G90 G94 F100.\nN10 G1 X1.\n#1=#1+1\nGOTO10\nM30\n".into(),
-            "did not come to an end",
+            "did not end within",
         ),
         (
             "times.nc",
@@ -114,12 +114,12 @@ fn inputs() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         (
             "latin.nc",
             b"G21 G90\n(Gr\xf6\xdfe)\nG0 X1. \xe4\nM30\n".to_vec(),
-            "belongs to no word",
+            "does not belong to any word",
         ),
         (
             "latin.ngc",
             b"g21 g90\n(Gr\xf6\xdfe)\ng0 x1 \xe4\nm2\n".to_vec(),
-            "belongs to no word",
+            "does not belong to any word",
         ),
         ("return.nc", b"G21 G90\rG0 X1.\rM30\r".to_vec(), ""),
         ("return.ngc", b"g21 g90\rg0 x1\rm2\r".to_vec(), ""),
@@ -149,7 +149,7 @@ fn every_command_ends_with_a_word_of_its_own() {
             vec!["diff", name, name],
         ];
         // canon has no bound below ten million blocks: it lists what it runs, and is asked for what is short
-        if Path::new(name).extension().is_some_and(|end| end == "ngc") && !said.contains("come to an end") {
+        if Path::new(name).extension().is_some_and(|end| end == "ngc") && !said.contains("did not end within") {
             commands.push(vec!["canon", name]);
         }
         for command in commands {

@@ -26,7 +26,7 @@ fn a_planted_pivot_error_is_found_with_its_block() {
     let said = text(&output.stdout);
     assert_eq!(status(&output), 1, "{said}{}", text(&output.stderr));
     assert!(
-        said.contains("axis A: point (0, 0, 0) against (0, 0.05, 0) mm, 0.05 mm apart"),
+        said.contains("axis A: point (0, 0, 0) versus (0, 0.05, 0) mm, 0.05 mm apart"),
         "{said}"
     );
     // 2 sin(45 deg) 0.05 mm at A90
@@ -43,7 +43,7 @@ fn a_planted_pivot_error_is_found_with_its_block() {
     let same = trunnion(&["machine", "compare", "mikron-ucp710", "mikron-ucp710", str(&program)]);
     assert_eq!(status(&same), 0, "{}", text(&same.stdout));
     assert!(
-        text(&same.stdout).contains("PASS: the tip is off by at most 0 mm, 0.02 mm are allowed (proven)"),
+        text(&same.stdout).contains("PASS: the tip is off by at most 0 mm (proven); the tolerance is 0.02 mm"),
         "{}",
         text(&same.stdout)
     );
@@ -81,17 +81,17 @@ fn a_comparison_passes_only_where_it_is_proven() {
         poses,
         (
             0,
-            "PASS: the tip is off by at most 0.086603 mm, 0.0867 mm are allowed (proven)".to_owned()
+            "PASS: the tip is off by at most 0.086603 mm (proven); the tolerance is 0.0867 mm".to_owned()
         )
     );
-    // A turns by 30 deg: 2 sin(15 deg) 0.05 = 0.025882 mm, but nobody knows where the first motion comes from
+    // A turns by 30 deg: 2 sin(15 deg) 0.05 = 0.025882 mm, but the start of the first motion is unknown
     let text = "TRAORI\nG0 X0 Y0 Z50 A0 C0\nG1 X10 A30 F500\nG1 X0 A0\nM30\n";
     let program = write(&folder, "short.mpf", text);
     let (code, said) = compare("0.03", Some(str(&program)));
     assert!(
         code == 1
             && said.starts_with("UNKNOWN")
-            && said.contains("1 motion compared at the end only: the start is not known"),
+            && said.contains("1 motion compared at the end only: the start is unknown"),
         "{said}"
     );
     // what is not modelled is counted
@@ -102,7 +102,7 @@ fn a_comparison_passes_only_where_it_is_proven() {
     );
     let (code, said) = compare("0.03", Some(str(&lost)));
     assert!(
-        code == 1 && said.contains("could not be compared: the end or the path is not known"),
+        code == 1 && said.contains("could not be compared: the end or the path is unknown"),
         "{said}"
     );
 }
@@ -121,7 +121,7 @@ fn a_contradicting_row_refuses_the_file_with_its_place() {
     let said = text(&output.stderr);
     assert_eq!(status(&output), 2, "{said}");
     assert!(
-        said.contains("ours.toml:") && said.contains("if the row is right, look at sign"),
+        said.contains("ours.toml:") && said.contains("if the row is right, check sign"),
         "{said}"
     );
 }
@@ -140,7 +140,7 @@ fn an_ini_becomes_a_machine_file_that_says_what_is_open() {
         "{said}"
     );
     assert!(
-        said.contains("open: axis X: MIN_LIMIT is not given and stays undeclared"),
+        said.contains("open: axis X: MIN_LIMIT is missing and stays undeclared"),
         "{said}"
     );
     assert!(
@@ -172,7 +172,7 @@ fn an_ini_becomes_a_machine_file_that_says_what_is_open() {
     let output = trunnion(&["machine", "import", str(&broken)]);
     let said = text(&output.stderr);
     assert!(
-        status(&output) == 2 && said.contains("broken.ini:2:14") && said.contains("is not known"),
+        status(&output) == 2 && said.contains("broken.ini:2:14") && said.contains("unknown"),
         "{said}"
     );
 }

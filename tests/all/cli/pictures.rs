@@ -161,7 +161,7 @@ fn a_tool_of_another_length_is_not_held_against_a_surface() {
         let output = trunnion(&[&of[..], &["--dialect", "fanuc-30i"]].concat());
         (text(&output.stdout), text(&output.stderr))
     };
-    assert!(judged("G43 H1 ").0.contains("1 feed blocks judged, 0 not known"));
+    assert!(judged("G43 H1 ").0.contains("1 feed blocks judged, 0 unknown"));
     let (_, refused) = judged("");
     assert!(refused.contains("no feed motion's path is known"), "{refused}");
 }
@@ -173,7 +173,13 @@ fn pictures_are_whole_and_labelled() {
     for (kind, words) in [
         (
             "joints",
-            &["C / deg", "X / mm", "way of the tool tip / mm", "pole-flip", "limits"][..],
+            &[
+                "C / deg",
+                "X / mm",
+                "travel of the tool tip / mm",
+                "pole-flip",
+                "limits",
+            ][..],
         ),
         (
             "axis-plane",
@@ -185,7 +191,7 @@ fn pictures_are_whole_and_labelled() {
                 "pole-flip",
             ],
         ),
-        ("deviation", &["way of the tool tip / mm", "tolerance 0.01 mm"]),
+        ("deviation", &["travel of the tool tip / mm", "tolerance 0.01 mm"]),
         ("path", &["Y / mm", "feed", "rapid"]),
     ] {
         let output = trunnion(&[
@@ -235,7 +241,7 @@ fn the_plane_of_the_tool_axis_before_and_after_and_near_the_pole() {
     let green = |picture: &str| picture.matches("#009E73").count();
     let alone = picture(&[]);
     assert!(!alone.contains("before") && green(&both) > green(&alone) + 4);
-    // half a degree about the pole: sin 0.5 deg is 0.0087, so that no label of the axes lies beyond it
+    // half a degree around the pole: sin 0.5 deg is 0.0087, so that no label of the axes is beyond it
     let near = picture(&["--around-pole", "0.5"]);
     assert!(near.contains("0.005") && !near.contains("0.02"), "{near}");
     for (more, word) in [

@@ -179,7 +179,7 @@ fn through_the_pole_the_turning_axis_keeps_its_side() {
 }
 
 /// The rules that each cone calls, no more and no less. A runs from -30 deg, so a tilt of more than 30 deg leaves one posture; through
-/// the pole itself C goes on evenly, 0.1 deg beside it the table turns by 145 times the path's angle.
+/// the pole itself C continues evenly, 0.1 deg beside it the table turns by 145 times the path's angle.
 #[test]
 fn each_cone_calls_exactly_its_rules() {
     let folder = TempDir::new().expect("works");

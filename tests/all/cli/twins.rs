@@ -43,7 +43,7 @@ fn planted_faults_are_found() {
     assert_eq!(status(&output), 1, "{}", text(&output.stdout));
 }
 
-/// A machine whose tilting axis lies 0.05 mm off: programs in joints that hold the tip still on the true machine move it there.
+/// A machine whose tilting axis is 0.05 mm off: programs in axis positions that hold the tip still on the true machine move it there.
 #[test]
 fn a_pivot_that_is_off_moves_the_fixed_tip() {
     let folder = TempDir::new().expect("works");

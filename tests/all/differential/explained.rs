@@ -166,30 +166,30 @@ pub(crate) const EXPLAINED: &[Explanation] = &[
 
 /// Messages of what this interpreter does not model.
 const REFUSED: [&str; 17] = [
-    "G53 with a spline (G5.2): where the control puts the control point is not known",
-    "a spline (G5.2) with cutter radius compensation on: where the control goes on from is not known",
-    "G17.1, G18.1 or G19.1 with cutter radius compensation on: what the control does with the contour is not known",
-    "turning contour that goes back by a trace along the cut: whether the control takes it is not known",
-    "rounded or chamfered corner of a turning contour beside an arc, or that takes half of a line across the cut: how the control takes it is not known",
-    "pockets of a turning contour with several arcs: where the control cuts them is not known",
-    "M61 or G10 L0 with cutter radius compensation on: where the control goes on from is not known",
-    "a spline (G5, G5.1) before the end of another one (G5.2): the control mixes their control points",
+    "G53 with a spline (G5.2): it is not known where the control puts the control point",
+    "a spline (G5.2) with cutter radius compensation on: it is not known where the control continues",
+    "G17.1, G18.1 or G19.1 with cutter radius compensation on: it is not known what the control does with the contour",
+    "turning contour that moves back very slightly along the cut: it is not known whether the control accepts it",
+    "rounded or chamfered corner of a turning contour next to an arc, or one that uses up half of a line across the cut: it is not known how the control runs it",
+    "pockets of a turning contour with several arcs: it is not known where the control cuts them",
+    "M61 or G10 L0 with cutter radius compensation on: it is not known where the control continues",
+    "a spline (G5, G5.1) starts before another one (G5.2) has ended: the control mixes their control points",
     "corner of a turning contour with nothing before it: the control crashes",
-    "block in the contour of a turning cycle: how the control takes it is not known",
-    "corner of a turning contour that has no room for its radius or chamfer",
-    "contour of a turning cycle whose allowance is greater than its details at the ends: the way of the tool is not known",
-    "corner of a turning contour that is nearly straight, with an allowance: how the control rounds it is not known",
-    "corner between two arcs of a turning contour, with an allowance: how the control cuts it is not known",
-    "corner of a turning contour whose radius or chamfer goes less than 0.01 mm or inch, as programmed, along the cut: how the control takes it is not known",
-    "G70 with cutter compensation: the way of the tool is not known",
-    "arc of a turning contour with its deepest point inside, or with unequal radii: how the control cuts there is not known",
+    "block in the contour of a turning cycle: it is not known how the control runs it",
+    "corner of a turning contour without enough room for its radius or chamfer",
+    "contour of a turning cycle whose allowance is larger than the details at its ends: the path of the tool is unknown",
+    "nearly straight corner of a turning contour with an allowance: it is not known how the control rounds it",
+    "corner between two arcs of a turning contour with an allowance: it is not known how the control cuts it",
+    "corner of a turning contour whose radius or chamfer is shorter than 0.01 mm or inch, as programmed, along the cut: it is not known how the control runs it",
+    "G70 with cutter compensation: the path of the tool is unknown",
+    "arc of a turning contour with its deepest point inside, or with unequal radii: it is not known how the control cuts there",
 ];
 
 fn is_refused(error: &str) -> bool {
     error.lines().next().is_some_and(|line| REFUSED.contains(&line))
 }
 
-/// The calls before the refusal are the control's; two calls behind it reset the machine.
+/// The calls before the refusal are the control's; two calls after it reset the machine.
 fn is_head(ours: &Ours, control: &Answer) -> bool {
     let resets = |line: &&String| line.ends_with("ON_RESET()") && !line.starts_with("    6 ");
     let length = ours
@@ -247,7 +247,7 @@ fn is_zero(text: &str) -> bool {
     digits.starts_with("0.0") && digits.bytes().all(|byte| matches!(byte, b'0' | b'.'))
 }
 
-/// Two neighbours in the last decimal, and the value lies in the middle between them, as far as sums of doubles can tell.
+/// Two neighbours in the last decimal, and the value is in the middle between them, as far as sums of doubles show.
 fn is_tie(a: &str, b: &str, exact: &str) -> bool {
     let decimals = |text: &str| Some(text.split_once('.')?.1.len());
     let [Some(count), Some(other)] = [a, b].map(decimals) else {

@@ -40,7 +40,7 @@ impl Program {
             // a coordinate, a coordinate near zero, a length
             "v" => number(self.random.between(-40.0, 40.0)),
             "w" => number(self.random.between(-3.0, 3.0)),
-            // a thread of a million passes tells no more than one of a hundred, and takes long
+            // a thread of a million passes shows no more than one of a hundred, and takes long
             "degression" if self.random.one_in(8) => number(self.random.between(0.05, 9.0)),
             "degression" => number(self.random.between(0.05, 3.0)),
             "p" => number(self.random.between(0.05, 9.0)),

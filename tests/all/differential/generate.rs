@@ -7,7 +7,7 @@ use core::fmt::Write;
 pub(crate) struct Program {
     pub(crate) random: Random,
     pub(crate) case: Case,
-    /// Text behind the end of the program.
+    /// Text after the end of the program.
     pub(crate) behind: String,
     /// Numbers of the tool table.
     pub(crate) tools: Vec<u32>,

@@ -104,7 +104,7 @@ impl Program {
         self.line("G90 G17");
     }
 
-    /// A polyline with turns both ways, now and then with arcs, under compensation.
+    /// A polyline with turns in both directions, now and then with arcs, under compensation.
     pub(crate) fn compensated(&mut self) {
         self.line("G17 G90");
         self.go();

@@ -122,7 +122,7 @@ fn the_refusal_names_the_field() {
     assert!(
         witness
             .message
-            .starts_with("rotary[0].step_after_deg: certificate says 1.0"),
+            .starts_with("rotary[0].step_after_deg: the certificate says 1.0"),
         "{}",
         witness.message
     );

@@ -133,7 +133,7 @@ fn a_tool_that_is_not_a_declared_ball_is_refused() {
         "{reason}"
     );
     let reason = refused(smooth(&text, &settings("sinumerik-840d", tool(ToolShape::Flat)), 0.08));
-    assert!(reason.contains("no ball"), "{reason}");
+    assert!(reason.contains("not a ball"), "{reason}");
     let declared = format!("; trunnion: tool 1 ball diameter 10\nT1 D1\nM6\n{text}");
     certified(smooth(&declared, &settings("sinumerik-840d", Setup::default()), 0.08));
 }
@@ -166,7 +166,7 @@ fn what_cannot_be_proven_is_refused_with_its_reason() {
     assert!(reason.contains("--tolerance-mm"), "{reason}");
 }
 
-/// One digit behind the point for X, Y and Z.
+/// One digit after the point for X, Y and Z.
 fn shorten(line: &str) -> String {
     let short = |word: &str| match word.parse_number() {
         Some(value) => format!("{}{value:.1}", &word[..1]),
@@ -221,7 +221,7 @@ fn words_left_out_are_written_where_they_are_needed() {
     let settings = settings("sinumerik-840d", ball());
     let rows =
         "N1 G1 X-28 Y-2.1 Z60.5 A2.1 C3\nN2 Y-1.8 A1.05 C5\nN3 Y-1.5 A0.08 C50\nN4 Y-1.25 A-0.8 C-3.1\nN5 Y-1 A-2.1\n";
-    // X and Z are said once, with one digit more elsewhere so that there is something to round to
+    // X and Z are written once, with one digit more elsewhere so that there is something to round to
     let rows = format!("G1 X-28.00000 Y-3.00000 Z60.50000 A2.1 C3.000\n{rows}");
     let (after, certificate) = certified(smooth(&sinumerik(&rows), &settings, 0.08));
     let row = |number: &str| {

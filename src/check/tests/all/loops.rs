@@ -1,4 +1,4 @@
-//! Programs with loops and calls: a finding is told once, at its first pass, with its count and the calls that led to it.
+//! Programs with loops and calls: a finding is reported once, at its first pass, with its count and the calls that led to it.
 use std::sync::Arc;
 use trunnion_check::{Diagnostic, Report, Session, Settings, Severity, check};
 use trunnion_interp::{Files, Library, Loaded, Setup};
@@ -62,7 +62,7 @@ fn a_finding_in_a_loop_is_told_once_with_its_count() {
     assert_eq!(report.summary.blocks, 8);
 }
 
-/// The first pass is within the limits, a later one is not: what is found first is told.
+/// The first pass is within the limits, a later one is not: the first one that is found is reported.
 #[test]
 fn what_only_a_later_pass_finds_is_told_too() {
     let text = LOOP.replace("[5000.+#1]", "[#1*1000.]");

@@ -1,4 +1,4 @@
-//! What the interpreter or the kinematics does not know is never passed over: a motion of which nobody knows the way, or that leads from a
+//! What the interpreter or the kinematics does not know is always reported: a motion with an unknown path, or one that leads from a
 //! known place to nowhere, comes with a finding. Random programs of the codes that move something, on all dialects of controls.
 //!
 //! `TRUNNION_SILENCE_CASES` sets the number of programs.

@@ -115,15 +115,15 @@ fn mistakes() {
     for (text, part, sentence) in [
         ("[[[[[[1]]]]]]", "[", "brackets are nested deeper than 5 levels"),
         ("SIN[[[[[[#1]]]]]]", "[", "brackets are nested deeper than 5 levels"),
-        ("[2**3]", "*", "a number, `#`, `[` or a function must stand here"),
+        ("[2**3]", "*", "expected a number, `#`, `[` or a function here"),
         ("[1/#0]", "1/#0", "division by zero"),
         ("[8 MOD .2]", "8 MOD .2", "division by zero"),
         ("POW[2]", "POW[2]", "POW needs two arguments: `POW[base,exponent]`"),
-        ("[1,2]", ",", "an operator or `]` must stand here"),
+        ("[1,2]", ",", "expected an operator or `]` here"),
         (
             "BIN[26]",
             "BIN[26]",
-            "no binary coded decimal: eight decimal digits at most, not negative",
+            "not a binary coded decimal: write at most eight decimal digits and no sign",
         ),
         ("LN[0]", "LN[0]", "LN of zero or of a negative number"),
         ("#_NOTHERE", "#_NOTHERE", "#<_nothere> has no value here"),

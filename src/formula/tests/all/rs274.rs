@@ -1,5 +1,5 @@
-//! RS274/NGC: every line of `rs274.tsv` was put behind `G0X` and given to LinuxCNC's `rs274` (2.9.0~pre1); beside it stands what it
-//! answered: the X of the move, or the message behind `!`.
+//! RS274/NGC: every line of `rs274.tsv` was put after `G0X` and given to LinuxCNC's `rs274` (2.9.0~pre1); beside it stands what it
+//! answered: the X of the move, or the message after `!`.
 use crate::support::{Table, eval, read, refused};
 use trunnion_formula::{Cursor, Grammar, Target, Variable, target, value};
 use trunnion_syntax::{Decimal, TextRange};
@@ -31,27 +31,27 @@ fn ranges_name_the_part_that_is_wrong() {
         ("[1 + #<no> ]", "#<no>", "#<no> has no value here"),
         ("[ 2 + 1 / 0 + 3 ]", "1 / 0", "division by zero"),
         ("[1 + sqrt [ -4 ] ]", "sqrt [ -4 ]", "square root of a negative number"),
-        ("[1 foo 2]", "f", "no operator of that name, beginning with F"),
-        ("[1 + foo[2]]", "foo", "no function of that name, beginning with F"),
-        ("[1 + sin 30]", "sin", "the argument of a function must stand in `[ ]`"),
-        ("[3 * [1 + 2", "[", "this `[` has no `]` on the line"),
+        ("[1 foo 2]", "f", "unknown operator, starting with F"),
+        ("[1 + foo[2]]", "foo", "unknown function, starting with F"),
+        ("[1 + sin 30]", "sin", "the argument of a function must be in `[ ]`"),
+        ("[3 * [1 + 2", "[", "missing `]` for this `[`"),
         (
             "1.2.3",
             "1.2.3",
             "`1.2.3` is not a number: it has more than one decimal point",
         ),
         ("[1 + -.]", "-.", "`-.` is not a number: it has no digit"),
-        ("[1 + ]", "]", "a number, `#`, `[` or a function must stand here"),
+        ("[1 + ]", "]", "expected a number, `#`, `[` or a function here"),
         ("#[1 / 4]", "#[1 / 4]", "0.25 is not a whole number"),
-        ("#<abc", "#<", "this `#<` has no `>` on the line"),
-        ("[# 7000 + 1]", "# 7000", "there is no parameter #7000"),
+        ("#<abc", "#<", "missing `>` for this `#<`"),
+        ("[# 7000 + 1]", "# 7000", "parameter #7000 does not exist"),
         ("#<_hal[x]>", "#<_hal[x]>", "no HAL pins here"),
-        ("[10**400]", "10**400", "the result is larger than any number"),
+        ("[10**400]", "10**400", "the result is too large"),
         ("atan[1]", "atan[1]", "ATAN needs two arguments: `ATAN[y]/[x]`"),
         (
             "exists[#<a> + 1]",
             "+",
-            "EXISTS takes one parameter and nothing else: `]` must stand here",
+            "EXISTS takes one parameter and nothing else: expected `]` here",
         ),
     ];
     for (text, part, sentence) in table {

@@ -1,8 +1,8 @@
-//! Variables and short ways to read and evaluate.
+//! Variables and short forms to read and evaluate.
 use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, ValueError, Variables, value, value_or_error};
 use trunnion_syntax::TextRange;
 
-/// Variables 1 to 5601, zero where nothing is said, and a few named ones; #200 is not known, #100 to #149 are vacant.
+/// Variables 1 to 5601, zero unless set, and a few named ones; #200 is unknown, #100 to #149 are vacant.
 #[derive(Default)]
 pub(crate) struct Table {
     pub(crate) values: Vec<(i64, f64)>,

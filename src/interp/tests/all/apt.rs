@@ -177,7 +177,7 @@ fn records_that_are_not_modelled() {
     assert_eq!(
         got[2..],
         [
-            r#"6: GODLTA/1,1,1: NotModelled { what: "GODLTA from a place that is not known" }"#,
+            r#"6: GODLTA/1,1,1: NotModelled { what: "GODLTA from an unknown position" }"#,
             "7: FROBNI: AptUnknownRecord",
             r#"7: FROBNI/1: NotModelled { what: "FROBNI" }"#
         ]
@@ -193,7 +193,7 @@ fn after_an_unknown_record_nothing_is_known() {
             ["L X1 Y2 Z3 F1 tcp <0 0 1>", "U - tcp", "L - F1 tcp"],
             "{record}"
         );
-        // the record, what it may be, and the GODLTA behind it
+        // the record, what it may be, and the GODLTA after it
         assert_eq!(faults("apt", &source).len(), 3, "{record}");
     }
     let source = "FEDRAT/1\nGOTO/1,2,3\nINSERT G0 X5\nGODLTA/1,1,1\nGOTO/4,5,6,0,0,1\n";
@@ -204,8 +204,8 @@ fn after_an_unknown_record_nothing_is_known() {
     assert_eq!(
         faults("apt", source),
         [
-            r#"3: INSERT G0 X5: NotModelled { what: "INSERT: text for the machine is not read" }"#,
-            r#"4: GODLTA/1,1,1: NotModelled { what: "GODLTA from a place that is not known" }"#
+            r#"3: INSERT G0 X5: NotModelled { what: "INSERT: the text that it passes to the machine is not read" }"#,
+            r#"4: GODLTA/1,1,1: NotModelled { what: "GODLTA from an unknown position" }"#
         ]
     );
     let harmless = "FEDRAT/1\nGOTO/1,2,3\nPPRINT/A\nREMARK B\nSEQNO/10\nOPSKIP/ON\nGODLTA/1,1,1\n";

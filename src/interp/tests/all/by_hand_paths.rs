@@ -57,7 +57,7 @@ fn turning() {
 
 #[test]
 fn compensation() {
-    // radius 5; the tool stands left of the path with G41, right with G42
+    // radius 5; the tool is left of the path with G41, right with G42
     let setup = Setup {
         tools: vec![Tool {
             number: 1,

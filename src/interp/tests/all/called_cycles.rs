@@ -92,19 +92,19 @@ fn what_a_cycle_does_not_tell_is_unknown() {
             "CYCLE84(10,0,3,-20,,0,3,0,1.5,0,300,300,0,1,0,1,2,1)",
             "the steps in the hole",
         ),
-        ("CYCLE84(10,0,3,-20,,0,3,8)", "its pitch"),
-        ("CYCLE81(10,0,3,R7)", "without levels"),
-        ("CYCLE81(-10,0,3,-20)", "without levels"),
-        ("CYCLE81(10,0,3,-20,,0,1)", "numbers that choose other meanings"),
+        ("CYCLE84(10,0,3,-20,,0,3,8)", "the pitch"),
+        ("CYCLE81(10,0,3,R7)", "without known levels"),
+        ("CYCLE81(-10,0,3,-20)", "without known levels"),
+        ("CYCLE81(10,0,3,-20,,0,1)", "numbers that select other meanings"),
         (
             "CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0,1)",
-            "numbers that choose other meanings",
+            "numbers that select other meanings",
         ),
     ] {
         let got = faults("sinumerik-840d", &format!("{HEAD}{text}\n"));
         assert!(got.iter().any(|fault| fault.contains(told)), "{text}: {got:?}");
     }
-    // the place behind a hole in steps is known
+    // the position after a hole in steps is known
     assert_eq!(
         cycle("CYCLE83(10,0,3,-20,,-5,,2,0,0,1,0)"),
         ["R X0 Y0 Z3", "U X0 Y0 Z-20", "R X0 Y0 Z10"]

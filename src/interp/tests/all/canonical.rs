@@ -50,7 +50,7 @@ fn a_held_motion_has_its_own_feed_not_that_of_the_next_line() {
     assert_eq!(feeds("G0 X0 Y0 Z0\nG93 G1 X1 F0.05\nM2\n")[1], Feed::PerMinute(0.1));
 }
 
-/// Block of each motion, and whether it is told with G91.
+/// Block of each motion, and whether it is emitted with G91.
 struct Modes(Vec<(u32, bool)>);
 
 impl trunnion_interp::Sink for Modes {
@@ -152,7 +152,7 @@ fn an_inch_feed_of_rotary_axes_alone_is_degrees_per_minute() {
         let linear = Feed::PerMinute(254.0);
         assert_eq!(got, [Feed::PerMinute(100.0), linear, linear], "{dialect}");
     }
-    // a linear axis that is named where it stands does not move
+    // a linear axis that is named without moving does not move
     for (dialect, inch) in [("linuxcnc", "G20"), ("fanuc-30i", "G20"), ("sinumerik-840d", "G700")] {
         let source = format!("{inch} G90 G94\nG0 X1. Y0. Z0. A0.\nG1 X1. A90. F100.\nG91 G1 Y0. A5.\nM2\n");
         let log = run_bytes(dialect, source.as_bytes(), &Setup::default()).1;
@@ -265,7 +265,7 @@ fn what_is_not_modelled_in_a_called_file_names_the_file_and_line() {
     let FaultKind::NotModelled { what } = &kinds[0] else {
         panic!("{kinds:?}");
     };
-    assert_eq!(what, "in subs/probe.ngc, line 2: G38.2: where the probe touches");
+    assert_eq!(what, "in subs/probe.ngc, line 2: G38.2: the probed position");
     assert_eq!(kinds.len(), 1, "{kinds:?}");
 }
 

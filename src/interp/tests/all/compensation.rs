@@ -168,7 +168,7 @@ fn the_radius_comes_from_d() {
     let (motions, faults) = run(source, &Setup::default());
     assert_eq!(motions[1..], ["L X-2.5 Y0", "L X-2.5 Y20", "L X-10 Y20"]);
     assert_eq!(faults, [""; 0]);
-    // D0 is no offset; an undeclared radius leaves the programmed path, and that is told
+    // D0 is no offset; an undeclared radius leaves the programmed path, and that is reported
     let plain = source.replace("D7", "D0");
     assert_eq!(run(&plain, &Setup::default()).0[1], "L X0 Y0");
     let unknown = source.replace("D7", "D8");

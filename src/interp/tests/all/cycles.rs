@@ -115,7 +115,7 @@ fn pecking_leaves_the_hole() {
         "R Z1",
     ];
     assert_eq!(pecking("fanuc-30i", source, control), want);
-    // where the clearance is not declared, the rapid into the hole ends nobody knows where; the depths are known
+    // where the clearance is not declared, the rapid into the hole ends at an unknown position; the depths are known
     let got = pecking("fanuc-30i", source, ControlData::default());
     assert_eq!(got[3..6], ["R Z1", "R X1 Y2", "L Z-5 F100"]);
 }
@@ -190,12 +190,12 @@ fn bores_that_stop_the_spindle() {
     let manual = heights("fanuc-30i", "G0 X1. Y2. Z9.\nG98 G88 Z-3. R1. P100 F100.\n");
     assert_eq!(manual, ["R Z9", "R Z1", "L Z-3 F100", "D0.1 Z-3", "U Z1", "R Z9"]);
     let said = faults("fanuc-30i", "G0 X1. Y2. Z9.\nG98 G88 Z-3. R1. P100 F100.\n");
-    assert!(said.len() == 1 && said[0].contains("by hand"), "{said:?}");
+    assert!(said.len() == 1 && said[0].contains("manual retract"), "{said:?}");
 }
 
 #[test]
 fn fine_boring_shifts_off_the_wall() {
-    // Fanuc: a parameter says which way Q shifts, so X and Y are unknown while the tool is off the wall
+    // Fanuc: a parameter decides the direction in which Q shifts, so X and Y are unknown while the tool is off the wall
     let fanuc = lines("fanuc-30i", "G0 X1. Y2. Z9.\nG98 G76 Z-3. R1. Q0.5 F100.\n");
     assert_eq!(
         fanuc,

@@ -42,11 +42,11 @@ fn a_pattern_that_is_given_up_joins_on() {
     }
 }
 
-/// Increments of a cycle whose start is not known lead nowhere, and that is said.
+/// Increments of a cycle whose start is not known have an unknown end, and that is reported.
 #[test]
 fn levels_that_count_from_an_unknown_place_are_told() {
     let said = faults("fanuc-30i", "G0 X1. Y2.\nG91 G81 X5. Z-3. R-1. F100.\nG80\nM30\n");
-    assert!(said.len() == 1 && said[0].contains("levels count from Z"), "{said:?}");
+    assert!(said.len() == 1 && said[0].contains("levels refer to Z"), "{said:?}");
 }
 
 /// Cycles with many repeats in a loop end as the loop would: their motions count for the bound on executed blocks.
@@ -61,12 +61,12 @@ fn cycles_in_a_loop_are_given_up() {
         (
             "linuxcnc",
             "G0 X1 Y2 Z9\n#1=0\no1 while [#1 lt 500]\n#1=[#1+1]\nG91 G81 X1 Z-1 R-1 F100 L300\no1 endwhile\nM2\n",
-            "more motions than the bound",
+            "more motions than the limit",
         ),
         (
             "linuxcnc",
             "G0 X1 Y2 Z9\nG91 G83 X1 Z-10 R-1 Q0.5 F100 L300\nM2\n",
-            "more motions than the bound",
+            "more motions than the limit",
         ),
     ] {
         let mut setup = Setup::default();

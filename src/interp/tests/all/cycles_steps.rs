@@ -1,11 +1,11 @@
-//! Drilling in steps as a Haas has it, and words of calls that stand in the block of a cycle.
+//! Drilling in steps on a Haas, and words of calls in the block of a cycle.
 use crate::cycles::pecking;
 use crate::support::{fault_line, line, lines, run_bytes};
 use trunnion_interp::{ControlData, Setup};
 
 #[test]
 fn haas_steps_add_up_to_k() {
-    // R 0, Z -10, steps of 2, out of the hole whenever 4 are done: behind -4 and -8; else back by 0.5
+    // R 0, Z -10, steps of 2, out of the hole whenever 4 are done: after -4 and -8; otherwise back by 0.5
     let control = ControlData {
         chip_break_retract_mm: Some(0.5),
         peck_clearance_mm: Some(0.25),
@@ -43,7 +43,7 @@ fn mixtures_of_steps_are_named() {
         let (program, log) = run_bytes("haas-ngc", source.as_bytes(), &Setup::default());
         let faults: Vec<_> = log.faults.iter().map(|fault| fault_line(&program, fault)).collect();
         assert!(
-            faults[0].contains(&format!("{what} with this mixture of I, J, K and Q")),
+            faults[0].contains(&format!("{what} with this combination of I, J, K and Q")),
             "{words}: {faults:?}"
         );
         let motions: Vec<_> = log.motions.iter().map(|m| line(m).replace("X1 Y2 ", "")).collect();

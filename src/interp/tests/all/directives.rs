@@ -1,4 +1,4 @@
-//! Comments that speak to Trunnion.
+//! Comments that address Trunnion.
 use trunnion_dialect::builtin;
 use trunnion_interp::{Directive, Tool, ToolShape, directives};
 use trunnion_syntax::parse;

@@ -20,7 +20,7 @@ fn unknown_codes_and_words() {
         ["1: FROBNICATE: UnknownCode { machine_builder: false }"]
     );
     assert_eq!(faults("fanuc-30i", "G0 X1. CR=5\n"), ["1: CR=5: UnknownWord"]);
-    // without a point the size of a coordinate hangs on a parameter of the control; zero is zero
+    // without a point the size of a coordinate depends on a parameter of the control; zero is zero
     assert_eq!(faults("fanuc-30i", "G0 X0 Y5\n"), ["1: Y5: AmbiguousDecimal"]);
     assert_eq!(faults("linuxcnc", "G0 X0 Y5\nM2\n"), Vec::<String>::new());
 }
@@ -89,7 +89,7 @@ fn compensation_is_said_once() {
     let got = faults("iso-6983", "F1\nG41 D1 G1 X1\nG40\nG42 X2\n");
     assert_eq!(
         got,
-        [r#"2: G41: NotModelled { what: "cutter radius compensation: path is the programmed one" }"#]
+        [r#"2: G41: NotModelled { what: "cutter radius compensation: the programmed path is used instead" }"#]
     );
 }
 

@@ -3,7 +3,7 @@ use crate::support::{fault_line, line, run_bytes, shared};
 use std::collections::BTreeMap;
 use trunnion_interp::{Feed, MotionKind, Setup};
 
-/// The words of a block of the pocket program, read the simplest way: a letter and a number, again and again.
+/// The words of a block of the pocket program, read in the simplest way: a letter and a number, again and again.
 fn words(block: &str) -> Vec<(char, f64)> {
     let mut words = Vec::new();
     let mut rest = block.trim();
@@ -134,7 +134,7 @@ fn faults_of_real_sinumerik_programs() {
     insta::assert_snapshot!(text);
 }
 
-/// No file of the data makes the run stop, and every fault lies in its file.
+/// No file of the data makes the run stop, and every fault is inside its file.
 #[test]
 fn every_shared_program_runs() {
     let cases = [

@@ -10,7 +10,7 @@ fn zeros(source: &str) -> Vec<(String, [f64; 3])> {
 
 #[test]
 fn a_local_shift_moves_the_zero_point() {
-    // the machine stands at 10, 20: with G52 X5 that is programmed X5
+    // the machine is at 10, 20: with G52 X5 that is programmed X5
     let got = zeros("G0 X10. Y20. Z1.\nG52 X5.\nG0 Y0.\nX0.\nG52 X0.\nX0.\n");
     let want = [
         ("R X10 Y20 Z1", [0.0; 3]),
@@ -24,7 +24,7 @@ fn a_local_shift_moves_the_zero_point() {
 
 #[test]
 fn setting_the_position_shifts_all_offsets() {
-    // at 10 the point is called 2: the zero lies at 8, in G55 too, until G92.1
+    // at 10 the point is called 2: the zero is at 8, in G55 too, until G92.1
     let got = zeros("G0 X10. Y20. Z1.\nG92 X2. Y20.\nG0 X3.\nG55 X0.\nG92.1\nX1.\n");
     assert_eq!(got[1], ("R X3 Y20 Z1".to_owned(), [8.0, 0.0, 0.0]));
     assert_eq!(got[2], ("R X0 Y20 Z1".to_owned(), [8.0, 0.0, 0.0]));
@@ -72,7 +72,7 @@ fn tool_lengths_written_by_the_program() {
 
 #[test]
 fn a_turned_plane() {
-    // 30 deg about X10 Y0: (20, 0) lies at 10 + 10 cos 30 = 18.660254, 10 sin 30 = 5
+    // 30 deg about X10 Y0: (20, 0) is at 10 + 10 cos 30 = 18.660254, 10 sin 30 = 5
     let source = "G0 X0. Y0. Z1.\nG68 X10. Y0. R30.\nX20. Y0.\nG91 X10.\nG90 G69\nX1. Y2.\n";
     assert_eq!(
         lines("fanuc-30i", source),
@@ -102,7 +102,7 @@ fn a_turned_plane() {
 
 #[test]
 fn scaled_coordinates() {
-    // factor 2 about X10: 20 lies at 30
+    // factor 2 about X10: 20 is at 30
     let source = "G0 X0. Y0. Z0.\nG51 X10. Y0. Z0. P2.\nX20. Y5.\nG2 X30. R5. F100.\nG50\nG0 X0. Y0.\n";
     assert_eq!(
         lines("fanuc-30i", source),
@@ -132,7 +132,7 @@ fn scaled_coordinates() {
 
 #[test]
 fn mirrored_coordinates() {
-    // about X50: 60 lies at 40; a clockwise arc turns counter-clockwise
+    // about X50: 60 is at 40; a clockwise arc turns counter-clockwise
     let source = "G0 X50. Y0. Z0.\nG51.1 X50.\nG1 X60. Y0. F100.\nG2 X70. Y10. R10.\nG50.1 X0.\nG1 X1. Y1.\n";
     assert_eq!(
         lines("fanuc-30i", source),
@@ -175,7 +175,7 @@ fn polar_coordinates() {
 
 #[test]
 fn frames_hold_for_cycles() {
-    // turned by 90 deg: the hole at (10, 0) lies at (0, 10)
+    // turned by 90 deg: the hole at (10, 0) is at (0, 10)
     let source = "G0 X0. Y0. Z9.\nG68 X0. Y0. R90.\nG99 G81 X10. Y0. Z-3. R1. F100.\n";
     assert_eq!(
         lines("fanuc-30i", source)[1..],
@@ -210,12 +210,12 @@ fn returns_to_reference_points() {
             "R X7 Y8 Z0",
         ]
     );
-    // not declared: unknown on the named axes only, told once
+    // not declared: unknown on the named axes only, reported once
     let source = "G0 X1. Y2. Z3.\nG91 G28 Z0.\nG28 X0.\n";
     assert_eq!(lines("fanuc-30i", source), ["R X1 Y2 Z3", "U X1 Y2", "U Y2"]);
     assert_eq!(
         faults("fanuc-30i", source),
-        [r#"2: G28: NotModelled { what: "reference point 1: where it lies is not declared" }"#]
+        [r#"2: G28: NotModelled { what: "reference point 1: its position is not declared" }"#]
     );
     // without coordinates a Haas returns all axes, a Fanuc none
     assert_eq!(lines("haas-ngc", "G0 X1. Y2. Z3.\nG28\n"), ["R X1 Y2 Z3", "U -"]);

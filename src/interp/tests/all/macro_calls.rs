@@ -1,4 +1,4 @@
-//! What calls tell: where motions of other files stand, programs that are missing, M99 of the main program.
+//! What calls report: where motions of other files are, programs that are missing, M99 of the main program.
 use crate::support::{Log, fault_line, run_bytes};
 use std::sync::Arc;
 use trunnion_interp::{FaultKind, Files, Interpreter, Library, Loaded, Setup};

@@ -40,7 +40,7 @@ fn a_while_loop_runs_while_its_condition_holds() {
 
 #[test]
 fn a_jump_back_to_the_program_number_does_not_end_the_program() {
-    // wherever the number stands in the file
+    // wherever the number is in the file
     for before in ["", "\n", "(c)\n", "%\n"] {
         let source = format!("{before}O1 #1=0\nN5 G0X#1\n#1=#1+1\nIF[#1LT3]GOTO5\nM30\n");
         assert_eq!(clean(&source), ["R X0", "R X1", "R X2"], "{source}");
@@ -77,7 +77,7 @@ fn goto_leaves_a_loop_and_goes_forward_before_it_goes_back() {
     let source = "#1=0\nWHILE[1EQ1]DO1\n#1=#1+1\nIF[#1EQ3]GOTO20\nEND1\nG0X99.\nN20G0X#1\nM30\n";
     assert_eq!(clean(source), ["R X3"]);
     let twice = "N10 #1=#1+1\nG0X#1\nIF[#1GT1]GOTO20\nGOTO10\nN20G0Y1.\nGOTO10\nN10G0Z1.\nM30\n";
-    // the second N10 lies forward from each GOTO
+    // the second N10 is forward from each GOTO
     assert_eq!(clean(twice), ["R X1", "R X1 Z1"]);
     assert_eq!(
         clean("#1=30\nGOTO#1\nN20G0X20.\nM30\nN30G0X30.\nGOTO[#1-10]\n"),

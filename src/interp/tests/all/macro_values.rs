@@ -5,7 +5,7 @@ use trunnion_interp::{FaultKind, Setup, WorkOffset};
 
 const FANUC: &str = "fanuc-30i";
 
-/// X of `G0X#1` behind the statements, of which nothing may be wrong.
+/// X of `G0X#1` after the statements, none of which may be wrong.
 fn value(statements: &str) -> String {
     let source = format!("{statements}\nG0X#1\nM30\n");
     assert_eq!(said(&source), [""; 0], "{source}");

@@ -301,7 +301,7 @@ fn trans_moves_the_zero_point() {
     assert_eq!(zeros[1..4], [[10.0, 0.0, 30.0], [11.0, -2.0, 30.0], [11.0, -2.0, 30.0]]);
     assert_eq!(zeros[4], [0.0; 3]);
     assert_eq!(log.faults, []);
-    // inside a frame that is not modelled, or behind one, nothing is known
+    // inside a frame that is not modelled, or after one, nothing is known
     for source in [
         "G0 X1 Y2 Z3\nROT Z10\nATRANS X10\nX5 Y6\n",
         "G0 X1 Y2 Z3\nTRANS X10\nAROT Z10\nX5 Y6\n",
@@ -342,7 +342,7 @@ fn writing_zero_points_and_tools_of_the_control_hides_the_position() {
         assert_eq!(lines(dialect, &source), ["R X1 Y2 Z3 A4", "R -"], "{write}");
         assert_eq!(faults(dialect, &source).len(), 1, "{write}");
     }
-    // LinuxCNC reads the parameters of a coordinate system only when it is chosen anew
+    // LinuxCNC reads the parameters of a coordinate system only when it is selected again
     let source = "G0 X1 Y2 Z3 A4\n#5221=100\nG0 X5 A6\n";
     assert_eq!(lines("linuxcnc", source), ["R X1 Y2 Z3 A4", "R X5 Y2 Z3 A6"]);
     let own = [

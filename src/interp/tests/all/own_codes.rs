@@ -53,7 +53,10 @@ fn what_m428_means_is_said_by_the_machine() {
     // not declared: what coordinates mean is not known until the end
     assert_eq!(lines(&Setup::default()), ["R A4", "R A4"]);
     let told = faults("linuxcnc", source);
-    assert!(told[0].contains("M428: to which kinematics it switches"), "{told:?}");
+    assert!(
+        told[0].contains("M428: the machine file does not declare which kinematics it selects"),
+        "{told:?}"
+    );
 }
 
 #[test]
@@ -72,7 +75,7 @@ fn several_codes_of_the_machine_in_one_block_are_all_run() {
         assert_eq!(lines, ["R X1 Y2 Z3 A4", "R X5 A4 tcp", "R X1 Y1 Z1 A1"], "{codes}");
         assert_eq!(faults, [""; 0], "{codes}");
     }
-    // which of two switches of the kinematics is the last, nobody knows
+    // it is unknown which of two switches of the kinematics comes last
     for codes in ["M428 M430", "M429 M428"] {
         let (lines, faults) = run(codes);
         assert!(
@@ -81,7 +84,9 @@ fn several_codes_of_the_machine_in_one_block_are_all_run() {
         );
         assert_eq!(lines[2], "R X1 Y1 Z1 A1", "{codes}");
         assert!(
-            faults.iter().any(|fault| fault.contains("in one block: their order")),
+            faults
+                .iter()
+                .any(|fault| fault.contains("in one block: the machine decides their order")),
             "{faults:?}"
         );
     }
@@ -95,6 +100,6 @@ fn a_code_of_the_machine_under_compensation_is_unknown() {
     let told = log
         .faults
         .iter()
-        .any(|fault| format!("{fault:?}").contains("M428 under compensation"));
+        .any(|fault| format!("{fault:?}").contains("M428 under cutter radius compensation"));
     assert!(told, "{:?}", log.faults);
 }

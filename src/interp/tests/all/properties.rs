@@ -196,7 +196,7 @@ proptest! {
         for (kind, dx, dy) in steps {
             at = [at[0] + dx, at[1] + dy];
             let tail = match kind { 0 => "G0", 1 => "G1", 2 => "G2 R999", _ => "G3 R-999" };
-            // hundredths, so that both ways of writing are exact to the last printed digit
+            // hundredths, so that both spellings are exact to the last printed digit
             absolute += &format!("{tail} X{} Y{}\n", f64::from(at[0]) / 100.0, f64::from(at[1]) / 100.0);
             incremental += &format!("{tail} X{} Y{}\n", f64::from(dx) / 100.0, f64::from(dy) / 100.0);
         }

@@ -38,7 +38,7 @@ fn roughing_in_one_block_ends_where_it_began_behind_its_contour() {
     assert_eq!(lines("fanuc-30i-lathe-c", &source), want);
     let told = faults("fanuc-30i-lathe-c", &source);
     assert!(
-        told.len() == 1 && told[0].contains("G73: its cuts: the format in one block"),
+        told.len() == 1 && told[0].contains("cuts of G73: the format in one block"),
         "{told:?}"
     );
 }
@@ -122,7 +122,7 @@ fn faces_are_pecked() {
     // the lift is a parameter's: the depths are known, how far the tool goes back is not
     let got = lines(A, "G0 X0. Z2.\nG74 Z-7. Q4000 F.1\nM30\n");
     assert_eq!(got[1..4], ["L X0 Z-2 F0.1/rev", "R X0", "L X0 Z-6 F0.1/rev"]);
-    // a relief at the bottom, and a way aside without a step
+    // a relief at the bottom, and a sideways move without a step
     for block in ["G74 X-4. Z-7. P1000 Q4000 R.2 F.1", "G74 X-4. Z-7. Q4000 F.1"] {
         let source = format!("G0 X0. Z2.\n{block}\nG0 X1.\nM30\n");
         assert_eq!(lines(A, &source), ["R X0 Z2", "U X0 Z2", "R X0.5 Z2"], "{block}");
@@ -140,23 +140,23 @@ fn threads_whose_lead_changes() {
 fn a_skip_ends_nobody_knows_where() {
     let source = "G0 X1. Y2. Z3.\nG31 Z-5. F9.\nG0 X4.\n";
     assert_eq!(lines("fanuc-30i", source), ["R X1 Y2 Z3", "U X1 Y2", "R X4 Y2"]);
-    assert!(faults("fanuc-30i", source)[0].contains("G31: where the skip signal ends it"));
+    assert!(faults("fanuc-30i", source)[0].contains("G31: the position at which the skip signal ends the motion"));
 }
 
 #[test]
 fn contours_that_cannot_be_known() {
     let missing = faults(A, &format!("G0 X50. Z2.\nG70 P10 Q99\nM30\n{CONTOUR}"));
     assert!(
-        missing[0].contains("no block N99") && missing[0].contains("PS0063"),
+        missing[0].contains("block N99 does not exist") && missing[0].contains("PS0063"),
         "{missing:?}"
     );
     let none = faults(A, "G0 X50. Z2.\nG70\nM30\n");
     assert!(none[0].contains("G70 without P and Q"), "{none:?}");
-    // a condition inside: what runs is not followed; what comes behind is run once
+    // a condition inside: what runs is not followed; what comes after it is run once
     let source = "G0 X50. Z2.\nG71 U2. R1.\nG71 P10 Q20 F.3\nN10 G0 X20.\nIF[#500GT1.]GOTO20\nG1 Z-10.\nN20 X40.\nG0 X60. Z9.\nM30\n";
     let got = lines(A, source);
     assert_eq!(got, ["R X25 Z2", "U -", "R X30 Z9"]);
-    assert!(faults(A, source).iter().any(|fault| fault.contains("G71: its contour")));
+    assert!(faults(A, source).iter().any(|fault| fault.contains("contour of G71: ")));
 }
 
 #[test]
@@ -187,7 +187,7 @@ fn patterns_and_cuts_run_at_the_speed_of_the_cycle() {
     }
 }
 
-/// An allowance or a relief that nobody knows is not 0.
+/// An unknown allowance or relief is not 0.
 #[test]
 fn patterns_with_unknown_lengths_are_unknown() {
     for (first, second) in [
@@ -206,7 +206,7 @@ fn patterns_with_unknown_lengths_are_unknown() {
     }
 }
 
-/// A lift that is said and not known is not the one before; R500 is half a millimetre where numbers without a point count increments.
+/// An unknown programmed lift is not the one before; R500 is half a millimetre where numbers without a point count increments.
 #[test]
 fn the_lift_of_a_groove() {
     let control = trunnion_interp::ControlData {

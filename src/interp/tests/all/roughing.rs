@@ -31,7 +31,7 @@ const TURNED: [(char, f64, f64); 19] = [
     ('L', 21.5, -29.5),
     ('L', 22.5, -28.5),
     ('R', 22.5, 2.5),
-    // 8 deep: radius 17 of the contour lies on its cone, which falls by 2 in Z for each mm of radius: Z-10 - 2 * 7
+    // 8 deep: radius 17 of the contour is on its cone, which falls by 2 in Z for each mm of radius: Z-10 - 2 * 7
     ('R', 17.5, 2.5),
     ('L', 17.5, -23.5),
     ('L', 18.5, -22.5),
@@ -84,12 +84,12 @@ fn the_escape_in_rapid_and_untold() {
     let source = turned(|x| x, [1.0, 1.0]);
     let (got, told) = roughed(A, &source, RoughingEscape::Rapid);
     assert_eq!((got[4].as_str(), told), ("R X22.5 Z-28.5", 0));
-    // nobody says it: that short way is unknown, its ends are not
+    // not declared: that short motion is unknown, its ends are not
     let got = lines(A, &source);
     assert_eq!(got[4..6], ["U X22.5 Z-28.5", "R X22.5 Z2.5"]);
     let told = faults(A, &source);
     assert!(
-        told.len() == 1 && told[0].contains("roughing_escape says it"),
+        told.len() == 1 && told[0].contains("(declare [control] roughing_escape)"),
         "{told:?}"
     );
     // no escape, no question
@@ -179,7 +179,7 @@ fn depth_and_escape_stay_for_both_cycles() {
     let (got, told) = roughed(A, source, RoughingEscape::Feed);
     let cuts: Vec<_> = got.iter().filter(|motion| motion.starts_with("L X2 Z-1")).collect();
     assert_eq!((cuts.len(), told), (1, 0), "{got:?}");
-    // the escape alone is said anew
+    // only the escape is programmed again
     let source = source.replace("G72 P3", "G72 R.5\nG72 P3");
     let (got, _) = roughed(A, &source, RoughingEscape::Feed);
     assert!(got.contains(&"L X2.5 Z-0.5 F0.2/rev".to_owned()), "{got:?}");
@@ -234,7 +234,7 @@ fn cuts_shorter_than_the_escape() {
 
 #[test]
 fn a_level_along_a_shoulder() {
-    // radius 8 is a level and a cylinder: whether that cut ends at Z-5 or Z-10 nobody says; the others are known
+    // radius 8 is a level and a cylinder: whether that cut ends at Z-5 or Z-10 is undocumented; the others are known
     let source = "G0 X20. Z2.\nG71 U1. R0.\nG71 P1 Q2 F.2\nN1 G0 X14.\nG1 Z-5.\nX16.\nZ-10.\nN2 X20.\nM30\n";
     let want = [
         "R X10 Z2",

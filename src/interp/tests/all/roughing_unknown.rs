@@ -1,10 +1,10 @@
-//! Roughing cycles that are not worked out, and say why: they end where they began, and what comes behind is known.
+//! Roughing cycles that are not simulated, and say why: they end where they began, and what follows is known.
 use crate::support::{fault_line, faults, lines, run_bytes};
 use trunnion_interp::{MotionKind, Setup, WorkOffset};
 
 const A: &str = "fanuc-30i-lathe-a";
 
-/// Parts of a program: what stands before it, first and second block, contour.
+/// Parts of a program: what comes before it, first and second block, contour.
 fn program([before, first, second, contour]: [&str; 4]) -> String {
     format!("{before}G0 X50. Z2.\n{first}\n{second}\n{contour}G0 Z9.\nM30\n")
 }
@@ -21,7 +21,7 @@ fn are_unknown(cases: &[([&str; 4], &str)]) {
         let told = faults(A, &source);
         assert!(
             told.iter()
-                .any(|told| told.contains("G71: its cuts: ") && told.contains(why)),
+                .any(|told| told.contains("cuts of G71: ") && told.contains(why)),
             "{source}{told:?}"
         );
     }
@@ -30,7 +30,7 @@ fn are_unknown(cases: &[([&str; 4], &str)]) {
 #[test]
 fn words_that_are_missing_or_not_documented() {
     are_unknown(&[
-        // no depth, no escape, lengths that nobody knows
+        // no depth, no escape, unknown lengths
         (["", "", SECOND, CONTOUR], "without a depth of cut"),
         (["", "G71 R1.", SECOND, CONTOUR], "without a depth of cut"),
         (["", "G71 U0. R1.", SECOND, CONTOUR], "without a depth of cut"),
@@ -38,14 +38,14 @@ fn words_that_are_missing_or_not_documented() {
         (["", "G71 U#500 R1.", SECOND, CONTOUR], "without a depth of cut"),
         (["", "G71 U2.", SECOND, CONTOUR], "without an escape"),
         (["", "G71 U2. R-1.", SECOND, CONTOUR], "without an escape"),
-        (["", FIRST, "G71 P1 Q2 U#500 F.3", CONTOUR], "allowance is not known"),
+        (["", FIRST, "G71 P1 Q2 U#500 F.3", CONTOUR], "allowance is unknown"),
         // one block, tool nose, planes
         (["", FIRST, "G71 P1 Q2 D2000 F.3", CONTOUR], "one block"),
         (
             ["", FIRST, SECOND, "N1 G0 G42 X20.\nG1 Z-10.\nN2 G40 X50.\n"],
             "nose radius",
         ),
-        (["G17\n", FIRST, SECOND, CONTOUR], "another plane"),
+        (["G17\n", FIRST, SECOND, CONTOUR], "a plane other than"),
     ]);
 }
 
@@ -105,7 +105,7 @@ fn contours_that_are_not_of_type_one() {
             "does not say G0 or G1",
         ),
         (["", FIRST, "G71 P1 Q1 F.3", "N1 G0 X20.\n"], "one block"),
-        (["", FIRST, SECOND, "N1 G0 X20.\nN2 G1 X50.\n"], "begin along one axis"),
+        (["", FIRST, SECOND, "N1 G0 X20.\nN2 G1 X50.\n"], "start along one axis"),
         // other axes, rapids
         (["", FIRST, SECOND, "N1 G0 X20.\nG1 Z-10. C5.\nN2 X50.\n"], "other axes"),
         (["", FIRST, SECOND, "N1 G0 X20.\nG1 Z-10. Y5.\nN2 X50.\n"], "other axes"),

@@ -71,7 +71,7 @@ fn a_lathe_begins_in_its_plane() {
 
 #[test]
 fn corners_of_a_lathe() {
-    // R2 rounds the corner at radius 10, Z-20: tangent points 2 mm before and behind; K1 cuts the next one off
+    // R2 rounds the corner at radius 10, Z-20: tangent points 2 mm before and after; K1 cuts the next one off
     let got = lines(
         "fanuc-30i-lathe-a",
         "G0 X20. Y0. Z0.\nG1 Z-20. R2. F.1\nX40. K-1.\nZ-40.\n",
@@ -131,7 +131,7 @@ fn h_and_d_are_modal() {
 
 #[test]
 fn axes_beside_a_dwell() {
-    // grbl dwells and then moves; elsewhere nobody tells
+    // grbl dwells and then moves; elsewhere it is undocumented
     assert_eq!(lines("grbl", "G1 X1 F9\nG4 P0.5 X5\n")[1..], ["D0.5 X1", "L X5 F9"]);
     assert_eq!(
         lines("fanuc-30i", "G0 X1. Y2.\nG4 P500 X5.\n")[1..],

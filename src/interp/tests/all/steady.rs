@@ -1,4 +1,4 @@
-//! Lines of a motion and nothing else go a short way: they give the motions that they give with something beside them.
+//! Lines of a motion and nothing else take a short path: they give the same motions as with something beside them.
 use crate::support::{position, run_text};
 use proptest::prelude::*;
 

@@ -124,7 +124,7 @@ pub(crate) fn fault_line(program: &Program, fault: &Fault) -> String {
     )
 }
 
-/// A file of the shared data; `None`, said aloud, where it is not there.
+/// A file of the shared data; `None`, with a printed message, where it is missing.
 pub(crate) fn shared(path: &str) -> Option<Vec<u8>> {
     let file = format!("{}/../../../shared/data/{path}", env!("CARGO_MANIFEST_DIR"));
     std::fs::read(&file)

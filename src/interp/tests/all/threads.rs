@@ -8,7 +8,7 @@ const A: &str = "fanuc-30i-lathe-a";
 /// two finishing passes.
 const DEPTHS: [f64; 8] = [0.4, 0.565_685, 0.69282, 0.8, 0.894_427, 0.9, 1.0, 1.0];
 
-/// A thread without flank and pull-out: radius of the root at the end `x`, of the start `x0`; the way out of the work; taper; Z.
+/// A thread without flank and pull-out: radius of the root at the end `x`, of the start `x0`; the retract; taper; Z.
 fn passes(x: f64, x0: f64, taper: f64, [z0, z]: [f64; 2], depths: &[f64]) -> Vec<String> {
     let out = (x0 - x).signum();
     let mut want = vec![format!("R X{x0} Z{z0}")];
@@ -31,7 +31,7 @@ fn cuts_go_deeper_by_the_root_of_their_number() {
     let c = source.replace("G76", "G78").replace("G0 X35.", "G90 G0 X35.");
     assert_eq!(lines("fanuc-30i-lathe-c", &c), lines(A, source));
     assert_eq!(lines(A, &source.replace("X30. Z-20.", "U-5. W-25.")), lines(A, source));
-    // inside, and the other way
+    // inside, and in the other direction
     let inside = source.replace("X35. Z5.", "X25. Z-25.").replace("Z-20.", "Z0.");
     assert_eq!(lines(A, &inside), passes(15.0, 12.5, 0.0, [-25.0, 0.0], &DEPTHS));
 }
@@ -100,7 +100,7 @@ fn along_the_flank_the_beginning_of_a_cut_is_unknown() {
     assert_eq!(lines(A, source), want);
     let told = faults(A, source);
     assert!(
-        told.len() == 1 && told[0].contains("G76: where in Z its cuts begin"),
+        told.len() == 1 && told[0].contains("G76: where in Z its cuts start"),
         "{told:?}"
     );
     // on a taper neither the radius there, nor that where the pull-out begins
@@ -125,7 +125,7 @@ fn threads_that_cannot_be_worked_out_say_why() {
         ("G76 P020000 Q#500 R.1", second, "without Q in its first block"),
         ("G76 P020000 Q100", second, "without R in its first block"),
         ("G76 P000000 Q100 R.1", second, "no finishing pass"),
-        ("G76 P010045 Q100 R.1", second, "an angle that is none of"),
+        ("G76 P010045 Q100 R.1", second, "an angle other than"),
         (first, "G76 X30. Z-20. P1000 F1.5", "without its height"),
         (first, "G76 X30. Z-20. P0 Q300 F1.5", "without its height"),
         (first, "G76 X30. Z-20. P1000 Q0 F1.5", "without its height"),
@@ -146,7 +146,7 @@ fn threads_that_cannot_be_worked_out_say_why() {
         (first, "G76 X30. Z-20. R2. P1000 Q300 F1.5", "inside its thread"),
         (first, "G76 X35. Z-20. P1000 Q300 F1.5", "inside its thread"),
         (first, "G76 X30. P1000 Q300 F1.5", "has no length"),
-        (first, "G76 X30. Z#500 P1000 Q300 F1.5", "a place that is not known"),
+        (first, "G76 X30. Z#500 P1000 Q300 F1.5", "an unknown position"),
         (first, "G76 X30. Z-20. R#500 P1000 Q300 F1.5", "its taper"),
         (first, "G76 X30. Z-20. K1. D300 F1.5", "one block"),
     ] {
@@ -155,7 +155,7 @@ fn threads_that_cannot_be_worked_out_say_why() {
         let told = faults(A, &source);
         assert!(
             told.iter()
-                .any(|told| told.contains("G76: its passes: ") && told.contains(why)),
+                .any(|told| told.contains("passes of G76: ") && told.contains(why)),
             "{source}{told:?}"
         );
     }
@@ -184,7 +184,7 @@ fn hostile_numbers_come_to_an_end() {
     }
 }
 
-/// One pass (G92) on a taper, left 1.2 leads of 1.5 mm before its end, after 23.2 of 25 mm; or told that nobody knows where.
+/// One pass (G92) on a taper, left 1.2 leads of 1.5 mm before its end, after 23.2 of 25 mm; or reported as unknown.
 #[test]
 fn a_thread_of_one_pass_may_be_left_before_its_end() {
     use trunnion_interp::ControlData;
@@ -211,7 +211,7 @@ fn a_thread_of_one_pass_may_be_left_before_its_end() {
     let (unsaid, told) = run(None);
     assert_eq!(unsaid, whole);
     assert!(
-        told.contains("G92: whether the tool leaves its thread before the end"),
+        told.contains("G92: whether the tool pulls out before the end of the thread"),
         "{told}"
     );
 }

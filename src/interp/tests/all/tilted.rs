@@ -58,7 +58,7 @@ fn the_tools_length_and_holes_lie_along_the_planes_normal() {
     // X of the plane is Y of the part, Y of it Z, Z of it X
     let ends: Vec<_> = log.motions[1..].iter().map(|motion| motion.end.xyz()).collect();
     near(ends[0], [100.0, 10.0, 5.0]);
-    // with the length in force the tip stands 80 mm down the normal
+    // with the active length the tip is 80 mm down the normal
     near(ends[1], [20.0, 10.0, 20.0]);
     near(ends[2], [2.0, 10.0, 20.0]);
     near(ends[3], [-3.0, 10.0, 20.0]);
@@ -197,7 +197,7 @@ fn roll_pitch_and_yaw_are_known_where_the_control_says_what_they_turn_about() {
     }
 }
 
-/// Which of two solutions P means is for the machine to say; the program goes on.
+/// Which of two solutions P means is for the machine to say; the program continues.
 #[test]
 fn a_numbered_solution_is_passed_on() {
     let found = motions(

@@ -100,7 +100,7 @@ fn declared_lengths_are_mm_on_a_machine_that_keeps_inches() {
     }
 }
 
-/// On a mill-turn centre the tool lies along X at home, and X words are diameters: 100 mm of length are 200 mm of X word.
+/// On a mill-turn centre the tool is parallel to X at home, and X words are diameters: 100 mm of length are 200 mm of X word.
 #[test]
 fn a_change_of_length_moves_the_words_along_the_tool() {
     let mut setup = setup();
@@ -124,7 +124,7 @@ fn a_tool_that_nothing_brings_is_said() {
     let said = |source: &str| {
         faults("sinumerik-840d", source)
             .concat()
-            .contains("that T chooses and no M6 brings")
+            .contains("that T selects and no M6 loads")
     };
     assert!(said("T1 D1\nG0 X1 Y1 Z1\nG1 X2 F100\n"));
     assert!(said("T1\nG1 X2 F100\n"));

@@ -1,4 +1,4 @@
-//! New block numbers: what follows them, and what stands in the way.
+//! New block numbers: what follows them, and what prevents them.
 use crate::support::{dialect, program};
 use trunnion_interp::Setup;
 use trunnion_layout::{Numbers, Renumbered, renumber};
@@ -91,7 +91,7 @@ fn what_is_not_certain_is_refused_with_its_reason() {
         ("N1 X1\nGOTO[#1+5]\n", "computed"),
         ("N1 X1\nM99 P#3\n", "computed"),
         ("N1 X1\nN1 X2\nGOTO1\n", "more than once"),
-        ("N1 X1\nGOTO7\n", "no block N7"),
+        ("N1 X1\nGOTO7\n", "block N7 does not exist"),
         ("N1 X1\n#1=#4114\n", "`#4114` reads a block number"),
         (
             "O1\nN1 M98 P3\nO2\nN1 M98 P3\nO3\nN5 M99 P1\n",

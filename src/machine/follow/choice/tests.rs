@@ -59,7 +59,7 @@ fn an_endless_axis_takes_the_nearest_winding() {
 
 #[test]
 fn a_limit_excludes_a_posture() {
-    // A -60 is outside -30..120, so the long way it is
+    // A -60 is outside -30..120, so only the long way is left
     let axis = Vec3::new(0.0, 0.866_025, 0.5);
     assert_near(joints(axis, [0.0, 0.0]), [180.0, 60.0]);
     // pointing down at 150 deg: both postures leave the travel of A, +150 is the nearer
@@ -73,7 +73,7 @@ fn a_limit_excludes_a_posture() {
 
 #[test]
 fn ties_are_settled_the_same_way_everywhere() {
-    // half a turn either way: the winding nearer zero
+    // half a turn in either direction: the winding nearer zero
     let axis = Vec3::new(0.0, -0.5, 0.866_025);
     assert_near(joints(axis, [180.0, 30.0]), [0.0, 30.0]);
     assert_near(joints(axis, [-180.0, 30.0]), [0.0, 30.0]);
@@ -86,7 +86,7 @@ fn the_pole_keeps_the_first_axis() {
     assert_near(joints(Vec3::z(), [-1000.0, 3.0]), [-1000.0, 0.0]);
 }
 
-/// A first vector along the pole leaves the first axis where nobody knows; Trunnion's own rule takes it to stand at zero.
+/// A first vector along the pole leaves the first axis unknown; Trunnion's own rule assumes zero.
 #[test]
 fn the_pole_keeps_an_axis_where_it_was_only_if_that_is_known() {
     for (control, is_open) in [
@@ -119,7 +119,7 @@ fn the_cheapest_move_of_a_posture_ignores_limits() {
     assert!((deg(least) - 230.0).abs() < 1e-3, "{}", deg(least));
 }
 
-/// Both postures of one tool axis: C 10 A 20 and C -170 A -20. Coming from A -15 a slow A takes the far way of C.
+/// Both postures of one tool axis: C 10 A 20 and C -170 A -20. Coming from A -15 a slow A takes the long move of C.
 #[test]
 fn the_slowest_axis_decides_not_the_longest_way() {
     let axis = trunnion_geometry::math::rotate(
@@ -296,7 +296,7 @@ fn an_order_in_the_machine_file_goes_before_the_rule() {
     let (q, open) = chosen(&moves, axis, [168.0, 28.0]);
     assert_near(q, [170.0, 30.0]);
     assert_eq!(open, None);
-    // A moves less one way, C the other way
+    // A moves less in one direction, C in the other
     assert_eq!(
         chosen(&moves, axis, [100.0, -28.0]).1.map(|open| open.cause),
         Some(OpenCause::Tie)

@@ -77,7 +77,7 @@ fn all(found: &Vec3, wanted: f64) {
     );
 }
 
-/// V before C, X Y Z and U between C and A, W behind A: every shift and both turns count.
+/// V before C, X Y Z and U between C and A, W after A: every shift and both turns count.
 #[test]
 fn idle_axes_and_turns_on_both_sides_of_the_solved_ones_count() {
     let machine = load(&[
@@ -124,7 +124,7 @@ fn idle_axes_and_turns_on_both_sides_of_the_solved_ones_count() {
     );
 }
 
-/// X before C, Y and Z behind it: J turns. J^-1 has the norm root 3 at the start, J' root 2 D, J'' root 2 D^2.
+/// X before C, Y and Z after it: J turns. J^-1 has the norm root 3 at the start, J' root 2 D, J'' root 2 D^2.
 #[test]
 fn solved_axes_in_different_places_are_bounded_by_the_turn_of_their_directions() {
     let machine = load(&[
@@ -145,7 +145,7 @@ fn solved_axes_in_different_places_are_bounded_by_the_turn_of_their_directions()
         let (rate, bend) = (5.0 + 30.0 * d, 30.0 * d * d);
         let (sin, cos) = trunnion_geometry::math::sin_cos(d);
         let at = |c: f64, s: f64| Vec3::new(30.0 - 30.0 * c, -30.0 * s, 0.0);
-        // which way C turns the part decides its sign, not its distance
+        // the direction in which C turns the part decides its sign, not its distance
         let point = |sign: f64| at(cos, sign * sin);
         let near = Vec3::new(10.0, 20.0, 5.0).norm();
         let far = [1.0, -1.0].map(|sign| (Vec3::new(14.0, 23.0, 5.0) - point(sign)).norm());

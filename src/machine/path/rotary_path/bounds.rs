@@ -1,5 +1,5 @@
 //! Bounds of the rotary axes' rates and of their changes over a piece of a great circle. With x = e1.u, S^2 = D (1 - y^2) - (x - c y)^2
-//! (kinematics notes 2.3) and w the angle per block: u'' = -w^2 u, x'' = -w^2 x, S S' = -(x - c y) x'.
+//! (docs/kinematics.md#two-postures) and w the angle per block: u'' = -w^2 u, x'' = -w^2 x, S S' = -(x - c y) x'.
 use super::GreatCircle;
 use core::f64::consts::PI;
 use trunnion_geometry::math::{atan2, cos, sin_cos};
@@ -106,7 +106,7 @@ impl GreatCircle<'_> {
 
     /// t1 is the azimuth of u less its lead over the second axis ([`GreatCircle::lead`]). The azimuth's rate is w n / (1 - x^2) with n the
     /// part of the circle's axis along e1; the lead changes with x by N / (D (1 - x^2)), N = c S - (x - c y)(y - c x) / S, and N with x by
-    /// -(y - c x) D (1 - y^2) / S^3. At the edge of reach, where S is small, most of the first way's terms take each other away; here
+    /// -(y - c x) D (1 - y^2) / S^3. At the edge of reach, where S is small, most terms of the first formula cancel; here
     /// they are small themselves as long as x changes little.
     fn by_azimuth(&self, piece: &Piece) -> RotaryPathBounds {
         let &Piece {

@@ -5,8 +5,8 @@ use trunnion_geometry::{deg, rad};
 use trunnion_interp::{Motion, Posture, Swivel, Tilt};
 use trunnion_machine::{Follower, OpenCause, load, tip_deviation};
 
-/// A stands at -30 deg and goes to 30 deg while the tip is to end where it began, 100 mm above the axes. Led, it never leaves the point;
-/// point to point the axes run straight, and half way, with A at zero, the tip is at 100 cos 30 deg = 86.60 mm: 13.40 mm off.
+/// A is at -30 deg and goes to 30 deg while the tip is to end where it began, 100 mm above the axes. Guided, it never leaves the point;
+/// point to point the axes move linearly, and half way, with A at zero, the tip is at 100 cos 30 deg = 86.60 mm: 13.40 mm off.
 #[test]
 fn point_to_point_the_axes_run_straight_to_where_the_tip_ends() {
     let machine = plain("", "family = \"sinumerik-840d\"");

@@ -1,4 +1,4 @@
-//! What the control's description changes: ways of rotary words, meaning of F, rapids, tilted planes.
+//! What the control's description changes: direction of rotary words, meaning of F, rapids, tilted planes.
 use crate::common::{motion, position, words};
 use trunnion_geometry::arc::Arc;
 use trunnion_geometry::math::{cos, sin};
@@ -60,7 +60,7 @@ fn turned(machine: &Machine, from: f64, to: f64) -> (f64, Option<OpenCause>) {
     (deg(end.joints[0]) - from, leg.open.map(|open| open.cause))
 }
 
-/// An incremental word turns as far as it says, also where the words are whole turns off the joint: the shorter way is for absolute ones.
+/// An incremental word turns by its full amount, also where the words are full turns away from the axis position: the shorter way is for absolute ones.
 #[test]
 fn incremental_words_turn_as_far_as_they_say() {
     for wrap in ["shortest", "modulo-sign"] {
@@ -80,7 +80,7 @@ fn incremental_words_turn_as_far_as_they_say() {
     }
 }
 
-/// The first word of a wrapped axis, before anybody knows where it stands: its sign is a direction, its amount the place.
+/// The first word of a wrapped axis, while its position is unknown: its sign is a direction, its amount the position.
 #[test]
 fn the_first_word_of_a_wrapped_axis_is_a_place() {
     let at = |c: f64| position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', 0.0), (b'A', 0.0), (b'C', c)]);
@@ -98,7 +98,7 @@ fn the_first_word_of_a_wrapped_axis_is_a_place() {
     }
 }
 
-/// Sums of increments and inches leave 1e-14 mm behind: no motion, no length, no speed along it.
+/// Sums of increments and inches leave 1e-14 mm: no motion, no length, no speed along it.
 #[test]
 fn a_way_of_rounding_is_none() {
     let machine = machine("dyn = { vmax = 10 }", "limits = [-120, 120]", "feed = \"xyz\"");
@@ -134,7 +134,7 @@ fn rotary_words_take_the_way_that_the_axis_says() {
         assert!((turned(&shortest, from, to).0 - short).abs() < 1e-9);
         assert_eq!(turned(&shortest, from, to).1, None);
     }
-    // half a turn is as near either way
+    // half a turn is equally near in both directions
     let (turn, open) = turned(&shortest, 0.0, 180.0);
     assert!((turn.abs() - 180.0).abs() < 1e-9);
     assert_eq!(open, Some(OpenCause::HalfTurn));
@@ -207,7 +207,7 @@ fn f_counts_along_arcs_too() {
 }
 
 /// Under TCP a linear axis runs out of its travel between two legal ends. That each axis runs at its own speed, so that it could not, is
-/// declared for rapids; nobody says that it holds while the control leads the tip.
+/// declared for rapids; it is not declared that it holds while the control guides the tip.
 #[test]
 fn rapids_of_single_axes_are_not_proven_while_the_tip_is_led() {
     let start = position(&[(b'X', 390.0), (b'Y', 0.0), (b'Z', 0.0), (b'A', 0.0), (b'C', -40.0)]);
@@ -289,7 +289,7 @@ fn a_turn_onto_a_plane_keeps_the_linear_axes_and_the_plane_leads_the_tip() {
         panic!("followed off the plane")
     };
     assert!((deg(angle) - 5.0).abs() < 1e-9);
-    // a retract leaves the linear axes where nobody knows
+    // a retract leaves the linear axes at an unknown position
     let lost = Motion {
         tilt: Tilt {
             swivel: Swivel::AxesLost,

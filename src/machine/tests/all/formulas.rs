@@ -1,4 +1,4 @@
-//! The formulas of the bounds, term by term: with a tolerance without end a bound is the formula itself (kinematics notes 3), and these
+//! The formulas of the bounds, term by term: with a tolerance without end a bound is the formula itself (docs/kinematics.md#between-the-ends-of-a-block), and these
 //! blocks make each of its terms count. Expected values are worked out here from lengths and angles alone.
 use crate::common::{position, vector, words};
 use trunnion_geometry::math::{asin, cos, hypot, sin};
@@ -93,11 +93,11 @@ fn a_tip_without_tcp_bends_as_the_terms_say() {
         bend([7.0, 30.0, 40.0, 0.0, 0.0], [7.0, 30.0, 40.0, 10.0, 0.0]),
         turn * turn * 50.0,
     );
-    // a way of 20 mm outward, or inward: 2 D V + D^2 r at the far end
+    // a path of 20 mm outward, or inward: 2 D V + D^2 r at the far end
     let far = turn * turn * 50.0 + 2.0 * turn * 30.0;
     is(bend([7.0, 0.0, 20.0, 0.0, 0.0], [7.0, 0.0, 50.0, 10.0, 0.0]), far);
     is(bend([7.0, 0.0, 50.0, 0.0, 0.0], [7.0, 0.0, 20.0, 10.0, 0.0]), far);
-    // C behind A: r of the tip from C at the end farther out, and above the chord by A's bend / 8
+    // C after A: r of the tip from C at the end farther out, and above the chord by A's bend / 8
     let second = rad(25.0);
     for (from, to) in [
         ([0.0, 5.0, 40.0], [0.0, 5.0, 60.0]),
@@ -156,7 +156,7 @@ fn an_arc_without_tcp_adds_its_rate_and_its_bend() {
     }
 }
 
-/// A tip 100 mm above A that hardly moves while A turns: the way bends by D^2 r and no less, so that nothing may be left out of the bound.
+/// A tip 100 mm above A that hardly moves while A turns: the path bends by D^2 r and no less, so that no term of the bound may be left out.
 #[test]
 fn nothing_of_a_bend_may_be_left_out_beside_an_arc() {
     let machine = right_angled();
@@ -169,7 +169,7 @@ fn nothing_of_a_bend_may_be_left_out_beside_an_arc() {
     }
 }
 
-/// Under TCP along an arc the way bends as the arc; joints on it as the chain says.
+/// Under TCP along an arc the path bends as the arc; axis positions on it as the chain gives.
 #[test]
 fn a_way_bends_as_the_terms_say() {
     let machine = right_angled();
@@ -228,7 +228,7 @@ fn nothing_of_the_bend_of_a_tool_axis_may_be_left_out() {
     follower.follow(&first);
     let leg = follower.follow(&second);
     let whole = rad(10.0) * rad(10.0) * sin(rad(8.0)) / 8.0;
-    // half way the axis stands at A8, the great circle at the angle whose tangent is tan 8 cos 5
+    // half way the axis is at A8, the great circle at the angle whose tangent is tan 8 cos 5
     let truth = rad(8.0) - trunnion_geometry::math::atan2(sin(rad(8.0)) * cos(rad(5.0)), cos(rad(8.0)));
     assert!(truth > 0.98 * whole, "{truth} {whole}");
     for share in [0.91, 0.94, 0.97, 1.0] {
@@ -358,7 +358,7 @@ fn uncertainty_counts_the_worst_turn_and_the_longer_arm() {
         let (point, _) = off([0.0, 0.0, 0.0, 0.0, from], [0.0, 0.0, 0.0, 0.0, to]);
         is(point, 0.02 * half);
     }
-    // the tip stands 30 mm below the nose; A turns it about Y50 by 90 deg: (0, 0, 70) goes to (0, -20, -50) or (0, 120, 50)
+    // the tip is 30 mm below the nose; A turns it about Y50 by 90 deg: (0, 0, 70) goes to (0, -20, -50) or (0, 120, 50)
     let arm = |from: [f64; 5], to: [f64; 5]| {
         let (point, tip) = off(from, to);
         (tip - point) / (2.0 * sin(rad(30.0)) * rad(20.0 / 3600.0))

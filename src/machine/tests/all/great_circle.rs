@@ -110,7 +110,7 @@ fn great_circles_are_bounded_too() {
         let found = feed_limit(&machine, &leg).expect("limited").feed_mm_min;
         judged += 1;
         assert!(found <= truth * (1.0 + 1e-9), "limit {found} truth {truth}");
-        // a difference quotient lies below the largest rate inside its step; where the linear axes lie in different places of the chain
+        // a difference quotient is below the largest rate inside its step; where the linear axes are at different places in the chain
         // the bound is sound but may stay coarse
         if machine.constants.shared_segment.is_some() {
             assert!(found >= truth * (0.995 - jump / worst), "limit {found} truth {truth}");

@@ -111,7 +111,7 @@ fn first_stance_is_nearest_zero_and_the_pole_keeps_c() {
     assert_eq!(joints(&legs[2])[0], joints(&legs[1])[0]);
     let at_pole = legs[2].end.as_ref().expect("reached");
     assert_eq!((at_pole.branch, at_pole.pole_angle), (0, 0.0));
-    // A goes on through the pole: a crossing, not a swap
+    // A continues through the pole: a crossing, not a swap
     let signs: Vec<i8> = legs
         .iter()
         .map(|leg| leg.end.as_ref().expect("reached").branch)
@@ -166,7 +166,7 @@ fn feed_limits_under_tcp() {
     near(lowest[2][0], 205.0, 'C');
     near(lowest[3][0], 355.0, 'C');
     near(lowest[0][0], 1640.0, 'A');
-    // at the programmed 2000 mm/min the axis would have to run at these speeds (kinematics notes 1)
+    // at the programmed 2000 mm/min the axis would have to run at these speeds (docs/kinematics.md#the-pole)
     let legs = follow(&vectors(&STRATEGIES[1]));
     let speed = |row: usize| {
         deg(feed_limit(machine(), &legs[row])

@@ -106,7 +106,7 @@ pub(crate) fn feed(machine: &Machine, leg: &Leg, along: &dyn Fn(f64) -> Joints, 
     };
     let allowed = |t: f64| allowed_over(t, 1e-5);
     let moments: Vec<f64> = (0..=SAMPLES).map(|i| allowed(i as f64 / SAMPLES as f64)).collect();
-    // hard by a pole the peak is narrower than the way between two moments, and need not be beside the worst one
+    // close to a pole the peak is narrower than the step between two moments, and need not be beside the worst one
     let mut spans: Vec<usize> = (0..SAMPLES).collect();
     spans.sort_by(|&a, &b| {
         moments[a]

@@ -1,5 +1,5 @@
 //! Tool vectors on the great circle while the tip runs along lines, helices and spirals, on all built-in machines and random chains: nothing
-//! strays, and way of the linear axes, highest feed and excursions are held against dense sampling. `TRUNNION_BLOCKS` as in `soundness`.
+//! deviates, and travel of the linear axes, highest feed and excursions are compared with dense sampling. `TRUNNION_BLOCKS` as in `soundness`.
 use crate::common::vector;
 use crate::led::{beyond, feed, stays_near, travel, with_spiral};
 use crate::random::Random;
@@ -124,7 +124,7 @@ fn judge(random: &mut Random, machine: &Machine, seen: &mut [usize; 5]) {
     let (start, end) = (leg.start.expect("known"), leg.end.as_ref().expect("known"));
     let path = Path::new(machine, &start.joints, start.branch, &circle);
     if path.as_ref().is_some_and(|path| path.fastest > 0.5) {
-        // half a radian in a step, hard by the pole: on which turn the axis stands is not known here
+        // half a radian in a step, close to the pole: the number of full turns of the axis is not known here
         return;
     }
     let reaches = |path: &Path<'_>| {

@@ -19,7 +19,7 @@ impl Sink for Followed<'_> {
     fn fault(&mut self, _: Fault) {}
 }
 
-/// Legs with the line of each; `None`, said aloud, where the file is not there.
+/// Legs with the line of each; `None`, with a printed message, where the file is missing.
 fn followed<'m>(machine: &'m Machine, dialect: &str, file: &str) -> Option<Followed<'m>> {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../../shared/data")
@@ -45,7 +45,7 @@ fn text_followed<'m>(machine: &'m Machine, dialect: &str, source: Vec<u8>) -> Fo
     followed
 }
 
-/// The plane leans by 30 deg about X: A30 C0 or A-30 C180 stand on it. G53.1 turns there with X Y Z as they are, G53.6 with the tip where
+/// The plane is tilted by 30 deg about X: A30 C0 or A-30 C180 are perpendicular to it. G53.1 turns there with X Y Z as they are, G53.6 with the tip where
 /// it is; P names the solution, where the machine file says which one that is.
 #[test]
 fn a_turn_about_the_tip_takes_the_solution_that_p_names() {
@@ -74,7 +74,7 @@ fn a_turn_about_the_tip_takes_the_solution_that_p_names() {
         } else {
             assert!(shift > 1.0 && stays, "{code}: {shift}");
         }
-        // the motion behind it is in the plane, whatever the solution: the tip 5 along X, 10 up the normal
+        // the motion after it is in the plane, whatever the solution: the tip 5 along X, 10 up the normal
         let (_, cut) = &followed.legs[2];
         let tip = cut.end.as_ref().expect("known").tip;
         let wanted = trunnion_geometry::Vec3::new(5.0, -5.0, 75.0_f64.sqrt());
@@ -240,7 +240,7 @@ fn known(machine: &Machine, dialect: &str, source: String) -> Vec<bool> {
     followed.legs.iter().map(|(_, leg)| leg.end.is_ok()).collect()
 }
 
-/// An increment to a coordinate that the program does not know moves the axis: it does not stay where the machine stands.
+/// An increment to a coordinate that the program does not know moves the axis: it does not stay where it is.
 #[test]
 fn increments_to_unknown_coordinates_are_not_passed_over() {
     let machine = &plain("", "tcp_codes = { on = [\"M428\"], off = [\"M429\"] }");
@@ -263,14 +263,14 @@ fn increments_to_unknown_coordinates_are_not_passed_over() {
     // also where a line before it turned an axis only
     let text = format!("{home}M428\nG91 G0 A5.\nZ5.\nM30\n");
     assert_eq!(known(machine, "linuxcnc", text), [true, true, false]);
-    // behind a vector the program does not know the rotary axes
+    // after a vector the program does not know the rotary axes
     let vector = "TRAORI\nG0 X0 Y0 Z0 A3=0.1 B3=0.2 C3=0.97\n";
     for (block, is_known) in [
         ("G0 X1 C=IC(5)", false),
         ("G91 G0 C5", false),
         ("G0 X1 A10", true),
         ("G0 C=R7", false),
-        // which way, and how far, hangs on where the vector has left it
+        // direction and amount depend on where the vector has left it
         ("G0 C=ACP(5)", false),
         ("G0 C=DC(5)", false),
         ("G0 C5", true),
@@ -295,7 +295,7 @@ fn linear_joints(machine: &Machine, source: String) -> Vec<Option<[f64; 3]>> {
     followed.legs.iter().map(|(_, leg)| at(leg)).collect()
 }
 
-/// The plane leans by -30 deg about X, the tool stands on it at A -30: on this machine, whose axes meet in its zero, the plane's X Y Z are
+/// The plane is tilted by -30 deg about X, the tool is perpendicular to it at A -30: on this machine, whose axes meet in its zero, the plane's X Y Z are
 /// the joints then. What a block does not name stays where the machine has it, not where words of another frame seem to put it.
 #[test]
 fn in_a_tilted_plane_what_is_not_named_stays() {
@@ -316,7 +316,7 @@ fn in_a_tilted_plane_what_is_not_named_stays() {
         near(last("G0 X12. Y5.\n"), [12.0, 5.0, 50.0]);
         near(last("G0 X12. Y5.\nG0 Z30.\nG1 X14.\n"), [14.0, 5.0, 30.0]);
         near(last("G0 X12. Y5. Z30.\nG69\nG0 Z100.\n"), [12.0, 5.0, 100.0]);
-        // the side of the plane along which it goes is not told by the normal
+        // the normal does not tell on which side of the plane it moves
         assert_eq!(last("G1 X14. F500.\n"), None);
         // a value that is not known is not a word that is missing
         assert_eq!(last("G1 X12. Y5. Z#500 F500.\n"), None);

@@ -55,7 +55,7 @@ fn an_arc_from_outside_the_travel_is_judged_in_between() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert!((found[0].value - 453.031).abs() < 2e-3, "{found:?}");
     assert!(!found[0].inside, "the start is not legal");
-    // and where the start is legal it is said to be inside
+    // and if the start is legal it is reported as inside
     let mut follower = Follower::new(mikron());
     follower.follow(&words(Position::default(), home));
     follower.follow(&words(home, back));
@@ -189,11 +189,11 @@ fn the_way_from_a_told_start_is_a_block_like_any_other() {
         told.rotary_change
     );
     assert!(feed_limit(mikron(), &told).expect("known").feed_mm_min < 10.0);
-    // a start that is outside is told with this block, no other names it
+    // a start that is outside is reported with this block; no other block names it
     let far = position(&[(b'X', 0.0), (b'Y', 0.0), (b'Z', 5000.0)]);
     let leg = Follower::new(mikron()).follow(&go(far, end, Some(Vec3::z()), Vec3::z()));
     assert_eq!(excess(&leg).len(), 1);
-    // nothing is known where the program told no vector
+    // nothing is known if the program gave no vector
     assert!(
         Follower::new(mikron())
             .follow(&go(start, end, None, to))

@@ -1,4 +1,4 @@
-//! The saddle of the tool-path optimisation paper as the kinematics notes (A7) define it: zigzag lines without tool centre point control.
+//! The saddle of the tool-path optimisation paper as the docs/kinematics.md#test-pieces define it: zigzag lines without tool centre point control.
 use crate::common::{position, words};
 use std::f64::consts::TAU;
 use trunnion_geometry::math::{acos, atan2, rotate};

@@ -168,7 +168,7 @@ fn without_tcp(random: &mut Random, machine: &Machine, seen: &mut [usize; 4]) {
         (a, b - a)
     };
     let truth = if let MotionKind::Arc(Some(arc)) = second.kind {
-        // the arc's way beside its chord, per word of X Y Z, in the workpiece at the start
+        // the distance of the arc from its chord, per word of X Y Z, in the workpiece at the start
         let bulge = |t: f64| arc.point_at(t) - arc.start - (arc.end - arc.start) * t;
         let slots = [b'X', b'Y', b'Z'].map(|letter| machine.joint(letter).expect("an axis"));
         let unit = slots.map(|slot| {

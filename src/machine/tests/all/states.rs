@@ -206,7 +206,7 @@ fn a_needless_change_of_posture_has_an_excess() {
     // straight through the pole: no excess
     let leg = follower.follow(&tcp(swapped, place(10.0, 0.0, 50.0, 5.0, 190.0)));
     assert_eq!(leg.rotary_excess, 0.0);
-    // by way of the pole: the sign before it counts
+    // through the pole: the sign before it counts
     let on_pole = place(11.0, 0.0, 50.0, 0.0, 190.0);
     follower.follow(&tcp(place(10.0, 0.0, 50.0, 5.0, 190.0), on_pole));
     let leg = follower.follow(&tcp(on_pole, place(12.0, 0.0, 50.0, -5.0, 10.0)));
@@ -258,7 +258,7 @@ fn durations_follow_the_feed_and_the_slowest_axis() {
     assert_eq!(feed_limit(mikron(), &leg).expect("limited").axis_speed, None);
 }
 
-/// The joints of C, degrees, for a sequence of C words on a machine whose control reads them in the given way.
+/// The positions of C, degrees, for a sequence of C words on a machine whose control reads them in the given way.
 fn wrapped(wrap: &str, words_c: &[f64]) -> Vec<f64> {
     let source = trunnion_machine::builtin_source("mikron-ucp710").expect("built in");
     // without the rows that say a second time how words are read
@@ -279,7 +279,7 @@ fn wrapped(wrap: &str, words_c: &[f64]) -> Vec<f64> {
 
 #[test]
 fn rotary_words_are_read_as_the_control_reads_them() {
-    // kinematics notes 8: with M126 350 to 10 is +20 and 10 to 340 is -30; without, -340 and +330
+    // docs/kinematics.md#rotary-words-and-full-turns: with M126 350 to 10 is +20 and 10 to 340 is -30; without, -340 and +330
     assert_eq!(wrapped("literal", &[350.0, 10.0, 340.0]), [350.0, 10.0, 340.0]);
     assert_eq!(wrapped("shortest", &[350.0, 10.0, 340.0]), [350.0, 370.0, 340.0]);
     // the sign is the direction: 10 upwards, 10 downwards, the same word again, 350 downwards

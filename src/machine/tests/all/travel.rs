@@ -19,7 +19,7 @@ fn leg(tcp: bool, from: &[(u8, f64)], to: &[(u8, f64)]) -> (&'static Machine, Le
     (machine, follower.follow(&go(from, to)))
 }
 
-/// The tip stands 100 mm above A while A turns from -30 to 90 deg: Y and Z run along an arc of 100 mm.
+/// The tip is 100 mm above A while A turns from -30 to 90 deg: Y and Z move along an arc of 100 mm.
 #[test]
 fn a_standing_tip_asks_for_an_arc_of_the_axes() {
     let at = |a: f64| [(b'X', 0.0), (b'Y', 0.0), (b'Z', 100.0), (b'A', a), (b'C', 0.0)];

@@ -1,4 +1,4 @@
-//! Inside a block: the way starts and ends where the stances are, keeps to the programmed path, and bends no more than its bound says.
+//! Inside a block: the path starts and ends at the stances, stays on the programmed path, and bends no more than its bound says.
 use crate::common::{position, vector, words};
 use crate::random::{Random, random_machine};
 use trunnion_geometry::{Vec3, arc, deg};

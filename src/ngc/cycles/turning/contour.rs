@@ -5,7 +5,7 @@ use crate::{Block, DistanceMode, Error, Problem, State};
 use trunnion_geometry::math;
 use trunnion_syntax::TextRange;
 
-/// What is done with the corner behind a piece.
+/// What is done with the corner after a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Corner {
     Sharp,
@@ -55,7 +55,7 @@ impl Contour {
             round,
         };
         self.at = to;
-        // too short pieces are left out; the first one is the way to the contour
+        // too short pieces are left out; the first one is the path to the contour
         let short = distance(piece.from, to) < NEAR;
         if !short || self.pieces.is_empty() {
             self.pieces.push((piece, corner));
@@ -100,11 +100,11 @@ impl Contour {
             positive: counter,
         })
     }
-    /// Whether a corner behind its first piece is rounded or cut off.
+    /// Whether a corner after its first piece is rounded or cut off.
     pub(super) fn has_corners(&self) -> bool {
         self.pieces.iter().any(|(_, corner)| *corner != Corner::Sharp)
     }
-    /// Its pieces; the first is the way to the contour. `travels`: coordinates along which the cycle may cut, 0 is Z, 1 is X.
+    /// Its pieces; the first is the path to the contour. `travels`: coordinates along which the cycle may cut, 0 is Z, 1 is X.
     pub(super) fn finish(self, range: TextRange, travels: &[usize]) -> Result<Vec<Segment>, Error> {
         let unknown = self.pieces.iter().any(|(piece, _)| {
             let centre = piece.round.map_or([0.0; 2], |round| round.centre);
@@ -130,7 +130,7 @@ impl Contour {
         }
         let mut done: Vec<Segment> = Vec::with_capacity(self.pieces.len());
         let mut before = Corner::Sharp;
-        // pieces behind a rounding, and how much of them it takes
+        // pieces after a rounding, and how much of them it takes
         let mut rounded = Vec::new();
         for (piece, corner) in self.pieces {
             let mut piece = piece;
@@ -165,7 +165,7 @@ impl Contour {
         if doubtful {
             return Err(Error::new(&problems::DOUBTFUL, range));
         }
-        // either coordinate may be the travel: which one the control takes hangs on arcs that lead there and back
+        // either coordinate may be the travel: which one the control takes depends on arcs that lead there and back
         let back = |piece: &Segment| travels.iter().any(|&place| piece.turns_back(place));
         if travels.len() > 1 && done.iter().any(back) {
             return Err(Error::new(&problems::ARC, range));

@@ -166,7 +166,7 @@ impl Turning {
     /// Runs the cycle. `range`: the line where the subprogram returns.
     pub(crate) fn finish(self, engine: &mut Engine, range: TextRange, sink: &mut dyn Sink) -> Result<(), Error> {
         if self.spoiled {
-            // told before
+            // already emitted
             lose(engine);
             return Ok(());
         }
@@ -260,7 +260,7 @@ fn clipped(start: Point, contour: &[Segment], place: usize, sign: f64) -> Point 
 }
 
 /// The contour at a distance on the side of the start. `place`: the coordinate along which it goes, 0 is Z, 1 is X; it decides where the
-/// start lies on neither side. `corners`: some are rounded or cut off.
+/// start is on neither side. `corners`: some are rounded or cut off.
 fn with_allowance(
     start: Point,
     contour: &[Segment],

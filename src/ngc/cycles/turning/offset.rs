@@ -19,7 +19,7 @@ pub(super) struct Allowance {
 const STEPS: usize = 10_000;
 
 /// The contour with an allowance. The control moves it in steps of at most half its smallest piece: which corners are rounded, and by how
-/// much, tells them (observed from `rs274`).
+/// much, decides between them (observed from `rs274`).
 pub(super) fn offset(contour: &[Segment], allowance: Allowance) -> Result<Vec<Segment>, &'static Problem> {
     let mut contour = contour.to_vec();
     let mut left = allowance.left.abs();
@@ -101,7 +101,7 @@ fn is_tiny(piece: &Segment, place: usize) -> bool {
     way < NEAR
 }
 
-/// Sine of the angle by which the way turns between two pieces; positive: to the left.
+/// Sine of the angle by which the path turns between two pieces; positive: to the left.
 fn turn_between(before: &Segment, piece: &Segment) -> f64 {
     cross(before.direction(before.to), piece.direction(piece.from))
 }
@@ -122,7 +122,7 @@ fn corner(done: &mut Vec<Segment>, moved: Segment, at: Point, allowance: Allowan
     if turn.abs() < 1e-6 && !last.is_arc() && !moved.is_arc() {
         let way = moved.direction(moved.from);
         let along_an_axis = !allowance.corners && (way[0] == 0.0 || way[1] == 0.0);
-        // slanted lines, and lines behind a corner, are parallel or not by the control's rounding
+        // slanted lines, and lines after a corner, are parallel or not by the control's rounding
         return Err(if along_an_axis {
             &problems::PARALLEL
         } else {

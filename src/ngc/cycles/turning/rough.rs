@@ -77,7 +77,7 @@ pub(super) struct Rough {
     pub(super) limit: u64,
 }
 
-/// Walks along a path: the way to the contour, the contour, the way out.
+/// Walks along a path: the approach to the contour, the contour, the retract.
 struct Walk<'a> {
     rough: Rough,
     path: &'a [Segment],
@@ -98,7 +98,7 @@ impl From<&'static Problem> for Stopped {
     }
 }
 
-/// Tells all moves of the cycle behind the one to `start`. `contour` has its allowance.
+/// Emits all moves of the cycle after the one to `start`. `contour` has its allowance.
 pub(super) fn run(
     rough: Rough,
     start: Point,
@@ -156,7 +156,7 @@ impl Walk<'_> {
         let line = Segment::line(self.at, to);
         self.tell(Move::Cut(line))
     }
-    /// Along a piece to a point of it; an empty arc is not told, an empty line is.
+    /// Along a piece to a point of it; an empty arc is not emitted, an empty line is.
     fn along(&mut self, piece: &Segment, to: Point) -> Result<(), Stopped> {
         if piece.round.is_some() && distance(self.at, to) < 1e-9 {
             return Ok(());
@@ -166,7 +166,7 @@ impl Walk<'_> {
     fn go(&mut self, start: Point) -> Result<(), Stopped> {
         let path = self.path;
         let entry_falls = path.first().is_some_and(falls);
-        // the first descent: the way to the contour and what goes down behind it
+        // the first descent: the path to the contour and what goes down after it
         let descent = path.iter().take_while(|piece| falls(piece)).count();
         let anchor = start[1];
         let mut index = 0;
@@ -251,7 +251,7 @@ impl Walk<'_> {
             })
         })
     }
-    /// .1: every pocket is bridged; a bridge over nothing is told as well.
+    /// .1: every pocket is bridged; a bridge over nothing is emitted as well.
     fn over_pockets(&mut self, mut index: usize) -> Result<(), Stopped> {
         while index < self.path.len() {
             let level = self.at[1];

@@ -64,7 +64,7 @@ impl Segment {
             }
         }
     }
-    /// How far along a point lies: 0 at the start, 1 at the end; beyond for points outside. For arcs a share of the swept angle.
+    /// How far along a point is: 0 at the start, 1 at the end; beyond for points outside. For arcs a share of the swept angle.
     pub(super) fn share(&self, point: Point) -> f64 {
         if self.round.is_none() {
             let way = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
@@ -73,7 +73,7 @@ impl Segment {
         }
         let sweep = self.swept(self.to);
         let mut gone = self.swept(point);
-        // behind the end, or before the start: what is nearer
+        // after the end, or before the start: what is nearer
         if gone > sweep && gone - sweep > std::f64::consts::PI - sweep / 2.0 {
             gone -= 2.0 * std::f64::consts::PI;
         }
@@ -176,7 +176,7 @@ impl Segment {
         }
         into.push(self.with_ends(from, self.to));
     }
-    /// The point at a level of the second coordinate; the piece rises or falls all the way and passes the level.
+    /// The point at a level of the second coordinate; the piece rises or falls throughout and passes the level.
     pub(super) fn at_level(&self, level: f64) -> Point {
         if level == self.from[1] {
             return self.from;

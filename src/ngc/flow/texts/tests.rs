@@ -17,9 +17,9 @@ fn said(read: &Compiled) -> String {
     )
 }
 
-/// Reads both lines of a program, the second one as it is found by its text; whether it was found, and what both ways say of it.
+/// Reads both lines of a program, the second one as it is found by its text; whether it was found, and the result of both readings.
 fn both(first: &str, second: &str) -> (bool, String, String) {
-    // the third one has a number of its own where the text stands behind a number
+    // the third one has its own number where the text follows a number
     let third = match plain_label(format!("{second}\n").as_bytes()) {
         Some((start, end, Label::Number(_))) => format!("{}o345{}", &second[..start], &second[end..]),
         _ => second.to_owned(),
@@ -42,7 +42,7 @@ fn both(first: &str, second: &str) -> (bool, String, String) {
     (found, said_there, said_afresh)
 }
 
-/// What two read forms say, but for the words of lines of which nobody looks at the words.
+/// What two read forms say, except the words of lines whose words are not used.
 fn compared(moved: &mut Compiled, fresh: &Compiled) -> (String, String) {
     let words = |read: &Compiled| {
         let counts = matches!(read.kind, Kind::Words | Kind::CallNumbered | Kind::ReturnNumbered);
@@ -54,7 +54,7 @@ fn compared(moved: &mut Compiled, fresh: &Compiled) -> (String, String) {
     (said(moved), said(fresh))
 }
 
-/// Reads the line behind one that was read, which says the same; `sure`: it is surely taken without a look for its text.
+/// Reads the line after one that was read, which says the same; `sure`: it is certainly taken without a look-up of its text.
 fn guessed(mut engine: Engine, before: Box<Compiled>, sure: bool) {
     let there = before.next;
     engine.put_back(before, false);
@@ -115,7 +115,7 @@ fn what_is_found_by_its_text_is_what_is_read() {
         assert!(found, "{first:?}");
         assert_eq!(moved, fresh, "{first:?}");
     }
-    // where the number does not end with its digits, what stands behind is no text of its own
+    // where the number does not end with its digits, what follows is no separate text
     for (first, second) in [("o7.5 if [1]", "o8.5 if [1]"), ("o7 7 if [1]", "o8 7 if [1]")] {
         let (found, moved, fresh) = both(first, second);
         assert!(!found, "{first:?}");

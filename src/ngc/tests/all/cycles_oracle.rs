@@ -1,6 +1,6 @@
 //! Programs with the calls that `rs274 -g` of LinuxCNC 2.9 made of them, held against ours.
 //!
-//! A file is a row of cases: the program, `---`, the calls and, with a `!` in front, the error, `===`. What stands in front of `+++` is the
+//! A file is a row of cases: the program, `---`, the calls and, marked by `!`, the error, `===`. The text before `+++` is the
 //! machine's INI file.
 use crate::listing;
 use std::fmt::Write;
@@ -81,7 +81,7 @@ fn a_turning_cycle_from_an_unknown_start_is_not_modelled() {
     let contour = "g18 f100\no1 sub\ng0 x2 z0\ng1 z-3\nx8\no1 endsub\n";
     for code in ["g70", "g71", "g71.1", "g71.2", "g72"] {
         let unknown = listing::list_with(&format!("{contour}{code} q1\nm2\n"), &setup);
-        assert!(unknown.errors[0].contains("not known"), "{:?}", unknown.errors);
+        assert!(unknown.errors[0].contains("unknown value"), "{:?}", unknown.errors);
         let known = listing::list_with(&format!("{contour}{code} q1 x9 z1\nm2\n"), &setup);
         assert!(known.errors.is_empty(), "{:?}", known.errors);
     }

@@ -255,11 +255,11 @@ fn what_is_not_known_decides_nothing() {
         ),
         (
             "o1 while [#<_z> gt 0]\no1 endwhile\nm2\n",
-            "whether this loop goes on depends on #<_z>, the position of the machine",
+            "whether this loop continues depends on #<_z>, the position of the machine",
         ),
         (
             "o1 repeat [#100]\no1 endrepeat\nm2\n",
-            "how often this loop runs depends on #100, which keeps its value",
+            "how many times this loop runs depends on #100, which keeps its value",
         ),
         (
             "o#<_hal[a.b]> call\nm2\n",

@@ -2,7 +2,7 @@
 use std::sync::Arc;
 use trunnion_ngc::{At, Canon, Engine, Error, Listing, Setup, Sink, Source, State};
 
-/// What a run tells, as text.
+/// What a run emits, as text.
 #[derive(Default)]
 pub(crate) struct Listed {
     listing: Listing,
@@ -56,7 +56,7 @@ pub(crate) fn list_with(program: &str, setup: &Setup) -> Listed {
     listed
 }
 
-/// Two listed calls are the same but for a last decimal that was rounded the other way.
+/// Two listed calls are the same but for a last decimal that was rounded in the other direction.
 pub(crate) fn same(ours: &str, theirs: &str) -> bool {
     if ours == theirs {
         return true;

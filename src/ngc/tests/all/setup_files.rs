@@ -47,7 +47,7 @@ fn each_pocket_word_of_a_tool_table_takes_a_row() {
     }
 }
 
-/// Answers of rs274 to the same tables: what stands in row 0 as a run starts, `#5400` and `#5403`, and `CHANGE_TOOL(row)` of a tool.
+/// Answers of rs274 to the same tables: the contents of row 0 as a run starts, `#5400` and `#5403`, and `CHANGE_TOOL(row)` of a tool.
 #[test]
 fn a_row_without_a_pocket_is_in_the_spindle() {
     for (text, first, tool, row) in [

@@ -52,7 +52,7 @@ fn axes_are_known_from_their_first_word() {
 #[test]
 fn stored_points_are_unknown_and_raise_no_errors() {
     let motions = run("g0 x1 y2 z3\ng28 z4\nf100\ng2 x3 y2 i1\ng2 x9 y9 i1 j1 z1\nm2\n");
-    // G28 goes by way of Z4, then Z is wherever the stored point is
+    // G28 passes through Z4, then Z is wherever the stored point is
     assert_eq!(motions.0[1][2], 4.0);
     assert_eq!(known(&motions.0[2]), [true, true, false]);
     // the second arc's radii differ: that is known

@@ -1,4 +1,4 @@
-//! The saddle of kinematics notes A7 on a table-table machine without tool centre point control: the error of its trajectory surface.
+//! The saddle of docs/kinematics.md#test-pieces on a table-table machine without tool centre point control: the error of its trajectory surface.
 use core::f64::consts::TAU;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Position};
@@ -82,7 +82,7 @@ fn moved_net() -> String {
     )
 }
 
-/// The published maxima are those at the middle of a block; the largest of the whole block lies a little above them.
+/// The published maxima are those at the middle of a block; the largest of the whole block is a little above them.
 #[test]
 fn the_saddle_strays_as_published() {
     let machine = builtin("mikron-ucp710").expect("built in");
@@ -127,7 +127,7 @@ fn off_at_half(leg: &Leg) -> f64 {
     (tip - a - (b - a) * share).norm()
 }
 
-/// Many samples of every block: none lies above the bounds, and the sampled maxima are nearly reached.
+/// Many samples of every block: none is above the bounds, and the sampled maxima are nearly reached.
 #[test]
 fn bounds_hold_against_many_samples() {
     let machine = builtin("mikron-ucp710").expect("built in");

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use trunnion_syntax::{Item, LexOptions, Program, Value, parse};
 
-/// Every file below a folder, in a fixed order; none if the folder is not there, which is said.
+/// Every file below a folder, in a fixed order; none if the folder is missing, with a printed message.
 #[expect(clippy::print_stderr, reason = "a skipped test must be visible")]
 fn files(folder: &str) -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
@@ -38,7 +38,7 @@ fn ending(path: &Path) -> String {
 
 fn options_of(path: &Path) -> LexOptions {
     match ending(path).as_str() {
-        // Creo counts versions behind the ending: `part.ncl.8`.
+        // Creo counts versions after the ending: `part.ncl.8`.
         "apt" | "cls" | "1" | "8" => APT,
         "mpf" | "spf" => SINUMERIK,
         "ngc" => NGC,

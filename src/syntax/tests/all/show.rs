@@ -14,7 +14,7 @@ pub(crate) const SINUMERIK: LexOptions = LexOptions {
     paren_comment: false,
     ..CORE
 };
-/// Blanks may stand in numbers, as RS274/NGC says.
+/// Blanks are allowed in numbers, as RS274/NGC says.
 pub(crate) const NGC: LexOptions = LexOptions {
     blanks_in_numbers: true,
     ..CORE

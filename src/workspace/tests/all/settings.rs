@@ -53,7 +53,7 @@ fn a_folder_that_is_not_there_is_an_error_with_its_place() {
         panic!("resolved")
     };
     assert!(error.place.ends_with("trunnion.toml:2:20"), "{error}");
-    assert!(error.message.contains("there is no folder"), "{error}");
+    assert!(error.message.contains("does not exist"), "{error}");
 }
 
 #[test]

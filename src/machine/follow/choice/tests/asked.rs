@@ -10,7 +10,7 @@ fn assert_near_modulo(found: [f64; 2], wanted: [f64; 2]) {
 }
 
 /// iTNC 530 user's manual, 6/2010, page 404: PLANE SPATIAL SPA+0 SPB+45 SPC+0 on a C table on a tilting table A, from these values of A and
-/// C, with the travel of A and SEQ. Where both ways are equal the manual's row has A+45; it names no rule, so the verdict stays open.
+/// C, with the travel of A and SEQ. Where both moves are equal the manual's row has A+45; it names no rule, so the verdict stays open.
 #[test]
 fn heidenhain_tilting_solutions_of_the_manual() {
     let normal = Vec3::new(0.5_f64.sqrt(), 0.0, 0.5_f64.sqrt());
@@ -81,7 +81,7 @@ fn turn_bits_choose_posture_and_winding() {
         assert_near(q, wanted);
         assert_eq!(open, None, "{turn:b}");
     }
-    // STAT alone chooses the posture, the shortest way the winding
+    // STAT alone selects the posture, the shortest move the winding
     for (status, wanted) in [(0, [-90.0, 30.0]), (1, [90.0, -30.0])] {
         let (q, open) = ask(&declared, Some(status), None).expect("legal");
         assert_near(q, wanted);
@@ -98,10 +98,10 @@ fn turn_bits_choose_posture_and_winding() {
         ask(&short, None, Some(0b01000)),
         Err(NoStance::PostureRefused { .. })
     ));
-    // an axis that turns without end takes the shortest way whatever its bit says
+    // an axis that turns without end takes the shortest turn whatever its bit is
     let endless = machine(C_TABLE, A_TABLE, control);
     assert_near(ask(&endless, None, Some(0b00000)).expect("legal").0, [-90.0, 30.0]);
-    // nobody says which bits are meant
+    // it is not declared which bits are meant
     let silent = machine(&c, A_TABLE, "family = \"sinumerik-840d\"");
     assert_eq!(
         ask(&silent, None, Some(0)).expect("legal").1,
@@ -147,7 +147,7 @@ fn words_for_postures_are_checked() {
         ("posture_words = { turn = { A = 16 } }", "16"),
         ("posture_words = { turn = { A = 0.5 } }", "0.5"),
         ("posture_words = { solutions = { one = \"A+\" } }", "number"),
-        ("posture_words = { solutions = { 1 = \"A\" } }", "as \"A+\""),
+        ("posture_words = { solutions = { 1 = \"A\" } }", "for example \"A+\""),
         (
             "posture_words = { status = { bit = 0, axis = \"A\", set = \"down\" } }",
             "negative, positive",

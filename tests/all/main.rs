@@ -14,6 +14,6 @@ mod mutations;
 mod real_files;
 mod rewrites;
 mod rules;
-mod samples;
 mod same;
+mod samples;
 mod tidy;

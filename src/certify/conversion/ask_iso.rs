@@ -85,7 +85,9 @@ impl<'a> Blocks<'a> {
                 Item::Other(range) if !calls => {
                     let text = self.program.text(*range);
                     if !text.trim().is_empty() {
-                        found.own(*range, plain(&text), plain(&text), Why::Machine);
+                        // a `/` inside a block deletes the rest of it
+                        let why = if text.trim() == "/" { Why::Switch } else { Why::Machine };
+                        found.own(*range, plain(&text), plain(&text), why);
                     }
                 }
                 _ => {}

@@ -81,7 +81,7 @@ fn a_fanuc_asks_for_more_than_motions() {
         ("G26", "G26"),
         ("G22", "G22"),
         ("/M8", "block delete"),
-        ("G1 X8. /Y2. F100.", "block delete"),
+        ("G1 X8. /Y2. F100.", "depends on a switch"),
         ("DPRNT[X#1[53]]", "DPRNT"),
     ];
     refused("fanuc-30i", &["sinumerik-840d", "apt"], &all);

@@ -40,7 +40,9 @@ pub use path::speed::{FeedLimit, block_duration_s, feed_limit, feed_limit_tight}
 pub use path::swept::swept_deviation;
 pub use path::travel::{Excursion, LinearTravel, excursions, linear_travel};
 
-pub(crate) use follow::posture_rule::{Branch, Criterion, PostureRule};
-pub(crate) use follow::requests::PostureWords;
-pub(crate) use kinematics::chain::{Gantry, PoleAction};
+// the parts of a machine that a certificate's digest reads
+pub use follow::posture_rule::{Branch, Criterion, PostureRule};
+pub use follow::requests::{AxisSign, PostureWords};
+pub use kinematics::chain::{Gantry, PoleAction};
+
 pub(crate) use kinematics::constants::PairConstants;

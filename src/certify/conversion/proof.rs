@@ -7,7 +7,7 @@ use crate::Outcome;
 use std::sync::Arc;
 use trunnion_geometry::deg;
 use trunnion_geometry::math::angle_between;
-use trunnion_interp::{Fault, FaultKind, Feed, MotionKind};
+use trunnion_interp::{Fault, Feed, MotionKind};
 use trunnion_machine::{Machine, Pose};
 use trunnion_syntax::{BlockId, LineIndex, Program};
 

@@ -19,7 +19,7 @@ pub(crate) const TIE: f64 = 1e-9;
 
 /// The rule by which a control picks a posture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum PostureRule {
+pub enum PostureRule {
     /// Trunnion's own.
     Generic,
     /// The posture whose moves are both the smaller ones.
@@ -70,7 +70,7 @@ impl PostureRule {
 
 /// What two postures are compared by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Criterion {
+pub enum Criterion {
     /// Time of the slower axis.
     Time,
     /// Way of the rule's first (0) or second (1) axis.
@@ -81,7 +81,7 @@ pub(crate) enum Criterion {
 
 /// How a control picks postures.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Branch {
+pub struct Branch {
     /// The rule; `None`: neither declared nor documented for the family.
     pub rule: Option<PostureRule>,
     /// Whether the machine file names the rule.

@@ -16,7 +16,7 @@ use trunnion_interp::{AXIS_LETTERS, Motion, Orientation, Posture};
 
 /// The sign of a rotary axis that a posture must have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct AxisSign {
+pub struct AxisSign {
     /// Letter.
     pub letter: u8,
     /// Below zero, else above it; zero itself fits both.
@@ -25,7 +25,7 @@ pub(crate) struct AxisSign {
 
 /// What words that choose a posture mean on a machine.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct PostureWords {
+pub struct PostureWords {
     /// Bit numbers of TU: letter of the rotary axis, bit.
     pub turn: Vec<(u8, u8)>,
     /// The bit of STAT that selects the posture, and the sign that it means when it is set (the other one when it is not).

@@ -113,7 +113,7 @@ pub struct AxisExtra {
 
 /// An axis that only mirrors another one (gantry); it is not a joint of the chain.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Gantry {
+pub struct Gantry {
     /// Letter of the mirroring axis.
     pub letter: u8,
     /// Letter of the axis it follows.
@@ -134,7 +134,7 @@ pub enum RapidPath {
 
 /// What a control does inside its cone about the pole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub(crate) enum PoleAction {
+pub enum PoleAction {
     /// It goes on as anywhere.
     #[default]
     Through,
@@ -174,11 +174,11 @@ pub struct Control {
     /// How rapid motions run.
     pub rapid: RapidPath,
     /// How the control picks postures.
-    pub(crate) branch: Branch,
+    pub branch: Branch,
     /// Cone about the pole inside which the control acts, rad; `None`: not declared.
     pub pole_cone: Option<f64>,
     /// What it does there.
-    pub(crate) pole_action: PoleAction,
+    pub pole_action: PoleAction,
     /// What F counts along where rotary and linear axes move together without TCP; `None`: not declared, X Y Z are taken.
     pub feed: Option<FeedMeaning>,
     /// Corner speed model (axis-jump, grbl, klipper, linuxcnc-g64, exact-stop, servo); `None`: not declared.
@@ -188,7 +188,7 @@ pub struct Control {
     /// Codes of the builder that switch tool centre point control (LinuxCNC's M428 ...); `None`: not declared.
     pub tcp_codes: Option<trunnion_interp::TcpCodes>,
     /// What words mean that ask for a posture: STAT, TU, G53.1 P.
-    pub(crate) posture_words: crate::PostureWords,
+    pub posture_words: crate::PostureWords,
     /// Unit of lengths before a program says one; `None`: not declared.
     pub units: Option<trunnion_interp::LengthUnit>,
 }
@@ -288,7 +288,7 @@ pub struct Machine {
     /// Precomputed kinematics of the chain.
     pub constants: Constants,
     /// Axes that mirror another one.
-    pub(crate) gantries: Vec<Gantry>,
+    pub gantries: Vec<Gantry>,
     /// Rigid bodies.
     pub bodies: Vec<Body>,
     /// What the file declares and nothing honours yet, one sentence each: rules that depend on it judge without it.

@@ -1,17 +1,17 @@
 #!/bin/bash
 # Packages the extension with a `trunnion` program inside: scripts/package.sh [OUT.vsix]
-# The program: TRUNNION_BIN, else the newer of ../target/release/trunnion and ../target/debug/trunnion.
+# The program: TRUNNION_BIN, else the newest of ../target/dist, release and debug.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 program=${TRUNNION_BIN:-}
-for candidate in ../target/release/trunnion ../target/debug/trunnion; do
+for candidate in ../target/dist/trunnion ../target/release/trunnion ../target/debug/trunnion; do
   if [ -z "${TRUNNION_BIN:-}" ] && [ -x "$candidate" ] && { [ -z "$program" ] || [ "$candidate" -nt "$program" ]; }; then
     program=$candidate
   fi
 done
 if [ -z "$program" ] || [ ! -x "$program" ]; then
-  echo "package: no trunnion program (${program:-build one with: cargo build --release})" >&2
+  echo "package: no trunnion program (${program:-build one with: cargo build --profile dist})" >&2
   exit 1
 fi
 

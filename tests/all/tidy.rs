@@ -250,6 +250,79 @@ fn a_crate_has_one_test_binary() {
     );
 }
 
+/// Crates that may talk to the world: files, environment, processes, network, clocks.
+const WORLDLY: &[&str] = &["trunnion", "trunnion-lsp", "trunnion-workspace"];
+
+/// Paths of std that reach the world.
+const WORLD: &[&str] = &["fs", "env", "process", "net", "time", "os"];
+
+/// Places in a source where one of `WORLD` is named: `std::fs`, or `fs` in a list `use std::{...}`. Its unit tests, at its end, may.
+fn reaches_the_world(text: &str) -> Vec<&str> {
+    let code = text.split("mod tests {").next().unwrap_or_default();
+    let listed = code
+        .split("use std::{")
+        .skip(1)
+        .filter_map(|rest| rest.split(';').next())
+        .flat_map(|list| list.split(['{', '}', ',']))
+        .map(|item| item.trim().split("::").next().unwrap_or_default());
+    let named = code.split("std::").skip(1).map(|rest| {
+        let end = rest.find(|sign: char| !sign.is_ascii_alphanumeric() && sign != '_');
+        &rest[..end.unwrap_or(rest.len())]
+    });
+    listed.chain(named).filter(|name| WORLD.contains(name)).collect()
+}
+
+#[test]
+fn only_the_top_floors_touch_the_world() {
+    assert_eq!(reaches_the_world("use std::fs;\n"), ["fs"]);
+    assert_eq!(
+        reaches_the_world("use std::{\n    fmt::Write,\n    time::{Duration, Instant},\n};"),
+        ["time"]
+    );
+    assert_eq!(reaches_the_world("let a = ::std::env::var(name);"), ["env"]);
+    assert_eq!(
+        reaches_the_world("use std::io::Write;\n#[cfg(test)]\nmod tests { use std::fs; }"),
+        [""; 0]
+    );
+    for (name, folder) in crate_folders() {
+        if WORLDLY.contains(&name.as_str()) {
+            continue;
+        }
+        for path in files(&folder, &["rs"]) {
+            let of_tests = path.components().any(|part| part.as_os_str() == "tests")
+                || path
+                    .file_stem()
+                    .is_some_and(|stem| stem.to_string_lossy().ends_with("tests"));
+            let text = std::fs::read_to_string(&path).unwrap_or_default();
+            let found = reaches_the_world(&text);
+            assert!(
+                of_tests || found.is_empty(),
+                "{} uses std::{}: only {WORLDLY:?} may",
+                path.display(),
+                found.join(", std::")
+            );
+        }
+    }
+}
+
+/// What touches nothing of the world compiles for WebAssembly, and CI sees to it: `.ci/wasm.sh` lists these crates.
+#[test]
+fn the_floors_for_webassembly_are_all_but_the_worldly() {
+    let script = std::fs::read_to_string(root().join(".ci/wasm.sh")).expect("it is there");
+    let list = script
+        .lines()
+        .find_map(|line| line.strip_prefix("floors=\""))
+        .expect("a list");
+    let listed: BTreeSet<String> = list
+        .trim_end_matches('"')
+        .split(' ')
+        .map(|floor| format!("trunnion-{floor}"))
+        .collect();
+    let all = crate_folders().into_iter().map(|(name, _)| name);
+    let wanted: BTreeSet<String> = all.filter(|name| !WORLDLY.contains(&name.as_str())).collect();
+    assert_eq!(listed, wanted);
+}
+
 #[test]
 fn every_source_file_begins_with_its_idea() {
     for folder in ["src", "lsp", "tests", "benches"] {

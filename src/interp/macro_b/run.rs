@@ -153,6 +153,10 @@ impl Interpreter<'_> {
     fn out_of_fuel(&mut self, main: &Program, sink: &mut impl Sink) {
         self.stop();
         if let Some(deep) = &self.flow.deep {
+            #[expect(
+                clippy::disallowed_methods,
+                reason = "of loops that began anew equally often the first one wins, whatever the order"
+            )]
             let most = deep.turns.iter();
             let most = most.max_by_key(|(place, turns)| (turns.count, std::cmp::Reverse(**place)));
             let block = match deep.endless.or(most.map(|most| *most.0)) {

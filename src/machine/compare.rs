@@ -3,14 +3,16 @@
 //! A control solves the joints for a programmed tip with the machine it believes in; the true machine carries the tool to its own forward
 //! kinematics of these joints. With a rotary axis that passes 0.05 mm beside the believed place, a fixed tip under tool centre point
 //! control wanders by up to 0.1 mm: the sweep that calibrates pivots on real machines.
-use crate::selftest::SplitMix;
-use crate::text::{number, triple};
+use crate::file::text::{number, triple};
+use crate::kinematics::selftest::SplitMix;
 use crate::{Axis, AxisKind, Joints, Leg, Limits, MAX_AXES, Machine, forward, inverse};
 use core::f64::consts::PI;
 use trunnion_geometry::math::angle_between;
 use trunnion_geometry::{Vec3, deg};
 
 mod proof;
+#[cfg(test)]
+mod tests;
 
 pub use proof::AlongBlock;
 

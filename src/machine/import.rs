@@ -18,3 +18,6 @@ pub struct Imported {
     /// What the source does not say or what was assumed, one sentence each.
     pub open: Vec<String>,
 }
+
+#[cfg(test)]
+mod tests;

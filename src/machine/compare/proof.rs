@@ -1,10 +1,10 @@
 //! Upper bounds of what a wrong machine file does to the tip: along a block, and at all poses inside the travel.
 use super::{Comparison, TipDifference};
-use crate::bends::{Carried, Shift};
-use crate::bound::{Piece, peak};
-use crate::course::Course;
-use crate::deviation::runs_dogleg;
-use crate::forward::Turn;
+use crate::kinematics::forward::Turn;
+use crate::path::curvature::{Carried, Shift};
+use crate::path::deviation::runs_dogleg;
+use crate::path::joint_path::Course;
+use crate::path::peak::{Piece, peak};
 use crate::{AxisKind, Joints, Leg, Limits, MAX_AXES, Machine};
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;

@@ -163,7 +163,7 @@ fn turn_of_a(machine: &Machine, tcp: bool, from: f64, to: f64) -> crate::Leg {
 /// everywhere, no moment of a block farther than what is proven along it, and a place alone is proven tightly.
 #[test]
 fn bounds_of_planted_errors_are_never_below_random_poses() {
-    let mut random = crate::selftest::SplitMix(17);
+    let mut random = crate::kinematics::selftest::SplitMix(17);
     let mut judged = 0;
     for name in crate::BUILTIN_MACHINES {
         let believed = builtin(name).expect("shipped");
@@ -200,7 +200,7 @@ fn bounds_of_planted_errors_are_never_below_random_poses() {
 fn along_and_sampled(
     comparison: &Comparison<'_>,
     machine: &Machine,
-    random: &mut crate::selftest::SplitMix,
+    random: &mut crate::kinematics::selftest::SplitMix,
 ) -> (crate::AlongBlock, f64) {
     let mut pose = || {
         let mut position = trunnion_interp::Position::default();
@@ -233,7 +233,7 @@ fn along_and_sampled(
 }
 
 /// The machine with one of its places moved by up to 0.1 mm, or one of its directions tilted by up to 0.001 in each component.
-fn spoiled(name: &str, source: &str, random: &mut crate::selftest::SplitMix) -> Option<Machine> {
+fn spoiled(name: &str, source: &str, random: &mut crate::kinematics::selftest::SplitMix) -> Option<Machine> {
     let words: Vec<(usize, usize)> = ["point = [", "dir = [", "tool_axis = ["]
         .iter()
         .flat_map(|word| source.match_indices(word).map(|(at, _)| (at, word.len())))
@@ -302,7 +302,7 @@ fn the_uncertainty_bounds_what_planted_errors_do() {
     let joint = machine.joint(b'B').expect("B");
     let arc = machine.axes[joint].extra.direction_uncertainty.expect("declared");
     let mut largest: f64 = 0.0;
-    let mut random = crate::selftest::SplitMix(3);
+    let mut random = crate::kinematics::selftest::SplitMix(3);
     for _ in 0..200 {
         let mut number = |size: f64| random.between(-size, size);
         let off = Vec3::new(number(1.0), number(1.0), number(1.0)).normalize() * 0.01;

@@ -1,8 +1,8 @@
 //! `[[check]]` rows of a machine file: what its axes must give, written a second time. A wrong sign, point, order or limit contradicts
 //! its row, and the file does not load.
-use crate::raw::{Number, RawCheck, RawLimits, Word};
-use crate::text::{number, triple};
-use crate::validate::{Fault, finite, point, positive, unit_vector};
+use crate::file::raw::{Number, RawCheck, RawLimits, Word};
+use crate::file::text::{number, triple};
+use crate::file::validate::{Fault, finite, point, positive, unit_vector};
 use crate::{AxisKind, Joints, Limits, MAX_AXES, Machine, Wrap, forward};
 use std::collections::BTreeMap;
 use toml::Spanned;

@@ -1,8 +1,8 @@
 //! The `[control]` part of a machine file: how the numerical control interpolates, picks postures and plans.
-use crate::asked::posture_words;
-use crate::raw::{Number, RawBranch, RawControl, RawOrientation, RawRapid, RawTcpCodes, Word};
-use crate::text::number;
-use crate::validate::{Fault, non_negative, positive};
+use crate::file::raw::{Number, RawBranch, RawControl, RawOrientation, RawRapid, RawTcpCodes, Word};
+use crate::file::text::number;
+use crate::file::validate::{Fault, non_negative, positive};
+use crate::follow::requests::posture_words;
 use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction, PostureRule, RapidPath};
 use trunnion_geometry::{deg, rad};
 use trunnion_interp::{LengthUnit, TcpCodes};

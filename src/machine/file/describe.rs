@@ -1,8 +1,8 @@
 //! A machine in words and numbers, for people: chain, signs, limits, speeds, tool axis formula, reach and pole.
-use crate::formula::tool_axis_formula;
-use crate::reach::{pole, postures_by_tilt, reach};
-use crate::text::{direction, number, triple};
-use crate::uncertainty::{PIVOT_SENSITIVITY, worst_pivot_error};
+use crate::file::formula::tool_axis_formula;
+use crate::file::text::{direction, number, triple};
+use crate::kinematics::reach::{pole, postures_by_tilt, reach};
+use crate::kinematics::uncertainty::{PIVOT_SENSITIVITY, worst_pivot_error};
 use crate::{Axis, AxisKind, Limits, Machine, RapidPath, Side};
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::LengthUnit;
@@ -363,7 +363,7 @@ fn control(machine: &Machine) -> Vec<String> {
             );
         }
     }
-    lines.extend(crate::control::in_words(control));
+    lines.extend(crate::file::control::in_words(control));
     lines.extend(machine.gantries.iter().map(|gantry| {
         format!(
             "axis {} mirrors {}: travel and speed are what both allow",

@@ -1,6 +1,6 @@
 //! The tool axis in the workpiece frame written as a formula in the rotary joints.
 use crate::Machine;
-use crate::text::number;
+use crate::file::text::number;
 use trunnion_geometry::Vec3;
 
 /// Coefficients below this are rounding and are left out.

@@ -1,7 +1,7 @@
 //! Axes that mirror another one: the second motor of a gantry. A motion must suit both, so the leader's travel and highest speeds are
 //! what both allow.
-use crate::raw::{RawAxis, Word};
-use crate::validate::{Fault, letter};
+use crate::file::raw::{RawAxis, Word};
+use crate::file::validate::{Fault, letter};
 use crate::{Axis, Gantry, Limits};
 use core::ops::Range;
 

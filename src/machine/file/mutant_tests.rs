@@ -1,6 +1,6 @@
 //! Random mutations of every shipped machine file (A12): one sign, direction, point, order, limit or other entry is changed; of those
 //! that change what the machine does, at least 95 in 100 must be noticed when the file is loaded and tested. Prints who noticed what.
-use crate::selftest::SplitMix;
+use crate::kinematics::selftest::SplitMix;
 use crate::{BUILTIN_MACHINES, Comparison, Machine, builtin, builtin_source, load, self_test};
 use std::collections::BTreeMap;
 use toml::{Table, Value};

@@ -1,11 +1,11 @@
 //! The machine file (TOML, schema `ncmachine/1`, kinematics notes 7): read, checked, turned into mm, rad and s, with clear errors.
-use crate::control::control;
-use crate::gantry::Rails;
-use crate::held::Carried;
-use crate::not_used::{not_judged, not_used};
-use crate::raw::{Number, RawBody, RawMachine, RawTolerances, RawUnits};
-use crate::validate::{Fault, axis, point, positive, unit_vector, usual_direction};
-use crate::witness::verify;
+use crate::file::check_rows::verify;
+use crate::file::control::control;
+use crate::file::gantry::Rails;
+use crate::file::raw::{Number, RawBody, RawMachine, RawTolerances, RawUnits};
+use crate::file::unused_keys::{not_judged, not_used};
+use crate::file::validate::{Fault, axis, point, positive, unit_vector, usual_direction};
+use crate::kinematics::held_axes::Carried;
 use crate::{Axis, AxisKind, Body, Constants, Gantry, Home, MAX_AXES, Machine, Side, Tolerances};
 use core::ops::Range;
 use trunnion_geometry::math::angle_between;

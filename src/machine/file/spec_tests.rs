@@ -1,5 +1,5 @@
 //! Machine files: every key of the format, and files nobody would write.
-use crate::selftest::SplitMix;
+use crate::kinematics::selftest::SplitMix;
 use crate::{BUILTIN_MACHINES, Limits, RapidPath, Wrap, builtin, builtin_source, describe, load};
 use trunnion_geometry::{Vec3, rad};
 

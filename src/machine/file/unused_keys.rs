@@ -1,5 +1,5 @@
 //! What a machine file may declare although nothing honours it yet: read and checked, and said plainly.
-use crate::raw::{RawAxis, RawControl, RawMachine};
+use crate::file::raw::{RawAxis, RawControl, RawMachine};
 
 /// One sentence for each declaration that no formula and no rule honours.
 pub(crate) fn not_used(raw: &RawMachine) -> Vec<String> {

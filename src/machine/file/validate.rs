@@ -1,5 +1,5 @@
 //! Checks of single entries of a machine file, each with the place it stands at, and their conversion to mm, rad and s.
-use crate::raw::{Number, RawAxis, RawKind, RawLimits, RawMode, RawSide, RawWrap, Triple, Word};
+use crate::file::raw::{Number, RawAxis, RawKind, RawLimits, RawMode, RawSide, RawWrap, Triple, Word};
 use crate::{Axis, AxisExtra, AxisKind, Limits, Side, Wrap};
 use core::ops::Range;
 use trunnion_geometry::{Vec3, rad};

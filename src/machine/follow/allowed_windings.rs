@@ -1,7 +1,7 @@
 //! The windings of a posture inside the travel of the axes, the ranges that the control is given, and what the program asks for.
-use crate::asked::Asked;
-use crate::posture_rule::{Candidate, TIE};
-use crate::windings::windings_in;
+use crate::follow::posture_rule::{Candidate, TIE};
+use crate::follow::requests::Asked;
+use crate::kinematics::windings::windings_in;
 use crate::{Limits, Machine, NoStance};
 use core::f64::consts::TAU;
 

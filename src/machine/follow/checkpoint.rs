@@ -1,5 +1,5 @@
 //! What a follower remembers, without the machine it follows on: an owned check-point.
-use crate::follow::State;
+use crate::follow::follower::State;
 use crate::{Follower, Machine};
 
 /// What a [`Follower`] remembers between two motions.

@@ -1,12 +1,12 @@
 //! Which posture and winding of the rotary axes a control takes for a programmed tool vector, by the rule in
-//! [`crate::posture_rule`]; where the documentation leaves it open, which other posture it may take.
+//! [`crate::follow::posture_rule`]; where the documentation leaves it open, which other posture it may take.
 //!
 //! At the pole the first rotary axis stays where it is. Windings are chosen inside the limits (and the ranges that the control is given);
 //! an endless axis takes the winding nearest the previous value. Without a previous posture the rotary axes are taken to stand at zero.
-use crate::asked::Asked;
-use crate::legal::{Outside, excess, legal, no_winding, searched};
-use crate::posture_rule::{Branch, Candidate, Criterion, PostureRule, TIE, comparisons, precedence};
-use crate::windings::windings_in;
+use crate::follow::allowed_windings::{Outside, excess, legal, no_winding, searched};
+use crate::follow::posture_rule::{Branch, Candidate, Criterion, PostureRule, TIE, comparisons, precedence};
+use crate::follow::requests::Asked;
+use crate::kinematics::windings::windings_in;
 use crate::{Limits, Machine, NoStance, Open, OpenCause, Orientations, POLE_TOLERANCE, Side, Solution, orientations};
 use core::cmp::Ordering;
 use core::f64::consts::{PI, TAU};

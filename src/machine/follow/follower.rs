@@ -1,11 +1,11 @@
 //! Motions to joints, block by block along one posture: the machine re-runs the program.
-use crate::choice::cheapest_in_posture;
-use crate::forward::{Turn, segment_shifts};
-use crate::held::settle_held;
-use crate::inverse::{inverse_turned, place};
-use crate::lines::Lines;
-use crate::pole;
-use crate::words::{Words, XYZ, zero_point};
+use crate::follow::choice::cheapest_in_posture;
+use crate::follow::line_cache::Lines;
+use crate::follow::words::{Words, XYZ, zero_point};
+use crate::kinematics::forward::{Turn, segment_shifts};
+use crate::kinematics::held_axes::settle_held;
+use crate::kinematics::inverse::{inverse_turned, place};
+use crate::kinematics::pole;
 use crate::{Joints, Leg, MAX_AXES, Machine, NoStance, Open, Sine, Stance};
 use core::f64::consts::FRAC_PI_2;
 use trunnion_geometry::Vec3;
@@ -363,7 +363,7 @@ impl<'m> Follower<'m> {
         leg.length = self.feed_length(leg);
         let constants = &self.machine.constants;
         let Some(pair) = &constants.pair else { return };
-        leg.pole_angle_min = if crate::course::on_great_circle(self.machine, &leg.motion) {
+        leg.pole_angle_min = if crate::path::joint_path::on_great_circle(self.machine, &leg.motion) {
             let ends = start.pole_angle.min(end.pole_angle);
             pole::pole_angle_min_great_circle(self.machine, &start.axis, &end.axis, ends)
         } else {

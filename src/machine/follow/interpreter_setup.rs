@@ -1,6 +1,6 @@
 //! What an interpreter is told of the machine that a program runs on.
 use crate::Machine;
-use crate::words::Words;
+use crate::follow::words::Words;
 use trunnion_interp::ControlData;
 
 impl Machine {

@@ -1,8 +1,9 @@
 //! The short way for what most programs are full of: a line in words of the joints, from one known stance to the next.
-use crate::choice::cheapest_in_posture;
-use crate::length::way;
-use crate::lines::Lines;
-use crate::{Follower, Leg, Sine, pole};
+use crate::follow::choice::cheapest_in_posture;
+use crate::follow::line_cache::Lines;
+use crate::kinematics::pole;
+use crate::path::length::way;
+use crate::{Follower, Leg, Sine};
 use trunnion_interp::{Motion, MotionKind, Orientation, Posture, Swivel};
 
 impl Follower<'_> {

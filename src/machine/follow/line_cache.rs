@@ -1,7 +1,8 @@
 //! Lines one after the other that differ in where they lead, in kind and feed alone: what they have in common is worked out once.
-use crate::forward::Along;
-use crate::words::{Added, Words};
-use crate::{MAX_AXES, Machine, Sine, Stance, pole};
+use crate::follow::words::{Added, Words};
+use crate::kinematics::forward::Along;
+use crate::kinematics::pole;
+use crate::{MAX_AXES, Machine, Sine, Stance};
 use trunnion_geometry::Vec3;
 use trunnion_interp::Motion;
 

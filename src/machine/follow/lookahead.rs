@@ -2,7 +2,7 @@
 //! another thread.
 //!
 //! The follower takes a sine only where it is that of the very angle it asks for, so that nothing hangs on what was foreseen.
-use crate::words::{Added, Words};
+use crate::follow::words::{Added, Words};
 use crate::{Machine, RotaryAxis};
 use trunnion_geometry::math::sin_cos;
 use trunnion_interp::{Motion, Position};
@@ -80,7 +80,7 @@ impl<'m> Foresight<'m> {
 #[cfg(test)]
 mod tests {
     use super::Foresight;
-    use crate::straight::tests::{machines, motion};
+    use crate::follow::joint_line::tests::{machines, motion};
     use crate::{Follower, Leg, builtin};
     use proptest::prelude::*;
     use trunnion_interp::{AXIS_LETTERS, MotionKind, Position};

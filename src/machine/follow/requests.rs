@@ -7,9 +7,9 @@
 //!   -360 < value < 0 deg, counted by the channel's axis numbers; an axis whose travel is more than 360 deg either way takes the shortest
 //!   way whatever they say (840D sl Function Manual, Extended Functions, 03/2013, section 6.6.2; Programming Manual, Job Planning, 03/2013,
 //!   section 6.9). What the bits of STAT mean depends on the transformation: the machine file says it.
-use crate::posture_rule::TIE;
-use crate::raw::{Number, RawPostureWords, Word};
-use crate::validate::Fault;
+use crate::file::raw::{Number, RawPostureWords, Word};
+use crate::file::validate::Fault;
+use crate::follow::posture_rule::TIE;
 use crate::{Axis, AxisKind, Follower, Joints, Limits, Machine, Open, OpenCause, PostureRule};
 use core::f64::consts::TAU;
 use trunnion_interp::{AXIS_LETTERS, Motion, Orientation, Posture};

@@ -1,7 +1,7 @@
 //! One row of a trace: what the machine does in one motion, in the units people read.
-use crate::follow::has_tip_words;
-use crate::speed::feed_limit_tight;
-use crate::words::Words;
+use crate::follow::follower::has_tip_words;
+use crate::follow::words::Words;
+use crate::path::speed::feed_limit_tight;
 use crate::{AxisKind, Leg, Machine, block_duration_s, tip_deviation};
 use trunnion_geometry::deg;
 use trunnion_interp::{Feed, MotionKind};

@@ -1,5 +1,5 @@
 //! Where the machine stands between two blocks, and what it does in one.
-use crate::forward::Turn;
+use crate::kinematics::forward::Turn;
 use crate::{Joints, Machine};
 use trunnion_geometry::Vec3;
 use trunnion_interp::Motion;

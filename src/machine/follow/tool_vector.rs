@@ -1,9 +1,10 @@
 //! Rotary axes that a vector sets: the control's choice between postures, and turns onto a tilted plane and places in it.
-use crate::choice::{Before, choose};
-use crate::course::on_great_circle;
-use crate::spin::NO_TURN;
-use crate::words::{XYZ, zero_point};
-use crate::{Follower, Joints, Leg, NoStance, Open, OpenCause, POLE_TOLERANCE, PoleAction, Stance, pole};
+use crate::follow::choice::{Before, choose};
+use crate::follow::words::{XYZ, zero_point};
+use crate::kinematics::pole;
+use crate::path::joint_path::on_great_circle;
+use crate::path::rotary_path::NO_TURN;
+use crate::{Follower, Joints, Leg, NoStance, Open, OpenCause, POLE_TOLERANCE, PoleAction, Stance};
 use core::f64::consts::FRAC_PI_2;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{Motion, Orientation, Swivel};

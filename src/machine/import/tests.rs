@@ -1,5 +1,5 @@
 //! Importers: the INI files of LinuxCNC and Pocket NC beside the repository give the shipped machines; own FreeCAD machines; hostile files.
-use crate::selftest::SplitMix;
+use crate::kinematics::selftest::SplitMix;
 use crate::{Comparison, Machine, builtin, import_freecad, import_linuxcnc, load};
 use std::fs;
 use std::path::Path;

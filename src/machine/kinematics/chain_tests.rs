@@ -1,5 +1,5 @@
 //! Random chains: two rotary and three or four linear axes in any order, at any angles, against a naive chain product.
-use crate::selftest::{SelfTest, SplitMix, try_pose};
+use crate::kinematics::selftest::{SelfTest, SplitMix, try_pose};
 use crate::{
     Axis, AxisExtra, AxisKind, Constants, Joints, Limits, MAX_AXES, Machine, Orientations, Side, builtin, forward,
     orientations, solution_s,

@@ -1,5 +1,5 @@
 //! What forward and inverse kinematics need of a chain, worked out once when the machine is loaded.
-use crate::held::Carried;
+use crate::kinematics::held_axes::Carried;
 use crate::{Axis, AxisKind, MAX_AXES};
 use trunnion_geometry::math::{angle_between, atan2};
 use trunnion_geometry::{Mat3, Vec3};

@@ -1,5 +1,5 @@
 //! Tool pose to joints: closed form for any pair of rotary axes.
-use crate::forward::{Turn, segment_shifts};
+use crate::kinematics::forward::{Turn, segment_shifts};
 use crate::{Constants, Joints, Machine, PairConstants};
 use core::f64::consts::{FRAC_PI_2, PI};
 use trunnion_geometry::math::{angle_between, atan2};

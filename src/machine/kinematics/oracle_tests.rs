@@ -3,7 +3,7 @@
 //! taken over: the point on the workpiece is carried through the turns of the tables one plane at a time ([`turned_plane`]), and a
 //! nutating head turns what lies across its axis. LinuxCNC's position is the tip plus the tool length along Z. Inverse kinematics of
 //! xyzbc-trt with the factor `con` in its offset terms (kinematics notes 8).
-use crate::selftest::SplitMix;
+use crate::kinematics::selftest::SplitMix;
 use crate::{Joints, MAX_AXES, Machine, builtin, builtin_source, forward, inverse, load};
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;

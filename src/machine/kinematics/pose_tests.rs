@@ -1,5 +1,5 @@
 //! Forward and inverse kinematics against the rows of the kinematics notes and the papers' formulas.
-use crate::selftest::SplitMix;
+use crate::kinematics::selftest::SplitMix;
 use crate::{
     BUILTIN_MACHINES, MAX_AXES, Machine, Orientations, REACH_TOLERANCE, builtin, forward, inverse, load, orientations,
     self_test, windings,

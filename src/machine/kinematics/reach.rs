@@ -1,5 +1,5 @@
 //! Which tool axes a machine reaches, in words: the cone, the pole, and how many postures each tilt has inside the travels.
-use crate::text::{direction, number};
+use crate::file::text::{direction, number};
 use crate::{Limits, Machine, Orientations, orientations, windings};
 use trunnion_geometry::math::{atan2, rotate};
 use trunnion_geometry::{Vec3, deg, rad};

@@ -1,6 +1,6 @@
 //! Where the joints and the tool are inside a block: the real path between two blocks, for pictures and for surfaces.
-use crate::course::{Course, Track};
-use crate::forward::Turn;
+use crate::kinematics::forward::Turn;
+use crate::path::joint_path::{Course, Track};
 use crate::{Joints, Leg, Machine, Pose, forward};
 use trunnion_geometry::Vec3;
 

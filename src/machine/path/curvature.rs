@@ -1,8 +1,8 @@
 //! How much the linear joints can bend inside a block: bounds of their rates and second derivatives, taken axis by axis along the chain
 //! (kinematics notes 3).
-use crate::course::{Course, Track, on_great_circle};
-use crate::forward::Turn;
-use crate::spin::{Spin, SpinBounds};
+use crate::kinematics::forward::Turn;
+use crate::path::joint_path::{Course, Track, on_great_circle};
+use crate::path::rotary_path::{Spin, SpinBounds};
 use crate::{Leg, Machine};
 use trunnion_geometry::{Mat3, Vec3};
 use trunnion_interp::MotionKind;

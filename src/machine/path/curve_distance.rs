@@ -1,5 +1,5 @@
 //! How far a moving point strays from a curve: set distance, sampled from below and proven from above.
-use crate::bound::{Piece, peak_tagged};
+use crate::path::peak::{Piece, peak_tagged};
 use core::cell::Cell;
 use core::cmp::Ordering;
 use std::collections::BinaryHeap;

@@ -1,8 +1,8 @@
 //! How far the tip strays from the programmed segment inside a block: sampled value and proven bound.
-use crate::bound::{Piece, peak};
-use crate::follow::leads_path;
-use crate::stray::Stray;
-use crate::tip_path::{Run, TipPath};
+use crate::follow::follower::leads_path;
+use crate::path::curve_distance::Stray;
+use crate::path::peak::{Piece, peak};
+use crate::path::tip_path::{Run, TipPath};
 use crate::{Leg, Machine, RapidPath};
 use trunnion_interp::MotionKind;
 

@@ -1,9 +1,9 @@
 //! The joints inside a block: where they are at any share t of it, how fast they go, and how much they can bend.
 //!
 //! t runs from 0 to 1 with the tip path (TCP) or with the joints (no TCP). Rates are per block (d/dt), mm or rad.
-use crate::follow::leads_path;
-use crate::forward::Turn;
-use crate::spin::{Spin, SpinBounds};
+use crate::follow::follower::leads_path;
+use crate::kinematics::forward::Turn;
+use crate::path::rotary_path::{Spin, SpinBounds};
 use crate::{Constants, Joints, Leg, Machine, Stance};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;

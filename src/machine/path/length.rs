@@ -1,5 +1,5 @@
 //! The length of a block's path, along which F counts.
-use crate::follow::has_tip_words;
+use crate::follow::follower::has_tip_words;
 use crate::{FeedMeaning, Follower, Leg, Machine};
 use trunnion_geometry::math::hypot;
 use trunnion_geometry::{Vec3, deg};

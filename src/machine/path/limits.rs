@@ -1,9 +1,9 @@
 //! Joints outside their travel, at the end of a block or inside it.
-use crate::bends::rough_bends;
-use crate::bound::{Piece, peak};
-use crate::course::Course;
-use crate::follow::leads_path;
-use crate::spin::Spin;
+use crate::follow::follower::leads_path;
+use crate::path::curvature::rough_bends;
+use crate::path::joint_path::Course;
+use crate::path::peak::{Piece, peak};
+use crate::path::rotary_path::Spin;
 use crate::{Joints, Leg, Limits, Machine, RapidPath};
 use trunnion_interp::MotionKind;
 

@@ -1,8 +1,8 @@
 //! How far the tool axis strays from the programmed great circle inside a block: sampled value and proven bound.
-use crate::bound::{Piece, peak};
-use crate::course::on_great_circle;
-use crate::deviation::RATIO;
-use crate::follow::leads_path;
+use crate::follow::follower::leads_path;
+use crate::path::deviation::RATIO;
+use crate::path::joint_path::on_great_circle;
+use crate::path::peak::{Piece, peak};
 use crate::{Leg, Machine, Stance, tool_axis_at};
 use core::f64::consts::{FRAC_PI_2, PI};
 use trunnion_geometry::Vec3;
@@ -49,7 +49,7 @@ pub(crate) fn strays(machine: &Machine, leg: &Leg) -> bool {
 /// With |u''| <= Q (at most (D1 + D2)^2) the axis keeps within asin(Q / 8) of the arc; on a piece of length h the sine of the distance, which
 /// is the distance of u from the convex cone over the arc, is at most its largest end + Q h^2 / 8. Source: kinematics notes 3.
 pub fn orientation_deviation(machine: &Machine, leg: &Leg, tolerance: f64) -> Option<OrientationDeviation> {
-    if crate::deviation::runs_dogleg(machine, leg) {
+    if crate::path::deviation::runs_dogleg(machine, leg) {
         return None;
     }
     let none = OrientationDeviation {

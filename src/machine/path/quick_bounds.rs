@@ -1,6 +1,6 @@
 //! What a block in which all joints run straight does at most, in one look at its joints: enough to settle most blocks.
-use crate::follow::leads_path;
-use crate::limits::SLACK;
+use crate::follow::follower::leads_path;
+use crate::path::limits::SLACK;
 use crate::{AxisKind, Leg, Limits, MAX_AXES, Machine, Nearness};
 use trunnion_interp::MotionKind;
 
@@ -118,7 +118,7 @@ pub fn glance(machine: &Machine, allowances: &Allowances, near: &mut Nearness, l
 #[cfg(test)]
 mod tests {
     use super::{Allowances, Nearness, glance};
-    use crate::straight::tests::motion;
+    use crate::follow::joint_line::tests::motion;
     use crate::{BUILTIN_MACHINES, Follower, builtin, limit_excess, linear_travel, tip_deviation};
     use proptest::prelude::*;
     use trunnion_interp::{AXIS_LETTERS, MotionKind, Position};

@@ -3,7 +3,7 @@
 //! Turns are sign times joint, rad; rates are per block.
 mod bounds;
 
-use crate::course::on_great_circle;
+use crate::path::joint_path::on_great_circle;
 use crate::{Leg, Machine, Orientations, PairConstants, Stance, orientations};
 use core::f64::consts::{PI, TAU};
 use trunnion_geometry::Vec3;

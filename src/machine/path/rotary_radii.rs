@@ -1,6 +1,6 @@
 //! How far the tip leaves its segment at most, from a bound of a block before: the tool comes no farther from an axis than it goes.
 use crate::Stance;
-use crate::tip_path::{ROUNDING, straight_stray};
+use crate::path::tip_path::{ROUNDING, straight_stray};
 use crate::{Constants, Machine};
 use trunnion_geometry::Vec3;
 
@@ -121,8 +121,8 @@ impl Nearness {
 #[cfg(test)]
 mod tests {
     use super::Nearness;
-    use crate::straight::tests::motion;
-    use crate::tip_path::straight_stray;
+    use crate::follow::joint_line::tests::motion;
+    use crate::path::tip_path::straight_stray;
     use crate::{BUILTIN_MACHINES, Follower, builtin};
     use proptest::prelude::*;
     use trunnion_interp::{AXIS_LETTERS, MotionKind, Position};

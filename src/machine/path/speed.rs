@@ -1,10 +1,10 @@
 //! How fast a block can run, and how long it takes.
-use crate::bends::rough_bends;
-use crate::bound::{Piece, peak};
-use crate::course::{Course, on_great_circle};
-use crate::follow::leads_path;
-use crate::length::rotary_part;
-use crate::spin::Spin;
+use crate::follow::follower::leads_path;
+use crate::path::curvature::rough_bends;
+use crate::path::joint_path::{Course, on_great_circle};
+use crate::path::length::rotary_part;
+use crate::path::peak::{Piece, peak};
+use crate::path::rotary_path::Spin;
 use crate::{AxisKind, Leg, Machine, Stance};
 use trunnion_geometry::math::hypot;
 use trunnion_geometry::{Vec3, deg};

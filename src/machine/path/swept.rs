@@ -1,8 +1,8 @@
 //! How far the body of the tool strays inside a block while its tip is led: the point at a distance above the tip.
-use crate::course::Track;
-use crate::deviation::{RATIO, runs_dogleg};
-use crate::orientation::{Circle, axis_bend, strays};
-use crate::stray::Stray;
+use crate::path::curve_distance::Stray;
+use crate::path::deviation::{RATIO, runs_dogleg};
+use crate::path::joint_path::Track;
+use crate::path::orientation::{Circle, axis_bend, strays};
 use crate::{Deviation, Leg, Machine, tool_axis_at};
 use trunnion_interp::MotionKind;
 
@@ -37,7 +37,7 @@ pub fn swept_deviation(machine: &Machine, leg: &Leg, above_tip: f64, tolerance_m
         MotionKind::Arc(Some(arc)) => Track::Arc(*arc),
         MotionKind::Rapid | MotionKind::Linear => Track::Line(end.point - start.point_with(end.tool_length)),
     };
-    if !crate::follow::leads_path(&leg.motion) && leg.rotary_change != [0.0; 2] {
+    if !crate::follow::follower::leads_path(&leg.motion) && leg.rotary_change != [0.0; 2] {
         return None;
     }
     if !strays(machine, leg) || above_tip <= 0.0 {

@@ -1,5 +1,5 @@
 //! The path of the tip in the workpiece while the joints run without tool centre point control, and how much it can bend.
-use crate::inverse::place;
+use crate::kinematics::inverse::place;
 use crate::{Machine, Stance};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
@@ -64,7 +64,7 @@ impl Bulge {
 
     /// Largest rate of the way beside the chord and largest second derivative.
     fn bounds(&self) -> (f64, f64) {
-        let (fastest, _, bend) = crate::course::Track::Arc(self.arc).bounds();
+        let (fastest, _, bend) = crate::path::joint_path::Track::Arc(self.arc).bounds();
         (fastest + (self.arc.end - self.arc.start).norm(), bend)
     }
 }

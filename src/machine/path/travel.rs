@@ -1,8 +1,8 @@
 //! How far the linear axes run in a block: the length of their path, and how far an axis runs beyond both its ends.
-use crate::bends::rough_bends;
-use crate::bound::{Piece, peak};
-use crate::course::Course;
-use crate::follow::leads_path;
+use crate::follow::follower::leads_path;
+use crate::path::curvature::rough_bends;
+use crate::path::joint_path::Course;
+use crate::path::peak::{Piece, peak};
 use crate::{Leg, Machine};
 use trunnion_geometry::Vec3;
 use trunnion_interp::MotionKind;
@@ -47,7 +47,7 @@ const CLOSE_MM: f64 = 1e-3;
 /// root(chord^2 + Q^2 h^4 / 12): by Cauchy and Schwarz length^2 <= h int |q'|^2 = chord^2 + h int |q' - mean|^2, and q' strays from its mean
 /// by less than a straight line of slope Q would.
 pub fn linear_travel(machine: &Machine, leg: &Leg, enough_mm: f64) -> Option<LinearTravel> {
-    if crate::deviation::runs_dogleg(machine, leg) {
+    if crate::path::deviation::runs_dogleg(machine, leg) {
         return None;
     }
     let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);

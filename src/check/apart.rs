@@ -6,7 +6,7 @@ use crate::pass::Pass;
 use crate::rule::InForce;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use trunnion_interp::{AXIS_LETTERS, ChainId, Fault, Feed, Interpreter, ModalState, Motion, MotionKind, Sink};
-use trunnion_machine::{Foresight, Machine, Sine};
+use trunnion_machine::{Lookahead, Machine, Sine};
 use trunnion_syntax::{BlockId, Program};
 
 /// Programs of fewer blocks are not worth a second thread.
@@ -100,7 +100,7 @@ struct Teller<'m> {
     batch: Batch,
     /// Where the motion told last leads, in this batch or before it, and the course told last.
     last: Option<([f64; AXIS_LETTERS.len()], Option<Course>)>,
-    foresight: Option<Foresight<'m>>,
+    foresight: Option<Lookahead<'m>>,
 }
 
 impl Teller<'_> {
@@ -231,7 +231,7 @@ pub(crate) fn run(
     // both ends go with a panic, so that nobody waits for them
     std::thread::scope(move |scope| {
         let runner = scope.spawn(move || {
-            let foresight = machine.and_then(Foresight::new);
+            let foresight = machine.and_then(Lookahead::new);
             tell(program, &mut interpreter, foresight, &full, &emptied);
             interpreter
         });
@@ -253,7 +253,7 @@ pub(crate) fn run(
 fn tell(
     program: &Program,
     interpreter: &mut Interpreter<'static>,
-    foresight: Option<Foresight<'_>>,
+    foresight: Option<Lookahead<'_>>,
     full: &SyncSender<Batch>,
     emptied: &Receiver<Batch>,
 ) {

@@ -5,7 +5,7 @@ use crate::trail::Trail;
 use crate::view::{leads_tip, turns};
 use core::f64::consts::PI;
 use trunnion_interp::{Feed, Motion, Orientation};
-use trunnion_machine::{Allowances, Leg, Machine, Nearness, glance};
+use trunnion_machine::{Allowances, Leg, Machine, RotaryRadii, quick_bounds};
 
 /// Things that must hold of a motion or leg, all of them, before a rule is asked; without one of them the rule says nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,7 +99,7 @@ impl Needs {
 pub(crate) struct Facts<'m> {
     machine: &'m Machine,
     allowances: Allowances,
-    near: Nearness,
+    near: RotaryRadii,
     /// What holds of all of them.
     always: u32,
     /// What the words of the last leg are.
@@ -116,7 +116,7 @@ impl<'m> Facts<'m> {
         Self {
             machine,
             allowances: Allowances::of(machine),
-            near: Nearness::default(),
+            near: RotaryRadii::default(),
             words: 0,
             always: Needs::CABLE.when(any(|axis| axis.extra.cable))
                 | Needs::CLAMP.when(any(|axis| axis.extra.clamp || axis.extra.clamp_codes.is_some()))
@@ -179,7 +179,7 @@ impl<'m> Facts<'m> {
             | Needs::WINDS.0
             | Needs::POLE_HURRIES.0;
         let machine = self.machine;
-        let Some(seen) = glance(machine, &self.allowances, &mut self.near, leg) else {
+        let Some(seen) = quick_bounds(machine, &self.allowances, &mut self.near, leg) else {
             return ALL;
         };
         let tolerances = &machine.tolerances;

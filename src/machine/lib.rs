@@ -15,7 +15,7 @@ pub use file::describe::{AxisDescription, Description, describe};
 pub use file::spec::{MachineError, load};
 pub use follow::checkpoint::Memory;
 pub use follow::follower::Follower;
-pub use follow::lookahead::{Foresight, Sine};
+pub use follow::lookahead::{Lookahead, Sine};
 pub use follow::posture_rule::{Branch, Criterion, PostureRule};
 pub use follow::requests::{AxisSign, PostureWords};
 pub use follow::row::{Row, row};
@@ -35,13 +35,13 @@ pub use kinematics::uncertainty::{
     AxisUncertainty, PIVOT_SENSITIVITY, pivot_sensitivity, pivot_sensitivity_between, worst_pivot_error,
 };
 pub use kinematics::windings::{Windings, pole_angle, rotary_jacobian, solution_s, windings};
-pub use path::block_path::{Moment, Way};
+pub use path::block_path::{BlockPath, Moment};
 pub use path::deviation::{Deviation, tip_deviation};
 pub use path::limits::{Excess, limit_excess};
 pub use path::orientation::{OrientationDeviation, orientation_deviation};
-pub use path::quick_bounds::{Allowances, Glance, glance};
+pub use path::quick_bounds::{Allowances, QuickBounds, quick_bounds};
 pub use path::rotary_path::{NO_TURN, rotary_turns};
-pub use path::rotary_radii::Nearness;
+pub use path::rotary_radii::RotaryRadii;
 pub use path::speed::{FeedLimit, block_duration_s, feed_limit, feed_limit_tight};
 pub use path::swept::swept_deviation;
 pub use path::travel::{Excursion, LinearTravel, excursions, linear_travel};

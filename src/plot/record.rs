@@ -1,12 +1,12 @@
 //! What is kept of a run for pictures: samples along the real path, block by block.
 use core::ops::Range;
 use trunnion_geometry::{Vec3, deg};
-use trunnion_machine::{AxisKind, Joints, Leg, Machine, Way, block_duration_s, tip_deviation};
+use trunnion_machine::{AxisKind, BlockPath, Joints, Leg, Machine, block_duration_s, tip_deviation};
 
 /// The machine at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Way of the tip in the workpiece frame since the first known position, mm.
+    /// BlockPath of the tip in the workpiece frame since the first known position, mm.
     pub way: f64,
     /// Time since then, s; not a number behind a block whose time is not known.
     pub time: f64,
@@ -100,7 +100,7 @@ impl<'m> Recorder<'m> {
             self.time += block_duration_s(self.machine, leg).unwrap_or(f64::NAN);
             return;
         }
-        let Some(way) = Way::new(self.machine, leg) else {
+        let Some(way) = BlockPath::new(self.machine, leg) else {
             // the first motion starts from nowhere: nothing is missing of it
             self.record.unknown += usize::from(leg.start.is_some() || leg.end.is_err());
             self.broken = true;

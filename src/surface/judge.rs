@@ -3,7 +3,7 @@ use crate::mesh::{Required, Uv};
 use crate::search::{Climb, Top, top};
 use crate::sheet::Sheet;
 use trunnion_geometry::Vec3;
-use trunnion_machine::{Leg, Machine, Way, tip_deviation};
+use trunnion_machine::{BlockPath, Leg, Machine, tip_deviation};
 use trunnion_syntax::BlockId;
 
 /// How to compare.
@@ -102,7 +102,7 @@ impl<'a> Judge<'a> {
         if !leg.motion.is_feed() {
             return;
         }
-        let Some(way) = Way::new(self.machine, leg).filter(|_| is_tip) else {
+        let Some(way) = BlockPath::new(self.machine, leg).filter(|_| is_tip) else {
             self.errors.not_judged += 1;
             self.errors.first_not_judged.get_or_insert(leg.motion.block);
             return;
@@ -154,7 +154,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Samples for a picture.
-    fn spots(&mut self, way: &Way<'_>, near: &FromSurface<'_>, same: Option<&SamePlace<'_>>, leg: u32) {
+    fn spots(&mut self, way: &BlockPath<'_>, near: &FromSurface<'_>, same: Option<&SamePlace<'_>>, leg: u32) {
         let options = self.options;
         for i in 0..=options.spots {
             let t = i as f64 / options.spots as f64;
@@ -175,7 +175,7 @@ impl<'a> Judge<'a> {
         self.errors
     }
 
-    fn found(&self, block: BlockId, way: &Way<'_>, top: Top, sided: bool) -> Found {
+    fn found(&self, block: BlockId, way: &BlockPath<'_>, top: Top, sided: bool) -> Found {
         let moment = way.at(top.at);
         let side = if sided {
             let off = moment.tip - self.required.nearest(&moment.tip).point;
@@ -214,14 +214,14 @@ fn keep(known: &mut Option<Found>, found: Found) {
 }
 
 /// As many pieces as keep the tip within a hundredth of a millimetre of the chords, at most 64.
-fn first_pieces(way: &Way<'_>) -> usize {
+fn first_pieces(way: &BlockPath<'_>) -> usize {
     (way.tip_bend() / (8.0 * 0.01)).sqrt().ceil().clamp(1.0, 64.0) as usize
 }
 
 /// Distance from the nearest point of the surface, less the offset: it changes no faster than the tip moves, and between two moments the
 /// tip is within Q h2 / 8 of its chord (kinematics notes 3).
 struct FromSurface<'a> {
-    way: &'a Way<'a>,
+    way: &'a BlockPath<'a>,
     required: &'a Required,
     offset: f64,
 }
@@ -239,7 +239,7 @@ impl Climb for FromSurface<'_> {
 
 /// Distance from the point of the sheet whose parameters run evenly from the block's start to its end.
 struct SamePlace<'a> {
-    way: &'a Way<'a>,
+    way: &'a BlockPath<'a>,
     sheet: &'a Sheet,
     from: Uv,
     to: Uv,
@@ -251,7 +251,7 @@ struct SamePlace<'a> {
 const ON: f64 = 0.01;
 
 impl<'a> SamePlace<'a> {
-    fn new(way: &'a Way<'a>, required: &'a Required) -> Option<Self> {
+    fn new(way: &'a BlockPath<'a>, required: &'a Required) -> Option<Self> {
         let [start, end] = [0.0, 1.0].map(|t| required.nearest(&way.at(t).tip));
         if start.distance.max(end.distance) > ON + required.off {
             return None;

@@ -68,7 +68,7 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let tip = if view.leads_tip() && !view.motion().machine_coordinates {
         view.leg.length
     } else {
-        start.tip_way_to(end)
+        start.tip_distance_to(end)
     };
     let ratio = view.machine.tolerances.linear_ratio;
     let allowed = allowed(view.machine, tip);

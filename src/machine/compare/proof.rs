@@ -3,7 +3,7 @@ use super::{Comparison, TipDifference};
 use crate::kinematics::forward::Turn;
 use crate::path::curvature::{Carried, Shift};
 use crate::path::deviation::runs_dogleg;
-use crate::path::joint_path::Course;
+use crate::path::joint_path::JointPath;
 use crate::path::peak::{Piece, peak};
 use crate::{AxisKind, Joints, Leg, Limits, MAX_AXES, Machine};
 use core::f64::consts::PI;
@@ -38,7 +38,7 @@ impl Comparison<'_> {
         if runs_dogleg(self.believed, leg) {
             return None;
         }
-        let course = Course::new(self.believed, leg)?;
+        let course = JointPath::new(self.believed, leg)?;
         let at = |t: f64| self.at(&course.joints(t), course.tool_length);
         let over = |piece: &Piece| {
             let rates = rates(&course, piece.from, piece.to);
@@ -151,7 +151,7 @@ impl Ball {
 }
 
 /// How fast the joints run on a piece of a block, and how much they bend.
-fn rates(course: &Course<'_>, from: f64, to: f64) -> Rates {
+fn rates(course: &JointPath<'_>, from: f64, to: f64) -> Rates {
     let (mut rate, mut bend): (Joints, Joints) = ([0.0; MAX_AXES], [0.0; MAX_AXES]);
     let constants = course.constants();
     for linear in constants.linear() {

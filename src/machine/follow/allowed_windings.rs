@@ -1,6 +1,6 @@
 //! The windings of a posture inside the travel of the axes, the ranges that the control is given, and what the program asks for.
 use crate::follow::posture_rule::{Candidate, TIE};
-use crate::follow::requests::Asked;
+use crate::follow::requests::Requested;
 use crate::kinematics::windings::windings_in;
 use crate::{Limits, Machine, NoStance};
 use core::f64::consts::TAU;
@@ -72,7 +72,7 @@ pub(crate) fn legal(
     machine: &Machine,
     mut q: [f64; 2],
     from: [f64; 2],
-    asked: &Asked,
+    asked: &Requested,
 ) -> Result<(Candidate, Option<usize>), (u8, Outside)> {
     let mut half_turn = None;
     for (index, rotary) in machine.constants.rotary().iter().enumerate().take(2) {

@@ -5,7 +5,7 @@
 //! an endless axis takes the winding nearest the previous value. Without a previous posture the rotary axes are taken to stand at zero.
 use crate::follow::allowed_windings::{Outside, excess, legal, no_winding, searched};
 use crate::follow::posture_rule::{Branch, Candidate, Criterion, PostureRule, TIE, comparisons, precedence};
-use crate::follow::requests::Asked;
+use crate::follow::requests::Requested;
 use crate::kinematics::windings::windings_in;
 use crate::{Limits, Machine, NoStance, Open, OpenCause, Orientations, POLE_TOLERANCE, Side, Solution, orientations};
 use core::cmp::Ordering;
@@ -48,7 +48,7 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
     let postures = match orientations(machine, axis) {
         Orientations::Unreachable(off) => return Err(NoStance::Unreachable(off)),
         Orientations::Pole(q2) => {
-            let asked = Asked::of(machine, before.wish);
+            let asked = Requested::of(machine, before.wish);
             let q = legal(machine, [before.q[0], q2], before.q, &asked)
                 .map_err(no_winding)?
                 .0
@@ -62,16 +62,17 @@ pub(crate) fn choose(machine: &Machine, axis: &Vec3, before: &Before) -> Result<
     };
     let mut found = Found::default();
     let mut worst: Option<(u8, Outside)> = None;
-    let asked = Asked::of(machine, before.wish);
+    let asked = Requested::of(machine, before.wish);
     let mut refused = None;
     for solution in &postures {
         match legal(machine, solution.q, before.q, &asked) {
             Ok((candidate, _)) if !asked.fits(&candidate.q) => refused = Some(candidate.q),
             Ok((candidate, half_turn)) => found.add(candidate, solution.branch, half_turn),
             Err(failed) => {
-                if let (true, Ok((candidate, _))) =
-                    (asked.narrows(), legal(machine, solution.q, before.q, &Asked::default()))
-                {
+                if let (true, Ok((candidate, _))) = (
+                    asked.narrows(),
+                    legal(machine, solution.q, before.q, &Requested::default()),
+                ) {
                     refused = Some(candidate.q);
                 }
                 if worst.as_ref().is_none_or(|w| excess(&failed.1) < excess(&w.1)) {
@@ -258,7 +259,7 @@ impl Found {
         if matches!(before.wish, Posture::Lower | Posture::Higher) {
             return self.by_direction(machine, before.wish);
         }
-        if Asked::of(machine, before.wish).unsaid {
+        if Requested::of(machine, before.wish).unsaid {
             return (generic(), Some(OpenCause::WordsNotDeclared));
         }
         let Some(rule) = branch.rule else {

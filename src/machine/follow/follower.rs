@@ -1,6 +1,6 @@
 //! Motions to joints, block by block along one posture: the machine re-runs the program.
 use crate::follow::choice::cheapest_in_posture;
-use crate::follow::line_cache::Lines;
+use crate::follow::line_cache::LineCache;
 use crate::follow::words::{Words, XYZ, zero_point};
 use crate::kinematics::forward::{Turn, segment_shifts};
 use crate::kinematics::held_axes::settle_held;
@@ -41,7 +41,7 @@ pub struct Follower<'m> {
     pub(crate) state: State,
     pub(crate) words: Words,
     /// Where the last motion was a straight one: what it has in common with the next.
-    pub(crate) lines: Option<Lines>,
+    pub(crate) lines: Option<LineCache>,
     /// What is foreseen of the rotary axes.
     pub(crate) sines: [Sine; 2],
 }

@@ -1,6 +1,6 @@
 //! The short way for what most programs are full of: a line in words of the joints, from one known stance to the next.
 use crate::follow::choice::cheapest_in_posture;
-use crate::follow::line_cache::Lines;
+use crate::follow::line_cache::LineCache;
 use crate::kinematics::pole;
 use crate::path::length::way;
 use crate::{Follower, Leg, Sine};
@@ -13,7 +13,7 @@ impl Follower<'_> {
         match leg {
             Some(leg) if self.is_straight(motion) => {
                 if !self.lines.as_ref().is_some_and(|lines| lines.hold(motion)) {
-                    self.lines = Some(Lines::of(self.machine, &self.words, motion));
+                    self.lines = Some(LineCache::of(self.machine, &self.words, motion));
                 }
                 leg.motion = *motion;
                 self.straight(leg);

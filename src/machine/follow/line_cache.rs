@@ -8,7 +8,7 @@ use trunnion_interp::Motion;
 
 /// What straight motions with the same offsets have in common.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lines {
+pub(crate) struct LineCache {
     offsets: [f64; 9],
     tool_length: f64,
     pub(crate) added: Added,
@@ -21,7 +21,7 @@ pub(crate) struct Lines {
     segment: usize,
 }
 
-impl Lines {
+impl LineCache {
     /// Of a motion.
     pub(crate) fn of(machine: &Machine, words: &Words, motion: &Motion) -> Self {
         let constants = &machine.constants;

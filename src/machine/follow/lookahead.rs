@@ -37,7 +37,7 @@ impl Sine {
 
 /// Foresees the sines of lines in words of the joints on a machine with two rotary axes, as they are told by [`trunnion_interp::Sink`].
 #[derive(Clone, Debug)]
-pub struct Foresight<'m> {
+pub struct Lookahead<'m> {
     rotary: &'m [RotaryAxis; 2],
     words: Words,
     /// What the last whole motion adds to words; `None` where nothing is foreseen.
@@ -45,7 +45,7 @@ pub struct Foresight<'m> {
     last: [Sine; 2],
 }
 
-impl<'m> Foresight<'m> {
+impl<'m> Lookahead<'m> {
     /// Of a machine; `None` where there is nothing to foresee.
     pub fn new(machine: &'m Machine) -> Option<Self> {
         let words = Words::new(machine);
@@ -79,7 +79,7 @@ impl<'m> Foresight<'m> {
 
 #[cfg(test)]
 mod tests {
-    use super::Foresight;
+    use super::Lookahead;
     use crate::follow::joint_line::tests::{machines, motion};
     use crate::{Follower, Leg, builtin};
     use proptest::prelude::*;
@@ -94,7 +94,7 @@ mod tests {
             ("mill-4axis-a", false),
         ] {
             let machine = builtin(name).expect("built in");
-            assert_eq!(Foresight::new(machine).is_some(), foresees, "{name}");
+            assert_eq!(Lookahead::new(machine).is_some(), foresees, "{name}");
         }
     }
 
@@ -106,7 +106,7 @@ mod tests {
             offset in prop_oneof![Just(0.0), -50.0..50.0],
             places in proptest::collection::vec((proptest::array::uniform9(-120.0..120.0), 0..12_usize), 2..8),
         ) {
-            let Some(mut foresight) = Foresight::new(&machine) else { return Ok(()) };
+            let Some(mut foresight) = Lookahead::new(&machine) else { return Ok(()) };
             let (mut told, mut alone) = (Follower::new(&machine), Follower::new(&machine));
             let (mut told_leg, mut alone_leg): (Option<Box<Leg>>, _) = (None, None);
             let mut at = Position::default();

@@ -36,7 +36,7 @@ pub struct PostureWords {
 
 /// What a choice has to keep.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Asked {
+pub(crate) struct Requested {
     /// For each rotary axis, workpiece side first, whether TU asks for a value below zero.
     turns: [Option<bool>; 2],
     /// Index of the rotary axis and whether its value has to be below zero.
@@ -53,7 +53,7 @@ fn index(machine: &Machine, letter: u8) -> Option<usize> {
         .position(|rotary| machine.axes[rotary.joint].letter == letter)
 }
 
-impl Asked {
+impl Requested {
     pub(crate) fn of(machine: &Machine, wish: Posture) -> Self {
         let (mut asked, words) = (Self::default(), &machine.control.posture_words);
         let sign = |sign: AxisSign, reversed: bool| Some((index(machine, sign.letter)?, sign.negative != reversed));

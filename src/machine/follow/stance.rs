@@ -50,7 +50,7 @@ impl Stance {
     }
     /// How far the tip stands from it in another stance, with that one's tool, mm: in the workpiece, whatever work offset each is told in.
     #[inline]
-    pub fn tip_way_to(&self, end: &Self) -> f64 {
+    pub fn tip_distance_to(&self, end: &Self) -> f64 {
         (end.point - self.point_with(end.tool_length)).norm()
     }
     /// Rotary joints, workpiece side first, rad; 0 for missing ones.

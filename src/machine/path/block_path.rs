@@ -1,6 +1,6 @@
 //! Where the joints and the tool are inside a block: the real path between two blocks, for pictures and for surfaces.
 use crate::kinematics::forward::Turn;
-use crate::path::joint_path::{Course, Track};
+use crate::path::joint_path::{JointPath, Track};
 use crate::{Joints, Leg, Machine, Pose, forward};
 use trunnion_geometry::Vec3;
 
@@ -16,17 +16,17 @@ pub struct Moment {
 }
 
 /// The way of one leg, from 0 (its start) to 1 (its end): the tip runs along the programmed path (TCP), or the joints do (no TCP).
-pub struct Way<'a> {
-    course: Course<'a>,
+pub struct BlockPath<'a> {
+    course: JointPath<'a>,
     zero: Vec3,
     bend: f64,
 }
 
-impl<'a> Way<'a> {
+impl<'a> BlockPath<'a> {
     /// `None` where a stance or the path between the two is not known or not modelled (dwell, an arc without centre, a great circle
     /// that the joints cannot follow).
     pub fn new(machine: &'a Machine, leg: &'a Leg) -> Option<Self> {
-        let course = Course::new(machine, leg)?;
+        let course = JointPath::new(machine, leg)?;
         let zero = &leg.motion.zero;
         let mut way = Self {
             course,

@@ -1,16 +1,16 @@
 //! How much the linear joints can bend inside a block: bounds of their rates and second derivatives, taken axis by axis along the chain
 //! (kinematics notes 3).
 use crate::kinematics::forward::Turn;
-use crate::path::joint_path::{Course, Track, on_great_circle};
-use crate::path::rotary_path::{Spin, SpinBounds};
+use crate::path::joint_path::{JointPath, Track, on_great_circle};
+use crate::path::rotary_path::{RotaryPath, RotaryPathBounds};
 use crate::{Leg, Machine};
 use trunnion_geometry::{Mat3, Vec3};
 use trunnion_interp::MotionKind;
 
-impl Course<'_> {
-    /// The bounds of [`Course::bends`] hold for the whole block at once and need not be asked for piece by piece.
+impl JointPath<'_> {
+    /// The bounds of [`JointPath::bends`] hold for the whole block at once and need not be asked for piece by piece.
     pub(crate) fn bends_at_once(&self) -> bool {
-        !self.tip || (self.constants().shared_segment.is_some() && matches!(self.spin, Spin::Even))
+        !self.tip || (self.constants().shared_segment.is_some() && matches!(self.spin, RotaryPath::Even))
     }
 
     /// Upper bounds of the rates and of the second derivatives of the three solved joints on a piece of the block, mm per block and mm
@@ -70,14 +70,14 @@ pub(crate) fn rough_bends(machine: &Machine, leg: &Leg) -> Option<(f64, f64)> {
 
 /// A piece of a course with what its bounds need: the turns at its ends and the bounds of their rates.
 struct PieceOfCourse<'c, 'm> {
-    course: &'c Course<'m>,
+    course: &'c JointPath<'m>,
     ends: [f64; 2],
     turns: [[Turn; 2]; 2],
-    spin: SpinBounds,
+    spin: RotaryPathBounds,
 }
 
 impl<'c, 'm> PieceOfCourse<'c, 'm> {
-    fn new(course: &'c Course<'m>, from: f64, to: f64) -> Self {
+    fn new(course: &'c JointPath<'m>, from: f64, to: f64) -> Self {
         let turns = [course.turns(from), course.turns(to)];
         Self {
             course,

@@ -7,7 +7,7 @@ use trunnion_geometry::Vec3;
 
 /// A point W(t) and a curve S(s), both from a common start at 0 to a common end at 1 (or near it), with bounds of their second
 /// derivatives. Lengths in mm.
-pub(crate) struct Stray<W, S> {
+pub(crate) struct CurveDistance<W, S> {
     pub(crate) point: W,
     pub(crate) point_bend: f64,
     pub(crate) curve: S,
@@ -26,7 +26,7 @@ pub(crate) struct Found {
 
 /// Where the nearest point of the curve was found for one sample.
 #[derive(Clone, Copy)]
-struct Near {
+struct Radii {
     s: f64,
     point: Vec3,
     foot: Vec3,
@@ -71,7 +71,7 @@ impl Ord for Candidate {
     }
 }
 
-impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> Stray<W, S> {
+impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> CurveDistance<W, S> {
     /// Largest over t of the smallest over s of |W(t) - S(s)|. The search ends when `enough(bound, sampled, samples)`.
     ///
     /// On a piece of t of length h any choice of s for each t gives an upper bound. Taken are s running evenly between the feet of both
@@ -92,7 +92,7 @@ impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> Stray<W, S> {
         }
     }
 
-    fn over(&self, piece: &Piece<Near>) -> f64 {
+    fn over(&self, piece: &Piece<Radii>) -> f64 {
         let h = piece.to - piece.from;
         let (from, to) = (&piece.tag_from, &piece.tag_to);
         let (run, step) = (self.point_bend * h * h, to.s - from.s);
@@ -109,10 +109,10 @@ impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> Stray<W, S> {
     /// Distance of W(t) from the curve, at most [`slack`] above the truth, and where the foot lies: the piece of the curve whose lower
     /// bound (distance from its chord less bend ds^2 / 8) is smallest is halved first. Where that takes too long, `loose` grows to how far
     /// above the truth it may lie.
-    fn nearest(&self, t: f64, loose: &Cell<f64>) -> (f64, Near) {
+    fn nearest(&self, t: f64, loose: &Cell<f64>) -> (f64, Radii) {
         let point = (self.point)(t);
         let ends = [(self.curve)(0.0), (self.curve)(1.0)];
-        let mut best = Near {
+        let mut best = Radii {
             s: 0.0,
             point,
             foot: ends[0],
@@ -122,7 +122,7 @@ impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> Stray<W, S> {
             let distance = (point - foot).norm();
             if distance < *least {
                 *least = distance;
-                best = Near { s, point, foot };
+                best = Radii { s, point, foot };
             }
         };
         look(1.0, ends[1], &mut least);
@@ -165,7 +165,7 @@ impl<W: Fn(f64) -> Vec3, S: Fn(f64) -> Vec3> Stray<W, S> {
     }
 }
 
-/// How far above the truth a distance found by [`Stray::nearest`] may lie, mm.
+/// How far above the truth a distance found by [`CurveDistance::nearest`] may lie, mm.
 fn slack(distance: f64) -> f64 {
     NEAR_MM + NEAR_SHARE * distance
 }
@@ -184,9 +184,9 @@ fn from_segment(point: &Vec3, ends: &[Vec3; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    fn piece(feet: [f64; 2], far: [f64; 2]) -> Piece<Near> {
+    fn piece(feet: [f64; 2], far: [f64; 2]) -> Piece<Radii> {
         // W stands at the origin at both ends; the feet lie as far from it as `far` says
-        let near = |s: f64, foot: f64| Near {
+        let near = |s: f64, foot: f64| Radii {
             s,
             point: Vec3::zeros(),
             foot: Vec3::x() * foot,
@@ -203,7 +203,7 @@ mod tests {
 
     /// W'' at most 8, so 2 on half a block; S'' at most 50.
     fn over(feet: [f64; 2], far: [f64; 2]) -> f64 {
-        let stray = Stray {
+        let stray = CurveDistance {
             point: |_: f64| Vec3::zeros(),
             point_bend: 8.0,
             curve: |_: f64| Vec3::zeros(),
@@ -233,7 +233,7 @@ mod tests {
             let off = (s - 0.712_345_6) * 1e7;
             Vec3::new(0.0, 4.99 / (1.0 + off * off), 0.0)
         };
-        let stray = Stray {
+        let stray = CurveDistance {
             point: |_: f64| Vec3::new(0.0, 5.0, 0.0),
             point_bend: 0.0,
             curve: spike,

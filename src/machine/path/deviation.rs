@@ -1,6 +1,6 @@
 //! How far the tip strays from the programmed segment inside a block: sampled value and proven bound.
 use crate::follow::follower::leads_path;
-use crate::path::curve_distance::Stray;
+use crate::path::curve_distance::CurveDistance;
 use crate::path::peak::{Piece, peak};
 use crate::path::tip_path::{Run, TipPath};
 use crate::{Leg, Machine, RapidPath};
@@ -85,7 +85,7 @@ pub fn tip_deviation(machine: &Machine, leg: &Leg, tolerance_mm: f64) -> Option<
         bound <= room || bound <= sampled + CLOSE_MM || (samples > CLOSE_SAMPLES && bound <= sampled * RATIO)
     };
     let (sampled, bound, at) = if let Some(arc) = arc {
-        let stray = Stray {
+        let stray = CurveDistance {
             point: |t| path.way(t),
             point_bend: path.bend,
             curve: |s| arc.way(s),

@@ -3,7 +3,7 @@
 //! t runs from 0 to 1 with the tip path (TCP) or with the joints (no TCP). Rates are per block (d/dt), mm or rad.
 use crate::follow::follower::leads_path;
 use crate::kinematics::forward::Turn;
-use crate::path::rotary_path::{Spin, SpinBounds};
+use crate::path::rotary_path::{RotaryPath, RotaryPathBounds};
 use crate::{Constants, Joints, Leg, Machine, Stance};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
@@ -64,7 +64,7 @@ pub(crate) struct Moment {
 }
 
 /// One block between two known stances.
-pub(crate) struct Course<'a> {
+pub(crate) struct JointPath<'a> {
     pub(crate) machine: &'a Machine,
     pub(crate) start: &'a Stance,
     pub(crate) end: &'a Stance,
@@ -79,10 +79,10 @@ pub(crate) struct Course<'a> {
     /// And what is added over the block.
     change: [f64; 2],
     /// How they turn in between.
-    pub(crate) spin: Spin<'a>,
+    pub(crate) spin: RotaryPath<'a>,
 }
 
-impl<'a> Course<'a> {
+impl<'a> JointPath<'a> {
     /// `None` where a stance or the path between them is not known or not modelled.
     pub(crate) fn new(machine: &'a Machine, leg: &'a Leg) -> Option<Self> {
         let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
@@ -100,7 +100,7 @@ impl<'a> Course<'a> {
             change[index] = rotary.sign * end.joints[rotary.joint] - from[index];
         }
         let tool = machine.gauge_point - machine.tool_axis * tool_length;
-        let spin = Spin::new(machine, leg, start, end)?;
+        let spin = RotaryPath::new(machine, leg, start, end)?;
         Some(Self {
             machine,
             start,
@@ -129,7 +129,7 @@ impl<'a> Course<'a> {
         }
         let mut turns = self.start.turns(self.machine);
         let mut angles = [self.from[0] + self.change[0] * t, self.from[1] + self.change[1] * t];
-        if let Spin::GreatCircle(circle) = &self.spin {
+        if let RotaryPath::GreatCircle(circle) = &self.spin {
             let rotary = &self.constants().rotary;
             let joints = circle
                 .joints(t, self.start.rotary(self.machine))
@@ -137,7 +137,7 @@ impl<'a> Course<'a> {
             angles = [rotary[0].sign * joints[0], rotary[1].sign * joints[1]];
         }
         for (index, turn) in turns.iter_mut().enumerate() {
-            if self.change[index] != 0.0 || matches!(self.spin, Spin::GreatCircle(_)) {
+            if self.change[index] != 0.0 || matches!(self.spin, RotaryPath::GreatCircle(_)) {
                 (turn.sin, turn.cos) = sin_cos(angles[index]);
             }
         }
@@ -147,19 +147,19 @@ impl<'a> Course<'a> {
     /// Rates of the turns at t, rad per block.
     pub(crate) fn rates(&self, t: f64, turns: &[Turn; 2]) -> [f64; 2] {
         match &self.spin {
-            Spin::Even => self.change,
-            Spin::GreatCircle(circle) => circle.rates(t, &turns[0].apply(&turns[1].axis)),
+            RotaryPath::Even => self.change,
+            RotaryPath::GreatCircle(circle) => circle.rates(t, &turns[0].apply(&turns[1].axis)),
         }
     }
 
     /// Bounds of the turns' rates and second derivatives on a piece of the block.
-    pub(crate) fn spin_bounds(&self, from: f64, to: f64) -> SpinBounds {
+    pub(crate) fn spin_bounds(&self, from: f64, to: f64) -> RotaryPathBounds {
         match &self.spin {
-            Spin::Even => SpinBounds {
+            RotaryPath::Even => RotaryPathBounds {
                 rate: [self.change[0].abs(), self.change[1].abs()],
                 bend: [0.0; 2],
             },
-            Spin::GreatCircle(circle) => circle.bounds(from, to),
+            RotaryPath::GreatCircle(circle) => circle.bounds(from, to),
         }
     }
 
@@ -186,7 +186,7 @@ impl<'a> Course<'a> {
             *value = if t >= 1.0 { *to } else { from + (to - from) * t };
         }
         if t > 0.0 && t < 1.0 {
-            if let Spin::GreatCircle(circle) = &self.spin {
+            if let RotaryPath::GreatCircle(circle) = &self.spin {
                 let turned = circle.joints(t, start.rotary(self.machine)).unwrap_or([f64::NAN; 2]);
                 for (rotary, value) in self.constants().rotary().iter().zip(turned) {
                     joints[rotary.joint] = value;

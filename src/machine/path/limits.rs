@@ -1,9 +1,9 @@
 //! Joints outside their travel, at the end of a block or inside it.
 use crate::follow::follower::leads_path;
 use crate::path::curvature::rough_bends;
-use crate::path::joint_path::Course;
+use crate::path::joint_path::JointPath;
 use crate::path::peak::{Piece, peak};
-use crate::path::rotary_path::Spin;
+use crate::path::rotary_path::RotaryPath;
 use crate::{Joints, Leg, Limits, Machine, RapidPath};
 use trunnion_interp::MotionKind;
 
@@ -46,7 +46,7 @@ pub fn limit_excess(machine: &Machine, leg: &Leg, out: &mut Vec<Excess>) -> bool
     if leg.motion.kind == MotionKind::Arc(None) || !may_bend(machine, leg) {
         return true;
     }
-    let Some(course) = Course::new(machine, leg) else {
+    let Some(course) = JointPath::new(machine, leg) else {
         return false;
     };
     inside(&course, is_undeclared(machine, leg), out);
@@ -135,7 +135,7 @@ fn broken(limits: Limits, value: f64) -> Option<f64> {
 }
 
 /// Joints that are further outside their travel between the ends than at them. `if_together`: only if the axes arrive together.
-fn inside(course: &Course<'_>, if_together: bool, out: &mut Vec<Excess>) {
+fn inside(course: &JointPath<'_>, if_together: bool, out: &mut Vec<Excess>) {
     let constants = &course.machine.constants;
     let (_, whole) = course.bends(0.0, 1.0);
     let at_once = course.bends_at_once();
@@ -156,7 +156,7 @@ fn inside(course: &Course<'_>, if_together: bool, out: &mut Vec<Excess>) {
             (if_together, out),
         );
     }
-    if let Spin::GreatCircle(circle) = &course.spin {
+    if let RotaryPath::GreatCircle(circle) = &course.spin {
         let from = course.start.rotary(course.machine);
         for (slot, rotary) in constants.rotary().iter().enumerate() {
             let value = |t: f64| circle.joints(t, from).map_or(f64::NAN, |joints| joints[slot]);
@@ -168,7 +168,7 @@ fn inside(course: &Course<'_>, if_together: bool, out: &mut Vec<Excess>) {
 
 /// One joint against both its limits: `value` at a share of the block, `bound` of a piece.
 fn judge(
-    course: &Course<'_>,
+    course: &JointPath<'_>,
     axis: usize,
     value: impl Fn(f64) -> f64,
     bound: impl Fn(&Piece) -> f64,

@@ -1,7 +1,7 @@
 //! What a block in which all joints run straight does at most, in one look at its joints: enough to settle most blocks.
 use crate::follow::follower::leads_path;
 use crate::path::limits::SLACK;
-use crate::{AxisKind, Leg, Limits, MAX_AXES, Machine, Nearness};
+use crate::{AxisKind, Leg, Limits, MAX_AXES, Machine, RotaryRadii};
 use trunnion_interp::MotionKind;
 
 /// Room for rounding in a bound, relative.
@@ -56,23 +56,28 @@ impl Allowances {
 
 /// Upper bounds of what a leg does whose joints all run straight from one known stance to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Glance {
+pub struct QuickBounds {
     /// All joints stay inside their travel ([`crate::limit_excess`] finds nothing).
     pub inside: bool,
     /// Seconds that the slowest axis needs for its way; infinite where an axis that moves declares no speed.
     pub axes_s: f64,
     /// Length of the way of the linear joints, mm ([`crate::linear_travel`]).
     pub linear_mm: f64,
-    /// Way of the tip from end to end, mm ([`crate::Stance::tip_way_to`]): no bound.
+    /// Way of the tip from end to end, mm ([`crate::Stance::tip_distance_to`]): no bound.
     pub tip_mm: f64,
     /// How far the tip leaves its segment, mm ([`crate::tip_deviation`]); roughly where that is within the machine's tolerance.
     pub stray_mm: f64,
 }
 
 /// A look at a line along which all joints run straight; `None` for all other legs. `allowances` are those of the machine, `near` is kept
-/// from leg to leg. Source: kinematics notes 3, as in the functions that [`Glance`] names.
+/// from leg to leg. Source: kinematics notes 3, as in the functions that [`QuickBounds`] names.
 #[inline]
-pub fn glance(machine: &Machine, allowances: &Allowances, near: &mut Nearness, leg: &Leg) -> Option<Glance> {
+pub fn quick_bounds(
+    machine: &Machine,
+    allowances: &Allowances,
+    near: &mut RotaryRadii,
+    leg: &Leg,
+) -> Option<QuickBounds> {
     let (Some(start), Ok(end)) = (&leg.start, &leg.end) else {
         return None;
     };
@@ -98,7 +103,7 @@ pub fn glance(machine: &Machine, allowances: &Allowances, near: &mut Nearness, l
         return None;
     }
     let linear_mm = way2.sqrt() * ROUNDED_UP;
-    let tip_mm = start.tip_way_to(end);
+    let tip_mm = start.tip_distance_to(end);
     let [first, second] = leg.rotary_change;
     let stray_mm = if first == 0.0 && second == 0.0 {
         0.0
@@ -106,7 +111,7 @@ pub fn glance(machine: &Machine, allowances: &Allowances, near: &mut Nearness, l
         let went = (leg.rotary_change, tip_mm, linear_mm);
         near.stray(machine, [start, end], went, machine.tolerances.tip_mm)
     };
-    Some(Glance {
+    Some(QuickBounds {
         inside,
         axes_s: axes_s * ROUNDED_UP,
         linear_mm,
@@ -117,7 +122,7 @@ pub fn glance(machine: &Machine, allowances: &Allowances, near: &mut Nearness, l
 
 #[cfg(test)]
 mod tests {
-    use super::{Allowances, Nearness, glance};
+    use super::{Allowances, RotaryRadii, quick_bounds};
     use crate::follow::joint_line::tests::motion;
     use crate::{BUILTIN_MACHINES, Follower, builtin, limit_excess, linear_travel, tip_deviation};
     use proptest::prelude::*;
@@ -144,7 +149,7 @@ mod tests {
             let mut follower = Follower::new(machine);
             follower.follow(&motion(Position::default(), start, MotionKind::Rapid, 0.0));
             let leg = follower.follow(&motion(start, end, MotionKind::Linear, 0.0));
-            let Some(seen) = glance(machine, &Allowances::of(machine), &mut Nearness::default(), &leg) else {
+            let Some(seen) = quick_bounds(machine, &Allowances::of(machine), &mut RotaryRadii::default(), &leg) else {
                 // held axes are asked to stand elsewhere
                 prop_assert!(leg.end.is_err(), "{:?}", leg.motion);
                 return Ok(());

@@ -9,7 +9,7 @@ use core::f64::consts::{PI, TAU};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{angle_between, atan2, sin_cos};
 
-pub(crate) use bounds::SpinBounds;
+pub(crate) use bounds::RotaryPathBounds;
 
 /// Tool axes nearer than this are one: nothing runs on a great circle, rad.
 const SAME_AXIS: f64 = 1e-12;
@@ -22,7 +22,7 @@ const ARRIVAL: f64 = 1e-6;
 
 /// The course of the rotary axes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Spin<'a> {
+pub(crate) enum RotaryPath<'a> {
     /// At constant rates.
     Even,
     /// The tool axis runs on a great circle at a constant rate, in the start's posture.
@@ -44,7 +44,7 @@ pub(crate) struct GreatCircle<'a> {
     lead: f64,
 }
 
-impl<'a> Spin<'a> {
+impl<'a> RotaryPath<'a> {
     /// `None` where the tool axis should run on a great circle but the joints cannot follow it from start to end (the posture sign
     /// changes, a joint arrives on another turn, the tool axis turns right round).
     pub(crate) fn new(machine: &'a Machine, leg: &Leg, start: &Stance, end: &Stance) -> Option<Self> {
@@ -82,7 +82,7 @@ impl<'a> Spin<'a> {
 pub fn rotary_turns(machine: &Machine, leg: &Leg) -> Option<[f64; 2]> {
     let (start, end) = (leg.start.as_ref()?, leg.end.as_ref().ok()?);
     let mut turns = leg.rotary_change;
-    if let Spin::GreatCircle(circle) = Spin::new(machine, leg, start, end)? {
+    if let RotaryPath::GreatCircle(circle) = RotaryPath::new(machine, leg, start, end)? {
         let from = start.rotary(machine);
         let middle = circle.joints(0.5, from)?;
         for (turn, (from, middle)) in turns.iter_mut().zip(from.iter().zip(middle)) {

@@ -11,10 +11,10 @@ const ROUNDED_SUM: f64 = 1.0 + 1e-15;
 
 /// How far the tool is from both rotary axes at most, on a table that carries both: kept from line to line.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Nearness(Option<Near>);
+pub struct RotaryRadii(Option<Radii>);
 
 #[derive(Clone, Copy, Debug)]
-struct Near {
+struct Radii {
     /// Where the machine stands: the tool in the workpiece, the linear joints and the length of the tool.
     point: Vec3,
     linear: [f64; 3],
@@ -38,7 +38,7 @@ fn linear(constants: &Constants, stance: &Stance) -> [f64; 3] {
     [joint(0), joint(1), joint(2)]
 }
 
-impl Near {
+impl Radii {
     /// In full, where the machine stands.
     fn of(machine: &Machine, stance: &Stance) -> Option<Self> {
         let constants = &machine.constants;
@@ -85,7 +85,7 @@ impl Near {
     }
 }
 
-impl Nearness {
+impl RotaryRadii {
     /// A bound of the distance between the tip's path and its chord while all joints run straight from one stance to the other, mm.
     /// It may be loose where it proves `enough`. `turned`: by how much both rotary joints turn, rad; `tip`: how far the tip goes, mm; `way`: how
     /// far the linear joints go at most, mm. Source: kinematics notes 3; the distances from the axes are those at an earlier block and what the tool went since.
@@ -113,14 +113,14 @@ impl Nearness {
                 return stray;
             }
         }
-        self.0 = Near::of(machine, ends[1]);
+        self.0 = Radii::of(machine, ends[1]);
         straight_stray(machine, ends[0], ends[1])
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Nearness;
+    use super::RotaryRadii;
     use crate::follow::joint_line::tests::motion;
     use crate::path::tip_path::straight_stray;
     use crate::{BUILTIN_MACHINES, Follower, builtin};
@@ -143,7 +143,7 @@ mod tests {
             (0..9).filter(own).for_each(|axis| at.set(axis, from[axis]));
             let mut follower = Follower::new(machine);
             follower.follow(&motion(Position::default(), at, MotionKind::Rapid, offset));
-            let (mut loose, mut tight) = (Nearness::default(), Nearness::default());
+            let (mut loose, mut tight) = (RotaryRadii::default(), RotaryRadii::default());
             for (index, (by, still, shown)) in steps.into_iter().enumerate() {
                 let mut to = at;
                 for axis in (0..9).filter(own).filter(|axis| still & (1 << axis) == 0) {
@@ -157,7 +157,7 @@ mod tests {
                     continue;
                 }
                 let way2: f64 = machine.constants.linear().iter().map(|axis| (end.joints[axis.joint] - start.joints[axis.joint]).powi(2)).sum();
-                let went = (leg.rotary_change, start.tip_way_to(end), way2.sqrt() * (1.0 + 1e-9));
+                let went = (leg.rotary_change, start.tip_distance_to(end), way2.sqrt() * (1.0 + 1e-9));
                 let full = straight_stray(machine, start, end);
                 let found = loose.stray(machine, [start, end], went, f64::INFINITY);
                 prop_assert!(found >= full, "{found} {full}");
@@ -186,7 +186,7 @@ mod tests {
         };
         let mut follower = Follower::new(machine);
         follower.follow(&motion(Position::default(), place(0.0), MotionKind::Rapid, 0.0));
-        let (mut near, mut full, mut most) = (Nearness::default(), 0, 0.0_f64);
+        let (mut near, mut full, mut most) = (RotaryRadii::default(), 0, 0.0_f64);
         for step in 0..1000 {
             let step = f64::from(step);
             let leg = follower.follow(&motion(place(step), place(step + 1.0), MotionKind::Linear, 0.0));
@@ -197,7 +197,7 @@ mod tests {
             let found = near.stray(
                 machine,
                 [start, end],
-                (leg.rotary_change, start.tip_way_to(end), 0.05 * (1.0 + 1e-9)),
+                (leg.rotary_change, start.tip_distance_to(end), 0.05 * (1.0 + 1e-9)),
                 1e-3,
             );
             full += usize::from(found == exact);

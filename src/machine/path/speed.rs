@@ -1,10 +1,10 @@
 //! How fast a block can run, and how long it takes.
 use crate::follow::follower::leads_path;
 use crate::path::curvature::rough_bends;
-use crate::path::joint_path::{Course, on_great_circle};
+use crate::path::joint_path::{JointPath, on_great_circle};
 use crate::path::length::rotary_part;
 use crate::path::peak::{Piece, peak};
-use crate::path::rotary_path::Spin;
+use crate::path::rotary_path::RotaryPath;
 use crate::{AxisKind, Leg, Machine, Stance};
 use trunnion_geometry::math::hypot;
 use trunnion_geometry::{Vec3, deg};
@@ -74,8 +74,8 @@ fn limit(machine: &Machine, leg: &Leg, enough_mm_min: f64) -> Option<FeedLimit> 
             Some(Some(load)) if load.share() <= leg.length * 60.0 / enough_mm_min => worst = Some(load),
             Some(None) => {}
             _ => {
-                let course = Course::new(machine, leg)?;
-                if matches!(course.spin, Spin::Even) {
+                let course = JointPath::new(machine, leg)?;
+                if matches!(course.spin, RotaryPath::Even) {
                     // also where the tool axis stands still on its great circle
                     worst = constant_load(machine, (start, end), Changes::Solved);
                 }
@@ -184,7 +184,7 @@ fn constant_load(machine: &Machine, (start, end): (&Stance, &Stance), changes: C
 
 /// The joints whose rates change within the block: the three solved linear ones and, on a great circle, the two rotary ones.
 struct Changing<'c, 'm> {
-    course: &'c Course<'m>,
+    course: &'c JointPath<'m>,
     joints: [usize; 5],
     /// Share of the limit per rate; zero where no speed is declared.
     per_rate: [f64; 5],
@@ -192,12 +192,12 @@ struct Changing<'c, 'm> {
 }
 
 impl<'c, 'm> Changing<'c, 'm> {
-    fn new(course: &'c Course<'m>) -> Self {
+    fn new(course: &'c JointPath<'m>) -> Self {
         let constants = &course.machine.constants;
         let [a, b, c] = constants.solved.map(|index| constants.linear[index].joint);
         let joints = [a, b, c, constants.rotary[0].joint, constants.rotary[1].joint];
         let per_rate = joints.map(|joint| course.machine.axes[joint].max_speed.map_or(0.0, |speed| 1.0 / speed));
-        let count = if matches!(course.spin, Spin::Even) { 3 } else { 5 };
+        let count = if matches!(course.spin, RotaryPath::Even) { 3 } else { 5 };
         Self {
             course,
             joints,
@@ -254,7 +254,7 @@ impl<'c, 'm> Changing<'c, 'm> {
 /// The worst of the axes whose rates change, if it takes more than the share `above` of its limit. A bound below `coarse` need not be
 /// closed in further. The outer `None`: no bound could be proven.
 #[expect(clippy::option_option, reason = "not proven and not limiting are different answers")]
-fn changing_load(course: &Course<'_>, above: f64, coarse: f64) -> Option<Option<Load>> {
+fn changing_load(course: &JointPath<'_>, above: f64, coarse: f64) -> Option<Option<Load>> {
     let axes = Changing::new(course);
     let (share, slot, slope) = axes.bounds(0.0, 1.0);
     if share <= above {

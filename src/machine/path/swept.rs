@@ -1,5 +1,5 @@
 //! How far the body of the tool strays inside a block while its tip is led: the point at a distance above the tip.
-use crate::path::curve_distance::Stray;
+use crate::path::curve_distance::CurveDistance;
 use crate::path::deviation::{RATIO, runs_dogleg};
 use crate::path::joint_path::Track;
 use crate::path::orientation::{Circle, axis_bend, strays};
@@ -57,7 +57,7 @@ pub fn swept_deviation(machine: &Machine, leg: &Leg, above_tip: f64, tolerance_m
     let (from, to) = (start.rotary(machine), end.rotary(machine));
     let change = [to[0] - from[0], to[1] - from[1]];
     let (_, _, track_bend) = track.bounds();
-    let stray = Stray {
+    let stray = CurveDistance {
         point: |t: f64| {
             let axis = if t <= 0.0 {
                 start.axis

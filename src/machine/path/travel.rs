@@ -1,7 +1,7 @@
 //! How far the linear axes run in a block: the length of their path, and how far an axis runs beyond both its ends.
 use crate::follow::follower::leads_path;
 use crate::path::curvature::rough_bends;
-use crate::path::joint_path::Course;
+use crate::path::joint_path::JointPath;
 use crate::path::peak::{Piece, peak};
 use crate::{Leg, Machine};
 use trunnion_geometry::Vec3;
@@ -77,7 +77,7 @@ pub fn linear_travel(machine: &Machine, leg: &Leg, enough_mm: f64) -> Option<Lin
             });
         }
     }
-    let course = Course::new(machine, leg)?;
+    let course = JointPath::new(machine, leg)?;
     let (_, whole) = course.bends(0.0, 1.0);
     let whole = course.bends_at_once().then(|| whole.norm());
     let mut pieces = 4;
@@ -94,7 +94,7 @@ pub fn linear_travel(machine: &Machine, leg: &Leg, enough_mm: f64) -> Option<Lin
 }
 
 /// Bounds from so many pieces; `bend`: of the second derivative, where it holds everywhere.
-fn lengths(course: &Course<'_>, pieces: u32, bend: Option<f64>) -> LinearTravel {
+fn lengths(course: &JointPath<'_>, pieces: u32, bend: Option<f64>) -> LinearTravel {
     let h = 1.0 / f64::from(pieces);
     let idle: f64 = course
         .constants()
@@ -130,7 +130,7 @@ fn lengths(course: &Course<'_>, pieces: u32, bend: Option<f64>) -> LinearTravel 
 /// The linear joints that run more than `least_mm` beyond both their ends inside the block, each side once.
 pub fn excursions(machine: &Machine, leg: &Leg, least_mm: f64) -> Vec<Excursion> {
     let mut out = Vec::new();
-    let Some(course) = Course::new(machine, leg) else {
+    let Some(course) = JointPath::new(machine, leg) else {
         return out;
     };
     let whole = course.bends_at_once().then(|| course.bends(0.0, 1.0).1);

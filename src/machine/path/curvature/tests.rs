@@ -1,5 +1,5 @@
 //! The terms of the bounds, one by one.
-use super::{Carried, Course, Machine, Turn};
+use super::{Carried, JointPath, Machine, Turn};
 use core::fmt::Write;
 use trunnion_geometry::{Mat3, Vec3};
 
@@ -65,7 +65,7 @@ fn bends(machine: &Machine, tool_length: f64, ends: [&[(u8, f64)]; 2]) -> (Vec3,
     let mut follower = crate::Follower::new(machine);
     follower.follow(&led(trunnion_interp::Position::default(), start));
     let leg = follower.follow(&led(start, end));
-    Course::new(machine, &leg).expect("known").bends(0.0, 1.0)
+    JointPath::new(machine, &leg).expect("known").bends(0.0, 1.0)
 }
 
 fn all(found: &Vec3, wanted: f64) {

@@ -6,7 +6,7 @@ use trunnion_geometry::math::{atan2, cos, sin_cos};
 
 /// Bounds over a piece of a block for the two rotary axes: rates and second derivatives.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SpinBounds {
+pub(crate) struct RotaryPathBounds {
     pub(crate) rate: [f64; 2],
     pub(crate) bend: [f64; 2],
 }
@@ -33,11 +33,11 @@ const UP: f64 = 1.0 + 1e-9;
 
 impl GreatCircle<'_> {
     /// Bounds over a piece: of two ways to them, each is the nearer one somewhere.
-    pub(crate) fn bounds(&self, from: f64, to: f64) -> SpinBounds {
+    pub(crate) fn bounds(&self, from: f64, to: f64) -> RotaryPathBounds {
         let piece = self.piece(from, to);
         let (one, other) = (self.by_reach(&piece), self.by_azimuth(&piece));
         let least = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].min(b[1])];
-        SpinBounds {
+        RotaryPathBounds {
             rate: least(one.rate, other.rate),
             bend: least(one.bend, other.bend),
         }
@@ -92,13 +92,13 @@ impl GreatCircle<'_> {
 
     /// S t1' = -u'.f with |u'| = w, S t2' = x'. From u'' multiplied by f and by e1: S t1'' = w^2 y - 2 t1' S' - t1'^2 (y - c x) and
     /// S t2'' = -w^2 x - t2' S'. Where the pole can be reached y - c x vanishes there.
-    pub(super) fn by_reach(&self, piece: &Piece) -> SpinBounds {
+    pub(super) fn by_reach(&self, piece: &Piece) -> RotaryPathBounds {
         let &Piece { w, x, s, gap, off, .. } = piece;
         let first = w / s;
         let second = piece.x_rate / s;
         let bend1 = (w * w * self.pair.y.abs() + first * first * gap + 2.0 * first * second * off) / s;
         let bend2 = (w * w * x + second * second * off) / s;
-        SpinBounds {
+        RotaryPathBounds {
             rate: [first, second],
             bend: [bend1, bend2],
         }
@@ -108,7 +108,7 @@ impl GreatCircle<'_> {
     /// part of the circle's axis along e1; the lead changes with x by N / (D (1 - x^2)), N = c S - (x - c y)(y - c x) / S, and N with x by
     /// -(y - c x) D (1 - y^2) / S^3. At the edge of reach, where S is small, most of the first way's terms take each other away; here
     /// they are small themselves as long as x changes little.
-    fn by_azimuth(&self, piece: &Piece) -> SpinBounds {
+    fn by_azimuth(&self, piece: &Piece) -> RotaryPathBounds {
         let &Piece {
             w,
             x,
@@ -132,7 +132,7 @@ impl GreatCircle<'_> {
         let first = w * along / across + lead * x_rate;
         let bend1 = w * along * 2.0 * x * x_rate / (across * across) + lead_bend * x_rate * x_rate + lead * w * w * x;
         let second = x_rate / s;
-        SpinBounds {
+        RotaryPathBounds {
             rate: [first * UP, second],
             bend: [bend1 * UP, (w * w * x + second * second * off) / s],
         }

@@ -1,5 +1,5 @@
 //! The course of the rotary axes, against the joints themselves and numbers of another program.
-use super::{GreatCircle, Spin};
+use super::{GreatCircle, RotaryPath};
 use crate::{BUILTIN_MACHINES, Follower, Machine, Orientations, builtin, orientations};
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
@@ -43,7 +43,7 @@ fn rates_on_a_great_circle_stay_below_their_bounds() {
         let (Some(start), Ok(stop)) = (&leg.start, &leg.end) else {
             continue;
         };
-        let Some(Spin::GreatCircle(circle)) = Spin::new(&machine, &leg, start, stop) else {
+        let Some(RotaryPath::GreatCircle(circle)) = RotaryPath::new(&machine, &leg, start, stop) else {
             continue;
         };
         let from = start.rotary(&machine);

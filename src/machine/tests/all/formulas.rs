@@ -5,7 +5,7 @@ use trunnion_geometry::math::{asin, cos, hypot, sin};
 use trunnion_geometry::{Vec3, arc::Arc, rad};
 use trunnion_interp::{Motion, MotionKind, Position};
 use trunnion_machine::{
-    Follower, Leg, Machine, Way, builtin, excursions, linear_travel, load, orientation_deviation,
+    BlockPath, Follower, Leg, Machine, builtin, excursions, linear_travel, load, orientation_deviation,
     pivot_sensitivity_between, swept_deviation, tip_deviation,
 };
 
@@ -180,9 +180,9 @@ fn a_way_bends_as_the_terms_say() {
     };
     let leg = follow(&machine, &led);
     let (_, bend) = rates(&spiral);
-    is(Way::new(&machine, &leg).expect("known").tip_bend(), bend);
+    is(BlockPath::new(&machine, &leg).expect("known").tip_bend(), bend);
     let leg = follow(&machine, &along(spiral, [0.0, 0.0], [8.0, 0.0]));
-    let way = Way::new(&machine, &leg).expect("known");
+    let way = BlockPath::new(&machine, &leg).expect("known");
     // X Y Z each no faster than the arc, each bent as it: their sums in the segment behind A
     let (rate, _) = rates(&spiral);
     let straight = (spiral.end - spiral.start).abs();

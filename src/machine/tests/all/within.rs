@@ -3,7 +3,7 @@ use crate::common::{position, vector, words};
 use crate::random::{Random, random_machine};
 use trunnion_geometry::{Vec3, arc, deg};
 use trunnion_interp::{Motion, MotionKind, Position};
-use trunnion_machine::{Follower, Leg, Machine, Way, builtin, tip_deviation};
+use trunnion_machine::{BlockPath, Follower, Leg, Machine, builtin, tip_deviation};
 
 fn two(machine: &Machine, first: &Motion, second: &Motion) -> Leg {
     let mut follower = Follower::new(machine);
@@ -13,7 +13,7 @@ fn two(machine: &Machine, first: &Motion, second: &Motion) -> Leg {
 
 /// Largest distance of the sampled tip path from its chord, and whether second differences stay below the bound.
 fn judge(machine: &Machine, leg: &Leg, label: &str) -> f64 {
-    let way = Way::new(machine, leg).unwrap_or_else(|| panic!("{label}: a way"));
+    let way = BlockPath::new(machine, leg).unwrap_or_else(|| panic!("{label}: a way"));
     let (start, end) = (leg.start.expect("start"), leg.end.clone().expect("end"));
     assert!((way.at(1.0).tip - end.tip).norm() < 1e-9, "{label}");
     assert!((way.at(1.0).axis - end.axis).norm() < 1e-12, "{label}");
@@ -71,7 +71,7 @@ fn with_tcp_the_tip_keeps_to_its_line_and_to_its_arc() {
     let to = vector(from.end, [-10.0, 30.0, 8.0], Vec3::new(-0.3, 0.4, 1.0));
     let leg = two(machine, &from, &to);
     assert!(judge(machine, &leg, "line") < 1e-9);
-    let middle = Way::new(machine, &leg).expect("a way").at(0.5);
+    let middle = BlockPath::new(machine, &leg).expect("a way").at(0.5);
     assert!((middle.tip - Vec3::new(0.0, 15.0, 6.5)).norm() < 1e-9);
     // joint-linear rotaries: the middle of C is the middle of its words
     let c = machine.joint(b'C').expect("C");
@@ -96,6 +96,6 @@ fn with_tcp_the_tip_keeps_to_its_line_and_to_its_arc() {
     };
     let leg = two(machine, &from, &turn);
     judge(machine, &leg, "arc");
-    let top = Way::new(machine, &leg).expect("a way").at(0.5).tip;
+    let top = BlockPath::new(machine, &leg).expect("a way").at(0.5).tip;
     assert!((top - Vec3::new(0.0, 10.0, 5.0)).norm() < 1e-9, "{top}");
 }

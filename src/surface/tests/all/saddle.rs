@@ -2,7 +2,7 @@
 use core::f64::consts::TAU;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Position};
-use trunnion_machine::{Follower, Leg, MAX_AXES, Machine, Orientations, Way, builtin, inverse, orientations};
+use trunnion_machine::{BlockPath, Follower, Leg, MAX_AXES, Machine, Orientations, builtin, inverse, orientations};
 use trunnion_pieces::{Piece, SWall, s_wall, saddle, saddle_net};
 use trunnion_surface::{Errors, Judge, Options, Required, Sheet, required};
 use trunnion_syntax::BlockId;
@@ -121,7 +121,7 @@ fn the_saddle_strays_as_published() {
 /// Distance of the tip from the segment in the middle of a block.
 fn off_at_half(leg: &Leg) -> f64 {
     let machine = builtin("mikron-ucp710").expect("built in");
-    let way = Way::new(machine, leg).expect("a way");
+    let way = BlockPath::new(machine, leg).expect("a way");
     let [a, tip, b] = [0.0, 0.5, 1.0].map(|t| way.at(t).tip);
     let share = ((tip - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
     (tip - a - (b - a) * share).norm()
@@ -138,7 +138,7 @@ fn bounds_hold_against_many_samples() {
     let found = errors.from_surface.expect("known");
     let mut most = 0.0_f64;
     for leg in &legs[2..legs.len() - 1] {
-        let way = Way::new(machine, leg).expect("a way");
+        let way = BlockPath::new(machine, leg).expect("a way");
         for i in 0..=100 {
             most = most.max(surface.nearest(&way.at(f64::from(i) / 100.0).tip).distance);
         }

@@ -26,3 +26,29 @@ pub fn apply_edits(source: &[u8], edits: &[TextEdit]) -> Option<Vec<u8>> {
     out.extend_from_slice(&source[at..]);
     Some(out)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{TextEdit, apply_edits};
+    use crate::TextRange;
+
+    fn edit(start: u32, end: u32, text: &str) -> TextEdit {
+        TextEdit {
+            range: TextRange::new(start, end),
+            new_text: text.to_owned(),
+        }
+    }
+
+    #[test]
+    fn edits_are_put_in_from_left_to_right() {
+        let edits = [edit(0, 1, "M"), edit(2, 2, " "), edit(3, 5, "")];
+        assert_eq!(apply_edits(b"G1X12", &edits).as_deref(), Some(b"M1 X".as_slice()));
+        assert_eq!(apply_edits(b"G1 X1", &[]).as_deref(), Some(b"G1 X1".as_slice()));
+    }
+
+    #[test]
+    fn edits_that_do_not_fit_are_refused() {
+        assert_eq!(apply_edits(b"G1 X1", &[edit(4, 9, "")]), None);
+        assert_eq!(apply_edits(b"G1 X1", &[edit(3, 4, ""), edit(0, 1, "")]), None);
+    }
+}

@@ -1,6 +1,6 @@
 //! Parsing on two threads: each lexes one half of the text.
 //!
-//! A lexer that starts at a block start needs nothing from before it, as for an edit (`relex`). So the halves are those of the whole where
+//! A lexer that starts at a block start needs nothing from before it. So the halves are those of the whole where
 //! the first of them ends with a line end of its own, and not inside a comment or statement of several lines.
 use crate::builder::Builder;
 use crate::program::{lex, room};

@@ -20,7 +20,6 @@ mod options;
 mod plain;
 mod program;
 mod record;
-mod relex;
 mod scan;
 mod sink;
 mod starts;

@@ -62,11 +62,6 @@ impl TokenTable {
         out.starts.reserve(tokens);
         out
     }
-    /// Adds some tokens of another table, each moved by so many bytes (wrapping).
-    pub(crate) fn extend(&mut self, other: &Self, tokens: Range<usize>, by: u32) {
-        self.kinds.extend_from_slice(&other.kinds[tokens.clone()]);
-        self.starts.extend_moved(&other.starts, tokens.start, tokens.end, by);
-    }
     /// Number of tokens.
     pub fn len(&self) -> usize {
         self.kinds.len()

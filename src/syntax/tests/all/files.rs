@@ -3,7 +3,7 @@ use crate::lossless::check_all;
 use crate::show::{APT, CORE, NGC, SINUMERIK, errors};
 use std::fs;
 use std::path::{Path, PathBuf};
-use trunnion_syntax::{Item, LexOptions, Program, TextEdit, TextRange, Value, apply_edits, parse};
+use trunnion_syntax::{Item, LexOptions, Program, Value, parse};
 
 /// Every file below a folder, in a fixed order; none if the folder is not there, which is said.
 #[expect(clippy::print_stderr, reason = "a skipped test must be visible")]
@@ -131,32 +131,6 @@ fn damaged_programs_are_lossless() {
                 }
             }
             check_all(&text);
-        }
-    }
-}
-
-#[test]
-fn edited_programs_read_as_if_parsed_anew() {
-    let mut random = Random(5);
-    for path in files("../../../shared/data").iter().chain(&files("../../samples")) {
-        let mut source = fs::read(path).expect("a file can be read");
-        source.truncate(20_000);
-        let program = parse(source.clone(), options_of(path));
-        for _ in 0..4 {
-            let start = random.below(source.len() + 1);
-            let end = (start + random.below(8)).min(source.len());
-            let new_text = ["", "X5", "\n", "(", "/*", "$"][random.below(6)].to_owned();
-            let edit = TextEdit {
-                range: TextRange::new(start as u32, end as u32),
-                new_text,
-            };
-            let edited = apply_edits(&source, std::slice::from_ref(&edit)).expect("inside the text");
-            let relexed = program.relex(std::slice::from_ref(&edit)).expect("inside the text");
-            assert!(
-                relexed == parse(edited, options_of(path)),
-                "{edit:?} in {}",
-                path.display()
-            );
         }
     }
 }

@@ -5,5 +5,4 @@ mod iso_items;
 mod lines;
 mod lossless;
 mod numbers;
-mod relexing;
 mod show;

@@ -105,7 +105,7 @@ impl Trail {
                 } else {
                     State::Other
                 };
-                if machine.constants.pair.is_some() {
+                if machine.constants.has_pair() {
                     self.feed(leg, chord, machine.tolerances.rotary_ratio);
                 }
             }

@@ -25,16 +25,12 @@ pub use kinematics::chain::{
     Axis, AxisExtra, AxisKind, Body, Control, FeedMeaning, Gantry, Home, Joints, Limits, MAX_AXES, Machine, PoleAction,
     RapidPath, Side, Tolerances, Wrap,
 };
-pub use kinematics::constants::{Constants, LinearAxis, PairConstants, RotaryAxis};
+pub use kinematics::constants::{Constants, LinearAxis, RotaryAxis};
 pub use kinematics::forward::{Pose, forward, tool_axis_at};
-pub use kinematics::inverse::{
-    Orientations, POLE_TOLERANCE, Postures, REACH_TOLERANCE, Solution, inverse, orientations,
-};
+pub use kinematics::inverse::{Orientations, POLE_TOLERANCE, Postures, Solution, inverse, orientations};
 pub use kinematics::selftest::{SelfTest, self_test};
-pub use kinematics::uncertainty::{
-    AxisUncertainty, PIVOT_SENSITIVITY, pivot_sensitivity, pivot_sensitivity_between, worst_pivot_error,
-};
-pub use kinematics::windings::{Windings, pole_angle, rotary_jacobian, solution_s, windings};
+pub use kinematics::uncertainty::{AxisUncertainty, pivot_sensitivity_between};
+pub use kinematics::windings::{Windings, pole_angle, solution_s, windings};
 pub use path::block_path::{BlockPath, Moment};
 pub use path::deviation::{Deviation, tip_deviation};
 pub use path::limits::{Excess, limit_excess};
@@ -45,3 +41,5 @@ pub use path::rotary_radii::RotaryRadii;
 pub use path::speed::{FeedLimit, block_duration_s, feed_limit, feed_limit_tight};
 pub use path::swept::swept_deviation;
 pub use path::travel::{Excursion, LinearTravel, excursions, linear_travel};
+
+pub(crate) use kinematics::constants::PairConstants;

@@ -147,7 +147,7 @@ struct Plane<'m> {
 
 impl<'m> Plane<'m> {
     fn new(machine: &'m Machine) -> Result<Self, PlotError> {
-        if machine.constants.pair.is_none() {
+        if !machine.constants.has_pair() {
             return Err(PlotError(format!(
                 "the plane of the tool axis needs two rotary axes; {} has {}",
                 machine.id,

@@ -83,7 +83,7 @@ pub(crate) fn may_hurry(leg: &Leg, chord: f64, pass: f64, seconds: f64) -> bool 
 
 fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
     let turn = view.leg.rotary_change[0];
-    if turn == 0.0 || !view.motion().is_feed() || view.machine.constants.pair.is_none() {
+    if turn == 0.0 || !view.motion().is_feed() || !view.machine.constants.has_pair() {
         return;
     }
     let Some((start, end)) = view.stances() else { return };

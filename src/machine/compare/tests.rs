@@ -1,7 +1,6 @@
 //! Two machines that should be one: the calibration sweep finds a pivot that is 0.05 mm off, in numbers.
-use crate::{
-    Comparison, MAX_AXES, Machine, builtin, builtin_source, forward, load, pivot_sensitivity, worst_pivot_error,
-};
+use crate::kinematics::uncertainty::worst_pivot_error;
+use crate::{Comparison, MAX_AXES, Machine, builtin, builtin_source, forward, load, pivot_sensitivity_between};
 use trunnion_geometry::math::sin;
 use trunnion_geometry::{Vec3, rad};
 
@@ -335,7 +334,7 @@ fn the_uncertainty_bounds_what_planted_errors_do() {
         }
         // zeroed with the axis at zero: there both machines have the tip at one place
         let found = (forward(&truth, &joints, 80.0).tip - forward(machine, &joints, 80.0).tip).norm();
-        let stated: Vec<_> = pivot_sensitivity(machine, &joints, 80.0);
+        let stated: Vec<_> = pivot_sensitivity_between(machine, &joints, &joints, 80.0);
         let stated = stated.iter().find(|axis| axis.letter == b'B').expect("declared").tip_mm;
         assert!(found <= stated * 1.0001, "{found} {stated}");
         largest = largest.max(found / stated);
@@ -344,5 +343,13 @@ fn the_uncertainty_bounds_what_planted_errors_do() {
     // travel to 185 deg: the worst is at half a turn
     let worst = worst_pivot_error(machine, joint, 100.0).expect("declared");
     assert!((worst - 2.0 * (0.01 + 100.0 * arc)).abs() < 1e-12);
-    assert!(pivot_sensitivity(builtin("mikron-ucp710").expect("shipped"), &[1.0; MAX_AXES], 80.0).is_empty());
+    assert!(
+        pivot_sensitivity_between(
+            builtin("mikron-ucp710").expect("shipped"),
+            &[1.0; MAX_AXES],
+            &[1.0; MAX_AXES],
+            80.0
+        )
+        .is_empty()
+    );
 }

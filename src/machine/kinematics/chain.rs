@@ -242,7 +242,7 @@ impl Default for Tolerances {
             rotary_ratio: 20.0,
             linear_ratio: 5.0,
             rapid_ratio: 2.0,
-            pivot_mm: crate::PIVOT_SENSITIVITY,
+            pivot_mm: crate::kinematics::uncertainty::PIVOT_SENSITIVITY,
             near_mm: 2.0,
         }
     }

@@ -30,7 +30,7 @@ pub struct LinearAxis {
 
 /// Constants of the orientation solver (kinematics notes 2.3); only for machines with two rotary axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PairConstants {
+pub(crate) struct PairConstants {
     /// c = e1 . e2.
     pub c: f64,
     /// D = 1 - c^2.
@@ -81,7 +81,7 @@ pub struct Constants {
     /// Whether `inverse_motion` is a permutation of the coordinate axes with signs (the fast case).
     pub cartesian: Option<[(usize, f64); 3]>,
     /// Constants of the orientation solver; `None` with fewer than two rotary axes.
-    pub pair: Option<PairConstants>,
+    pub(crate) pair: Option<PairConstants>,
 }
 
 const NO_ROTARY: RotaryAxis = RotaryAxis {
@@ -167,6 +167,11 @@ impl Constants {
     pub fn condition(&self) -> f64 {
         let motions = Mat3::from_columns(&self.solved.map(|index| self.linear[index].motion));
         motions.norm() * self.inverse_motion.norm() / 3.0
+    }
+    /// Whether two rotary axes move: then the chain has a pole and up to two postures for a tool axis.
+    #[inline]
+    pub fn has_pair(&self) -> bool {
+        self.pair.is_some()
     }
 
     /// The rotary axes that move.

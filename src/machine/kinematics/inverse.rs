@@ -7,7 +7,7 @@ use trunnion_geometry::{Mat3, Vec3};
 
 /// How far outside the reachable cone a tool axis may lie and still be taken for its edge, rad (0.1 micrometre at 100 mm). It is also
 /// how far the tool axis of a machine without rotary axes may lie from the axis at home.
-pub const REACH_TOLERANCE: f64 = 1e-6;
+pub(crate) const REACH_TOLERANCE: f64 = 1e-6;
 
 /// A tool axis nearer than this to the first rotary axis is at the pole, rad: its azimuth is rounding noise.
 pub const POLE_TOLERANCE: f64 = 1e-9;

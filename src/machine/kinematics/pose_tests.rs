@@ -1,8 +1,9 @@
 //! Forward and inverse kinematics against the rows of the kinematics notes and the papers' formulas.
+use crate::kinematics::inverse::REACH_TOLERANCE;
 use crate::kinematics::selftest::SplitMix;
 use crate::{
-    BUILTIN_MACHINES, MAX_AXES, Machine, Orientations, REACH_TOLERANCE, builtin, forward, inverse, load, orientations,
-    self_test, windings,
+    BUILTIN_MACHINES, MAX_AXES, Machine, Orientations, builtin, forward, inverse, load, orientations, self_test,
+    windings,
 };
 use core::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI, TAU};
 use trunnion_geometry::math::rotate;

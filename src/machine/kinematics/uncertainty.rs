@@ -10,7 +10,7 @@ use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{rotate, sin};
 
 /// Above this the uncertainty is worth a word, mm (kinematics notes 5, PIVOT-SENS).
-pub const PIVOT_SENSITIVITY: f64 = 0.02;
+pub(crate) const PIVOT_SENSITIVITY: f64 = 0.02;
 
 /// What the uncertainty of one rotary axis does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,14 +23,9 @@ pub struct AxisUncertainty {
     pub of_point_mm: f64,
 }
 
-/// How far the tip may be off at given joints, for each rotary axis with a declared uncertainty; the errors add up at worst. Empty where
-/// none is declared. mm and rad; `tool_length` in mm.
-pub fn pivot_sensitivity(machine: &Machine, joints: &Joints, tool_length: f64) -> Vec<AxisUncertainty> {
-    pivot_sensitivity_between(machine, joints, joints, tool_length)
-}
-
-/// [`pivot_sensitivity`] of a block that runs from `start` to `end`: of each axis the turn between the two that moves the tip most, and the
-/// larger of its distances from the tip at both ends.
+/// How far the tip may be off in a block that runs from `start` to `end`, for each rotary axis with a declared uncertainty; the errors add up
+/// at worst. Of each axis the turn between the two that moves the tip most counts, and the larger of its distances from the tip at both ends.
+/// Empty where no uncertainty is declared. mm and rad; `tool_length` in mm.
 pub fn pivot_sensitivity_between(
     machine: &Machine,
     start: &Joints,
@@ -81,7 +76,7 @@ fn largest_half_sine([a, b]: [f64; 2]) -> f64 {
 
 /// The worst of one rotary axis inside its travel, for a tip at the distance `arm` from the axis' point, mm; `None` where no uncertainty
 /// is declared.
-pub fn worst_pivot_error(machine: &Machine, joint: usize, arm: f64) -> Option<f64> {
+pub(crate) fn worst_pivot_error(machine: &Machine, joint: usize, arm: f64) -> Option<f64> {
     let axis = machine.axes.get(joint)?;
     let extra = &axis.extra;
     if axis.kind == AxisKind::Linear || (extra.point_uncertainty.is_none() && extra.direction_uncertainty.is_none()) {

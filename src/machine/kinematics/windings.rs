@@ -1,5 +1,5 @@
-//! Facts about a posture: its sign, its distance from the pole, how it turns the tool, its windings inside the limits.
-use crate::{Limits, Machine, tool_axis_at};
+//! Facts about a posture: its sign, its distance from the pole, its windings inside the limits.
+use crate::{Limits, Machine};
 use core::f64::consts::{FRAC_PI_2, TAU};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{atan2, rotate};
@@ -88,23 +88,4 @@ pub fn pole_angle(machine: &Machine, axis: &Vec3) -> f64 {
     }
     let e1 = machine.constants.rotary[0].direction;
     atan2(e1.cross(axis).norm(), e1.dot(axis).abs())
-}
-
-/// Change of the tool axis (workpiece frame) per rad of each rotary joint: j1 = s1 e1 x u, j2 = s2 (R1 e2) x u; zero for a missing axis.
-/// Source: kinematics notes 2.4.
-pub fn rotary_jacobian(machine: &Machine, q: [f64; 2]) -> [Vec3; 2] {
-    let constants = &machine.constants;
-    let axis = tool_axis_at(machine, q);
-    let [first, second] = &constants.rotary;
-    match constants.rotary_count {
-        0 => [Vec3::zeros(); 2],
-        1 => [first.direction.cross(&axis) * first.sign, Vec3::zeros()],
-        _ => {
-            let turned = rotate(&first.direction, first.sign * q[0], &second.direction);
-            [
-                first.direction.cross(&axis) * first.sign,
-                turned.cross(&axis) * second.sign,
-            ]
-        }
-    }
 }

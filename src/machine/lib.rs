@@ -16,12 +16,14 @@ pub use file::spec::{MachineError, load};
 pub use follow::checkpoint::Memory;
 pub use follow::follower::Follower;
 pub use follow::lookahead::{Lookahead, Sine};
+pub use follow::posture_rule::{Branch, Criterion, PostureRule};
+pub use follow::requests::{AxisSign, PostureWords};
 pub use follow::row::{Row, row};
 pub use follow::stance::{Leg, NoStance, Open, OpenCause, Stance};
 pub use import::{Imported, import_freecad, import_linuxcnc};
 pub use kinematics::chain::{
-    Axis, AxisExtra, AxisKind, Body, Control, FeedMeaning, Home, Joints, Limits, MAX_AXES, Machine, RapidPath, Side,
-    Tolerances, Wrap,
+    Axis, AxisExtra, AxisKind, Body, Control, FeedMeaning, Gantry, Home, Joints, Limits, MAX_AXES, Machine, PoleAction,
+    RapidPath, Side, Tolerances, Wrap,
 };
 pub use kinematics::constants::{Constants, LinearAxis, RotaryAxis};
 pub use kinematics::forward::{Pose, forward, tool_axis_at};
@@ -39,10 +41,5 @@ pub use path::rotary_radii::RotaryRadii;
 pub use path::speed::{FeedLimit, block_duration_s, feed_limit, feed_limit_tight};
 pub use path::swept::swept_deviation;
 pub use path::travel::{Excursion, LinearTravel, excursions, linear_travel};
-
-// the parts of a machine that a certificate's digest reads
-pub use follow::posture_rule::{Branch, Criterion, PostureRule};
-pub use follow::requests::{AxisSign, PostureWords};
-pub use kinematics::chain::{Gantry, PoleAction};
 
 pub(crate) use kinematics::constants::PairConstants;

@@ -9,7 +9,7 @@
 //!   smaller move of the other axis (M700V programming manual, G43.4/G43.5, movement near the singular point).
 //! * heidenhain: of the postures within the travel the one with the shortest path from the present position (TNC7 user's manual, tilting
 //!   solution without SYM or SEQ); taken as the one whose moves are both no larger, since the manual does not say how moves of two axes
-//!   are weighed. SEQ+ and SEQ- are in [`crate::asked`].
+//!   are weighed. SEQ+ and SEQ- are in [`crate::follow::requests`].
 //! * shortest: the posture whose moves are both the smaller ones; where neither is, the rule says nothing.
 use crate::{Machine, Side};
 use core::cmp::Ordering;

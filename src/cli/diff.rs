@@ -2,6 +2,7 @@
 mod align;
 mod changes;
 mod event;
+mod json;
 mod point;
 mod run;
 mod show;
@@ -75,7 +76,7 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
     let limit = if command.limit == 0 { usize::MAX } else { command.limit };
     let mut out = BufWriter::new(std::io::stdout().lock());
     match command.format {
-        DiffFormat::Json => write_json(&mut out, &show::json(&before, &after, &found, tolerance))?,
+        DiffFormat::Json => write_json(&mut out, &json::json(&before, &after, &found, tolerance))?,
         DiffFormat::Pretty => out.write_all(show::text(&before, &after, &found, tolerance, limit).as_bytes())?,
     }
     out.flush()?;

@@ -1,12 +1,19 @@
 //! The effects of an ISO block: which of its codes and words are held neither by its motions nor by the modal state.
+mod sort;
+
 use crate::codes::{Found, dwell_reads};
-use crate::effect::{Argument, Effect, Value};
-use crate::memory::Chosen;
+use crate::effect::{Argument, Effect};
 use crate::run::Interpreter;
 use crate::words::{Said, Words};
-use crate::written::{Keep, call_argument, comments, named_effects, system_assignment, unknown_assignment, written};
+use crate::written::{
+    Keep, comments, named_effects, reads_machine_position, system_assignment, unknown_assignment, written,
+};
 use crate::{FaultKind, Motion, MotionKind};
-use trunnion_dialect::{Action, CodeKind, Role};
+use sort::{
+    READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, letter_bit, name_of, said, sort,
+    takes_axes, uncouples,
+};
+use trunnion_dialect::{Action, Role};
 use trunnion_syntax::{Block, Item};
 
 /// Whether a fault means that its block does more than its motions and the modal state hold.
@@ -29,91 +36,6 @@ pub(crate) fn does_more(kind: &FaultKind) -> bool {
 
 /// Blocks of shifts and turns that wait for a motion that needs their words.
 const MOST_FRAMES: usize = 1000;
-
-/// Codes that read the comment of their block (Haas mill operator's manual: G47 text engraving, M95 sleep mode, M130 to M131 media).
-const READ_COMMENTS: [&str; 4] = ["G47", "M95", "M130", "M131"];
-
-/// Names of codes that tell the operator something and do nothing else.
-const NEUTRAL: [&str; 1] = ["MSG"];
-
-/// Whether the spindle does more in a cycle or along a path than turn: it is coupled to the feed, stops, or is oriented.
-fn couples(action: Action) -> bool {
-    matches!(
-        action,
-        Action::Thread
-            | Action::VariableThread
-            | Action::TapCycle
-            | Action::TapLeftCycle
-            | Action::BoreStopCycle
-            | Action::BoreManualCycle
-            | Action::FineBoreCycle
-            | Action::BackBoreCycle
-            | Action::ThreadingCycle
-            | Action::ThreadRepeatCycle
-            | Action::HoleCall
-            | Action::CannedCycle
-    )
-}
-
-/// Whether a code ends what a code that [`couples`] began.
-fn uncouples(action: Action) -> bool {
-    action.is_hole_cycle()
-        || action.is_pass_cycle()
-        || matches!(
-            action,
-            Action::Rapid | Action::Linear | Action::ArcClockwise | Action::ArcCounterClockwise | Action::CycleOff
-        )
-}
-
-/// What a code is for a comparison.
-enum Sort {
-    /// Motions and the modal state hold it.
-    Held,
-    /// It sets something until another code sets it again.
-    Setting(&'static str),
-    /// One of a modal group whose codes only set something.
-    Group,
-    /// It happens once, before the block's motion.
-    Before,
-    /// It happens once, after the block's motion.
-    After,
-}
-
-fn sort(found: &Found<'_>, words: &Words) -> Sort {
-    let code = found.code;
-    match code.action {
-        _ if code.kind == CodeKind::Name && NEUTRAL.contains(&code.id.as_str()) => Sort::Held,
-        Action::SpindleClockwise | Action::SpindleCounterClockwise | Action::SpindleStop => Sort::Setting("spindle"),
-        Action::ConstantSurfaceSpeed | Action::ConstantSpindleSpeed => Sort::Setting("speed mode"),
-        Action::ProgramStop => Sort::After,
-        Action::OrientationAxes | Action::OrientationVector => Sort::Group,
-        Action::DataEntry | Action::ReferenceStore | Action::ReferenceStoreOther | Action::SwivelCycle => Sort::Before,
-        Action::MachineCoordinates => Sort::Setting("coordinates"),
-        // a limit of the spindle's speed
-        Action::PositionSet | Action::NotFollowed | Action::FrameChange
-            if !words.axes.any() && words.speed.is_said() =>
-        {
-            Sort::Setting("speed limit")
-        }
-        Action::NoMotion | Action::PathMode | Action::DiameterSwitch => match code.group.as_deref() {
-            None | Some("one-shot" | "non-modal" | "special-motion" | "exact-stop-once" | "stopping") => Sort::Before,
-            Some(_) => Sort::Group,
-        },
-        Action::Kinematics => Sort::Before,
-        _ => Sort::Held,
-    }
-}
-
-/// Coolant codes that every dialect here shares: flood, mist, or both off.
-fn coolant(code: &trunnion_dialect::Code) -> Option<&'static [(&'static str, bool)]> {
-    let listed = matches!(code.group.as_deref(), Some("coolant" | "mist"));
-    match code.id.as_str() {
-        "M7" if listed => Some(&[("mist", true)]),
-        "M8" if listed => Some(&[("flood", true)]),
-        "M9" if listed => Some(&[("mist", false), ("flood", false)]),
-        _ => None,
-    }
-}
 
 impl Interpreter<'_> {
     /// Asks for effects: without, [`crate::Sink::effect`] is never called.
@@ -160,7 +82,9 @@ impl Interpreter<'_> {
                 }
                 Sort::Setting(key) => {
                     let mut to = vec![Argument::code(found.code.id.clone())];
-                    let own = crate::unused::letters(found.code) & words.letters & !letter_bit(b'S');
+                    // S and D are settings of their own
+                    let own =
+                        crate::unused::letters(found.code) & words.letters & !(letter_bit(b'S') | letter_bit(b'D'));
                     to.extend(arguments(words, own));
                     free &= !own;
                     self.memory.effects.add(block, Effect::set(key, to));
@@ -337,7 +261,7 @@ impl Interpreter<'_> {
             }
         }
         let dwell = |found: &Found<'_>| found.code.action == Action::Dwell;
-        let unclear = words.p.number().is_some_and(|p| p.has_point) && self.dialect.quirks.whole_numbers_ambiguous
+        let unclear = words.p.number().is_some_and(|p| p.has_point) && self.dialect.name.starts_with("fanuc")
             || words.feed.is_said() && !self.dialect.quirks.user_names;
         let ambiguous = ambiguous || codes.iter().any(dwell) && unclear;
         if ambiguous {
@@ -365,6 +289,11 @@ impl Interpreter<'_> {
             }
         } else if let Some(arguments) = unknown_assignment(self, view, words) {
             self.memory.effects.add(block, Effect::Unmodelled(arguments));
+        }
+        if reads_machine_position(view) {
+            // machine coordinates depend on work offsets that may not be declared
+            let words = written(view, self, words, Keep::All);
+            self.memory.effects.add(block, Effect::Unmodelled(words));
         }
         if let Some(arguments) = system_assignment(self, view) {
             self.memory.effects.add(block, Effect::Event(arguments));
@@ -394,84 +323,5 @@ impl Interpreter<'_> {
                 _ => {}
             }
         }
-    }
-}
-
-/// Whether a code reads the axis words of its block as data.
-fn takes_axes(action: Action) -> bool {
-    matches!(
-        action,
-        Action::DataEntry | Action::ReferenceStore | Action::ReferenceStoreOther | Action::NoMotion | Action::PathMode
-    )
-}
-
-/// Whether a code changes what coordinates mean.
-fn is_frame(action: Action) -> bool {
-    matches!(
-        action,
-        Action::FrameChange
-            | Action::FrameLost
-            | Action::ProgrammableShift
-            | Action::LocalShift
-            | Action::PositionSet
-            | Action::PositionPreset
-            | Action::RotationOn
-            | Action::ScalingOn
-            | Action::MirrorOn
-            | Action::PolarOn
-            | Action::TiltedPlane
-            | Action::SwivelCycle
-    )
-}
-
-pub(crate) fn letter_bit(letter: u8) -> u32 {
-    1 << (letter - b'A')
-}
-
-const LETTERS: [&str; 26] = [
-    "A", "B", "C", "D", "E", "F", "G", "H", "I", "J", "K", "L", "M", "N", "O", "P", "Q", "R", "S", "T", "U", "V", "W",
-    "X", "Y", "Z",
-];
-
-/// The words of some letters in alphabetical order.
-fn arguments(words: &Words, letters: u32) -> impl Iterator<Item = Argument> {
-    LETTERS
-        .iter()
-        .filter(move |letter| letters & letter_bit(letter.as_bytes()[0]) != 0)
-        .map(|letter| said(letter, words.letter(letter.as_bytes()[0])))
-        .filter(|argument| !matches!(argument.value, Value::Nothing))
-}
-
-/// All words but codes, numbers of blocks and programs, S and T, as they are written.
-fn all_arguments(words: &Words) -> impl Iterator<Item = Argument> {
-    LETTERS.iter().filter_map(|letter| {
-        let value = words.letter(letter.as_bytes()[0]);
-        (value.is_said() && !matches!(*letter, "S" | "T")).then(|| said(letter, value))
-    })
-}
-
-fn said(name: &'static str, said: Said) -> Argument {
-    match said {
-        Said::Nothing => Argument::code(name),
-        Said::Number(number) => Argument::number(name, number.value),
-        Said::Name(_) | Said::Unread => Argument::text(name, "unknown"),
-    }
-}
-
-fn chosen(tool: &Chosen) -> Argument {
-    match tool {
-        Chosen::Nothing => Argument::code("T"),
-        Chosen::Number(number) => Argument::number("T", f64::from(*number)),
-        Chosen::Named(name) => Argument::text("T", name),
-        Chosen::Unread => Argument::text("T", "unknown"),
-    }
-}
-
-/// The code as it is compared: a name with what stands between its parentheses.
-fn name_of(found: &Found<'_>, view: &Block<'_>) -> Argument {
-    if found.code.kind == CodeKind::Name && found.with_arguments {
-        call_argument(&found.code.id, &view.program().text(found.range))
-    } else {
-        Argument::code(found.code.id.clone())
     }
 }

@@ -357,6 +357,16 @@ pub(crate) fn system_assignment(run: &Interpreter<'_>, view: &Block<'_>) -> Opti
     Some(found)
 }
 
+/// Whether a block reads the present machine coordinates (Series 30i operator's manual, custom macro: #5021 and following).
+pub(crate) fn reads_machine_position(view: &Block<'_>) -> bool {
+    view.items().any(|item| match item {
+        Item::Word(word) => names(&view.program().text(word.range))
+            .iter()
+            .any(|name| name.starts_with("#502") && name.len() == 5),
+        _ => false,
+    })
+}
+
 /// The words of a block that gives a variable a value which is not known.
 pub(crate) fn unknown_assignment(run: &Interpreter<'_>, view: &Block<'_>, words: &Words) -> Option<Vec<Argument>> {
     let unknown = |text: &str| {

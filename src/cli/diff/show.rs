@@ -3,31 +3,30 @@ use super::changes::{Change, Found, TechChange};
 use super::event::Body;
 use super::point::{Point, Tolerance, Way};
 use crate::cli::{json::tidy, load::Loaded};
-use serde_json::{Value, json};
 use std::fmt::Write;
 use trunnion_interp::AXIS_LETTERS;
 use trunnion_same::Verdict;
 use trunnion_syntax::{BlockId, LineIndex};
 
 /// The lines of both programs.
-struct Lines<'a> {
+pub(super) struct Lines<'a> {
     sides: [(&'a Loaded, LineIndex); 2],
 }
 
 impl<'a> Lines<'a> {
-    fn new(before: &'a Loaded, after: &'a Loaded) -> Self {
+    pub(super) fn new(before: &'a Loaded, after: &'a Loaded) -> Self {
         let lines = |loaded: &'a Loaded| (loaded, LineIndex::new(loaded.program.source()));
         Self {
             sides: [lines(before), lines(after)],
         }
     }
-    fn line(&self, side: usize, block: BlockId) -> u32 {
+    pub(super) fn line(&self, side: usize, block: BlockId) -> u32 {
         let (loaded, lines) = &self.sides[side];
         lines
             .line_column(loaded.program.source(), loaded.program.block(block).range().start)
             .0
     }
-    fn number(&self, side: usize, block: BlockId) -> Option<String> {
+    pub(super) fn number(&self, side: usize, block: BlockId) -> Option<String> {
         let program = &self.sides[side].0.program;
         program
             .block(block)
@@ -126,7 +125,7 @@ fn position(point: &Point) -> String {
     }
 }
 
-fn letter(axis: usize) -> char {
+pub(super) fn letter(axis: usize) -> char {
     char::from(AXIS_LETTERS[axis])
 }
 
@@ -137,7 +136,7 @@ fn short(value: f64) -> String {
 }
 
 /// `linear  X 10 -> 10.5, 0.5 mm away`.
-fn moved(a: &Point, b: &Point) -> String {
+pub(super) fn moved(a: &Point, b: &Point) -> String {
     let mut text = if a.way.name() == b.way.name() {
         a.way.name().to_owned()
     } else {
@@ -225,7 +224,7 @@ fn tech_row(lines: &Lines<'_>, change: &TechChange) -> (u32, [String; 2], String
 }
 
 /// The largest distance between paired ends, mm, with the line of the second program.
-fn farthest(lines: &Lines<'_>, found: &Found) -> Option<(f64, u32)> {
+pub(super) fn farthest(lines: &Lines<'_>, found: &Found) -> Option<(f64, u32)> {
     let mut worst: Option<(f64, u32)> = None;
     for change in &found.changes {
         if let Change::Moved(a, b) = change
@@ -239,7 +238,7 @@ fn farthest(lines: &Lines<'_>, found: &Found) -> Option<(f64, u32)> {
 }
 
 /// How many of each sort: moved, only before, only after, motions with other feed and the like.
-fn counts(found: &Found) -> [u64; 4] {
+pub(super) fn counts(found: &Found) -> [u64; 4] {
     let mut counts = [0; 4];
     for change in &found.changes {
         match change {
@@ -314,7 +313,7 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
 }
 
 /// The first difference, or what cannot be said, with the lines.
-fn first(lines: &Lines<'_>, found: &Found) -> String {
+pub(super) fn first(lines: &Lines<'_>, found: &Found) -> String {
     let (Verdict::Differs(difference) | Verdict::Unknown(difference)) = &found.verdict else {
         return String::new();
     };
@@ -342,70 +341,4 @@ fn stops(lines: &Lines<'_>, found: &Found) -> String {
         }
     }
     out
-}
-
-/// The form for programs.
-pub(super) fn json(before: &Loaded, after: &Loaded, found: &Found, tolerance: Tolerance) -> Value {
-    let lines = Lines::new(before, after);
-    let place =
-        |side: usize, block: BlockId| json!({ "line": lines.line(side, block), "block": lines.number(side, block) });
-    let point = |point: &Point| {
-        let known = (0..AXIS_LETTERS.len()).filter(|axis| point.known & (1 << axis) != 0);
-        let key = |axis: usize| {
-            format!(
-                "{}_{}",
-                letter(axis).to_ascii_lowercase(),
-                if (3..6).contains(&axis) { "deg" } else { "mm" }
-            )
-        };
-        let values: serde_json::Map<_, _> = known.map(|axis| (key(axis), json!(tidy(point.values[axis])))).collect();
-        json!({ "motion": point.way.name(), "end": values, "length_mm": point.length_mm.map(tidy) })
-    };
-    let changes = found.changes.iter().map(|change| match change {
-        Change::Moved(a, b) => json!({
-            "kind": "moved", "before": place(0, a.0), "after": place(1, b.0), "from": point(&a.1), "to": point(&b.1),
-            "distance_mm": a.1.distance_mm(&b.1).map(tidy), "angle_deg": a.1.angle_deg(&b.1).map(tidy), "text": moved(&a.1, &b.1),
-        }),
-        Change::Only(is_after, block, body) => {
-            let side = usize::from(*is_after);
-            let (kind, key) = if *is_after { ("added", "after") } else { ("removed", "before") };
-            let mut value = json!({ "kind": kind });
-            value[key] = place(side, *block);
-            match &**body {
-                Body::Motion(end, _) => value["motion"] = point(end),
-                Body::Statement(text) => value["statement"] = json!(text),
-            }
-            value
-        }
-    });
-    let techs = found.techs.iter().map(|change| {
-        let parts = change
-            .parts
-            .iter()
-            .map(|(name, from, to)| json!({ "what": name, "before": from, "after": to }));
-        json!({
-            "kind": "state", "before": place(0, change.first.0), "after": place(1, change.first.1),
-            "last_before": place(0, change.last.0), "last_after": place(1, change.last.1), "motions": change.count,
-            "changes": parts.collect::<Vec<_>>(),
-        })
-    });
-    let [moved, removed, added, state] = counts(found);
-    let stop = |side: usize| {
-        let stop = found.stops[side].as_ref()?;
-        Some(json!({ "line": lines.line(side, stop.block), "why": stop.why }))
-    };
-    json!({
-        "schema": "trunnion-diff/1", "version": env!("CARGO_PKG_VERSION"),
-        "before": before.name, "after": after.name, "machine": before.resolved.machine.as_ref().map(|machine| &machine.id),
-        "tolerance_mm": tolerance.mm, "tolerance_deg": tolerance.deg, "same": found.same(), "verdict": match found.verdict { Verdict::Same => "same", Verdict::Differs(_) => "different", Verdict::Unknown(_) => "unknown" },
-        "first_difference": (!found.same()).then(|| first(&lines, found)),
-        "not_followed_before": stop(0), "not_followed_after": stop(1),
-        "summary": {
-            "motions_before": found.motions[0], "motions_after": found.motions[1], "moved": moved, "removed": removed,
-            "added": added, "motions_with_other_state": state, "not_compared": found.not_compared,
-            "motions_of_unknown_end": found.unknown, "too_different": found.too_different, "one_by_one": found.one_by_one,
-            "largest_distance_mm": farthest(&lines, found).map(|(distance, _)| tidy(distance)),
-        },
-        "changes": changes.chain(techs).collect::<Vec<_>>(),
-    })
 }

@@ -20,7 +20,7 @@ fn every_built_in_table_loads_under_its_name() {
         assert_eq!(dialect(name).name, name);
         assert!(!dialect(name).title.is_empty());
         assert!(!dialect(name).arc.source.is_empty());
-        assert!(dialect(name).arc_tolerance_mm > 0.0);
+        assert!(dialect(name).arc.mm > 0.0);
     }
     assert!(builtin("no-such-control").is_none());
     assert!(builtin("").is_none());

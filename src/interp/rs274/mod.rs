@@ -140,11 +140,19 @@ impl Interpreter<'_> {
             self.memory.effects.add(block, Effect::Event(words));
             self.hand_on(sink);
         }
+        let upper = crate::written::packed(&text);
+        if upper.contains("(PROBE") || upper.contains("(LOG") {
+            // files that the control writes
+            self.memory
+                .effects
+                .add(block, Effect::Event(vec![Argument::text("", &upper)]));
+            self.hand_on(sink);
+        }
         let shifts = ["G92", "G52", "G10", "G53"]
             .iter()
             .any(|code| crate::written::packed(&text).contains(code));
         // G10 L11 counts from the ninth coordinate system, which may not be declared
-        let ninth = crate::written::packed(&text).contains("L11");
+        let ninth = upper.contains("L11");
         let lost = shifts && (ninth || self.state.position.xyz().is_none());
         let unknown = lost || names.iter().any(|name| self.variable(name).is_some_and(f64::is_nan));
         if !(does_more || unknown_end || unknown) {

@@ -1,5 +1,5 @@
 //! Certificates that were made before: the golden one re-checks, one of the first version is refused with what to do.
-use crate::tools::{status, str, text, trunnion};
+use crate::cli::tools::{status, str, text, trunnion};
 use std::fs;
 use std::path::PathBuf;
 use tempfile::TempDir;

@@ -142,10 +142,7 @@ fn what_is_not_modelled_is_compared_by_its_words() {
     );
     let (status, shown) = differ(&folder, &program("G65 P9010 A1"), &program("G65 P9010 A2"), &[]);
     assert_eq!(status, 1, "{shown}");
-    assert!(
-        shown.contains("G65 P9010 A1") && shown.contains("G65 P9010 A2"),
-        "{shown}"
-    );
+    assert!(shown.contains("G65P9010A1") && shown.contains("G65P9010A2"), "{shown}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod code;
 mod guide_vane;
 mod kept;
 mod machines;
+mod places;
 mod proof;
 mod real;
 mod refused;

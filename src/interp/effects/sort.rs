@@ -1,0 +1,173 @@
+//! What a code is for a comparison, and the words that belong to it.
+use crate::codes::Found;
+use crate::effect::{Argument, Value};
+use crate::memory::Chosen;
+use crate::words::{Said, Words};
+use crate::written::call_argument;
+use trunnion_dialect::{Action, CodeKind};
+use trunnion_syntax::Block;
+
+/// Codes that read the comment of their block (Haas mill operator's manual: G47 text engraving, M95 sleep mode, M130 to M131 media).
+pub(super) const READ_COMMENTS: [&str; 4] = ["G47", "M95", "M130", "M131"];
+
+/// Names of codes that tell the operator something and do nothing else.
+const NEUTRAL: [&str; 1] = ["MSG"];
+
+/// Whether the spindle does more in a cycle or along a path than turn: it is coupled to the feed, stops, or is oriented.
+pub(super) fn couples(action: Action) -> bool {
+    matches!(
+        action,
+        Action::Thread
+            | Action::VariableThread
+            | Action::TapCycle
+            | Action::TapLeftCycle
+            | Action::BoreStopCycle
+            | Action::BoreManualCycle
+            | Action::FineBoreCycle
+            | Action::BackBoreCycle
+            | Action::ThreadingCycle
+            | Action::ThreadRepeatCycle
+            | Action::HoleCall
+            | Action::CannedCycle
+    )
+}
+
+/// Whether a code ends what a code that [`couples`] began.
+pub(super) fn uncouples(action: Action) -> bool {
+    action.is_hole_cycle()
+        || action.is_pass_cycle()
+        || matches!(
+            action,
+            Action::Rapid | Action::Linear | Action::ArcClockwise | Action::ArcCounterClockwise | Action::CycleOff
+        )
+}
+
+/// What a code is for a comparison.
+pub(super) enum Sort {
+    /// Motions and the modal state hold it.
+    Held,
+    /// It sets something until another code sets it again.
+    Setting(&'static str),
+    /// One of a modal group whose codes only set something.
+    Group,
+    /// It happens once, before the block's motion.
+    Before,
+    /// It happens once, after the block's motion.
+    After,
+}
+
+pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
+    let code = found.code;
+    match code.action {
+        _ if code.kind == CodeKind::Name && NEUTRAL.contains(&code.id.as_str()) => Sort::Held,
+        Action::SpindleClockwise | Action::SpindleCounterClockwise | Action::SpindleStop => Sort::Setting("spindle"),
+        Action::ConstantSurfaceSpeed | Action::ConstantSpindleSpeed => Sort::Setting("speed mode"),
+        Action::ProgramStop => Sort::After,
+        Action::OrientationAxes | Action::OrientationVector => Sort::Group,
+        Action::DataEntry | Action::ReferenceStore | Action::ReferenceStoreOther | Action::SwivelCycle => Sort::Before,
+        Action::MachineCoordinates => Sort::Setting("coordinates"),
+        Action::CompensationLeft | Action::CompensationRight | Action::CompensationOff => Sort::Setting("compensation"),
+        // a limit of the spindle's speed
+        Action::PositionSet | Action::NotFollowed | Action::FrameChange
+            if !words.axes.any() && words.speed.is_said() =>
+        {
+            Sort::Setting("speed limit")
+        }
+        Action::NoMotion | Action::PathMode | Action::DiameterSwitch => match code.group.as_deref() {
+            None | Some("one-shot" | "non-modal" | "special-motion" | "exact-stop-once" | "stopping") => Sort::Before,
+            Some(_) => Sort::Group,
+        },
+        Action::Kinematics => Sort::Before,
+        _ => Sort::Held,
+    }
+}
+
+/// Coolant codes that every dialect here shares: flood, mist, or both off.
+pub(super) fn coolant(code: &trunnion_dialect::Code) -> Option<&'static [(&'static str, bool)]> {
+    let listed = matches!(code.group.as_deref(), Some("coolant" | "mist"));
+    match code.id.as_str() {
+        "M7" if listed => Some(&[("mist", true)]),
+        "M8" if listed => Some(&[("flood", true)]),
+        "M9" if listed => Some(&[("mist", false), ("flood", false)]),
+        _ => None,
+    }
+}
+
+/// Whether a code reads the axis words of its block as data.
+pub(super) fn takes_axes(action: Action) -> bool {
+    matches!(
+        action,
+        Action::DataEntry | Action::ReferenceStore | Action::ReferenceStoreOther | Action::NoMotion | Action::PathMode
+    )
+}
+
+/// Whether a code changes what coordinates mean.
+pub(super) fn is_frame(action: Action) -> bool {
+    matches!(
+        action,
+        Action::FrameChange
+            | Action::FrameLost
+            | Action::ProgrammableShift
+            | Action::LocalShift
+            | Action::PositionSet
+            | Action::PositionPreset
+            | Action::RotationOn
+            | Action::ScalingOn
+            | Action::MirrorOn
+            | Action::PolarOn
+            | Action::TiltedPlane
+            | Action::SwivelCycle
+    )
+}
+
+pub(crate) fn letter_bit(letter: u8) -> u32 {
+    1 << (letter - b'A')
+}
+
+const LETTERS: [&str; 26] = [
+    "A", "B", "C", "D", "E", "F", "G", "H", "I", "J", "K", "L", "M", "N", "O", "P", "Q", "R", "S", "T", "U", "V", "W",
+    "X", "Y", "Z",
+];
+
+/// The words of some letters in alphabetical order.
+pub(super) fn arguments(words: &Words, letters: u32) -> impl Iterator<Item = Argument> {
+    LETTERS
+        .iter()
+        .filter(move |letter| letters & letter_bit(letter.as_bytes()[0]) != 0)
+        .map(|letter| said(letter, words.letter(letter.as_bytes()[0])))
+        .filter(|argument| !matches!(argument.value, Value::Nothing))
+}
+
+/// All words but codes, numbers of blocks and programs, S and T, as they are written.
+pub(super) fn all_arguments(words: &Words) -> impl Iterator<Item = Argument> {
+    LETTERS.iter().filter_map(|letter| {
+        let value = words.letter(letter.as_bytes()[0]);
+        (value.is_said() && !matches!(*letter, "S" | "T")).then(|| said(letter, value))
+    })
+}
+
+pub(super) fn said(name: &'static str, said: Said) -> Argument {
+    match said {
+        Said::Nothing => Argument::code(name),
+        Said::Number(number) => Argument::number(name, number.value),
+        Said::Name(_) | Said::Unread => Argument::text(name, "unknown"),
+    }
+}
+
+pub(super) fn chosen(tool: &Chosen) -> Argument {
+    match tool {
+        Chosen::Nothing => Argument::code("T"),
+        Chosen::Number(number) => Argument::number("T", f64::from(*number)),
+        Chosen::Named(name) => Argument::text("T", name),
+        Chosen::Unread => Argument::text("T", "unknown"),
+    }
+}
+
+/// The code as it is compared: a name with what stands between its parentheses.
+pub(super) fn name_of(found: &Found<'_>, view: &Block<'_>) -> Argument {
+    if found.code.kind == CodeKind::Name && found.with_arguments {
+        call_argument(&found.code.id, &view.program().text(found.range))
+    } else {
+        Argument::code(found.code.id.clone())
+    }
+}

@@ -16,6 +16,7 @@ mod directive;
 mod dwell;
 mod emit;
 mod fault;
+mod flow;
 mod frames;
 mod iso;
 mod macro_b;
@@ -29,6 +30,7 @@ mod reader;
 mod rs274;
 mod run;
 mod setup;
+mod sinumerik;
 mod system;
 mod tcp;
 mod tools;
@@ -42,11 +44,10 @@ pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
 pub use directive::{Directive, directives};
 pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
 pub use modal::{FeedMode, LengthOf, ModalState};
-pub use motion::{
-    AXIS_LETTERS, AxisLetter, ChainId, Feed, Frame, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt,
-};
+pub use motion::{AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt};
 pub use run::{Interpreter, Sink, run};
 pub use setup::{
     ControlData, Files, ImplicitDecimals, LengthUnit, Library, Limits, Loaded, OuterCorner, RollPitchYaw,
     RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
 };
+pub use trunnion_flow::{ChainId, Frame};

@@ -265,6 +265,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 };
                 self.words.by_letter.keep(letter, said);
             }
+            Role::NotModelled if self.sinumerik_number(letter, word) => {}
             Role::NotModelled => {
                 self.words.forgets_all = true;
                 self.not_modelled(word.range);
@@ -304,6 +305,9 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             _ => self.dialect.g(tenths),
         });
         if let Some(code) = code {
+            if self.sinumerik_returns(code, word.range) {
+                return;
+            }
             self.codes.push(Found {
                 code,
                 range: word.range,
@@ -328,7 +332,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
     }
 
     fn call(&mut self, call: &Call) {
-        if self.macro_statement(call) {
+        if self.macro_statement(call) || self.sinumerik_name(call) {
             return;
         }
         let Some(code) = self.name(call.name) else {

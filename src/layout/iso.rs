@@ -24,6 +24,13 @@ pub(crate) struct Blocks<'p> {
     pub(crate) style: &'p Style,
 }
 
+/// Whether blanks stand between two digits.
+fn parts_number(text: &[u8]) -> bool {
+    let digit = |byte: &u8| byte.is_ascii_digit() || *byte == b'.';
+    let blank = |byte: &u8| matches!(byte, b' ' | b'\t');
+    text.windows(2).any(|pair| digit(&pair[0]) && blank(&pair[1])) && text.last().is_some_and(digit)
+}
+
 /// What stands left of a token.
 struct Left {
     kind: TokenKind,
@@ -89,6 +96,8 @@ impl Blocks<'_> {
             match table.kind(id) {
                 TokenKind::Blank => !is_plain_blank(text),
                 TokenKind::Unknown | TokenKind::UnclosedComment => true,
+                // `GOTOF LBL1 2 GOTOF LBL2` of a CASE: two numbers, where the control does not read over blanks
+                TokenKind::Word | TokenKind::Number => !self.dialect.lex.blanks_in_numbers && parts_number(text),
                 TokenKind::Percent => {
                     percent = true;
                     false

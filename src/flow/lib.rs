@@ -12,7 +12,7 @@ mod ran;
 mod transfer;
 
 pub use chains::{ChainId, Chains, Frame};
-pub use course::{Course, Ends, Fuel, Going, Place};
+pub use course::{Call, Course, Ends, Fuel, Going, Place};
 pub use index::{Index, Key, Search};
 pub use library::{Called, Library};
 pub use loops::{Loop, Loops};

@@ -11,6 +11,11 @@ use crate::code::{Binary, Code, Comparison, Formula, Op, Step, Unary};
 use crate::{FormulaError, FormulaErrorKind as Kind, Name};
 use trunnion_syntax::TextRange;
 
+mod operands;
+mod values;
+
+pub(crate) use values::{binary, unary};
+
 /// What is open or waits for its second operand.
 enum Waiting {
     Binary(Binary, u8),
@@ -169,125 +174,6 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// `5`, `.5`, `1.EX-3`.
-    fn number(&mut self) -> Result<(), Kind> {
-        let rest = self.rest();
-        let digits = |from: usize| rest[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
-        let mut length = digits(0);
-        if rest.get(length) == Some(&b'.') {
-            length += 1;
-            length += digits(length);
-        }
-        let mut text = String::from_utf8_lossy(&rest[..length]).into_owned();
-        if rest
-            .get(length..length + 2)
-            .is_some_and(|mark| mark.eq_ignore_ascii_case(b"EX"))
-        {
-            let sign = usize::from(matches!(rest.get(length + 2), Some(b'+' | b'-')));
-            let exponent = digits((length + 2 + sign).min(rest.len()));
-            if exponent > 0 {
-                text.push('e');
-                text.push_str(&String::from_utf8_lossy(
-                    &rest[length + 2..length + 2 + sign + exponent],
-                ));
-                length += 2 + sign + exponent;
-            }
-        }
-        let value = text.parse().map_err(|_| Kind::NotANumber { text: text.into() })?;
-        self.take(length);
-        self.push(Op::Number(value));
-        Ok(())
-    }
-
-    /// `'H1F'`, `'B101'`.
-    fn coded(&mut self) -> Result<(), Kind> {
-        let inside = self.rest()[1..].split(|&byte| byte == b'\'').next().unwrap_or_default();
-        let text = String::from_utf8_lossy(inside).to_ascii_uppercase();
-        let value = match (text.get(..1), text.get(1..)) {
-            (Some("H"), Some(digits)) => u32::from_str_radix(digits, 16).ok(),
-            (Some("B"), Some(digits)) => u32::from_str_radix(digits, 2).ok(),
-            _ => None,
-        };
-        let Some(value) = value.filter(|_| self.rest().len() > inside.len() + 1) else {
-            return Err(Kind::NotANumber { text: text.into() });
-        };
-        self.take(inside.len() + 2);
-        self.push(Op::Number(f64::from(value)));
-        Ok(())
-    }
-
-    fn word(&self) -> &'s [u8] {
-        let rest = self.rest();
-        let sign = usize::from(rest.first() == Some(&b'$'));
-        let letters = rest[sign..].iter().take_while(|byte| is_name(**byte)).count();
-        &rest[..sign + letters]
-    }
-
-    /// A variable, function, TRUE, FALSE or NOT.
-    fn name(&mut self) -> Result<bool, Kind> {
-        let name = String::from_utf8_lossy(self.word()).to_ascii_lowercase();
-        self.take(name.len());
-        let behind = self.at;
-        self.blanks();
-        match (name.as_str(), self.peek()) {
-            ("not", _) => self.waiting.push(Waiting::Unary(Unary::Not)),
-            ("b_not", _) => self.waiting.push(Waiting::Unary(Unary::BitNot)),
-            ("r", Some(b'[')) => {
-                self.take(1);
-                self.waiting.push(Waiting::Index);
-            }
-            (_, Some(b'(')) => match function(&name) {
-                Some(waiting) => {
-                    self.take(1);
-                    self.waiting.push(waiting);
-                }
-                None => {
-                    self.group(b'(', b')')?;
-                    self.unknown(&format!("{name}("));
-                    return Ok(true);
-                }
-            },
-            (_, Some(b'[')) => {
-                self.group(b'[', b']')?;
-                self.unknown(&format!("{name}["));
-                return Ok(true);
-            }
-            _ => {
-                self.at = behind;
-                let number = name
-                    .strip_prefix('r')
-                    .filter(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()));
-                match (name.as_str(), number.and_then(|digits| digits.parse().ok())) {
-                    ("true", _) => self.push(Op::Number(1.0)),
-                    ("false", _) => self.push(Op::Number(0.0)),
-                    (_, Some(number)) => self.push(Op::Read(number)),
-                    _ => self.unknown(&name),
-                }
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-
-    /// Passes over a bracket with all that is in it.
-    fn group(&mut self, open: u8, close: u8) -> Result<(), Kind> {
-        let mut deep = 0usize;
-        let mut quoted = false;
-        for (at, &byte) in self.rest().iter().enumerate() {
-            quoted ^= byte == b'"';
-            if byte == open && !quoted {
-                deep += 1;
-            } else if byte == close && !quoted {
-                deep -= 1;
-                if deep == 0 {
-                    self.take(at + 1);
-                    return Ok(());
-                }
-            }
-        }
-        Err(Kind::UnclosedBracket)
-    }
-
     /// What stands behind a whole operand.
     fn operator(&mut self) -> Result<Behind, Kind> {
         match self.peek() {
@@ -406,81 +292,6 @@ enum Behind {
     Closed,
     /// Nothing that belongs to the expression.
     End,
-}
-
-fn function(name: &str) -> Option<Waiting> {
-    Some(match name {
-        "sin" => Waiting::One(Unary::Sin),
-        "cos" => Waiting::One(Unary::Cos),
-        "tan" => Waiting::One(Unary::Tan),
-        "asin" => Waiting::One(Unary::Asin),
-        "acos" => Waiting::One(Unary::Acos),
-        "sqrt" => Waiting::One(Unary::Sqrt),
-        "abs" => Waiting::One(Unary::Abs),
-        "pot" => Waiting::One(Unary::Square),
-        "trunc" => Waiting::One(Unary::CutOff),
-        "round" => Waiting::One(Unary::RoundHalf),
-        "roundup" => Waiting::One(Unary::RoundUp),
-        "ln" => Waiting::One(Unary::Ln),
-        "exp" => Waiting::One(Unary::Exp),
-        "atan2" => Waiting::Two(Binary::Atan2, false),
-        "minval" => Waiting::Two(Binary::Minimum, false),
-        "maxval" => Waiting::Two(Binary::Maximum, false),
-        _ => return None,
-    })
-}
-
-/// Numbers that differ by less than this part of the larger may be equal to the control.
-const NEAR: f64 = 1e-9;
-
-/// Whether two numbers differ by so little that the outcome of comparing them is not documented.
-fn is_near(a: f64, b: f64) -> bool {
-    a != b && (a - b).abs() <= NEAR * a.abs().max(b.abs())
-}
-
-/// Operations that only this language has, on numbers that are known; NaN where the outcome is not documented.
-pub(crate) fn binary(operation: Binary, a: f64, b: f64) -> Result<f64, Kind> {
-    let integers = a.fract() == 0.0 && b.fract() == 0.0;
-    let bits = |value: f64| (value.fract() == 0.0 && value.abs() < 2_147_483_648.0).then_some(value as i64);
-    Ok(match operation {
-        Binary::Compared(_) if is_near(a, b) => f64::NAN,
-        Binary::Compared(comparison) => f64::from(u8::from(match comparison {
-            Comparison::Equal => a == b,
-            Comparison::NotEqual => a != b,
-            Comparison::Greater => a > b,
-            Comparison::GreaterOrEqual => a >= b,
-            Comparison::Less => a < b,
-            Comparison::LessOrEqual => a <= b,
-        })),
-        Binary::WholeDivide | Binary::WholeRemainder if b == 0.0 => return Err(Kind::DivisionByZero),
-        Binary::WholeDivide if integers => (a / b).trunc() + 0.0,
-        Binary::WholeRemainder if integers => a % b + 0.0,
-        Binary::Minimum => a.min(b),
-        Binary::Maximum => a.max(b),
-        Binary::WholeAnd | Binary::WholeOr | Binary::WholeXor => match (bits(a), bits(b)) {
-            (Some(a), Some(b)) => match operation {
-                Binary::WholeAnd => (a & b) as f64,
-                Binary::WholeOr => (a | b) as f64,
-                _ => (a ^ b) as f64,
-            },
-            _ => f64::NAN,
-        },
-        _ => f64::NAN,
-    })
-}
-
-/// The same on one number.
-pub(crate) fn unary(operation: Unary, x: f64) -> f64 {
-    let nearest = x.round();
-    match operation {
-        Unary::Square => x * x,
-        Unary::Not => f64::from(u8::from(x == 0.0)),
-        Unary::BitNot if x.fract() == 0.0 => -x - 1.0,
-        Unary::CutOff if !is_near(x, nearest) => x.trunc() + 0.0,
-        Unary::RoundHalf if x >= 0.0 || x.fract() != -0.5 => (x + 0.5).floor() + 0.0,
-        Unary::RoundUp if x >= 0.0 && !is_near(x, nearest) || x == nearest => x.ceil(),
-        _ => f64::NAN,
-    }
 }
 
 #[cfg(test)]

@@ -77,8 +77,6 @@ pub(crate) struct Own {
     pub(crate) called: Option<Call>,
     /// `L20` in the block in hand.
     pub(crate) called_by_number: Option<TextRange>,
-    /// M17, M2 or M30 of a subprogram in the block in hand.
-    pub(crate) returns: Option<TextRange>,
     /// What the block in hand asks for, done when it has run.
     pub(crate) pending: Option<Transfer>,
     /// The last values of FOR loops, by file and block.

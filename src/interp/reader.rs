@@ -305,9 +305,6 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             _ => self.dialect.g(tenths),
         });
         if let Some(code) = code {
-            if self.sinumerik_returns(code, word.range) {
-                return;
-            }
             self.codes.push(Found {
                 code,
                 range: word.range,

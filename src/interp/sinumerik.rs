@@ -16,7 +16,6 @@ pub(crate) use names::files;
 
 use crate::flow::Index;
 use crate::{FaultKind, Refusal};
-use trunnion_syntax::{BlockId, Program};
 
 /// The fact that a label is missing.
 pub(crate) fn no_label(message: String) -> FaultKind {
@@ -28,25 +27,13 @@ pub(crate) fn no_label(message: String) -> FaultKind {
 }
 
 /// Why the outcome of a jump is not known: it leads into a structure from outside, or out of a section that is repeated.
-pub(crate) fn wrong_target(
-    index: &Index,
-    program: &Program,
-    repeated: Option<(u32, u32)>,
-    (from, to): (u32, u32),
-) -> Option<FaultKind> {
-    if let Some(entered) = index.loops.entered(from, to, |_| true) {
-        let block = program.block(BlockId(entered.open));
-        let what = format!(
-            "a jump into `{}` of line {} from outside, which is not documented",
-            program.text(block.range()).trim(),
-            entered.open + 1
-        );
-        return Some(FaultKind::NotDecided { what });
-    }
-    repeated
-        .filter(|&(first, last)| !(first..=last).contains(&to))
-        .map(|_| {
-            let what = "a jump out of a section that REPEAT repeats, which is not documented".to_owned();
-            FaultKind::NotDecided { what }
-        })
+pub(crate) fn wrong_target(index: &Index, repeated: Option<(u32, u32)>, (from, to): (u32, u32)) -> Option<FaultKind> {
+    let enters = index.loops.entered(from, to, |_| true).is_some();
+    let leaves = repeated.is_some_and(|(first, last)| !(first..=last).contains(&to));
+    let what = match (enters, leaves) {
+        (true, _) => "a jump into a loop or branch from outside, which is not documented",
+        (_, true) => "a jump out of a section that REPEAT repeats, which is not documented",
+        _ => return None,
+    };
+    Some(FaultKind::NotDecided { what: what.to_owned() })
 }

@@ -164,9 +164,10 @@ impl Interpreter<'_> {
         let changes = self.changes() + 1;
         let Some(trail) = &mut self.flow.trail else { return };
         if !trail.course.is_called() {
-            return match self.dialect.quirks.user_names {
-                true => self.leave_main_program(&back, running, from, sink),
-                false => self.leave_main(back, running, from, sink),
+            return if self.dialect.quirks.user_names {
+                self.leave_main_program(&back, running, from, sink);
+            } else {
+                self.leave_main(back, running, from, sink);
             };
         }
         if back.label.is_none()

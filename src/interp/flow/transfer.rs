@@ -78,7 +78,7 @@ impl Interpreter<'_> {
             }
             return;
         };
-        if let Some(kind) = self.wrong_target(&index, &label.key, (from, to), running) {
+        if let Some(kind) = self.wrong_target(&index, &label.key, (from, to)) {
             self.tell_of_flow(running, from, (label.range, kind), sink);
             return self.stop();
         }
@@ -90,13 +90,7 @@ impl Interpreter<'_> {
     }
 
     /// Why a jump is refused, or its outcome not known.
-    fn wrong_target(
-        &self,
-        index: &Index,
-        label: &Key,
-        (from, to): (u32, u32),
-        running: &Running<'_>,
-    ) -> Option<FaultKind> {
+    fn wrong_target(&self, index: &Index, label: &Key, (from, to): (u32, u32)) -> Option<FaultKind> {
         if !self.dialect.quirks.user_names {
             index.loops.entered(from, to, |_| true)?;
             let Key::Number(number) = label else { return None };
@@ -104,7 +98,7 @@ impl Interpreter<'_> {
             return Some(rejected(self.dialect, Mistake::Unnumbered, Refusal::Structure, message));
         }
         let repeated = self.flow.trail.as_ref().and_then(|trail| trail.course.repeated());
-        sinumerik::wrong_target(index, running.program(), repeated, (from, to))
+        sinumerik::wrong_target(index, repeated, (from, to))
     }
 
     /// There is no such label.

@@ -11,8 +11,10 @@ const LEVELS: usize = 16;
 /// One argument of a call.
 #[derive(Clone, Debug, PartialEq)]
 struct Argument {
-    /// `None`: it is left out.
-    value: Option<Option<f64>>,
+    /// Nothing stands between the commas.
+    is_left_out: bool,
+    /// `None`: it is not known.
+    value: Option<f64>,
     /// The variable that it is, if it is one.
     variable: Option<Box<str>>,
 }
@@ -27,7 +29,8 @@ impl With {
     /// From the text between the brackets.
     pub(super) fn read(text: Option<&str>, own: &Own) -> Self {
         let read = |text: &str| Argument {
-            value: (!text.is_empty()).then(|| own.value(text)),
+            is_left_out: text.is_empty(),
+            value: own.value(text),
             variable: is_variable(text).then(|| text.to_ascii_lowercase().into()),
         };
         let text = text.map(str::trim).filter(|text| !text.is_empty());
@@ -182,10 +185,8 @@ impl Interpreter<'_> {
         let mut given = with.arguments.into_iter();
         for parameter in parameters {
             let argument = given.next();
-            let value = match argument.as_ref().and_then(|argument| argument.value) {
-                Some(value) => value,
-                None => parameter.initial,
-            };
+            let written = argument.as_ref().filter(|argument| !argument.is_left_out);
+            let value = written.map_or(parameter.initial, |argument| argument.value);
             own.declare(&parameter.name, parameter.sort, value);
             if let (true, Some(Some(variable))) = (parameter.by_reference, argument.map(|argument| argument.variable)) {
                 level.references.push((parameter.name.clone(), variable));

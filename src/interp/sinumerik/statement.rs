@@ -53,7 +53,7 @@ impl Statement<'_> {
                 self.text.go_to(from);
                 match self.jump()? {
                     Some(transfer) => transfer,
-                    None => return not_decided(self.text.rest().1, format!("{jump}: the statement")),
+                    None => return not_decided(self.text.rest(), format!("{jump}: the statement")),
                 }
             }
         };
@@ -66,11 +66,7 @@ impl Statement<'_> {
         if self.text.is_at_end() {
             return Ok(());
         }
-        let (text, range) = self.text.rest();
-        not_decided(
-            range,
-            format!("`{text}` in a statement of the flow, which is not understood"),
-        )
+        not_decided(self.text.rest(), "a statement of the flow that is not understood")
     }
 
     /// The value of an expression that stands here, and its place.
@@ -89,12 +85,9 @@ impl Statement<'_> {
                     message,
                     alarm: None,
                 };
-                Err((self.text.rest().1, kind))
+                Err((self.text.rest(), kind))
             }
-            Err(error) => {
-                let (text, range) = self.text.rest();
-                not_decided(range, format!("`{text}`: {error}"))
-            }
+            Err(error) => not_decided(self.text.rest(), format!("an expression that cannot be read: {error}")),
         }
     }
 
@@ -177,11 +170,7 @@ impl Statement<'_> {
         let end = self.text.at();
         let range = self.text.range(from, end);
         if name.is_empty() || matches!(self.text.bytes().get(end), Some(b'<' | b'[' | b'$')) {
-            let rest = self.text.rest().0;
-            return not_decided(
-                range,
-                format!("the target of a jump, `{rest}`, which is built while the program runs"),
-            );
+            return not_decided(range, "the target of a jump, which is built while the program runs");
         }
         if !is_text && self.own.is_declared(&name) {
             return not_decided(range, format!("{name}: the target of a jump in a variable"));
@@ -203,7 +192,7 @@ impl Statement<'_> {
         let from = self.text.at();
         let equals = self.text.bytes()[from..].iter().position(|&byte| byte == b'=');
         let Some(equals) = equals else {
-            return not_decided(self.text.rest().1, "FOR without a counter");
+            return not_decided(self.text.rest(), "FOR without a counter");
         };
         let name = String::from_utf8_lossy(&self.text.bytes()[from..from + equals])
             .trim()
@@ -222,7 +211,7 @@ impl Statement<'_> {
             self.whole("the first value of FOR")?
         };
         if self.text.letters() != "TO" {
-            return not_decided(self.text.rest().1, "FOR without TO");
+            return not_decided(self.text.rest(), "FOR without TO");
         }
         let at = self.text.at();
         let last = self.whole("the last value of FOR")?;
@@ -250,7 +239,7 @@ impl Statement<'_> {
     fn case(&mut self) -> Result<Transfer, Trouble> {
         let value = self.whole("CASE")?;
         if self.text.letters() != "OF" {
-            return not_decided(self.text.rest().1, "CASE without OF");
+            return not_decided(self.text.rest(), "CASE without OF");
         }
         let (mut taken, mut other) = (None, None);
         while !self.text.is_at_end() {
@@ -259,11 +248,10 @@ impl Statement<'_> {
             let is_default = constant.is_none() && self.text.letters() == "DEFAULT";
             if constant.is_none() && !is_default {
                 self.text.go_to(at);
-                let (text, range) = self.text.rest();
-                return not_decided(range, format!("`{text}` in CASE, which is not understood"));
+                return not_decided(self.text.rest(), "a CASE that is not understood");
             }
             let Some(jump) = self.jump()? else {
-                return not_decided(self.text.rest().1, "CASE without GOTO");
+                return not_decided(self.text.rest(), "CASE without GOTO");
             };
             match constant {
                 Some(constant) if constant == value && taken.is_none() => taken = Some(jump),

@@ -58,11 +58,10 @@ impl Text {
         TextRange::new(self.base + from as u32, self.base + (to.max(from) - blanks) as u32)
     }
 
-    /// All that is not read yet.
-    pub(super) fn rest(&mut self) -> (String, TextRange) {
+    /// The place of all that is not read yet.
+    pub(super) fn rest(&mut self) -> TextRange {
         let at = self.at();
-        let text = String::from_utf8_lossy(&self.bytes[at..]).trim().to_owned();
-        (text, self.range(at, self.bytes.len()))
+        self.range(at, self.bytes.len())
     }
 
     /// A word of letters, digits and `_` in upper case; empty where there is none.

@@ -10,7 +10,7 @@ use crate::reader::Reader;
 use crate::run::{Interpreter, Report};
 use crate::words::Words;
 use std::sync::Arc;
-use trunnion_dialect::{Action, Code};
+use trunnion_dialect::Action;
 use trunnion_flow::Key;
 use trunnion_syntax::{Block, Call, TextRange, Word};
 
@@ -47,21 +47,6 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             None => false,
         }
     }
-
-    /// M17, M2 and M30 of a subprogram return.
-    pub(crate) fn sinumerik_returns(&mut self, code: &Code, range: TextRange) -> bool {
-        match self
-            .own
-            .as_mut()
-            .filter(|own| own.is_called && code.action == Action::ProgramEnd)
-        {
-            Some(own) => {
-                own.returns = Some(range);
-                true
-            }
-            None => false,
-        }
-    }
 }
 
 /// Words of a call and beside it: the block's number, L and P.
@@ -79,7 +64,7 @@ impl<'d> Interpreter<'d> {
         own.follows = self.flow.follows;
         let trail = self.flow.trail.as_ref();
         own.is_called = own.follows && trail.is_some_and(|trail| trail.course.is_called());
-        (own.statement, own.called, own.called_by_number, own.returns) = (None, None, None, None);
+        (own.statement, own.called, own.called_by_number) = (None, None, None);
     }
 
     /// Does what the reader has noted in a block.
@@ -87,12 +72,18 @@ impl<'d> Interpreter<'d> {
     pub(crate) fn sinumerik_words(
         &mut self,
         block: &Block<'_>,
-        codes: &[Found<'d>],
+        codes: &mut Vec<Found<'d>>,
         words: &mut Words,
         report: &mut Report<'_>,
     ) {
         let own = &mut self.memory.own;
-        if let Some(range) = own.returns.take() {
+        let ends = |found: &Found<'_>| found.code.action == Action::ProgramEnd;
+        if own.is_called
+            && let Some(at) = codes.iter().position(ends)
+        {
+            // M17, M2 and M30 of a subprogram return
+            let range = codes.remove(at).range;
+            codes.retain(|found| !ends(found));
             own.pending = Some(Transfer::Return(Back { label: None, range }));
         }
         if let Some(range) = own.statement.take() {
@@ -119,10 +110,7 @@ impl<'d> Interpreter<'d> {
             remarks: Vec::new(),
         };
         let asked = if beside {
-            let what = format!(
-                "`{}`: words beside a statement of the flow",
-                program.text(block.range()).trim()
-            );
+            let what = "words beside a statement of the flow".to_owned();
             Err((range, FaultKind::NotDecided { what }))
         } else {
             statement.read()

@@ -1,7 +1,7 @@
 //! What the operations compute. NaN is a number that is not known; `<vacant>` is a NaN of its own.
 use crate::FormulaErrorKind as Kind;
 use crate::code::{Binary, Unary};
-use crate::degrees;
+use crate::{degrees, sinumerik};
 use trunnion_geometry::math;
 
 /// Within this two numbers are equal in RS274/NGC (observed: `[3 EQ 3.00009]` is 1, `[3 EQ 3.0001]` is 0), and a number is whole.
@@ -136,6 +136,10 @@ pub(crate) fn unary(operation: Unary, value: f64, positive: &dyn Fn() -> bool) -
         Unary::Tan => degrees::tan(x),
         Unary::FromBcd => from_bcd(x)?,
         Unary::ToBcd => to_bcd(x)?,
+        Unary::Square | Unary::Not | Unary::BitNot | Unary::CutOff | Unary::RoundHalf | Unary::RoundUp => {
+            // what is not documented is not known
+            return checked(if x.is_nan() { x } else { sinumerik::unary(operation, x) });
+        }
         Unary::Check | Unary::AddPoint | Unary::Abs => x,
     };
     checked(if result.is_nan() { without_number(x, x) } else { result })
@@ -181,6 +185,20 @@ pub(crate) fn binary(operation: Binary, left: f64, right: f64, positive: &dyn Fn
         Binary::Subtract => a - b,
         Binary::Atan2 => degrees::from_radians(math::atan2(a, b)),
         Binary::MacroAtan2 => turned(degrees::from_radians(math::atan2(a, b)), positive),
+        Binary::Compared(_)
+        | Binary::WholeDivide
+        | Binary::WholeRemainder
+        | Binary::WholeAnd
+        | Binary::WholeOr
+        | Binary::WholeXor
+        | Binary::Minimum
+        | Binary::Maximum
+        | Binary::Join => {
+            if a.is_nan() || b.is_nan() {
+                return Ok(f64::NAN);
+            }
+            return sinumerik::binary(operation, a, b);
+        }
         _ => return truths(operation, left, right),
     };
     Ok(if result.is_nan() { without_number(a, b) } else { result })

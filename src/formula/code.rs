@@ -39,6 +39,29 @@ pub(crate) enum Unary {
     ToBcd,
     /// Macro B's `ADP`: the value itself; it adds the point to an argument of a macro call.
     AddPoint,
+    /// Sinumerik: POT.
+    Square,
+    /// Sinumerik: NOT of a truth value.
+    Not,
+    /// Sinumerik: B_NOT.
+    BitNot,
+    /// Sinumerik: TRUNC, not known near a whole number.
+    CutOff,
+    /// Sinumerik: ROUND, not known for a negative half.
+    RoundHalf,
+    /// Sinumerik: ROUNDUP, not known below zero.
+    RoundUp,
+}
+
+/// How a Sinumerik compares two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Comparison {
+    Equal,
+    NotEqual,
+    Greater,
+    GreaterOrEqual,
+    Less,
+    LessOrEqual,
 }
 
 /// An operation on two values.
@@ -73,6 +96,19 @@ pub(crate) enum Binary {
     Atan2,
     /// The same, 0 to 360 where the control says so (Macro B).
     MacroAtan2,
+    /// Sinumerik: not known where the numbers are nearly equal.
+    Compared(Comparison),
+    /// Sinumerik: DIV, MOD and bits, known of whole numbers.
+    WholeDivide,
+    WholeRemainder,
+    WholeAnd,
+    WholeOr,
+    WholeXor,
+    /// Sinumerik: MINVAL, MAXVAL.
+    Minimum,
+    Maximum,
+    /// Sinumerik: `<<` joins texts, whose values are not followed.
+    Join,
 }
 
 /// One step of a compiled expression.

@@ -1,4 +1,4 @@
-//! Floor 1: expressions of RS274/NGC and of Fanuc's Macro B: compiled once, evaluated many times.
+//! Floor 0: expressions of RS274/NGC, of Fanuc's Macro B and of Sinumerik: compiled once, evaluated many times.
 //!
 //! Reading never recurses: a hundred thousand nested brackets need memory in proportion, and no stack. Evaluation needs no memory
 //! for formulas that keep at most eight values at once. A value that is not known is NaN and stays so through arithmetic.
@@ -15,6 +15,7 @@ mod eval;
 mod fast;
 mod name;
 mod pool;
+mod sinumerik;
 mod words;
 
 pub use bracketed::{literal_in_brackets, number_in_brackets};
@@ -24,6 +25,7 @@ pub use cursor::{Bytes, Cursor};
 pub use error::{FormulaError, FormulaErrorKind};
 pub use name::Name;
 pub use pool::Pool;
+pub use sinumerik::sinumerik;
 use trunnion_syntax::TextRange;
 
 /// Which language an expression is written in.

@@ -19,6 +19,7 @@ mod effect;
 mod effects;
 mod emit;
 mod fault;
+mod flow;
 mod frames;
 mod iso;
 mod macro_b;
@@ -32,6 +33,7 @@ mod reader;
 mod rs274;
 mod run;
 mod setup;
+mod sinumerik;
 mod system;
 mod tcp;
 mod tools;
@@ -47,12 +49,11 @@ pub use directive::{Directive, directives};
 pub use effect::{Argument, Effect, Placed, Value, same_number};
 pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
 pub use modal::{FeedMode, LengthOf, ModalState};
-pub use motion::{
-    AXIS_LETTERS, AxisLetter, ChainId, Feed, Frame, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt,
-};
+pub use motion::{AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt};
 pub use run::{Interpreter, Sink, run};
 pub use setup::{
     ControlData, Files, ImplicitDecimals, LengthUnit, Library, Limits, Loaded, OuterCorner, RollPitchYaw,
     RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
 };
 pub use written::canonical_text;
+pub use trunnion_flow::{ChainId, Frame};

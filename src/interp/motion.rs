@@ -1,4 +1,5 @@
 //! What is programmed, block by block: machine-free motions.
+use crate::ChainId;
 use trunnion_geometry::{Vec3, arc::Arc};
 use trunnion_syntax::BlockId;
 
@@ -145,28 +146,6 @@ pub enum MotionKind {
     Dwell(Option<f64>),
     /// A motion that is recognised but not modelled: the end is unknown.
     Unknown,
-}
-
-/// The chain of calls and loops that led to a motion; [`ChainId::MAIN`] in the main program outside of any call.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ChainId(pub u32);
-
-impl ChainId {
-    /// The main program, outside of any call.
-    pub const MAIN: Self = Self(0);
-}
-
-/// One call in a chain, outermost first; the last may be the block of another file that contains the motion.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Frame {
-    /// The file with the call or block; empty for the main program.
-    pub file: String,
-    /// Line of the call or block, from 1.
-    pub line: u32,
-    /// What is called, as written: `o100 call [1]`, `M98 P1000`, `G65 P9010`; or the block of the motion.
-    pub what: String,
-    /// Not a call: the block that contains the motion, in a called file.
-    pub is_place: bool,
 }
 
 /// One motion as programmed.

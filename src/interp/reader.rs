@@ -265,6 +265,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
                 };
                 self.words.by_letter.keep(letter, said);
             }
+            Role::NotModelled if self.sinumerik_number(letter, word) => {}
             Role::NotModelled => {
                 self.words.forgets_all = true;
                 self.not_modelled(word.range);
@@ -328,7 +329,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
     }
 
     fn call(&mut self, call: &Call) {
-        if self.macro_statement(call) {
+        if self.macro_statement(call) || self.sinumerik_name(call) {
             return;
         }
         let Some(code) = self.name(call.name) else {

@@ -38,7 +38,7 @@ pub struct Interpreter<'d> {
     /// Codes of the block in hand: kept only for its storage.
     pub(crate) codes: Vec<Found<'d>>,
     pub(crate) apt: crate::apt::AptState,
-    pub(crate) flow: crate::macro_b::Flow,
+    pub(crate) flow: crate::flow::Flow,
     /// The run of a LinuxCNC program, once begun.
     pub(crate) rs274: Option<Box<crate::rs274::Rs274>>,
     /// The calls in which the block in hand runs.
@@ -88,7 +88,7 @@ impl<'d> Interpreter<'d> {
             memory: Memory::default(),
             codes: Vec::new(),
             apt: crate::apt::AptState::default(),
-            flow: crate::macro_b::Flow::default(),
+            flow: crate::flow::Flow::default(),
             rs274: None,
             chain: ChainId::MAIN,
             cycle_motions: 0,
@@ -152,14 +152,14 @@ impl<'d> Interpreter<'d> {
         if self.flow.finished || program.block_count() == 0 {
             return None;
         }
-        if self.flow.deep.is_some() {
+        if self.flow.trail.is_some() {
             return self.advance_deep(program, sink);
         }
         let block = BlockId(self.flow.next);
         self.flow.next += 1;
         self.flow.follows = true;
         self.run_one(program, block, sink);
-        if self.flow.deep.is_some() {
+        if self.flow.deep.is_some() || self.memory.own.pending.is_some() {
             self.first_statement(program, block, sink);
         }
         if self.state.ended || self.flow.next as usize >= program.block_count() {

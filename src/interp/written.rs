@@ -288,8 +288,13 @@ pub(crate) fn named_effects(run: &mut Interpreter<'_>, view: &Block<'_>, block: 
             Address::Named(name) => packed(&view.program().text(name)),
             _ => stem.clone(),
         };
+        // the block has written its variables by now
+        let stored = |name: String| match run.memory.own.held(&name) {
+            Some(value) => Argument::number(name, value),
+            None => argument(name),
+        };
         match named_role(run, view, &word) {
-            Some(Role::Variable) => effects.push(Effect::Store(argument(full))),
+            Some(Role::Variable) => effects.push(Effect::Store(stored(full))),
             Some(Role::Parameter) => {
                 let key = match stem.as_str() {
                     "SPOS" | "SPOSA" | "SPCON" | "SPCOF" | "SVC" => "spindle".to_owned(),
@@ -308,8 +313,8 @@ pub(crate) fn named_effects(run: &mut Interpreter<'_>, view: &Block<'_>, block: 
                 effects.push(Effect::set(full.clone(), [argument(full)]));
             }
             None if stem.starts_with('$') => effects.push(Effect::Event(vec![argument(full)])),
-            None if run.dialect.quirks.user_names && !run.memory.own.is_local(&stem) => {
-                effects.push(Effect::Store(argument(full)));
+            None if run.dialect.quirks.user_names && !run.memory.own.is_declared(&stem) => {
+                effects.push(Effect::Store(stored(full)));
             }
             None => {}
         }
@@ -378,8 +383,13 @@ pub(crate) fn unknown_assignment(run: &Interpreter<'_>, view: &Block<'_>, words:
         Item::Word(word) => match word.address {
             Address::Named(_) | Address::Indexed(..) if run.dialect.quirks.user_names => {
                 let variable = matches!(named_role(run, view, &word), None | Some(Role::Variable));
+                let name = match word.address {
+                    Address::Named(name) => packed(&view.program().text(name)),
+                    _ => stem(view, &word),
+                };
                 variable
                     && !matches!(word.value, Value::Number(_))
+                    && run.memory.own.held(&name).is_none()
                     && value_of(run, &view.program().text(word.value_range)).is_none()
             }
             _ => unknown(&view.program().text(word.range)),

@@ -24,7 +24,14 @@ pub(crate) struct Blocks<'p> {
     pub(crate) style: &'p Style,
 }
 
-/// The token to the left of a token.
+/// Whether blanks stand between two digits.
+fn parts_number(text: &[u8]) -> bool {
+    let digit = |byte: &u8| byte.is_ascii_digit() || *byte == b'.';
+    let blank = |byte: &u8| matches!(byte, b' ' | b'\t');
+    text.windows(2).any(|pair| digit(&pair[0]) && blank(&pair[1])) && text.last().is_some_and(digit)
+}
+
+/// What stands left of a token.
 struct Left {
     kind: TokenKind,
     item: Option<Item>,
@@ -60,7 +67,7 @@ impl Blocks<'_> {
         }
     }
 
-    /// Whether a block is words in one piece and comments alone: with blanks between, there is only one way to read them. The proof of
+    /// Whether a block is words in one piece and comments alone: with blanks between, they cannot be read in another way. The proof of
     /// the whole text looks at them once more.
     fn is_simple(&self, block: &Block<'_>) -> bool {
         use TokenKind::{Blank, Comment, Newline, Word};
@@ -69,7 +76,7 @@ impl Blocks<'_> {
         self.style.spacing == Spacing::One && block.tokens().all(simple)
     }
 
-    /// Whether a block must not be changed: too long, problems, program names after `%`, texts for a printer, bytes without meaning.
+    /// Whether nothing of a block may be touched: too long, problems, program names behind `%`, texts for a printer, bytes without meaning.
     pub(crate) fn stays(&self, block: &Block<'_>) -> bool {
         let table = self.program.tokens();
         let range = block.range();
@@ -89,6 +96,8 @@ impl Blocks<'_> {
             match table.kind(id) {
                 TokenKind::Blank => !is_plain_blank(text),
                 TokenKind::Unknown | TokenKind::UnclosedComment => true,
+                // `GOTOF LBL1 2 GOTOF LBL2` of a CASE: two numbers, where the control does not read over blanks
+                TokenKind::Word | TokenKind::Number => !self.dialect.lex.blanks_in_numbers && parts_number(text),
                 TokenKind::Percent => {
                     percent = true;
                     false
@@ -147,7 +156,7 @@ impl Blocks<'_> {
         }
     }
 
-    /// Whether there is a blank before a token.
+    /// Whether a blank stands before a token.
     fn gap(&self, left: &Left, kind: TokenKind, item: Option<Item>, starts: bool) -> bool {
         if !starts {
             return match (left.kind, kind) {
@@ -162,14 +171,14 @@ impl Blocks<'_> {
             (Some(Item::Other(_) | Item::Percent(_)), _) | (_, Some(Item::Other(_))) => left.gap,
             _ if kind == TokenKind::Comma => left.gap,
             (Some(Item::Word(_)), Some(Item::Word(word))) if self.style.spacing == Spacing::Packed => {
-                // an E after digits reads as an exponent on some controls
+                // an E behind digits reads as an exponent to some
                 !(left.kind == TokenKind::Word && kind == TokenKind::Word && word.address != Address::Letter(b'E'))
             }
             _ => true,
         }
     }
 
-    /// The blanks before a comment that follows words.
+    /// The blanks before a comment behind words.
     fn comment_gap(&self, block: &Block<'_>, comment: TextRange, now: usize, out: &mut Vec<u8>) {
         let wanted = match self.style.comment_column {
             Some(column) => usize::from(column).saturating_sub(1),
@@ -178,7 +187,7 @@ impl Blocks<'_> {
         out.extend(std::iter::repeat_n(b' ', wanted.saturating_sub(now).max(1)));
     }
 
-    /// The column from 0 of a comment that is set apart; 0 for others.
+    /// The column from 0 at which a comment that is set apart stands; 0 for others.
     fn written_column(&self, block: &Block<'_>, comment: TextRange) -> usize {
         let before = self.program.bytes(TextRange::new(block.range().start, comment.start));
         let text = before.trim_ascii_end();
@@ -236,7 +245,7 @@ fn is_number(item: Option<Item>) -> bool {
     matches!(item, Some(Item::Word(word)) if word.address == Address::Letter(b'N'))
 }
 
-/// Whether only a block number or block delete is on the left, so that a comment there is the content of its line.
+/// Whether nothing but a block number or block delete stands on the left, so that a comment there is the content of its line.
 fn numbers_only(item: Option<Item>) -> bool {
     is_number(item) || matches!(item, Some(Item::Skip(..)))
 }

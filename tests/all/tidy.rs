@@ -13,6 +13,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("trunnion-pieces", 1),
     ("trunnion-formula", 1),
     ("trunnion-dialect", 1),
+    ("trunnion-flow", 2),
     ("trunnion-ngc", 2),
     ("trunnion-interp", 3),
     ("trunnion-machine", 4),

@@ -5,6 +5,7 @@
 use crate::run::{Interpreter, Report, Sink};
 use crate::words::{Said, Words};
 use crate::{Fault, FaultKind, ModalState, Motion, MotionKind, Refusal};
+use trunnion_flow::{Key, Search};
 use trunnion_syntax::{BlockId, Item, Program};
 
 const Y: usize = 1;
@@ -154,8 +155,9 @@ impl Interpreter<'_> {
         let here = report.block.0;
         let index = self.sequence_numbers(program);
         let section = index.section(here);
-        let from = index.label(first, here, section);
-        let to = from.and_then(|from| index.label(last, from, section));
+        let label = |number, from| index.label(&Key::Number(number), from, section, Search::ForwardThenStart);
+        let from = label(first, here);
+        let to = from.and_then(|from| label(last, from));
         let missing = match (from, to) {
             (Some(from), Some(to)) if to > from => return Some((from, to)),
             (Some(from), _) if first == last => return Some((from, from)),

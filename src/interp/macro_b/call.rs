@@ -1,269 +1,178 @@
 //! Calls and returns: M97, M98, M198, G65, G66, M99.
-use super::alarms::{Mistake, rejected};
-use super::name::ENDINGS;
-use super::run::Running;
-use super::variables::Locals;
-use super::{Call, Called, Calling, Deep, FlowCode, Place, ProgramName};
+use super::alarms::{Mistake, is_fanuc, rejected};
+use super::variables::{Locals, Variables};
+use super::{Deep, FlowCode};
+use crate::flow::{Back, Calling, Level as Kept, Running};
 use crate::run::{Interpreter, Sink};
-use crate::{FaultKind, Frame, Refusal};
-use std::sync::Arc;
+use crate::{Fault, FaultKind, Refusal};
 use trunnion_dialect::{Action, Dialect};
-use trunnion_syntax::{Address, BlockId, Program, TextRange, Value, Word, parse};
+use trunnion_flow::{Key, Search};
+use trunnion_syntax::{Address, BlockId, Program, TextRange, Value, Word};
 
 /// Macro calls inside macro calls on a Fanuc 30i (trade knowledge; four on a 16i: B-63684EN/01, p. 278).
 const MACRO_LEVELS: usize = 5;
 /// Calls by M98 inside each other on a Fanuc 30i (trade knowledge).
 const CALL_LEVELS: usize = 10;
 
-/// Where a called program was found: file and block; else the folders that were searched.
-type Found = Result<(u16, u32), Vec<String>>;
+/// What a call of Macro B hands over.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct With {
+    pub(crate) code: FlowCode,
+    pub(crate) arguments: Option<Box<Locals>>,
+    /// The modal call that this is.
+    pub(crate) modal: Option<usize>,
+}
+
+/// What is kept of a call.
+#[derive(Clone, Debug)]
+pub(crate) struct Level {
+    modal_active: usize,
+    /// A macro call: the caller's variables, and the arguments, for each time anew.
+    macro_level: Option<Box<(Locals, Locals)>>,
+    /// The modal call that this is.
+    modal: Option<usize>,
+}
+
+impl Level {
+    /// The called program begins anew.
+    pub(crate) fn again(&self, variables: &mut Variables) {
+        if let Some(level) = &self.macro_level {
+            variables.locals = level.1;
+        }
+    }
+}
 
 impl Interpreter<'_> {
-    /// Begins a call.
-    pub(crate) fn enter(&mut self, calling: Calling, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
-        if calling.times == 0 {
-            return;
+    /// Where the program of a call stands; `None`: M97 to a sequence number that is not there.
+    pub(crate) fn find_macro(
+        &mut self,
+        calling: &Calling,
+        with: &With,
+        running: &Running<'_>,
+        from: u32,
+    ) -> Option<Result<(u16, u32), Vec<String>>> {
+        if with.code == FlowCode::CallLocal && matches!(calling.program, Key::Number(_)) {
+            let file = self.flow.file();
+            let index = self.sequence_numbers(running.program());
+            let block = index.label(&calling.program, from, index.section(from), Search::ForwardThenStart)?;
+            return Some(Ok((file, block)));
         }
-        let found = match (calling.code, &calling.program) {
-            (FlowCode::CallLocal, &ProgramName::Number(number)) => match self.local(number, running, from) {
-                Some(place) => Ok(place),
-                None => return self.no_label(number, calling.range, running, from, sink),
-            },
-            (code, program) => self.find(program, running, code == FlowCode::CallExternal),
-        };
-        let place = match found {
-            Ok(place) => place,
-            Err(searched) => {
-                let name = calling.program.to_string();
-                let kind = FaultKind::MissingSubprogram {
-                    name,
-                    searched,
-                    alarm: None,
-                    caller: None,
-                };
-                self.tell_of_flow(running, from, (calling.range, kind), sink);
-                return self.call_is_not_followed();
-            }
-        };
-        if let Some(message) = self.too_deep(&calling) {
-            let kind = rejected(self.dialect, Mistake::Nesting, Refusal::Subprogram, message);
-            self.tell_of_flow(running, from, (calling.range, kind), sink);
-            return self.stop();
-        }
-        self.push_call(calling, place, running, from);
+        Some(self.find(&calling.program, running, with.code == FlowCode::CallExternal))
     }
 
-    /// What a program does that is not there is not known.
-    pub(crate) fn call_is_not_followed(&mut self) {
-        self.forget_everything();
-        if let Some(deep) = &mut self.flow.deep {
-            deep.variables.lose();
-        }
-    }
-
-    fn push_call(&mut self, calling: Calling, (file, block): (u16, u32), running: &Running<'_>, from: u32) {
-        let back = self.flow.next;
-        let Some(deep) = &mut self.flow.deep else { return };
+    /// Puts the arguments of a call in place of the caller's variables.
+    pub(crate) fn enter_macro(&mut self, with: With) -> Level {
+        let deep = self.flow.deep.get_or_insert_default();
         deep.variables.changes += 1;
-        let caller = deep.place;
-        let program = running.program();
-        let frame = || Frame {
-            file: running.called.map_or_else(String::new, |called| called.path.clone()),
-            line: from + 1,
-            what: program.text(program.block(BlockId(from)).range()).trim().to_owned(),
-            is_place: false,
-        };
-        let chain = Arc::make_mut(&mut deep.chains).enter(self.chain, caller.file, from, frame);
-        let macro_level = calling.arguments.map(|arguments| {
+        let macro_level = with.arguments.map(|arguments| {
             let own = std::mem::replace(&mut deep.variables.locals, *arguments);
             Box::new((own, *arguments))
         });
-        deep.calls.push(Call {
-            back,
-            place: caller,
-            chain: self.chain,
-            start: block,
-            times: calling.times - 1,
-            modal_active: deep.modal_active,
-            macro_level,
-            modal: calling.modal,
-        });
-        if let Some(place) = calling.modal {
+        let modal_active = deep.modal_active;
+        if let Some(place) = with.modal {
             deep.modal_active = place;
         }
-        self.chain = chain;
-        if caller.file == 0 {
-            deep.ran.jump(back, block);
+        Level {
+            modal_active,
+            macro_level,
+            modal: with.modal,
         }
-        deep.ran.from = block;
-        let section = match &deep.indexes.get(usize::from(file)) {
-            Some(Some(index)) => Some(index.section(block)),
-            _ => None,
-        };
-        let main = match caller.file {
-            0 => (BlockId(from), running.main.block(BlockId(from)).range()),
-            _ => (caller.main, caller.main_range),
-        };
-        deep.place = Place {
-            file,
-            section,
-            main: main.0,
-            main_range: main.1,
-        };
-        self.flow.next = block;
-        self.flow.called_at = (file != 0).then_some(main.0);
     }
 
     /// Why a further call is one too many.
-    fn too_deep(&self, calling: &Calling) -> Option<String> {
-        let calls = &self.flow.deep.as_ref()?.calls;
-        let macros = calls.iter().filter(|call| call.macro_level.is_some()).count();
-        let (depth, limit, what) = if !super::alarms::is_fanuc(self.dialect) {
-            (calls.len(), self.setup.limits.depth as usize, "calls")
-        } else if calling.arguments.is_some() {
-            (macros, MACRO_LEVELS, "macro calls")
+    pub(crate) fn too_deep(&self, calling: &Calling) -> Option<FaultKind> {
+        let trail = self.flow.trail.as_ref()?;
+        let levels = trail.course.programs().count();
+        let of_macro = |level: &&Kept| matches!(level, Kept::MacroB(level) if level.macro_level.is_some());
+        let is_macro = match &calling.with {
+            crate::flow::With::MacroB(with) => with.arguments.is_some(),
+            crate::flow::With::Sinumerik(_) => false,
+        };
+        let (depth, limit, what) = if self.dialect.quirks.user_names {
+            return crate::sinumerik::too_deep(levels, self.setup.limits.depth as usize);
+        } else if !is_fanuc(self.dialect) {
+            (levels, self.setup.limits.depth as usize, "calls")
         } else {
-            (calls.len() - macros, CALL_LEVELS, "subprogram calls")
+            let macros = trail.course.programs().filter(of_macro).count();
+            if is_macro {
+                (macros, MACRO_LEVELS, "macro calls")
+            } else {
+                (levels - macros, CALL_LEVELS, "subprogram calls")
+            }
         };
-        (depth >= limit).then(|| format!("{what} are nested deeper than {limit} levels: does a program call itself?"))
+        let message = format!("{what} are nested deeper than {limit} levels: does a program call itself?");
+        (depth >= limit).then(|| rejected(self.dialect, Mistake::Nesting, Refusal::Subprogram, message))
     }
 
-    /// M97: a sequence number of the program that runs.
-    fn local(&mut self, number: u32, running: &Running<'_>, from: u32) -> Option<(u16, u32)> {
-        let deep = self.flow.deep.as_mut()?;
-        let file = deep.place.file;
-        let index = deep.index(file, running.program());
-        index
-            .label(number, from, index.section(from))
-            .map(|block| (file, block))
-    }
-
-    /// A program by its number or name: in the file that runs, in the main program's, in others that were called, in the library.
-    fn find(&mut self, name: &ProgramName, running: &Running<'_>, only_library: bool) -> Found {
-        let Some(deep) = &mut self.flow.deep else {
-            return Err(Vec::new());
-        };
-        if !only_library {
-            let own = deep.place.file;
-            if let Some(block) = deep.index(own, running.program()).program(name) {
-                return Ok((own, block));
-            }
-            if let Some(block) = deep.index(0, running.main).program(name) {
-                return Ok((0, block));
-            }
-        }
-        if let Some(place) = deep.files.iter().position(|called| called.name == *name) {
-            let file = place as u16 + 1;
-            return Ok((file, deep.first_block(file, name)));
-        }
-        let Some(library) = &self.setup.library.0 else {
-            return Err(Vec::new());
-        };
-        let mut searched = Vec::new();
-        for file in name.files() {
-            for ending in ENDINGS {
-                match library.load(&format!("{file}{ending}")) {
-                    Ok(loaded) => {
-                        if deep.files.len() >= usize::from(u16::MAX) - 1 {
-                            return Err(searched);
-                        }
-                        let program = parse(loaded.bytes.to_vec(), self.dialect.lex);
-                        deep.files.push(Arc::new(Called {
-                            name: name.clone(),
-                            path: loaded.path,
-                            program,
-                        }));
-                        let file = deep.files.len() as u16;
-                        return Ok((file, deep.first_block(file, name)));
-                    }
-                    Err(folders) => searched = folders,
-                }
-            }
-        }
-        Err(searched)
-    }
-
-    /// M99.
-    pub(crate) fn leave(
+    /// M99 has left a call: the caller's variables are back, and the run goes on at a sequence number if M99 names one.
+    pub(crate) fn leave_macro(
         &mut self,
-        label: Option<u32>,
-        range: TextRange,
+        level: &Level,
+        back: Back,
         running: &Running<'_>,
-        from: u32,
+        file: u16,
         sink: &mut impl Sink,
     ) {
-        let Some(deep) = &mut self.flow.deep else { return };
-        let Some(call) = deep.calls.last_mut() else {
-            return self.leave_main(label, range, running, from, sink);
-        };
-        if call.times > 0 && label.is_none() {
-            call.times -= 1;
+        if let Some(deep) = &mut self.flow.deep {
+            deep.end_level(level);
             deep.variables.changes += 1;
-            let start = call.start;
-            if let Some(level) = &call.macro_level {
-                deep.variables.locals = level.1;
-            }
-            return self.jump_back(start);
+            deep.modal_active = level.modal_active;
         }
-        let Some(call) = deep.calls.pop() else { return };
-        if deep.place.file == 0 {
-            deep.ran.jump(self.flow.next, call.back);
-        }
-        if call.place.file == 0 {
-            deep.ran.from = call.back;
-        }
-        deep.end_level(&call);
-        deep.variables.changes += 1;
-        deep.place = call.place;
-        deep.modal_active = call.modal_active;
-        self.chain = call.chain;
-        self.flow.next = call.back;
-        self.flow.called_at = (call.place.file != 0).then_some(call.place.main);
-        let Some(number) = label else { return };
-        let Some(deep) = &mut self.flow.deep else { return };
-        let called = Self::called(deep, call.place.file);
+        let Some(label) = back.label else { return };
+        let called = self.flow.trail.as_ref().and_then(|trail| trail.library.file(file));
         let caller = Running {
             main: running.main,
             called: called.as_deref(),
         };
-        let index = deep.index(call.place.file, caller.program());
-        let at = call.back.saturating_sub(1);
+        let index = self.sequence_numbers(caller.program());
+        let at = self.flow.next.saturating_sub(1);
         // from the start of the calling program
-        match index.label(number, u32::MAX, index.section(at)) {
+        match index.label(&label, u32::MAX, index.section(at), Search::FromStart) {
             Some(to) if to <= at => self.jump_back(to),
             Some(to) => self.jump(to),
             None => {
                 let range = caller.program().block(BlockId(at)).range();
-                self.no_label(number, range, &caller, at, sink);
+                self.no_label(&label, Search::FromStart, range, &caller, at, sink);
             }
         }
     }
 
     /// M99 of the main program begins it anew for ever: one pass is run. M99 P jumps; forward, that is followed.
-    fn leave_main(
-        &mut self,
-        label: Option<u32>,
-        range: TextRange,
-        running: &Running<'_>,
-        from: u32,
-        sink: &mut impl Sink,
-    ) {
-        let target = label.and_then(|number| {
-            let deep = self.flow.deep.as_mut()?;
-            let index = deep.index(0, running.main);
-            Some((number, index.label(number, u32::MAX, index.section(from))))
+    pub(crate) fn leave_main(&mut self, back: Back, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
+        let target = back.label.map(|label| {
+            let index = self.sequence_numbers(running.main);
+            let block = index.label(&label, u32::MAX, index.section(from), Search::FromStart);
+            (label, block)
         });
         match target {
-            Some((number, None)) => self.no_label(number, range, running, from, sink),
+            Some((label, None)) => self.no_label(&label, Search::FromStart, back.range, running, from, sink),
             Some((_, Some(to))) if to > from => self.jump(to),
             _ => {
                 if !has_end(running.main, self.dialect) {
                     let what = "M99 of the main program, which begins it anew: one pass is run".to_owned();
-                    self.tell_of_flow(running, from, (range, FaultKind::NotModelled { what }), sink);
+                    self.tell_of_flow(running, from, (back.range, FaultKind::NotModelled { what }), sink);
                 }
                 self.stop();
             }
         }
+    }
+
+    /// The text of a called program is at its end, without M30 or M99.
+    pub(crate) fn macro_runs_out(&mut self, main: &Program, sink: &mut impl Sink) {
+        let Some(place) = self.flow.trail.as_ref().map(|trail| trail.course.place()) else {
+            return;
+        };
+        let (block, range): (BlockId, TextRange) = match place.file {
+            0 => {
+                let last = place.section.map_or(0, |section| section.1.saturating_sub(1));
+                (BlockId(last), main.block(BlockId(last)).range())
+            }
+            _ => (place.main, place.main_range),
+        };
+        let message = "the program that is called ends without M99".to_owned();
+        let kind: FaultKind = rejected(self.dialect, Mistake::EndOfRecord, Refusal::ProgramEnd, message);
+        sink.fault(Fault { block, range, kind });
+        self.stop();
     }
 }
 
@@ -283,28 +192,11 @@ fn has_end(program: &Program, dialect: &Dialect) -> bool {
 }
 
 impl Deep {
-    /// The block where a program of another file begins: at its number, else behind the `%` at its start.
-    fn first_block(&mut self, file: u16, name: &ProgramName) -> u32 {
-        let Some(called) = self.files.get(usize::from(file) - 1).map(Arc::clone) else {
-            return 0;
-        };
-        let at_number = self.index(file, &called.program).program(name);
-        at_number.unwrap_or_else(|| {
-            let first = called.program.blocks().next();
-            let percent = first.is_some_and(|block| {
-                let text = called.program.bytes(block.range());
-                text.trim_ascii_start().first() == Some(&b'%')
-            });
-            u32::from(percent)
-        })
-    }
-
     /// Puts the variables of the caller back. Those of a modal call stay for its next time.
-    fn end_level(&mut self, call: &Call) {
-        let Some(level) = &call.macro_level else { return };
-        let (own, _): &(Locals, Locals) = level;
-        let used = std::mem::replace(&mut self.variables.locals, *own);
-        if let Some(modal) = call.modal.and_then(|place| self.modal.get_mut(place)) {
+    fn end_level(&mut self, level: &Level) {
+        let Some(kept) = &level.macro_level else { return };
+        let used = std::mem::replace(&mut self.variables.locals, kept.0);
+        if let Some(modal) = level.modal.and_then(|place| self.modal.get_mut(place)) {
             *modal.arguments = used;
         }
     }

@@ -2,6 +2,7 @@
 use super::Deep;
 use super::alarms::rejected;
 use super::read::{Macros, Mode};
+use crate::flow::{Trail, index_of};
 use crate::reader::Reader;
 use crate::run::{Interpreter, Sink};
 use crate::words::Words;
@@ -16,30 +17,33 @@ impl Interpreter<'_> {
             return;
         }
         self.finish(program, sink);
-        if !self.dialect.quirks.macro_b || program.options().format != Format::Iso {
+        let reads = self.dialect.quirks.macro_b || self.dialect.quirks.user_names && self.flow.trail.is_some();
+        if !reads || program.options().format != Format::Iso {
             return;
         }
         let next = self.flow.next;
-        let mut deep = self.flow.deep.take();
-        if let Some(deep) = &mut deep {
-            if deep.place.file == 0 {
-                deep.ran.jump(next, next);
-            }
-            self.broken_loops(program, deep, sink);
+        let mut trail = self.flow.trail.take();
+        if let Some(trail) = &mut trail {
+            trail.course.stop(next);
+            self.broken_loops(program, trail, sink);
         }
         let blocks = program.block_count() as u32;
-        let from = if deep.is_some() { 0 } else { next };
+        let from = if trail.is_some() { 0 } else { next };
         if !ends_text(program, next.wrapping_sub(1)) {
-            let ran = |block: u32| deep.as_ref().is_some_and(|deep| deep.ran.has(block));
+            let ran = |block: u32| trail.as_ref().is_some_and(|trail| trail.course.has_run(block));
             let rest = (from..blocks).filter(|&block| !ran(block));
             self.read_only(program, rest, sink);
         }
-        self.flow.deep = deep;
+        self.flow.trail = trail;
     }
 
     /// What is wrong with DO and END.
-    fn broken_loops(&self, program: &Program, deep: &mut Deep, sink: &mut impl Sink) {
-        for broken in &deep.index(0, program).broken {
+    fn broken_loops(&self, program: &Program, trail: &mut Trail, sink: &mut impl Sink) {
+        if self.dialect.quirks.user_names {
+            // structures are looked for while a program runs: what is not reached is no mistake
+            return;
+        }
+        for broken in &trail.index(0, || index_of(self.dialect, program)).broken {
             let kind = rejected(self.dialect, broken.mistake, Refusal::Structure, broken.message.clone());
             sink.fault(Fault {
                 block: BlockId(broken.block),
@@ -72,8 +76,9 @@ impl Interpreter<'_> {
                 codes: &mut codes,
                 delete: None,
                 clamps: (&mut Clamps::default(), &self.setup.control.clamp_codes),
-                macros: Some(Macros {
+                macros: self.dialect.quirks.macro_b.then_some(Macros {
                     mode: Mode::Text,
+                    file: 0,
                     deep: &mut deep,
                     state: &self.state,
                     setup: &self.setup,

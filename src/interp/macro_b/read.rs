@@ -3,13 +3,15 @@ use super::alarms::{Mistake, is_fanuc, rejected};
 use super::evaluate::{Assigned, Compiled, Form, Trouble, View, assigned, evaluate, only_read};
 use super::system::{Known, is_followed};
 use super::variables::{Class, Held, Variables, class};
-use super::{Deep, FlowCode, Pending};
+use super::{Deep, FlowCode};
+use crate::flow::{Label, Transfer};
 use crate::frames::Frames;
 use crate::reader::{LARGEST, Reader};
 use crate::words::{Number, Said};
 use crate::{FaultKind, ModalState, Refusal, Setup};
 use std::cell::Cell;
 use trunnion_dialect::{Action, Code, CodeKind, Dialect};
+use trunnion_flow::Search;
 use trunnion_syntax::{Address, Call, Program, TextRange, Value, Word};
 
 /// How far macro statements are followed.
@@ -27,6 +29,8 @@ pub(crate) enum Mode {
 pub(crate) struct Macros<'a> {
     pub(crate) mode: Mode,
     pub(crate) deep: &'a mut Option<Box<Deep>>,
+    /// The file that runs.
+    pub(crate) file: u16,
     pub(crate) state: &'a ModalState,
     pub(crate) setup: &'a Setup,
     pub(crate) frames: &'a Frames,
@@ -87,12 +91,9 @@ impl Macros<'_> {
 
     /// What formulas read from.
     fn view<'v>(&'v mut self, dialect: &Dialect) -> (View<'v>, &'v mut Compiled, u16) {
-        let (state, setup, frames) = (self.state, self.setup, self.frames);
+        let (state, setup, frames, file) = (self.state, self.setup, self.frames, self.file);
         let Deep {
-            variables,
-            compiled,
-            place,
-            ..
+            variables, compiled, ..
         } = self.deep();
         let view = View {
             variables,
@@ -106,7 +107,7 @@ impl Macros<'_> {
             unknown_name: Cell::new(false),
             asked_control: Cell::new(false),
         };
-        (view, compiled, place.file)
+        (view, compiled, file)
     }
 
     /// The value of an expression, and why it is not known where it is NaN.
@@ -224,10 +225,10 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 if holds.is_none() {
                     self.words.declares = true;
                 }
-                self.pend(Pending::Do(holds == Some(true)));
+                self.pend(Transfer::Open(holds == Some(true)));
             }
             Statement::Do => self.loop_start(),
-            Statement::End => self.pend(Pending::End),
+            Statement::End => self.pend(Transfer::Close),
             Statement::Goto => self.goto(call),
         }
         true
@@ -256,12 +257,12 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     }
 
     /// Keeps what is to be done when the block has run; a run that cannot go on stays so.
-    fn pend(&mut self, pending: Pending) {
+    fn pend(&mut self, pending: Transfer) {
         if let Some(macros) = &mut self.macros
             && macros.mode == Mode::Follow
         {
             let deep = macros.deep();
-            if !matches!(deep.pending, Some(Pending::Stop)) {
+            if !matches!(deep.pending, Some(Transfer::End)) {
                 deep.pending = Some(pending);
             }
         }
@@ -271,10 +272,10 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     fn loop_start(&mut self) {
         let waits = self.macros.as_mut().is_some_and(|macros| {
             let pending = &macros.deep().pending;
-            matches!(pending, Some(Pending::Do(_) | Pending::Stop))
+            matches!(pending, Some(Transfer::Open(_) | Transfer::End))
         });
         if !waits {
-            self.pend(Pending::Do(true));
+            self.pend(Transfer::Open(true));
         }
     }
 
@@ -290,7 +291,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             Ok((_, Some(what))) => (self.report)(range, FaultKind::NotDecided { what }),
             Err((range, kind)) => (self.report)(range, kind),
         }
-        self.pend(Pending::Stop);
+        self.pend(Transfer::End);
         None
     }
 
@@ -304,7 +305,8 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             Err(trouble) => Some(trouble),
             Ok((held, None)) => {
                 if let Some(number) = held.and_then(sequence_number) {
-                    return self.pend(Pending::Goto(number, range));
+                    let label = Label::number(number, range);
+                    return self.pend(Transfer::Jump(label, Search::ForwardThenStart));
                 }
                 let message = format!("`{}` is no sequence number", self.program.text(range).trim());
                 let kind = rejected(self.dialect, Mistake::SequenceNumber, Refusal::Label, message);
@@ -313,7 +315,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         };
         if let Some((range, kind)) = wrong {
             (self.report)(range, kind);
-            self.pend(Pending::Stop);
+            self.pend(Transfer::End);
         }
     }
 
@@ -385,7 +387,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let parts = [number, text];
         let message = parts.into_iter().flatten().collect::<Vec<_>>().join(" ");
         (self.report)(block.range(), FaultKind::ProgramAlarm { message });
-        self.pend(Pending::Stop);
+        self.pend(Transfer::End);
         self.words.declares = true;
     }
 }

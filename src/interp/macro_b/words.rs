@@ -1,15 +1,18 @@
 //! What a block with macro statements or calls asks for, once all its words are read.
 use super::alarms::{Mistake, is_fanuc, rejected};
 use super::arguments;
+use super::name::bracketed;
 use super::read::{Macros, Mode};
 use super::variables::Held;
-use super::{Calling, Deep, FlowCode, Modal, Pending, ProgramName};
+use super::{Deep, FlowCode, Modal, With};
 use crate::codes::Found;
+use crate::flow::{Back, Calling, Transfer, With as Handed};
 use crate::reader::Reader;
 use crate::run::{Interpreter, Report};
 use crate::words::{Said, Words};
 use crate::{FaultKind, Refusal};
 use trunnion_dialect::{Action, Dialect};
+use trunnion_flow::Key;
 use trunnion_syntax::{Block, Item, TextRange};
 
 impl<'d> Interpreter<'d> {
@@ -21,11 +24,16 @@ impl<'d> Interpreter<'d> {
         words: &mut Words,
         report: &mut Report<'_>,
     ) {
+        if self.dialect.quirks.user_names {
+            self.sinumerik_begins();
+        }
         let mode = if self.flow.follows { Mode::Follow } else { Mode::Step };
         let mut clamps = self.state.clamps;
         clamps.begin_block();
+        let file = self.flow.file();
         let macros = Macros {
             mode,
+            file,
             deep: &mut self.flow.deep,
             state: &self.state,
             setup: &self.setup,
@@ -48,7 +56,9 @@ impl<'d> Interpreter<'d> {
         }
         for item in block.items() {
             // who jumps there may bring other values
-            if let (Item::Label(_), Some(own)) = (&item, &mut reader.own) {
+            if let (Item::Label(_), Some(own)) = (&item, &mut reader.own)
+                && !own.follows
+            {
                 own.lose();
             }
             reader.take(item);
@@ -63,6 +73,9 @@ impl<'d> Interpreter<'d> {
         let calls = |found: &Found<'_>| found.code.action == Action::SubprogramCall;
         if words.forgets_all || self.dialect.quirks.user_names && codes.iter().any(calls) {
             self.memory.own.lose();
+        }
+        if self.dialect.quirks.user_names {
+            self.sinumerik_words(block, codes, words, report);
         }
         if words.flow || words.program_number.is_some() {
             self.flow_words(block, codes, words, report);
@@ -108,11 +121,12 @@ impl<'d> Interpreter<'d> {
 
     /// Whether the O word of a block begins a program behind the one that runs.
     fn begins_another(&self, block: &Block<'_>) -> bool {
-        let inside = self.flow.deep.as_ref().is_some_and(|deep| {
-            let starts = deep.place.section.is_some_and(|section| section.0 == block.id().0);
+        let inside = self.flow.trail.as_ref().is_some_and(|trail| {
+            let section = trail.course.place().section;
+            let starts = section.is_some_and(|section| section.0 == block.id().0);
             // a jump has led back to the start of the program that runs
-            let again = deep.ran.has(block.id().0);
-            starts || again || !deep.calls.is_empty()
+            let again = trail.course.has_run(block.id().0);
+            starts || again || trail.course.is_called()
         });
         !inside && self.memory.last_content.is_some()
     }
@@ -143,9 +157,9 @@ impl<'d> Interpreter<'d> {
             FlowCode::Return => {
                 let label = match words.p {
                     Said::Nothing => None,
-                    p => p.index(),
+                    p => p.index().map(Key::Number),
                 };
-                deep.pending = Some(Pending::Return(label, range));
+                deep.pending = Some(Transfer::Return(Back { label, range }));
                 return;
             }
             FlowCode::Macro | FlowCode::Modal => {
@@ -154,6 +168,7 @@ impl<'d> Interpreter<'d> {
                 let mut slot = Some(std::mem::take(deep));
                 let mut macros = Macros {
                     mode: Mode::Follow,
+                    file: self.flow.file(),
                     deep: &mut slot,
                     state: &self.state,
                     setup: &self.setup,
@@ -164,7 +179,7 @@ impl<'d> Interpreter<'d> {
                 *deep = slot.unwrap_or_default();
                 if let Some((range, what)) = call.unknown {
                     report.fault(range, FaultKind::NotDecided { what });
-                    deep.pending = Some(Pending::Stop);
+                    deep.pending = Some(Transfer::End);
                     return;
                 }
                 (call.program.flatten(), call.times, Some(call.arguments))
@@ -174,7 +189,7 @@ impl<'d> Interpreter<'d> {
                 if matches!(words.p, Said::Unread) || matches!(l, Said::Unread) {
                     let what = "the numbers of the call".to_owned();
                     report.fault(range, FaultKind::NotDecided { what });
-                    deep.pending = Some(Pending::Stop);
+                    deep.pending = Some(Transfer::End);
                     return;
                 }
                 let times = l.is_said().then(|| l.number().map(|number| number.value));
@@ -182,7 +197,7 @@ impl<'d> Interpreter<'d> {
             }
         };
         let name = words.program_name.take();
-        let name = name.and_then(|range| ProgramName::bracketed(report.program.bytes(range)));
+        let name = name.and_then(|range| bracketed(report.program.bytes(range)));
         let place = report.program.block(report.block).range();
         let place = TextRange::new(range.start, place.end);
         match target(self.dialect, code, (name, program), times) {
@@ -196,19 +211,21 @@ impl<'d> Interpreter<'d> {
                     });
                     deep.modal_active = deep.modal.len();
                 } else {
-                    deep.pending = Some(Pending::Call(Calling {
-                        code,
+                    deep.pending = Some(Transfer::Call(Calling {
                         program,
                         times,
-                        arguments,
                         range,
-                        modal: None,
+                        with: Handed::MacroB(With {
+                            code,
+                            arguments,
+                            modal: None,
+                        }),
                     }));
                 }
             }
             Err(kind) => {
                 report.fault(range, kind);
-                deep.pending = Some(Pending::Stop);
+                deep.pending = Some(Transfer::End);
             }
         }
     }
@@ -227,9 +244,9 @@ fn call_range(report: &Report<'_>, code: TextRange, block: TextRange) -> TextRan
 fn target(
     dialect: &Dialect,
     code: FlowCode,
-    (name, number): (Option<ProgramName>, Held),
+    (name, number): (Option<Key>, Held),
     times: Option<Held>,
-) -> Result<(ProgramName, u32), FaultKind> {
+) -> Result<(Key, u32), FaultKind> {
     let whole = |value: f64| {
         if value.is_nan() {
             let what = "the numbers of the call".to_owned();
@@ -257,7 +274,7 @@ fn target(
         None if folded => (number % 10_000, number / 10_000),
         None => (number, 1),
     };
-    Ok((ProgramName::Number(number), repeats))
+    Ok((Key::Number(number), repeats))
 }
 
 /// Whether a block has words of the control, numbers of blocks and programs apart.

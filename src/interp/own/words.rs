@@ -25,11 +25,13 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         }
     }
 
-    /// DEF.
+    /// DEF, EXTERN.
     pub(crate) fn own_declaration(&mut self, code: &Code, range: TextRange) {
         let text = self.text(range);
-        if let (Some(own), "DEF", Some(rest)) = (&mut self.own, code.id.as_str(), text.get(3..)) {
-            own.define(rest);
+        match (&mut self.own, code.id.as_str()) {
+            (Some(own), "DEF") => own.define(text.get(3..).unwrap_or_default()),
+            (Some(own), "EXTERN") => own.declare_subprogram(text.get(6..).unwrap_or_default()),
+            _ => {}
         }
     }
 

@@ -121,12 +121,21 @@ fn variables_are_followed_until_the_flow_is_lost() {
         ["R X-2 Y0.5 Z2.5", "R X2 Y4 Z2.5", "R X5 Y4 Z2.5"]
     );
     assert_eq!(faults("sinumerik-840d", source), [""; 0]);
-    for flow in ["NEXT:", "IF R9>3 GOTOF END", "L20", "SOMETHING(1)", "WHILE R9<3"] {
+    for flow in ["L20", "SOMETHING(1)", "CALL \"PART\"", "EXTCALL \"PART\""] {
         let source = format!("R1=4\nG0 X0 Y0\n{flow}\nX=R1\n");
         let got = faults("sinumerik-840d", &source);
         assert!(
             got.iter().any(|fault| fault.contains(r#"what: "R1""#)),
             "{flow}: {got:?}"
         );
+    }
+    // a label alone changes nothing; what cannot be decided ends the run
+    let label = "R1=4\nG0 X0 Y0\nNEXT:\nX=R1\n";
+    assert_eq!(lines("sinumerik-840d", label), ["R X0 Y0", "R X4 Y0"]);
+    for flow in ["IF R9>3 GOTOF END", "WHILE R9<3"] {
+        let source = format!("R1=4\nG0 X0 Y0\n{flow}\nX=R1\n");
+        let got = faults("sinumerik-840d", &source);
+        assert!(got.len() == 1 && got[0].contains("NotDecided"), "{flow}: {got:?}");
+        assert_eq!(lines("sinumerik-840d", &source), ["R X0 Y0"]);
     }
 }

@@ -29,6 +29,8 @@ mod repeated;
 mod roughing;
 mod roughing_unknown;
 mod silent;
+mod sinumerik_calls;
+mod sinumerik_flow;
 mod steady;
 mod support;
 mod threads;

@@ -375,9 +375,9 @@ fn a_frame_with_rotary_words_hides_rotary_axes_too() {
 }
 
 #[test]
-fn program_flow_of_sinumerik_is_not_followed() {
+fn a_sinumerik_program_ends_for_the_run_where_a_condition_is_not_decided() {
     let source = "G0 X1 Y1\nIF R1>3 GOTOF END\nX2\nEND:\nY3\n";
-    assert_eq!(lines("sinumerik-840d", source), ["R X1 Y1", "R X2", "R X2 Y3"]);
+    assert_eq!(lines("sinumerik-840d", source), ["R X1 Y1"]);
 }
 
 #[test]

@@ -95,6 +95,17 @@ fn macro_b_is_indented_by_its_loops() {
 }
 
 #[test]
+fn numbers_of_a_case_are_not_joined_to_its_labels() {
+    for case in [
+        "CASE R1 OF 1 GOTOF LBL1 2 GOTOF LBL2",
+        "CASE R1 OF 1 GOTOF N10 2 GOTOF N20",
+    ] {
+        let source = format!("R1=2\n  {case}\nLBL1:N10 X1\nLBL2:N20 X2\nM30\n");
+        assert!(laid(&source, "sinumerik-840d").contains(case), "{case}");
+    }
+}
+
+#[test]
 fn sinumerik_names_texts_and_arguments_stay() {
     let before = "%_N_Shaft_MPF\n;$PATH=/_N_MPF_DIR\nn10 g0x=R1+2 y=ic( 5 )\nn20 msg(\"a  b\")\nt=\"Drill_8\"m6\n\
                   n30 cycle83(5, 0 ,1,,\"x  y\")\nif r1>5\nx1\nendif\nif r1>5 gotof Ende\nloop\nx2\nendloop\nEnde:m30\n";

@@ -1,8 +1,8 @@
 //! The sink between a block that runs in a call or a loop and the sink of the run: it tells each fault once, and gives what happens
 //! in another file a place in the main program.
-use super::ran::{Told, is_textual};
-use super::{Called, Place};
+use super::told::{Told, is_textual};
 use crate::{Fault, FaultKind, ModalState, Motion, MotionKind, Sink};
+use trunnion_flow::{Called, Place};
 
 /// See the module.
 pub(crate) struct Through<'s, S> {

@@ -1,9 +1,10 @@
-//! Runs the blocks of a program with macro statements in the control's order.
+//! Runs the blocks of a program with jumps, loops and calls in the control's order.
 use super::through::Through;
-use super::{Called, Pending};
+use super::{Label, Trail, Transfer};
 use crate::run::{Interpreter, Sink};
 use crate::{Fault, FaultKind, Frame};
 use std::sync::Arc;
+use trunnion_flow::{Called, Fuel};
 use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// The program that runs: the main one, or one that it calls from another file.
@@ -19,20 +20,27 @@ impl<'p> Running<'p> {
     }
 }
 
+impl Trail {
+    /// The other file that runs.
+    pub(crate) fn called(&self) -> Option<Arc<Called>> {
+        self.library.file(self.course.place().file)
+    }
+}
+
 impl Interpreter<'_> {
-    /// The next block of a program that has macro statements.
+    /// The next block of a program that has jumps, loops or calls.
     #[cold]
     #[inline(never)]
     pub(crate) fn advance_deep(&mut self, main: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         let next = self.flow.next;
         let limit = self.setup.limits.blocks.saturating_add(main.block_count() as u64);
-        let deep = self.flow.deep.as_mut()?;
-        let place = deep.place;
-        let called = Self::called(deep, place.file);
+        let trail = self.flow.trail.as_mut()?;
+        let place = trail.course.place();
+        let called = trail.called();
         let block = if called.is_none() { BlockId(next) } else { place.main };
-        deep.executed += 1;
-        if deep.executed > limit || deep.endless.is_some() {
-            self.out_of_fuel(main, sink);
+        let fuel = trail.course.count(limit);
+        if fuel != Fuel::Left {
+            self.out_of_fuel(fuel, main, sink);
             return Some(block);
         }
         let running = Running {
@@ -42,23 +50,22 @@ impl Interpreter<'_> {
         self.flow.next = next + 1;
         let content = self.memory.last_content;
         let mut through = Through {
-            told: std::mem::take(&mut deep.told),
-            again: called.is_none() && deep.ran.has(next),
+            told: std::mem::take(&mut trail.told),
+            again: called.is_none() && trail.course.has_run(next),
             place,
             called: running.called,
             moved: false,
             sink,
         };
         let calls = self.chain;
-        if let (Some(called), Some(deep)) = (running.called, &mut self.flow.deep) {
-            let frame = || frame_of(called, next);
-            self.chain = Arc::make_mut(&mut deep.chains).stand(calls, place.file, next, frame);
+        if let Some(called) = running.called {
+            self.chain = trail.course.stand(calls, next, || frame_of(called, next));
         }
         self.step_iso(&running.program().block(BlockId(next)), &mut through);
         self.chain = calls;
         let (told, moved) = (through.told, through.moved);
-        if let Some(deep) = &mut self.flow.deep {
-            deep.told = told;
+        if let Some(trail) = &mut self.flow.trail {
+            trail.told = told;
         }
         if running.called.is_some() {
             self.memory.last_content = content;
@@ -72,32 +79,32 @@ impl Interpreter<'_> {
         Some(block)
     }
 
-    /// Does what the first block with a macro statement asks for.
+    /// Does what the first block with a jump, loop, call or macro statement asks for.
     #[cold]
     pub(crate) fn first_statement(&mut self, main: &Program, block: BlockId, sink: &mut impl Sink) {
+        self.flow.trail();
         let running = Running { main, called: None };
         self.after_block(&running, block.0, false, sink);
     }
 
-    /// The other file that runs.
-    pub(crate) fn called(deep: &super::Deep, file: u16) -> Option<Arc<Called>> {
-        deep.files.get(usize::from(file).checked_sub(1)?).map(Arc::clone)
-    }
-
     /// Does what the block that has run asks for, and ends the run where nothing is left.
     pub(crate) fn after_block(&mut self, running: &Running<'_>, from: u32, moved: bool, sink: &mut impl Sink) {
-        let Some(deep) = &mut self.flow.deep else { return };
-        let pending = deep.pending.take();
+        if self.flow.trail.is_none() {
+            return;
+        }
+        let pending = self.asked_for();
         if self.state.ended {
             return self.end(running.main, sink);
         }
         let pending = pending.or_else(|| {
             let range = || running.program().block(BlockId(from)).range();
-            if moved { deep.modal_call(range) } else { None }
+            let deep = self.flow.deep.as_ref().filter(|_| moved)?;
+            deep.modal_call(range).map(Transfer::Call)
         });
         if let Some(pending) = pending {
             self.transfer(pending, running, from, sink);
         }
+        self.section_ends();
         while !self.flow.finished && !self.state.ended && self.runs_out(running.main) {
             self.ran_out(running.main, sink);
         }
@@ -106,10 +113,22 @@ impl Interpreter<'_> {
         }
     }
 
+    /// What the block in hand asks for, whichever language it is in.
+    fn asked_for(&mut self) -> Option<Transfer> {
+        let deep = self.flow.deep.as_mut().and_then(|deep| deep.pending.take());
+        deep.or_else(|| self.memory.own.pending.take())
+    }
+
+    /// Whatever may make a decision come out otherwise than before has been counted.
+    pub(crate) fn changes(&self) -> u64 {
+        let deep = self.flow.deep.as_ref().map_or(0, |deep| deep.variables.changes);
+        deep + self.memory.own.changes
+    }
+
     /// Whether the text of the program that runs is at its end.
     fn runs_out(&self, main: &Program) -> bool {
-        let Some(deep) = &self.flow.deep else { return false };
-        let end = match (deep.place.section, Self::called(deep, deep.place.file)) {
+        let Some(trail) = &self.flow.trail else { return false };
+        let end = match (trail.course.place().section, trail.called()) {
             (Some(section), _) => section.1,
             (None, Some(called)) => called.program.block_count() as u32,
             (None, None) => main.block_count() as u32,
@@ -132,11 +151,11 @@ impl Interpreter<'_> {
         (range, kind): (TextRange, FaultKind),
         sink: &mut impl Sink,
     ) {
-        let Some(deep) = &mut self.flow.deep else { return };
+        let Some(trail) = &mut self.flow.trail else { return };
         let mut through = Through {
-            told: std::mem::take(&mut deep.told),
+            told: std::mem::take(&mut trail.told),
             again: false,
-            place: deep.place,
+            place: trail.course.place(),
             called: running.called,
             moved: false,
             sink,
@@ -146,32 +165,23 @@ impl Interpreter<'_> {
             range,
             kind,
         });
-        deep.told = through.told;
+        trail.told = through.told;
     }
 
     /// A loop is proved to be endless, or the bounds of the run are reached: then the loop that began anew most often does not end.
-    fn out_of_fuel(&mut self, main: &Program, sink: &mut impl Sink) {
+    fn out_of_fuel(&mut self, fuel: Fuel, main: &Program, sink: &mut impl Sink) {
         self.stop();
-        if let Some(deep) = &self.flow.deep {
-            #[expect(
-                clippy::disallowed_methods,
-                reason = "of loops that began anew equally often the first one wins, whatever the order"
-            )]
-            let most = deep.turns.iter();
-            let most = most.max_by_key(|(place, turns)| (turns.count, std::cmp::Reverse(**place)));
-            let block = match deep.endless.or(most.map(|most| *most.0)) {
+        if let (Some(trail), Fuel::Out { most, proved, blocks }) = (&self.flow.trail, fuel) {
+            let place = trail.course.place();
+            let block = match most {
                 Some((0, block)) => BlockId(block),
-                _ if deep.place.file != 0 => deep.place.main,
+                _ if place.file != 0 => place.main,
                 _ => BlockId(self.flow.next),
             };
-            let blocks = deep.executed - 1;
             sink.fault(Fault {
                 block,
                 range: main.block(block).range(),
-                kind: FaultKind::EndlessLoop {
-                    blocks,
-                    proved: deep.endless.is_some(),
-                },
+                kind: FaultKind::EndlessLoop { blocks, proved },
             });
         }
         self.end(main, sink);
@@ -189,42 +199,14 @@ fn frame_of(called: &Called, block: u32) -> Frame {
     }
 }
 
-impl super::Deep {
-    /// The macro that is called after a motion, if one is.
-    fn modal_call(&self, range: impl FnOnce() -> TextRange) -> Option<Pending> {
-        let place = self.modal_active.checked_sub(1)?;
-        let modal = self.modal.get(place)?;
-        Some(Pending::Call(super::Calling {
-            code: super::FlowCode::Macro,
-            program: modal.program.clone(),
-            times: modal.times,
-            arguments: Some(modal.arguments.clone()),
-            range: range(),
-            modal: Some(place),
-        }))
-    }
-}
-
-impl super::Flow {
-    /// The block of the main program to which a block of the program that runs belongs.
-    #[inline]
-    pub(crate) fn main_block(&self, block: BlockId) -> BlockId {
-        self.called_at.unwrap_or(block)
-    }
-    /// The calls of a chain, outermost first.
-    /// The value of a variable as it is written.
-    pub(crate) fn variable(&self, text: &str) -> Option<f64> {
-        self.deep.as_ref()?.variables.written(text)
-    }
-
-    /// Common variables that keep their values when the program ends.
-    pub(crate) fn outliving(&self) -> Vec<(String, f64)> {
-        self.deep.as_ref().map_or_else(Vec::new, |deep| deep.variables.kept())
-    }
-
-    pub(crate) fn chain(&self, chain: crate::ChainId) -> Vec<crate::Frame> {
-        self.deep
-            .as_ref()
-            .map_or_else(Vec::new, |deep| deep.chains.frames(chain))
+impl Label {
+    /// A sequence number.
+    pub(crate) fn number(number: u32, range: TextRange) -> Self {
+        let key = trunnion_flow::Key::Number(number);
+        Self {
+            key,
+            range,
+            may_miss: false,
+        }
     }
 }

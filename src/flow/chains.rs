@@ -1,10 +1,31 @@
 //! The calls that lead to a motion, kept once each.
-use crate::{ChainId, Frame};
 use std::collections::HashMap;
+
+/// The chain of calls and loops that led to a motion; [`ChainId::MAIN`] in the main program outside of any call.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ChainId(pub u32);
+
+impl ChainId {
+    /// The main program, outside of any call.
+    pub const MAIN: Self = Self(0);
+}
+
+/// One call in a chain, outermost first; the last may be the block of another file in which a motion stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// The file with the call or block; empty for the main program.
+    pub file: String,
+    /// Line of the call or block, from 1.
+    pub line: u32,
+    /// What is called, as written: `o100 call [1]`, `M98 P1000`, `G65 P9010`; or the block of the motion.
+    pub what: String,
+    /// Not a call: the block in which the motion stands, in a file that is called.
+    pub is_place: bool,
+}
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Chains {
+pub struct Chains {
     calls: Vec<(ChainId, Frame)>,
     known: HashMap<(ChainId, u16, u32), ChainId>,
 }
@@ -14,7 +35,7 @@ const KEPT: usize = 1 << 16;
 
 impl Chains {
     /// The chain of a call at `block` of `file`, made in the chain `parent`.
-    pub(crate) fn enter(&mut self, parent: ChainId, file: u16, block: u32, frame: impl FnOnce() -> Frame) -> ChainId {
+    pub fn enter(&mut self, parent: ChainId, file: u16, block: u32, frame: impl FnOnce() -> Frame) -> ChainId {
         let key = (parent, file, block);
         if let Some(known) = self.known.get(&key) {
             return *known;
@@ -29,13 +50,13 @@ impl Chains {
     }
 
     /// The chain of the block `block` of the called file `file`, whose calls are those of `parent`.
-    pub(crate) fn stand(&mut self, parent: ChainId, file: u16, block: u32, frame: impl FnOnce() -> Frame) -> ChainId {
+    pub fn stand(&mut self, parent: ChainId, file: u16, block: u32, frame: impl FnOnce() -> Frame) -> ChainId {
         // no file has that many blocks: the place is no call at the same block
         self.enter(parent, file, block | 1 << 31, frame)
     }
 
     /// Its calls, outermost first.
-    pub(crate) fn frames(&self, chain: ChainId) -> Vec<Frame> {
+    pub fn frames(&self, chain: ChainId) -> Vec<Frame> {
         let mut frames = Vec::new();
         let mut at = chain;
         while let Some((parent, frame)) = (at.0 as usize).checked_sub(1).and_then(|place| self.calls.get(place)) {

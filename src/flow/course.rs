@@ -1,0 +1,400 @@
+//! Where a run is: the calls that led there, the loops it goes round, and the bounds of both.
+use crate::{ChainId, Chains, Frame, Ran};
+use std::collections::HashMap;
+use std::sync::Arc;
+use trunnion_syntax::{BlockId, TextRange};
+
+/// Where the run is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Place {
+    /// 0: the main program's file.
+    pub file: u16,
+    /// Blocks of the program that runs, among those of its file: first, one past the last. Not known before the first jump.
+    pub section: Option<(u32, u32)>,
+    /// The block of the main program's file that runs, or whose call led here.
+    pub main: BlockId,
+    /// Its text.
+    pub main_range: TextRange,
+}
+
+/// What ends a call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// A statement that returns, or the end of the program's text.
+    Return,
+    /// Its last block: a section of the program that runs is repeated.
+    Section {
+        /// The last block.
+        last: u32,
+    },
+}
+
+/// A call that is made. `L`: what the language keeps for the caller.
+#[derive(Clone, Debug)]
+pub struct Going<L> {
+    /// The block that calls.
+    pub from: u32,
+    /// The block that runs after the call.
+    pub back: u32,
+    /// The file that is called.
+    pub file: u16,
+    /// First block of what is called.
+    pub start: u32,
+    /// The blocks of the program in which that stands, if they are known.
+    pub section: Option<(u32, u32)>,
+    /// How often it runs; at least once.
+    pub times: u32,
+    /// What ends it.
+    pub ends: Ends,
+    /// What the language keeps.
+    pub level: L,
+}
+
+/// One call.
+#[derive(Clone, Debug)]
+pub struct Call<L> {
+    /// The block after the call.
+    pub back: u32,
+    /// Where the caller was.
+    pub place: Place,
+    /// The calls in which the caller runs.
+    pub chain: ChainId,
+    /// What the language keeps.
+    pub level: L,
+    start: u32,
+    times: u32,
+    ends: Ends,
+}
+
+/// Turns of a loop.
+#[derive(Clone, Copy, Debug, Default)]
+struct Turns {
+    count: u64,
+    /// What the language counted as changes when the last one began.
+    changes: u64,
+}
+
+/// Whether a run may go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fuel {
+    /// It may.
+    Left,
+    /// A loop goes on for ever, or the bound of executed blocks is reached.
+    Out {
+        /// The loop that is proved endless, or began anew most often: file, opening block.
+        most: Option<(u16, u32)>,
+        /// It is proved.
+        proved: bool,
+        /// Blocks that were executed.
+        blocks: u64,
+    },
+}
+
+/// Loops that are counted; others are named by the block that ran last.
+const LOOPS: usize = 1 << 16;
+
+/// See the module. The language hands over, as `changes`, a number that grows with whatever may make a decision come out otherwise
+/// than before (assignments, values of the control): a loop that begins anew without any change never ends.
+#[derive(Clone, Debug)]
+pub struct Course<L> {
+    calls: Vec<Call<L>>,
+    place: Place,
+    ran: Ran,
+    chains: Arc<Chains>,
+    executed: u64,
+    /// The opening block to which the end of a loop has just gone back.
+    again: Option<u32>,
+    /// How often each loop, by file and opening block, began anew since it was entered.
+    turns: HashMap<(u16, u32), Turns>,
+    endless: Option<(u16, u32)>,
+}
+
+impl<L> Default for Course<L> {
+    fn default() -> Self {
+        Self {
+            calls: Vec::new(),
+            place: Place::default(),
+            ran: Ran::default(),
+            chains: Arc::default(),
+            executed: 0,
+            again: None,
+            turns: HashMap::new(),
+            endless: None,
+        }
+    }
+}
+
+impl<L> Course<L> {
+    /// Where the run is.
+    pub fn place(&self) -> Place {
+        self.place
+    }
+
+    /// The blocks of the program that runs, found once by `section`.
+    pub fn section(&mut self, section: impl FnOnce() -> (u32, u32)) -> (u32, u32) {
+        *self.place.section.get_or_insert_with(section)
+    }
+
+    /// Whether a program that another one calls runs.
+    pub fn is_called(&self) -> bool {
+        self.programs().next().is_some()
+    }
+
+    /// What the language keeps of the calls of programs, outermost first.
+    pub fn programs(&self) -> impl Iterator<Item = &L> {
+        let of_program = |call: &&Call<L>| call.ends == Ends::Return;
+        self.calls.iter().filter(of_program).map(|call| &call.level)
+    }
+
+    /// How many calls and repeated sections are open.
+    pub fn depth(&self) -> usize {
+        self.calls.len()
+    }
+
+    /// Whether a block of the main program's file ran before the stretch that runs now.
+    pub fn has_run(&self, block: u32) -> bool {
+        self.ran.has(block)
+    }
+
+    /// The blocks up to `end` (not included) have run; nothing follows.
+    pub fn stop(&mut self, end: u32) {
+        if self.place.file == 0 {
+            self.ran.jump(end, end);
+        }
+    }
+
+    /// Counts a block that is about to run, and says whether it may: at most `limit` do.
+    pub fn count(&mut self, limit: u64) -> Fuel {
+        self.executed += 1;
+        if self.executed <= limit && self.endless.is_none() {
+            return Fuel::Left;
+        }
+        let most = self.turns.iter();
+        let most = most.max_by_key(|(place, turns)| (turns.count, std::cmp::Reverse(**place)));
+        Fuel::Out {
+            most: self.endless.or(most.map(|most| *most.0)),
+            proved: self.endless.is_some(),
+            blocks: self.executed - 1,
+        }
+    }
+
+    /// The run goes on at `to`, which comes back; `end`: one past the last block that has run.
+    pub fn jump(&mut self, end: u32, to: u32) -> u32 {
+        if self.place.file == 0 {
+            self.ran.jump(end, to);
+        }
+        to
+    }
+
+    /// The same to a block in front of the jump, which may go on for ever.
+    pub fn jump_back(&mut self, end: u32, to: u32, changes: u64) -> u32 {
+        let key = (self.place.file, to);
+        if self.turns.len() < LOOPS || self.turns.contains_key(&key) {
+            let turns = self.turns.entry(key).or_default();
+            if turns.count > 0 && turns.changes == changes {
+                // nothing that decides anything has changed: every further turn is the same
+                self.endless = Some(key);
+            }
+            turns.count += 1;
+            turns.changes = changes;
+        }
+        self.jump(end, to)
+    }
+
+    /// A block opens a loop. Unless its own end led there the loop begins to count.
+    pub fn open_loop(&mut self, open: u32) {
+        if self.again.take() != Some(open) {
+            self.turns.remove(&(self.place.file, open));
+        }
+    }
+
+    /// Whether the end of the loop that a block opens has just led there.
+    pub fn is_again(&self, open: u32) -> bool {
+        self.again == Some(open)
+    }
+
+    /// The end of a loop leads back to the block that opens it.
+    pub fn close_loop(&mut self, end: u32, open: u32, changes: u64) -> u32 {
+        let to = self.jump_back(end, open, changes);
+        self.again = Some(open);
+        to
+    }
+
+    /// Begins a call in the chain `chain`; `range` is the text of the calling block. The chain of the call comes back.
+    pub fn enter(
+        &mut self,
+        going: Going<L>,
+        chain: ChainId,
+        range: TextRange,
+        frame: impl FnOnce() -> Frame,
+    ) -> ChainId {
+        let caller = self.place;
+        let inner = match going.ends {
+            Ends::Return => Arc::make_mut(&mut self.chains).enter(chain, caller.file, going.from, frame),
+            Ends::Section { .. } => chain,
+        };
+        if caller.file == 0 {
+            self.ran.jump(going.back, going.start);
+        }
+        self.ran.begin(going.start);
+        let (main, main_range) = match caller.file {
+            0 => (BlockId(going.from), range),
+            _ => (caller.main, caller.main_range),
+        };
+        self.place = Place {
+            file: going.file,
+            section: going.section,
+            main,
+            main_range,
+        };
+        self.calls.push(Call {
+            back: going.back,
+            place: caller,
+            chain,
+            level: going.level,
+            start: going.start,
+            times: going.times - 1,
+            ends: going.ends,
+        });
+        inner
+    }
+
+    /// What is called begins anew, if it is to: its first block, and what the language keeps of the call.
+    pub fn once_more(&mut self) -> Option<(u32, &mut L)> {
+        let call = self.calls.last_mut().filter(|call| call.times > 0)?;
+        call.times -= 1;
+        Some((call.start, &mut call.level))
+    }
+
+    /// The last call ends; `end`: one past the last block that has run. The run goes on at [`Call::back`].
+    pub fn leave(&mut self, end: u32) -> Option<Call<L>> {
+        let call = self.calls.pop()?;
+        if self.place.file == 0 {
+            self.ran.jump(end, call.back);
+        }
+        if call.place.file == 0 {
+            self.ran.begin(call.back);
+        }
+        self.place = call.place;
+        Some(call)
+    }
+
+    /// First and last block of the section that is repeated where the run is.
+    pub fn repeated(&self) -> Option<(u32, u32)> {
+        let call = self.calls.last()?;
+        match call.ends {
+            Ends::Section { last } => Some((call.start, last)),
+            Ends::Return => None,
+        }
+    }
+
+    /// The chain of a block of the called file, whose calls are those of `chain`.
+    pub fn stand(&mut self, chain: ChainId, block: u32, frame: impl FnOnce() -> Frame) -> ChainId {
+        let file = self.place.file;
+        Arc::make_mut(&mut self.chains).stand(chain, file, block, frame)
+    }
+
+    /// The calls of a chain, outermost first.
+    pub fn frames(&self, chain: ChainId) -> Vec<Frame> {
+        self.chains.frames(chain)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Course, Ends, Fuel, Going};
+    use crate::{ChainId, Frame};
+    use trunnion_syntax::TextRange;
+
+    fn frame() -> Frame {
+        Frame {
+            file: String::new(),
+            line: 1,
+            what: "CALL".to_owned(),
+            is_place: false,
+        }
+    }
+
+    fn going(from: u32, file: u16, start: u32, times: u32, ends: Ends) -> Going<&'static str> {
+        Going {
+            from,
+            back: from + 1,
+            file,
+            start,
+            section: None,
+            times,
+            ends,
+            level: "kept",
+        }
+    }
+
+    #[test]
+    fn a_loop_without_a_change_is_endless() {
+        let mut course = Course::<()>::default();
+        course.open_loop(2);
+        assert_eq!(course.close_loop(9, 2, 5), 2);
+        assert!(course.is_again(2));
+        course.open_loop(2);
+        course.close_loop(9, 2, 6);
+        assert_eq!(course.count(100), Fuel::Left, "something has changed");
+        course.open_loop(2);
+        course.close_loop(9, 2, 6);
+        let out = Fuel::Out {
+            most: Some((0, 2)),
+            proved: true,
+            blocks: 1,
+        };
+        assert_eq!(course.count(100), out);
+    }
+
+    #[test]
+    fn the_bound_names_the_loop_that_ran_most() {
+        let mut course = Course::<()>::default();
+        for changes in 0..3 {
+            course.jump_back(9, 2, changes);
+        }
+        course.jump_back(9, 7, 0);
+        assert_eq!(course.count(1), Fuel::Left);
+        let out = Fuel::Out {
+            most: Some((0, 2)),
+            proved: false,
+            blocks: 1,
+        };
+        assert_eq!(course.count(1), out);
+    }
+
+    #[test]
+    fn calls_return_where_they_came_from() {
+        let mut course = Course::default();
+        let range = TextRange::new(3, 9);
+        let chain = course.enter(going(4, 1, 0, 2, Ends::Return), ChainId::MAIN, range, frame);
+        assert_ne!(chain, ChainId::MAIN);
+        assert_eq!((course.place().file, course.place().main.0), (1, 4));
+        let inner = course.enter(going(8, 2, 3, 1, Ends::Return), chain, TextRange::default(), frame);
+        assert_eq!(course.place().main_range, range, "the call of the main program");
+        assert_eq!(course.frames(inner).len(), 2);
+        assert_eq!(course.once_more().map(|(start, _)| start), None);
+        let call = course.leave(5).expect("a call");
+        assert_eq!((call.back, call.chain, call.level), (9, chain, "kept"));
+        assert_eq!(course.once_more().map(|(start, _)| start), Some(0), "the second time");
+        assert!(course.once_more().is_none());
+        course.leave(5);
+        assert!(!course.is_called());
+        assert!(course.has_run(4) && !course.has_run(5));
+    }
+
+    #[test]
+    fn a_repeated_section_is_no_program() {
+        let mut course = Course::default();
+        let chain = ChainId::MAIN;
+        let section = going(9, 0, 2, 3, Ends::Section { last: 5 });
+        assert_eq!(course.enter(section, chain, TextRange::default(), frame), chain);
+        assert_eq!(
+            (course.repeated(), course.is_called(), course.depth()),
+            (Some((2, 5)), false, 1)
+        );
+        assert!(course.once_more().is_some() && course.once_more().is_some() && course.once_more().is_none());
+        assert_eq!(course.leave(6).map(|call| call.back), Some(10));
+        assert_eq!(course.repeated(), None);
+    }
+}

@@ -1,0 +1,160 @@
+//! The order in which the blocks of a program run, for all languages but LinuxCNC's: what trunnion-flow keeps, tied to the interpreter.
+//!
+//! A language reads its statements and leaves a [`Transfer`]; [`crate::Interpreter::advance`] does it. While a program has no such
+//! statement, nothing here runs: [`Flow::trail`] stays empty.
+mod call;
+mod run;
+mod through;
+mod told;
+mod transfer;
+
+use crate::macro_b::{self, Deep, Mistake};
+use crate::sinumerik;
+pub(crate) use run::Running;
+use std::sync::Arc;
+use told::Told;
+use trunnion_flow::{Course, Key, Library};
+use trunnion_syntax::{BlockId, Program, TextRange};
+
+/// Where a run is in its program.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Flow {
+    /// The block that runs next, of the file that runs.
+    pub(crate) next: u32,
+    /// The end was told.
+    pub(crate) finished: bool,
+    /// Blocks are run by [`crate::Interpreter::advance`], so that jumps are followed.
+    pub(crate) follows: bool,
+    /// The block of the main program whose call led to the other file that runs.
+    pub(crate) called_at: Option<BlockId>,
+    /// What jumps, loops and calls need; empty until the first of them.
+    pub(crate) trail: Option<Box<Trail>>,
+    /// Variables of Macro B; empty until the first statement of a macro.
+    pub(crate) deep: Option<Box<Deep>>,
+}
+
+/// What a program with jumps, loops or calls needs.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Trail {
+    pub(crate) course: Course<Level>,
+    pub(crate) library: Library,
+    /// Where jumps may lead, by file.
+    indexes: Vec<Option<Arc<Index>>>,
+    told: Told,
+}
+
+/// What a language keeps of a call.
+#[derive(Clone, Debug)]
+pub(crate) enum Level {
+    /// A section of the program that is repeated: nothing.
+    Section,
+    MacroB(macro_b::Level),
+    Sinumerik(Box<sinumerik::Level>),
+}
+
+/// Where jumps of a file may lead.
+pub(crate) type Index = trunnion_flow::Index<Broken>;
+
+/// What a block asks for.
+pub(crate) type Transfer = trunnion_flow::Transfer<Label, Calling, Back>;
+
+/// A mistake in the structure of a file, with its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Broken {
+    pub(crate) block: u32,
+    pub(crate) range: TextRange,
+    pub(crate) mistake: Mistake,
+    pub(crate) message: String,
+}
+
+/// The target of a jump, and the place where it is written.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Label {
+    pub(crate) key: Key,
+    pub(crate) range: TextRange,
+    /// A target that is missing is no mistake: the run goes on (GOTOC).
+    pub(crate) may_miss: bool,
+}
+
+/// A return: the label of the caller to go to, and the place of the statement.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Back {
+    pub(crate) label: Option<Key>,
+    pub(crate) range: TextRange,
+}
+
+/// A call that a block asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Calling {
+    pub(crate) program: Key,
+    pub(crate) times: u32,
+    pub(crate) range: TextRange,
+    pub(crate) with: With,
+}
+
+/// What a language hands over with a call.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum With {
+    MacroB(macro_b::With),
+    Sinumerik(sinumerik::With),
+}
+
+impl Trail {
+    /// Where jumps of a file may lead.
+    pub(crate) fn index(&mut self, file: u16, read: impl FnOnce() -> Index) -> Arc<Index> {
+        let place = usize::from(file);
+        if self.indexes.len() <= place {
+            self.indexes.resize(place + 1, None);
+        }
+        Arc::clone(self.indexes[place].get_or_insert_with(|| Arc::new(read())))
+    }
+
+    /// The same of a file that was indexed before.
+    pub(crate) fn known_index(&self, file: u16) -> Option<&Arc<Index>> {
+        self.indexes.get(usize::from(file))?.as_ref()
+    }
+}
+
+impl Flow {
+    /// What jumps, loops and calls need.
+    pub(crate) fn trail(&mut self) -> &mut Trail {
+        self.trail.get_or_insert_default()
+    }
+
+    /// The file that runs: 0 is the main program's.
+    #[inline]
+    pub(crate) fn file(&self) -> u16 {
+        self.trail.as_ref().map_or(0, |trail| trail.course.place().file)
+    }
+
+    /// The block of the main program to which a block of the program that runs belongs.
+    #[inline]
+    pub(crate) fn main_block(&self, block: BlockId) -> BlockId {
+        self.called_at.unwrap_or(block)
+    }
+
+    /// The calls of a chain, outermost first.
+    pub(crate) fn chain(&self, chain: crate::ChainId) -> Vec<crate::Frame> {
+        let trail = self.trail.as_ref();
+        trail.map_or_else(Vec::new, |trail| trail.course.frames(chain))
+    }
+
+    /// Common variables of Macro B that keep their values when the program ends.
+    pub(crate) fn outliving(&self) -> Vec<(String, f64)> {
+        self.deep.as_ref().map_or_else(Vec::new, |deep| deep.variables.kept())
+    }
+
+    /// The value of a variable of Macro B as it is written.
+    pub(crate) fn variable(&self, text: &str) -> Option<f64> {
+        self.deep.as_ref()?.variables.written(text)
+    }
+}
+
+/// The index of a file, as its language builds it.
+pub(crate) fn index_of(dialect: &trunnion_dialect::Dialect, program: &Program) -> Index {
+    if dialect.quirks.user_names {
+        sinumerik::index(program)
+    } else {
+        macro_b::index(program)
+    }
+}

@@ -1,0 +1,218 @@
+//! Calls of other programs and returns from them, for all languages.
+use super::{Back, Calling, Level, Running, With, index_of};
+use crate::macro_b::ProgramName;
+use crate::run::{Interpreter, Sink};
+use crate::{FaultKind, Frame, sinumerik};
+use trunnion_flow::{Ends, Going, Key};
+use trunnion_syntax::{BlockId, TextRange};
+
+/// Where a called program was found: file and block; else the folders that were searched.
+pub(crate) type Found = Result<(u16, u32), Vec<String>>;
+
+/// The text of the block `from`, where that is one of the main program's file.
+pub(crate) fn main_range(running: &Running<'_>, from: u32) -> TextRange {
+    match running.called {
+        None => running.main.block(BlockId(from)).range(),
+        Some(_) => TextRange::default(),
+    }
+}
+
+/// The call at the block `from` as people are shown it.
+pub(crate) fn frame_of(running: &Running<'_>, from: u32) -> Frame {
+    let program = running.program();
+    Frame {
+        file: running.called.map_or_else(String::new, |called| called.path.clone()),
+        line: from + 1,
+        what: program.text(program.block(BlockId(from)).range()).trim().to_owned(),
+        is_place: false,
+    }
+}
+
+impl Interpreter<'_> {
+    /// Begins a call.
+    pub(crate) fn enter(&mut self, calling: Calling, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
+        if calling.times == 0 {
+            return;
+        }
+        let found = match &calling.with {
+            With::MacroB(with) => match self.find_macro(&calling, with, running, from) {
+                Some(found) => found,
+                None => {
+                    let search = trunnion_flow::Search::ForwardThenStart;
+                    return self.no_label(&calling.program, search, calling.range, running, from, sink);
+                }
+            },
+            With::Sinumerik(_) => self.find(&calling.program, running, false),
+        };
+        let place = match found {
+            Ok(place) => place,
+            Err(searched) => {
+                let name = match &calling.program {
+                    Key::Name(name) if self.dialect.quirks.user_names => name.to_string(),
+                    key => ProgramName(key).to_string(),
+                };
+                let kind = FaultKind::MissingSubprogram {
+                    name,
+                    searched,
+                    alarm: None,
+                    caller: None,
+                };
+                self.tell_of_flow(running, from, (calling.range, kind), sink);
+                return self.call_is_not_followed();
+            }
+        };
+        if let Some(kind) = self.too_deep(&calling) {
+            self.tell_of_flow(running, from, (calling.range, kind), sink);
+            return self.stop();
+        }
+        let Calling { with, times, range, .. } = calling;
+        let level = match with {
+            With::MacroB(with) => Level::MacroB(self.enter_macro(with)),
+            With::Sinumerik(with) => match self.enter_subprogram(with, place, running) {
+                Ok(level) => Level::Sinumerik(level),
+                Err(what) => {
+                    self.tell_of_flow(running, from, (range, FaultKind::NotDecided { what }), sink);
+                    return self.stop();
+                }
+            },
+        };
+        self.push_call(level, times, place, running, from);
+    }
+
+    /// What a program does that is not there is not known.
+    pub(crate) fn call_is_not_followed(&mut self) {
+        self.forget_everything();
+        self.memory.own.lose();
+        if let Some(deep) = &mut self.flow.deep {
+            deep.variables.lose();
+        }
+    }
+
+    fn push_call(&mut self, level: Level, times: u32, (file, start): (u16, u32), running: &Running<'_>, from: u32) {
+        let (chain, back) = (self.chain, self.flow.next);
+        let Some(trail) = &mut self.flow.trail else { return };
+        let going = Going {
+            from,
+            back,
+            file,
+            start,
+            section: trail.known_index(file).map(|index| index.section(start)),
+            times,
+            ends: Ends::Return,
+            level,
+        };
+        self.chain = trail
+            .course
+            .enter(going, chain, main_range(running, from), || frame_of(running, from));
+        self.flow.next = start;
+        self.flow.called_at = (file != 0).then_some(trail.course.place().main);
+    }
+
+    /// A program by its number or name: in the file that runs, in the main program's, in others that were called, in the library.
+    pub(crate) fn find(&mut self, name: &Key, running: &Running<'_>, only_library: bool) -> Found {
+        let (dialect, own) = (self.dialect, self.flow.file());
+        let trail = self.flow.trail();
+        if !only_library {
+            let here = trail.index(own, || index_of(dialect, running.program()));
+            if let Some(block) = here.program(name) {
+                return Ok((own, block));
+            }
+            let main = trail.index(0, || index_of(dialect, running.main));
+            if let Some(block) = main.program(name) {
+                return Ok((0, block));
+            }
+        }
+        let Some(library) = &self.setup.library.0 else {
+            return Err(Vec::new());
+        };
+        let tried = if dialect.quirks.user_names {
+            sinumerik::files(name)
+        } else {
+            crate::macro_b::files(name)
+        };
+        let load = |file: &str| library.load(file).map(|loaded| (loaded.path, loaded.bytes));
+        let file = trail.library.find(name, tried.into_iter(), dialect.lex, load)?;
+        Ok((file, self.first_block(file, name)))
+    }
+
+    /// The block where a program of another file begins: at its number or header, else behind the `%` at its start.
+    fn first_block(&mut self, file: u16, name: &Key) -> u32 {
+        let dialect = self.dialect;
+        let trail = self.flow.trail();
+        let Some(called) = trail.library.file(file) else {
+            return 0;
+        };
+        let index = trail.index(file, || index_of(dialect, &called.program));
+        index.program(name).unwrap_or_else(|| {
+            let first = called.program.blocks().next();
+            let percent = first.is_some_and(|block| {
+                let text = called.program.bytes(block.range());
+                text.trim_ascii_start().first() == Some(&b'%')
+            });
+            u32::from(percent)
+        })
+    }
+
+    /// A return.
+    pub(crate) fn leave(&mut self, back: Back, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
+        // sections that are repeated end with the program in which they stand
+        while let Some(trail) = &mut self.flow.trail
+            && trail.course.repeated().is_some()
+        {
+            trail.course.leave(self.flow.next);
+        }
+        let changes = self.changes() + 1;
+        let Some(trail) = &mut self.flow.trail else { return };
+        if !trail.course.is_called() {
+            return if self.dialect.quirks.user_names {
+                self.leave_main_program(&back, running, from, sink);
+            } else {
+                self.leave_main(back, running, from, sink);
+            };
+        }
+        if back.label.is_none()
+            && let Some((start, level)) = trail.course.once_more()
+        {
+            match level {
+                Level::MacroB(level) => {
+                    if let Some(deep) = &mut self.flow.deep {
+                        deep.variables.changes += 1;
+                        level.again(&mut deep.variables);
+                    }
+                }
+                Level::Sinumerik(level) => level.again(&mut self.memory.own),
+                Level::Section => {}
+            }
+            self.flow.next = trail.course.jump_back(self.flow.next, start, changes);
+            return;
+        }
+        let Some(call) = trail.course.leave(self.flow.next) else {
+            return;
+        };
+        self.chain = call.chain;
+        self.flow.next = call.back;
+        self.flow.called_at = (call.place.file != 0).then_some(call.place.main);
+        match call.level {
+            Level::MacroB(level) => self.leave_macro(&level, back, running, call.place.file, sink),
+            Level::Sinumerik(level) => {
+                if let Some(kind) = self.leave_subprogram(*level) {
+                    self.tell_of_flow(running, from, (back.range, kind), sink);
+                }
+            }
+            Level::Section => {}
+        }
+    }
+
+    /// The text of the program that runs is at its end, without a statement that ends it.
+    pub(crate) fn ran_out(&mut self, main: &trunnion_syntax::Program, sink: &mut impl Sink) {
+        let called = self.flow.trail.as_ref().is_some_and(|trail| trail.course.is_called());
+        if !called {
+            self.state.ended = true;
+        } else if self.dialect.quirks.user_names {
+            self.subprogram_runs_out(main, sink);
+        } else {
+            self.state.ended = true;
+            self.macro_runs_out(main, sink);
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! Which faults were told, so that a loop tells each of them once.
+use crate::{Fault, FaultKind};
+use std::collections::HashSet;
+use std::mem::{Discriminant, discriminant};
+
+/// What tells one fault from another: file, block, first byte, kind.
+type Key = (u16, u32, u32, Discriminant<FaultKind>);
+
+/// Faults that were told.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Told(HashSet<Key>);
+
+/// Faults kept: a program of noise fills no memory.
+const KEPT: usize = 100_000;
+
+impl Told {
+    /// Whether the fault is new. `again`: its block has run before, so that what its text alone says was told then.
+    pub(crate) fn is_new(&mut self, file: u16, fault: &Fault, again: bool) -> bool {
+        if again && is_textual(&fault.kind) {
+            return false;
+        }
+        let key = (file, fault.block.0, fault.range.start, discriminant(&fault.kind));
+        if self.0.len() >= KEPT && !self.0.contains(&key) {
+            return !again;
+        }
+        self.0.insert(key)
+    }
+}
+
+/// Facts that depend on the text of a block alone: each run of it gives the same.
+pub(crate) fn is_textual(kind: &FaultKind) -> bool {
+    matches!(
+        kind,
+        FaultKind::UnknownCode { .. }
+            | FaultKind::UnknownWord
+            | FaultKind::GroupConflict { .. }
+            | FaultKind::RepeatedWord
+            | FaultKind::AmbiguousDecimal
+    )
+}

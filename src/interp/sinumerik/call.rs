@@ -1,0 +1,248 @@
+//! Subprograms: arguments, PROC, variables of their own, return.
+use crate::flow::{Back, Running};
+use crate::own::{Own, Scope, Sort, arguments};
+use crate::run::{Interpreter, Sink};
+use crate::{Fault, FaultKind, Refusal};
+use trunnion_syntax::{BlockId, Item, Program};
+
+/// Program levels of the control, the main program's among them (Programming Manual, 12/2019, p. 493).
+const LEVELS: usize = 16;
+
+/// One argument of a call.
+#[derive(Clone, Debug, PartialEq)]
+struct Argument {
+    /// Nothing stands between the commas.
+    is_left_out: bool,
+    /// `None`: it is not known.
+    value: Option<f64>,
+    /// The variable that it is, if it is one.
+    variable: Option<Box<str>>,
+}
+
+/// What a call hands over.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct With {
+    arguments: Vec<Argument>,
+}
+
+impl With {
+    /// From the text between the brackets.
+    pub(super) fn read(text: Option<&str>, own: &Own) -> Self {
+        let read = |text: &str| Argument {
+            is_left_out: text.is_empty(),
+            value: own.value(text),
+            variable: is_variable(text).then(|| text.to_ascii_lowercase().into()),
+        };
+        let text = text.map(str::trim).filter(|text| !text.is_empty());
+        let arguments = text.map_or_else(Vec::new, |text| arguments(text).into_iter().map(read).collect());
+        Self { arguments }
+    }
+}
+
+fn is_variable(text: &str) -> bool {
+    let first = text.bytes().next();
+    first.is_some_and(|byte| byte.is_ascii_alphabetic() || byte == b'_')
+        && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+}
+
+/// What is kept of a call.
+#[derive(Clone, Debug)]
+pub(crate) struct Level {
+    /// The caller's variables.
+    scope: Scope,
+    /// Parameters that are variables of the caller: name here, name there.
+    references: Vec<(Box<str>, Box<str>)>,
+    /// Parameters by value.
+    parameters: Vec<(Box<str>, Sort)>,
+    /// SAVE: modal codes come back at the return.
+    saves: bool,
+}
+
+impl Level {
+    /// The subprogram begins anew; its parameters were handed over for the first run only.
+    pub(crate) fn again(&mut self, own: &mut Own) {
+        own.begin_scope();
+        for (name, sort) in &self.parameters {
+            own.declare(name, *sort, None);
+        }
+    }
+}
+
+/// Why a further call is one too many.
+pub(crate) fn too_deep(levels: usize, limit: usize) -> Option<FaultKind> {
+    let limit = limit.min(LEVELS);
+    (levels >= limit).then(|| FaultKind::Rejected {
+        refusal: Refusal::Subprogram,
+        message: format!("subprogram calls are nested deeper than {limit} levels: does a program call itself?"),
+        alarm: None,
+    })
+}
+
+/// A parameter that PROC declares.
+struct Parameter {
+    name: Box<str>,
+    sort: Sort,
+    initial: Option<f64>,
+    by_reference: bool,
+}
+
+/// The PROC of a program: its parameters, and the words behind them.
+struct Proc {
+    parameters: Vec<Parameter>,
+    saves: bool,
+}
+
+impl Proc {
+    /// The PROC of the program that begins at a block: its first statement.
+    fn of(program: &Program, start: u32, own: &Own) -> Option<Self> {
+        for at in start..program.block_count() as u32 {
+            let block = program.block(BlockId(at));
+            let number = block.number();
+            let first = block.items().find(|item| match item {
+                Item::Comment(_) | Item::Percent(_) | Item::Skip(..) => false,
+                Item::Word(word) => Some(word.range) != number,
+                _ => true,
+            });
+            match first {
+                None => {}
+                Some(Item::Call(call)) if program.bytes(call.name).eq_ignore_ascii_case(b"PROC") => {
+                    let rest = call.arguments.map(|range| program.text(range).into_owned());
+                    return Some(Self::read(&rest.unwrap_or_default(), own));
+                }
+                Some(_) => return None,
+            }
+        }
+        None
+    }
+
+    /// All behind PROC: `GROOVE(REAL XBOT, INT N=1, VAR REAL OUT) SAVE`.
+    fn read(text: &str, own: &Own) -> Self {
+        let text = text.split(';').next().unwrap_or_default();
+        let (inside, behind) = match (text.find('('), text.rfind(')')) {
+            (Some(open), Some(close)) if open < close => (&text[open + 1..close], &text[close + 1..]),
+            _ => ("", text),
+        };
+        let saves = behind.split_whitespace().any(|word| word.eq_ignore_ascii_case("SAVE"));
+        let declared = arguments(inside).into_iter().filter(|text| !text.is_empty());
+        let parameters = declared.map(|text| {
+            let (left, initial) = match text.split_once('=') {
+                Some((left, value)) => (left, own.value(value)),
+                None => (text, Some(0.0)),
+            };
+            let mut words: Vec<&str> = left.split_whitespace().collect();
+            let by_reference = words.first().is_some_and(|word| word.eq_ignore_ascii_case("VAR"));
+            if by_reference {
+                words.remove(0);
+            }
+            let kind = words.first().and_then(|word| Sort::named(word));
+            let name = words.last().copied().unwrap_or_default();
+            let stem = name.split('[').next().unwrap_or_default();
+            Parameter {
+                name: stem.to_ascii_lowercase().into(),
+                sort: if name.contains('[') {
+                    Sort::Other
+                } else {
+                    kind.unwrap_or(Sort::Other)
+                },
+                initial,
+                by_reference,
+            }
+        });
+        Self {
+            parameters: parameters.collect(),
+            saves,
+        }
+    }
+}
+
+impl Interpreter<'_> {
+    /// Gives a subprogram its parameters; what is kept for the caller. Else why the call cannot be followed.
+    pub(crate) fn enter_subprogram(
+        &mut self,
+        with: With,
+        (file, start): (u16, u32),
+        running: &Running<'_>,
+    ) -> Result<Box<Level>, String> {
+        let called = self.flow.trail.as_ref().and_then(|trail| trail.library.file(file));
+        let program = called.as_ref().map_or(running.main, |called| &called.program);
+        let own = &mut self.memory.own;
+        let proc = Proc::of(program, start, own);
+        let (parameters, saves) = proc.map_or((Vec::new(), false), |proc| (proc.parameters, proc.saves));
+        if with.arguments.len() > parameters.len() {
+            return Err(format!(
+                "{} arguments for a subprogram whose PROC declares {}",
+                with.arguments.len(),
+                parameters.len()
+            ));
+        }
+        let scope = own.begin_scope();
+        let mut level = Level {
+            scope,
+            references: Vec::new(),
+            parameters: Vec::new(),
+            saves,
+        };
+        let mut given = with.arguments.into_iter();
+        for parameter in parameters {
+            let argument = given.next();
+            let written = argument.as_ref().filter(|argument| !argument.is_left_out);
+            let value = written.map_or(parameter.initial, |argument| argument.value);
+            own.declare(&parameter.name, parameter.sort, value);
+            if let (true, Some(Some(variable))) = (parameter.by_reference, argument.map(|argument| argument.variable)) {
+                level.references.push((parameter.name.clone(), variable));
+            }
+            level.parameters.push((parameter.name, parameter.sort));
+        }
+        own.begin_block();
+        Ok(Box::new(level))
+    }
+
+    /// A subprogram has returned: the caller's variables are back. Whether modal codes come back too, which is not modelled.
+    pub(crate) fn leave_subprogram(&mut self, level: Level) -> Option<FaultKind> {
+        let own = &mut self.memory.own;
+        let used = own.end_scope(level.scope);
+        for (here, there) in &level.references {
+            own.assign(there, used.value(here));
+        }
+        own.begin_block();
+        level.saves.then(|| {
+            self.forget_everything();
+            let what = "SAVE: modal codes and frames come back at the return".to_owned();
+            FaultKind::NotModelled { what }
+        })
+    }
+
+    /// RET or M17 of the main program.
+    pub(crate) fn leave_main_program(&mut self, back: &Back, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
+        let what = "RET in the main program: taken as its end".to_owned();
+        self.tell_of_flow(running, from, (back.range, FaultKind::NotModelled { what }), sink);
+        self.stop();
+    }
+
+    /// A subprogram ends without M17 or RET.
+    pub(crate) fn subprogram_runs_out(&mut self, main: &Program, sink: &mut impl Sink) {
+        let Some(trail) = &self.flow.trail else { return };
+        let (place, called) = (trail.course.place(), trail.called());
+        let running = Running {
+            main,
+            called: called.as_deref(),
+        };
+        let last = self
+            .flow
+            .next
+            .min(running.program().block_count() as u32)
+            .saturating_sub(1);
+        let range = running.program().block(BlockId(last)).range();
+        let what = "a subprogram that ends without M17 or RET: taken as its return".to_owned();
+        if place.file == 0 {
+            sink.fault(Fault {
+                block: BlockId(last),
+                range,
+                kind: FaultKind::NotModelled { what },
+            });
+        } else {
+            self.tell_of_flow(&running, last, (range, FaultKind::NotModelled { what }), sink);
+        }
+        self.leave(Back { label: None, range }, &running, last, sink);
+    }
+}

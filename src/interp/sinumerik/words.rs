@@ -1,0 +1,203 @@
+//! Blocks with a statement of the flow or a call: what the reader notes, and what is done with it once the block is read.
+use super::call::With;
+use super::names::{files, is_statement, program_key};
+use super::statement::Statement;
+use super::text::Text;
+use crate::FaultKind;
+use crate::codes::Found;
+use crate::flow::{Back, Calling, Transfer, With as Handed, index_of};
+use crate::reader::Reader;
+use crate::run::{Interpreter, Report};
+use crate::words::Words;
+use std::sync::Arc;
+use trunnion_dialect::Action;
+use trunnion_flow::Key;
+use trunnion_syntax::{Block, Call, TextRange, Word};
+
+impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
+    /// A statement of the flow, or a name that no code has, where jumps and calls are followed; false for other names.
+    pub(crate) fn sinumerik_name(&mut self, call: &Call) -> bool {
+        let Some(own) = self.own.as_mut().filter(|own| own.follows) else {
+            return false;
+        };
+        let Some(name) = self.program.source().get(call.name.as_usize()) else {
+            return false;
+        };
+        if is_statement(name) {
+            own.statement = Some(call.range);
+            // its text has a reader of its own
+            self.words.declares = true;
+            return true;
+        }
+        let is_code = std::str::from_utf8(name).is_ok_and(|name| self.dialect.name(name).is_some());
+        if is_code || self.words.forgets_all || own.called.is_some() {
+            return false;
+        }
+        own.called = Some(*call);
+        true
+    }
+
+    /// `L20` calls a subprogram, where calls are followed.
+    pub(crate) fn sinumerik_number(&mut self, letter: u8, word: &Word) -> bool {
+        match self.own.as_mut().filter(|own| own.follows && letter == b'L') {
+            Some(own) => {
+                own.called_by_number = Some(word.range);
+                true
+            }
+            None => false,
+        }
+    }
+}
+
+/// Words of a call and beside it: the block's number, L and P.
+const BESIDE_CALL: u32 = 1 << (b'N' - b'A') | 1 << (b'L' - b'A') | 1 << (b'P' - b'A');
+
+/// Whether nothing but words of these letters stands in a block.
+fn only(letters: u32, codes: &[Found<'_>], words: &Words) -> bool {
+    codes.is_empty() && words.letters & !letters == 0 && !words.axes.any() && !words.forgets_all
+}
+
+impl<'d> Interpreter<'d> {
+    /// Notes for the reader what counts in the block to come.
+    pub(crate) fn sinumerik_begins(&mut self) {
+        let own = &mut self.memory.own;
+        own.follows = self.flow.follows;
+        let trail = self.flow.trail.as_ref();
+        own.is_called = own.follows && trail.is_some_and(|trail| trail.course.is_called());
+        (own.statement, own.called, own.called_by_number) = (None, None, None);
+    }
+
+    /// Does what the reader has noted in a block.
+    #[inline]
+    pub(crate) fn sinumerik_words(
+        &mut self,
+        block: &Block<'_>,
+        codes: &mut Vec<Found<'d>>,
+        words: &mut Words,
+        report: &mut Report<'_>,
+    ) {
+        let own = &mut self.memory.own;
+        let ends = |found: &Found<'_>| found.code.action == Action::ProgramEnd;
+        if own.is_called
+            && let Some(at) = codes.iter().position(ends)
+        {
+            // M17, M2 and M30 of a subprogram return
+            let range = codes.remove(at).range;
+            codes.retain(|found| !ends(found));
+            own.pending = Some(Transfer::Return(Back { label: None, range }));
+        }
+        if let Some(range) = own.statement.take() {
+            let beside = !only(1 << (b'N' - b'A'), codes, words);
+            self.sinumerik_statement(block, range, beside, report);
+        } else if own.called.is_some() || own.called_by_number.is_some() {
+            self.sinumerik_call(block, codes, words, report);
+        }
+    }
+
+    #[cold]
+    fn sinumerik_statement(&mut self, block: &Block<'_>, range: TextRange, beside: bool, report: &mut Report<'_>) {
+        let (dialect, program, at) = (self.dialect, block.program(), block.id().0);
+        let file = self.flow.file();
+        let again = self.flow.trail.as_ref().is_some_and(|trail| trail.course.is_again(at));
+        let (flow, memory) = (&mut self.flow, &mut self.memory);
+        let mut index = || flow.trail().index(file, || index_of(dialect, program));
+        let mut statement = Statement {
+            text: Text::of(block, range.start),
+            own: &mut memory.own,
+            place: (file, at),
+            index: &mut index,
+            again,
+            remarks: Vec::new(),
+        };
+        let asked = if beside {
+            let what = "words beside a statement of the flow".to_owned();
+            Err((range, FaultKind::NotDecided { what }))
+        } else {
+            statement.read()
+        };
+        for (range, kind) in std::mem::take(&mut statement.remarks) {
+            report.fault(range, kind);
+        }
+        let pending = asked.unwrap_or_else(|(range, kind)| {
+            report.fault(range, kind);
+            Transfer::End
+        });
+        self.memory.own.pending = Some(pending);
+    }
+
+    /// A name that no code has, or `L20`: a subprogram, if there is one.
+    #[cold]
+    fn sinumerik_call(&mut self, block: &Block<'_>, codes: &[Found<'d>], words: &mut Words, report: &mut Report<'_>) {
+        let program = block.program();
+        let own = &mut self.memory.own;
+        let (called, number) = (own.called.take(), own.called_by_number.take());
+        let (range, name, arguments) = match (called, number) {
+            (Some(call), None) => (call.range, program.text(call.name).into_owned(), call.arguments),
+            (_, Some(range)) => (range, program.text(range).replace([' ', '\t'], ""), None),
+            (None, None) => return,
+        };
+        let key = program_key(&name);
+        let alone = only(BESIDE_CALL, codes, words) && !(called.is_some() && number.is_some());
+        let repeats = words.letters & (1 << (b'P' - b'A')) != 0;
+        let declared = matches!(&key, Key::Name(name) if own.declared.contains(name));
+        let sure = number.is_some() || repeats || declared;
+        if !alone || !(sure || self.is_program(&key, program)) {
+            // as far as is known it may move anything
+            words.forgets_all = true;
+            self.memory.own.lose();
+            report.fault(
+                range,
+                FaultKind::NotModelled {
+                    what: program.text(range).trim().to_owned(),
+                },
+            );
+            return;
+        }
+        words.declares = true;
+        let times = match words.p.number() {
+            Some(p) if p.value >= 1.0 && p.value.fract() == 0.0 && p.value <= 9999.0 => p.value as u32,
+            None if !repeats => 1,
+            _ => {
+                let what = "how often the subprogram runs".to_owned();
+                report.fault(range, FaultKind::NotDecided { what });
+                self.memory.own.pending = Some(Transfer::End);
+                return;
+            }
+        };
+        let text = arguments.map(|inside| program.text(inside).into_owned());
+        let with = With::read(text.as_deref(), &self.memory.own);
+        self.memory.own.pending = Some(Transfer::Call(Calling {
+            program: key,
+            times,
+            range,
+            with: Handed::Sinumerik(with),
+        }));
+    }
+
+    /// Whether a program of a name is there: in this file, or in the library.
+    fn is_program(&mut self, key: &Key, program: &trunnion_syntax::Program) -> bool {
+        let Key::Name(name) = key else { return false };
+        let headed = memchr::memmem::find(program.source(), b"%_N_").is_some();
+        if headed {
+            let (dialect, file) = (self.dialect, self.flow.file());
+            let index = match &mut self.flow.trail {
+                Some(trail) => trail.index(file, || index_of(dialect, program)),
+                None => Arc::new(index_of(dialect, program)),
+            };
+            if index.program(key).is_some() {
+                return true;
+            }
+        }
+        let Some(library) = &self.setup.library.0 else {
+            return false;
+        };
+        if self.memory.own.missing.contains(name) {
+            return false;
+        }
+        let found = files(key).iter().any(|file| library.load(file).is_ok());
+        if !found {
+            self.memory.own.missing.push(name.clone());
+        }
+        found
+    }
+}

@@ -1,0 +1,191 @@
+//! Sinumerik: repeated sections and subprograms, checked by hand against the programming manual (12/2019, 3.1.6, 3.2.2, 3.2.3).
+use crate::sinumerik_flow::{SINUMERIK, clean, said, said_with};
+use crate::support::{line, lines, run_bytes};
+use std::sync::Arc;
+use trunnion_interp::{Files, Library, Loaded, Setup};
+
+struct Folder;
+
+impl Files for Folder {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+        let text: &str = match name {
+            "CUT.SPF" => "PROC CUT(REAL DEPTH, INT CNT=2, VAR REAL OUT)\nG0 Z=DEPTH\nZ=CNT\nOUT=DEPTH+CNT\nM17\n",
+            "L20.SPF" => "R1=R1+1\nG0 X=R1\nM17\n",
+            "L020.SPF" => "G0 X=-20\nM17\n",
+            "PLAIN.SPF" => "G0 Y1\nRET\n",
+            "MAINP.MPF" => "G0 Y7\nM30\n",
+            "MAINP.SPF" => "G0 Y8\nM17\n",
+            "DEEP.SPF" => "DEEP\nM17\n",
+            "OPEN.SPF" => "G0 Y3\n",
+            "KEEPS.SPF" => "PROC KEEPS SAVE\nG0 Y3\nM17\n",
+            "LOOPS.SPF" => "DEF INT ROW\nFOR ROW=1 TO 2\nG0 Y=ROW\nENDFOR\nIF R1==0 GOTOF OUT\nG0 Y99\nOUT: RET\n",
+            _ => return Err(vec!["subs".to_owned()]),
+        };
+        Ok(Loaded {
+            path: format!("subs/{name}"),
+            bytes: text.as_bytes().into(),
+        })
+    }
+}
+
+fn setup() -> Setup {
+    Setup {
+        library: Library(Some(Arc::new(Folder))),
+        ..Setup::default()
+    }
+}
+
+fn run(source: &str) -> (Vec<String>, Vec<String>) {
+    let log = run_bytes(SINUMERIK, source.as_bytes(), &setup()).1;
+    let lines = log.motions.iter().map(line).collect();
+    (lines, said_with(source, &setup()))
+}
+
+/// Motions of a program about which nothing is said.
+fn called(source: &str) -> Vec<String> {
+    let (lines, said) = run(source);
+    assert_eq!(said, [""; 0], "{source}");
+    lines
+}
+
+#[test]
+fn a_section_is_repeated_so_many_more_times() {
+    let from = "R1=0\nG0\nLA: R1=R1+1\nX=R1\nREPEAT LA P=2\nX99\nM30\n";
+    assert_eq!(clean(from), ["R X1", "R X2", "R X3", "R X99"]);
+    let once = "R1=0\nG0\nLA: R1=R1+1\nX=R1\nREPEAT LA\nX99\nM30\n";
+    assert_eq!(clean(once), ["R X1", "R X2", "R X99"]);
+    let between = "R1=0\nG0\nLA: R1=R1+1\nLB: X=R1\nX50\nREPEAT LA LB P=2\nX99\nM30\n";
+    assert_eq!(clean(between), ["R X1", "R X50", "R X2", "R X3", "R X99"]);
+    let block = "R1=0\nG0\nLA: R1=R1+1\nX=R1\nREPEATB LA P=5\nX=R1\nM30\n";
+    assert_eq!(clean(block), ["R X1", "R X6"]);
+    let marked = "R1=0\nG0\nLA: R1=R1+1\nX=R1\nENDLABEL:\nX50\nREPEAT LA P1\nX99\nM30\n";
+    assert_eq!(clean(marked), ["R X1", "R X50", "R X2", "R X99"]);
+    // after the statement it runs as it is written, too
+    let ahead = "R1=0\nG0\nREPEAT LA LB\nLA: R1=R1+1\nLB: X=R1\nM30\n";
+    assert_eq!(clean(ahead), ["R X1", "R X2"]);
+    let computed = "R1=0 R2=2\nG0\nLA: R1=R1+1\nX=R1\nREPEAT LA P=R2+1\nM30\n";
+    assert_eq!(clean(computed), ["R X1", "R X2", "R X3", "R X4"]);
+}
+
+#[test]
+fn repeats_nest_and_hold_loops() {
+    let nested = "R1=0\nG0\nLA: R1=R1+1\nLB: X=R1\nREPEAT LB P=1\nREPEAT LA P=1\nM30\n";
+    assert_eq!(clean(nested), ["R X1", "R X1", "R X2", "R X2"]);
+    let ends_with_a_loop =
+        "R1=0\nG0\nLA: R2=0\nWHILE R2<2\nX=R1*10+R2\nR2=R2+1\nLB: ENDWHILE\nR1=R1+1\nREPEAT LA LB\nX99\nM30\n";
+    assert_eq!(clean(ends_with_a_loop), ["R X0", "R X1", "R X10", "R X11", "R X99"]);
+}
+
+#[test]
+fn what_repeat_does_not_say_is_not_decided() {
+    for (source, what) in [
+        ("LA: X1\nREPEAT NONE\nM30\n", "3 `NONE` Label 14080"),
+        ("LA: X1\nREPEAT LA P=R9\nM30\n", "3 `R9` not decided: R9"),
+        (
+            "LA: X1\nREPEAT LA P=0\nM30\n",
+            "3 `LA P=0` not decided: how often REPEAT repeats: 0 times",
+        ),
+        (
+            "LA: X1\nREPEAT LA\nLA: X2\nM30\n",
+            "3 `LA` not decided: LA: the label stands before and after REPEAT",
+        ),
+        ("REPEAT LA\nX1\nLA: X2\nM30\n", "2 `LA` not decided: which blocks"),
+        (
+            "R1=0\nLA: R1=R1+1\nIF R1==2 GOTOF OUT\nREPEAT LA P=5\nOUT: M30\n",
+            "4 `OUT` not decided: a jump out of",
+        ),
+    ] {
+        let got = said(&format!("G0\n{source}"));
+        assert!(got.len() == 1 && got[0].starts_with(what), "{source}: {got:?}");
+    }
+}
+
+#[test]
+fn a_subprogram_runs_by_its_name_and_its_number() {
+    assert_eq!(called("G0 X1\nPLAIN\nX2\nM30\n"), ["R X1", "R X1 Y1", "R X2 Y1"]);
+    assert_eq!(called("R1=5\nL20\nM30\n"), ["R X6"]);
+    assert_eq!(called("L020\nM30\n"), ["R X-20"], "leading zeros count");
+    assert_eq!(called("R1=5\nL20 P3\nM30\n"), ["R X6", "R X7", "R X8"]);
+    assert_eq!(
+        called("MAINP\nG0 X1\nM30\n"),
+        ["R Y7", "R X1 Y7"],
+        "a main program first; its M30 returns"
+    );
+    assert_eq!(called("R1=0\nLOOPS\nM30\n"), ["R Y1", "R Y2"]);
+}
+
+#[test]
+fn programs_of_one_file_call_each_other() {
+    let source = "%_N_MAIN_MPF\nG0 X1\nSUB\nX2\nM30\n%_N_SUB_SPF\nY1\nINNER P2\nM17\n%_N_INNER_SPF\nZ1\nRET\n";
+    assert_eq!(
+        clean(source),
+        ["R X1", "R X1 Y1", "R X1 Y1 Z1", "R X1 Y1 Z1", "R X2 Y1 Z1"]
+    );
+    let without_end = "%_N_MAIN_MPF\nG0 X1\nSUB\nM30\n%_N_SUB_SPF\nY1\n%_N_NEXT_SPF\nZ1\nM17\n";
+    assert_eq!(
+        said(without_end),
+        ["6 `Y1` not modelled: a subprogram that ends without M17 or RET: taken as its return"]
+    );
+    assert_eq!(lines(SINUMERIK, without_end), ["R X1", "R X1 Y1"]);
+}
+
+#[test]
+fn arguments_come_in_by_value_and_go_out_by_reference() {
+    let source = "DEF REAL GOT\nCUT(5,,GOT)\nG0 X=GOT\nCUT(1,4,GOT)\nX=GOT\nM30\n";
+    assert_eq!(
+        called(source),
+        ["R Z5", "R Z2", "R X7 Z2", "R X7 Z1", "R X7 Z4", "R X5 Z4"]
+    );
+    assert_eq!(called("CUT(5)\nM30\n"), ["R Z5", "R Z2"]);
+    let (_, said) = run("CUT(1,2,3,4)\nM30\n");
+    assert!(
+        said[0].contains("4 arguments for a subprogram whose PROC declares 3"),
+        "{said:?}"
+    );
+    // the caller's variables are its own: DEPTH is not one of them
+    let (_, said) = run("CUT(5)\nG0 X=DEPTH\nM30\n");
+    assert_eq!(said, ["2 `DEPTH` not modelled: DEPTH"]);
+}
+
+#[test]
+fn what_a_call_leaves_open_is_said() {
+    assert_eq!(run("G0 X1\nL99\nX2\nM30\n").1, ["2 `L99` missing L99"]);
+    assert_eq!(run("G0 X1\nNOSUCH P2\nM30\n").1, ["2 `NOSUCH` missing NOSUCH"]);
+    assert_eq!(
+        run("EXTERN NOSUCH(REAL)\nNOSUCH(1)\nM30\n").1,
+        ["2 `NOSUCH(1)` missing NOSUCH"]
+    );
+    // a name alone may be the machine's
+    assert_eq!(
+        run("R1=4\nG0 X1 Y1\nNOSUCH\nX2\nX=R1\nM30\n").1,
+        ["3 `NOSUCH` not modelled: NOSUCH", "5 `R1` not modelled: R1"]
+    );
+    assert_eq!(run("R1=4\nG0 X1 Y1\nNOSUCH\nX2\nM30\n").0, ["R X1 Y1", "R X2"]);
+    assert_eq!(run("OPEN\nM30\n").1.len(), 1);
+    assert!(run("KEEPS\nM30\n").1[0].contains("SAVE"));
+    assert_eq!(run("DEEP\nM30\n").1.len(), 1);
+    assert!(
+        run("DEEP\nM30\n").1[0].ends_with("Subprogram "),
+        "{:?}",
+        run("DEEP\nM30\n").1
+    );
+}
+
+#[test]
+fn ret_of_the_main_program_is_said_to_be_its_end() {
+    assert_eq!(
+        said("G0 X1\nRET\nX2\nM30\n"),
+        ["2 `RET` not modelled: RET in the main program: taken as its end"]
+    );
+    assert_eq!(lines(SINUMERIK, "G0 X1\nRET\nX2\nM30\n"), ["R X1"]);
+    assert_eq!(said("G0 X1\nM17\n"), [""; 0]);
+}
+
+#[test]
+fn a_motion_of_a_subprogram_belongs_to_the_block_of_its_call() {
+    let log = run_bytes(SINUMERIK, b"G0 X1\nPLAIN\nM30\n", &setup()).1;
+    assert_eq!(
+        log.motions.iter().map(|motion| motion.block.0).collect::<Vec<_>>(),
+        [0, 1]
+    );
+}

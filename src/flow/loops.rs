@@ -15,12 +15,12 @@ pub struct Loop {
 #[derive(Clone, Debug, Default)]
 pub struct Loops {
     /// Sorted by the opening block.
-    loops: Vec<Loop>,
-    /// Place in `loops` of the one around each.
+    pairs: Vec<Loop>,
+    /// Place in `pairs` of the one around each.
     around: Vec<Option<usize>>,
-    /// Closing block and place in `loops`, sorted.
+    /// Closing block and place in `pairs`, sorted.
     ends: Vec<(u32, usize)>,
-    /// `ELSE` and place in `loops`, sorted.
+    /// `ELSE` and place in `pairs`, sorted.
     others: Vec<(u32, usize)>,
 }
 
@@ -43,7 +43,7 @@ impl Loops {
         let mut others: Vec<_> = loops.iter().enumerate().filter_map(other).collect();
         others.sort_unstable();
         Self {
-            loops,
+            pairs: loops,
             around,
             ends,
             others,
@@ -52,27 +52,27 @@ impl Loops {
 
     /// What a block opens.
     pub fn opened_by(&self, block: u32) -> Option<Loop> {
-        let at = self.loops.binary_search_by_key(&block, |found| found.open).ok()?;
-        Some(self.loops[at])
+        let at = self.pairs.binary_search_by_key(&block, |found| found.open).ok()?;
+        Some(self.pairs[at])
     }
 
     /// What a block closes.
     pub fn closed_by(&self, block: u32) -> Option<Loop> {
         let at = self.ends.binary_search_by_key(&block, |end| end.0).ok()?;
-        Some(self.loops[self.ends[at].1])
+        Some(self.pairs[self.ends[at].1])
     }
 
     /// The branch whose `ELSE` a block is.
     pub fn divided_by(&self, block: u32) -> Option<Loop> {
         let at = self.others.binary_search_by_key(&block, |other| other.0).ok()?;
-        Some(self.loops[self.others[at].1])
+        Some(self.pairs[self.others[at].1])
     }
 
     /// What a jump enters from outside; `counts` chooses among loops and branches.
     pub fn entered(&self, from: u32, to: u32, counts: impl Fn(&Loop) -> bool) -> Option<Loop> {
-        let mut at = self.loops.partition_point(|found| found.open < to).checked_sub(1);
+        let mut at = self.pairs.partition_point(|found| found.open < to).checked_sub(1);
         while let Some(place) = at {
-            let found = self.loops[place];
+            let found = self.pairs[place];
             let inside = to <= found.close && !(found.open..=found.close).contains(&from);
             if inside && counts(&found) {
                 return Some(found);

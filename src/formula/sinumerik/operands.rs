@@ -71,17 +71,15 @@ impl<'s> Reader<'s> {
                 self.take(1);
                 self.waiting.push(Waiting::Index);
             }
-            (_, Some(b'(')) => match function(&name) {
-                Some(waiting) => {
-                    self.take(1);
-                    self.waiting.push(waiting);
-                }
-                None => {
+            (_, Some(b'(')) => {
+                let Some(waiting) = function(&name) else {
                     self.group(b'(', b')')?;
                     self.unknown(&format!("{name}("));
                     return Ok(true);
-                }
-            },
+                };
+                self.take(1);
+                self.waiting.push(waiting);
+            }
             (_, Some(b'[')) => {
                 self.group(b'[', b']')?;
                 self.unknown(&format!("{name}["));

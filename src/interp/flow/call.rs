@@ -35,13 +35,13 @@ impl Interpreter<'_> {
             return;
         }
         let found = match &calling.with {
-            With::MacroB(with) => match self.find_macro(&calling, with, running, from) {
-                Some(found) => found,
-                None => {
+            With::MacroB(with) => {
+                let Some(found) = self.find_macro(&calling, with, running, from) else {
                     let search = trunnion_flow::Search::ForwardThenStart;
                     return self.no_label(&calling.program, search, calling.range, running, from, sink);
-                }
-            },
+                };
+                found
+            }
             With::Sinumerik(_) => self.find(&calling.program, running, false),
         };
         let place = match found {

@@ -28,7 +28,7 @@ pub(crate) struct With {
 pub(crate) struct Level {
     modal_active: usize,
     /// A macro call: the caller's variables, and the arguments, for each time anew.
-    macro_level: Option<Box<(Locals, Locals)>>,
+    variables_of_call: Option<Box<(Locals, Locals)>>,
     /// The modal call that this is.
     modal: Option<usize>,
 }
@@ -36,7 +36,7 @@ pub(crate) struct Level {
 impl Level {
     /// The called program begins anew.
     pub(crate) fn again(&self, variables: &mut Variables) {
-        if let Some(level) = &self.macro_level {
+        if let Some(level) = &self.variables_of_call {
             variables.locals = level.1;
         }
     }
@@ -64,7 +64,7 @@ impl Interpreter<'_> {
     pub(crate) fn enter_macro(&mut self, with: With) -> Level {
         let deep = self.flow.deep.get_or_insert_default();
         deep.variables.changes += 1;
-        let macro_level = with.arguments.map(|arguments| {
+        let variables_of_call = with.arguments.map(|arguments| {
             let own = std::mem::replace(&mut deep.variables.locals, *arguments);
             Box::new((own, *arguments))
         });
@@ -74,7 +74,7 @@ impl Interpreter<'_> {
         }
         Level {
             modal_active,
-            macro_level,
+            variables_of_call,
             modal: with.modal,
         }
     }
@@ -83,7 +83,7 @@ impl Interpreter<'_> {
     pub(crate) fn too_deep(&self, calling: &Calling) -> Option<FaultKind> {
         let trail = self.flow.trail.as_ref()?;
         let levels = trail.course.programs().count();
-        let of_macro = |level: &&Kept| matches!(level, Kept::MacroB(level) if level.macro_level.is_some());
+        let of_macro = |level: &&Kept| matches!(level, Kept::MacroB(level) if level.variables_of_call.is_some());
         let is_macro = match &calling.with {
             crate::flow::With::MacroB(with) => with.arguments.is_some(),
             crate::flow::With::Sinumerik(_) => false,
@@ -194,7 +194,7 @@ fn has_end(program: &Program, dialect: &Dialect) -> bool {
 impl Deep {
     /// Puts the variables of the caller back. Those of a modal call stay for its next time.
     fn end_level(&mut self, level: &Level) {
-        let Some(kept) = &level.macro_level else { return };
+        let Some(kept) = &level.variables_of_call else { return };
         let used = std::mem::replace(&mut self.variables.locals, kept.0);
         if let Some(modal) = level.modal.and_then(|place| self.modal.get_mut(place)) {
             *modal.arguments = used;

@@ -155,10 +155,7 @@ impl<'d> Interpreter<'d> {
                 return;
             }
             FlowCode::Return => {
-                let label = match words.p {
-                    Said::Nothing => None,
-                    p => p.index().map(Key::Number),
-                };
+                let label = words.p.index().map(Key::Number);
                 deep.pending = Some(Transfer::Return(Back { label, range }));
                 return;
             }

@@ -57,7 +57,7 @@ impl Pair<'_> {
     pub(crate) fn compare(&self) -> Result<Compared, Outcome> {
         self.same_kind()?;
         let (old, new) = (self.before_leg()?, self.after_leg()?);
-        let alike = self.alike(old, new);
+        let alike = Self::alike(old, new);
         let (was, is) = match (&old.end, &new.end) {
             (Ok(was), Ok(is)) => (was, is),
             (Err(_), Err(_)) if alike => return Ok(Compared::UnknownAlike),
@@ -168,7 +168,7 @@ impl Pair<'_> {
     }
 
     /// Programmed alike, from a like state.
-    fn alike(&self, old: &Leg, new: &Leg) -> bool {
+    fn alike(old: &Leg, new: &Leg) -> bool {
         old.start == new.start && old.known_joints == new.known_joints && old.motion == at_block_of(old, &new.motion)
     }
 

@@ -11,10 +11,9 @@ impl Pair<'_> {
     pub(super) fn by_words(&self) -> Result<Compared, Outcome> {
         let (mm, deg) = self.claim.tolerances();
         match (Near { mm, deg }).pair(self.before, self.after) {
-            Ok(()) => Ok(Compared::UnknownAlike),
+            Ok(()) | Err(Verdict::Same) => Ok(Compared::UnknownAlike),
             Err(Verdict::Unknown(gap)) => Err(self.unknown(&gap.what)),
             Err(Verdict::Differs(found)) => self.refute(found.what),
-            Err(Verdict::Same) => Ok(Compared::UnknownAlike),
         }
     }
 

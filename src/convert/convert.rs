@@ -97,19 +97,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         &outs,
         (&claim, &options.drop),
     )?;
-    if let Some(&index) = turned.first().filter(|_| !options.allow_swap) {
-        let block = reading.motions[index].motion.block;
-        let message = format!(
-            "in this cut the control {} ({} such places in all): retract there, or say --allow-swap",
-            if setting.vectors {
-                "turns to the other posture for the vector"
-            } else {
-                "leads the tool axis on a great circle past the pole, on which the machine cannot turn to the posture at its end"
-            },
-            turned.len()
-        );
-        return Err(Refused::at(&reading.program, block, message));
-    }
+    swaps_are_allowed(&turned, &reading, &setting, options)?;
     let swaps = if turned.is_empty() { swaps } else { turned };
     let line = |block| place(&reading.program, block);
     let declared = zeros_declared(&job, source.setup, options);
@@ -132,6 +120,29 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         travel_undecided,
         clamps: setting.clamps_left(),
     })
+}
+
+/// Refuses a conversion in which the control takes another posture inside a cut, unless the user allows it.
+fn swaps_are_allowed(
+    turned: &[usize],
+    reading: &Reading,
+    setting: &Setting<'_>,
+    options: &Options,
+) -> Result<(), Refused> {
+    if let Some(&index) = turned.first().filter(|_| !options.allow_swap) {
+        let block = reading.motions[index].motion.block;
+        let message = format!(
+            "in this cut the control {} ({} such places in all): retract there, or say --allow-swap",
+            if setting.vectors {
+                "turns to the other posture for the vector"
+            } else {
+                "leads the tool axis on a great circle past the pole, on which the machine cannot turn to the posture at its end"
+            },
+            turned.len()
+        );
+        return Err(Refused::at(&reading.program, block, message));
+    }
+    Ok(())
 }
 
 fn place(program: &Program, block: trunnion_syntax::BlockId) -> u32 {

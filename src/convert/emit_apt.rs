@@ -199,7 +199,11 @@ fn plain_record(event: &Event) -> Option<String> {
         Event::Message(message) => format!("DISPLY/{}", text(message)),
         Event::SpindleOff => "SPINDL/OFF".to_owned(),
         // COOLNT/OFF is all there is
-        Event::Coolant(Coolant::ThruOff) => return None,
+        Event::Coolant(Coolant::ThruOff)
+        | Event::Tool(_)
+        | Event::SpindleOn(..)
+        | Event::WorkOffset(_)
+        | Event::Motion(_) => return None,
         Event::Coolant(coolant) => format!(
             "COOLNT/{}",
             match coolant {
@@ -212,7 +216,6 @@ fn plain_record(event: &Event) -> Option<String> {
         ),
         Event::Stop(optional) => if *optional { "OPSTOP" } else { "STOP" }.to_owned(),
         Event::Auxiliary(number) => format!("AUXFUN/{number}"),
-        Event::Tool(_) | Event::SpindleOn(..) | Event::WorkOffset(_) | Event::Motion(_) => return None,
     })
 }
 

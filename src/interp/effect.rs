@@ -77,7 +77,7 @@ impl core::fmt::Display for Argument {
             Value::Nothing => Ok(()),
             Value::Number(value) if assigns => write!(f, "={value}"),
             Value::Number(value) => write!(f, "{value}"),
-            Value::Text(text) if assigns && !self.name.starts_with(|c: char| c == 'G' || c == 'M') => {
+            Value::Text(text) if assigns && !self.name.starts_with(['G', 'M']) => {
                 write!(f, "={text}")
             }
             Value::Text(text) => f.write_str(text),

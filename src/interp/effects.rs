@@ -1,14 +1,14 @@
 //! The effects of an ISO block: which of its codes and words are held neither by its motions nor by the modal state.
+mod assignments;
 mod sort;
 
 use crate::codes::{Found, dwell_reads};
 use crate::effect::{Argument, Effect};
 use crate::run::Interpreter;
 use crate::words::{Said, Words};
-use crate::written::{
-    Keep, comments, named_effects, reads_machine_position, system_assignment, unknown_assignment, written,
-};
+use crate::written::{Keep, written};
 use crate::{FaultKind, Motion, MotionKind};
+use assignments::{comments, named_effects, reads_machine_position, system_assignment, unknown_assignment};
 use sort::{
     READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, letter_bit, name_of, said, sort,
     takes_axes, uncouples,
@@ -227,29 +227,12 @@ impl Interpreter<'_> {
     ) {
         let block = self.flow.main_block(view.id());
         let named = words.axes.given | words.axes.unread;
-        let unknown_end = motions.iter().any(|motion| {
-            let no_path = matches!(
-                motion.kind,
-                MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None)
-            );
-            no_path || named & !motion.end.known != 0
-        });
+        let unknown_end = motions.iter().any(|motion| ends_unknown(motion, named));
         let frame = codes.iter().any(|found| is_frame(found.code.action));
         let offset = codes.iter().any(|found| found.code.action == Action::WorkOffset);
         let lost = self.state.zero.iter().any(|value| value.is_nan()) || self.state.frame_unknown;
         let unknown_frame = (frame || offset) && lost || frame && self.state.position.xyz().is_none();
-        let unread = words.axes.unread | words.centre.unread | words.vector.unread != 0
-            || [
-                words.feed,
-                words.speed,
-                words.tool,
-                words.edge,
-                words.radius,
-                words.p,
-                words.length_offset,
-            ]
-            .iter()
-            .any(|said| matches!(said, Said::Unread));
+        let unread = has_unread(words);
         if frame && !unknown_frame {
             let words = written(view, self, words, Keep::All);
             self.memory.effects.frames.push(words);
@@ -298,6 +281,11 @@ impl Interpreter<'_> {
         if let Some(arguments) = system_assignment(self, view) {
             self.memory.effects.add(block, Effect::Event(arguments));
         }
+        self.after_motion(codes, words, block);
+    }
+
+    /// What the codes of a block do after its motion.
+    fn after_motion(&mut self, codes: &[Found<'_>], words: &Words, block: trunnion_syntax::BlockId) {
         if codes
             .iter()
             .any(|found| found.code.action == Action::MachineCoordinates)
@@ -324,4 +312,28 @@ impl Interpreter<'_> {
             }
         }
     }
+}
+
+/// Whether a word of the block has a value that is not known.
+fn has_unread(words: &Words) -> bool {
+    let values = [
+        words.feed,
+        words.speed,
+        words.tool,
+        words.edge,
+        words.radius,
+        words.p,
+        words.length_offset,
+    ];
+    words.axes.unread | words.centre.unread | words.vector.unread != 0
+        || values.iter().any(|said| matches!(said, Said::Unread))
+}
+
+/// Whether a motion has no known path, or no known end in one of the axes that its block names (bits).
+fn ends_unknown(motion: &Motion, named: u16) -> bool {
+    let no_path = matches!(
+        motion.kind,
+        MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None)
+    );
+    no_path || named & !motion.end.known != 0
 }

@@ -55,5 +55,5 @@ pub use setup::{
     ControlData, Files, ImplicitDecimals, LengthUnit, Library, Limits, Loaded, OuterCorner, RollPitchYaw,
     RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
 };
-pub use written::canonical_text;
 pub use trunnion_flow::{ChainId, Frame};
+pub use written::canonical_text;

@@ -263,14 +263,6 @@ impl Own {
     pub(crate) fn is_declared(&self, name: &str) -> bool {
         self.scope.sorts.contains_key(name.to_ascii_lowercase().as_str())
     }
-    /// What a variable holds now, also where the block in hand has written it.
-    pub(crate) fn held(&self, name: &str) -> Option<f64> {
-        let name = name.to_ascii_lowercase();
-        match r_parameter(&name) {
-            Some(number) => self.parameters.get(&number).copied(),
-            None => self.scope.values.get(name.as_str()).or(self.others.get(name.as_str())).copied(),
-        }
-    }
     fn is_fresh(&self, name: &str) -> bool {
         self.fresh.iter().any(|written| **written == *name)
     }

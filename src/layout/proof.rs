@@ -217,13 +217,10 @@ fn same_fault(a: &FaultKind, b: &FaultKind, faults: Faults) -> bool {
         ) => x == y && (faults == Faults::Kinds || folded(a) == folded(b)),
         // how many blocks ran depends on empty ones
         (FaultKind::EndlessLoop { proved: a, .. }, FaultKind::EndlessLoop { proved: b, .. }) => a == b,
-        // a text as written
-        (FaultKind::NotModelled { what: a }, FaultKind::NotModelled { what: b }) => {
-            faults == Faults::Kinds || folded(a) == folded(b)
-        }
         (FaultKind::GroupConflict { group, .. }, FaultKind::GroupConflict { group: other, .. }) => group == other,
-        // other texts as written
-        (FaultKind::NotDecided { what: a }, FaultKind::NotDecided { what: b })
+        // texts as written
+        (FaultKind::NotModelled { what: a }, FaultKind::NotModelled { what: b })
+        | (FaultKind::NotDecided { what: a }, FaultKind::NotDecided { what: b })
         | (FaultKind::WorkOffsetUnset { name: a }, FaultKind::WorkOffsetUnset { name: b })
         | (FaultKind::ToolLengthUnset { tool: a }, FaultKind::ToolLengthUnset { tool: b })
         | (FaultKind::ProgramAlarm { message: a }, FaultKind::ProgramAlarm { message: b }) => {

@@ -13,15 +13,15 @@ pub struct Process {
 
 impl Process {
     /// Sets a key; whether that changes anything.
-    pub(crate) fn set(this: &mut Arc<Self>, key: &Cow<'static, str>, to: &[Argument]) -> bool {
-        if this.get(key) == to {
+    pub(crate) fn set(this: &mut Arc<Self>, key: Cow<'static, str>, to: &[Argument]) -> bool {
+        if this.get(&key) == to {
             return false;
         }
         let this = Arc::make_mut(this);
         if to.is_empty() {
-            this.settings.remove(key);
+            this.settings.remove(&key);
         } else {
-            this.settings.insert(key.clone(), to.to_vec());
+            this.settings.insert(key, to.to_vec());
         }
         true
     }
@@ -106,7 +106,7 @@ impl Held {
     /// Of a modal state.
     pub fn new(state: &ModalState) -> Self {
         Self {
-            work_offset: state.work_offset.as_ref().map(|name| one_name(name)),
+            work_offset: state.work_offset.as_ref().map(one_name),
             compensation: state.compensation,
             length_of: state.length_of,
             plane: state.plane,

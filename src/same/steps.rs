@@ -258,7 +258,7 @@ impl<'a> Steps<'a> {
             };
             let (sort, words) = match effect {
                 Effect::Set { key, to } => {
-                    Process::set(&mut run.process, &key, &to);
+                    Process::set(&mut run.process, key, &to);
                     continue;
                 }
                 Effect::Store(argument) => {

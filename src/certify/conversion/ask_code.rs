@@ -58,7 +58,6 @@ fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
         | Action::VariableThread
         | Action::ThreadingCycle
         | Action::ThreadRepeatCycle => Own(Why::Synchronised),
-        Action::FineBoreCycle | Action::BackBoreCycle | Action::BoreManualCycle => Own(Why::Motion),
         // CYCLE84 taps; 86, 87 and 88 stop the spindle at an angle or wait for the operator
         Action::HoleCall => match code.id.as_str() {
             "CYCLE81" | "CYCLE82" | "CYCLE83" | "CYCLE85" | "CYCLE89" => Motions,
@@ -68,12 +67,17 @@ fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
         // MCALL: the cycle that it calls stands behind it
         Action::CannedCycle if code.id == "MCALL" => Motions,
         Action::NotModelled if taps(code) => Own(Why::Synchronised),
-        Action::NotModelled | Action::CannedCycle | Action::Skip => Own(Why::Motion),
         Action::ConstantSurfaceSpeed => Own(Why::SurfaceSpeed),
         // of a Sinumerik, G97 and G973 also say that F counts per turn, which is not followed
         Action::ConstantSpindleSpeed if code.group.as_deref() != Some("feed-mode") => Motions,
         Action::ConstantSpindleSpeed if matches!(code.id.as_str(), "G971" | "G972") => Motions,
-        Action::ConstantSpindleSpeed => Own(Why::Motion),
+        Action::NotModelled
+        | Action::CannedCycle
+        | Action::Skip
+        | Action::FineBoreCycle
+        | Action::BackBoreCycle
+        | Action::BoreManualCycle
+        | Action::ConstantSpindleSpeed => Own(Why::Motion),
         Action::PositionSet if text.split(' ').any(|word| word.starts_with('S')) => Own(Why::SpindleLimit),
         Action::PositionSet
         | Action::DataEntry
@@ -87,6 +91,7 @@ fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
 }
 
 /// Actions whose whole effect is in the motions and in the feeds, tools, offsets and spindle speeds that are compared with them.
+#[expect(clippy::too_many_lines, reason = "one row for each action")]
 fn in_motions(action: Action) -> bool {
     matches!(
         action,
@@ -232,10 +237,9 @@ fn quiet(code: &Code, held: Held, text: &str) -> Judged {
         "G5.1" if text.ends_with(" Q0") => Named(Ask::Idle(text.to_owned())),
         "G5" | "G8" if text.ends_with(" P0") => Named(Ask::Idle(text.to_owned())),
         // as feeds are programmed: the state of every program that is written
-        "FNORM" => Motions,
         // texts on the screen, and names for a simulation
         "MSG" | "DISPLOF" | "DISPLON" | "WORKPIECE" | "SETVN" => Named(Ask::Idle(code.id.clone())),
-        "AC" | "IC" | "DC" | "ACP" | "ACN" => Motions,
+        "FNORM" | "AC" | "IC" | "DC" | "ACP" | "ACN" => Motions,
         "SPOS" | "SPOSA" | "WAITS" => Own(Why::Oriented),
         "SETAL" => Own(Why::Waits),
         "ADIS" | "ADISPOS" | "CTOL" | "OTOL" | "ATOL" => Own(Why::PathControl),

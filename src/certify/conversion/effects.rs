@@ -257,7 +257,6 @@ impl<'a> Side<'a> {
 
     fn hear(&mut self, ask: &Ask, ran: usize, events: &mut Events) {
         match ask {
-            Ask::Idle(_) => {}
             Ask::Coolant(coolant) => self.coolants.set(*coolant),
             Ask::Stop { optional } => {
                 let stop = Event::Stop {
@@ -271,7 +270,7 @@ impl<'a> Side<'a> {
             }
             // where the program after has clamps of its own, they are judged by what its axes do
             Ask::Clamp(name) if *self.clamps == AllClampCodes::default() => self.own(name, name, true, ran, events),
-            Ask::Clamp(_) => {}
+            Ask::Idle(_) | Ask::Clamp(_) => {}
             Ask::Auxiliary(number) => self.auxiliary(*number, ran, events),
             Ask::Own(Own { name, text, why }) => {
                 if let Some((_, meaning)) = self.meanings.iter().find(|(known, _)| known == text) {

@@ -64,7 +64,11 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
         Action::ConstantSurfaceSpeed | Action::ConstantSpindleSpeed => Sort::Setting("speed mode"),
         Action::ProgramStop => Sort::After,
         Action::OrientationAxes | Action::OrientationVector => Sort::Group,
-        Action::DataEntry | Action::ReferenceStore | Action::ReferenceStoreOther | Action::SwivelCycle => Sort::Before,
+        Action::DataEntry
+        | Action::ReferenceStore
+        | Action::ReferenceStoreOther
+        | Action::SwivelCycle
+        | Action::Kinematics => Sort::Before,
         Action::MachineCoordinates => Sort::Setting("coordinates"),
         Action::CompensationLeft | Action::CompensationRight | Action::CompensationOff => Sort::Setting("compensation"),
         // a limit of the spindle's speed
@@ -77,7 +81,6 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
             None | Some("one-shot" | "non-modal" | "special-motion" | "exact-stop-once" | "stopping") => Sort::Before,
             Some(_) => Sort::Group,
         },
-        Action::Kinematics => Sort::Before,
         _ => Sort::Held,
     }
 }

@@ -6,6 +6,22 @@ use crate::words::{Number, Reading, Said};
 use trunnion_dialect::Code;
 use trunnion_syntax::{TextRange, Value, Word};
 
+impl super::Own {
+    /// What a variable holds now, also where the block in hand has written it.
+    pub(crate) fn held(&self, name: &str) -> Option<f64> {
+        let name = name.to_ascii_lowercase();
+        match super::r_parameter(&name) {
+            Some(number) => self.parameters.get(&number).copied(),
+            None => self
+                .scope
+                .values
+                .get(name.as_str())
+                .or(self.others.get(name.as_str()))
+                .copied(),
+        }
+    }
+}
+
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     /// An assignment to a name of the program's own.
     pub(crate) fn own_assignment(&mut self, name: TextRange, word: &Word) {

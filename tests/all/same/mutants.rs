@@ -69,7 +69,7 @@ impl Base {
         }
     }
 
-    fn text(&self, lines: &[Vec<Word>]) -> String {
+    fn text(lines: &[Vec<Word>]) -> String {
         let line = |words: &Vec<Word>| -> String {
             let words: Vec<String> = words.iter().map(Word::text).filter(|text| !text.is_empty()).collect();
             words.join(" ") + "\n"
@@ -84,7 +84,7 @@ impl Base {
             dialect: self.dialect.name.clone(),
             machine: self.machine.clone(),
             claim: None,
-            before: self.text(&self.lines),
+            before: Self::text(&self.lines),
             after,
             files: Vec::new(),
         }
@@ -93,11 +93,11 @@ impl Base {
     /// The program with the words of one line replaced.
     fn with(&self, at: usize, what: &str, words: Vec<Word>) -> Pair {
         let mut lines = self.lines.clone();
-        let before = self.text(&lines[at..=at]);
+        let before = Self::text(&lines[at..=at]);
         lines[at] = words;
-        let after = self.text(&lines[at..=at]);
+        let after = Self::text(&lines[at..=at]);
         let what = format!("line {}, {what}: `{}` to `{}`", at + 1, before.trim(), after.trim());
-        self.pair(Expected::Different, &what, self.text(&lines))
+        self.pair(Expected::Different, &what, Self::text(&lines))
     }
 
     /// All mutants that do something else.
@@ -122,7 +122,7 @@ impl Base {
                     // P, X, U and F may all be a dwell's time
                     let dwell = words.iter().any(|word| word.text() == "G4");
                     let time = |word: &Word| word.letter().is_some_and(|letter| "PXUF".contains(letter));
-                    for other in self.other_letters(word) {
+                    for other in Self::other_letters(word) {
                         if !(dwell && time(&other)) {
                             change("another letter", i, Some(other));
                         }
@@ -147,7 +147,7 @@ impl Base {
         all
     }
 
-    fn other_letters(&self, word: &Word) -> Vec<Word> {
+    fn other_letters(word: &Word) -> Vec<Word> {
         let letter = word.letter().filter(|letter| LETTERS.contains(*letter));
         let others = letter.map(|letter| LETTERS.chars().filter(move |other| *other != letter));
         others
@@ -231,9 +231,9 @@ impl Base {
                     freedom: Freedom::None,
                 }],
             );
-            let before = self.text(&self.lines[at..=at]);
+            let before = Self::text(&self.lines[at..=at]);
             let what = format!("`{block}` put before line {}, `{}`", at + 1, before.trim());
-            self.pair(Expected::Different, &what, self.text(&lines))
+            self.pair(Expected::Different, &what, Self::text(&lines))
         };
         listed.cloned().chain(m_codes).map(insert).collect()
     }
@@ -265,7 +265,7 @@ impl Base {
         } else {
             "(CUT)"
         };
-        let mut all = vec![self.pair(Expected::Same, "beside itself", self.text(&self.lines))];
+        let mut all = vec![self.pair(Expected::Same, "beside itself", Self::text(&self.lines))];
         if apt {
             all.push(each("blanks", &|_, words| {
                 line_of(words).replace('/', " / ").replace(',', " , ")

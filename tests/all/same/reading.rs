@@ -183,7 +183,7 @@ fn two_sides(line: &str, place: &str) -> (String, String) {
         .unwrap_or_else(|| panic!("{place}: `{}` has no `||`", line.trim()));
     let blocks = |side: &str| -> String {
         let parts = side.split(" \\ ").map(str::trim).filter(|part| !part.is_empty());
-        parts.map(|part| format!("{part}\n")).collect()
+        parts.flat_map(|part| [part, "\n"]).collect()
     };
     (blocks(before), blocks(after))
 }

@@ -70,9 +70,10 @@ pub(crate) fn trailing_zero(word: &Word) -> String {
 /// Cuts a line of a base: words are apart by blanks, `{}` and `<>` mark them. An APT record is one word.
 pub(crate) fn words(line: &str, apt: bool) -> Vec<Word> {
     let comparison = |text: &str| text.contains("AC_DTEB");
-    let parts: Vec<&str> = match apt || is_layout(line) || comparison(line) {
-        true => vec![line],
-        false => line.split(' ').collect(),
+    let parts: Vec<&str> = if apt || is_layout(line) || comparison(line) {
+        vec![line]
+    } else {
+        line.split(' ').collect()
     };
     let word = |part: &str| -> Word {
         let (freedom, bare) = match part.as_bytes() {

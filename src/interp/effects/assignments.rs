@@ -1,0 +1,144 @@
+//! Words that are written with `=`: what they set, and what variables they write.
+use crate::effect::{Argument, Effect};
+use crate::run::Interpreter;
+use crate::words::Words;
+use crate::written::{Keep, named_role, names, packed, resolved, stem, value_of, written};
+use trunnion_dialect::{CodeKind, Role};
+use trunnion_syntax::{Address, Block, BlockId, Item, Value};
+
+/// What words that are written with `=` set: `ADIS=0.5`, `LIMS=2000`, `R1=5`.
+pub(crate) fn named_effects(run: &mut Interpreter<'_>, view: &Block<'_>, block: BlockId) {
+    let mut effects = Vec::new();
+    for word in view.words() {
+        if matches!(word.address, Address::Letter(_)) {
+            continue;
+        }
+        let stem = stem(view, &word);
+        if stem.starts_with('#') {
+            continue;
+        }
+        let argument = |name: String| {
+            let text = view.program().text(word.value_range);
+            match word.value {
+                Value::Number(decimal) => Argument::number(name, decimal.to_f64()),
+                _ => match value_of(run, &text) {
+                    Some(value) => Argument::number(name, value),
+                    None => Argument::text(name, &resolved(run, &text)),
+                },
+            }
+        };
+        let full = match word.address {
+            Address::Named(name) => packed(&view.program().text(name)),
+            _ => stem.clone(),
+        };
+        // the block has written its variables by now
+        let stored = |name: String| match run.memory.own.held(&name) {
+            Some(value) => Argument::number(name, value),
+            None => argument(name),
+        };
+        match named_role(run, view, &word) {
+            Some(Role::Variable) => effects.push(Effect::Store(stored(full))),
+            Some(Role::Parameter) => {
+                let key = match stem.as_str() {
+                    "SPOS" | "SPOSA" | "SPCON" | "SPCOF" | "SVC" => "spindle".to_owned(),
+                    "LIMS" => "speed limit".to_owned(),
+                    _ => full.clone(),
+                };
+                let auxiliary = stem.starts_with('H') && stem[1..].bytes().all(|byte| byte.is_ascii_digit());
+                effects.push(if auxiliary {
+                    Effect::Event(vec![argument(full)])
+                } else {
+                    Effect::set(key, [argument(full)])
+                });
+            }
+            None if run.dialect.name(&stem).is_some_and(|code| code.kind == CodeKind::Name) => {
+                effects.push(Effect::set(full.clone(), [argument(full)]));
+            }
+            None if stem.starts_with('$') => effects.push(Effect::Event(vec![argument(full)])),
+            None if run.dialect.quirks.user_names && !run.memory.own.is_declared(&stem) => {
+                effects.push(Effect::Store(stored(full)));
+            }
+            _ => {}
+        }
+    }
+    for effect in effects {
+        run.memory.effects.add(block, effect);
+    }
+}
+
+/// The comments of a block, for codes that read them.
+pub(crate) fn comments(view: &Block<'_>) -> Vec<Argument> {
+    let texts = view.items().filter_map(|item| match item {
+        Item::Comment(comment) => Some(view.program().text(comment.range).trim().to_owned()),
+        _ => None,
+    });
+    texts.map(|text| Argument::text("comment", &text)).collect()
+}
+
+/// The words of a block that writes a variable of the control (Fanuc and Haas: #1000 and above), with the operator's message in its
+/// comment. A number that is computed may be any.
+pub(crate) fn system_assignment(run: &Interpreter<'_>, view: &Block<'_>) -> Option<Vec<Argument>> {
+    if !run.dialect.quirks.macro_b {
+        return None;
+    }
+    let mut found = Vec::new();
+    for item in view.items() {
+        let range = match item {
+            Item::Word(word) if matches!(word.address, Address::Named(_)) => word.range,
+            Item::Other(range) => range,
+            _ => continue,
+        };
+        let text = packed(&view.program().text(range));
+        let Some((name, value)) = text.strip_prefix('#').and_then(|rest| rest.split_once('=')) else {
+            continue;
+        };
+        let is_own = name.parse::<u32>().is_ok_and(|number| number < 1000) || name.starts_with('<');
+        if !is_own {
+            found.push(Argument::text(format!("#{name}"), &resolved(run, value)));
+        }
+    }
+    if found.is_empty() {
+        return None;
+    }
+    found.extend(comments(view));
+    Some(found)
+}
+
+/// Whether a block reads the present machine coordinates (Series 30i operator's manual, custom macro: #5021 and following).
+pub(crate) fn reads_machine_position(view: &Block<'_>) -> bool {
+    view.items().any(|item| match item {
+        Item::Word(word) => names(&view.program().text(word.range))
+            .iter()
+            .any(|name| name.starts_with("#502") && name.len() == 5),
+        _ => false,
+    })
+}
+
+/// The words of a block that gives a variable a value which is not known.
+pub(crate) fn unknown_assignment(run: &Interpreter<'_>, view: &Block<'_>, words: &Words) -> Option<Vec<Argument>> {
+    let unknown = |text: &str| {
+        names(text)
+            .iter()
+            .any(|name| run.variable(name).is_some_and(f64::is_nan))
+    };
+    let assigns = view.items().any(|item| match item {
+        Item::Word(word) => match word.address {
+            Address::Named(_) | Address::Indexed(..) if run.dialect.quirks.user_names => {
+                let variable = matches!(named_role(run, view, &word), None | Some(Role::Variable));
+                let name = match word.address {
+                    Address::Named(name) => packed(&view.program().text(name)),
+                    _ => stem(view, &word),
+                };
+                variable
+                    && !matches!(word.value, Value::Number(_))
+                    && run.memory.own.held(&name).is_none()
+                    && value_of(run, &view.program().text(word.value_range)).is_none()
+            }
+            _ => unknown(&view.program().text(word.range)),
+        },
+        Item::Call(call) => unknown(&view.program().text(call.range)),
+        Item::Other(range) => unknown(&view.program().text(range)),
+        _ => false,
+    });
+    assigns.then(|| written(view, run, words, Keep::All))
+}

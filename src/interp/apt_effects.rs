@@ -25,7 +25,7 @@ impl Interpreter<'_> {
             let off = args.has(program, "OFF");
             let mist = args.has(program, "MIST") && !off;
             let flood = !off && (args.has(program, "FLOOD") || args.has(program, "ON") || args.words().is_empty());
-            for (key, is_on) in [("mist", mist), ("flood", flood)] {
+            for (key, is_on) in [("mist coolant", mist), ("flood coolant", flood)] {
                 let to: Vec<Argument> = is_on.then(|| Argument::code("on")).into_iter().collect();
                 effects.add(block, Effect::set(key, to));
             }

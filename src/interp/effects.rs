@@ -275,7 +275,8 @@ impl Interpreter<'_> {
         }
         if reads_machine_position(view) {
             // machine coordinates depend on work offsets that may not be declared
-            let words = written(view, self, words, Keep::All);
+            let text = view.program().text(view.range());
+            let words = vec![Argument::text("", &crate::canonical_text(&text))];
             self.memory.effects.add(block, Effect::Unmodelled(words));
         }
         if let Some(arguments) = system_assignment(self, view) {

@@ -45,7 +45,7 @@ impl Process {
     }
 
     /// The settings that APT and G code share.
-    const SHARED: [&'static str; 5] = ["spindle", "speed", "flood", "mist", "tool in use"];
+    const SHARED: [&'static str; 5] = ["spindle", "speed", "flood coolant", "mist coolant", "tool in use"];
 
     /// The settings that differ among those that programs of two languages share: key, before, after.
     pub fn shared_differences<'p>(&'p self, other: &'p Self) -> Vec<(&'p str, String, String)> {
@@ -73,7 +73,7 @@ impl Process {
 /// Words as people read them.
 pub fn shown(words: &[Argument]) -> String {
     if words.is_empty() {
-        return "not set".to_owned();
+        return "not programmed".to_owned();
     }
     words.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
 }

@@ -109,7 +109,7 @@ impl Tech {
         pair("tool axis between ends", circle(self), circle(other));
         let value = |tech: &Self, key: &str| {
             let known = tech.settings.iter().find(|(known, _)| known == key);
-            known.map_or("not set".to_owned(), |(_, value)| value.clone())
+            known.map_or("not programmed".to_owned(), |(_, value)| value.clone())
         };
         let mut keys: Vec<&str> = self
             .settings

@@ -89,9 +89,9 @@ pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
 pub(super) fn coolant(code: &trunnion_dialect::Code) -> Option<&'static [(&'static str, bool)]> {
     let listed = matches!(code.group.as_deref(), Some("coolant" | "mist"));
     match code.id.as_str() {
-        "M7" if listed => Some(&[("mist", true)]),
-        "M8" if listed => Some(&[("flood", true)]),
-        "M9" if listed => Some(&[("mist", false), ("flood", false)]),
+        "M7" if listed => Some(&[("mist coolant", true)]),
+        "M8" if listed => Some(&[("flood coolant", true)]),
+        "M9" if listed => Some(&[("mist coolant", false), ("flood coolant", false)]),
         _ => None,
     }
 }

@@ -127,7 +127,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     }
 
     #[inline]
-    fn motion(&mut self, kind: MotionKind, end: Position, shift: &Shift, feed: Feed, at: At, state: &State) {
+    pub(super) fn motion(&mut self, kind: MotionKind, end: Position, shift: &Shift, feed: Feed, at: At, state: &State) {
         self.motion_to(kind, [end, shift.machine(&end)], shift, feed, at, state);
     }
 
@@ -394,32 +394,5 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
         self.not_modelled(at, 382..=385, format!("G38.{kind}: the probed position"));
         self.motion(MotionKind::Unknown, end, &shift, Feed::Unknown, at, state);
-    }
-
-    /// Rigid tapping: in along the thread and back to where it began.
-    fn tap(&mut self, to: [f64; 3], back: f64, at: At, state: &State) {
-        let shift = self.shift(state);
-        let start = shift.programmed(&self.told.machine);
-        let point = shift.point(to);
-        let mut end = start;
-        for axis in 0..3 {
-            if point[axis].is_finite() {
-                end.set(axis, point[axis]);
-            } else {
-                end.forget(axis);
-            }
-        }
-        let feed = self
-            .told
-            .synced
-            .map_or(Feed::Unknown, |pitch| Feed::PerRevolution(pitch.mm));
-        if self.interpreter.memory.effects.wanted {
-            self.tapping(Some(back), at);
-        }
-        self.motion(MotionKind::Linear, end, &shift, feed, at, state);
-        self.motion(MotionKind::Linear, start, &shift, feed, at, state);
-        if self.interpreter.memory.effects.wanted {
-            self.tapping(None, at);
-        }
     }
 }

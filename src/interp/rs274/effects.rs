@@ -1,9 +1,9 @@
 //! Effects of a LinuxCNC program: canonical calls that are no motion and are not held by the modal state.
 use super::bridge::Bridge;
-use crate::Sink;
 use crate::effect::{Argument, Effect};
+use crate::{Feed, MotionKind, Sink};
 use std::borrow::Cow;
-use trunnion_ngc::{At, Canon, Coolant, MotionMode, SpindleTurn, Stop, Switch};
+use trunnion_ngc::{At, Canon, Coolant, MotionMode, SpindleTurn, State, Stop, Switch};
 
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// Hands the effect of a canonical call on, if it has one.
@@ -17,6 +17,33 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
             self.interpreter.memory.effects.add(block, effect);
             self.hand_on();
+        }
+    }
+
+    /// Rigid tapping: in along the thread and back to where it began.
+    pub(super) fn tap(&mut self, to: [f64; 3], back: f64, at: At, state: &State) {
+        let shift = self.shift(state);
+        let start = shift.programmed(&self.told.machine);
+        let point = shift.point(to);
+        let mut end = start;
+        for axis in 0..3 {
+            if point[axis].is_finite() {
+                end.set(axis, point[axis]);
+            } else {
+                end.forget(axis);
+            }
+        }
+        let feed = self
+            .told
+            .synced
+            .map_or(Feed::Unknown, |pitch| Feed::PerRevolution(pitch.mm));
+        if self.interpreter.memory.effects.wanted {
+            self.tapping(Some(back), at);
+        }
+        self.motion(MotionKind::Linear, end, &shift, feed, at, state);
+        self.motion(MotionKind::Linear, start, &shift, feed, at, state);
+        if self.interpreter.memory.effects.wanted {
+            self.tapping(None, at);
         }
     }
 
@@ -113,10 +140,10 @@ fn effect(call: &Canon) -> Option<Effect> {
             Argument::number("Q", *seconds),
         ]),
         Canon::Coolant(coolant) => match coolant {
-            Coolant::MistOn => Effect::set("mist", on(true)),
-            Coolant::MistOff => Effect::set("mist", on(false)),
-            Coolant::FloodOn => Effect::set("flood", on(true)),
-            Coolant::FloodOff => Effect::set("flood", on(false)),
+            Coolant::MistOn => Effect::set("mist coolant", on(true)),
+            Coolant::MistOff => Effect::set("mist coolant", on(false)),
+            Coolant::FloodOn => Effect::set("flood coolant", on(true)),
+            Coolant::FloodOff => Effect::set("flood coolant", on(false)),
         },
         Canon::SelectTool(tool) => Effect::set("tool prepared", [count("T", *tool)]),
         Canon::ChangeTool { tool, .. } | Canon::ChangeToolNumber { tool, .. } => {

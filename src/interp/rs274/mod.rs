@@ -148,6 +148,12 @@ impl Interpreter<'_> {
                 .add(block, Effect::Event(vec![Argument::text("", &upper)]));
             self.hand_on(sink);
         }
+        // in the main program it starts again, or ends, as the control is set up
+        let Some(run) = &mut self.rs274 else { return };
+        if upper.contains("M99") && run.told.places.chain(at) == crate::ChainId::MAIN {
+            self.memory.effects.add(block, Effect::End(vec![Argument::code("M99")]));
+            self.hand_on(sink);
+        }
         let shifts = ["G92", "G52", "G10", "G53"]
             .iter()
             .any(|code| crate::written::packed(&text).contains(code));

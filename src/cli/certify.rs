@@ -2,6 +2,7 @@
 use super::{
     Done,
     args::{Certify, ClaimOf, Global},
+    diff,
     failure::Failure,
     load,
 };
@@ -13,6 +14,11 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     let loaded = load::load(global, &command.before)?;
     let machine = loaded.machine_or_fail("certify")?;
     let after = load::read_program(global, &command.after)?;
+    let second = if load::is_stdin(&command.after) {
+        None
+    } else {
+        load::load(global, &command.after).ok()
+    };
     let before = loaded.program.source();
     let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
     let outcome = if let Some(file) = &command.certificate {
@@ -41,6 +47,12 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         certify_across(before, &after, [dialect, other], machine, setup, &claim)
     };
     let mut out = std::io::stdout().lock();
+    let shared = || {
+        let second = second.as_ref().filter(|_| command.certificate.is_none())?;
+        let tolerances = (command.tolerance_mm, command.tolerance_deg);
+        let path_only = command.claim == ClaimOf::Path;
+        Some(diff::shared(&loaded, second, tolerances, path_only))
+    };
     match outcome {
         Outcome::Proved(certificate) => {
             writeln!(out, "PROVED {}", certificate.summary())?;
@@ -49,10 +61,16 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         Outcome::Refuted(witness) => {
             let line = witness.line.map(|line| format!(":{line}")).unwrap_or_default();
             writeln!(out, "REFUTED {}{line}: {}", command.after.display(), witness.message)?;
+            if let Some(line) = shared() {
+                writeln!(out, "{line}")?;
+            }
             Ok(Done::Found)
         }
         Outcome::Unknown(gap) => {
             writeln!(out, "UNKNOWN {}", gap.message)?;
+            if let Some(line) = shared() {
+                writeln!(out, "{line}")?;
+            }
             Ok(Done::Found)
         }
     }

@@ -82,3 +82,18 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
     out.flush()?;
     Ok(if found.same() { Done::Clean } else { Done::Found })
 }
+
+/// One line on how much of two programs that are not the same is the same, motion by motion.
+pub(super) fn shared(
+    before: &load::Loaded,
+    after: &load::Loaded,
+    (tolerance_mm, tolerance_deg): (f64, f64),
+    path_only: bool,
+) -> String {
+    let tolerance = Tolerance {
+        mm: tolerance_mm,
+        deg: tolerance_deg,
+    };
+    let found = changes::compare(before, after, tolerance, path_only);
+    show::shared(&found)
+}

@@ -175,13 +175,13 @@ impl Interpreter<'_> {
             let to = [chosen(&self.memory.prepared), said("T", words.tool)];
             self.memory.effects.add(block, Effect::set("tool prepared", to));
         }
-        if codes.iter().any(|found| found.code.action == Action::ToolChange) {
-            let change = vec![Argument::code("tool change")];
-            self.memory.effects.add(block, Effect::Event(change));
-        }
         if words.tool.is_said() || codes.iter().any(|found| found.code.action == Action::ToolChange) {
             let to = [chosen(&self.memory.in_spindle)];
             self.memory.effects.add(block, Effect::set("tool in use", to));
+        }
+        if codes.iter().any(|found| found.code.action == Action::ToolChange) {
+            let change = vec![Argument::code("tool change")];
+            self.memory.effects.add(block, Effect::Event(change));
         }
         if words.edge.is_said() {
             self.memory

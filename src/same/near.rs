@@ -78,8 +78,7 @@ impl Judge for Near {
         let ends = before.leg.as_ref().zip(after.leg.as_ref());
         let Some((Ok(was), Ok(is))) = ends.map(|(a, b)| (a.end.as_ref(), b.end.as_ref())) else {
             return unknown(
-                "one program leads the tip and the other the axes, and without a machine that cannot be compared"
-                    .into(),
+                "the tool axes are programmed in different ways, and without a machine these cannot be compared".into(),
             );
         };
         let off = (was.tip + zero(a) - is.tip - zero(b)).norm();
@@ -89,7 +88,7 @@ impl Judge for Near {
                 "the tip ends {off:.6} mm and the tool axis {angle:.6} deg apart"
             ));
         }
-        unknown("both end in the same pose, one leads the tip and the other the axes: their paths in between are not compared".into())
+        unknown("both end in the same pose, but their tool axes are programmed in different ways: the paths in between are not compared".into())
     }
 }
 

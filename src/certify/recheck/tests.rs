@@ -270,7 +270,7 @@ fn another_zero_tool_length_or_dwell_is_another_path() {
         ("G54 G0 X1.", "G55 G0 X1.", "the work offset"),
         // at the same place, but only as long as the offset is none
         ("G0 X1.", "G53 G0 X1.", "machine coordinates"),
-        ("T1 M6\nG0 X1. Y1. Z1.", "T2 M6\nG0 X1. Y1. Z1.", "tool prepared"),
+        ("T1 M6\nG0 X1. Y1. Z1.", "T2 M6\nG0 X1. Y1. Z1.", "tool in use"),
         ("G43 H1 G0 X1. Y1. Z1.", "G43 H3 G0 X1. Y1. Z1.", "whose tool length"),
         (
             "#1=7\nG43 H#1 G0 X1. Y1. Z1.",

@@ -112,7 +112,11 @@ pub(super) fn compare(before: &Loaded, after: &Loaded, tolerance: Tolerance, pat
     };
     let mut sides = [Steps::new(input(before, machine)), Steps::new(input(after, machine))];
     let [one, other] = &mut sides;
-    let mut found = Found::new(trunnion_same::compare(one, other, &claim, &mut near));
+    let mut verdict = trunnion_same::compare(one, other, &claim, &mut near);
+    if matches!(verdict, Verdict::Unknown(_)) && proved(before, after, tolerance, path_only) {
+        verdict = Verdict::Same;
+    }
+    let mut found = Found::new(verdict);
     let mut techs = Techs::default();
     let a = keys(before, machine, tolerance, &mut techs, (0, &mut found));
     let b = keys(after, machine, tolerance, &mut techs, (1, &mut found));
@@ -146,6 +150,36 @@ pub(super) fn compare(before: &Loaded, after: &Loaded, tolerance: Tolerance, pat
     same_stretches(&a, &b, &techs, &stretches, &mut found);
     details(before, after, machine, tolerance, &stretches, &mut found);
     found
+}
+
+/// Where ends and shapes do not decide, the bounds between the ends may: a tool vector beside rotary words.
+fn proved(before: &Loaded, after: &Loaded, tolerance: Tolerance, path_only: bool) -> bool {
+    let (old, new) = (&before.resolved, &after.resolved);
+    let Some(machine) = old.machine.as_ref().filter(|_| old.config_path == new.config_path) else {
+        return false;
+    };
+    let (tolerance_mm, tolerance_deg) = (tolerance.mm, tolerance.deg);
+    let claim = if path_only {
+        trunnion_certify::Claim::SamePath {
+            tolerance_mm,
+            tolerance_deg,
+        }
+    } else {
+        trunnion_certify::Claim::SameToolPath {
+            tolerance_mm,
+            tolerance_deg,
+        }
+    };
+    let texts = [before, after].map(|loaded| loaded.program.source());
+    let outcome = trunnion_certify::certify_across(
+        texts[0],
+        texts[1],
+        [old.dialect, new.dialect],
+        machine,
+        &old.setup,
+        &claim,
+    );
+    matches!(outcome, trunnion_certify::Outcome::Proved(_))
 }
 
 fn keys(

@@ -223,6 +223,24 @@ fn tech_row(lines: &Lines<'_>, change: &TechChange) -> (u32, [String; 2], String
     )
 }
 
+/// How many motions are the same and how many are not, for `certify`.
+pub(super) fn shared(found: &Found) -> String {
+    if found.too_different {
+        return "the programs have too little in common to say which motion is which".to_owned();
+    }
+    let [moved, removed, added, state] = counts(found);
+    let only = |after: bool| {
+        let is_motion = |change: &&Change| matches!(change, Change::Only(side, _, body) if *side == after && matches!(**body, Body::Motion(..)));
+        found.changes.iter().filter(is_motion).count() as u64
+    };
+    let paired = found.motions[0].saturating_sub(moved + only(false) + found.not_compared);
+    format!(
+        "{} of {} motions lead the same way; {moved} lead elsewhere, {removed} motions and statements are only before, {added} only after, \
+         {state} motions have other settings; `trunnion diff` lists them",
+        paired, found.motions[0]
+    )
+}
+
 /// The largest distance between paired ends, mm, with the line of the second program.
 pub(super) fn farthest(lines: &Lines<'_>, found: &Found) -> Option<(f64, u32)> {
     let mut worst: Option<(f64, u32)> = None;

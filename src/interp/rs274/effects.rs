@@ -11,11 +11,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     pub(super) fn effect_of_call(&mut self, call: &Canon, at: At) {
         if let Some(effect) = effect(call) {
             let block = self.block(at);
+            self.interpreter.memory.effects.add(block, effect);
             if matches!(call, Canon::ChangeTool { .. } | Canon::ChangeToolNumber { .. }) {
                 let change = vec![Argument::code("tool change")];
                 self.interpreter.memory.effects.add(block, Effect::Event(change));
             }
-            self.interpreter.memory.effects.add(block, effect);
             self.hand_on();
         }
     }

@@ -218,3 +218,27 @@ fn a_laid_out_program_is_the_same() {
     assert_eq!(status(&output), 0);
     assert_eq!(json(&output)["same"], true);
 }
+
+/// G code and the CL data made from it: only the language differs. Another end is found across the languages too.
+#[test]
+fn a_program_and_its_cl_data_are_the_same() {
+    let folder = TempDir::new().expect("works");
+    let program = "G17 G54 G71 G90 G94\nT1 D1 M6\nS8000 M3\nM8\nTRAORI\nG0 X0 Y0 Z50 A3=0 B3=0 C3=1\nG1 Z5 F1000\n\
+                   X10 Y0 Z5 A3=0 B3=-0.1 C3=1\nX20 Y5 Z6 A3=0.1 B3=-0.1 C3=1\nG0 Z50\nM9\nM5\nTRAFOOF\nM30\n";
+    let a = write(&folder, "a.mpf", program);
+    let machine = ["--machine", "mikron-ucp710"];
+    let made = trunnion(&[&["convert", str(&a), "--to", "apt"], &machine[..]].concat());
+    assert_eq!(status(&made), 0, "{}", text(&made.stderr));
+    for (cl, same) in [
+        (text(&made.stdout), true),
+        (text(&made.stdout).replace("GOTO/20,5,6", "GOTO/20,5,7"), false),
+        (text(&made.stdout).replace("SPINDL/8000", "SPINDL/7000"), false),
+    ] {
+        let b = write(&folder, "b.apt", &cl);
+        for (command, word) in [("diff", "SAME"), ("certify", "PROVED")] {
+            let output = trunnion(&[&[command, str(&a), str(&b)], &machine[..]].concat());
+            assert_eq!(text(&output.stdout).starts_with(word), same, "{}", text(&output.stdout));
+            assert_eq!(status(&output), i32::from(!same));
+        }
+    }
+}

@@ -44,10 +44,10 @@ impl Interpreter<'_> {
             } else {
                 vec![Argument::code("M3")]
             };
-            effects.add(block, Effect::set("spindle", to));
             if let Some(&speed) = args.numbers().first().filter(|_| !still) {
                 effects.add(block, Effect::set("speed", [Argument::number("S", speed)]));
             }
+            effects.add(block, Effect::set("spindle", to));
             let plain = ["RPM", "CLW", "CCLW", "ON", "OFF", "LOCK", "ORIENT", "SFM", "SMM"];
             let other = args
                 .words()

@@ -57,6 +57,8 @@ impl Interpreter<'_> {
             self.memory.effects.add(block, Effect::Event(words));
         }
         named_effects(self, view, block);
+        // S and T act before the codes of their block
+        self.word_effects(codes, words, block);
         let mut free = self.free_letters(words);
         for found in codes {
             if couples(found.code.action) {
@@ -117,7 +119,6 @@ impl Interpreter<'_> {
         } else if !opaque.is_empty() {
             self.several(&opaque, rest, words, view);
         }
-        self.word_effects(codes, words, block);
     }
 
     /// Several codes that are compared by their words, or one that happens once: the codes in an order of their own, with all words that

@@ -258,8 +258,12 @@ impl<'a> Steps<'a> {
             };
             let (sort, words) = match effect {
                 Effect::Set { key, to } => {
-                    Process::set(&mut run.process, key, &to);
-                    continue;
+                    // a spindle that starts, stops or reverses does so at once, whether or not a motion follows
+                    let happens = key.starts_with("spindle") && !key.ends_with("words");
+                    if !Process::set(&mut run.process, key, &to) || !happens {
+                        continue;
+                    }
+                    (Sort::Event, to)
                 }
                 Effect::Store(argument) => {
                     run.stores.insert(argument.name.into_owned(), argument.value);

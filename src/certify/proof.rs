@@ -24,8 +24,13 @@ pub(crate) struct Proof<'a> {
 impl Judge for Proof<'_> {
     fn pair(&mut self, before: &Step, after: &Step) -> Result<(), Verdict> {
         self.add(before, after).map_err(|outcome| {
+            let verdict = if matches!(outcome, Outcome::Unknown(_)) {
+                Verdict::Unknown
+            } else {
+                Verdict::Differs
+            };
             self.failed = Some(outcome);
-            Verdict::Differs(Difference {
+            verdict(Difference {
                 before: None,
                 after: None,
                 what: String::new(),

@@ -2,9 +2,10 @@
 use super::{
     Done,
     args::{Check, CheckFormat, Global},
-    failure::{Failure, remark},
+    failure::{Failure, remark, shown},
     json, load, render, short, walk,
 };
+use crate::cli::out::Out;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::prelude::*;
 use std::{
@@ -69,7 +70,7 @@ pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
             remark(false, &file.explanation);
         }
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = Out::standard();
     let found = checked.iter().any(|file| file.found);
     if format == CheckFormat::Json {
         json::write(&mut out, checked)?;
@@ -108,7 +109,7 @@ fn check_file(global: &Global, command: &Check, format: CheckFormat, path: &Path
     let lines = trunnion_syntax::LineIndex::new(loaded.program.source());
     let text = match format {
         CheckFormat::Pretty => render::pretty(&loaded, &lines, &report, command.limit, global.color.on()),
-        CheckFormat::Short => short::short(&loaded, &lines, &report, command.limit),
+        CheckFormat::Short => shown(&short::short(&loaded, &lines, &report, command.limit)).into_owned(),
         CheckFormat::Json => String::new(),
     };
     let deny = global.deny.severity();

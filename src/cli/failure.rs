@@ -101,16 +101,12 @@ pub(crate) fn remark(quiet: bool, text: &str) {
 /// Text that a terminal shows as it is written: control characters of programs and file names, and marks that change the direction of
 /// text, are shown as escapes (`\\x1b`). Line ends and tabs stay.
 pub(crate) fn shown(text: &str) -> Cow<'_, str> {
-    let hidden = |c: char| {
-        c.is_control() && c != '\n' && c != '\t'
-            || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{200e}' | '\u{200f}' | '\u{61c}')
-    };
-    if !text.contains(hidden) {
+    if !text.contains(is_hidden) {
         return Cow::Borrowed(text);
     }
     let mut out = String::with_capacity(text.len() + 16);
     for c in text.chars() {
-        if !hidden(c) {
+        if !is_hidden(c) {
             out.push(c);
         } else if (c as u32) < 0x100 {
             let _ = write!(out, "\\x{:02x}", c as u32);
@@ -119,4 +115,10 @@ pub(crate) fn shown(text: &str) -> Cow<'_, str> {
         }
     }
     Cow::Owned(out)
+}
+
+/// Control characters but line end and tab, and marks that change the direction of text.
+pub(crate) fn is_hidden(c: char) -> bool {
+    let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{200e}' | '\u{200f}' | '\u{61c}');
+    turns || c.is_control() && c != '\n' && c != '\t'
 }

@@ -70,12 +70,15 @@ struct Outcome {
 
 /// Runs `fmt`. A file whose new layout cannot be proved stays, and makes the exit status 2.
 pub(super) fn run(global: &Global, command: &Fmt) -> Result<Done, Failure> {
-    let paths = walk::programs(&command.paths)?;
+    let mut found = walk::programs(&command.paths)?;
+    found.remark(global.quiet, global.verbose);
+    let paths = std::mem::take(&mut found.files);
     if command.stdout && paths.len() > 1 {
         return Err(Failure::new(format!("--stdout takes one file, not {}", paths.len())));
     }
     // in pieces, so that not all files are in memory at once
-    let (mut changed, mut unchanged, mut failures) = (0usize, 0usize, Vec::new());
+    let (mut changed, mut unchanged) = (0usize, 0usize);
+    let mut failures: Vec<_> = found.failures.into_iter().map(Some).collect();
     for some in paths.chunks(64) {
         let outcomes: Vec<_> = some.par_iter().map(|path| lay_out(global, command, path)).collect();
         for outcome in outcomes {

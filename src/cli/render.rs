@@ -1,5 +1,10 @@
 //! Diagnostics as miette reports: the only file that names miette.
-use super::{check::Checked, failure::shown, load::Loaded, short};
+use super::{
+    check::Checked,
+    failure::{is_hidden, shown},
+    load::Loaded,
+    short,
+};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
     SourceSpan, SpanContents,
@@ -201,9 +206,14 @@ fn is_continuation(byte: u8) -> bool {
 fn printable(bytes: &[u8]) -> Vec<u8> {
     let mut out = Vec::with_capacity(bytes.len());
     for chunk in bytes.utf8_chunks() {
-        for byte in chunk.valid().bytes() {
-            let keep = byte >= b' ' && byte != 0x7f || matches!(byte, b'\n' | b'\t' | b'\r');
-            out.push(if keep { byte } else { b'?' });
+        for c in chunk.valid().chars() {
+            let mut buffer = [0; 4];
+            let encoded = c.encode_utf8(&mut buffer);
+            if c != '\r' && is_hidden(c) {
+                out.extend(encoded.bytes().map(|_| b'?'));
+            } else {
+                out.extend_from_slice(encoded.as_bytes());
+            }
         }
         out.extend(chunk.invalid().iter().map(|_| b'?'));
     }

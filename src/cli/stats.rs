@@ -22,7 +22,9 @@ pub(crate) struct Stats {
 pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
     let mut out = Out::standard();
     let mut files = Vec::new();
-    for (number, path) in walk::programs(&command.paths)?.iter().enumerate() {
+    let found = walk::programs(&command.paths)?;
+    found.remark(global.quiet, global.verbose);
+    for (number, path) in found.files.iter().enumerate() {
         let loaded = load::load(global, path)?;
         let tally = tally::Tally::of(&loaded);
         match command.format {

@@ -1,4 +1,4 @@
-//! Floor 0: the one place that reads and writes the user's files. A file is read whole or refused; it is written whole or not at all.
+//! Floor 6, below workspace: the one place that reads and writes the user's files. A file is read whole or refused; it is written whole or not at all.
 //!
 //! It knows no programs. Source of the promises: docs/files.md.
 mod error;

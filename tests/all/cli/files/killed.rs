@@ -2,6 +2,7 @@
 use super::{LOOSE, content, folder, names};
 use crate::cli::tools::{status, str, text, trunnion, write};
 use std::{
+    fmt::Write,
     path::Path,
     process::{Child, Command, Stdio},
     time::Duration,
@@ -28,7 +29,7 @@ fn start(arguments: &[&str]) -> Child {
 fn large() -> String {
     let mut program = String::from("%\nO1\nG21G90G17G54\nT1M6\nS1000M3\nG1Z-1F100\n");
     for i in 0..4000 {
-        program.push_str(&format!("X{}Y{}\n", i % 300, i % 170));
+        let _ = writeln!(program, "X{}Y{}", i % 300, i % 170);
     }
     program.push_str("M30\n%\n");
     program

@@ -21,7 +21,7 @@ pub use action::{Action, Plane, Role};
 pub use advice::{Advice, Expressions, RotaryFeed};
 pub use builtin::{BUILTIN_NAMES, builtin};
 pub use code::{Code, CodeKind};
-pub use detect::{Detected, detect, is_program_file_name, program_extensions};
+pub use detect::{Detected, detect, is_program_file_name, looks_like_program, program_extensions};
 pub use dialect::{Alarm, ArcTolerance, Dialect, Quirks};
 pub use facts::DialectFacts;
 pub use modeline::{Modeline, modeline};

@@ -9,7 +9,7 @@ use crate::trail::{Trail, axes_chord};
 use crate::view::{LegView, Overview};
 use crate::visited::Visited;
 use crate::{Level, Report, Settings};
-use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, Refusal, Sink};
+use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, ProgramRun, Refusal, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
 

@@ -1,4 +1,4 @@
-//! Floor 1: what letters and codes mean on a control. One dialect is one TOML table in `grammar/dialects`.
+//! Floor 2: what letters and codes mean on a control. One dialect is one TOML table in `grammar/dialects`.
 //!
 //! It does not know motions, machines or files.
 mod action;
@@ -16,7 +16,7 @@ mod schema;
 mod signs;
 mod textmate;
 
-pub use action::{Action, Plane, Role};
+pub use action::Role;
 pub use builtin::{BUILTIN_NAMES, builtin};
 pub use code::{Code, CodeKind};
 pub use detect::{Detected, detect, is_program_file_name, looks_like_program, program_extensions};
@@ -26,6 +26,7 @@ pub use modeline::{Modeline, modeline};
 pub use own_table::TableError;
 pub use schema::{DialectError, Owner, load};
 pub use textmate::textmate;
+pub use trunnion_vocabulary::{Action, Plane};
 
 #[cfg(test)]
 mod tests;

@@ -2,6 +2,7 @@
 //!
 //! It does not know motions, machines or files.
 mod action;
+mod advice;
 mod assemble;
 mod builtin;
 mod code;
@@ -17,6 +18,7 @@ mod signs;
 mod textmate;
 
 pub use action::Role;
+pub use advice::{Advice, Expressions, RotaryFeed};
 pub use builtin::{BUILTIN_NAMES, builtin};
 pub use code::{Code, CodeKind};
 pub use detect::{Detected, detect, is_program_file_name, looks_like_program, program_extensions};

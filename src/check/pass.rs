@@ -10,7 +10,7 @@ use crate::visited::Visited;
 use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
 use trunnion_dialect::Dialect;
-use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, Refusal, Sink};
+use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, ProgramRun, Refusal, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
 

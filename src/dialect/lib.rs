@@ -1,4 +1,4 @@
-//! Floor 1: what letters and codes mean on a control. One dialect is one TOML table in `grammar/dialects`.
+//! Floor 2: what letters and codes mean on a control. One dialect is one TOML table in `grammar/dialects`.
 //!
 //! It does not know motions, machines or files.
 mod action;
@@ -17,7 +17,7 @@ mod schema;
 mod signs;
 mod textmate;
 
-pub use action::{Action, Plane, Role};
+pub use action::Role;
 pub use advice::{Advice, Expressions, RotaryFeed};
 pub use builtin::{BUILTIN_NAMES, builtin};
 pub use code::{Code, CodeKind};
@@ -28,6 +28,7 @@ pub use modeline::{Modeline, modeline};
 pub use own_table::TableError;
 pub use schema::{DialectError, Owner, load};
 pub use textmate::textmate;
+pub use trunnion_vocabulary::{Action, Plane};
 
 #[cfg(test)]
 mod tests;

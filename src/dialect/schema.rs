@@ -113,6 +113,7 @@ pub(crate) struct ArcToleranceRow {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct CodeRow {
     pub(crate) group: Option<Spanned<String>>,
+    #[serde(deserialize_with = "crate::action::action")]
     pub(crate) action: Action,
     #[serde(default)]
     pub(crate) words: Vec<String>,

@@ -13,7 +13,8 @@ const FLOORS: &[(&str, u32)] = &[
     ("trunnion-syntax", 0),
     ("trunnion-pieces", 1),
     ("trunnion-formula", 1),
-    ("trunnion-dialect", 1),
+    ("trunnion-vocabulary", 1),
+    ("trunnion-dialect", 2),
     ("trunnion-flow", 2),
     ("trunnion-ngc", 2),
     ("trunnion-interp", 3),
@@ -39,6 +40,7 @@ const FORBIDDEN: &[(&str, &[&str])] = &[
     ("trunnion-syntax", &["nalgebra", "serde", "toml", "trunnion-geometry"]),
     ("trunnion-geometry", &["trunnion-syntax", "serde", "toml"]),
     ("trunnion-formula", &["serde", "toml"]),
+    ("trunnion-vocabulary", &["serde", "toml"]),
     ("trunnion-ngc", &["serde", "toml", "trunnion-dialect"]),
     ("trunnion-certify", &["trunnion-check", "trunnion-rewrite"]),
     (

@@ -9,7 +9,7 @@ use crate::cli::{
 use std::io::Write;
 use std::path::Path;
 use trunnion_geometry::{Vec3, deg};
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, MotionKind, Sink};
+use trunnion_interp::{Fault, ModalState, Motion, MotionKind, Sink};
 use trunnion_machine::{AxisKind, Comparison, Follower, Machine, TipDifference};
 use trunnion_syntax::{BlockId, LineIndex};
 use trunnion_workspace::find_machine;
@@ -273,5 +273,4 @@ impl Sink for Both<'_> {
         }
     }
     fn fault(&mut self, _fault: Fault) {}
-    fn block_done(&mut self, _block: BlockId, _interpreter: &Interpreter<'_>) {}
 }

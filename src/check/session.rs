@@ -2,7 +2,7 @@
 use crate::analysis::{Watch, judge};
 use crate::{Report, Settings};
 use core::ops::ControlFlow;
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
+use trunnion_interp::{Fault, Interpreter, ModalState, Motion, ProgramRun, Sink};
 use trunnion_machine::{Follower, Memory, Row, row};
 use trunnion_syntax::{BlockId, Program};
 

@@ -1,8 +1,8 @@
 //! Runs a program on its machine and hands on each motion with its joints and its line.
 use super::load::Loaded;
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
+use trunnion_interp::{Fault, ModalState, Motion, Sink};
 use trunnion_machine::{Follower, Leg, Machine};
-use trunnion_syntax::{BlockId, LineIndex};
+use trunnion_syntax::LineIndex;
 
 /// Calls `take`, with the line and what is in force, for each motion of the blocks between two lines (from 1, both included; `None`: of all), in the order of execution.
 pub(super) fn each_leg(
@@ -42,5 +42,4 @@ impl<F: FnMut(&Leg, u32, &ModalState)> Sink for Legs<'_, F> {
         }
     }
     fn fault(&mut self, _fault: Fault) {}
-    fn block_done(&mut self, _block: BlockId, _interpreter: &Interpreter<'_>) {}
 }

@@ -7,7 +7,7 @@ use super::{
 };
 use serde_json::{Map, Value, json};
 use std::io::{BufWriter, Write};
-use trunnion_interp::{Fault, Interpreter, ModalState, Motion, Sink};
+use trunnion_interp::{Fault, ModalState, Motion, Sink};
 use trunnion_machine::{Follower, Machine, Row, row};
 use trunnion_syntax::{BlockId, LineIndex};
 
@@ -97,7 +97,6 @@ impl<W: Write> Sink for Tracer<'_, W> {
     fn fault(&mut self, _fault: Fault) {
         self.faults += 1;
     }
-    fn block_done(&mut self, _block: BlockId, _interpreter: &Interpreter<'_>) {}
 }
 
 fn place(loaded: &Loaded, lines: &LineIndex, id: BlockId) -> (u32, String) {

@@ -1,7 +1,8 @@
-//! Floor 1: what letters and codes mean on a control. One dialect is one TOML table in `grammar/dialects`.
+//! Floor 2: what letters and codes mean on a control. One dialect is one TOML table in `grammar/dialects`.
 //!
 //! It does not know motions, machines or files.
 mod action;
+mod advice;
 mod assemble;
 mod builtin;
 mod code;
@@ -16,16 +17,18 @@ mod schema;
 mod signs;
 mod textmate;
 
-pub use action::{Action, Plane, Role};
+pub use action::Role;
+pub use advice::{Advice, Expressions, RotaryFeed};
 pub use builtin::{BUILTIN_NAMES, builtin};
 pub use code::{Code, CodeKind};
-pub use detect::{Detected, detect, is_program_file_name, program_extensions};
+pub use detect::{Detected, detect, is_program_file_name, looks_like_program, program_extensions};
 pub use dialect::{Alarm, ArcTolerance, Dialect, Quirks};
 pub use facts::DialectFacts;
 pub use modeline::{Modeline, modeline};
 pub use own_table::TableError;
 pub use schema::{DialectError, Owner, load};
 pub use textmate::textmate;
+pub use trunnion_vocabulary::{Action, Plane};
 
 #[cfg(test)]
 mod tests;

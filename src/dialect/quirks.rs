@@ -6,6 +6,7 @@ use serde::Deserialize;
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct QuirksRow {
+    #[serde(deserialize_with = "crate::action::some_action")]
     motion_at_start: Option<Action>,
     tool_word_changes: Option<bool>,
     unit_vectors: Option<bool>,

@@ -1,4 +1,5 @@
 //! The TOML shape of a dialect table. Unknown keys are errors; every error says where.
+use crate::advice::AdviceRow;
 use crate::quirks::QuirksRow;
 use crate::{Action, Dialect, Role, assemble::assemble};
 use serde::Deserialize;
@@ -55,6 +56,8 @@ pub(crate) struct Table {
     pub(crate) arc_tolerance: Option<ArcToleranceRow>,
     #[serde(default)]
     pub(crate) quirks: QuirksRow,
+    #[serde(default)]
+    pub(crate) check: AdviceRow,
     /// Replaces the alarms of the extended table.
     pub(crate) alarms: Option<BTreeMap<Spanned<String>, AlarmRow>>,
     #[serde(default)]
@@ -110,6 +113,7 @@ pub(crate) struct ArcToleranceRow {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct CodeRow {
     pub(crate) group: Option<Spanned<String>>,
+    #[serde(deserialize_with = "crate::action::action")]
     pub(crate) action: Action,
     #[serde(default)]
     pub(crate) words: Vec<String>,

@@ -11,10 +11,11 @@ mod loops;
 mod ran;
 mod transfer;
 
-pub use chains::{ChainId, Chains, Frame};
+pub use chains::Chains;
 pub use course::{Call, Course, Ends, Fuel, Going, Place};
 pub use index::{Index, Key, Search};
 pub use library::{Called, Library};
 pub use loops::{Loop, Loops};
 pub use ran::Ran;
 pub use transfer::Transfer;
+pub use trunnion_vocabulary::{ChainId, Frame};

@@ -1,5 +1,6 @@
 //! APT / CL records to motions.
-use crate::run::{Interpreter, Report, Sink};
+use crate::Sink;
+use crate::run::{Interpreter, Report};
 use crate::{FaultKind, FeedMode, Motion, Orientation};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;

@@ -2,9 +2,9 @@
 //!
 //! Source of the records: ISO 4343 (NC processor output, post processor commands): SPINDL, COOLNT, LOADTL, STOP, OPSTOP, END, FINI.
 use crate::apt::Args;
-use crate::effect::{Argument, Effect};
 use crate::run::Interpreter;
 use crate::written::{call_argument, packed};
+use crate::{Argument, Effect};
 use crate::{Motion, MotionKind};
 use trunnion_syntax::{Block, Record};
 

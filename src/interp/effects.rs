@@ -1,14 +1,16 @@
 //! The effects of an ISO block: which of its codes and words are held neither by its motions nor by the modal state.
 mod assignments;
+mod collected;
 mod sort;
 
 use crate::codes::{Found, dwell_reads};
-use crate::effect::{Argument, Effect};
 use crate::run::Interpreter;
 use crate::words::{Said, Words};
 use crate::written::{Keep, written};
+use crate::{Argument, Effect};
 use crate::{FaultKind, Motion, MotionKind};
 use assignments::{comments, named_effects, reads_machine_position, system_assignment, unknown_assignment};
+pub(crate) use collected::Effects;
 use sort::{
     READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, letter_bit, name_of, said, sort,
     takes_axes, uncouples,

@@ -1,7 +1,8 @@
 //! ISO blocks to motions.
 
+use crate::Sink;
 use crate::codes::{BlockCodes, Found};
-use crate::run::{Interpreter, Report, Sink};
+use crate::run::{Interpreter, Report};
 use crate::words::Words;
 use crate::{FaultKind, Motion};
 use trunnion_dialect::{Action, Role};

@@ -8,32 +8,27 @@ mod apt_effects;
 mod apt_motion;
 mod apt_tool;
 mod arc;
-mod clamps;
 mod codes;
 mod compensation;
 mod corner;
 mod cycles;
 mod directive;
 mod dwell;
-mod effect;
 mod effects;
 mod emit;
-mod fault;
 mod flow;
 mod frames;
 mod iso;
 mod macro_b;
 mod memory;
-mod modal;
-mod motion;
 mod offsets;
 mod orientation;
 mod own;
 mod reader;
 mod rs274;
 mod run;
-mod setup;
 mod sinumerik;
+mod start;
 mod system;
 mod tcp;
 mod tools;
@@ -44,16 +39,13 @@ mod values;
 mod words;
 mod written;
 
-pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
 pub use directive::{Directive, directives};
-pub use effect::{Argument, Effect, Placed, Value, same_number};
-pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
-pub use modal::{FeedMode, LengthOf, ModalState};
-pub use motion::{AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt};
-pub use run::{Interpreter, Sink, run};
-pub use setup::{
-    ControlData, Files, ImplicitDecimals, LengthUnit, Library, Limits, Loaded, OuterCorner, RollPitchYaw,
-    RoughingEscape, Setup, TcpCodes, Tool, ToolShape, WorkOffset,
+pub use run::{Interpreter, run};
+pub use trunnion_vocabulary::{
+    AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, ChainId, Clamp, ClampCodes, Clamps, ControlData, Effect, Fault,
+    FaultKind, Feed, FeedMode, Files, Frame, ImplicitDecimals, LengthOf, LengthUnit, Library, Limits, Loaded,
+    ModalState, Motion, MotionKind, Orientation, OuterCorner, Placed, Position, Posture, ProgramRun, Refusal,
+    RollPitchYaw, RoughingEscape, Setup, Sink, Swivel, TcpCodes, TcpMistake, Tilt, Tool, ToolShape, Value, WorkOffset,
+    same_number,
 };
-pub use trunnion_flow::{ChainId, Frame};
 pub use written::canonical_text;

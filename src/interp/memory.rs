@@ -88,7 +88,7 @@ pub(crate) struct Memory<'d> {
     /// Variables of a Sinumerik program.
     pub(crate) own: crate::own::Own,
     /// What the program does beside its motions.
-    pub(crate) effects: crate::effect::Effects,
+    pub(crate) effects: crate::effects::Effects,
     /// Motions of the block in hand beside its last.
     pub(crate) out: Vec<crate::Motion>,
     /// The last block with content, for a missing program end.

@@ -1,31 +1,9 @@
 //! The fold: a program's blocks through the modal state.
 use crate::codes::Found;
 use crate::memory::Memory;
-use crate::{ChainId, Fault, FaultKind, Frame, ModalState, Motion, Setup};
+use crate::{ChainId, Fault, FaultKind, Frame, ModalState, ProgramRun, Setup, Sink};
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{BlockId, Format, Program, TextRange};
-
-/// Receives what a run finds, in order.
-pub trait Sink {
-    /// A motion; `state` is the modal state after its block.
-    fn motion(&mut self, motion: &Motion, state: &ModalState);
-    /// A rapid or linear motion that begins where the motion before it ended and differs from it in block, chain, kind, places and feed
-    /// only: what is in force is the same but for the motion code and F.
-    fn next_line(&mut self, motion: &Motion, state: &ModalState) {
-        self.motion(motion, state);
-    }
-    /// A fact about what is wrong.
-    fn fault(&mut self, fault: Fault);
-    /// What the program does beside its motions, in order; only after [`Interpreter::watch_effects`]. Motions may be held back by cutter
-    /// compensation and come later: [`Motion::effects`] says which effects come before them.
-    fn effect(&mut self, effect: crate::Placed) {
-        let _ = effect;
-    }
-    /// Called after each block (also those without motion).
-    fn block_done(&mut self, block: BlockId, interpreter: &Interpreter<'_>) {
-        let _ = (block, interpreter);
-    }
-}
 
 /// An interpreter between two blocks. Cloning it makes a check-point to go on from.
 #[derive(Clone)]
@@ -84,7 +62,7 @@ impl<'d> Interpreter<'d> {
         let mut interpreter = Self {
             dialect,
             setup: std::sync::Arc::new(setup.clone()),
-            state: ModalState::at_start(dialect),
+            state: crate::start::at_start(dialect),
             memory: Memory::default(),
             codes: Vec::new(),
             apt: crate::apt::AptState::default(),
@@ -168,40 +146,6 @@ impl<'d> Interpreter<'d> {
         Some(block)
     }
 
-    /// The calls that led to a motion, outermost first; empty in the main program.
-    pub fn chain(&self, chain: ChainId) -> Vec<Frame> {
-        if let Some(run) = &self.rs274 {
-            return run.chain(chain);
-        }
-        self.flow.chain(chain)
-    }
-
-    /// Whether motions are held back until a later one is known: cutter compensation, rounded corners.
-    pub fn motions_wait(&self) -> bool {
-        match &self.rs274 {
-            Some(run) => run.motions_wait(),
-            None => self.memory.compensation.is_busy() || self.memory.corners.is_busy(),
-        }
-    }
-
-    /// The value of a variable as it is written (`#1`, `#<name>`, `#_NAME`), between two blocks; NaN where it is not known, `None` where
-    /// there is none or it is vacant.
-    pub fn variable(&self, text: &str) -> Option<f64> {
-        if let Some(run) = &self.rs274 {
-            return run.variable(text);
-        }
-        self.flow.variable(text)
-    }
-
-    /// Variables that outlive the program and whose value is known: Fanuc and Haas `#500` to `#999`, LinuxCNC `#31` to `#5000`, its
-    /// parameter file and global names. Those of a Sinumerik come as [`crate::Effect::Store`].
-    pub fn outliving(&self) -> Vec<(String, f64)> {
-        match &self.rs274 {
-            Some(run) => run.outliving(),
-            None => self.flow.outliving(),
-        }
-    }
-
     pub(crate) fn finish(&mut self, program: &Program, sink: &mut impl Sink) {
         if let Some(block) = self.memory.last_content {
             self.put_out_rest(&program.block(block), sink);
@@ -213,6 +157,40 @@ impl<'d> Interpreter<'d> {
                 range,
                 kind: FaultKind::MissingProgramEnd,
             });
+        }
+    }
+}
+
+impl ProgramRun for Interpreter<'_> {
+    fn state(&self) -> &ModalState {
+        &self.state
+    }
+
+    fn chain(&self, chain: ChainId) -> Vec<Frame> {
+        if let Some(run) = &self.rs274 {
+            return run.chain(chain);
+        }
+        self.flow.chain(chain)
+    }
+
+    fn motions_wait(&self) -> bool {
+        match &self.rs274 {
+            Some(run) => run.motions_wait(),
+            None => self.memory.compensation.is_busy() || self.memory.corners.is_busy(),
+        }
+    }
+
+    fn variable(&self, text: &str) -> Option<f64> {
+        if let Some(run) = &self.rs274 {
+            return run.variable(text);
+        }
+        self.flow.variable(text)
+    }
+
+    fn outliving(&self) -> Vec<(String, f64)> {
+        match &self.rs274 {
+            Some(run) => run.outliving(),
+            None => self.flow.outliving(),
         }
     }
 }

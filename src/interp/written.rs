@@ -1,6 +1,7 @@
 //! The words of a block as they are compared where the block's effect is not known: numbers by value, codes and names in one spelling,
 //! and expressions with the known variables in them replaced.
-use crate::effect::Argument;
+use crate::Argument;
+use crate::ProgramRun;
 use crate::run::Interpreter;
 use crate::words::{Said, Words};
 use trunnion_dialect::Role;

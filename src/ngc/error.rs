@@ -2,53 +2,7 @@
 use crate::FileId;
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
-
-/// The sort of mistake; rules of the check floor choose by it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Class {
-    /// The text is no block of the language.
-    Syntax,
-    /// A number is malformed or out of range for its word.
-    Number,
-    /// An expression is malformed or has no value.
-    Expression,
-    /// A parameter that has no value, does not exist, or may not be written.
-    Variable,
-    /// An O-word or sequence number that is not there or there twice.
-    Label,
-    /// A subprogram that is not there.
-    Subprogram,
-    /// Control structures that do not fit together.
-    Structure,
-    /// Two codes of one modal group, or codes that exclude each other.
-    GroupConflict,
-    /// A word is there twice.
-    RepeatedWord,
-    /// A word that nothing in the block uses, or that may not be there.
-    UnusedWord,
-    /// A word is missing that a code needs.
-    MissingWord,
-    /// A code that the control does not know.
-    UnknownCode,
-    /// A letter that the control does not know.
-    UnknownWord,
-    /// Feed or spindle speed is missing or zero.
-    Feed,
-    /// An arc's radius does not fit.
-    ArcRadius,
-    /// An arc without centre or radius, or with both.
-    ArcCentre,
-    /// Cutter radius compensation is impossible or used wrongly.
-    Compensation,
-    /// A canned cycle is used wrongly.
-    CannedCycle,
-    /// The program's end is missing.
-    ProgramEnd,
-    /// Anything else: offsets, planes, tools, probing.
-    Other,
-    /// No mistake: the control runs it, this interpreter does not.
-    NotModelled,
-}
+use trunnion_vocabulary::Refusal as Class;
 
 /// One cause of refusal. Each module declares its own as constants, so that a cause is written down where it is found.
 #[derive(Debug, PartialEq, Eq)]

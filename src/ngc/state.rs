@@ -1,5 +1,5 @@
 //! What is in force between lines.
-use crate::{Canon, MotionMode, Pose, Side};
+use crate::{Canon, FeedMode, MotionMode, Pose, Side};
 
 /// Length units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,17 +44,6 @@ pub enum DistanceMode {
     Absolute,
     /// G91, G91.1.
     Incremental,
-}
-
-/// How F is meant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FeedMode {
-    /// G93.
-    InverseTime,
-    /// G94.
-    PerMinute,
-    /// G95.
-    PerRevolution,
 }
 
 /// Where canned cycles retract to.

@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{
-    Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, Placed, Setup, Sink, Value,
+    Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, Placed, ProgramRun as _, Setup, Sink,
+    Value,
 };
 use trunnion_machine::{Follower, Leg, Machine};
 use trunnion_syntax::{BlockId, Program};

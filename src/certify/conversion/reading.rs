@@ -7,7 +7,7 @@ use trunnion_dialect::Dialect;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{
     AllClampCodes, ChainId, Fault, FaultKind, Feed, Interpreter, LengthOf, ModalState, Motion, MotionKind, Orientation,
-    Refusal, Setup, Sink, Swivel, Tilt, Tool, WorkOffset,
+    ProgramRun, Refusal, Setup, Sink, Swivel, Tilt, Tool, WorkOffset,
 };
 use trunnion_machine::{Follower, Joints, Leg, Machine, Pose, forward};
 use trunnion_syntax::{BlockId, Format, Program, parse};
@@ -234,21 +234,21 @@ impl Sink for Collector<'_> {
         self.faults.push(fault);
     }
 
-    fn block_done(&mut self, block: BlockId, interpreter: &Interpreter<'_>) {
+    fn block_done(&mut self, block: BlockId, run: &dyn ProgramRun) {
         if let Some(posed) = self.motions.last()
             && self.elsewhere.is_none()
             && self.chains.insert(posed.motion.chain)
         {
-            let frames = interpreter.chain(posed.motion.chain);
+            let frames = run.chain(posed.motion.chain);
             if frames.iter().any(|frame| !frame.file.is_empty()) {
                 self.elsewhere = Some(block);
             }
         }
-        let state = &interpreter.state;
+        let state = run.state();
         self.blocks.push(Ran {
             block,
             motions: self.motions.len(),
-            motions_wait: interpreter.motions_wait(),
+            motions_wait: run.motions_wait(),
             spindle_on: state.spindle_on,
             spindle_rpm: state.spindle_rpm,
             counter_clockwise: None,

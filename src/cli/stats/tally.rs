@@ -3,7 +3,7 @@ use super::calls::{Call, calls};
 use crate::cli::{load::Loaded, stop::Stops};
 use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
-use trunnion_interp::{AXIS_LETTERS, Fault, FaultKind, Feed, Interpreter, ModalState, Motion, MotionKind, Sink};
+use trunnion_interp::{AXIS_LETTERS, Fault, FaultKind, Feed, ModalState, Motion, MotionKind, ProgramRun, Sink};
 use trunnion_machine::{AxisKind, Follower};
 use trunnion_syntax::{BlockId, Item, LineIndex};
 
@@ -257,11 +257,11 @@ impl Sink for Counting<'_> {
         }
     }
 
-    fn block_done(&mut self, block: BlockId, interpreter: &Interpreter<'_>) {
+    fn block_done(&mut self, block: BlockId, run: &dyn ProgramRun) {
         self.stops.block_done();
         self.tally.run += u64::from(holds_something(&self.loaded.program.block(block)));
-        if interpreter.state.tool != self.tool {
-            self.tool = interpreter.state.tool;
+        if run.state().tool != self.tool {
+            self.tool = run.state().tool;
             self.tally.tool_changes += 1;
         }
     }

@@ -2,7 +2,8 @@
 //!
 //! An arc of a lathe without Y is in the plane of X and Z all the same: a second run takes Y as 0, and counts only where nothing names
 //! or reads Y.
-use crate::run::{Interpreter, Report, Sink};
+use crate::Sink;
+use crate::run::{Interpreter, Report};
 use crate::words::{Said, Words};
 use crate::{Fault, FaultKind, ModalState, Motion, MotionKind, Refusal};
 use trunnion_flow::{Key, Search};

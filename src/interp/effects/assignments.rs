@@ -1,8 +1,9 @@
 //! Words that are written with `=`: what they set, and what variables they write.
-use crate::effect::{Argument, Effect};
+use crate::ProgramRun;
 use crate::run::Interpreter;
 use crate::words::Words;
 use crate::written::{Keep, named_role, names, packed, resolved, stem, value_of, written};
+use crate::{Argument, Effect};
 use trunnion_dialect::{CodeKind, Role};
 use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 

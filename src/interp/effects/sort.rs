@@ -1,9 +1,9 @@
 //! What a code is for a comparison, and the words that belong to it.
 use crate::codes::Found;
-use crate::effect::{Argument, Value};
 use crate::memory::Chosen;
 use crate::words::{Said, Words};
 use crate::written::call_argument;
+use crate::{Argument, Value};
 use trunnion_dialect::{Action, CodeKind};
 use trunnion_syntax::Block;
 

@@ -1,7 +1,8 @@
 //! Calls of other programs and returns from them, for all languages.
 use super::{Back, Calling, Level, Running, With, index_of};
+use crate::Sink;
 use crate::macro_b::ProgramName;
-use crate::run::{Interpreter, Sink};
+use crate::run::Interpreter;
 use crate::{FaultKind, Frame, sinumerik};
 use trunnion_flow::{Ends, Going, Key};
 use trunnion_syntax::{BlockId, TextRange};

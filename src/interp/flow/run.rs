@@ -1,7 +1,8 @@
 //! Runs the blocks of a program with jumps, loops and calls in the control's order.
 use super::through::Through;
 use super::{Label, Trail, Transfer};
-use crate::run::{Interpreter, Sink};
+use crate::Sink;
+use crate::run::Interpreter;
 use crate::{Fault, FaultKind, Frame};
 use std::sync::Arc;
 use trunnion_flow::{Called, Fuel};

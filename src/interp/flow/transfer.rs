@@ -1,7 +1,8 @@
 //! What a block asks for beside its motion: jumps, loops, branches, repeated sections.
 use super::{Index, Label, Level, Running, Transfer, index_of};
+use crate::Sink;
 use crate::macro_b::{Mistake, rejected};
-use crate::run::{Interpreter, Sink};
+use crate::run::Interpreter;
 use crate::{FaultKind, Refusal, sinumerik};
 use std::sync::Arc;
 use trunnion_flow::{Ends, Going, Key, Search};

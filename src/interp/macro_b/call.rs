@@ -2,8 +2,9 @@
 use super::alarms::{Mistake, is_fanuc, rejected};
 use super::variables::{Locals, Variables};
 use super::{Deep, FlowCode};
+use crate::Sink;
 use crate::flow::{Back, Calling, Level as Kept, Running};
-use crate::run::{Interpreter, Sink};
+use crate::run::Interpreter;
 use crate::{Fault, FaultKind, Refusal};
 use trunnion_dialect::{Action, Dialect};
 use trunnion_flow::{Key, Search};

@@ -2,9 +2,10 @@
 use super::Deep;
 use super::alarms::rejected;
 use super::read::{Macros, Mode};
+use crate::Sink;
 use crate::flow::{Trail, index_of};
 use crate::reader::Reader;
-use crate::run::{Interpreter, Sink};
+use crate::run::Interpreter;
 use crate::words::Words;
 use crate::{Clamps, Fault, FaultKind, Refusal};
 use trunnion_syntax::{BlockId, Format, Program, TextRange};

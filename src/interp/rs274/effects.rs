@@ -1,6 +1,6 @@
 //! Effects of a LinuxCNC program: canonical calls that are no motion and are not held by the modal state.
 use super::bridge::Bridge;
-use crate::effect::{Argument, Effect};
+use crate::{Argument, Effect};
 use crate::{Feed, MotionKind, Sink};
 use std::borrow::Cow;
 use trunnion_ngc::{At, Canon, Coolant, MotionMode, SpindleTurn, State, Stop, Switch};

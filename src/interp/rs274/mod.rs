@@ -11,10 +11,10 @@ mod places;
 mod setup;
 mod steady;
 
-use crate::effect::{Argument, Effect};
 use crate::words::Words;
 use crate::written::{Keep, resolved, written};
-use crate::{FaultKind, Frame, Interpreter, Sink};
+use crate::{Argument, Effect};
+use crate::{FaultKind, Frame, Interpreter, ProgramRun, Sink};
 use bridge::{Bridge, LINEAR_AXES, Told};
 use frames::Shift;
 use std::sync::Arc;

@@ -1,7 +1,8 @@
 //! Subprograms: arguments, PROC, variables of their own, return.
+use crate::Sink;
 use crate::flow::{Back, Running};
 use crate::own::{Own, Scope, Sort, arguments};
-use crate::run::{Interpreter, Sink};
+use crate::run::Interpreter;
 use crate::{Fault, FaultKind, Refusal};
 use trunnion_syntax::{BlockId, Item, Program};
 

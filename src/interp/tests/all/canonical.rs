@@ -1,7 +1,7 @@
 //! LinuxCNC's canonical calls as motions: what compensation of the cutter radius holds back keeps what was in force with it.
 use crate::support::{faults, line, lines, run_bytes};
 use std::sync::Arc;
-use trunnion_interp::{FaultKind, Feed, Files, Library, Loaded, ModalState, Setup, Tool};
+use trunnion_interp::{FaultKind, Feed, Files, Library, Loaded, ModalState, ProgramRun, Setup, Tool};
 
 /// One file under any name.
 struct OneFile(&'static str);

@@ -1,7 +1,7 @@
 //! What calls report: where motions of other files are, programs that are missing, M99 of the main program.
 use crate::support::{Log, fault_line, run_bytes};
 use std::sync::Arc;
-use trunnion_interp::{FaultKind, Files, Interpreter, Library, Loaded, Setup};
+use trunnion_interp::{FaultKind, Files, Interpreter, Library, Loaded, ProgramRun, Setup};
 
 struct Folder;
 

@@ -1,6 +1,6 @@
 //! Macro B: jumps, loops and calls, checked by hand.
 use crate::support::{faults, lines, run_bytes, run_text};
-use trunnion_interp::{FaultKind, Limits, Refusal, Setup};
+use trunnion_interp::{FaultKind, Limits, ProgramRun, Refusal, Setup};
 
 const FANUC: &str = "fanuc-30i";
 

@@ -20,8 +20,8 @@ impl Sink for Log {
     fn fault(&mut self, fault: Fault) {
         self.faults.push(fault);
     }
-    fn block_done(&mut self, _: trunnion_syntax::BlockId, interpreter: &trunnion_interp::Interpreter<'_>) {
-        self.state = Some(interpreter.state.clone());
+    fn block_done(&mut self, _: trunnion_syntax::BlockId, run: &dyn trunnion_interp::ProgramRun) {
+        self.state = Some(run.state().clone());
     }
 }
 

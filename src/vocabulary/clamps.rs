@@ -49,12 +49,12 @@ impl Clamps {
 
     /// A block begins.
     #[inline]
-    pub(crate) fn begin_block(&mut self) {
+    pub fn begin_block(&mut self) {
         self.here = 0;
     }
 
     /// An M code runs, ten times its number; whether it is one of the codes.
-    pub(crate) fn hear(&mut self, codes: &AllClampCodes, tenths: u32) -> bool {
+    pub fn hear(&mut self, codes: &AllClampCodes, tenths: u32) -> bool {
         let mut any = false;
         for (axis, codes) in codes.iter().enumerate() {
             let Some(codes) = codes else { continue };
@@ -73,7 +73,7 @@ impl Clamps {
     }
 
     /// An M code runs whose number is not known.
-    pub(crate) fn hear_unread(&mut self, codes: &AllClampCodes) {
+    pub fn hear_unread(&mut self, codes: &AllClampCodes) {
         for (axis, codes) in codes.iter().enumerate() {
             if codes.is_some() {
                 self.clamps[axis] = Clamp::Unknown;
@@ -83,7 +83,7 @@ impl Clamps {
     }
 
     /// What has run is not known.
-    pub(crate) fn lose(&mut self) {
+    pub fn lose(&mut self) {
         self.clamps = [Clamp::Unknown; AXIS_LETTERS.len()];
     }
 }

@@ -1,7 +1,52 @@
 //! Facts about what is wrong with a program's meaning. Words for people are made by the check floor.
-/// The sort of mistake for which a control refuses a block.
-pub use trunnion_ngc::Class as Refusal;
 use trunnion_syntax::{BlockId, TextRange};
+
+/// The sort of mistake for which a control refuses a block; rules of the check floor choose by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Refusal {
+    /// The text is no block of the language.
+    Syntax,
+    /// A number is malformed or out of range for its word.
+    Number,
+    /// An expression is malformed or has no value.
+    Expression,
+    /// A parameter that has no value, does not exist, or may not be written.
+    Variable,
+    /// An O-word or sequence number that is not there or there twice.
+    Label,
+    /// A subprogram that is not there.
+    Subprogram,
+    /// Control structures that do not fit together.
+    Structure,
+    /// Two codes of one modal group, or codes that exclude each other.
+    GroupConflict,
+    /// A word is there twice.
+    RepeatedWord,
+    /// A word that nothing in the block uses, or that may not be there.
+    UnusedWord,
+    /// A word is missing that a code needs.
+    MissingWord,
+    /// A code that the control does not know.
+    UnknownCode,
+    /// A letter that the control does not know.
+    UnknownWord,
+    /// Feed or spindle speed is missing or zero.
+    Feed,
+    /// An arc's radius does not fit.
+    ArcRadius,
+    /// An arc without centre or radius, or with both.
+    ArcCentre,
+    /// Cutter radius compensation is impossible or used wrongly.
+    Compensation,
+    /// A canned cycle is used wrongly.
+    CannedCycle,
+    /// The program's end is missing.
+    ProgramEnd,
+    /// Anything else: offsets, planes, tools, probing.
+    Other,
+    /// No mistake: the control runs it, this interpreter does not.
+    NotModelled,
+}
 
 /// A wrong state of tool centre point control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

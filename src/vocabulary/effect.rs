@@ -106,7 +106,8 @@ pub enum Effect {
 }
 
 impl Effect {
-    pub(crate) fn set(key: impl Into<Cow<'static, str>>, to: impl Into<Vec<Argument>>) -> Self {
+    /// A setting that receives a value.
+    pub fn set(key: impl Into<Cow<'static, str>>, to: impl Into<Vec<Argument>>) -> Self {
         Self::Set {
             key: key.into(),
             to: to.into(),
@@ -121,24 +122,4 @@ pub struct Placed {
     pub block: trunnion_syntax::BlockId,
     /// What happens.
     pub effect: Effect,
-}
-
-/// Effects of the block in hand, collected only where somebody asks for them.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Effects {
-    /// Somebody asks for them.
-    pub(crate) wanted: bool,
-    /// How many there were so far in the run.
-    pub(crate) count: u32,
-    /// Words of blocks that shift or turn the coordinates and were held by known positions so far.
-    pub(crate) frames: Vec<Vec<Argument>>,
-    /// Not handed on yet.
-    pub(crate) ready: Vec<Placed>,
-}
-
-impl Effects {
-    pub(crate) fn add(&mut self, block: trunnion_syntax::BlockId, effect: Effect) {
-        self.count += 1;
-        self.ready.push(Placed { block, effect });
-    }
 }

@@ -1,6 +1,6 @@
 //! What a program is run with: tools, offsets, bounds, other programs. All lengths mm, angles deg.
+use crate::{Files, Limits};
 use std::sync::Arc;
-pub use trunnion_ngc::{Files, Limits, Loaded};
 
 /// Shape of a tool's cutting part.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -194,7 +194,7 @@ pub struct Setup {
 
 impl Setup {
     /// By how much 1 mm of tool length shifts the words of X, Y and Z while they are joints.
-    pub(crate) fn length_along(&self) -> [f64; 3] {
+    pub fn length_along(&self) -> [f64; 3] {
         self.control.length_along.unwrap_or([0.0, 0.0, 1.0])
     }
 }

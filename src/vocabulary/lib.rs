@@ -1,0 +1,27 @@
+//! Floor 1: the words that all floors above share: motions, what is in force, effects, faults, set-up, and who receives them.
+//!
+//! It knows neither dialects nor machines, and runs nothing.
+mod action;
+mod chain;
+mod clamps;
+mod effect;
+mod fault;
+mod library;
+mod modal;
+mod motion;
+mod setup;
+mod sink;
+
+pub use action::{Action, Plane};
+pub use chain::{ChainId, Frame};
+pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
+pub use effect::{Argument, Effect, Placed, Value, same_number};
+pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
+pub use library::{Files, Limits, Loaded};
+pub use modal::{FeedMode, LengthOf, ModalState};
+pub use motion::{AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt};
+pub use setup::{
+    ControlData, ImplicitDecimals, LengthUnit, Library, OuterCorner, RollPitchYaw, RoughingEscape, Setup, TcpCodes,
+    Tool, ToolShape, WorkOffset,
+};
+pub use sink::{ProgramRun, Sink};

@@ -100,15 +100,14 @@ impl Interpreter<'_> {
     }
 }
 
-/// Whether a block is the `%` that ends the text.
+/// Whether a block is the `%` that ends the text: the first line that holds something begins it.
 fn ends_text(program: &Program, block: u32) -> bool {
-    block > 0
-        && (block as usize) < program.block_count()
-        && program
-            .bytes(program.block(BlockId(block)).range())
-            .trim_ascii_start()
-            .first()
-            == Some(&b'%')
+    if block as usize >= program.block_count() {
+        return false;
+    }
+    let range = program.block(BlockId(block)).range();
+    let begins = program.source()[..range.start as usize].trim_ascii().is_empty();
+    !begins && program.bytes(range).trim_ascii_start().first() == Some(&b'%')
 }
 
 /// What the reader alone finds.

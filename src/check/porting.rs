@@ -24,10 +24,11 @@ pub(crate) enum Language {
 
 impl Language {
     pub(crate) fn of(dialect: &Dialect) -> Self {
-        match dialect.name.as_str() {
-            "linuxcnc" | "grbl" => Self::Ngc,
-            name if dialect.quirks.macro_b || name.starts_with("fanuc") || name.starts_with("haas") => Self::MacroB,
-            _ => Self::Other,
+        match dialect.quirks.language {
+            trunnion_dialect::Language::Linuxcnc => Self::Ngc,
+            trunnion_dialect::Language::Words if dialect.lex.format == Format::Iso => Self::Ngc,
+            trunnion_dialect::Language::MacroB => Self::MacroB,
+            trunnion_dialect::Language::Words | trunnion_dialect::Language::Sinumerik => Self::Other,
         }
     }
 }
@@ -86,7 +87,7 @@ pub(crate) fn report(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         let Some(to) = trunnion_dialect::builtin(name) else {
             continue;
         };
-        let both_iso = from.lex.format == Format::Iso && to.lex.format == Format::Iso;
+        let both_iso = from.lex.format == Format::Iso && to.lex.format == trunnion_syntax::Format::Iso;
         if to.name == from.name || !both_iso {
             continue;
         }

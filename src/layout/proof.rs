@@ -98,7 +98,7 @@ impl<'a> Run<'a> {
                 ordinals: ordinals.collect(),
                 queue: VecDeque::new(),
                 refused: None,
-                first_alone: !dialect.quirks.rs274,
+                first_alone: !dialect.quirks.rs274(),
             },
             blocks: 0,
         }

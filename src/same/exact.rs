@@ -134,7 +134,7 @@ impl<'r, 'a> Side<'r, 'a> {
     /// like a word. The control stops at the first. LinuxCNC's reader does not look at blanks.
     fn fault(&mut self, fault: Fault) {
         let ordinal = self.ordinal(fault.block);
-        if !self.steps.input().dialect.quirks.rs274 && is_refusal(&fault.kind) && !self.refused.insert(ordinal) {
+        if !self.steps.input().dialect.quirks.rs274() && is_refusal(&fault.kind) && !self.refused.insert(ordinal) {
             return;
         }
         self.faults.push_back((ordinal, fault.kind));

@@ -84,7 +84,7 @@ pub fn may_call(input: &Input<'_>) -> bool {
     if program.options().format == Format::Apt {
         return false;
     }
-    if dialect.quirks.rs274 {
+    if dialect.quirks.rs274() {
         let text = program.source().to_ascii_uppercase();
         return [&b"CALL"[..], b"M98", b"M098"]
             .iter()
@@ -95,7 +95,7 @@ pub fn may_call(input: &Input<'_>) -> bool {
         block.items().any(|item| match item {
             trunnion_syntax::Item::Call(call) => {
                 let code = dialect.name(&program.text(call.name));
-                code.map_or(dialect.quirks.user_names, |code| calls(code.action))
+                code.map_or(dialect.quirks.user_names(), |code| calls(code.action))
             }
             trunnion_syntax::Item::Word(word) => match (word.address, word.value) {
                 (Address::Letter(letter), Value::Number(number)) => {
@@ -105,7 +105,7 @@ pub fn may_call(input: &Input<'_>) -> bool {
                         Some(Role::G) => dialect.g(tenths as u32),
                         Some(Role::M) => dialect.m(tenths as u32),
                         // a Sinumerik calls L100 by its number
-                        _ => return letter == b'L' && dialect.quirks.user_names,
+                        _ => return letter == b'L' && dialect.quirks.user_names(),
                     };
                     code.is_none_or(|code| calls(code.action))
                 }

@@ -18,7 +18,7 @@ impl Interpreter<'_> {
             return;
         }
         self.finish(program, sink);
-        let reads = self.dialect.quirks.macro_b || self.dialect.quirks.user_names && self.flow.trail.is_some();
+        let reads = self.dialect.quirks.macro_b() || self.dialect.quirks.user_names() && self.flow.trail.is_some();
         if !reads || program.options().format != Format::Iso {
             return;
         }
@@ -40,7 +40,7 @@ impl Interpreter<'_> {
 
     /// What is wrong with DO and END.
     fn broken_loops(&self, program: &Program, trail: &mut Trail, sink: &mut impl Sink) {
-        if self.dialect.quirks.user_names {
+        if self.dialect.quirks.user_names() {
             // structures are looked for while a program runs: what is not reached is no mistake
             return;
         }
@@ -77,7 +77,7 @@ impl Interpreter<'_> {
                 codes: &mut codes,
                 delete: None,
                 clamps: (&mut Clamps::default(), &self.setup.control.clamp_codes),
-                macros: self.dialect.quirks.macro_b.then_some(Macros {
+                macros: self.dialect.quirks.macro_b().then_some(Macros {
                     mode: Mode::Text,
                     file: 0,
                     deep: &mut deep,

@@ -9,7 +9,7 @@ use crate::proof::Proof;
 use crate::text::text_change;
 use crate::{Certificate, Claim, Outcome};
 use trunnion_dialect::Dialect;
-use trunnion_interp::Setup;
+use trunnion_interp::{Library, Setup};
 use trunnion_machine::Machine;
 use trunnion_same::{Input, Steps, Verdict, compare};
 use trunnion_syntax::{LineIndex, Program, parse};
@@ -35,7 +35,18 @@ pub fn certify_across(
     setup: &Setup,
     claim: &Claim,
 ) -> Outcome {
-    match prove(before, after, dialects, machine, setup, claim) {
+    certify_beside([before, after], dialects, machine, (setup, &setup.library), claim)
+}
+
+/// The same where the program after has called programs of its own. Such a certificate can be checked again only where both call the same.
+pub fn certify_beside(
+    [before, after]: [&[u8]; 2],
+    dialects: [&Dialect; 2],
+    machine: &Machine,
+    (setup, after_library): (&Setup, &Library),
+    claim: &Claim,
+) -> Outcome {
+    match prove([before, after], dialects, machine, (setup, after_library), claim) {
         Ok(certificate) => Outcome::Proved(Box::new(certificate)),
         Err(outcome) => outcome,
     }
@@ -52,8 +63,10 @@ pub fn recheck(
 ) -> Outcome {
     let fresh = match inputs_match(certificate, before, after, dialect, machine, setup)
         .and_then(|()| after_dialect(certificate, dialect))
-        .and_then(|other| prove(before, after, [dialect, other], machine, setup, &certificate.claim))
-    {
+        .and_then(|other| {
+            let library = (setup, &setup.library);
+            prove([before, after], [dialect, other], machine, library, &certificate.claim)
+        }) {
         Ok(fresh) => fresh,
         Err(outcome) => return outcome,
     };
@@ -129,11 +142,10 @@ fn after_dialect<'d>(certificate: &Certificate, dialect: &'d Dialect) -> Result<
 
 /// The proof.
 fn prove(
-    before: &[u8],
-    after: &[u8],
+    [before, after]: [&[u8]; 2],
     [dialect, other]: [&Dialect; 2],
     machine: &Machine,
-    setup: &Setup,
+    (setup, after_library): (&Setup, &Library),
     claim: &Claim,
 ) -> Result<Certificate, Outcome> {
     claim_makes_sense(claim)?;
@@ -147,13 +159,24 @@ fn prove(
     }
     let mut proof = Proof::new(machine, claim, &new);
     let (recorded, library) = Recorder::wrap(setup);
-    let input = |program, dialect| Input {
+    // one library for both where they are the same, so that runs of one text are seen to be the same
+    let (recorded_after, other_library) = if *after_library == setup.library {
+        (recorded.clone(), None)
+    } else {
+        let mut beside = setup.clone();
+        beside.library = after_library.clone();
+        Recorder::wrap(&beside)
+    };
+    let input = |program, dialect, setup| Input {
         program,
         dialect,
-        setup: &recorded,
+        setup,
         machine: Some(machine),
     };
-    let mut sides = [Steps::new(input(&old, dialect)), Steps::new(input(&new, other))];
+    let mut sides = [
+        Steps::new(input(&old, dialect, &recorded)),
+        Steps::new(input(&new, other, &recorded_after)),
+    ];
     let [old_steps, new_steps] = &mut sides;
     let (mm, degrees) = claim.tolerances();
     let asked = trunnion_same::Claim {
@@ -193,7 +216,11 @@ fn prove(
             sha256: machine_digest(machine),
         },
         setup_sha256: setup_digest(setup),
-        library: library.map(|library| library.loaded()).unwrap_or_default(),
+        library: [library, other_library]
+            .into_iter()
+            .flatten()
+            .flat_map(|library| library.loaded())
+            .collect(),
         claim: claim.clone(),
         text,
         motions: proof.motions,

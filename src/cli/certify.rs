@@ -7,7 +7,7 @@ use super::{
     load,
 };
 use crate::cli::out::Out;
-use trunnion_certify::{Certificate, Claim, Outcome, certify_across, recheck};
+use trunnion_certify::{Certificate, Claim, Outcome, certify_beside, recheck};
 
 /// Runs `certify`. Refuted or unknown makes the exit status 1.
 pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
@@ -44,7 +44,10 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         let other = other
             .filter(|other| other.lex.format != dialect.lex.format)
             .unwrap_or(dialect);
-        certify_across(before, &after, [dialect, other], machine, setup, &claim)
+        let library = second
+            .as_ref()
+            .map_or(&setup.library, |second| &second.resolved.setup.library);
+        certify_beside([before, &after], [dialect, other], machine, (setup, library), &claim)
     };
     let mut out = Out::standard();
     let shared = || {

@@ -191,12 +191,11 @@ fn proved(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> bool {
             tolerance_deg,
         }
     };
-    let outcome = trunnion_certify::certify_across(
-        pair.before.program.source(),
-        pair.after.program.source(),
+    let outcome = trunnion_certify::certify_beside(
+        [pair.before.program.source(), pair.after.program.source()],
         [pair.before.dialect, pair.after.dialect],
         machine,
-        pair.before.setup,
+        (pair.before.setup, &pair.after.setup.library),
         &claim,
     );
     matches!(outcome, trunnion_certify::Outcome::Proved(_))

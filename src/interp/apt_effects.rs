@@ -21,6 +21,25 @@ impl Interpreter<'_> {
         let program = view.program();
         let block = self.flow.main_block(view.id());
         let effects = &mut self.memory.effects;
+        // words that change what a record does, in a form that is not modelled
+        let plain: Option<(&'static str, &[&str], usize)> = if record.is("COOLNT") {
+            Some(("coolant words", &["ON", "OFF", "FLOOD", "MIST"], 0))
+        } else if record.is("FEDRAT") {
+            let units = &["MMPM", "IPM", "MMPR", "IPR", "PERMIN", "PERREV", "INVERS"];
+            Some(("feed words", units, 1))
+        } else if record.is("RAPID") {
+            Some(("rapid words", &[], 0))
+        } else if record.is("DELAY") {
+            Some(("dwell words", &["REV", "SEC"], 1))
+        } else {
+            None
+        };
+        if let Some((key, known, numbers)) = plain {
+            let is_known = |word| known.iter().any(|known| crate::apt::is(program, word, known));
+            let more = args.words().iter().any(|&word| !is_known(word)) || args.numbers().len() > numbers;
+            let to = more.then(|| Argument::text("", &written_record(record, view)));
+            effects.add(block, Effect::set(key, to.into_iter().collect::<Vec<_>>()));
+        }
         if record.is("COOLNT") {
             let off = args.has(program, "OFF");
             let mist = args.has(program, "MIST") && !off;
@@ -80,7 +99,11 @@ impl Interpreter<'_> {
             let key = if record.is("CUTTER") { "cutter" } else { "circle" };
             effects.add(block, Effect::set(key, to));
         } else if record.is("STOP") {
-            effects.add(block, Effect::Event(vec![Argument::code("M0")]));
+            let mut words = vec![Argument::code("M0")];
+            if !args.words().is_empty() || !args.numbers().is_empty() {
+                words.push(Argument::text("STOP", &written_record(record, view)));
+            }
+            effects.add(block, Effect::Event(words));
         } else if record.is("OPSTOP") {
             effects.add(block, Effect::Event(vec![Argument::code("M1")]));
         } else if record.is("FINI") || record.is("END") {

@@ -1,9 +1,10 @@
 //! The effects of an ISO block: which of its codes and words are held neither by its motions nor by the modal state.
 mod assignments;
 mod collected;
+mod situation;
 mod sort;
 
-use crate::codes::{Found, dwell_reads};
+use crate::codes::{BlockCodes, Found, dwell_reads};
 use crate::run::Interpreter;
 use crate::words::{Said, Words};
 use crate::written::{Keep, written};
@@ -11,11 +12,12 @@ use crate::{Argument, Effect};
 use crate::{FaultKind, Motion, MotionKind};
 use assignments::{comments, named_effects, reads_machine_position, system_assignment, unknown_assignment};
 pub(crate) use collected::Effects;
+pub use situation::Situation;
 use sort::{
     READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, letter_bit, name_of, said, sort,
     takes_axes, uncouples,
 };
-use trunnion_dialect::{Action, Macros, Role};
+use trunnion_dialect::{Action, CodeKind, Macros, Role};
 use trunnion_syntax::{Block, Item};
 
 /// Whether a fault means that its block does more than its motions and the modal state hold.
@@ -47,30 +49,30 @@ impl Interpreter<'_> {
 
     /// What the codes and the words S, T and D of a block set or do, before its motion.
     #[cold]
-    pub(crate) fn code_effects(&mut self, codes: &[Found<'_>], words: &Words, view: &Block<'_>) {
+    pub(crate) fn code_effects(&mut self, codes: &[Found<'_>], words: &Words, taken: &BlockCodes, view: &Block<'_>) {
         let block = self.flow.main_block(view.id());
-        if let Some(Item::Skip(level, _)) = view
-            .items()
-            .next()
-            .filter(|_| self.setup.control.block_delete.is_none())
-        {
-            // the switch decides whether the block runs at all
-            let words = vec![Argument::number("/", f64::from(level))];
-            self.memory.effects.add(block, Effect::Event(words));
+        if self.setup.control.block_delete.is_none() {
+            self.deleted_parts(view, block);
         }
         named_effects(self, view, block);
         // S and T act before the codes of their block
         self.word_effects(codes, words, block);
         let mut free = self.free_letters(words);
+        // read by a setting below
+        let mut held = 0;
         for found in codes {
             if couples(found.code.action) {
                 let mut to = vec![name_of(found, view)];
                 let letters = match found.code.action {
                     Action::VariableThread | Action::Thread => letter_bit(b'Q') | letter_bit(b'K'),
+                    Action::ThreadRepeatCycle => crate::unused::letters(found.code),
                     _ => letter_bit(b'Q') | letter_bit(b'I') | letter_bit(b'J'),
                 };
                 to.extend(arguments(words, letters));
-                self.memory.effects.add(block, Effect::set("cycle", to));
+                // the first block of G76 only sets data for the second
+                let data = found.code.action == Action::ThreadRepeatCycle && !words.axes.any();
+                let key = if data { "cycle data" } else { "cycle" };
+                self.memory.effects.add(block, Effect::set(key, to));
             } else if uncouples(found.code.action) {
                 self.memory.effects.add(block, Effect::set("cycle", []));
             }
@@ -83,6 +85,7 @@ impl Interpreter<'_> {
                     let to = [Argument::code(found.code.id.clone()), said("S", words.speed)];
                     self.memory.effects.add(block, Effect::set("speed limit", to));
                     free = 0;
+                    held = u32::MAX;
                 }
                 Sort::Setting(key) => {
                     let mut to = vec![Argument::code(found.code.id.clone())];
@@ -91,6 +94,7 @@ impl Interpreter<'_> {
                         crate::unused::letters(found.code) & words.letters & !(letter_bit(b'S') | letter_bit(b'D'));
                     to.extend(arguments(words, own));
                     free &= !own;
+                    held |= own;
                     self.memory.effects.add(block, Effect::set(key, to));
                 }
                 Sort::Group if coolant(found.code).is_some() => {
@@ -103,13 +107,26 @@ impl Interpreter<'_> {
                 Sort::After => {}
             }
         }
+        if !codes.iter().any(|found| found.code.action == Action::ProgramStop) {
+            free |= self.untaken(codes, words, taken) & !held;
+        } else {
+            let own = codes
+                .iter()
+                .fold(0, |all, found| all | crate::unused::letters(found.code));
+            free = (free | self.untaken(codes, words, taken)) & !own;
+        }
+        if !self.dialect.quirks.user_names() && words.letters & letter_bit(b'D') != 0 && !words.edge.is_said() {
+            let to = [said("D", words.letter(b'D'))];
+            self.memory.effects.add(block, Effect::set("radius offset", to));
+            free &= !letter_bit(b'D');
+        }
         let rest: Vec<Argument> = if words.flow {
             Vec::new()
         } else {
             arguments(words, free).collect()
         };
-        if opaque.is_empty() && !rest.is_empty() && !codes.iter().any(|found| found.code.action == Action::ProgramStop)
-        {
+        self.reference_effects(codes, words, block);
+        if opaque.is_empty() && !rest.is_empty() {
             self.memory.effects.add(block, Effect::Event(rest));
         } else if let [found] = opaque[..]
             && matches!(sort(found, words), Sort::Group)
@@ -121,6 +138,73 @@ impl Interpreter<'_> {
         } else if !opaque.is_empty() {
             self.several(&opaque, rest, words, view);
         }
+    }
+
+    /// A return to a reference point: which point it is, and that it is one. Where no axis is named the machine decides which move.
+    fn reference_effects(&mut self, codes: &[Found<'_>], words: &Words, block: trunnion_syntax::BlockId) {
+        let reference = |action| {
+            matches!(
+                action,
+                Action::ReferenceCheck | Action::ReferenceReturn | Action::ReferenceReturnOther | Action::ReferenceFrom
+            )
+        };
+        let mut to = Vec::new();
+        for found in codes.iter().filter(|found| reference(found.code.action)) {
+            to.push(Argument::code(found.code.id.clone()));
+            if found.code.action == Action::ReferenceReturnOther {
+                // without P it is the second
+                to.push(Argument::number("P", words.p.number().map_or(2.0, |p| p.value)));
+            }
+        }
+        let moves = words.axes.any() || to.is_empty();
+        if moves {
+            self.memory.effects.add(block, Effect::set("reference point", to));
+        } else {
+            self.memory.effects.add(block, Effect::Unmodelled(to));
+        }
+    }
+
+    /// What the switch for block delete may leave out: the block, or its end.
+    fn deleted_parts(&mut self, view: &Block<'_>, block: trunnion_syntax::BlockId) {
+        let mut after_slash = false;
+        let mut rest = String::new();
+        for item in view.items() {
+            match item {
+                Item::Skip(level, _) => {
+                    // the switch decides whether the block runs at all
+                    let words = vec![Argument::number("/", f64::from(level))];
+                    self.memory.effects.add(block, Effect::Event(words));
+                }
+                Item::Other(range) if view.program().text(range).starts_with('/') => {
+                    after_slash = true;
+                    rest.push_str(&view.program().text(range));
+                }
+                Item::Word(word) if after_slash => rest.push_str(&view.program().text(word.range)),
+                _ => {}
+            }
+        }
+        if after_slash {
+            let words = vec![Argument::text("", &crate::canonical_text(&rest))];
+            self.memory.effects.add(block, Effect::Event(words));
+        }
+    }
+
+    /// Parameters of the block that neither its codes nor what is in force reads. The machine, or a macro that a code calls, may read them.
+    fn untaken(&self, codes: &[Found<'_>], words: &Words, taken: &BlockCodes) -> u32 {
+        if self.dialect.quirks.user_names() || words.forgets_all || words.flow {
+            return 0;
+        }
+        let read = codes
+            .iter()
+            .filter(|found| !(found.code.kind == CodeKind::M && found.code.action == Action::NoMotion))
+            .fold(self.read_in_force(words, taken), |read, found| {
+                read | if found.code.kind == CodeKind::M {
+                    crate::unused::letters(found.code)
+                } else {
+                    self.read_by(found.code)
+                }
+            });
+        words.letters & crate::unused::PARAMETERS & !read
     }
 
     /// Several codes that are compared by their words, or one that happens once: the codes in an order of their own, with all words that
@@ -288,6 +372,42 @@ impl Interpreter<'_> {
         self.after_motion(codes, words, block);
     }
 
+    /// A setting of grbl (`$32=1`) or one of its realtime characters, which act when they arrive (grbl 1.1 documentation, interface).
+    #[cold]
+    pub(crate) fn grbl_line(&mut self, view: &Block<'_>, sink: &mut impl crate::Sink) {
+        let text = view.program().text(view.range());
+        let text = text.trim();
+        let bare = text.split([';', '(']).next().unwrap_or_default();
+        if text.starts_with('$') || bare.contains(['!', '~', '?', '\u{18}']) {
+            let words = vec![Argument::text("", &crate::canonical_text(text))];
+            self.unmodelled_line(view, words, sink);
+        }
+    }
+
+    /// What a block of a contour does beside the contour: the control does it in the finishing cut, or in every cut.
+    #[cold]
+    pub(crate) fn contour_effects(&mut self, view: &Block<'_>, sink: &mut impl crate::Sink) {
+        let of_contour = |argument: &Argument| match (argument.name.as_ref(), &argument.value) {
+            ("G", crate::Value::Number(code)) => matches!(*code, 0.0..=3.0),
+            (name, _) => matches!(
+                name,
+                "X" | "Z" | "U" | "W" | "I" | "K" | "R" | "F" | "C" | "A" | "Y" | "V"
+            ),
+        };
+        let mut words = written(view, self, &Words::default(), Keep::All);
+        words.retain(|argument| !of_contour(argument));
+        if !words.is_empty() {
+            self.unmodelled_line(view, words, sink);
+        }
+    }
+
+    fn unmodelled_line(&mut self, view: &Block<'_>, words: Vec<Argument>, sink: &mut impl crate::Sink) {
+        let block = self.flow.main_block(view.id());
+        let effect = Effect::Unmodelled(words);
+        sink.effect(crate::Placed { block, effect });
+        self.memory.effects.count += 1;
+    }
+
     /// What the codes of a block do after its motion.
     fn after_motion(&mut self, codes: &[Found<'_>], words: &Words, block: trunnion_syntax::BlockId) {
         if codes
@@ -329,7 +449,9 @@ fn has_unread(words: &Words) -> bool {
         words.p,
         words.length_offset,
     ];
+    let mut letters = (b'A'..=b'Z').filter(|letter| words.letters & letter_bit(*letter) != 0);
     words.axes.unread | words.centre.unread | words.vector.unread != 0
+        || letters.any(|letter| matches!(words.letter(letter), Said::Unread))
         || values.iter().any(|said| matches!(said, Said::Unread))
 }
 

@@ -145,6 +145,11 @@ impl Flow {
         self.deep.as_ref().map_or_else(Vec::new, |deep| deep.variables.kept())
     }
 
+    /// All variables of Macro B that have a value.
+    pub(crate) fn all_variables(&self) -> Vec<crate::Argument> {
+        self.deep.as_ref().map_or_else(Vec::new, |deep| deep.variables.all())
+    }
+
     /// The value of a variable of Macro B as it is written.
     pub(crate) fn variable(&self, text: &str) -> Option<f64> {
         self.deep.as_ref()?.variables.written(text)

@@ -20,7 +20,13 @@ impl<'d> Interpreter<'d> {
             return;
         }
         if self.memory.passed_over.is_some() && self.is_passed_over(block.id()) {
+            if self.memory.effects.wanted {
+                self.contour_effects(block, sink);
+            }
             return;
+        }
+        if self.memory.effects.wanted && self.dialect.name == "grbl" {
+            self.grbl_line(block, sink);
         }
         let mut codes = std::mem::take(&mut self.codes);
         codes.clear();
@@ -199,11 +205,12 @@ impl<'d> Interpreter<'d> {
             self.state.spindle_on = None;
         }
         if self.memory.effects.wanted {
-            self.code_effects(codes, words, &report.program.block(report.block));
+            self.code_effects(codes, words, &block, &report.program.block(report.block));
         }
         let mut motion = self.motion(codes, words, &block, report);
         self.called_cycle(codes, words, &block, &mut motion, report);
         if words.forgets_all {
+            self.memory.losses += 1;
             self.forget_position();
             // what is not understood may be a call
             self.state.clamps.lose();

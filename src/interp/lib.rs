@@ -40,6 +40,7 @@ mod words;
 mod written;
 
 pub use directive::{Directive, directives};
+pub use effects::Situation;
 pub use run::{Interpreter, run};
 pub use trunnion_vocabulary::{
     AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, ChainId, Clamp, ClampCodes, Clamps, ControlData, Effect, Fault,

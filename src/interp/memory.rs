@@ -34,6 +34,8 @@ pub(crate) struct Memory<'d> {
     hidden: Vec<Frame<'d>>,
     /// Data of tools were written by the program: no length is known.
     pub(crate) tool_data_written: bool,
+    /// How many times everything modal became unknown.
+    pub(crate) losses: u64,
     /// Tool centre point control was on since the tool came into the spindle.
     pub(crate) tcp_used: bool,
     /// The tool for which a missing length under tool centre point control was reported.

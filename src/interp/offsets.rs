@@ -30,6 +30,7 @@ impl Interpreter<'_> {
     }
     /// A subprogram may have changed anything.
     pub(crate) fn forget_everything(&mut self) {
+        self.memory.losses += 1;
         self.forget_position();
         self.state.clamps.lose();
         self.state.spindle_on = None;

@@ -5,9 +5,10 @@
 //! [`trunnion_formula::sinumerik`].
 mod words;
 
+use crate::Argument;
 use crate::flow::Transfer;
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use trunnion_formula::{FormulaErrorKind, ValueError};
 use trunnion_syntax::{Call, TextRange};
 
@@ -63,6 +64,10 @@ pub(crate) struct Own {
     /// Names that the program does not declare.
     others: HashMap<Box<str>, f64>,
     scope: Scope,
+    /// What was last written, word for word, to names whose values are not followed: texts, axes, fields, expressions that are unknown.
+    texts: BTreeMap<Box<str>, Box<str>>,
+    /// What was known when it was lost.
+    before_loss: BTreeMap<Box<str>, f64>,
     /// Written in the block in hand: when the control writes is not documented, so they are not read in the same block.
     fresh: Vec<Box<str>>,
     /// Grows with whatever may make a decision come out otherwise than before.
@@ -144,9 +149,54 @@ impl Own {
     /// No variable has a value that is known.
     pub(crate) fn lose(&mut self) {
         self.changes += 1;
+        let known = self.known();
+        if !known.is_empty() {
+            self.before_loss = known;
+        }
         self.parameters.clear();
         self.others.clear();
         self.scope.values.clear();
+    }
+    fn known(&self) -> BTreeMap<Box<str>, f64> {
+        let parameters = (self.parameters.iter()).map(|(number, value)| (format!("r{number}").into(), *value));
+        let named = (self.others.iter().chain(&self.scope.values)).map(|(name, value)| (name.clone(), *value));
+        parameters.chain(named).collect()
+    }
+    /// Notes what is written to a name whose value is not followed.
+    pub(crate) fn note_text(&mut self, name: &str, text: &str) {
+        let name: Box<str> = crate::written::packed(name).to_ascii_lowercase().into();
+        let text = crate::written::packed(text);
+        self.texts.insert(name, text.into());
+    }
+    /// All that is known of the variables: values, those from before they were lost, and what was written where the value is not known.
+    pub(crate) fn all(&self) -> Vec<Argument> {
+        let mut values = self.before_loss.clone();
+        values.extend(self.known());
+        let values = values
+            .into_iter()
+            .map(|(name, value)| Argument::number(name.into_string(), value));
+        let texts = self
+            .texts
+            .iter()
+            .map(|(name, text)| Argument::text(name.to_string(), text));
+        values.chain(texts).collect()
+    }
+    /// What is known of the variables that a text names.
+    pub(crate) fn named_in(&self, text: &str) -> Vec<Argument> {
+        let lower = text.to_ascii_lowercase();
+        let words: Vec<&str> = lower
+            .split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
+            .collect();
+        if !words
+            .iter()
+            .any(|word| self.scope.sorts.contains_key(*word) || self.texts.contains_key(*word))
+        {
+            return Vec::new();
+        }
+        let stem = |name: &str| name.split('[').next().unwrap_or_default().to_owned();
+        let mut all = self.all();
+        all.retain(|argument| words.contains(&stem(&argument.name).as_str()));
+        all
     }
     /// A subprogram begins with variables of its own; those of the caller come back.
     pub(crate) fn begin_scope(&mut self) -> Scope {
@@ -214,6 +264,12 @@ impl Own {
                 None => (one, Some(0.0)),
                 Some((name, value)) => (name, self.value(value)),
             };
+            if let (Some((name, text)), true) = (
+                one.split_once('='),
+                value.is_none() || sort == Sort::Other || one.contains('['),
+            ) {
+                self.note_text(name.split('[').next().unwrap_or(name), text);
+            }
             match name.split_once('[') {
                 // a field
                 Some((stem, _)) => self.declare(stem, Sort::Other, None),

@@ -75,7 +75,7 @@ impl Interpreter<'_> {
     }
 
     /// Letters that a code of the block reads. What is not modelled, and what a builder may have given a meaning, may read any.
-    fn read_by(&self, code: &Code) -> u32 {
+    pub(crate) fn read_by(&self, code: &Code) -> u32 {
         let opaque = matches!(
             code.action,
             Action::NotModelled
@@ -112,7 +112,7 @@ impl Interpreter<'_> {
     }
 
     /// Letters that what is in force reads: arcs, cycles, tool vectors, offsets that are modal.
-    fn read_in_force(&self, words: &Words, block: &BlockCodes) -> u32 {
+    pub(crate) fn read_in_force(&self, words: &Words, block: &BlockCodes) -> u32 {
         let mut read = 0;
         let role = |letter| self.dialect.role(letter);
         if self.dialect.quirks.offset_compensation || self.state.compensation != 0 {

@@ -221,7 +221,7 @@ pub(crate) fn resolved(run: &Interpreter<'_>, text: &str) -> String {
         let (token, after) = rest.split_at(length.max(1));
         let value = if first.is_ascii_digit() || first == '.' {
             token.parse::<f64>().ok()
-        } else if after.starts_with(['(', '[']) {
+        } else if !hash && after.starts_with(['(', '[']) {
             None
         } else if hash {
             run.variable(token).filter(|value| !value.is_nan())

@@ -5,6 +5,7 @@
 use crate::cut::{cut, is_idle};
 use crate::exact::{self, Exact};
 use crate::process::{Process, motion_difference, shown};
+use crate::since::is_after_loss;
 use crate::steps::{Item, Sort, Step, Steps};
 use crate::twins::Twins;
 use crate::verdict::{Difference, Verdict};
@@ -183,10 +184,15 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
     if let Some((name, from, to)) = held.or_else(|| motion_difference(a, b, !claim.frees_feed)) {
         return differs(format!("{name} differs: {from} and {to}"));
     }
-    let found = setting(&was.process, &is.process, claim);
-    found.map_or(Ok(()), |(key, from, to)| {
-        differs(format!("{key} differs: {from} and {to}"))
-    })
+    match setting(&was.process, &is.process, claim) {
+        Some((key, from, to)) if is_after_loss(&key) => Err(Verdict::Unknown(Difference {
+            before: Some(a.block),
+            after: Some(b.block),
+            what: format!("{key}: {from} and {to}"),
+        })),
+        Some((key, from, to)) => differs(format!("{key} differs: {from} and {to}")),
+        None => Ok(()),
+    }
 }
 
 /// The first setting that differs and counts.
@@ -231,12 +237,17 @@ fn ends_together(was: &Step, is: &Step, claim: &Claim) -> bool {
 fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
     let (
         Item::Happens {
-            sort, words, process, ..
+            sort,
+            words,
+            process,
+            situation,
+            ..
         },
         Item::Happens {
             sort: other_sort,
             words: other_words,
             process: other_process,
+            situation: other_situation,
             ..
         },
     ) = (was, is)
@@ -261,7 +272,20 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
     if claim.path_only {
         return Ok(());
     }
+    if let (Some(was), Some(is), false) = (situation, other_situation, claim.across) {
+        let found = was.iter().zip(is.iter());
+        let found = found
+            .filter_map(|(was, is)| was.difference(is, !claim.frees_feed))
+            .next();
+        if let Some((name, from, to)) = found {
+            return Err(Verdict::Unknown(place(format!(
+                "{name} differs at `{}`, whose effect is not modelled: {from} and {to}",
+                shown(words)
+            ))));
+        }
+    }
     match setting(process, other_process, claim) {
+        Some((key, from, to)) if is_after_loss(&key) => Err(Verdict::Unknown(place(format!("{key}: {from} and {to}")))),
         Some((key, from, to)) => Err(Verdict::Differs(place(format!(
             "{key} differs at `{}`: {from} and {to}",
             shown(words)
@@ -341,6 +365,11 @@ fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
         return nowhere(format!("{name} at the end differs: {from} and {to}"));
     }
     match before.process().differences(after.process()).first() {
+        Some((key, from, to)) if is_after_loss(key) => Err(Verdict::Unknown(Difference {
+            before: None,
+            after: None,
+            what: format!("{key}: {from} and {to}"),
+        })),
         Some((key, from, to)) => nowhere(format!("{key} at the end differs: {from} and {to}")),
         None => Ok(()),
     }

@@ -18,7 +18,8 @@ pub(crate) fn is_idle(step: &Step) -> bool {
         Orientation::Vector(start, end) => start != Some(end),
     };
     let open = step.leg.as_ref().is_some_and(|leg| leg.open.is_some());
-    matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear)
+    step.may_repeat
+        && matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear)
         && !matches!(motion.feed, Feed::InverseTime(_))
         && motion.tilt.swivel == Swivel::No
         && motion.tilt.free == 0

@@ -10,6 +10,7 @@ mod cut;
 mod exact;
 mod near;
 mod process;
+mod since;
 mod steps;
 mod twins;
 mod verdict;

@@ -1,14 +1,16 @@
 //! A program as a stream of what it does: nothing is kept but what the block in hand has brought.
 use crate::process::{Held, Process};
+use crate::since::{Since, disturbs, is_own_code, keeps_place, writes_control};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
-use trunnion_dialect::Dialect;
+use trunnion_dialect::{Dialect, Role};
+use trunnion_interp::Situation;
 use trunnion_interp::{
     Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, Placed, ProgramRun as _, Setup, Sink,
     Value,
 };
 use trunnion_machine::{Follower, Leg, Machine};
-use trunnion_syntax::{BlockId, Program};
+use trunnion_syntax::{Address, BlockId, Item as AnyItem, Program, Value as SyntaxValue};
 
 /// More items without a motion between them are not kept.
 const MOST_WAITING: usize = 1_000_000;
@@ -37,6 +39,8 @@ pub struct Step {
     pub held: Held,
     /// What else is in force.
     pub process: Arc<Process>,
+    /// Since the motion before, nothing may have changed where its coordinates lie: a block that repeats the place does not move.
+    pub may_repeat: bool,
     /// It is a part of a motion of the program, up to a point at which the other program has one.
     pub is_part: bool,
 }
@@ -67,6 +71,8 @@ pub enum Item {
         words: Vec<Argument>,
         /// What is in force.
         process: Arc<Process>,
+        /// What something that is not modelled may read: before and after its block.
+        situation: Option<Arc<[Situation; 2]>>,
     },
 }
 
@@ -95,6 +101,7 @@ pub struct Steps<'a> {
     interpreter: Interpreter<'a>,
     run: Run<'a>,
     ready: VecDeque<Item>,
+    since: Since,
     ran: Vec<u64>,
     over: bool,
 }
@@ -102,7 +109,7 @@ pub struct Steps<'a> {
 struct Run<'a> {
     follower: Option<Follower<'a>>,
     motions: VecDeque<(Motion, Option<Leg>, Held)>,
-    effects: VecDeque<(u32, Placed)>,
+    effects: VecDeque<(u32, Placed, Option<Arc<[Situation; 2]>>)>,
     /// Effects so far.
     count: u32,
     process: Arc<Process>,
@@ -140,7 +147,7 @@ impl Sink for Run<'_> {
         if let Some(log) = &mut self.log {
             log.push((self.count, effect.clone()));
         }
-        self.effects.push_back((self.count, effect));
+        self.effects.push_back((self.count, effect, None));
         self.count += 1;
     }
 }
@@ -177,6 +184,7 @@ impl<'a> Steps<'a> {
                 log: None,
             },
             ready: VecDeque::new(),
+            since: Since::default(),
             ran: vec![0; input.program.block_count().div_ceil(64)],
             over: false,
         }
@@ -280,6 +288,8 @@ impl<'a> Steps<'a> {
             self.over = true;
             return None;
         }
+        let before = self.interpreter.situation();
+        let (losses, effects) = (self.interpreter.losses(), self.run.count);
         let block = self.interpreter.advance(self.input.program, &mut self.run);
         self.over = block.is_none();
         if let Some(block) = block
@@ -287,15 +297,31 @@ impl<'a> Steps<'a> {
         {
             *word |= 1 << (block.0 % 64);
         }
+        let mut missing = false;
         for block in std::mem::take(&mut self.run.missing) {
             let text = self.input.program.text(self.input.program.block(block).range());
-            let words = vec![Argument::text("", &trunnion_interp::canonical_text(&text))];
-            let effect = Effect::Unmodelled(words);
+            let text = if self.input.dialect.quirks.user_names() {
+                // what is between parentheses are arguments
+                self.interpreter
+                    .resolved_text(text.split(';').next().unwrap_or_default())
+            } else {
+                let text = trunnion_interp::canonical_text(&text);
+                self.interpreter.resolved_text(&text)
+            };
+            let effect = Effect::Unmodelled(vec![Argument::text("", &text)]);
             self.run.effect(Placed { block, effect });
+            missing = true;
+        }
+        let lost = missing || self.interpreter.losses() != losses;
+        self.note_situation(before, effects, lost);
+        if let Some(block) = block {
+            self.note_block(block, lost);
         }
         while let Some((motion, leg, held)) = self.run.motions.pop_front() {
             self.effects_before(motion.effects);
+            let may_repeat = self.since.motion(&motion, &held);
             self.ready.push_back(Item::Motion(Box::new(Step {
+                may_repeat,
                 motion,
                 leg,
                 held,
@@ -309,13 +335,114 @@ impl<'a> Steps<'a> {
         block
     }
 
+    /// Gives the effects of a block that something else may decide what that may read. `effects`: how many there were before the block.
+    fn note_situation(&mut self, before: Situation, effects: u32, lost: bool) {
+        let own_code = |effect: &Effect| self.input.dialect.quirks.rs274() && is_own_code(effect);
+        let counts = |effect: &Effect| matches!(effect, Effect::Unmodelled(_)) || own_code(effect);
+        let new = |index: u32| index >= effects;
+        let fresh = self.run.effects.iter().filter(|(index, ..)| new(*index));
+        let own = fresh.clone().any(|(_, placed, _)| own_code(&placed.effect));
+        let opaque = fresh.clone().any(|(_, placed, _)| counts(&placed.effect));
+        let first = fresh.map(|(_, placed, _)| placed.block).next();
+        if opaque {
+            let situation = Arc::new([before, self.interpreter.situation()]);
+            let mut variables = (lost || own).then(|| self.interpreter.known_variables());
+            for (index, placed, at) in &mut self.run.effects {
+                if !new(*index) || !(matches!(placed.effect, Effect::Unmodelled(_)) || is_own_code(&placed.effect)) {
+                    continue;
+                }
+                *at = Some(Arc::clone(&situation));
+                if let (Effect::Unmodelled(words) | Effect::Event(words), Some(variables)) =
+                    (&mut placed.effect, variables.take())
+                {
+                    words.extend(variables);
+                }
+            }
+        }
+        for (index, placed, _) in &mut self.run.effects {
+            if new(*index) {
+                match &mut placed.effect {
+                    Effect::Set { to: words, .. } if words.is_empty() => {}
+                    Effect::Set { to: words, .. } | Effect::Event(words) | Effect::Unmodelled(words) => {
+                        self.interpreter.add_values(words);
+                    }
+                    Effect::Store(_) | Effect::End(_) => {}
+                }
+            }
+        }
+        if lost || own {
+            let block = first.unwrap_or(BlockId(0));
+            for key in self.since.lose() {
+                let effect = Effect::set(key, []);
+                self.run.effect(Placed { block, effect });
+            }
+        }
+    }
+
+    /// Words of a block of the main program: what they restate counts where everything was unknown, and what they change may move the
+    /// coordinates.
+    fn note_block(&mut self, block: BlockId, lost: bool) {
+        let (program, dialect) = (self.input.program, self.input.dialect);
+        let view = program.block(block);
+        for item in view.items() {
+            let (key, to) = match item {
+                AnyItem::Word(word) => {
+                    let Address::Letter(letter) = word.address else {
+                        self.since.disturbed |= writes_control(&program.text(word.range));
+                        continue;
+                    };
+                    let letter = letter.to_ascii_uppercase();
+                    let role = dialect.role(letter);
+                    if matches!(role, Some(Role::G | Role::M)) {
+                        let number = match word.value {
+                            SyntaxValue::Number(number) => (number.to_f64() * 10.0).round(),
+                            _ => -1.0,
+                        };
+                        let known = (0.0..1e6).contains(&number).then_some(number as u32);
+                        let code = known.and_then(|tenths| match role {
+                            Some(Role::G) => dialect.g(tenths),
+                            _ => dialect.m(tenths),
+                        });
+                        self.since.disturbed |= code.is_none_or(|code| !keeps_place(code));
+                        let Some(code) = code else { continue };
+                        let key = code.group.clone().unwrap_or_else(|| code.id.clone());
+                        (key, code.id.clone())
+                    } else if matches!(letter, b'F' | b'S' | b'T' | b'D' | b'H') {
+                        self.since.disturbed |= matches!(letter, b'D' | b'H');
+                        let text = program.text(word.value_range).into_owned();
+                        (char::from(letter).to_string(), text)
+                    } else {
+                        continue;
+                    }
+                }
+                AnyItem::Call(call) => {
+                    let code = dialect.name(&program.text(call.name));
+                    self.since.disturbed |= code.is_none_or(|code| !keeps_place(code));
+                    let Some(code) = code else { continue };
+                    let key = code.group.clone().unwrap_or_else(|| code.id.clone());
+                    (key, code.id.clone())
+                }
+                AnyItem::Other(range) => {
+                    self.since.disturbed |= writes_control(&program.text(range));
+                    continue;
+                }
+                _ => continue,
+            };
+            if !lost && let Some(key) = self.since.restated(&key) {
+                let effect = Effect::set(key, [Argument::text("", &trunnion_interp::canonical_text(&to))]);
+                self.run.effect(Placed { block, effect });
+            }
+        }
+    }
+
     /// Applies the effects that come before the motion that was made after so many.
     fn effects_before(&mut self, count: u32) {
         let run = &mut self.run;
-        while run.effects.front().is_some_and(|(index, _)| *index < count) {
-            let Some((_, Placed { block, effect })) = run.effects.pop_front() else {
+        while run.effects.front().is_some_and(|(index, ..)| *index < count) {
+            let Some((_, Placed { block, effect }, situation)) = run.effects.pop_front() else {
                 return;
             };
+            self.since.disturbed |= disturbs(&effect);
             let (sort, words) = match effect {
                 Effect::Set { key, to } => {
                     // a spindle that starts, stops or reverses does so at once, whether or not a motion follows
@@ -338,6 +465,7 @@ impl<'a> Steps<'a> {
                 sort,
                 words,
                 process: Arc::clone(&run.process),
+                situation,
             });
         }
     }

@@ -23,6 +23,13 @@ macro_rules! actions {
             /// The names of all actions in tables.
             pub const NAMES: &'static [&'static str] = &[$($name),*];
 
+            /// Its name in tables.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$action => $name,)*
+                }
+            }
+
             /// The action of a name.
             pub fn named(name: &str) -> Option<Self> {
                 match name {

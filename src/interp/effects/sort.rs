@@ -7,8 +7,8 @@ use crate::{Argument, Value};
 use trunnion_dialect::{Action, CodeKind};
 use trunnion_syntax::Block;
 
-/// Codes that read the comment of their block (Haas mill operator's manual: G47 text engraving, M95 sleep mode, M130 to M131 media).
-pub(super) const READ_COMMENTS: [&str; 4] = ["G47", "M95", "M130", "M131"];
+/// Codes that read the comment of their block (Haas mill operator's manual: G47 text engraving, M95 sleep mode, M109 question to the operator, M130 to M131 media).
+pub(super) const READ_COMMENTS: [&str; 5] = ["G47", "M95", "M109", "M130", "M131"];
 
 /// Names of codes that tell the operator something and do nothing else.
 const NEUTRAL: [&str; 1] = ["MSG"];

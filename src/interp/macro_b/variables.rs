@@ -131,6 +131,19 @@ impl Variables {
             Err(_) => self.named(&name.to_ascii_lowercase()),
         }
     }
+    /// All that have a value, also where nothing is known any more: then those from before.
+    pub(crate) fn all(&self) -> Vec<crate::Argument> {
+        let locals = self.locals.iter().zip(1..).map(|(held, number)| (number, *held));
+        let common = self.common.iter().map(|(number, held)| (*number, *held));
+        let numbered = locals
+            .chain(common)
+            .filter_map(|(number, held)| Some((format!("#{number}"), held?)));
+        let named = self.named.iter().map(|(name, value)| (format!("#{name}"), *value));
+        let known = numbered.chain(named).filter(|(_, value)| !value.is_nan());
+        known
+            .map(|(name, value)| crate::Argument::number(name, value))
+            .collect()
+    }
     /// #500 to #999 with their values, as far as they are known: they outlive the program (Series 30i operator's manual, custom macro).
     pub(crate) fn kept(&self) -> Vec<(String, f64)> {
         let kept = self.common.range(500..).filter(|_| !self.lost);

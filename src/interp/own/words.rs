@@ -36,7 +36,11 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             Value::Number(decimal) => Some(decimal.to_f64()),
             _ => self.own_number(word.value_range).map(|number| number.value),
         };
+        let text = self.text(word.value_range);
         if let Some(own) = &mut self.own {
+            if number.is_none() {
+                own.note_text(name, &text);
+            }
             own.assign(name, number);
         }
     }
@@ -46,6 +50,11 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let text = self.text(range);
         match (&mut self.own, code.id.as_str()) {
             (Some(own), "DEF") => own.define(text.get(3..).unwrap_or_default()),
+            (Some(own), "DEFINE") => {
+                let rest = text.get(6..).unwrap_or_default().trim();
+                let (name, means) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+                own.note_text(name, means);
+            }
             (Some(own), "EXTERN") => own.declare_subprogram(text.get(6..).unwrap_or_default()),
             _ => {}
         }

@@ -147,6 +147,24 @@ impl Interpreter<'_> {
             self.memory.effects.add(block, Effect::End(vec![Argument::code("M99")]));
             self.hand_on(sink);
         }
+        let upper = crate::written::packed(&text);
+        // which point it is, and that the control moves there even where no axis is named
+        if ["G28", "G30", "G43.2", "M19"].iter().any(|code| upper.contains(code)) {
+            let words = if at.file == FileId::MAIN {
+                written(&program.block(block), self, &Words::default(), Keep::All)
+            } else {
+                vec![Argument::text("", &resolved(self, &text))]
+            };
+            let counts = |word: &Argument| matches!(word.name.as_ref(), "G" | "M" | "H" | "R" | "P" | "Q" | "");
+            let words = words.into_iter().filter(counts).collect();
+            self.memory.effects.add(block, Effect::Event(words));
+            self.hand_on(sink);
+        }
+        // the control keeps what is written to its offsets, also where that is what they are without a declaration
+        for store in stored_offsets(&upper, &names, |name| self.variable(name)) {
+            self.memory.effects.add(block, Effect::Store(store));
+            self.hand_on(sink);
+        }
         let lost = codes.shifts && (codes.ninth || self.state.position.xyz().is_none());
         let unknown = lost || names.iter().any(|name| self.variable(name).is_some_and(f64::is_nan));
         if !(does_more || unknown_end || unknown) {
@@ -286,4 +304,21 @@ fn forget(engine: &mut Engine, told: &mut Told, axes: &[usize]) {
         engine.state.compensated[axis] = f64::NAN;
         told.machine.forget(axis);
     }
+}
+
+/// What a line writes to the offsets that outlive the program: `G10 L2`, `G10 L20`, `#5221=0` (LinuxCNC user manual: numbered parameters).
+fn stored_offsets(line: &str, names: &[String], value: impl Fn(&str) -> Option<f64>) -> Vec<Argument> {
+    let is_offset = |name: &&String| {
+        let number = name.trim_start_matches('#').parse::<u32>();
+        number.is_ok_and(|number| (5161..=5390).contains(&number)) && line.contains(&format!("{name}="))
+    };
+    let mut stores: Vec<Argument> = names
+        .iter()
+        .filter(is_offset)
+        .map(|name| Argument::number(format!("written to {name}"), value(name).unwrap_or(f64::NAN)))
+        .collect();
+    if line.contains("G10L2") {
+        stores.push(Argument::text("written by G10", &crate::canonical_text(line)));
+    }
+    stores
 }

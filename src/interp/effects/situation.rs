@@ -1,0 +1,140 @@
+//! What a program or code that is not modelled could read at its place: the modal state, and the variables that are known.
+use crate::run::Interpreter;
+use crate::{Argument, FeedMode, ModalState, ProgramRun};
+use trunnion_dialect::Plane;
+
+/// The state before and after a block. Two runs do the same at something that is not modelled only if both states are the same.
+#[derive(Clone, Debug)]
+pub struct Situation {
+    state: ModalState,
+    to_r: bool,
+}
+
+impl Situation {
+    /// The first setting that differs: name, before, after. `feed_counts`: whether F may not differ.
+    pub fn difference(&self, other: &Self, feed_counts: bool) -> Option<(&'static str, String, String)> {
+        let (a, b) = (self.settings(feed_counts), other.settings(feed_counts));
+        a.into_iter()
+            .zip(b)
+            .find(|((_, a), (_, b))| a != b)
+            .map(|((name, a), (_, b))| (name, written(&a), written(&b)))
+    }
+
+    /// Each setting by name. Numbers compare to 1e-9 of their size, what is unknown is like what is unknown.
+    fn settings(&self, feed_counts: bool) -> Vec<(&'static str, Vec<Argument>)> {
+        let state = &self.state;
+        let flag = |is_on: bool| vec![Argument::code(if is_on { "on" } else { "off" })];
+        let number = |value: Option<f64>| vec![Argument::number("", value.unwrap_or(f64::NAN))];
+        let mut settings = vec![
+            ("incremental programming", flag(state.incremental)),
+            ("absolute arc centres", flag(state.arc_centre_absolute)),
+            ("the unit of lengths", number(Some(state.length_unit_mm))),
+            ("the unit of feeds", number(Some(state.feed_unit_mm))),
+            ("the working plane", vec![Argument::code(plane(state.plane))]),
+            (
+                "the motion code",
+                vec![Argument::code(
+                    state.motion.map_or("none", trunnion_dialect::Action::name),
+                )],
+            ),
+            (
+                "the return level of cycles",
+                vec![Argument::code(if self.to_r { "R" } else { "initial" })],
+            ),
+            (
+                "the side of the cutter radius compensation",
+                number(Some(f64::from(state.compensation))),
+            ),
+            (
+                "the work offset",
+                vec![Argument::code(
+                    state.work_offset.as_deref().unwrap_or("none").to_owned(),
+                )],
+            ),
+            (
+                "the zero point",
+                state.zero.iter().map(|value| Argument::number("", *value)).collect(),
+            ),
+            ("the tool length in force", number(state.tool_length_mm)),
+            (
+                "whose tool length is in force",
+                vec![Argument::code(state.length_of.to_string())],
+            ),
+            ("the tool", number(state.tool.map(f64::from))),
+            ("tool centre point control", flag(state.tcp)),
+            ("programming by tool vectors", flag(state.vector_mode)),
+            ("the spindle's speed", number(state.spindle_rpm)),
+        ];
+        if feed_counts {
+            settings.push(("the meaning of F", vec![Argument::code(mode(state.feed_mode))]));
+            settings.push(("the feed", number(state.feed)));
+        }
+        settings
+    }
+}
+
+fn written(words: &[Argument]) -> String {
+    words.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
+}
+
+fn plane(plane: Plane) -> &'static str {
+    match plane {
+        Plane::Xy => "G17",
+        Plane::Zx => "G18",
+        Plane::Yz => "G19",
+    }
+}
+
+fn mode(mode: FeedMode) -> &'static str {
+    match mode {
+        FeedMode::PerMinute => "per minute",
+        FeedMode::PerRevolution => "per revolution",
+        FeedMode::InverseTime => "inverse time",
+    }
+}
+
+impl Interpreter<'_> {
+    /// What is in force now, for something that is not modelled.
+    pub fn situation(&self) -> Situation {
+        Situation {
+            state: self.state.clone(),
+            to_r: self.memory.cycle.to_r,
+        }
+    }
+
+    /// How many times everything modal became unknown so far: a program that is missing may have changed it.
+    pub fn losses(&self) -> u64 {
+        self.memory.losses
+    }
+
+    /// All variables that are known, or were when something that is not followed ran, by name.
+    pub fn known_variables(&self) -> Vec<Argument> {
+        let mut found: Vec<Argument> = match &self.rs274 {
+            Some(_) => (self.outliving().into_iter())
+                .map(|(name, value)| Argument::number(name, value))
+                .collect(),
+            None => self.flow.all_variables(),
+        };
+        found.extend(self.memory.own.all());
+        found
+    }
+
+    /// Adds the values of the variables that words name.
+    pub fn add_values(&self, words: &mut Vec<Argument>) {
+        let text: String = words.iter().map(|word| format!("{word} ")).collect();
+        if self.dialect.quirks.user_names() {
+            words.extend(self.memory.own.named_in(&text));
+            return;
+        }
+        for name in crate::written::names(&text) {
+            if let Some(value) = self.variable(&name) {
+                words.push(Argument::number(format!("where {name}"), value));
+            }
+        }
+    }
+
+    /// The text of a block with the variables in it replaced by their values.
+    pub fn resolved_text(&self, text: &str) -> String {
+        crate::written::resolved(self, text)
+    }
+}

@@ -46,6 +46,7 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
             .unwrap_or(dialect);
         let library = second
             .as_ref()
+            .filter(|_| command.before.parent() != command.after.parent())
             .map_or(&setup.library, |second| &second.resolved.setup.library);
         certify_beside([before, &after], [dialect, other], machine, (setup, library), &claim)
     };

@@ -80,10 +80,17 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
 /// Compares two loaded programs, by joints of the machine of the first one.
 fn differences(before: &load::Loaded, after: &load::Loaded, tolerance: Tolerance, path_only: bool) -> Found {
     let (old, new) = (&before.resolved, &after.resolved);
+    // files of one folder call the same programs
+    let folder = |loaded: &load::Loaded| std::path::Path::new(&loaded.name).parent().map(std::path::Path::to_path_buf);
+    let mut beside = new.setup.clone();
+    if folder(before) == folder(after) {
+        beside.library = old.setup.library.clone();
+    }
     let pair = Pair {
         before: before.input(),
         after: Input {
             machine: old.machine.as_ref(),
+            setup: &beside,
             ..after.input()
         },
         one_setup: old.config_path == new.config_path,

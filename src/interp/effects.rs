@@ -191,7 +191,8 @@ impl Interpreter<'_> {
 
     /// Parameters of the block that neither its codes nor what is in force reads. The machine, or a macro that a code calls, may read them.
     fn untaken(&self, codes: &[Found<'_>], words: &Words, taken: &BlockCodes) -> u32 {
-        if self.dialect.quirks.user_names() || words.forgets_all || words.flow {
+        let opaque = words.builder_code || words.unknown_code || words.forgets_all || words.flow;
+        if opaque || self.dialect.quirks.user_names() {
             return 0;
         }
         let read = codes
@@ -449,7 +450,10 @@ fn has_unread(words: &Words) -> bool {
         words.p,
         words.length_offset,
     ];
-    let mut letters = (b'A'..=b'Z').filter(|letter| words.letters & letter_bit(*letter) != 0);
+    let mut letters = b"DEHIJKLMPQR"
+        .iter()
+        .copied()
+        .filter(|letter| words.letters & letter_bit(*letter) != 0);
     words.axes.unread | words.centre.unread | words.vector.unread != 0
         || letters.any(|letter| matches!(words.letter(letter), Said::Unread))
         || values.iter().any(|said| matches!(said, Said::Unread))

@@ -10,7 +10,7 @@ use trunnion_interp::{
     Value,
 };
 use trunnion_machine::{Follower, Leg, Machine};
-use trunnion_syntax::{Address, BlockId, Item as AnyItem, Program, Value as SyntaxValue};
+use trunnion_syntax::{Address, BlockId, Format, Item as AnyItem, Program, Value as SyntaxValue};
 
 /// More items without a motion between them are not kept.
 const MOST_WAITING: usize = 1_000_000;
@@ -383,6 +383,9 @@ impl<'a> Steps<'a> {
     /// coordinates.
     fn note_block(&mut self, block: BlockId, lost: bool) {
         let (program, dialect) = (self.input.program, self.input.dialect);
+        if program.options().format == Format::Apt {
+            return;
+        }
         let view = program.block(block);
         for item in view.items() {
             let (key, to) = match item {

@@ -318,7 +318,35 @@ fn stored_offsets(line: &str, names: &[String], value: impl Fn(&str) -> Option<f
         .map(|name| Argument::number(format!("written to {name}"), value(name).unwrap_or(f64::NAN)))
         .collect();
     if line.contains("G10L2") {
-        stores.push(Argument::text("written by G10", &crate::canonical_text(line)));
+        stores.extend(written_by_g10(line));
     }
     stores
+}
+
+/// The values of a line `G10 L2 P2 X5`, each under a name of its own; with an expression the whole line.
+fn written_by_g10(line: &str) -> Vec<Argument> {
+    let text = crate::canonical_text(line);
+    let mut words: Vec<(char, f64)> = Vec::new();
+    let mut rest = text.as_str();
+    while let Some(letter) = rest.chars().next() {
+        let after = &rest[letter.len_utf8()..];
+        let end = after.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(after.len());
+        let Ok(value) = after[..end].parse::<f64>() else {
+            return vec![Argument::text("written by G10", &text)];
+        };
+        words.push((letter, value));
+        rest = &after[end..];
+    }
+    let of = |name: char| {
+        words
+            .iter()
+            .find(|(letter, _)| *letter == name)
+            .map_or(0.0, |(_, value)| *value)
+    };
+    let place = format!("G10 L{} P{}", of('L'), of('P'));
+    let data = words
+        .iter()
+        .filter(|(letter, _)| !matches!(letter, 'G' | 'L' | 'P' | 'N'));
+    data.map(|(letter, value)| Argument::number(format!("{place} {letter}"), *value))
+        .collect()
 }

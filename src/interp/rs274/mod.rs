@@ -317,7 +317,7 @@ fn stored_offsets(line: &str, names: &[String], value: impl Fn(&str) -> Option<f
         .filter(is_offset)
         .map(|name| Argument::number(format!("written to {name}"), value(name).unwrap_or(f64::NAN)))
         .collect();
-    if line.contains("G10L2") {
+    if line.contains("G10") && line.contains("L2") {
         stores.extend(written_by_g10(line));
     }
     stores

@@ -24,7 +24,7 @@ impl Stops {
     /// Takes a fault of the run.
     pub(crate) fn fault(&mut self, fault: &Fault, dialect: &Dialect) {
         // LinuxCNC's interpreter continues after a refused block, and reads what follows the end
-        let may_stop = !dialect.quirks.rs274;
+        let may_stop = !dialect.quirks.rs274();
         let (why, sure) = match &fault.kind {
             FaultKind::EndlessLoop { proved: true, .. } => {
                 ("it never ends: a loop returns to the same values".to_owned(), true)

@@ -8,7 +8,7 @@ use crate::cli::load::Loaded;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use trunnion_machine::Machine;
-use trunnion_same::{Claim, Near, Steps, Stop, Verdict, may_call};
+use trunnion_same::{Claim, Near, Steps, Stop, Verdict, run_alike};
 use trunnion_syntax::BlockId;
 
 /// So many motions are compared in detail; more are only counted.
@@ -159,12 +159,7 @@ fn proved(before: &Loaded, after: &Loaded, tolerance: Tolerance, path_only: bool
     let Some(machine) = old.machine.as_ref().filter(|_| old.config_path == new.config_path) else {
         return false;
     };
-    // one setup serves both: tools, offsets and the programs that are called must be the same
-    let mut setup = old.setup.clone();
-    setup.library = new.setup.library.clone();
-    let one_library =
-        old.setup.library == new.setup.library || ![before, after].iter().any(|loaded| may_call(&input(loaded, None)));
-    if setup != new.setup || !one_library {
+    if !run_alike(&input(before, None), &input(after, None)) {
         return false;
     }
     let (tolerance_mm, tolerance_deg) = (tolerance.mm, tolerance.deg);

@@ -1,10 +1,11 @@
 //! APT / CL records to motions.
 use crate::Sink;
-use crate::run::{Interpreter, Report};
+use crate::core::{Core, Report};
+use crate::engine::Engine;
 use crate::{FaultKind, FeedMode, Motion, Orientation};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
-use trunnion_syntax::{AptArg, Block, Program, Record, TextRange};
+use trunnion_syntax::{AptArg, Block, BlockId, Program, Record, TextRange};
 
 /// What APT keeps between records beside the modal state.
 #[derive(Clone, Debug, Default)]
@@ -128,13 +129,64 @@ fn upper<'b>(program: &Program, range: TextRange, buffer: &'b mut [u8; 12]) -> &
     }
 }
 
-impl Interpreter<'_> {
+/// The engine of APT / CL programs.
+#[derive(Clone)]
+pub(crate) struct Apt<'d> {
+    pub(crate) core: Core<'d>,
+    pub(crate) apt: AptState,
+    /// The record that runs next.
+    next: u32,
+    finished: bool,
+}
+
+impl<'d> Engine<'d> for Apt<'d> {
+    fn core(&self) -> &Core<'d> {
+        &self.core
+    }
+    fn core_mut(&mut self) -> &mut Core<'d> {
+        &mut self.core
+    }
+    fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
+        if self.finished || program.block_count() == 0 {
+            return None;
+        }
+        let block = BlockId(self.next);
+        self.next += 1;
+        self.step(program, block, sink);
+        if self.core.state.ended || self.next as usize >= program.block_count() {
+            self.finished = true;
+            self.core.missing_end(program, sink);
+        }
+        Some(block)
+    }
+}
+
+impl<'d> Apt<'d> {
+    /// At the start of a program.
+    pub(crate) fn new(core: Core<'d>) -> Self {
+        Self {
+            core,
+            apt: AptState::default(),
+            next: 0,
+            finished: false,
+        }
+    }
+    /// Runs one record.
+    pub(crate) fn step(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
+        self.core.declare(program);
+        if !self.core.state.ended {
+            self.step_apt(&program.block(block), sink);
+        }
+    }
+}
+
+impl Apt<'_> {
     /// Runs one APT record.
     pub(crate) fn step_apt(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
         let Some(record) = block.record() else { return };
-        self.memory.last_content = Some(block.id());
+        self.core.last_content = Some(block.id());
         let mut does_more = false;
-        if self.memory.effects.wanted {
+        if self.core.effects.wanted() {
             self.record_effects(&record, block);
         }
         let motion = {
@@ -149,14 +201,12 @@ impl Interpreter<'_> {
             };
             self.record(&record, &mut report)
         };
-        if self.memory.effects.wanted {
+        if self.core.effects.wanted() {
             self.late_record_effects(&record, block, motion.as_ref(), does_more);
-            for effect in std::mem::take(&mut self.memory.effects.ready) {
-                sink.effect(effect);
-            }
+            self.core.hand_on_effects(sink);
         }
         if let Some(motion) = motion {
-            sink.motion(&motion, &self.state);
+            sink.motion(&motion, &self.core.state);
         }
     }
 
@@ -172,7 +222,7 @@ impl Interpreter<'_> {
             b"DELAY" => return Some(self.delay(&args, report)),
             b"FEDRAT" => self.fedrat(&args, report),
             b"UNITS" | b"UNIT" => self.units(&args, report),
-            b"MULTAX" => self.state.multax = !args.has(program, "OFF"),
+            b"MULTAX" => self.core.state.multax = !args.has(program, "OFF"),
             b"TLAXIS" => self.tool_axis(&args, report),
             b"SPINDL" => self.spindl(&args, report),
             b"CUTTER" => self.cutter(&args, report),
@@ -182,8 +232,8 @@ impl Interpreter<'_> {
             b"CYCLE" => self.cycle(&args, report),
             b"CSYS" => self.csys(record, &args, report),
             b"END" | b"FINI" => {
-                self.state.ended = true;
-                self.memory.proper_end = true;
+                self.core.state.ended = true;
+                self.core.proper_end = true;
             }
             _ => self.other_record(record, report),
         }
@@ -193,7 +243,7 @@ impl Interpreter<'_> {
     /// Records that only the dialect's table knows.
     fn other_record(&mut self, record: &Record<'_>, report: &mut Report<'_>) {
         let text = report.program.text(record.major).into_owned();
-        let Some(code) = self.dialect.name(&text) else {
+        let Some(code) = self.core.dialect.name(&text) else {
             report.fault(record.major, FaultKind::AptUnknownRecord);
             return self.unknown_record(text, report);
         };
@@ -206,34 +256,34 @@ impl Interpreter<'_> {
                 self.lose_place();
             }
             Action::FrameChange if args.has(program, "OFF") || args.has(program, "NOMORE") => {
-                let ended = self.memory.end_frame(code);
-                self.forget_if(ended);
+                let ended = self.core.unknown.end(code);
+                self.core.forget_if(ended);
             }
             Action::NotModelled | Action::FrameChange | Action::CannedCycle | Action::SubprogramCall => {
                 report.fault(record.range, FaultKind::NotModelled { what: text });
                 self.forget_everything_of(code.action);
                 if code.action == Action::FrameChange {
-                    self.memory.begin_frame(code, false);
+                    self.core.unknown.begin(code, false);
                 }
                 self.apt.circle = None;
                 self.apt.axis_lost = true;
             }
             _ => {}
         }
-        self.state.frame_unknown = self.memory.frame_unknown() || self.apt.csys;
+        self.core.state.frame_unknown = self.core.unknown.any() || self.apt.csys;
     }
 
     /// A record without meaning may move the tool or the coordinates: neither is known until the end of the program.
     fn unknown_record(&mut self, what: String, report: &mut Report<'_>) {
         report.fault(report.whole(), FaultKind::NotModelled { what });
         self.lose_place();
-        self.memory.hide_for_good();
-        self.state.frame_unknown = true;
+        self.core.unknown.for_good();
+        self.core.state.frame_unknown = true;
     }
 
     /// Where the tool is, and along which axis, is not known until a GOTO says so.
     fn lose_place(&mut self) {
-        self.forget_position();
+        self.core.forget_position();
         self.apt.circle = None;
         self.apt.axis = None;
         self.apt.axis_lost = true;
@@ -241,9 +291,9 @@ impl Interpreter<'_> {
 
     fn forget_everything_of(&mut self, action: Action) {
         if action == Action::SubprogramCall {
-            self.forget_everything();
+            self.core.forget_everything();
         } else {
-            self.forget_position();
+            self.core.forget_position();
         }
     }
 
@@ -273,11 +323,11 @@ impl Interpreter<'_> {
             _ => {
                 let what = report.program.text(report.whole()).into_owned();
                 report.fault(TextRange::default(), FaultKind::NotModelled { what });
-                self.forget_position();
+                self.core.forget_position();
                 return;
             }
         };
-        self.state.units(unit, unit);
+        self.core.state.units(unit, unit);
     }
 
     /// FEDRAT/v, FEDRAT/v,MMPM, FEDRAT/MMPM,v; without a unit length units per minute.
@@ -304,15 +354,15 @@ impl Interpreter<'_> {
         };
         match (unit, args.numbers().first()) {
             (Some((mode, unit)), Some(value)) if !args.odd => {
-                self.state.feed_mode = mode;
-                self.state.feed = Some(value * unit.unwrap_or(self.state.feed_unit_mm));
-                self.memory.feed_unread = false;
+                self.core.state.feed_mode = mode;
+                self.core.state.feed = Some(value * unit.unwrap_or(self.core.state.feed_unit_mm));
+                self.core.feed_unread = false;
             }
             _ => {
                 let what = program.text(report.whole()).into_owned();
                 report.fault(TextRange::default(), FaultKind::NotModelled { what });
-                self.state.feed = None;
-                self.memory.feed_unread = true;
+                self.core.state.feed = None;
+                self.core.feed_unread = true;
             }
         }
     }
@@ -321,34 +371,34 @@ impl Interpreter<'_> {
     fn spindl(&mut self, args: &Args, report: &Report<'_>) {
         let program = report.program;
         if args.has(program, "OFF") {
-            self.state.spindle_on = Some(false);
+            self.core.state.spindle_on = Some(false);
             return;
         }
         if args.has(program, "LOCK") || args.has(program, "ORIENT") {
-            self.state.spindle_on = Some(false);
+            self.core.state.spindle_on = Some(false);
             return;
         }
-        self.state.spindle_on = Some(true);
+        self.core.state.spindle_on = Some(true);
         if let Some(&speed) = args.numbers().first() {
             let cutting_speed = args.has(program, "SFM") || args.has(program, "SMM");
-            self.state.spindle_rpm = Some(speed).filter(|_| !cutting_speed && !args.odd);
+            self.core.state.spindle_rpm = Some(speed).filter(|_| !cutting_speed && !args.odd);
             if speed == 0.0 {
-                self.state.spindle_on = Some(false);
+                self.core.state.spindle_on = Some(false);
             }
         }
     }
 
     fn cutcom(&mut self, args: &Args, report: &mut Report<'_>) {
         let program = report.program;
-        self.state.compensation = if args.has(program, "LEFT") {
+        self.core.state.compensation = if args.has(program, "LEFT") {
             41
         } else if args.has(program, "RIGHT") {
             42
         } else {
             0
         };
-        let on = self.state.compensation != 0 || args.has(program, "ON");
-        if on && !std::mem::replace(&mut self.memory.compensation_said, true) {
+        let on = self.core.state.compensation != 0 || args.has(program, "ON");
+        if on && !std::mem::replace(&mut self.core.compensation_reported, true) {
             let what = "cutter radius compensation: the programmed path is used instead".to_owned();
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
         }
@@ -357,7 +407,7 @@ impl Interpreter<'_> {
     /// CYCLE/...: each GOTO until CYCLE/OFF runs it.
     fn cycle(&mut self, args: &Args, report: &mut Report<'_>) {
         if args.has(report.program, "OFF") {
-            self.state.motion = Some(Action::Linear);
+            self.core.state.motion = Some(Action::Linear);
             return;
         }
         if !args.has(report.program, "ON") || args.words().len() > 1 {
@@ -373,7 +423,7 @@ impl Interpreter<'_> {
                 },
             );
         }
-        self.state.motion = Some(Action::CannedCycle);
+        self.core.state.motion = Some(Action::CannedCycle);
     }
 
     /// CSYS/ with the identity changes nothing; any other system is not modelled.
@@ -390,8 +440,8 @@ impl Interpreter<'_> {
         }
         if identity == self.apt.csys {
             self.apt.csys = !identity;
-            self.state.frame_unknown = self.memory.frame_unknown() || self.apt.csys;
-            self.forget_position();
+            self.core.state.frame_unknown = self.core.unknown.any() || self.apt.csys;
+            self.core.forget_position();
         }
     }
 }

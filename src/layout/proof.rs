@@ -64,10 +64,10 @@ pub(crate) fn first_difference(
             (Some(x), Some(y)) if a.events.ordinal(x) == b.events.ordinal(y) => {}
             _ => return at("the order in which blocks run"),
         }
-        if !same_state(&a.interpreter.state, &b.interpreter.state) {
+        if !same_state(a.interpreter.state(), b.interpreter.state()) {
             // what the end of the text brings comes with the last block, or with an empty one behind it
             let more = a.advance().is_some() || b.advance().is_some();
-            if more || !same_state(&a.interpreter.state, &b.interpreter.state) {
+            if more || !same_state(a.interpreter.state(), b.interpreter.state()) {
                 return at("what is in force after the block");
             }
         }

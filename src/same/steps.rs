@@ -187,12 +187,12 @@ impl<'a> Steps<'a> {
 
     /// Whether tool centre point control is on now.
     pub(crate) fn leads_tip(&self) -> bool {
-        self.interpreter.state.tcp
+        self.interpreter.state().tcp
     }
 
     /// What the modal state holds now.
     pub(crate) fn held(&self) -> Held {
-        Held::new(&self.interpreter.state)
+        Held::new(self.interpreter.state())
     }
 
     /// What is in force now.

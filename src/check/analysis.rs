@@ -4,6 +4,7 @@ use crate::apart;
 use crate::both;
 use crate::pass::Pass;
 use crate::suppress::{Suppressions, has_code};
+use crate::unreadable::is_utf16;
 use crate::view::Overview;
 use crate::{Report, Settings};
 use core::ops::ControlFlow;
@@ -129,8 +130,8 @@ fn analyse(
         directives: &directives,
     };
     let interpreter = settings.interpreter();
-    if crate::rules::is_utf16(program.source()) {
-        if !pass.tell_utf16() {
+    if is_utf16(program.source()) {
+        if !pass.tell_unreadable() {
             pass.read_whole(&overview);
         }
         return Some(pass.finish(&interpreter));

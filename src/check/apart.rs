@@ -3,7 +3,7 @@
 //! The second is shown the same motions, faults and blocks in the same order as on one thread, so that it finds the same to the letter.
 use crate::analysis::Read;
 use crate::pass::Pass;
-use crate::rule::InForce;
+use crate::view::InForce;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use trunnion_interp::{AXIS_LETTERS, ChainId, Fault, Feed, Interpreter, ModalState, Motion, MotionKind, Sink};
 use trunnion_machine::{Lookahead, Machine, Sine};

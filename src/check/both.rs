@@ -5,9 +5,6 @@ use std::collections::HashSet;
 use trunnion_dialect::Dialect;
 use trunnion_syntax::{Block, Item, Program, TextRange};
 
-/// Rules that find something missing: what the other state has is not missing.
-const ABSENCES: [&str; 2] = ["machine-not-used", "unused-suppression"];
-
 /// The `/` of a block with its level, if it deletes anything: it begins the block, or is inside it in dialects that allow that.
 pub(crate) fn slash(block: &Block<'_>, dialect: &Dialect) -> Option<(u8, TextRange)> {
     let mut items = block.items();
@@ -55,7 +52,8 @@ fn key(found: &Diagnostic) -> Key<'_> {
 
 /// Adds what is found while the blocks are skipped to what is found while they run.
 pub(crate) fn join(off: &mut Report, on: &Report) {
-    let absence = |found: &Diagnostic| ABSENCES.contains(&found.rule);
+    // what the other state has is not missing
+    let absence = |found: &Diagnostic| crate::rule(found.rule).is_some_and(crate::Rule::finds_absences);
     let mut only_on: Vec<Diagnostic> = {
         let in_off: HashSet<Key<'_>> = off.diagnostics.iter().map(key).collect();
         let new = |found: &&Diagnostic| !absence(found) && !in_off.contains(&key(found));

@@ -40,6 +40,8 @@ pub struct Config {
     pub setup: Setup,
     /// `subprogram_path`: folders of programs that a program may call, relative to the file, with their bytes in the file.
     pub subprogram_path: Vec<(String, core::ops::Range<usize>)>,
+    /// `machine_path`: folders of machine files that a comment of a program may name, relative to the file, with their bytes in the file.
+    pub machine_path: Vec<(String, core::ops::Range<usize>)>,
     /// `port_to`: dialects of the controls that the programs are meant to run on too.
     pub port_to: Vec<String>,
     /// `[format]`.

@@ -1,37 +1,68 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
-use crate::needs::{Facts, Needs};
+use crate::look::Looker;
 use crate::report::Summary;
-use crate::rule::{EndRule, Ending, FaultRule, InForce, LegRule, MotionRule, ProgramRule, TextRule};
 use crate::sink::{Active, Reporter, active};
 use crate::suppress::Suppressions;
 use crate::time::CycleTime;
 use crate::trail::{Trail, axes_chord};
-use crate::view::{LegView, Overview};
+use crate::view::{InForce, LegView, MotionView, Overview};
 use crate::visited::Visited;
-use crate::{Level, Report, Settings};
+use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
+use crate::{Report, Settings};
+use trunnion_dialect::Dialect;
 use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, ProgramRun, Refusal, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
 
+/// Rules that wait for facts, and those of them that the last motion or leg may have woken: one is like the other in most programs.
+#[derive(Default)]
+struct Waiting {
+    rules: Vec<Active>,
+    /// The facts that were possible, and the rules of these facts.
+    awake: (Option<u32>, Vec<Active>),
+}
+
+impl Waiting {
+    /// The rules that may have something to say where these facts are possible.
+    #[inline]
+    fn awake(&mut self, possible: u32) -> &[Active] {
+        let (of, awake) = &mut self.awake;
+        if *of != Some(possible) {
+            *of = Some(possible);
+            awake.clear();
+            awake.extend(self.rules.iter().filter(|rule| rule.wake.is_in(possible)));
+        }
+        awake
+    }
+
+    /// A debug build asks also the rules that were not woken, and sees that they are silent.
+    fn see_silent(&self, reporter: &mut Reporter<'_>, at: (BlockId, u64), ask: impl Fn(Wake, &mut Reporter<'_>)) {
+        if !cfg!(debug_assertions) {
+            return;
+        }
+        let asleep = |rule: &&Active| !self.awake.0.is_some_and(|possible| rule.wake.is_in(possible));
+        for rule in self.rules.iter().filter(asleep) {
+            reporter.enter(rule, Some(at.0), at.1);
+            ask(rule.wake, reporter);
+            debug_assert!(reporter.is_silent(), "{} was not woken", rule.name);
+            reporter.leave();
+        }
+    }
+}
+
 /// One pass over a program.
 pub(crate) struct Pass<'a> {
     reporter: Reporter<'a>,
-    text: Vec<Active<TextRule>>,
-    whole: Vec<Active<ProgramRule>>,
-    faults: Vec<Active<FaultRule>>,
-    motions: Vec<Active<(Needs, MotionRule)>>,
-    /// What held of the last motion, where it gave none of them anything to look at.
-    silent: Option<Needs>,
+    dialect: &'a Dialect,
+    /// Rules of the text, of the program and of faults.
+    rules: Vec<Active>,
+    motions: Waiting,
+    legs: Waiting,
     /// What is in force with the last motion.
     in_force: Option<InForce>,
     /// The tool of the last feed motion.
     last_cut: Option<u32>,
-    legs: Vec<Active<(Needs, LegRule)>>,
-    /// What shows for a leg which of them can have anything to report.
-    facts: Option<Facts<'a>>,
-    /// Those that the last leg asked, and what held of it.
-    asked: (Option<Needs>, Vec<Active<LegRule>>),
-    ends: Vec<Active<EndRule>>,
+    looker: Option<Looker<'a>>,
     suppressions: &'a Suppressions,
     ported: bool,
     follower: Option<Follower<'a>>,
@@ -50,40 +81,25 @@ pub(crate) struct Pass<'a> {
 
 impl<'a> Pass<'a> {
     pub(crate) fn new(program: &'a Program, settings: &Settings<'a>, suppressions: &'a Suppressions) -> Self {
-        let levels = &settings.rules;
+        let (legs, rest): (Vec<_>, Vec<_>) = active(&settings.rules)
+            .into_iter()
+            .partition(|rule| rule.wake.level() == "machine");
+        let (motions, rules) = rest.into_iter().partition(|rule| rule.wake.reads_motions());
+        let waiting = |rules| Waiting {
+            rules,
+            awake: (None, Vec::new()),
+        };
         Self {
-            reporter: Reporter::new(program, &settings.dialect.name, suppressions),
-            text: active(levels, |level| match level {
-                Level::Text(run) | Level::TextAndFault(run, _) => Some(run),
-                _ => None,
-            }),
-            whole: active(levels, |level| match level {
-                Level::Program(run) => Some(run),
-                _ => None,
-            }),
-            faults: active(levels, |level| match level {
-                Level::Fault(run) | Level::TextAndFault(_, run) => Some(run),
-                _ => None,
-            }),
-            motions: active(levels, |level| match level {
-                Level::Motion(needs, run) => Some((needs, run)),
-                _ => None,
-            }),
-            silent: None,
+            reporter: Reporter::new(program, settings.dialect, suppressions),
+            dialect: settings.dialect,
+            rules,
+            motions: waiting(motions),
+            legs: waiting(legs),
             in_force: None,
             last_cut: None,
-            legs: active(levels, |level| match level {
-                Level::Leg(needs, run) => Some((needs, run)),
-                _ => None,
-            }),
-            ends: active(levels, |level| match level {
-                Level::End(run) => Some(run),
-                _ => None,
-            }),
+            looker: settings.machine.map(Looker::new),
             suppressions,
             ported: !settings.port_to.is_empty(),
-            facts: settings.machine.map(Facts::new),
-            asked: (None, Vec::new()),
             follower: settings.machine.map(Follower::new),
             leg: None,
             posture: 0,
@@ -122,63 +138,57 @@ impl<'a> Pass<'a> {
                 continue;
             }
             nested = (error.kind == SyntaxErrorKind::NestedComment).then_some(block);
-            for rule in &self.text {
-                self.reporter.enter(rule, Some(block), u64::from(block.0));
-                (rule.run)(error, &mut self.reporter);
-                self.reporter.leave();
-            }
+            let at = (Some(block), u64::from(block.0));
+            ask(&self.rules, &mut self.reporter, at, |wake, out| {
+                if let Wake::Text(rule) = wake {
+                    rule(error, out);
+                }
+            });
         }
     }
 
-    /// Says that the file is UTF-16; false where the rule that says so is allowed.
-    pub(crate) fn tell_utf16(&mut self) -> bool {
-        let Some(rule) = self.text.iter().find(|rule| rule.name == "syntax-error") else {
-            return false;
-        };
-        self.reporter.enter(rule, None, 0);
-        crate::rules::report_utf16(&mut self.reporter);
-        self.reporter.leave();
-        true
+    /// Says that the file is not text; false where the rules that say so are allowed.
+    pub(crate) fn tell_unreadable(&mut self) -> bool {
+        ask(&self.rules, &mut self.reporter, (None, 0), |wake, out| {
+            if let Wake::Unreadable(rule) = wake {
+                rule(out);
+            }
+        });
+        self.rules.iter().any(|rule| matches!(rule.wake, Wake::Unreadable(_)))
     }
 
     pub(crate) fn read_whole(&mut self, overview: &Overview<'_>) {
-        for rule in &self.whole {
-            self.reporter.enter(rule, None, 0);
-            (rule.run)(overview, &mut self.reporter);
-            self.reporter.leave();
-        }
+        let ported = self.ported;
+        ask(&self.rules, &mut self.reporter, (None, 0), |wake, out| match wake {
+            Wake::Program(rule) => rule(overview, out),
+            Wake::Port(rule) if ported => rule(overview, out),
+            _ => {}
+        });
     }
 
-    /// `next`: see [`Self::take_line`].
     #[inline]
-    fn read_leg(&mut self, leg: &Leg, next: bool) {
-        let (Some(follower), Some(facts)) = (&self.follower, &mut self.facts) else {
+    fn read_leg(&mut self, leg: &Leg) {
+        let (Some(follower), Some(looker)) = (&self.follower, &mut self.looker) else {
             return;
         };
         let machine = follower.machine();
         let chord = axes_chord(leg);
         self.trail.add(machine, leg, chord);
-        let holds = facts.of_leg(leg, next, self.posture, &self.trail, chord);
-        if self.asked.0 != Some(holds) {
-            // one leg is like the other in most programs
-            let (of, asked) = &mut self.asked;
-            *of = Some(holds);
-            asked.clear();
-            let met = self.legs.iter().filter(|rule| rule.run.0.are_met(holds));
-            asked.extend(met.map(|rule| rule.with(rule.run.1)));
-        }
+        let possible = possible_of_leg(&looker.look(leg, self.posture, &self.trail, chord));
+        let awake = self.legs.awake(possible);
         // for most blocks no rule has anything to look at
-        if !self.asked.1.is_empty() || self.time.is_known() || cfg!(debug_assertions) {
-            let view = LegView::new(machine, leg, self.posture, &self.trail);
-            for rule in &self.asked.1 {
-                self.reporter.enter(rule, Some(leg.motion.block), self.summary.motions);
-                (rule.run)(&view, &mut self.reporter);
+        if !awake.is_empty() || self.time.is_known() || cfg!(debug_assertions) {
+            let view = LegView::new((machine, self.dialect), leg, self.posture, &self.trail);
+            let (block, number) = (leg.motion.block, self.summary.motions);
+            for rule in awake {
+                self.reporter.enter(rule, Some(block), number);
+                rule.wake.read_leg(&view, &mut self.reporter);
                 self.reporter.leave();
             }
-            if cfg!(debug_assertions) {
-                see_silent(&self.legs, &mut self.reporter, &view, (holds, self.summary.motions));
-            }
-            self.time.add(&view, self.reporter.dialect());
+            self.legs.see_silent(&mut self.reporter, (block, number), |wake, out| {
+                wake.read_leg(&view, out);
+            });
+            self.time.add(&view);
         }
         match &leg.end {
             Ok(end) if end.branch != 0 => self.posture = end.branch,
@@ -210,11 +220,14 @@ impl<'a> Pass<'a> {
 
     /// Whether a rule was looked for, so that its silence says something.
     fn looked_for(&self, name: &str) -> bool {
-        let motion =
-            self.faults.iter().any(|rule| rule.name == name) || self.motions.iter().any(|rule| rule.name == name);
-        let text = self.text.iter().any(|rule| rule.name == name) || self.whole.iter().any(|rule| rule.name == name);
-        let machine = self.follower.is_some() && self.legs.iter().any(|rule| rule.name == name);
-        (motion || text || machine) && (name != "porting" || self.ported)
+        let has = |rules: &[Active]| rules.iter().any(|rule| rule.name == name);
+        let asked = |rule: &Active| match rule.wake {
+            Wake::End(_) => false,
+            Wake::Port(_) => self.ported,
+            _ => true,
+        };
+        let machine = self.follower.is_some() && has(&self.legs.rules);
+        machine || has(&self.motions.rules) || self.rules.iter().any(|rule| rule.name == name && asked(rule))
     }
 
     /// What was found; `interpreter` is at its end and knows the call chains.
@@ -230,13 +243,13 @@ impl<'a> Pass<'a> {
         };
         let mut reporter = self.reporter;
         reporter.origin(false, ChainId::MAIN);
-        for rule in &self.ends {
-            reporter.enter(rule, None, 0);
-            (rule.run)(&ending, &mut reporter);
-            reporter.leave();
-        }
+        ask(&self.rules, &mut reporter, (None, 0), |wake, out| {
+            if let Wake::End(rule) = wake {
+                rule(&ending, out);
+            }
+        });
         if let Some(follower) = &self.follower {
-            reporter.word_worst(follower.machine(), &self.legs);
+            reporter.word_worst(follower.machine(), &self.legs.rules);
         }
         let diagnostics = reporter.finish(&|chain| interpreter.chain(chain));
         let mut summary = self.summary;
@@ -249,18 +262,16 @@ impl<'a> Pass<'a> {
     }
 }
 
-/// A debug build asks also the rules that a leg gives nothing to look at, and sees that they are silent. `at`: what holds of the leg, and
-/// its number.
-fn see_silent(
-    legs: &[Active<(Needs, LegRule)>],
+/// Asks rules one after the other. `at`: the block they look at, and its number in the run.
+fn ask(
+    rules: &[Active],
     reporter: &mut Reporter<'_>,
-    view: &LegView<'_>,
-    (holds, number): (Needs, u64),
+    at: (Option<BlockId>, u64),
+    mut ask: impl FnMut(Wake, &mut Reporter<'_>),
 ) {
-    for rule in legs.iter().filter(|rule| !rule.run.0.are_met(holds)) {
-        reporter.enter(rule, Some(view.leg.motion.block), number);
-        (rule.run.1)(view, reporter);
-        debug_assert!(reporter.is_silent(), "{} needs less", rule.name);
+    for rule in rules {
+        reporter.enter(rule, at.0, at.1);
+        ask(rule.wake, reporter);
         reporter.leave();
     }
 }
@@ -288,11 +299,10 @@ impl Sink for Pass<'_> {
             return;
         }
         self.reporter.origin(self.visited.has(fault.block), ChainId::MAIN);
-        for rule in &self.faults {
-            self.reporter.enter(rule, Some(fault.block), self.executed);
-            (rule.run)(&fault, &mut self.reporter);
-            self.reporter.leave();
-        }
+        let at = (Some(fault.block), self.executed);
+        ask(&self.rules, &mut self.reporter, at, |wake, out| {
+            wake.read_fault(&fault, out);
+        });
     }
 }
 
@@ -326,13 +336,25 @@ impl Pass<'_> {
         let late = motion.chain == ChainId::MAIN && self.last_ran == Some(motion.block);
         self.reporter
             .origin(self.visited.has(motion.block) && !late, motion.chain);
-        let holds = Needs::of_motion(motion, in_force, self.last_cut);
+        let view = MotionView {
+            motion,
+            in_force,
+            last_cut: self.last_cut,
+            dialect: self.dialect,
+        };
         if motion.is_feed() {
             self.last_cut = motion.tool;
         }
-        if self.silent != Some(holds) || cfg!(debug_assertions) {
-            self.read_motion(motion, in_force, holds);
+        let (block, number) = (motion.block, self.summary.motions);
+        for rule in self.motions.awake(possible_of_motion(&view)) {
+            self.reporter.enter(rule, Some(block), number);
+            rule.wake.read_motion(&view, &mut self.reporter);
+            self.reporter.leave();
         }
+        self.motions
+            .see_silent(&mut self.reporter, (block, number), |wake, out| {
+                wake.read_motion(&view, out);
+            });
         if let Some(follower) = &mut self.follower {
             self.trail.clamps = in_force.clamps;
             self.trail.own_length_mm = in_force.own_length_mm;
@@ -343,31 +365,9 @@ impl Pass<'_> {
                 follower.follow_into(motion, &mut leg);
             }
             if let Some(leg) = &leg {
-                self.read_leg(leg, next);
+                self.read_leg(leg);
             }
             self.leg = leg;
-        }
-    }
-
-    /// Shows a motion to the rules that have something to look at; `holds`: what holds of it.
-    fn read_motion(&mut self, motion: &Motion, in_force: &InForce, holds: Needs) {
-        // only a debug build comes here then
-        let silent = self.silent == Some(holds);
-        self.silent = Some(holds);
-        for rule in &self.motions {
-            let (needs, run) = rule.run;
-            let asked = needs.are_met(holds);
-            if asked {
-                debug_assert!(!silent, "{} would not be asked", rule.name);
-                self.silent = None;
-            }
-            // a debug build asks them all and sees that the others are silent
-            if asked || cfg!(debug_assertions) {
-                self.reporter.enter(rule, Some(motion.block), self.summary.motions);
-                run(motion, *in_force, &mut self.reporter);
-                debug_assert!(asked || self.reporter.is_silent(), "{} needs less", rule.name);
-                self.reporter.leave();
-            }
         }
     }
 }

@@ -1,6 +1,4 @@
 //! Where in a block a finding is shown: the word that names the axis, the vector, or the block's code without its comments.
-use crate::sink::{Draft, Reporter};
-use trunnion_interp::Motion;
 use trunnion_syntax::{Address, AptArg, Block, BlockId, Format, Item, Program, TextRange};
 
 /// The word of an axis (upper case letter); failing that, the words or numbers of the tool's orientation for a rotary letter;
@@ -16,15 +14,6 @@ pub(crate) fn axis_word(program: &Program, block: BlockId, letter: u8) -> TextRa
         return orientation_range(program, block);
     }
     code(&view)
-}
-
-/// A finding about the code of a motion's block that is reported once per program; `None`: already reported.
-pub(crate) fn once_at<'o>(motion: &Motion, message: &str, out: &'o mut Reporter<'_>) -> Option<&'o mut Draft> {
-    if !out.once(0) {
-        return None;
-    }
-    let range = code_range(out.program(), motion.block);
-    Some(out.report(range, message))
 }
 
 /// The words or numbers that give the tool's orientation: A B C, A3= B3= C3=, I J K of a vector, the last three numbers of GOTO;

@@ -5,39 +5,19 @@ mod expressions;
 mod line;
 mod words;
 
+use crate::runs::Merge;
+use crate::sink::Reporter;
+use crate::view::Overview;
 use crate::words::hash;
-use crate::{Overview, Reporter};
 use line::Line;
-use trunnion_dialect::Dialect;
+use trunnion_dialect::{Dialect, Expressions};
 use trunnion_syntax::{Format, TextRange};
-
-/// The languages of expressions and flow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Language {
-    /// RS274/NGC: LinuxCNC, grbl.
-    Ngc,
-    /// Custom macro B: Fanuc, Haas.
-    MacroB,
-    /// Neither.
-    Other,
-}
-
-impl Language {
-    pub(crate) fn of(dialect: &Dialect) -> Self {
-        match dialect.quirks.language {
-            trunnion_dialect::Language::Linuxcnc => Self::Ngc,
-            trunnion_dialect::Language::Words if dialect.lex.format == Format::Iso => Self::Ngc,
-            trunnion_dialect::Language::MacroB => Self::MacroB,
-            trunnion_dialect::Language::Words | trunnion_dialect::Language::Sinumerik => Self::Other,
-        }
-    }
-}
 
 /// From which control to which.
 pub(crate) struct Route<'d> {
     pub(crate) from: &'d Dialect,
     pub(crate) to: &'d Dialect,
-    pub(crate) languages: (Language, Language),
+    pub(crate) languages: (Expressions, Expressions),
 }
 
 impl Route<'_> {
@@ -45,7 +25,7 @@ impl Route<'_> {
     pub(crate) fn crosses(&self) -> bool {
         matches!(
             self.languages,
-            (Language::Ngc, Language::MacroB) | (Language::MacroB, Language::Ngc)
+            (Expressions::Rs274Ngc, Expressions::MacroB) | (Expressions::MacroB, Expressions::Rs274Ngc)
         )
     }
 }
@@ -94,7 +74,7 @@ pub(crate) fn report(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         let route = Route {
             from,
             to,
-            languages: (Language::of(from), Language::of(to)),
+            languages: (from.advice.expressions, to.advice.expressions),
         };
         let mut hits = Vec::new();
         for block in overview.program.blocks() {
@@ -106,7 +86,7 @@ pub(crate) fn report(overview: &Overview<'_>, out: &mut Reporter<'_>) {
                 let draft = out.report(hit.range, format!("on {name} {}", hit.message));
                 draft.help(hit.help);
                 if let Some(key) = hit.once {
-                    draft.merge_everywhere(hash(&format!("{name} {key}")));
+                    draft.merge(Merge::once(hash(&format!("{name} {key}"))));
                 }
             }
         }

@@ -21,10 +21,10 @@ mod cutter_compensation;
 mod decimal_comma;
 mod empty_program;
 mod endless_loop;
-pub(crate) mod excess_linear_travel;
+mod excess_linear_travel;
 mod excess_rapid_travel;
-pub(crate) mod excess_rotary_travel;
-pub(crate) mod fast_pole;
+mod excess_rotary_travel;
+mod fast_pole;
 mod feed_drop;
 mod machine_not_used;
 mod machine_unset;
@@ -46,7 +46,7 @@ mod pivot_uncertainty;
 mod pole_crossing;
 mod pole_flip;
 mod porting;
-pub(crate) mod position_unknown;
+mod position_unknown;
 mod program_alarm;
 mod rejected_block;
 mod repeated_word;
@@ -69,8 +69,6 @@ mod unused_word;
 mod winding_limit;
 mod work_offset_unset;
 
-pub(crate) use syntax_error::{is_utf16, report_utf16};
-
 use crate::Rule;
 use crate::header;
 
@@ -82,14 +80,7 @@ macro_rules! table {
             const SOURCE: &str = include_str!(concat!("rules/", stringify!($file), ".rs"));
             const DOCS: [u8; header::docs_len(SOURCE)] = header::docs_bytes(SOURCE);
             const NAME: [u8; stringify!($file).len()] = header::dashed(stringify!($file));
-            const BODY: crate::rule::Body = $file::RULE;
-            const RULE: Rule = Rule {
-                name: header::text(&NAME),
-                docs: header::text(&DOCS),
-                severity: BODY.severity,
-                guarantee: BODY.guarantee,
-                level: BODY.level,
-            };
+            const RULE: Rule = $file::RULE.named(header::text(&NAME), header::text(&DOCS));
             &RULE
         }),*]
     };
@@ -186,6 +177,7 @@ pub fn rule(name: &str) -> Option<&'static Rule> {
 mod tests {
     use crate::sink::{Reporter, active};
     use crate::suppress::Suppressions;
+    use crate::wake::Wake;
     use trunnion_interp::{Fault, FaultKind, Refusal, TcpMistake};
     use trunnion_syntax::{BlockId, LexOptions, SyntaxError, SyntaxErrorKind, TextRange, parse};
 
@@ -280,38 +272,36 @@ mod tests {
         .collect()
     }
 
+    /// What all rules report of something that `ask` shows them.
+    fn told(ask: impl Fn(Wake, &mut Reporter<'_>)) -> usize {
+        let dialect = trunnion_dialect::builtin("iso-6983").expect("built in");
+        let program = parse(b"G0 X0\n".to_vec(), LexOptions::default());
+        let suppressions = Suppressions::default();
+        let mut out = Reporter::new(&program, dialect, &suppressions);
+        for rule in &active(&[]) {
+            out.enter(rule, Some(BlockId(0)), 0);
+            ask(rule.wake, &mut out);
+            out.leave();
+        }
+        out.finish(&|_| Vec::new()).len()
+    }
+
     #[test]
     fn every_fault_is_told_by_exactly_one_rule() {
-        let program = parse(b"G0 X0\n".to_vec(), LexOptions::default());
-        let rules = active(&[], |level| match level {
-            crate::Level::Fault(run) | crate::Level::TextAndFault(_, run) => Some(run),
-            _ => None,
-        });
         for kind in faults() {
-            let suppressions = Suppressions::default();
-            let mut out = Reporter::new(&program, "iso-6983", &suppressions);
             let fault = Fault {
                 block: BlockId(0),
                 range: TextRange::new(0, 5),
                 kind,
             };
-            for rule in &rules {
-                out.enter(rule, Some(fault.block), 0);
-                (rule.run)(&fault, &mut out);
-                out.leave();
-            }
-            assert_eq!(out.finish(&|_| Vec::new()).len(), 1, "{:?}", fault.kind);
+            let count = told(|wake, out| wake.read_fault(&fault, out));
+            assert_eq!(count, 1, "{:?}", fault.kind);
         }
     }
 
     #[test]
     fn every_syntax_error_is_told_by_exactly_one_rule() {
         use SyntaxErrorKind as Kind;
-        let program = parse(b"G0 X0\n".to_vec(), LexOptions::default());
-        let rules = active(&[], |level| match level {
-            crate::Level::Text(run) | crate::Level::TextAndFault(run, _) => Some(run),
-            _ => None,
-        });
         for kind in [
             Kind::UnclosedComment,
             Kind::NestedComment,
@@ -328,20 +318,16 @@ mod tests {
             Kind::BadRecord,
             Kind::TooLarge,
         ] {
-            let suppressions = Suppressions::default();
-            let mut out = Reporter::new(&program, "iso-6983", &suppressions);
-            for rule in &rules {
-                out.enter(rule, None, 0);
-                (rule.run)(
-                    &SyntaxError {
-                        kind,
-                        range: TextRange::new(3, 5),
-                    },
-                    &mut out,
-                );
-                out.leave();
-            }
-            assert_eq!(out.finish(&|_| Vec::new()).len(), 1, "{kind:?}");
+            let error = SyntaxError {
+                kind,
+                range: TextRange::new(3, 5),
+            };
+            let count = told(|wake, out| {
+                if let Wake::Text(rule) = wake {
+                    rule(&error, out);
+                }
+            });
+            assert_eq!(count, 1, "{kind:?}");
         }
     }
 }

@@ -30,6 +30,34 @@ pub(crate) struct Merge {
     pub(crate) everywhere: bool,
 }
 
+impl Merge {
+    /// In consecutive blocks the finding is reported once; `key` must agree (an axis letter, or 0), the largest `badness` is kept.
+    pub(crate) const fn run(key: u64, badness: f64) -> Self {
+        Self {
+            key,
+            badness,
+            show: 1,
+            everywhere: false,
+        }
+    }
+
+    /// As [`Self::run`], but short runs are reported block by block.
+    pub(crate) const fn runs(key: u64, badness: f64) -> Self {
+        Self {
+            show: SHORT_RUN,
+            ..Self::run(key, badness)
+        }
+    }
+
+    /// The finding is reported once in the whole program, at its first place; `key` must agree.
+    pub(crate) const fn once(key: u64) -> Self {
+        Self {
+            everywhere: true,
+            ..Self::run(key, 0.0)
+        }
+    }
+}
+
 /// A run of findings that may still grow.
 struct Run {
     show: usize,

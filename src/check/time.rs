@@ -23,11 +23,11 @@ impl Default for CycleTime {
 
 impl CycleTime {
     /// Adds a block. One that leads from an unknown to a known position counts nothing: nothing is known of it.
-    pub(crate) fn add(&mut self, view: &LegView<'_>, dialect: &str) {
+    pub(crate) fn add(&mut self, view: &LegView<'_>) {
         if !self.known {
             return;
         }
-        if view.feed_is_ambiguous(dialect) {
+        if view.feed_is_ambiguous() {
             self.known = false;
             return;
         }

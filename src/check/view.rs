@@ -3,8 +3,9 @@ use crate::Settings;
 use crate::trail::Trail;
 use core::cell::OnceCell;
 use core::f64::consts::TAU;
+use trunnion_dialect::{Dialect, RotaryFeed};
 use trunnion_geometry::{deg, math};
-use trunnion_interp::{Directive, Feed, Motion, Orientation, Swivel};
+use trunnion_interp::{Clamps, Directive, Feed, ModalState, Motion, Orientation, Swivel};
 use trunnion_machine::{
     Deviation, Excess, FeedLimit, Leg, Limits, Machine, Orientations, Stance, feed_limit, orientations, tip_deviation,
     windings,
@@ -15,27 +16,88 @@ use trunnion_syntax::{Program, TextRange};
 pub(crate) const NO_TURN: f64 = trunnion_machine::NO_TURN;
 
 /// The program as a whole.
-pub struct Overview<'a> {
+pub(crate) struct Overview<'a> {
     /// The program.
-    pub program: &'a Program,
+    pub(crate) program: &'a Program,
     /// What it is checked with.
-    pub settings: &'a Settings<'a>,
+    pub(crate) settings: &'a Settings<'a>,
     /// Comments that address Trunnion.
-    pub directives: &'a [(TextRange, Directive)],
+    pub(crate) directives: &'a [(TextRange, Directive)],
 }
 
 /// One leg, shared by all rules that read it: costly numbers are computed when first asked for, and once.
-pub struct LegView<'a> {
+pub(crate) struct LegView<'a> {
     /// The machine.
-    pub machine: &'a Machine,
+    pub(crate) machine: &'a Machine,
+    /// The dialect of the program.
+    pub(crate) dialect: &'a Dialect,
     /// What it does.
-    pub leg: &'a Leg,
+    pub(crate) leg: &'a Leg,
     /// Sign of the last posture that was not at the pole, before this leg; 0 when there was none.
-    pub posture_before: i8,
+    pub(crate) posture_before: i8,
     /// What the legs up to this one tell.
     pub(crate) trail: &'a Trail,
     feed_limit: OnceCell<Option<FeedLimit>>,
     deviation: OnceCell<Option<Deviation>>,
+}
+
+/// A motion as programmed, and what is in force with it.
+pub(crate) struct MotionView<'a> {
+    /// The motion.
+    pub(crate) motion: &'a Motion,
+    /// What is in force.
+    pub(crate) in_force: &'a InForce,
+    /// The tool of the last feed motion.
+    pub(crate) last_cut: Option<u32>,
+    /// The dialect of the program.
+    pub(crate) dialect: &'a Dialect,
+}
+
+/// What is active for a motion without being written in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct InForce {
+    /// Compensated tool length, mm; `None`: off.
+    pub(crate) tool_length_mm: Option<f64>,
+    /// Declared length of the tool in use, mm.
+    pub(crate) own_length_mm: Option<f64>,
+    /// Coordinates are in a frame that is not modelled.
+    pub(crate) frame_unknown: bool,
+    /// S is a cutting speed (G96).
+    pub(crate) surface_speed: bool,
+    /// Limit of the spindle's speed, 1/min.
+    pub(crate) spindle_limit_rpm: Option<f64>,
+    /// Something says whether lengths are inch or mm.
+    pub(crate) units_said: bool,
+    /// Clamps of rotary axes.
+    pub(crate) clamps: Clamps,
+}
+
+impl InForce {
+    /// Of the modal state.
+    #[inline]
+    pub(crate) fn of(state: &ModalState) -> Self {
+        Self {
+            tool_length_mm: state.tool_length_mm,
+            own_length_mm: state.own_length_mm(),
+            frame_unknown: state.frame_unknown,
+            surface_speed: state.surface_speed,
+            spindle_limit_rpm: state.spindle_limit_rpm,
+            units_said: state.units_said,
+            clamps: state.clamps,
+        }
+    }
+}
+
+impl MotionView<'_> {
+    /// Whether a length changes to another one than zero, which is zero in any unit.
+    pub(crate) fn changes_a_length(&self) -> bool {
+        // X, Y, Z, U, V, W in the order of a position
+        let changes = |axis: usize| {
+            let end = self.motion.end.get(axis);
+            end.is_some_and(|end| end != 0.0 && self.motion.start.get(axis) != Some(end))
+        };
+        [0, 1, 2, 6, 7, 8].into_iter().any(changes)
+    }
 }
 
 /// Whether X Y Z are the tip's in the workpiece frame: tool centre point control, or vectors.
@@ -53,9 +115,15 @@ pub(crate) fn turns(leg: &Leg) -> bool {
 
 impl<'a> LegView<'a> {
     /// A view of `leg`.
-    pub(crate) fn new(machine: &'a Machine, leg: &'a Leg, posture_before: i8, trail: &'a Trail) -> Self {
+    pub(crate) fn new(
+        (machine, dialect): (&'a Machine, &'a Dialect),
+        leg: &'a Leg,
+        posture_before: i8,
+        trail: &'a Trail,
+    ) -> Self {
         Self {
             machine,
+            dialect,
             leg,
             posture_before,
             trail,
@@ -65,60 +133,60 @@ impl<'a> LegView<'a> {
     }
 
     /// The motion.
-    pub fn motion(&self) -> &'a Motion {
+    pub(crate) fn motion(&self) -> &'a Motion {
         &self.leg.motion
     }
 
     /// The position of the machine before and after, when both are known.
-    pub fn stances(&self) -> Option<(&'a Stance, &'a Stance)> {
+    pub(crate) fn stances(&self) -> Option<(&'a Stance, &'a Stance)> {
         Some((self.leg.start.as_ref()?, self.leg.end.as_ref().ok()?))
     }
 
     /// Highest feed of the block in its unit, see [`feed_limit`] and [`Self::feed_unit`].
-    pub fn feed_limit(&self) -> Option<FeedLimit> {
+    pub(crate) fn feed_limit(&self) -> Option<FeedLimit> {
         *self
             .feed_limit
             .get_or_init(|| feed_limit(self.machine, self.leg).or_else(|| self.turning_limit()))
     }
 
     /// Whether X Y Z are the tip's in the workpiece frame: tool centre point control, or vectors.
-    pub fn leads_tip(&self) -> bool {
+    pub(crate) fn leads_tip(&self) -> bool {
         leads_tip(self.motion())
     }
 
     /// Whether F is meant in degrees: no X Y Z path, without tool centre point control (RS274/NGC on feed rate).
-    pub fn feed_in_degrees(&self) -> bool {
+    pub(crate) fn feed_in_degrees(&self) -> bool {
         self.leg.length <= 0.0 && !self.leads_tip()
     }
 
     /// Whether rotary axes move under an F whose meaning a parameter of the control decides. Together with linear axes: mm/min of
-    /// X Y Z, or of the root of mm2 + deg2. RS274/NGC (LinuxCNC) and Sinumerik (geometry axes) say which; tool centre point
-    /// control means the tip, inverse time a duration. On a Haas also where only they turn, see [`Self::turns_by_diameter`].
-    pub fn feed_is_ambiguous(&self, dialect: &str) -> bool {
+    /// X Y Z, or of the root of mm2 + deg2; the dialect or the machine file may say which. Tool centre point control means the tip,
+    /// inverse time a duration. On a Haas also where only they turn, see [`Self::turns_by_diameter`].
+    pub(crate) fn feed_is_ambiguous(&self) -> bool {
         let motion = self.motion();
         let tip = self.leads_tip() && !motion.machine_coordinates;
         if tip || !self.rotary_turns() {
             return false;
         }
         if self.leg.length <= 0.0 {
-            return self.turns_by_diameter(dialect);
+            return self.turns_by_diameter();
         }
-        let says_which = self.machine.control.feed.is_some();
-        let says_which = says_which
-            || match dialect {
-                "fanuc-30i" | "haas-ngc" => false,
-                "iso-6983" => matches!(self.machine.control.family.as_str(), "linuxcnc" | "sinumerik-840d"),
-                _ => true,
-            };
-        self.feed_is_by_way() && !says_which
+        let control = &self.machine.control;
+        let says_which = match self.dialect.advice.rotary_feed {
+            RotaryFeed::Language => true,
+            RotaryFeed::Family => matches!(control.family.as_str(), "linuxcnc" | "sinumerik-840d"),
+            RotaryFeed::Parameter | RotaryFeed::Diameters => false,
+        };
+        self.feed_is_by_way() && !says_which && control.feed.is_none()
     }
 
     /// Whether only rotary axes turn on a Haas, which counts F along circles whose diameters are its settings 34 and 79, so that they
     /// may turn faster than by F in degrees. Source: Haas mill operator's manual, G93, where these settings are not needed.
-    pub fn turns_by_diameter(&self, dialect: &str) -> bool {
+    pub(crate) fn turns_by_diameter(&self) -> bool {
         let only_turns = self.feed_in_degrees() && self.motion().is_feed() && self.rotary_turns();
-        let says_which = self.machine.control.feed.is_some();
-        dialect == "haas-ngc" && only_turns && self.feed_is_by_way() && !says_which
+        let by_diameter =
+            self.dialect.advice.rotary_feed == RotaryFeed::Diameters && self.machine.control.feed.is_none();
+        by_diameter && only_turns && self.feed_is_by_way()
     }
 
     /// Whether F counts along a path: neither a duration nor unknown.
@@ -127,13 +195,22 @@ impl<'a> LegView<'a> {
     }
 
     /// Whether a rotary joint turns, by more than rounding.
-    pub fn rotary_turns(&self) -> bool {
+    pub(crate) fn rotary_turns(&self) -> bool {
         turns(self.leg)
     }
 
     /// `mm/min` or `deg/min`.
-    pub fn feed_unit(&self) -> &'static str {
+    pub(crate) fn feed_unit(&self) -> &'static str {
         if self.feed_in_degrees() { "deg/min" } else { "mm/min" }
+    }
+
+    /// Keys of the programmed and of the highest feed, with their unit.
+    pub(crate) fn feed_keys(&self) -> [&'static str; 2] {
+        if self.feed_in_degrees() {
+            ["feed_deg_min", "feed_limit_deg_min"]
+        } else {
+            ["feed_mm_min", "feed_limit_mm_min"]
+        }
     }
 
     /// Length that F is meant along: of the path, mm, or of the turn, deg (root of the sum of squares, RS274/NGC).
@@ -172,7 +249,7 @@ impl<'a> LegView<'a> {
     }
 
     /// Deviation of the tip path, see [`tip_deviation`].
-    pub fn deviation(&self) -> Option<Deviation> {
+    pub(crate) fn deviation(&self) -> Option<Deviation> {
         *self
             .deviation
             .get_or_init(|| tip_deviation(self.machine, self.leg, self.machine.tolerances.tip_mm))
@@ -180,7 +257,7 @@ impl<'a> LegView<'a> {
 
     /// Programmed feed in its unit ([`Self::feed_unit`]); `None` where it is not known or the block is no feed motion.
     /// Per revolution: times the spindle speed. Inverse time: the length of the path times F (RS274/NGC, G93).
-    pub fn programmed_feed(&self) -> Option<f64> {
+    pub(crate) fn programmed_feed(&self) -> Option<f64> {
         match self.motion().feed {
             Feed::PerMinute(feed) => Some(feed),
             Feed::PerRevolution(feed) => Some(feed * self.motion().spindle_rpm?),
@@ -190,7 +267,7 @@ impl<'a> LegView<'a> {
     }
 
     /// Letters of the first and second rotary axis; `-` where there is none.
-    pub fn rotary_letters(&self) -> [char; 2] {
+    pub(crate) fn rotary_letters(&self) -> [char; 2] {
         [0, 1].map(|i| {
             self.machine
                 .rotary
@@ -201,7 +278,7 @@ impl<'a> LegView<'a> {
 
     /// The limit that the posture before would break in every winding at the end of this block, where the posture changes:
     /// the limit forces the change. `None` where it does not.
-    pub fn forced_swap(&self) -> Option<Excess> {
+    pub(crate) fn forced_swap(&self) -> Option<Excess> {
         let (start, end) = self.stances()?;
         if self.posture_before * end.branch >= 0 {
             return None;
@@ -236,12 +313,12 @@ impl<'a> LegView<'a> {
 
     /// Whether it is only assumed that the control turns the rotary axes evenly between tool vectors: neither the program nor the machine
     /// file says how the orientation runs.
-    pub fn orientation_is_assumed(&self) -> bool {
+    pub(crate) fn orientation_is_assumed(&self) -> bool {
         self.motion().great_circle.is_none() && !self.machine.control.tcp_declared
     }
 
     /// Whether a rotary axis turns by more than half a turn, so that a whole turn less may reach the same place.
-    pub fn turns_far(&self) -> bool {
+    pub(crate) fn turns_far(&self) -> bool {
         self.leg
             .rotary_change
             .iter()
@@ -249,7 +326,7 @@ impl<'a> LegView<'a> {
     }
 
     /// Whether the block comes into the pole's cone on a machine with two rotary axes.
-    pub fn near_pole(&self) -> bool {
+    pub(crate) fn near_pole(&self) -> bool {
         self.machine.rotary.len() == 2 && self.leg.pole_angle_min < self.machine.tolerances.pole_cone
     }
 }

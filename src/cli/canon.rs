@@ -6,11 +6,11 @@ use super::{
     load,
 };
 use std::{
-    fs,
     io::{BufWriter, Write},
     path::{Path, PathBuf},
     sync::{Arc, Mutex, PoisonError},
 };
+use trunnion_files::{Outputs, Target};
 use trunnion_ngc::{
     At, Canon, Engine, Error, FileId, Files, Ini, Listing, Loaded, Parameters, Setup, Sink, Source, State, Step,
     ToolTable,
@@ -19,6 +19,8 @@ use trunnion_syntax::TextRange;
 
 /// Stands for the sequence number of a line without one.
 const NO_NUMBER: &[u8] = b".....";
+/// A larger file is not loaded as a called program, bytes.
+const LARGEST: u64 = 64 << 20;
 /// Endings tried for the name of a called program.
 const ENDINGS: [&str; 2] = ["ngc", "nc"];
 
@@ -27,7 +29,19 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
     let bytes: Arc<[u8]> = load::read(&command.file)?.into();
     let main = Arc::new(Source::new(command.file.display().to_string(), bytes));
     let sources: Sources = Arc::new(Mutex::new(vec![Arc::clone(&main)]));
-    let setup = setup(command, global, &sources)?;
+    let mut outputs = Outputs::new();
+    for file in [Some(&command.file), command.ini.as_ref(), command.tool_table.as_ref()]
+        .into_iter()
+        .flatten()
+    {
+        outputs.input(file);
+    }
+    let kept = command
+        .parameters
+        .as_ref()
+        .map(|path| Kept::read(path, &mut outputs))
+        .transpose()?;
+    let setup = setup(command, global, &sources, kept.as_ref())?;
     remark(false, "executing");
     let mut engine = Engine::new(main, &setup);
     let mut out = Printer {
@@ -68,19 +82,49 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
         return Err(error.into());
     }
     out.out.flush()?;
-    if let Some(path) = &command.parameters {
-        save(
-            path,
-            &engine.kept_parameters().text_with(usize::from(command.more_decimals)),
-        )?;
+    if let Some(kept) = kept {
+        let text = engine.kept_parameters().text_with(usize::from(command.more_decimals));
+        kept.save(text.as_bytes())?;
     }
     Ok(if out.refused { Done::Found } else { Done::Clean })
+}
+
+/// The parameter file: read at the start, written back at the end as the control does. The old one stays beside it as `.bak`.
+struct Kept {
+    path: PathBuf,
+    bytes: Vec<u8>,
+    target: Target,
+    backup: Option<Target>,
+}
+
+impl Kept {
+    fn read(path: &Path, outputs: &mut Outputs) -> Result<Self, Failure> {
+        let target = outputs.output("--parameters", path)?;
+        let mut backup = path.as_os_str().to_owned();
+        backup.push(".bak");
+        let exists = path.exists();
+        Ok(Self {
+            path: path.to_owned(),
+            bytes: if exists { load::read(path)? } else { Vec::new() },
+            backup: exists
+                .then(|| outputs.output("--parameters", Path::new(&backup)))
+                .transpose()?,
+            target,
+        })
+    }
+    fn save(&self, text: &[u8]) -> Result<(), Failure> {
+        if let Some(backup) = &self.backup {
+            backup.write(&self.bytes, None)?;
+        }
+        let before = self.backup.as_ref().map(|_| self.bytes.as_slice());
+        Ok(self.target.write(text, before)?)
+    }
 }
 
 /// The programs of a run, the main one first, in the order in which they were loaded.
 type Sources = Arc<Mutex<Vec<Arc<Source>>>>;
 
-fn setup(command: &Command, global: &Global, sources: &Sources) -> Result<Setup, Failure> {
+fn setup(command: &Command, global: &Global, sources: &Sources, kept: Option<&Kept>) -> Result<Setup, Failure> {
     let ini = match &command.ini {
         Some(path) => Ini::parse(&load::read(path)?),
         None => Ini::default(),
@@ -95,10 +139,10 @@ fn setup(command: &Command, global: &Global, sources: &Sources) -> Result<Setup,
         }
         None => ToolTable::sample(),
     };
-    let parameters = match &command.parameters {
-        Some(path) if path.exists() => Parameters::parse(&load::read(path)?)
-            .map_err(|bad| Failure::file(path, format!("line {}: {}", bad.line, bad.message)))?,
-        _ => Parameters::default(),
+    let parameters = match kept {
+        Some(kept) => Parameters::parse(&kept.bytes)
+            .map_err(|bad| Failure::file(&kept.path, format!("line {}: {}", bad.line, bad.message)))?,
+        None => Parameters::default(),
     };
     let files = Folders {
         folders: folders(command, &ini),
@@ -145,8 +189,10 @@ impl Files for Folders {
         for folder in &self.folders {
             let endings = ENDINGS.map(|ending| folder.join(format!("{name}.{ending}")));
             for path in endings {
-                let Ok(bytes) = fs::read(&path) else { continue };
-                let bytes: Arc<[u8]> = bytes.into();
+                let Ok(Some(input)) = trunnion_files::read(&path, LARGEST) else {
+                    continue;
+                };
+                let bytes: Arc<[u8]> = input.bytes.into();
                 let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
                 let path = path.display().to_string();
                 sources.push(Arc::new(Source::new(path.clone(), Arc::clone(&bytes))));
@@ -241,14 +287,4 @@ impl<W: Write> Sink for Printer<W> {
         };
         remark(false, String::from_utf8_lossy(&line).trim_end());
     }
-}
-
-/// Writes the parameter file back, as the control does at the end; the old one stays beside it as `.bak`.
-fn save(path: &Path, text: &str) -> Result<(), Failure> {
-    if path.exists() {
-        let mut backup = path.as_os_str().to_owned();
-        backup.push(".bak");
-        fs::copy(path, &backup).map_err(|error| Failure::io(path, "copy the file to .bak", &error))?;
-    }
-    fs::write(path, text).map_err(|error| Failure::io(path, "write the file", &error))
 }

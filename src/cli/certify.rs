@@ -6,14 +6,14 @@ use super::{
     failure::Failure,
     load,
 };
-use std::io::Write;
+use crate::cli::out::Out;
 use trunnion_certify::{Certificate, Claim, Outcome, certify_across, recheck};
 
 /// Runs `certify`. Refuted or unknown makes the exit status 1.
 pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     let loaded = load::load(global, &command.before)?;
     let machine = loaded.machine_or_fail("certify")?;
-    let after = load::read_program(global, &command.after)?;
+    let (after, _) = load::read_program(global, &command.after)?;
     let second = if load::is_stdin(&command.after) {
         None
     } else {
@@ -22,7 +22,7 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     let before = loaded.program.source();
     let (dialect, setup) = (loaded.resolved.dialect, &loaded.resolved.setup);
     let outcome = if let Some(file) = &command.certificate {
-        let text = std::fs::read_to_string(file).map_err(|e| Failure::io(file, "read the certificate", &e))?;
+        let text = trunnion_files::read_text(file)?;
         let certificate = Certificate::from_json(&text).map_err(|e| Failure::file(file, e))?;
         recheck(&certificate, before, &after, dialect, machine, setup)
     } else {
@@ -46,7 +46,7 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
             .unwrap_or(dialect);
         certify_across(before, &after, [dialect, other], machine, setup, &claim)
     };
-    let mut out = std::io::stdout().lock();
+    let mut out = Out::standard();
     let shared = || {
         let second = second.as_ref().filter(|_| command.certificate.is_none())?;
         let tolerances = (command.tolerance_mm, command.tolerance_deg);
@@ -55,21 +55,25 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
     };
     match outcome {
         Outcome::Proved(certificate) => {
-            writeln!(out, "PROVED {}", certificate.summary())?;
+            out.text(&format!("PROVED {}\n", certificate.summary()));
             Ok(Done::Clean)
         }
         Outcome::Refuted(witness) => {
             let line = witness.line.map(|line| format!(":{line}")).unwrap_or_default();
-            writeln!(out, "REFUTED {}{line}: {}", command.after.display(), witness.message)?;
+            out.text(&format!(
+                "REFUTED {}{line}: {}\n",
+                command.after.display(),
+                witness.message
+            ));
             if let Some(line) = shared() {
-                writeln!(out, "{line}")?;
+                out.text(&format!("{line}\n"));
             }
             Ok(Done::Found)
         }
         Outcome::Unknown(gap) => {
-            writeln!(out, "UNKNOWN {}", gap.message)?;
+            out.text(&format!("UNKNOWN {}\n", gap.message));
             if let Some(line) = shared() {
-                writeln!(out, "{line}")?;
+                out.text(&format!("{line}\n"));
             }
             Ok(Done::Found)
         }

@@ -2,16 +2,20 @@
 use super::{
     Done,
     args::{Check, CheckFormat, Global},
-    failure::{Failure, remark},
+    failure::{Failure, remark, shown},
     json, load, render, short, walk,
 };
+use crate::cli::out::Out;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::prelude::*;
 use std::{
     io::{IsTerminal, Write},
-    path::Path,
+    path::{Path, PathBuf},
 };
 use trunnion_check::{Report, Severity, Summary, Verdict};
+
+/// Files that are checked before the first of them is printed.
+const AT_ONCE: usize = 64;
 
 /// One checked file, rendered.
 pub(super) struct Checked {
@@ -35,7 +39,8 @@ pub(super) struct Checked {
 
 /// Runs `check`.
 pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
-    let files = walk::programs(&command.paths)?;
+    let found = walk::programs(&command.paths)?;
+    found.remark(global.quiet, global.verbose);
     let format = command.format.unwrap_or_else(|| {
         if std::io::stdout().is_terminal() {
             CheckFormat::Pretty
@@ -43,62 +48,136 @@ pub(super) fn run(global: &Global, command: &Check) -> Result<Done, Failure> {
             CheckFormat::Short
         }
     });
-    let bar = progress(global, files.len());
-    let results: Vec<Result<Checked, Failure>> = files
-        .par_iter()
-        .map(|path| {
-            let checked = check_file(global, command, format, path);
-            bar.inc(1);
-            checked
-        })
-        .collect();
-    bar.finish_and_clear();
-    let mut checked = Vec::new();
-    let mut failed = false;
-    for result in results {
-        match result {
-            Ok(file) => checked.push(file),
-            Err(failure) => {
-                failure.print();
-                failed = true;
+    let bar = progress(global, found.files.len());
+    let mut tally = Tally::default();
+    for failure in &found.failures {
+        failure.print();
+        tally.failed += 1;
+    }
+    let mut out = Out::standard();
+    if format == CheckFormat::Json {
+        json::write(&mut out, |put| {
+            each(global, command, format, &found.files, &bar, &mut tally, put);
+        })?;
+    } else {
+        let mut last_lines = Vec::new();
+        each(global, command, format, &found.files, &bar, &mut tally, &mut |file| {
+            bar.suspend(|| print_text(&mut out, global, format, &file, &mut last_lines));
+        });
+        for line in &last_lines {
+            let _ = writeln!(out, "{line}");
+        }
+        if found.walked && !global.quiet {
+            let line = tally.line();
+            if format == CheckFormat::Pretty {
+                let _ = writeln!(out, "{line}");
+            } else {
+                remark(false, &line);
             }
         }
     }
-    if global.verbose {
-        for file in &checked {
-            remark(false, &file.explanation);
-        }
-    }
-    let mut out = std::io::stdout().lock();
-    let found = checked.iter().any(|file| file.found);
-    if format == CheckFormat::Json {
-        json::write(&mut out, checked)?;
-    } else {
-        print_text(&mut out, global, format, &checked)?;
-    }
+    bar.finish_and_clear();
     out.flush()?;
-    if failed {
+    if tally.failed > 0 {
         return Err(Failure::new("not every file could be checked (see above)"));
     }
-    Ok(if found { Done::Found } else { Done::Clean })
+    Ok(if tally.found { Done::Found } else { Done::Clean })
 }
 
-fn print_text(out: &mut impl Write, global: &Global, format: CheckFormat, checked: &[Checked]) -> Result<(), Failure> {
-    for file in checked {
-        out.write_all(file.text.as_bytes())?;
+/// What all files together came to.
+#[derive(Default)]
+struct Tally {
+    files: u64,
+    pass: u64,
+    fail: u64,
+    unknown: u64,
+    failed: u64,
+    found: bool,
+}
+
+impl Tally {
+    fn count(&mut self, file: &Checked) {
+        self.files += 1;
+        match file.verdict {
+            Verdict::Pass => self.pass += 1,
+            Verdict::Fail => self.fail += 1,
+            Verdict::Unknown => self.unknown += 1,
+        }
+        self.found |= file.found;
     }
-    if format == CheckFormat::Pretty {
-        if !global.quiet {
-            for file in checked {
-                writeln!(out, "{}", render::verdict_line(file, global.color.on()))?;
+    /// The last line of a folder.
+    fn line(&self) -> String {
+        let Self {
+            files,
+            pass,
+            fail,
+            unknown,
+            failed,
+            ..
+        } = self;
+        let failed = if *failed == 0 {
+            String::new()
+        } else {
+            format!(", {failed} not checked")
+        };
+        format!("{files} files: {pass} pass, {fail} fail, {unknown} unknown{failed}")
+    }
+}
+
+/// Checks the files on all cores and hands them over in order. Only a piece of them is in memory at once.
+fn each(
+    global: &Global,
+    command: &Check,
+    format: CheckFormat,
+    files: &[PathBuf],
+    bar: &ProgressBar,
+    tally: &mut Tally,
+    put: &mut dyn FnMut(Checked),
+) {
+    for some in files.chunks(AT_ONCE) {
+        let results: Vec<Result<Checked, Failure>> = some
+            .par_iter()
+            .map(|path| {
+                let checked = check_file(global, command, format, path);
+                bar.inc(1);
+                checked
+            })
+            .collect();
+        for result in results {
+            match result {
+                Ok(file) => {
+                    if global.verbose {
+                        remark(false, &file.explanation);
+                    }
+                    tally.count(&file);
+                    put(file);
+                }
+                Err(failure) => {
+                    bar.suspend(|| failure.print());
+                    tally.failed += 1;
+                }
             }
         }
-        return Ok(());
     }
-    for file in checked {
-        remark(global.quiet, &render::verdict_line(file, false));
+}
+
+fn print_text(
+    out: &mut impl Write,
+    global: &Global,
+    format: CheckFormat,
+    file: &Checked,
+    last_lines: &mut Vec<String>,
+) {
+    // standard output keeps its errors for the end
+    let _ = out.write_all(file.text.as_bytes());
+    if format == CheckFormat::Pretty {
+        if !global.quiet {
+            last_lines.push(render::verdict_line(file, global.color.on()));
+        }
+        return;
     }
-    Ok(())
+    let _ = out.flush();
+    remark(global.quiet, &render::verdict_line(file, false));
 }
 
 fn check_file(global: &Global, command: &Check, format: CheckFormat, path: &Path) -> Result<Checked, Failure> {
@@ -108,7 +187,7 @@ fn check_file(global: &Global, command: &Check, format: CheckFormat, path: &Path
     let lines = trunnion_syntax::LineIndex::new(loaded.program.source());
     let text = match format {
         CheckFormat::Pretty => render::pretty(&loaded, &lines, &report, command.limit, global.color.on()),
-        CheckFormat::Short => short::short(&loaded, &lines, &report, command.limit),
+        CheckFormat::Short => shown(&short::short(&loaded, &lines, &report, command.limit)).into_owned(),
         CheckFormat::Json => String::new(),
     };
     let deny = global.deny.severity();

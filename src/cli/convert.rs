@@ -3,15 +3,11 @@ use super::{
     Done,
     args::{Global, ListFormat},
     failure::{Failure, remark},
-    fix::write_atomic,
     load::{self, Loaded},
 };
 use clap::ValueEnum;
 use serde_json::json;
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 use trunnion_certify::conversion::Assume;
 use trunnion_convert::{
     BUILTIN_POSTS, Converted, Options, OrientationWords, Post, Source, Target, Units, builtin_post, convert, load_post,
@@ -98,9 +94,21 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
     if global.verbose {
         remark(false, &loaded.explanation());
     }
+    let mut outputs = loaded.outputs();
+    for file in [command.post.as_deref(), command.to_machine.as_deref().map(Path::new)]
+        .into_iter()
+        .flatten()
+    {
+        outputs.input(file);
+    }
+    let output = command
+        .output
+        .as_ref()
+        .map(|path| outputs.output("-o", path))
+        .transpose()?;
     let source_machine = loaded.resolved.machine.as_ref();
     let target_machine = match &command.to_machine {
-        Some(name) => Some(find_machine(name, None)?),
+        Some(name) => Some(find_machine(name, None)?.machine),
         None => source_machine.cloned(),
     };
     let own = command.post.as_ref().map(|path| own_post(path)).transpose()?;
@@ -136,10 +144,7 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
         ListFormat::Text => converted.text.clone(),
         ListFormat::Json => document(&loaded, target_machine.as_ref(), &converted),
     };
-    match &command.output {
-        Some(file) => write_atomic(file, text.as_bytes())?,
-        None => std::io::stdout().lock().write_all(text.as_bytes())?,
-    }
+    load::put(output.as_ref(), text.as_bytes())?;
     for line in summary(&loaded.name, &converted) {
         remark(global.quiet, &line);
     }

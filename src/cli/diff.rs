@@ -14,12 +14,10 @@ use super::{
     json::write_json,
     load,
 };
+use crate::cli::out::Out;
 use clap::ValueEnum;
 use point::Tolerance;
-use std::{
-    io::{BufWriter, Write},
-    path::PathBuf,
-};
+use std::{io::Write, path::PathBuf};
 
 /// `diff`
 #[derive(clap::Args)]
@@ -74,10 +72,10 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
     };
     let found = changes::compare(&before, &after, tolerance, command.claim == ClaimOf::Path);
     let limit = if command.limit == 0 { usize::MAX } else { command.limit };
-    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut out = Out::standard();
     match command.format {
         DiffFormat::Json => write_json(&mut out, &json::json(&before, &after, &found, tolerance))?,
-        DiffFormat::Pretty => out.write_all(show::text(&before, &after, &found, tolerance, limit).as_bytes())?,
+        DiffFormat::Pretty => out.text(&show::text(&before, &after, &found, tolerance, limit)),
     }
     out.flush()?;
     Ok(if found.same() { Done::Clean } else { Done::Found })

@@ -6,6 +6,7 @@ use super::{
     json::write_json,
     short,
 };
+use crate::cli::out::Out;
 use serde_json::json;
 use std::io::Write;
 use trunnion_check::{Guarantee, did_you_mean, rule, rule_names, rules};
@@ -21,14 +22,14 @@ pub(super) fn explain(command: &Explain) -> Result<Done, Failure> {
         let hint = did_you_mean(&name, &names, "; `trunnion rules` lists all");
         return Err(Failure::new(format!("unknown rule or rewrite `{name}`{hint}")));
     };
-    let mut out = std::io::stdout().lock();
+    let mut out = Out::standard();
     writeln!(out, "{name}\n{}\n\n{}", "=".repeat(name.len()), docs.trim_end())?;
     Ok(Done::Clean)
 }
 
 /// Prints the list.
 pub(super) fn rules_list(command: &Rules) -> Result<Done, Failure> {
-    let mut out = std::io::stdout().lock();
+    let mut out = Out::standard();
     let summary = |docs: &'static str| docs.lines().next().unwrap_or_default();
     let guarantee = |g| if g == Guarantee::Sound { "sound" } else { "heuristic" };
     if command.format == ListFormat::Json {

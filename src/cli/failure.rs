@@ -1,5 +1,10 @@
 //! Why a job could not be done: one message on standard error with file, line, column and what to do.
-use std::{fmt::Display, io, path::Path};
+use std::{
+    borrow::Cow,
+    fmt::{Display, Write as _},
+    io::{self, Write},
+    path::Path,
+};
 use trunnion_workspace::LoadError;
 
 /// The job could not be done (exit status 2).
@@ -41,9 +46,13 @@ impl Failure {
         self.broken_pipe
     }
     /// Prints it.
-    #[expect(clippy::print_stderr, reason = "this is the one door to standard error for failures")]
     pub(crate) fn print(&self) {
-        eprintln!("error: {}{}", self.place, self.message);
+        // a closed standard error must not stop the program
+        let _ = writeln!(
+            io::stderr(),
+            "error: {}",
+            shown(&format!("{}{}", self.place, self.message))
+        );
     }
 }
 
@@ -62,6 +71,15 @@ impl From<LoadError> for Failure {
     }
 }
 
+impl From<trunnion_files::FileError> for Failure {
+    fn from(error: trunnion_files::FileError) -> Self {
+        Self {
+            broken_pipe: error.closed,
+            ..Self::file(&error.path, error.message)
+        }
+    }
+}
+
 impl From<io::Error> for Failure {
     /// Errors of writing to standard output.
     fn from(error: io::Error) -> Self {
@@ -74,12 +92,33 @@ impl From<io::Error> for Failure {
 }
 
 /// A remark on standard error, unless `quiet`.
-#[expect(
-    clippy::print_stderr,
-    reason = "remarks go to standard error so that standard output stays data"
-)]
 pub(crate) fn remark(quiet: bool, text: &str) {
     if !quiet {
-        eprintln!("{text}");
+        let _ = writeln!(io::stderr(), "{}", shown(text));
     }
+}
+
+/// Text that a terminal shows as it is written: control characters of programs and file names, and marks that change the direction of
+/// text, are shown as escapes (`\\x1b`). Line ends and tabs stay.
+pub(crate) fn shown(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        if !is_hidden(c) {
+            out.push(c);
+        } else if (c as u32) < 0x100 {
+            let _ = write!(out, "\\x{:02x}", c as u32);
+        } else {
+            let _ = write!(out, "\\u{{{:x}}}", c as u32);
+        }
+    }
+    Cow::Owned(out)
+}
+
+/// Control characters but line end and tab, and marks that change the direction of text.
+pub(crate) fn is_hidden(c: char) -> bool {
+    let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{200e}' | '\u{200f}' | '\u{61c}');
+    turns || c.is_control() && c != '\n' && c != '\t'
 }

@@ -5,13 +5,9 @@ use super::{
     failure::{Failure, remark},
     load::{self, Loaded},
 };
+use crate::cli::out::Out;
 use similar::TextDiff;
-use std::{
-    fs::File,
-    io::Write,
-    path::{Path, PathBuf},
-};
-use tempfile::NamedTempFile;
+use std::{io::IsTerminal, path::PathBuf};
 use trunnion_certify::Certificate;
 use trunnion_rewrite::{Attempt, Options, Rewrite, attempt, rewrite, rewrites};
 
@@ -32,6 +28,26 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
         ));
     }
     let options = options(command)?;
+    let mut outputs = loaded.outputs();
+    let output = command
+        .output
+        .as_ref()
+        .map(|path| outputs.output("-o", path))
+        .transpose()?;
+    let mut backup = command.file.clone().into_os_string();
+    backup.push(".bak");
+    let backup = PathBuf::from(backup);
+    let backup = command
+        .backup
+        .then(|| outputs.output("--backup", &backup))
+        .transpose()?;
+    let certificate = command.certificate.as_ref();
+    let certificate = certificate
+        .map(|path| outputs.output("--certificate", path))
+        .transpose()?;
+    if command.write {
+        trunnion_files::sweep_beside(&command.file);
+    }
     let chosen = choose(command, &loaded)?;
     if chosen.is_empty() {
         remark(
@@ -40,7 +56,7 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
         );
     }
     let before = loaded.program.source().to_vec();
-    let name = loaded.name.clone();
+    let (name, seen) = (loaded.name.clone(), loaded.seen.clone());
     let outcome = apply_all(global, loaded, &chosen, &options);
     if command.certificate.is_some() && outcome.applied.len() > 1 {
         let names: Vec<_> = outcome.applied.iter().map(|(name, _)| *name).collect();
@@ -52,18 +68,17 @@ pub(super) fn run(global: &Global, command: &Fix) -> Result<Done, Failure> {
     if command.diff || !(command.write || command.output.is_some()) {
         print_diff(&name, &before, &outcome.after)?;
     }
-    if let (Some(file), Some((_, certificate))) = (&command.certificate, outcome.applied.first()) {
-        write_atomic(file, certificate.to_json().as_bytes())?;
-    }
-    if let Some(file) = &command.output {
-        write_atomic(file, &outcome.after)?;
+    // the program first: a certificate beside an old program names the digest that does not fit
+    if let Some(target) = &output {
+        target.write(&outcome.after, None)?;
     } else if command.write && outcome.after != before {
-        if command.backup {
-            let mut backup = command.file.clone().into_os_string();
-            backup.push(".bak");
-            write_atomic(&PathBuf::from(backup), &before)?;
+        if let Some(backup) = &backup {
+            backup.write(&before, None)?;
         }
-        write_atomic(&command.file, &outcome.after)?;
+        load::replace(&command.file, seen.as_ref(), &before, &outcome.after)?;
+    }
+    if let (Some(target), Some((_, proved))) = (&certificate, outcome.applied.first()) {
+        target.write(proved.to_json().as_bytes(), None)?;
     }
     Ok(if outcome.refused { Done::Found } else { Done::Clean })
 }
@@ -142,49 +157,17 @@ pub(super) fn print_diff(name: &str, before: &[u8], after: &[u8]) -> Result<(), 
         return Ok(());
     }
     let diff = TextDiff::from_lines(before, after);
-    let mut out = std::io::stdout().lock();
-    diff.unified_diff()
-        .context_radius(2)
-        .header(&format!("a/{name}"), &format!("b/{name}"))
-        .to_writer(&mut out)?;
-    Ok(())
-}
-
-/// Written beside the file, flushed to disk, then renamed over it: the original survives a crash at any moment.
-pub(super) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let fail = |error: &std::io::Error| Failure::io(path, "write the file", error);
-    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    let folder = match target.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut file = NamedTempFile::new_in(folder).map_err(|e| fail(&e))?;
-    file.write_all(bytes).map_err(|e| fail(&e))?;
-    keep_permissions(&target, file.as_file()).map_err(|e| fail(&e))?;
-    file.as_file().sync_all().map_err(|e| fail(&e))?;
-    file.persist(&target).map_err(|e| fail(&e.error))?;
-    if let Ok(folder) = File::open(folder) {
-        // Makes the rename itself durable; not every file system can do this, and the file is complete either way.
-        let _ = folder.sync_all();
+    let mut diff = diff.unified_diff();
+    diff.context_radius(2)
+        .header(&format!("a/{name}"), &format!("b/{name}"));
+    let mut out = Out::standard();
+    if std::io::stdout().is_terminal() {
+        let mut text = Vec::new();
+        diff.to_writer(&mut text)?;
+        out.text(&String::from_utf8_lossy(&text));
+    } else {
+        // as it is: it may go to `patch`
+        diff.to_writer(&mut out)?;
     }
-    Ok(())
-}
-
-/// The permissions of the file that is replaced; a new file gets the usual ones, not the temporary file's private ones.
-fn keep_permissions(target: &Path, file: &File) -> std::io::Result<()> {
-    match std::fs::metadata(target) {
-        Ok(old) => file.set_permissions(old.permissions()),
-        Err(_) => usual_permissions(file),
-    }
-}
-
-#[cfg(unix)]
-fn usual_permissions(file: &File) -> std::io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.set_permissions(std::fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn usual_permissions(_file: &File) -> std::io::Result<()> {
     Ok(())
 }

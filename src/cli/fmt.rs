@@ -3,16 +3,18 @@ use super::{
     Done,
     args::Global,
     failure::{Failure, remark},
-    fix::{print_diff, write_atomic},
+    fix::print_diff,
     load::{self, Loaded},
     walk,
 };
+use crate::cli::out::Out;
 use rayon::prelude::*;
 use std::{
     io::Write,
     path::{Path, PathBuf},
 };
 use trunnion_check::config::{FormatCase, FormatSettings, FormatSpacing, FormatZeros};
+use trunnion_files::Seen;
 use trunnion_layout::{Case, Layout, Numbers, Refusal, Renumbered, Spacing, Style, Zeros};
 use trunnion_syntax::{LineIndex, Program, TextRange};
 
@@ -59,6 +61,8 @@ struct Outcome {
     path: PathBuf,
     name: String,
     before: Vec<u8>,
+    /// The state of the file when it was read.
+    seen: Option<Seen>,
     after: Vec<u8>,
     remarks: Vec<String>,
     refused: bool,
@@ -66,12 +70,15 @@ struct Outcome {
 
 /// Runs `fmt`. A file whose new layout cannot be proved stays, and makes the exit status 2.
 pub(super) fn run(global: &Global, command: &Fmt) -> Result<Done, Failure> {
-    let paths = walk::programs(&command.paths)?;
+    let mut found = walk::programs(&command.paths)?;
+    found.remark(global.quiet, global.verbose);
+    let paths = std::mem::take(&mut found.files);
     if command.stdout && paths.len() > 1 {
         return Err(Failure::new(format!("--stdout takes one file, not {}", paths.len())));
     }
     // in pieces, so that not all files are in memory at once
-    let (mut changed, mut unchanged, mut failures) = (0usize, 0usize, Vec::new());
+    let (mut changed, mut unchanged) = (0usize, 0usize);
+    let mut failures: Vec<_> = found.failures.into_iter().map(Some).collect();
     for some in paths.chunks(64) {
         let outcomes: Vec<_> = some.par_iter().map(|path| lay_out(global, command, path)).collect();
         for outcome in outcomes {
@@ -115,6 +122,9 @@ pub(super) fn run(global: &Global, command: &Fmt) -> Result<Done, Failure> {
 
 /// Lays out one file and gives it new numbers, if wished. Writes nothing.
 fn lay_out(global: &Global, command: &Fmt, path: &Path) -> Result<Outcome, Failure> {
+    if !(command.check || command.diff || command.stdout) {
+        trunnion_files::sweep_beside(path);
+    }
     let mut loaded = load::load(global, path)?;
     let before = loaded.program.source().to_vec();
     let mut outcome = Outcome {
@@ -122,6 +132,7 @@ fn lay_out(global: &Global, command: &Fmt, path: &Path) -> Result<Outcome, Failu
         name: loaded.name.clone(),
         after: before.clone(),
         before,
+        seen: loaded.seen.clone(),
         remarks: Vec::new(),
         refused: false,
     };
@@ -239,10 +250,10 @@ fn finish(global: &Global, command: &Fmt, outcome: &Outcome) -> Result<Option<bo
         out.flush()?;
     } else if changed && command.check {
         if !command.diff {
-            writeln!(std::io::stdout().lock(), "{}", outcome.name)?;
+            Out::standard().text(&format!("{}\n", outcome.name));
         }
     } else if changed && !command.diff {
-        write_atomic(&outcome.path, &outcome.after)?;
+        load::replace(&outcome.path, outcome.seen.as_ref(), &outcome.before, &outcome.after)?;
     }
     Ok((!outcome.refused).then_some(changed))
 }

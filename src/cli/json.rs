@@ -1,20 +1,12 @@
 //! The JSON document of `check`, documented by its schema name `trunnion-check/1`.
 use super::{check::Checked, failure::Failure, load::Loaded, short};
 use serde::{Serialize, Serializer, ser::SerializeMap};
+use serde_json::json;
 use std::io::Write;
 use trunnion_check::{Report, Status, ValueKey, Verdict};
 use trunnion_syntax::LineIndex;
 
-#[derive(Serialize)]
-struct Document {
-    schema: &'static str,
-    version: &'static str,
-    machine: Option<String>,
-    summary: Summary,
-    files: Vec<File>,
-}
-
-#[derive(Default, Serialize)]
+#[derive(Clone, Copy, Default, Serialize)]
 struct Summary {
     files: u64,
     blocks: u64,
@@ -163,31 +155,50 @@ pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, outcome:
     }
 }
 
-/// Writes the document of all files.
-pub(super) fn write(out: &mut impl Write, checked: Vec<Checked>) -> Result<(), Failure> {
-    let mut summary = Summary {
-        files: checked.len() as u64,
-        ..Summary::default()
-    };
-    let machine = checked.first().and_then(|file| file.machine.clone());
-    let machine = machine.filter(|first| checked.iter().all(|file| file.machine.as_ref() == Some(first)));
-    for file in &checked {
+/// Writes the document of all files, one after the other as `each` hands them over, and what they sum up to after them.
+pub(super) fn write(out: &mut impl Write, each: impl FnOnce(&mut dyn FnMut(Checked))) -> Result<(), Failure> {
+    let mut summary = Summary::default();
+    let mut machine = None;
+    let mut error = None;
+    write!(
+        out,
+        "{{\n  \"schema\": \"trunnion-check/1\",\n  \"version\": \"{}\",\n  \"files\": [",
+        env!("CARGO_PKG_VERSION")
+    )?;
+    each(&mut |file| {
         let s = file.summary;
+        if summary.files == 0 {
+            machine.clone_from(&file.machine);
+        } else if machine != file.machine {
+            machine = None;
+        }
+        let comma = if summary.files == 0 { "" } else { "," };
+        summary.files += 1;
         summary.blocks += s.blocks;
         summary.motions += s.motions;
         summary.errors += s.errors;
         summary.warnings += s.warnings;
         summary.infos += s.infos;
         summary.unknown += s.unknown;
+        let text = file
+            .json
+            .as_ref()
+            .map_or(Ok(String::new()), serde_json::to_string_pretty);
+        let written = text
+            .map_err(std::io::Error::from)
+            .and_then(|text| write!(out, "{comma}\n    {}", text.replace('\n', "\n    ")));
+        if let Err(failed) = written {
+            error.get_or_insert(failed);
+        }
+    });
+    if let Some(error) = error {
+        return Err(error.into());
     }
-    let document = Document {
-        schema: "trunnion-check/1",
-        version: env!("CARGO_PKG_VERSION"),
-        machine,
-        summary,
-        files: checked.into_iter().filter_map(|file| file.json).collect(),
-    };
-    write_json(out, &document)
+    let rest = serde_json::to_string_pretty(&json!({ "machine": machine, "summary": summary }))
+        .map_err(std::io::Error::from)?;
+    // its opening brace is that of the document
+    writeln!(out, "\n  ],{}", &rest[1..])?;
+    Ok(())
 }
 
 /// Writes any document, pretty, with a line end.

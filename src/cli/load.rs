@@ -3,7 +3,11 @@ use super::{
     args::{Global, Switch},
     failure::Failure,
 };
-use std::{fs::File, io::Read, path::Path};
+use std::{
+    io::{Read, Write},
+    path::Path,
+};
+use trunnion_files::{Outputs, Seen, Target};
 use trunnion_machine::Machine;
 use trunnion_syntax::Program;
 use trunnion_workspace::{Overrides, Resolved, resolve};
@@ -16,6 +20,8 @@ pub(crate) struct Loaded {
     pub(crate) program: Program,
     /// Settings, machine, dialect.
     pub(crate) resolved: Resolved,
+    /// The state of the file when it was read; `None` for standard input.
+    pub(crate) seen: Option<Seen>,
 }
 
 impl Loaded {
@@ -27,6 +33,17 @@ impl Loaded {
                  `machine = \"NAME\"` in trunnion.toml"
             ))
         })
+    }
+    /// The files of a command that reads this program: none of its outputs may replace one of them.
+    pub(crate) fn outputs(&self) -> Outputs {
+        let mut outputs = Outputs::new();
+        if self.seen.is_some() {
+            outputs.input(Path::new(&self.name));
+        }
+        for file in &self.resolved.files {
+            outputs.input(file);
+        }
+        outputs
     }
     /// One line on what was taken and why, for `-v`.
     pub(crate) fn explanation(&self) -> String {
@@ -68,16 +85,20 @@ const MOST_MEGABYTES: u64 = 4_294;
 
 /// Bytes of a file of at most 4.29 GB, or of standard input for `-`.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    bytes(path, MOST_MEGABYTES)?.ok_or_else(|| {
+    let (bytes, _) = bytes(path, MOST_MEGABYTES)?.ok_or_else(|| {
         Failure::file(
             path,
             format!("is larger than {MOST_MEGABYTES} MB, the largest size that can be read; split it"),
         )
-    })
+    })?;
+    Ok(bytes)
 }
 
+/// The bytes of a program and the state of its file; no state for standard input.
+type Source = (Vec<u8>, Option<Seen>);
+
 /// Bytes of a program whose blocks are all held at once: up to nine bytes of memory for each byte of it, so its size is bounded.
-pub(crate) fn read_program(global: &Global, path: &Path) -> Result<Vec<u8>, Failure> {
+pub(crate) fn read_program(global: &Global, path: &Path) -> Result<Source, Failure> {
     let most = global.max_file_mb;
     bytes(path, most.min(MOST_MEGABYTES))?.ok_or_else(|| {
         if most >= MOST_MEGABYTES {
@@ -94,39 +115,25 @@ pub(crate) fn read_program(global: &Global, path: &Path) -> Result<Vec<u8>, Fail
     })
 }
 
-/// Bytes of a file or of standard input; `None` where there are more than `megabytes`. Reads no more than that, so a device or
-/// a pipe without an end is refused too.
-fn bytes(path: &Path, megabytes: u64) -> Result<Option<Vec<u8>>, Failure> {
+/// Bytes of a regular file or of standard input; `None` where there are more than `megabytes`.
+fn bytes(path: &Path, megabytes: u64) -> Result<Option<Source>, Failure> {
     let most = megabytes.saturating_mul(MEGABYTE);
-    let mut bytes = Vec::new();
-    let read = if is_stdin(path) {
-        std::io::stdin().lock().take(most + 1).read_to_end(&mut bytes)
-    } else {
-        if path.is_dir() {
-            return Err(Failure::file(path, "is a directory; this command takes one program"));
-        }
-        File::open(path).and_then(|file| {
-            // a regular file reports its size: one that is too large is not read at all
-            let told = file.metadata()?.len();
-            if told > most {
-                return Ok(most as usize + 1);
-            }
-            bytes.reserve_exact(told as usize + 1);
-            file.take(most + 1).read_to_end(&mut bytes)
-        })
-    };
-    let doing = if is_stdin(path) {
-        "read standard input"
-    } else {
-        "read the file"
-    };
-    let length = read.map_err(|error| Failure::io(path, doing, &error))?;
-    Ok((length as u64 <= most).then_some(bytes))
+    if is_stdin(path) {
+        let mut bytes = Vec::new();
+        // no more than that, so that a pipe without an end is refused too
+        std::io::stdin()
+            .lock()
+            .take(most + 1)
+            .read_to_end(&mut bytes)
+            .map_err(|error| Failure::io(path, "read standard input", &error))?;
+        return Ok((bytes.len() as u64 <= most).then_some((bytes, None)));
+    }
+    Ok(trunnion_files::read(path, most)?.map(|input| (input.bytes, Some(input.seen))))
 }
 
 /// Reads and parses a program with its settings.
 pub(crate) fn load(global: &Global, path: &Path) -> Result<Loaded, Failure> {
-    let source = read_program(global, path)?;
+    let (source, seen) = read_program(global, path)?;
     let stdin = is_stdin(path);
     let resolved = resolve((!stdin).then_some(path), &source, &overrides(global))?;
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
@@ -140,5 +147,25 @@ pub(crate) fn load(global: &Global, path: &Path) -> Result<Loaded, Failure> {
         name,
         program,
         resolved,
+        seen,
     })
+}
+
+/// Replaces the file of a program, unless it changed since it was read.
+pub(crate) fn replace(path: &Path, seen: Option<&Seen>, before: &[u8], after: &[u8]) -> Result<(), Failure> {
+    let Some(seen) = seen else {
+        return Err(Failure::new("standard input cannot be replaced; use -o FILE"));
+    };
+    Ok(Target::in_place(path, seen, before)?.write(after, Some(before))?)
+}
+
+/// Writes `bytes` to the file of `-o`, or to standard output without one.
+pub(crate) fn put(target: Option<&Target>, bytes: &[u8]) -> Result<(), Failure> {
+    if let Some(target) = target {
+        return Ok(target.write(bytes, None)?);
+    }
+    let mut out = std::io::stdout().lock();
+    out.write_all(bytes)?;
+    out.flush()?;
+    Ok(())
 }

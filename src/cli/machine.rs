@@ -7,6 +7,7 @@ use super::{
     args::{Global, Machine, MachineCommand},
     failure::Failure,
 };
+use crate::cli::out::Out;
 use std::io::Write;
 use trunnion_machine::{BUILTIN_MACHINES, builtin, describe, self_test};
 use trunnion_workspace::find_machine;
@@ -48,7 +49,7 @@ pub(super) fn run(global: &Global, command: &Machine) -> Result<Done, Failure> {
 }
 
 fn list() -> Result<Done, Failure> {
-    let mut out = std::io::stdout().lock();
+    let mut out = Out::standard();
     for name in BUILTIN_MACHINES {
         let title = builtin(name).map_or("", |machine| machine.name.as_str());
         writeln!(out, "{name:34} {title}")?;
@@ -57,17 +58,17 @@ fn list() -> Result<Done, Failure> {
 }
 
 fn show(name: &str) -> Result<Done, Failure> {
-    let machine = find_machine(name, None)?;
-    let mut out = std::io::stdout().lock();
+    let machine = find_machine(name, None)?.machine;
+    let mut out = Out::standard();
     for line in describe(&machine).lines() {
-        writeln!(out, "{line}")?;
+        out.text(&format!("{line}\n"));
     }
     Ok(Done::Clean)
 }
 
 fn check(name: &str, poses: usize) -> Result<Done, Failure> {
-    let machine = find_machine(name, None)?;
-    let mut out = std::io::stdout().lock();
+    let machine = find_machine(name, None)?.machine;
+    let mut out = Out::standard();
     let result = self_test(&machine, poses, 20_261_121);
     writeln!(
         out,

@@ -13,6 +13,7 @@ mod json;
 mod legs;
 mod load;
 mod machine;
+mod out;
 mod parse;
 mod plot;
 mod render;

@@ -9,13 +9,14 @@ use super::{
     json::write_json,
     load::{self, Loaded},
 };
+use crate::cli::out::Out;
 use serde_json::{Value, json};
-use std::io::{BufWriter, Write};
+use std::io::Write;
 
 /// Runs `parse`. Problems of the text make the exit status 1.
 pub(super) fn run(global: &Global, command: &Parse) -> Result<Done, Failure> {
     let loaded = load::load(global, &command.file)?;
-    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut out = Out::standard();
     match (command.tokens, command.format) {
         (true, ListFormat::Text) => tokens_text(&mut out, &loaded)?,
         (true, ListFormat::Json) => write_json(&mut out, &tokens_json(&loaded))?,

@@ -7,10 +7,7 @@ use super::{
     failure::{Failure, remark},
     load::{self, Loaded},
 };
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 use trunnion_machine::Machine;
 use trunnion_plot::{Along, Header, PlotError, Record, axis_plane, deviation, joints, path};
 
@@ -72,6 +69,15 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
     }
     let loaded = load::load(global, &command.file)?;
     let machine = loaded.machine_or_fail("plot")?;
+    let mut outputs = loaded.outputs();
+    if let Some(after) = &command.after {
+        outputs.input(after);
+    }
+    let output = command
+        .output
+        .as_ref()
+        .map(|path| outputs.output("-o", path))
+        .transpose()?;
     let record = gather(&loaded, machine, lines);
     if record.unknown > 0 {
         let count = record.unknown;
@@ -84,7 +90,8 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
         );
     }
     let text = draw(global, command, &loaded, machine, &record, lines).map_err(|error| named(&command.file, error))?;
-    write(command.output.as_deref(), &text)
+    load::put(output.as_ref(), text.as_bytes())?;
+    Ok(Done::Clean)
 }
 
 fn draw(
@@ -186,16 +193,4 @@ pub(super) fn span(text: &str) -> Result<(u32, u32), Failure> {
             "--lines {text}: write two line numbers starting from 1, for example 100-250"
         ))
     })
-}
-
-/// Writes a picture to a file or to standard output.
-pub(super) fn write(output: Option<&Path>, text: &str) -> Result<Done, Failure> {
-    if let Some(file) = output.filter(|file| !load::is_stdin(file)) {
-        std::fs::write(file, text).map_err(|error| Failure::io(file, "write the picture", &error))?;
-    } else {
-        let mut out = std::io::stdout().lock();
-        out.write_all(text.as_bytes())?;
-        out.flush()?;
-    }
-    Ok(Done::Clean)
 }

@@ -1,5 +1,10 @@
 //! Diagnostics as miette reports: the only file that names miette.
-use super::{check::Checked, load::Loaded, short};
+use super::{
+    check::Checked,
+    failure::{is_hidden, shown},
+    load::Loaded,
+    short,
+};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
     SourceSpan, SpanContents,
@@ -24,9 +29,9 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
         .with_width(110)
         .with_context_lines(CONTEXT)
         .with_links(false);
-    let shown = if limit == 0 { report.diagnostics.len() } else { limit };
+    let most = if limit == 0 { report.diagnostics.len() } else { limit };
     let mut out = String::new();
-    for d in report.diagnostics.iter().take(shown) {
+    for d in report.diagnostics.iter().take(most) {
         let excerpt = Excerpt::new(loaded, lines, d.range);
         let repeats = short::repeats(loaded, lines, d);
         let finding = Finding { d, excerpt, repeats };
@@ -36,7 +41,7 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
         }
         out.push('\n');
     }
-    out.push_str(&short::rest(report, shown, &loaded.name));
+    out.push_str(&shown(&short::rest(report, most, &loaded.name)));
     out
 }
 
@@ -56,7 +61,7 @@ pub(super) fn verdict_line(file: &Checked, color: bool) -> String {
     let machine = file.machine.as_deref().unwrap_or("no machine");
     format!(
         "{word} {} on {machine}: {}, {}; {}, {}, {}, {} unknown",
-        file.name,
+        shown(&file.name),
         counted(s.blocks, "block"),
         counted(s.motions, "motion"),
         counted(s.errors, "error"),
@@ -87,7 +92,7 @@ impl fmt::Debug for Finding<'_> {
 
 impl fmt::Display for Finding<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.d.message)?;
+        f.write_str(&shown(&self.d.message))?;
         f.write_str(&self.repeats)
     }
 }
@@ -122,13 +127,18 @@ impl Diagnostic for Finding<'_> {
             }
             text.push_str(help);
         }
+        let text = shown(&text).into_owned();
         (!text.is_empty()).then(|| Box::new(text) as Box<dyn fmt::Display>)
     }
     fn source_code(&self) -> Option<&dyn SourceCode> {
         Some(&self.excerpt)
     }
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let label = self.d.block.as_ref().map(|block| format!("in block {block}"));
+        let label = self
+            .d
+            .block
+            .as_ref()
+            .map(|block| shown(&format!("in block {block}")).into_owned());
         Some(Box::new(std::iter::once(LabeledSpan::new_with_span(
             label,
             self.excerpt.span,
@@ -178,7 +188,7 @@ impl Excerpt {
         let data = printable(&source[start..end]);
         let span = SourceSpan::new((from - start).into(), (until - from).min(data.len()));
         Self {
-            name: loaded.name.clone(),
+            name: shown(&loaded.name).into_owned(),
             data,
             span,
             line: first,
@@ -196,9 +206,14 @@ fn is_continuation(byte: u8) -> bool {
 fn printable(bytes: &[u8]) -> Vec<u8> {
     let mut out = Vec::with_capacity(bytes.len());
     for chunk in bytes.utf8_chunks() {
-        for byte in chunk.valid().bytes() {
-            let keep = byte >= b' ' && byte != 0x7f || matches!(byte, b'\n' | b'\t' | b'\r');
-            out.push(if keep { byte } else { b'?' });
+        for c in chunk.valid().chars() {
+            let mut buffer = [0; 4];
+            let encoded = c.encode_utf8(&mut buffer);
+            if c != '\r' && is_hidden(c) {
+                out.extend(encoded.bytes().map(|_| b'?'));
+            } else {
+                out.extend_from_slice(encoded.as_bytes());
+            }
         }
         out.extend(chunk.invalid().iter().map(|_| b'?'));
     }

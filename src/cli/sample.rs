@@ -7,10 +7,8 @@ mod post;
 mod required;
 
 use super::{Done, args::Global, failure::Failure, load};
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
+use trunnion_files::Outputs;
 use trunnion_geometry::Vec3;
 use trunnion_machine::Machine;
 use trunnion_pieces::Piece;
@@ -185,18 +183,33 @@ pub(super) fn run(global: &Global, command: &Sample) -> Result<Done, Failure> {
         return answers::print(command);
     }
     let machine = match &global.machine {
-        Some(name) => Some(find_machine(name, None)?),
+        Some(name) => Some(find_machine(name, None)?.machine),
         None => None,
     };
+    let mut outputs = Outputs::new();
+    if let Some(file) = &global.machine {
+        outputs.input(Path::new(file));
+    }
+    let output = command
+        .output
+        .as_ref()
+        .map(|path| outputs.output("-o", path))
+        .transpose()?;
+    let required = command
+        .required
+        .as_ref()
+        .map(|path| outputs.output("--required", path))
+        .transpose()?;
     if command.plant == Some(Plant::Pivot) {
         let name = global.machine.as_deref();
         let text = faulty_machine::pivot_off(name.ok_or_else(|| needs_machine("--plant pivot"))?)?;
-        return write(command.output.as_deref(), &text);
+        load::put(output.as_ref(), text.as_bytes())?;
+        return Ok(Done::Clean);
     }
     let piece = make::piece(command)?.shifted(origin(command)?);
-    if let Some(path) = &command.required {
+    if let Some(path) = &required {
         let text = required::surface(command, origin(command)?)?;
-        std::fs::write(path, text).map_err(|error| Failure::io(path, "write the surface", &error))?;
+        path.write(text.as_bytes(), None)?;
     }
     let text = match &machine {
         Some(machine) => posted(global, command, &piece, machine)?,
@@ -206,7 +219,8 @@ pub(super) fn run(global: &Global, command: &Sample) -> Result<Done, Failure> {
         }
         None => post::apt(&piece),
     };
-    write(command.output.as_deref(), &text)
+    load::put(output.as_ref(), text.as_bytes())?;
+    Ok(Done::Clean)
 }
 
 fn needs_machine(what: &str) -> Failure {
@@ -262,12 +276,4 @@ fn posted(global: &Global, command: &Sample, piece: &Piece, machine: &Machine) -
         plant: command.plant,
     };
     post::program(piece, machine, &places, &form)
-}
-
-fn write(path: Option<&Path>, text: &str) -> Result<Done, Failure> {
-    match path.filter(|path| !load::is_stdin(path)) {
-        Some(path) => std::fs::write(path, text).map_err(|error| Failure::io(path, "write the program", &error))?,
-        None => std::io::stdout().lock().write_all(text.as_bytes())?,
-    }
-    Ok(Done::Clean)
 }

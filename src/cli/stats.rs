@@ -4,11 +4,9 @@ mod show;
 mod tally;
 
 use super::{Done, args::Global, args::ListFormat, failure::Failure, json::write_json, load, walk};
+use crate::cli::out::Out;
 use serde_json::json;
-use std::{
-    io::{BufWriter, Write},
-    path::PathBuf,
-};
+use std::{io::Write, path::PathBuf};
 
 /// `stats`
 #[derive(clap::Args)]
@@ -22,9 +20,11 @@ pub(crate) struct Stats {
 
 /// Runs `stats`. Nothing is judged: the exit status is 0 whatever the program holds.
 pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
-    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut out = Out::standard();
     let mut files = Vec::new();
-    for (number, path) in walk::programs(&command.paths)?.iter().enumerate() {
+    let found = walk::programs(&command.paths)?;
+    found.remark(global.quiet, global.verbose);
+    for (number, path) in found.files.iter().enumerate() {
         let loaded = load::load(global, path)?;
         let tally = tally::Tally::of(&loaded);
         match command.format {
@@ -33,7 +33,7 @@ pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
                 if number > 0 {
                     writeln!(out)?;
                 }
-                out.write_all(show::text(&loaded, &tally).as_bytes())?;
+                out.text(&show::text(&loaded, &tally));
             }
         }
     }

@@ -8,6 +8,7 @@ use super::{
     load::{self, Loaded},
     plot,
 };
+use crate::cli::out::Out;
 use serde_json::{Value, json};
 use std::{
     fmt::Write as _,
@@ -67,6 +68,13 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
     }
     let loaded = load::load(global, &command.file)?;
     let machine = loaded.machine_or_fail("surface")?;
+    let mut outputs = loaded.outputs();
+    outputs.input(&command.required);
+    let picture = command
+        .plot
+        .as_ref()
+        .map(|path| outputs.output("--plot", path))
+        .transpose()?;
     let surface = read(&command.required, command.close)?;
     let lines = LineIndex::new(loaded.program.source());
     let errors = judge(command, &loaded, machine, &surface, &lines)?;
@@ -81,17 +89,17 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
         errors: &errors,
         lines: &lines,
     };
-    let mut out = std::io::stdout().lock();
+    let mut out = Out::standard();
     match command.format {
-        ListFormat::Text => out.write_all(report.text().as_bytes())?,
+        ListFormat::Text => out.text(&report.text()),
         ListFormat::Json => write_json(&mut out, &report.json())?,
     }
     out.flush()?;
-    if let Some(file) = &command.plot {
+    if let Some(file) = &picture {
         let header = plot::header("Error of the trajectory surface", &loaded, machine);
         let text =
             height_map(&header, &errors, flattest(&surface)).map_err(|error| Failure::file(&command.file, error))?;
-        plot::write(Some(file), &text)?;
+        file.write(text.as_bytes(), None)?;
     }
     Ok(verdict(global, command, &errors))
 }

@@ -1,37 +1,217 @@
-//! Files to check: arguments as they are, directories walked.
-use super::failure::Failure;
-use std::path::PathBuf;
-use walkdir::WalkDir;
+//! Files to check: arguments as they are, folders walked. What is left out of a folder is listed with its reason.
+use super::failure::{Failure, remark};
+use ignore::{
+    Match,
+    gitignore::{Gitignore, GitignoreBuilder},
+};
+use std::{
+    collections::BTreeSet,
+    fs,
+    io::Read,
+    path::{Path, PathBuf},
+};
 
-/// Files named by `paths`, directories walked in name order for the extensions of programs. A directory without any is a failure.
-pub(crate) fn programs(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
-    let mut files = Vec::new();
+/// How much of a file without an extension is looked at, bytes.
+const HEAD: u64 = 8192;
+
+/// What a command runs on.
+#[derive(Debug, Default)]
+pub(crate) struct Found {
+    /// Files, folders walked in name order.
+    pub(crate) files: Vec<PathBuf>,
+    /// Files and folders that were passed over, with the reason.
+    pub(crate) left_out: Vec<(PathBuf, &'static str)>,
+    /// Folders and files that could not be looked at.
+    pub(crate) failures: Vec<Failure>,
+    /// A folder was among the arguments.
+    pub(crate) walked: bool,
+}
+
+impl Found {
+    /// Leaves out links to files that were found under their own names: no file is checked, or written, twice.
+    fn drop_links_to_found(&mut self, first: usize) {
+        let is_link = |path: &PathBuf| fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_symlink());
+        let (links, mut files): (Vec<_>, Vec<_>) = self.files.drain(first..).partition(is_link);
+        if !links.is_empty() {
+            let mut real: BTreeSet<PathBuf> = files.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
+            for link in links {
+                if fs::canonicalize(&link).is_ok_and(|target| real.insert(target)) {
+                    files.push(link);
+                } else {
+                    self.left_out.push((link, "a link to a file that is taken already"));
+                }
+            }
+            files.sort();
+        }
+        self.files.extend(files);
+    }
+
+    /// Says what was left out: each with `verbose`, otherwise how many.
+    pub(crate) fn remark(&self, quiet: bool, verbose: bool) {
+        if self.left_out.is_empty() {
+            return;
+        }
+        if verbose {
+            for (path, why) in &self.left_out {
+                remark(false, &format!("{}: left out: {why}", path.display()));
+            }
+        } else {
+            let count = self.left_out.len();
+            let what = if count == 1 {
+                "1 file or folder was"
+            } else {
+                &format!("{count} files or folders were")
+            };
+            remark(quiet, &format!("{what} left out; -v lists them with the reasons"));
+        }
+    }
+}
+
+/// Files named by `paths`; folders are walked for programs, which their names or, without an extension, their first lines show. Links are
+/// followed inside the folder; hidden files and what `.gitignore` names are left out. A folder without any program is a failure.
+pub(crate) fn programs(paths: &[PathBuf]) -> Result<Found, Failure> {
+    let mut found = Found::default();
     for path in paths {
         if !path.is_dir() {
-            files.push(path.clone());
+            found.files.push(path.clone());
             continue;
         }
-        let before = files.len();
-        for entry in WalkDir::new(path).sort_by_file_name() {
-            let entry = entry.map_err(|error| Failure::file(path, error))?;
-            if entry.file_type().is_file()
-                && entry
-                    .file_name()
-                    .to_str()
-                    .is_some_and(trunnion_dialect::is_program_file_name)
-            {
-                files.push(entry.into_path());
-            }
-        }
-        if files.len() == before {
+        let before = found.files.len();
+        found.walked = true;
+        Walk::new(path, &mut found).folder(path);
+        found.drop_links_to_found(before);
+        if found.files.len() == before && found.failures.is_empty() {
             let known = trunnion_dialect::program_extensions().join(" .");
+            found.remark(false, true);
             return Err(Failure::file(
                 path,
                 format!(
-                    "no program in this directory (looked for .{known}); name the file itself if it has another extension"
+                    "no program in this directory (looked for .{known}, and for programs without an extension); name the file itself if it \
+                     has another extension"
                 ),
             ));
         }
     }
-    Ok(files)
+    Ok(found)
+}
+
+/// A walk through one folder.
+struct Walk<'f> {
+    root: PathBuf,
+    /// Folders that were walked, links followed: a link cannot lead round for ever.
+    seen: BTreeSet<PathBuf>,
+    /// `.gitignore` files in force, the outermost first.
+    ignores: Vec<Gitignore>,
+    found: &'f mut Found,
+}
+
+impl<'f> Walk<'f> {
+    fn new(path: &Path, found: &'f mut Found) -> Self {
+        let root = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        // those of the folders above, up to the repository's
+        let above: Vec<&Path> = root.ancestors().skip(1).collect();
+        let repository = above.iter().position(|folder| folder.join(".git").exists());
+        let inside = root.join(".git").exists();
+        let above = repository.filter(|_| !inside).map_or(&[][..], |last| &above[..=last]);
+        let ignores = above.iter().rev().filter_map(|folder| rules(folder, folder)).collect();
+        Self {
+            root,
+            seen: BTreeSet::new(),
+            ignores,
+            found,
+        }
+    }
+
+    fn folder(&mut self, path: &Path) {
+        let real = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        if !self.seen.insert(real.clone()) {
+            self.leave(path, "a link to a folder that is walked already");
+            return;
+        }
+        let entries = fs::read_dir(path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
+        let mut entries = match entries {
+            Ok(entries) => entries,
+            Err(error) => {
+                self.found.failures.push(Failure::io(path, "read the folder", &error));
+                return;
+            }
+        };
+        entries.sort_by_key(fs::DirEntry::file_name);
+        let own = rules(path, &real);
+        let depth = self.ignores.len();
+        self.ignores.extend(own);
+        for entry in entries {
+            self.entry(&entry.path(), &real);
+        }
+        self.ignores.truncate(depth);
+    }
+
+    fn entry(&mut self, path: &Path, folder: &Path) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let Ok(metadata) = fs::metadata(path) else {
+            return self.leave(path, "a link that leads nowhere, or a file that cannot be looked at");
+        };
+        if name.starts_with('.') {
+            // what git keeps for itself is no news
+            if name != ".git" && name != ".gitignore" {
+                self.leave(path, "hidden");
+            }
+            return;
+        }
+        if self.ignored(&folder.join(&name), metadata.is_dir()) {
+            return self.leave(path, "named in .gitignore");
+        }
+        let linked = fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_symlink());
+        if linked && !fs::canonicalize(path).is_ok_and(|real| real.starts_with(&self.root)) {
+            return self.leave(path, "a link that leads out of the folder");
+        }
+        if metadata.is_dir() {
+            self.folder(path);
+        } else if !metadata.is_file() {
+            self.leave(path, "a device, FIFO or socket");
+        } else if trunnion_dialect::is_program_file_name(&name) {
+            self.found.files.push(path.to_owned());
+        } else if path.extension().is_some() {
+            self.leave(path, "its extension names no program");
+        } else {
+            match head(path) {
+                Ok(head) if trunnion_dialect::looks_like_program(&head) => self.found.files.push(path.to_owned()),
+                Ok(_) => self.leave(path, "no extension, and its first lines show no program"),
+                Err(error) => self.found.failures.push(Failure::io(path, "read the file", &error)),
+            }
+        }
+    }
+
+    fn leave(&mut self, path: &Path, why: &'static str) {
+        self.found.left_out.push((path.to_owned(), why));
+    }
+
+    fn ignored(&self, path: &Path, is_folder: bool) -> bool {
+        for rules in self.ignores.iter().rev() {
+            match rules.matched(path, is_folder) {
+                Match::Ignore(_) => return true,
+                Match::Whitelist(_) => return false,
+                Match::None => {}
+            }
+        }
+        false
+    }
+}
+
+/// The rules of a folder's `.gitignore`, for paths below `real`.
+fn rules(folder: &Path, real: &Path) -> Option<Gitignore> {
+    let file = folder.join(".gitignore");
+    if !file.is_file() {
+        return None;
+    }
+    let mut builder = GitignoreBuilder::new(real);
+    // a rule that is not understood is passed over, as git does
+    let _ = builder.add(file);
+    builder.build().ok()
+}
+
+fn head(path: &Path) -> std::io::Result<Vec<u8>> {
+    let mut head = Vec::new();
+    fs::File::open(path)?.take(HEAD).read_to_end(&mut head)?;
+    Ok(head)
 }

@@ -29,6 +29,7 @@ pub(crate) fn assemble(table: Table) -> Result<Dialect, DialectError> {
         .unwrap_or_else(|| format!("the table {}", dialect.name));
     dialect.quirks = table.quirks.over(&dialect.quirks);
     dialect.quirks.arc_tolerance_relative = dialect.arc.relative;
+    dialect.advice = table.check.over(&dialect.advice);
     if let Some(lex) = table.lex {
         dialect.lex = lex_options(lex);
     }

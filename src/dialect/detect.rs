@@ -85,6 +85,48 @@ pub fn is_program_file_name(name: &str) -> bool {
     extension(name).is_some_and(|extension| program_extensions().contains(&extension.as_str()))
 }
 
+/// Lines of a file without an extension that are looked at.
+const FIRST_LINES: usize = 40;
+
+/// Whether the first bytes of a file without an extension are those of a program: it bears the sign of a control, or most of its first
+/// lines that are neither empty nor comments consist of words (a letter and a number) or name a program.
+pub fn looks_like_program(head: &[u8]) -> bool {
+    if head.contains(&0) {
+        return false;
+    }
+    let text = String::from_utf8_lossy(head).to_ascii_uppercase();
+    let (mut blocks, mut others) = (0usize, 0usize);
+    for line in text.lines().map(str::trim).take(FIRST_LINES) {
+        let comment = line.starts_with(['(', ';', '#', '"']) || line.starts_with("$$") || line.starts_with("/*");
+        if line.is_empty() || line == "%" || comment {
+            continue;
+        }
+        if is_block(line) {
+            blocks += 1;
+        } else {
+            others += 1;
+        }
+    }
+    blocks > others || (blocks + others > 0 && others <= 1 && content(head).is_some())
+}
+
+/// Whether a line consists of words alone: letters followed by numbers, comments left out.
+fn is_block(line: &str) -> bool {
+    let code = line.split(['(', ';']).next().unwrap_or_default();
+    let code = code.trim_start_matches('/').trim();
+    let mut letters = 0usize;
+    let mut after_letter = false;
+    for c in code.chars() {
+        match c {
+            'A'..='Z' if !after_letter => (letters, after_letter) = (letters + 1, true),
+            '0'..='9' | '.' => after_letter = false,
+            '+' | '-' | ' ' | '=' | '\t' => {}
+            _ => return false,
+        }
+    }
+    letters > 0 && !after_letter
+}
+
 /// Last extension, lower case; a version number after it (`part.ncl.8`) is left out.
 fn extension(name: &str) -> Option<String> {
     let name = name.rsplit(['/', '\\']).next()?;

@@ -1,5 +1,5 @@
 //! A dialect: look-ups over a loaded table.
-use crate::{Action, Code, CodeKind, Language, Macros, Role, ToolWord, WholeNumbers};
+use crate::{Action, Advice, Code, CodeKind, Language, Macros, Role, ToolWord, WholeNumbers};
 use core::cmp::Ordering;
 use core::ops::RangeInclusive;
 use std::collections::BTreeMap;
@@ -117,6 +117,8 @@ pub struct Dialect {
     pub(crate) named: Vec<(String, Role)>,
     /// Facts that are neither letters nor codes.
     pub quirks: Quirks,
+    /// What a check says of the control.
+    pub advice: Advice,
 }
 
 impl Dialect {
@@ -181,6 +183,11 @@ impl Dialect {
         };
         exact(name).or_else(any_number)
     }
+    /// Whether a code switches the tool's length on (G43); on lathes the tool word does it, on other controls the tool change.
+    pub fn length_by_code(&self) -> bool {
+        let on = |code: &Code| code.action == Action::ToolLengthOn && code.id == "G43";
+        !self.quirks.tool_word_holds_offset && self.codes.iter().any(on)
+    }
     /// The control's alarm for a mistake by its key in `[alarms]`: `peck-missing`.
     pub fn alarm(&self, mistake: &str) -> Option<&Alarm> {
         self.alarms.get(mistake)
@@ -214,6 +221,7 @@ impl Dialect {
             roles: [None; 28],
             named: Vec::new(),
             quirks: Quirks::default(),
+            advice: Advice::default(),
         }
     }
 }

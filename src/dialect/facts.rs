@@ -47,6 +47,8 @@ impl Dialect {
             roles: _,
             named,
             quirks,
+            // what a check says, which changes no run
+            advice: _,
         } = self;
         DialectFacts {
             name,

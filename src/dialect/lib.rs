@@ -2,6 +2,7 @@
 //!
 //! It does not know motions, machines or files.
 mod action;
+mod advice;
 mod assemble;
 mod builtin;
 mod code;
@@ -18,10 +19,11 @@ mod signs;
 mod textmate;
 
 pub use action::Role;
+pub use advice::{Advice, Expressions, RotaryFeed};
 pub use builtin::{BUILTIN_NAMES, builtin};
 pub use code::{Code, CodeKind};
 pub use decisions::{Language, Macros, ToolWord, WholeNumbers};
-pub use detect::{Detected, detect, is_program_file_name, program_extensions};
+pub use detect::{Detected, detect, is_program_file_name, looks_like_program, program_extensions};
 pub use dialect::{Alarm, ArcTolerance, Dialect, Quirks};
 pub use facts::DialectFacts;
 pub use modeline::{Modeline, modeline};

@@ -1,4 +1,5 @@
 //! The TOML shape of a dialect table. Unknown keys are errors; every error says where.
+use crate::advice::AdviceRow;
 use crate::quirks::QuirksRow;
 use crate::{Action, Dialect, Role, assemble::assemble};
 use serde::Deserialize;
@@ -55,6 +56,8 @@ pub(crate) struct Table {
     pub(crate) arc_tolerance: Option<ArcToleranceRow>,
     #[serde(default)]
     pub(crate) quirks: QuirksRow,
+    #[serde(default)]
+    pub(crate) check: AdviceRow,
     /// Replaces the alarms of the extended table.
     pub(crate) alarms: Option<BTreeMap<Spanned<String>, AlarmRow>>,
     #[serde(default)]

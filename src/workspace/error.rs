@@ -40,6 +40,12 @@ impl LoadError {
     }
 }
 
+impl From<trunnion_files::FileError> for LoadError {
+    fn from(error: trunnion_files::FileError) -> Self {
+        Self::file(&error.path, error.message)
+    }
+}
+
 impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.place.is_empty() {

@@ -10,6 +10,6 @@ mod subprograms;
 mod table;
 
 pub use error::LoadError;
-pub use machine::find_machine;
+pub use machine::{FoundMachine, find_machine};
 pub use resolve::{Overrides, Resolved, resolve};
 pub use subprograms::Subprograms;

@@ -3,22 +3,82 @@ use crate::LoadError;
 use std::path::{Path, PathBuf};
 use trunnion_machine::Machine;
 
-/// An embedded machine by its name, or a TOML file, relative to `folder` where one is given.
+/// A machine and the file that describes it.
+#[derive(Clone, Debug)]
+pub struct FoundMachine {
+    /// The machine.
+    pub machine: Machine,
+    /// Its file; `None` for an embedded one.
+    pub file: Option<PathBuf>,
+}
+
+/// An embedded machine by its name, or a TOML file, relative to `folder` where one is given. The user or the user's settings name it, so
+/// the file may be anywhere.
 ///
 /// # Errors
 /// No such machine or file; or the file is not a valid machine, with line and column.
-pub fn find_machine(name: &str, folder: Option<&Path>) -> Result<Machine, LoadError> {
+pub fn find_machine(name: &str, folder: Option<&Path>) -> Result<FoundMachine, LoadError> {
     if let Some(machine) = trunnion_machine::builtin(name) {
-        return Ok(machine.clone());
+        let machine = machine.clone();
+        return Ok(FoundMachine { machine, file: None });
     }
     let path = folder.map_or_else(|| PathBuf::from(name), |folder| folder.join(name));
-    let is_file = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) || path.is_file();
-    if !is_file {
-        let hint = trunnion_check::or_known(name, trunnion_machine::BUILTIN_MACHINES, "machines");
-        return Err(LoadError::new(format!("unknown machine `{name}`{hint}")));
+    if !is_toml(&path) && !path.is_file() {
+        return Err(unknown(name));
     }
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| LoadError::file(&path, format!("cannot read the machine file: {error}")))?;
+    load(&path)
+}
+
+/// The machine that a comment of a program names: an embedded one, or a `.toml` file in the program's folder or below one of the folders of
+/// `machine_path`. A program comes from anywhere, so its comment opens no other file; links count as what they lead to.
+///
+/// # Errors
+/// No such machine or file, or a file that lies elsewhere; or it is not a valid machine, with line and column.
+pub(crate) fn machine_of_comment(
+    name: &str,
+    program_folder: &Path,
+    machine_path: &[PathBuf],
+) -> Result<FoundMachine, LoadError> {
+    if let Some(machine) = trunnion_machine::builtin(name) {
+        let machine = machine.clone();
+        return Ok(FoundMachine { machine, file: None });
+    }
+    if !is_toml(Path::new(name)) {
+        return Err(unknown(name));
+    }
+    let beside = std::fs::canonicalize(program_folder.join(name)).ok();
+    let home = std::fs::canonicalize(program_folder).ok();
+    if let Some(file) = beside.filter(|file| is_toml(file) && file.parent() == home.as_deref()) {
+        return load(&file);
+    }
+    for folder in machine_path {
+        let file = std::fs::canonicalize(folder.join(name)).ok();
+        let home = std::fs::canonicalize(folder).ok();
+        let inside = |file: &PathBuf| is_toml(file) && home.as_ref().is_some_and(|home| file.starts_with(home));
+        if let Some(file) = file.filter(inside) {
+            return load(&file);
+        }
+    }
+    Err(LoadError::new(format!(
+        "a comment of the program names the machine `{name}`, which was not opened: a comment may name an embedded machine, or a .toml file \
+         in the folder of the program or below a folder of `machine_path` in trunnion.toml. Use --machine to name another file"
+    )))
+}
+
+fn is_toml(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
+}
+
+fn unknown(name: &str) -> LoadError {
+    let hint = trunnion_check::or_known(name, trunnion_machine::BUILTIN_MACHINES, "machines");
+    LoadError::new(format!("unknown machine `{name}`{hint}"))
+}
+
+fn load(path: &Path) -> Result<FoundMachine, LoadError> {
+    let text = trunnion_files::read_text(path)?;
     let id = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("machine");
-    trunnion_machine::load(id, &text).map_err(|error| LoadError::at(&path, &text, error.span.as_ref(), &error.message))
+    let machine = trunnion_machine::load(id, &text)
+        .map_err(|error| LoadError::at(path, &text, error.span.as_ref(), &error.message))?;
+    let file = Some(path.to_owned());
+    Ok(FoundMachine { machine, file })
 }

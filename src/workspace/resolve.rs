@@ -1,5 +1,5 @@
 //! Which settings, machine and dialect a program is checked with, and why.
-use crate::{LoadError, Subprograms, find_machine};
+use crate::{FoundMachine, LoadError, Subprograms, find_machine, machine::machine_of_comment};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use trunnion_check::config::{FormatSettings, parse_tool_flag};
@@ -40,6 +40,8 @@ pub struct Resolved {
     pub machine_reason: String,
     /// The settings file that was read.
     pub config_path: Option<PathBuf>,
+    /// The files that were read beside the program: settings, machine, dialect table.
+    pub files: Vec<PathBuf>,
     /// Tools and work offsets.
     pub setup: Setup,
     /// Rule levels, last wins.
@@ -74,10 +76,11 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let (config, config_file) = config_for(path, overrides)?;
     let config_path = config_file.as_ref().map(|(path, _)| path.clone());
     let mode = trunnion_dialect::modeline(source);
-    let (machine, machine_reason) = machine_for(overrides, &mode, &config, config_file.as_ref())?;
+    let (machine, machine_reason) = machine_for(path, overrides, &mode, &config, config_file.as_ref())?;
+    let (machine, machine_file) = machine.map_or((None, None), |found| (Some(found.machine), found.file));
     let family = machine.as_ref().map(|m| m.control.family.as_str());
     let file_name = path.and_then(Path::file_name).and_then(|name| name.to_str());
-    let (dialect, dialect_reason) = dialect_for(
+    let (dialect, dialect_reason, dialect_file) = dialect_for(
         overrides,
         &mode,
         (&config, config_file.as_ref()),
@@ -121,6 +124,10 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
         dialect_reason,
         machine,
         machine_reason,
+        files: [config_path.clone(), machine_file, dialect_file]
+            .into_iter()
+            .flatten()
+            .collect(),
         config_path,
         setup,
         rules,
@@ -162,44 +169,62 @@ fn library(
 fn config_for(path: Option<&Path>, overrides: &Overrides) -> Result<(Config, Option<(PathBuf, String)>), LoadError> {
     let found = match &overrides.config {
         Some(file) => Some(file.clone()),
-        None => std::path::absolute(path.unwrap_or(Path::new("-")))
-            .ok()
-            .and_then(|path| {
-                path.ancestors()
-                    .skip(1)
-                    .map(|folder| folder.join("trunnion.toml"))
-                    .find(|file| file.is_file())
-            }),
+        None => folder_of(path).and_then(|folder| {
+            folder
+                .ancestors()
+                .map(|folder| folder.join("trunnion.toml"))
+                .find(|file| file.is_file())
+        }),
     };
     let Some(file) = found else {
         return Ok((Config::default(), None));
     };
-    let text = std::fs::read_to_string(&file)
-        .map_err(|error| LoadError::file(&file, format!("cannot read the settings: {error}")))?;
+    let text = trunnion_files::read_text(&file)?;
     let config =
         Config::parse(&text).map_err(|error| LoadError::at(&file, &text, error.span.as_ref(), &error.message))?;
     Ok((config, Some((file, text))))
 }
 
+/// The canonical folder of the program, links followed; of standard input the current folder; of a document that is not saved the folder
+/// that its name says.
+fn folder_of(path: Option<&Path>) -> Option<PathBuf> {
+    let Some(path) = path else {
+        return std::env::current_dir().ok();
+    };
+    let file = std::fs::canonicalize(path)
+        .or_else(|_| std::path::absolute(path))
+        .ok()?;
+    let folder = file.parent()?;
+    Some(std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned()))
+}
+
 fn machine_for(
+    path: Option<&Path>,
     overrides: &Overrides,
     mode: &Modeline,
     config: &Config,
     config_file: Option<&(PathBuf, String)>,
-) -> Result<(Option<Machine>, String), LoadError> {
+) -> Result<(Option<FoundMachine>, String), LoadError> {
     if let Some(name) = &overrides.machine {
         return Ok((Some(find_machine(name, None)?), "named by the user".into()));
     }
     if let Some(name) = &mode.machine {
+        let home = config_file.and_then(|(file, _)| file.parent()).unwrap_or(Path::new(""));
+        let machine_path: Vec<PathBuf> = config
+            .machine_path
+            .iter()
+            .map(|(folder, _)| home.join(folder))
+            .collect();
+        let folder = folder_of(path).unwrap_or_default();
         return Ok((
-            Some(find_machine(name, None)?),
+            Some(machine_of_comment(name, &folder, &machine_path)?),
             "modeline comment in the program".into(),
         ));
     }
     if let Some(name) = &config.machine {
         let folder = config_file.and_then(|(path, _)| path.parent());
         let machine = find_machine(name, folder)?;
-        if let (Err(error), Some((path, text))) = (config.check_axes(&machine), config_file) {
+        if let (Err(error), Some((path, text))) = (config.check_axes(&machine.machine), config_file) {
             return Err(LoadError::at(path, text, error.span.as_ref(), &error.message));
         }
         return Ok((Some(machine), "trunnion.toml".into()));
@@ -214,7 +239,7 @@ fn dialect_for(
     file_name: Option<&str>,
     source: &[u8],
     family: Option<&str>,
-) -> Result<(&'static Dialect, String), LoadError> {
+) -> Result<(&'static Dialect, String, Option<PathBuf>), LoadError> {
     let choices = [
         (&overrides.dialect, "named by the user"),
         (&mode.dialect, "modeline comment in the program"),
@@ -226,7 +251,7 @@ fn dialect_for(
             let hint = or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
             return Err(LoadError::new(format!("unknown dialect `{name}` ({reason}){hint}")));
         };
-        return Ok((dialect, reason.to_owned()));
+        return Ok((dialect, reason.to_owned(), None));
     }
     if let (Some((name, span)), Some((file, text))) = (&config.dialect_table, config_file) {
         let path = file.parent().unwrap_or(Path::new("")).join(name);
@@ -234,11 +259,9 @@ fn dialect_for(
             let message = format!("file {} does not exist", path.display());
             return Err(LoadError::at(file, text, Some(span), message));
         }
-        return Ok((
-            crate::table::table(&path)?,
-            format!("the table {name} of trunnion.toml"),
-        ));
+        let dialect = crate::table::table(&path)?;
+        return Ok((dialect, format!("the table {name} of trunnion.toml"), Some(path)));
     }
     let detected = trunnion_dialect::detect(file_name, source, family);
-    Ok((detected.dialect, detected.reason))
+    Ok((detected.dialect, detected.reason, None))
 }

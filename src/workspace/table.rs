@@ -13,8 +13,7 @@ static TABLES: Mutex<Vec<(String, &'static Dialect)>> = Mutex::new(Vec::new());
 /// # Errors
 /// The file cannot be read, or is no dialect table: with line and column.
 pub(crate) fn table(path: &Path) -> Result<&'static Dialect, LoadError> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| LoadError::file(path, format!("cannot read the dialect table: {error}")))?;
+    let text = trunnion_files::read_text(path)?;
     let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, known)) = tables.iter().find(|(known, _)| *known == text) {
         return Ok(known);

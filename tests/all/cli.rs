@@ -5,6 +5,7 @@ mod certificates;
 mod commands;
 mod convert;
 mod diff;
+mod files;
 mod findings;
 mod fix;
 mod fmt;

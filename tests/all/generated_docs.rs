@@ -95,7 +95,7 @@ fn linked(source: &str, works: &[&str]) -> String {
 fn page(rule: &Rule, works: &[&str]) -> String {
     let facts = format!(
         "Reads: {}. Severity: {}. Silence: {}.",
-        rule.level.name(),
+        rule.level(),
         severity(rule),
         guarantee(rule)
     );

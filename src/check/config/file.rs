@@ -20,6 +20,8 @@ struct File {
     #[serde(default)]
     subprogram_path: Vec<Spanned<String>>,
     #[serde(default)]
+    machine_path: Vec<Spanned<String>>,
+    #[serde(default)]
     port_to: Vec<Spanned<String>>,
     #[serde(default)]
     limits: FileLimits,
@@ -85,16 +87,8 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     for dialect in file.port_to {
         config.port_to.push(known_dialect(dialect)?);
     }
-    for folder in file.subprogram_path {
-        if folder.get_ref().is_empty() {
-            return Err(at(
-                &folder,
-                "the folder name is empty; write `.` for the folder of this file",
-            ));
-        }
-        let span = folder.span();
-        config.subprogram_path.push((folder.into_inner(), span));
-    }
+    config.subprogram_path = folders(file.subprogram_path)?;
+    config.machine_path = folders(file.machine_path)?;
     config.setup.control = file.control.data()?;
     config.setup.variables = super::variables::variables(&file.variables)?;
     if let Some(blocks) = &file.limits.blocks {
@@ -128,6 +122,21 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
         config.setup.work_offsets.push(work_offset(&name, &values)?);
     }
     Ok(config)
+}
+
+/// Names of folders with their places in the file.
+fn folders(named: Vec<Spanned<String>>) -> Result<Vec<(String, core::ops::Range<usize>)>, ConfigError> {
+    let place = |folder: Spanned<String>| {
+        if folder.get_ref().is_empty() {
+            return Err(at(
+                &folder,
+                "the folder name is empty; write `.` for the folder of this file",
+            ));
+        }
+        let span = folder.span();
+        Ok((folder.into_inner(), span))
+    };
+    named.into_iter().map(place).collect()
 }
 
 fn at<T>(place: &Spanned<T>, message: impl Into<String>) -> ConfigError {

@@ -1,6 +1,7 @@
 //! Lints of expressions and flow: RS274/NGC against custom macro B.
 use super::line::Line;
-use super::{Hit, Language, Route};
+use super::{Hit, Route};
+use trunnion_dialect::Expressions;
 
 fn hit(line: &Line<'_>, at: usize, length: usize, message: &str, help: &'static str) -> Hit {
     Hit {
@@ -16,7 +17,7 @@ pub(super) fn rounding(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) 
     if !route.crosses() || !line.has_bracket() {
         return;
     }
-    let to_macro = route.languages.1 == Language::MacroB;
+    let to_macro = route.languages.1 == Expressions::MacroB;
     for (name, there) in [
         (
             "FIX",
@@ -149,7 +150,7 @@ pub(super) fn precedence(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>
 
 /// `**` is RS274/NGC.
 pub(super) fn power(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
-    if route.languages == (Language::Ngc, Language::MacroB) {
+    if route.languages == (Expressions::Rs274Ngc, Expressions::MacroB) {
         for at in line.found("**") {
             hits.push(hit(
                 line,
@@ -164,7 +165,7 @@ pub(super) fn power(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
 
 /// `#<name>` is RS274/NGC.
 pub(super) fn named_parameter(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
-    if route.languages == (Language::Ngc, Language::MacroB)
+    if route.languages == (Expressions::Rs274Ngc, Expressions::MacroB)
         && let Some(at) = line.found("#<").next()
     {
         let end = line.text[at..]
@@ -207,7 +208,7 @@ pub(super) fn flow(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
         .position(|byte| !byte.is_ascii_whitespace())
         .unwrap_or(text.len());
     let mut found = match route.languages {
-        (Language::Ngc, Language::MacroB) if text[first..].starts_with(b"O") => {
+        (Expressions::Rs274Ngc, Expressions::MacroB) if text[first..].starts_with(b"O") => {
             let name = text[first + 1..]
                 .iter()
                 .position(|byte| byte.is_ascii_alphabetic() || *byte == b'<')
@@ -232,7 +233,7 @@ pub(super) fn flow(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
                 "write WHILE [..] DO1 ... END1, IF [..] GOTO n, and G65 P or M98 P with one program per subprogram",
             )
         }
-        (Language::MacroB, Language::Ngc) => {
+        (Expressions::MacroB, Expressions::Rs274Ngc) => {
             let known = ["WHILE", "GOTO", "IF"]
                 .iter()
                 .find_map(|name| Some((line.found(name).next()?, name.len())));

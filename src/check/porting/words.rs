@@ -1,7 +1,7 @@
 //! Lints of words, codes and marks: what the tables of the two dialects say differently.
 use super::line::Line;
-use super::{Hit, Language, Route};
-use trunnion_dialect::{Code, CodeKind, Dialect, Role};
+use super::{Hit, Route};
+use trunnion_dialect::{Code, CodeKind, Dialect, Expressions, Role};
 use trunnion_syntax::{Address, Item, TextRange, Value, Word};
 
 fn hit(range: TextRange, message: String, help: &'static str, once: Option<&'static str>) -> Hit {
@@ -73,7 +73,7 @@ fn clashes_here(from: &Dialect, other: &str, word: &Word) -> bool {
 
 /// A word twice: the last one wins here, the target refuses the block.
 pub(super) fn repeated_word(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
-    if route.languages.1 != Language::Ngc || !route.from.quirks.last_code_wins {
+    if route.languages.1 != Expressions::Rs274Ngc || !route.from.quirks.last_code_wins {
         return;
     }
     let mut seen = 0u32;
@@ -142,7 +142,7 @@ pub(super) fn dwell_unit(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>
 
 /// `/` inside a block deletes the rest of it on Fanuc; RS274/NGC refuses it there.
 pub(super) fn skip_inside(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
-    if route.languages.1 != Language::Ngc {
+    if route.languages.1 != Expressions::Rs274Ngc {
         return;
     }
     let mut depth = 0i32;

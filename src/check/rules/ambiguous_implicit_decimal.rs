@@ -28,31 +28,27 @@
 //! * Haas 96-8210 (mill operator's manual): settings 77 and 162.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::AmbiguousDecimal {
         let text = out.text(fault.range);
         let feed = text.starts_with(['F', 'f']);
-        let note = match (out.dialect().starts_with("haas"), feed) {
-            (true, true) => "setting 77 (scale integer F) decides; here F is taken as written",
-            (true, false) => {
-                "setting 162 (default to float): off means least increments (0.001 mm), on means millimetres; millimetres are assumed here"
-            }
-            _ => {
-                "parameter 3401 bit 0 (DPI): 0 means least increments (0.001 mm), 1 means millimetres; millimetres are assumed here"
-            }
-        };
-        out.report(
+        let advice = &out.dialect().advice;
+        let setting = advice
+            .whole_feed
+            .as_ref()
+            .filter(|_| feed)
+            .or(advice.whole_coordinate.as_ref());
+        let draft = out.report(
             fault.range,
             format!("`{text}` has no decimal point: its size depends on a parameter of the control"),
-        )
-        .note(note)
-        .help(format!("write `{text}.`"))
-        .merge(u64::from(feed), 0.0);
+        );
+        if let Some(setting) = setting {
+            draft.note(setting);
+        }
+        draft
+            .help(format!("write `{text}.`"))
+            .merge(Merge::run(u64::from(feed), 0.0));
     }
 }

@@ -41,44 +41,34 @@
 use crate::prelude::*;
 use trunnion_machine::{Open, OpenCause};
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::OPEN, check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::OpenPosture(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let Some(open) = view.leg.open else { return };
-    let key = open.cause as u64;
-    if out.repeats_unknown(view, key, 0.0) {
-        return;
-    }
-    let range = orientation_range(out.program(), view.motion().block);
-    let posture = |q: [f64; 2]| {
-        let axes = view.machine.rotary.iter().zip(q);
+fn check(posture: &facts::OpenPosture<'_>, out: &mut Reporter<'_>) {
+    let open = &posture.open;
+    let words = |q: [f64; 2]| {
+        let axes = posture.machine.rotary.iter().zip(q);
         let words: Vec<String> = axes
-            .map(|(axis, value)| format!("{} {}", letter(view.machine.axes[*axis].letter), degrees(value)))
+            .map(|(axis, value)| format!("{} {}", letter(posture.machine.axes[*axis].letter), degrees(value)))
             .collect();
         words.join(" and ")
     };
-    let (why, help) = cause(&open, &view.machine.control.family);
-    out.report(
-        range,
-        format!(
-            "for this tool vector the control may take {} or {}",
-            posture(open.taken),
-            posture(open.other)
-        ),
-    )
-    .note(why)
-    .note("everything after this block is checked for the first of the two")
-    .help(help)
-    .value("taken_first_deg", deg(open.taken[0]))
-    .value("taken_second_deg", deg(open.taken[1]))
-    .value("other_first_deg", deg(open.other[0]))
-    .value("other_second_deg", deg(open.other[1]))
-    .unknown()
-    .merge_everywhere(key);
+    out.unknown(posture, Merge::once(open.cause as u64), |draft| {
+        let (why, help) = cause(open, &posture.machine.control.family);
+        draft
+            .at_orientation()
+            .say(format!(
+                "for this tool vector the control may take {} or {}",
+                words(open.taken),
+                words(open.other)
+            ))
+            .note(why)
+            .note("everything after this block is checked for the first of the two")
+            .help(help)
+            .value("taken_first_deg", deg(open.taken[0]))
+            .value("taken_second_deg", deg(open.taken[1]))
+            .value("other_first_deg", deg(open.other[0]))
+            .value("other_second_deg", deg(open.other[1]));
+    });
 }
 
 fn cause(open: &Open, family: &str) -> (String, &'static str) {

@@ -37,27 +37,22 @@ use core::f64::consts::{PI, TAU};
 use trunnion_interp::{AXIS_LETTERS, Orientation};
 use trunnion_machine::{Limits, Wrap};
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::TURNS_FAR, check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::LongTurn(check)]);
 
 /// Turns that are half a turn but for rounding are none the less.
 const SLACK: f64 = 1e-6;
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let motion = view.motion();
-    if !view.turns_far() || motion.orientation != Orientation::Words {
+fn check(leg: &facts::LongTurn<'_>, out: &mut Reporter<'_>) {
+    let (motion, start, end) = (leg.motion(), leg.start, leg.end);
+    if motion.orientation != Orientation::Words {
         return;
     }
-    let Some((start, end)) = view.stances() else { return };
-    for &joint in &view.machine.rotary {
-        let axis = &view.machine.axes[joint];
+    for &joint in &leg.machine.rotary {
+        let axis = &leg.machine.axes[joint];
         let turn = end.joints[joint] - start.joints[joint];
         let place = AXIS_LETTERS.iter().position(|letter| *letter == axis.letter);
         let word = place.and_then(|place| motion.end.get(place));
-        let meant = turn.abs() >= TAU - SLACK && !view.leads_tip();
+        let meant = turn.abs() >= TAU - SLACK && !leg.leads_tip();
         if axis.extra.wrap != Wrap::Literal || word.is_none() || turn.abs() <= PI + SLACK || meant {
             continue;
         }
@@ -68,34 +63,33 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             Limits::Unbounded => true,
             Limits::Range(low, high) => (low..=high).contains(&(start.joints[joint] + short)),
         };
-        let range = axis_word(out.program(), motion.block, axis.letter);
-        let draft = out.report(
-            range,
-            format!(
-                "{name} turns {} by {} to reach {}; the shorter way is {} {}",
-                way(turn),
-                degrees(turn.abs()),
-                degrees(end.joints[joint]),
-                degrees(short.abs()),
-                way(short)
-            ),
-        );
-        draft
-            .value_text("axis", name.clone())
-            .value("rotary_change_deg", deg(turn))
-            .value("value_deg", deg(end.joints[joint]))
-            .value("shorter_deg", deg(short));
-        if reachable {
-            draft.help(format!("write {name} as {}", number(deg(start.joints[joint] + short))));
-            draft.fix("unwind-rotary");
-        } else {
+        out.event(|draft| {
             draft
-                .note(format!("the shorter way would take {name} out of its travel"))
-                .help("retract, and turn the axis back out of the cut");
-        }
-        if !motion.is_feed() {
-            draft.severity(Severity::Info);
-        }
+                .at_axis(axis.letter)
+                .say(format!(
+                    "{name} turns {} by {} to reach {}; the shorter way is {} {}",
+                    way(turn),
+                    degrees(turn.abs()),
+                    degrees(end.joints[joint]),
+                    degrees(short.abs()),
+                    way(short)
+                ))
+                .value_text("axis", name.clone())
+                .value("rotary_change_deg", deg(turn))
+                .value("value_deg", deg(end.joints[joint]))
+                .value("shorter_deg", deg(short));
+            if reachable {
+                draft.help(format!("write {name} as {}", number(deg(start.joints[joint] + short))));
+                draft.fix("unwind-rotary");
+            } else {
+                draft
+                    .note(format!("the shorter way would take {name} out of its travel"))
+                    .help("retract, and turn the axis back out of the cut");
+            }
+            if !motion.is_feed() {
+                draft.severity(Info);
+            }
+        });
     }
 }
 

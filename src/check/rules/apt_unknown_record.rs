@@ -26,11 +26,7 @@
 //! * ISO 4343:2000, the post-processor commands of APT.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Heuristic,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::AptUnknownRecord {
@@ -41,6 +37,6 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
                 "the record is skipped; it may move the tool or the coordinates, so positions are unknown from here on",
             )
             .help("check its spelling; if only the post-processor needs it, allow it with a comment")
-            .merge(hash(&major), 0.0);
+            .merge(Merge::run(hash(&major), 0.0));
     }
 }

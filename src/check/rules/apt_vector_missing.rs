@@ -30,17 +30,13 @@
 //! * ISO 4343:2000, MULTAX.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::AptVectorMissing {
         out.report(fault.range, "MULTAX is on, but GOTO has no tool vector")
             .note("the last tool vector is kept")
             .help("write i, j, k after x, y, z, or switch off with MULTAX/OFF")
-            .merge(0, 0.0);
+            .merge(Merge::run(0, 0.0));
     }
 }

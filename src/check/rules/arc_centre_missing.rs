@@ -24,14 +24,9 @@
 use crate::prelude::*;
 use trunnion_syntax::{Address, BlockId, Program, Value, Word};
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check), Wake::Refused(Refusal::ArcCentre, plain)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    refused(fault, out, &[Refusal::ArcCentre]);
     if fault.kind == FaultKind::ArcCentreMissing {
         let (message, help) = cause(out.program(), fault.block);
         out.report(fault.range, message).help(help);

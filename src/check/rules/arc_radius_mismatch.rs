@@ -27,11 +27,7 @@
 //! * NISTIR 6556 (2000), section 3.5.3 on arcs at feed rate (G2, G3).
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check), Wake::Refused(Refusal::ArcRadius, plain)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     match fault.kind {
@@ -68,9 +64,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .value("chord_mm", 2.0 * half_chord)
             .value("limit_mm", half_chord);
         }
-        _ => {
-            refused(fault, out, &[Refusal::ArcRadius]);
-        }
+        _ => {}
     }
 }
 

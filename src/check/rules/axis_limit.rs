@@ -30,89 +30,74 @@
 //! * docs/kinematics.md#between-the-ends-of-a-block
 //! * docs/kinematics.md#limits-inside-a-block
 use crate::prelude::*;
-use trunnion_machine::{AxisKind, Excess, RapidPath, limit_excess};
+use trunnion_machine::{AxisKind, RapidPath};
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::BEYOND, check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::OverTravel(check)]);
 
 /// Key of the unknown path; the keys of findings are letters and more.
 const UNSETTLED: u64 = 0;
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let mut found: Vec<Excess> = Vec::new();
-    let settled = limit_excess(view.machine, view.leg, &mut found);
-    if !settled && found.is_empty() && !out.repeats_unknown(view, UNSETTLED, 0.0) {
-        let range = orientation_range(out.program(), view.motion().block);
-        out.report(
-            range,
-            "the path of the axes between the ends of this block is not known: it is not proven that every axis stays within its travel",
-        )
-        .note("the great circle does not lead to the posture at the end of the block: it passes over the pole, where the first rotary axis jumps, or past it to the other posture")
-        .help("guide the tool axis farther from the pole, or divide the block into smaller steps")
-        .unknown()
-        .merge_everywhere(UNSETTLED);
+fn check(leg: &facts::OverTravel<'_>, out: &mut Reporter<'_>) {
+    if !leg.settled && leg.found.is_empty() {
+        out.unknown(leg, Merge::once(UNSETTLED), |draft| {
+            draft
+                .at_orientation()
+                .say("the path of the axes between the ends of this block is not known: it is not proven that every axis stays within its travel")
+                .note("the great circle does not lead to the posture at the end of the block: it passes over the pole, where the first rotary axis jumps, or past it to the other posture")
+                .help("guide the tool axis farther from the pole, or divide the block into smaller steps");
+        });
     }
-    for excess in found {
-        let axis = &view.machine.axes[excess.axis];
+    for excess in &leg.found {
+        let axis = &leg.machine.axes[excess.axis];
         let beyond = (excess.value - excess.limit).abs();
         // the lower limit after the upper one is a separate finding, however close the blocks
         let key =
             u64::from(axis.letter) + 256 * u64::from(excess.value > excess.limit) + 512 * u64::from(excess.if_together);
-        if out.repeats(view, key, beyond) {
-            continue;
-        }
-        let name = letter(axis.letter);
-        let inside = if excess.inside {
-            " inside the block, although both ends are within its travel"
-        } else {
-            ""
-        };
-        let message = format!(
-            "{name} reaches {}{inside}, {} beyond its limit of {}",
-            joint(axis, excess.value),
-            joint(axis, beyond),
-            joint(axis, excess.limit)
-        );
-        let range = axis_word(out.program(), view.motion().block, axis.letter);
-        let message = if excess.if_together {
-            format!("{message}, if the axes of this rapid arrive together")
-        } else {
-            message
-        };
-        let draft = out.report(range, message);
-        draft.note(format!(
-            "values are axis positions on {}, with work offset and tool length included",
-            view.machine.id
-        ));
-        if excess.if_together {
-            let dogleg = view.machine.control.rapid == RapidPath::Dogleg;
-            draft.unknown().help(if dogleg {
-                "raise the tool before it turns: it is not known whether the axes move independently (rapid = \"dogleg\") while the control guides the tip"
+        out.finding(leg, Merge::run(key, beyond), |draft| {
+            let name = letter(axis.letter);
+            let inside = if excess.inside {
+                " inside the block, although both ends are within its travel"
             } else {
-                "declare in the machine file whether they do ([control] rapid = \"synchronous\" or \"dogleg\"), or raise the tool before it turns"
-            });
-        } else {
-            draft.help("move the part, choose another posture, or correct the program");
-        }
-        draft.value_text("axis", name);
-        match axis.kind {
-            AxisKind::Linear => {
-                draft
+                ""
+            };
+            let together = if excess.if_together {
+                ", if the axes of this rapid arrive together"
+            } else {
+                ""
+            };
+            draft
+                .at_axis(axis.letter)
+                .say(format!(
+                    "{name} reaches {}{inside}, {} beyond its limit of {}{together}",
+                    joint(axis, excess.value),
+                    joint(axis, beyond),
+                    joint(axis, excess.limit)
+                ))
+                .note(format!(
+                    "values are axis positions on {}, with work offset and tool length included",
+                    leg.machine.id
+                ))
+                .help("move the part, choose another posture, or correct the program");
+            if excess.if_together {
+                let dogleg = leg.machine.control.rapid == RapidPath::Dogleg;
+                draft.unknown().help(if dogleg {
+                    "raise the tool before it turns: it is not known whether the axes move independently (rapid = \"dogleg\") while the control guides the tip"
+                } else {
+                    "declare in the machine file whether they do ([control] rapid = \"synchronous\" or \"dogleg\"), or raise the tool before it turns"
+                });
+            }
+            draft.value_text("axis", name);
+            match axis.kind {
+                AxisKind::Linear => draft
                     .value("value_mm", excess.value)
                     .value("limit_mm", excess.limit)
-                    .value("excess_mm", beyond);
-            }
-            AxisKind::Rotary => {
-                draft
+                    .value("excess_mm", beyond),
+                AxisKind::Rotary => draft
                     .value("value_deg", deg(excess.value))
                     .value("limit_deg", deg(excess.limit))
-                    .value("excess_deg", deg(beyond));
-            }
-        }
-        draft.merge(key, beyond);
+                    .value("excess_deg", deg(beyond)),
+            };
+        });
     }
 }
 

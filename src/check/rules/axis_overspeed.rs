@@ -38,92 +38,65 @@
 //! * Haas 96-8210 (mill operator's manual): G93 does not need settings 34 and 79 (diameters of the 4th and 5th
 //!   axis), so G94 does.
 use crate::prelude::*;
-use crate::runs::SHORT_RUN;
 use crate::view::NO_TURN;
 use trunnion_interp::{Feed, MotionKind};
 use trunnion_machine::{Axis, AxisKind};
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::HURRIES), check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::HeldBackCut(check)]);
 
 /// Relative room for rounding.
 const ROUNDING: f64 = 1e-9;
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    if !view.motion().is_feed() {
-        return;
+fn check(cut: &facts::HeldBackCut<'_>, out: &mut Reporter<'_>) {
+    undeclared(cut, out);
+    if cut.turns_by_diameter() {
+        return unsettled(cut, out, BY_DIAMETER);
     }
-    undeclared(view, out);
-    if view.turns_by_diameter(out.dialect()) {
-        return unsettled(view, out, BY_DIAMETER);
-    }
-    let judged = view.feed_limit().and_then(|limit| Some((limit, limit.axis_speed?)));
+    let judged = cut.feed_limit().and_then(|limit| Some((limit, limit.axis_speed?)));
     let Some((limit, needed)) = judged else {
-        return undecided(view, out);
+        return undecided(cut, out);
     };
     if needed <= limit.axis_limit * (1.0 + ROUNDING) {
         return;
     }
-    if view.feed_is_ambiguous(out.dialect()) {
-        return unsettled(view, out, AMBIGUOUS);
+    if cut.feed_is_ambiguous() {
+        return unsettled(cut, out, AMBIGUOUS);
     }
-    let axis = &view.machine.axes[limit.axis];
-    let key = u64::from(axis.letter) + 256 * u64::from(view.feed_in_degrees());
-    if out.repeats(view, key, -limit.feed_mm_min) {
-        return;
-    }
-    let name = letter(axis.letter);
-    let range = axis_word(out.program(), view.motion().block, axis.letter);
-    let feed = view.programmed_feed();
-    let at = feed.map_or_else(String::new, |feed| format!(" at F{}", number(feed)));
-    let draft = out.report(
-        range,
-        format!(
-            "{name} would have to run at {}{at}, but its maximum is {}",
-            speed(axis, needed),
-            speed(axis, limit.axis_limit)
-        ),
-    );
-    draft
-        .note(format!(
-            "the highest feed for this block is {} {}",
-            highest_rate(limit.feed_mm_min),
-            view.feed_unit()
-        ))
-        .help("reduce the feed in this block, or change the path so that the axis moves less")
-        .value_text("axis", name.clone())
-        .value_text("limiting_axis", name)
-        .value(feed_keys(view)[1], limit.feed_mm_min);
-    match axis.kind {
-        AxisKind::Linear => draft
-            .value("value_mm_min", needed * 60.0)
-            .value("limit_mm_min", limit.axis_limit * 60.0),
-        AxisKind::Rotary => draft
-            .value("value_deg_s", deg(needed))
-            .value("limit_deg_s", deg(limit.axis_limit)),
-    };
-    if let Some(feed) = feed {
-        draft.value(feed_keys(view)[0], feed);
-    }
-    if view.near_pole() && view.forced_swap().is_none() {
-        draft.fix("smooth-pole");
-    }
-    if view.turns_far() {
-        draft.fix("unwind-rotary");
-    }
-    draft.merge_runs_over(SHORT_RUN, key, -limit.feed_mm_min);
-}
-
-/// Keys of the programmed and of the highest feed, with their unit.
-pub(super) fn feed_keys(view: &LegView<'_>) -> [&'static str; 2] {
-    if view.feed_in_degrees() {
-        ["feed_deg_min", "feed_limit_deg_min"]
-    } else {
-        ["feed_mm_min", "feed_limit_mm_min"]
-    }
+    let axis = &cut.machine.axes[limit.axis];
+    let key = u64::from(axis.letter) + 256 * u64::from(cut.feed_in_degrees());
+    out.finding(cut, Merge::runs(key, -limit.feed_mm_min), |draft| {
+        let name = letter(axis.letter);
+        let feed = cut.programmed_feed();
+        let at = feed.map_or_else(String::new, |feed| format!(" at F{}", number(feed)));
+        draft
+            .at_axis(axis.letter)
+            .say(format!(
+                "{name} would have to run at {}{at}, but its maximum is {}",
+                speed(axis, needed),
+                speed(axis, limit.axis_limit)
+            ))
+            .note(format!(
+                "the highest feed for this block is {} {}",
+                highest_rate(limit.feed_mm_min),
+                cut.feed_unit()
+            ))
+            .help("reduce the feed in this block, or change the path so that the axis moves less")
+            .value_text("axis", name.clone())
+            .value_text("limiting_axis", name)
+            .value(cut.feed_keys()[1], limit.feed_mm_min);
+        match axis.kind {
+            AxisKind::Linear => draft
+                .value("value_mm_min", needed * 60.0)
+                .value("limit_mm_min", limit.axis_limit * 60.0),
+            AxisKind::Rotary => draft
+                .value("value_deg_s", deg(needed))
+                .value("limit_deg_s", deg(limit.axis_limit)),
+        };
+        if let Some(feed) = feed {
+            draft.value(cut.feed_keys()[0], feed);
+        }
+        draft.fix_pole(cut).fix_turns(cut);
+    });
 }
 
 /// The fastest reading of F overruns an axis, another one may not.
@@ -142,64 +115,52 @@ const BY_DIAMETER: [&str; 3] = [
 
 /// What F means is not settled: message, note and help, once.
 fn unsettled(view: &LegView<'_>, out: &mut Reporter<'_>, [message, note, help]: [&str; 3]) {
-    let cause = hash(message);
-    if out.repeats_unknown(view, cause, 0.0) {
-        return;
-    }
-    let range = code_range(out.program(), view.motion().block);
-    out.report(range, message)
-        .note(note)
-        .help(help)
-        .unknown()
-        .merge_everywhere(cause);
+    out.unknown(view, Merge::once(hash(message)), |draft| {
+        draft.say(message).note(note).help(help);
+    });
 }
 
 /// A block whose speed cannot be computed although its ends and its feed are known: reported once per cause.
-fn undecided(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let Some((start, end)) = view.stances() else { return };
-    let moves = |i: usize| (start.joints[i] - end.joints[i]).abs() > NO_TURN;
+fn undecided(cut: &facts::Cut<'_>, out: &mut Reporter<'_>) {
+    let moves = |i: usize| (cut.start.joints[i] - cut.end.joints[i]).abs() > NO_TURN;
     let declared = |(i, axis): (usize, &Axis)| axis.max_speed.is_some() && moves(i);
-    if !view.machine.axes.iter().enumerate().any(declared) {
+    if !cut.machine.axes.iter().enumerate().any(declared) {
         return;
     }
-    let why = match (view.motion().feed, view.motion().kind) {
+    let why = match (cut.motion().feed, cut.motion().kind) {
         // the faults that removed the feed or the centre of the arc are reported by their own rules
         (Feed::Unknown | Feed::Rapid, _) | (_, MotionKind::Arc(None)) => return,
-        (Feed::PerRevolution(_), _) if view.motion().spindle_rpm.is_none() => {
+        (Feed::PerRevolution(_), _) if cut.motion().spindle_rpm.is_none() => {
             "the feed is per revolution and the spindle speed is not known"
         }
-        _ if view.leg.length <= 0.0 && view.rotary_turns() => {
+        _ if cut.leg.length <= 0.0 && cut.rotary_turns() => {
             "the tip does not move while rotary axes turn: what F means then depends on the control"
         }
-        _ if view.leg.length <= 0.0 => "linear axes move although X Y Z stay the same: what F means there is not known",
+        _ if cut.leg.length <= 0.0 => "linear axes move although X Y Z stay the same: what F means there is not known",
         _ => "the motion is not modelled",
     };
-    if out.repeats_unknown(view, hash(why), 0.0) {
-        return;
-    }
-    let range = code_range(out.program(), view.motion().block);
-    out.report(range, format!("it is not known whether an axis is too fast: {why}"))
-        .unknown()
-        .merge_everywhere(hash(why));
+    out.unknown(cut, Merge::once(hash(why)), |draft| {
+        draft.say(format!("it is not known whether an axis is too fast: {why}"));
+    });
 }
 
 /// An axis that moves but has no declared speed cannot be judged: reported once per axis.
-fn undeclared(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let Some((start, end)) = view.stances() else { return };
-    for (i, axis) in view.machine.axes.iter().enumerate() {
-        if axis.max_speed.is_none() && start.joints[i] != end.joints[i] && out.once(u64::from(axis.letter)) {
-            let range = axis_word(out.program(), view.motion().block, axis.letter);
-            let name = letter(axis.letter);
-            out.report(
-                range,
-                format!(
-                    "machine {} declares no speed for {name}: it is not known whether {name} is too fast",
-                    view.machine.id
-                ),
-            )
-            .help("declare it in the machine file: dyn = { vmax = ... }, in mm/s or deg/s")
-            .value_text("axis", name)
-            .unknown();
+fn undeclared(cut: &facts::Cut<'_>, out: &mut Reporter<'_>) {
+    for (i, axis) in cut.machine.axes.iter().enumerate() {
+        let moves = cut.start.joints[i] != cut.end.joints[i];
+        if axis.max_speed.is_none() && moves && out.once(u64::from(axis.letter)) {
+            out.event(|draft| {
+                let name = letter(axis.letter);
+                draft
+                    .at_axis(axis.letter)
+                    .say(format!(
+                        "machine {} declares no speed for {name}: it is not known whether {name} is too fast",
+                        cut.machine.id
+                    ))
+                    .help("declare it in the machine file: dyn = { vmax = ... }, in mm/s or deg/s")
+                    .value_text("axis", name)
+                    .unknown();
+            });
         }
     }
 }

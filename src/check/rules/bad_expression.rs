@@ -29,12 +29,4 @@
 //! * FANUC Series 16i/18i-PB B-63684EN/01: custom macro, arithmetic.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
-
-fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    refused(fault, out, &[Refusal::Expression]);
-}
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Refused(Refusal::Expression, plain)]);

@@ -22,16 +22,7 @@
 //! * NISTIR 6556 (2000), section 3.3.2.1 on numbers.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::TextAndFault(check, check_run),
-};
-
-/// What only the run shows: a number that its word does not allow.
-fn check_run(fault: &Fault, out: &mut Reporter<'_>) {
-    refused(fault, out, &[Refusal::Number]);
-}
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Text(check), Wake::Refused(Refusal::Number, plain)]);
 
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     let text = out.text(error.range);

@@ -27,11 +27,7 @@ use crate::both::{levels, slash};
 use crate::prelude::*;
 use trunnion_syntax::{Block, Item};
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Program(check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::Program(check)]);
 
 fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     let declared = overview.settings.setup.control.block_delete.is_some();

@@ -28,11 +28,7 @@
 use crate::prelude::*;
 use trunnion_syntax::Format;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Program(check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::Program(check)]);
 
 /// What begins a block, as far as its number goes.
 enum Start {
@@ -69,7 +65,7 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
                     out.report(range, message)
                         .help("renumber the blocks if their numbers are used for searching")
                         .related(place, "the previous number is here")
-                        .merge_everywhere(0);
+                        .merge(Merge::once(0));
                 }
                 last = Some((value, range));
             }

@@ -36,50 +36,41 @@
 //! * Guide-vane paper (2006), on posture swaps at an axis limit.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::EXCESS, check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::PostureSwap(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let excess = view.leg.rotary_excess;
-    if excess <= view.machine.tolerances.swap_excess {
-        return;
-    }
-    let [first, second] = view.rotary_letters();
-    let range = orientation_range(out.program(), view.motion().block);
-    let [d1, d2] = view.leg.rotary_change;
-    let draft = out.report(
-        range,
-        format!(
-            "the posture changes and costs {} more rotary travel than needed",
-            degrees(excess)
-        ),
-    );
-    draft
-        .note(format!("{first} turns {} and {second} {}", degrees(d1), degrees(d2)))
-        .help("program the rotary positions of the previous posture, or retract and change the posture out of the cut")
-        .value("rotary_change_second_deg", deg(d2))
-        .value("rotary_excess_deg", deg(excess))
-        .value("rotary_change_deg", deg(d1))
-        .value("pole_angle_deg", deg(view.leg.pole_angle_min));
-    if let Some(beyond) = view.forced_swap() {
-        let name = letter(view.machine.axes[beyond.axis].letter);
+fn check(swap: &facts::PostureSwap<'_>, out: &mut Reporter<'_>) {
+    let [first, second] = swap.rotary_letters();
+    let [d1, d2] = swap.leg.rotary_change;
+    out.event(|draft| {
         draft
-            .note(format!(
-                "the previous posture would need {name} = {}, beyond its limit of {}",
-                degrees(beyond.value),
-                degrees(beyond.limit)
+            .at_orientation()
+            .say(format!(
+                "the posture changes and costs {} more rotary travel than needed",
+                degrees(swap.excess)
             ))
-            .help("retract and change the posture out of the cut, or set up the part so that the limit is not reached")
-            .value_text("axis", name)
-            .value("value_deg", deg(beyond.value))
-            .value("limit_deg", deg(beyond.limit));
-    }
-    if !view.motion().is_feed() {
-        draft.severity(Severity::Info);
-    }
+            .note(format!("{first} turns {} and {second} {}", degrees(d1), degrees(d2)))
+            .help("program the rotary positions of the previous posture, or retract and change the posture out of the cut")
+            .value("rotary_change_second_deg", deg(d2))
+            .value("rotary_excess_deg", deg(swap.excess))
+            .value("rotary_change_deg", deg(d1))
+            .value("pole_angle_deg", deg(swap.leg.pole_angle_min));
+        if let Some(beyond) = swap.forced_swap() {
+            let name = letter(swap.machine.axes[beyond.axis].letter);
+            draft
+                .note(format!(
+                    "the previous posture would need {name} = {}, beyond its limit of {}",
+                    degrees(beyond.value),
+                    degrees(beyond.limit)
+                ))
+                .help("retract and change the posture out of the cut, or set up the part so that the limit is not reached")
+                .value_text("axis", name)
+                .value("value_deg", deg(beyond.value))
+                .value("limit_deg", deg(beyond.limit));
+        }
+        if !swap.motion().is_feed() {
+            draft.severity(Info);
+        }
+    });
 }
 
 #[cfg(test)]

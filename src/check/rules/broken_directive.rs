@@ -23,11 +23,7 @@
 use crate::prelude::*;
 use trunnion_interp::Directive;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Program(check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Program(check)]);
 
 fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     for (range, directive) in overview.directives {

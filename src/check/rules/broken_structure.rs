@@ -28,12 +28,4 @@
 //! * FANUC Series 16i/18i-PB B-63684EN/01: custom macro, branch and repetition.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
-
-fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    refused(fault, out, &[Refusal::Structure]);
-}
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Refused(Refusal::Structure, plain)]);

@@ -51,13 +51,9 @@ use crate::view::NO_TURN;
 use trunnion_interp::{AxisLetter, Clamp, MotionKind, Orientation};
 use trunnion_machine::{AxisKind, rotary_turns};
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::CLAMP, check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::ClampedTurn(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
+fn check(view: &facts::ClampedTurn<'_>, out: &mut Reporter<'_>) {
     if view.motion().is_feed() && view.rotary_turns() {
         in_the_cut(view, out);
     }
@@ -82,41 +78,32 @@ fn in_the_cut(view: &LegView<'_>, out: &mut Reporter<'_>) {
             continue;
         }
         let name = letter(axis.letter);
-        if turn <= NO_TURN && turns.is_none() {
-            let range = axis_word(out.program(), view.motion().block, axis.letter);
-            out.report(
-                range,
-                format!("it is not known whether {name} turns between the ends of this cut"),
-            )
-            .note(format!(
-                "the machine file of {} says clamp = true for {name}",
-                view.machine.id
-            ))
-            .help("divide the turn of the other axis into smaller steps, or turn it out of the cut")
-            .value_text("axis", name)
-            .unknown()
-            .merge_everywhere(key + 4096);
-            continue;
+        let note = || format!("the machine file of {} says clamp = true for {name}", view.machine.id);
+        if turn > NO_TURN {
+            out.finding(view, Merge::run(key, turn), |draft| {
+                draft
+                    .at_axis(axis.letter)
+                    .say(format!(
+                        "{name} turns by {} in a feed motion, but must stand still while cutting",
+                        degrees(turn)
+                    ))
+                    .note(note())
+                    .help("turn the axis in a rapid motion out of the cut")
+                    .value_text("axis", name.clone())
+                    .value("rotary_change_deg", deg(turn));
+            });
+        } else if turns.is_none() {
+            out.unknown(view, Merge::once(key + 4096), |draft| {
+                draft
+                    .at_axis(axis.letter)
+                    .say(format!(
+                        "it is not known whether {name} turns between the ends of this cut"
+                    ))
+                    .note(note())
+                    .help("divide the turn of the other axis into smaller steps, or turn it out of the cut")
+                    .value_text("axis", name.clone());
+            });
         }
-        if turn <= NO_TURN || out.repeats(view, key, turn) {
-            continue;
-        }
-        let range = axis_word(out.program(), view.motion().block, axis.letter);
-        out.report(
-            range,
-            format!(
-                "{name} turns by {} in a feed motion, but must stand still while cutting",
-                degrees(turn)
-            ),
-        )
-        .note(format!(
-            "the machine file of {} says clamp = true for {name}",
-            view.machine.id
-        ))
-        .help("turn the axis in a rapid motion out of the cut")
-        .value_text("axis", name)
-        .value("rotary_change_deg", deg(turn))
-        .merge(key, turn);
     }
 }
 
@@ -161,33 +148,33 @@ fn by_code(view: &LegView<'_>, axis: usize, out: &mut Reporter<'_>) {
     if turn == Turn::No {
         return;
     }
-    let block = view.motion().block;
     let clamps = &view.trail.clamps;
     let (clamp, here) = AxisLetter::new(entry.letter).map_or((Clamp::Unsaid, false), |letter| {
         let here = clamps.named_here(letter);
         (if here { Clamp::Unknown } else { clamps.of(letter) }, here)
     });
     let (name, key) = (letter(entry.letter), 256 + u64::from(entry.letter));
-    let range = axis_word(out.program(), block, entry.letter);
-    let note = format!(
-        "the machine file of {} says that M{} clamps {name} and M{} releases it",
-        view.machine.id, codes.on, codes.off
-    );
+    let note = || {
+        format!(
+            "the machine file of {} says that M{} clamps {name} and M{} releases it",
+            view.machine.id, codes.on, codes.off
+        )
+    };
     let message = match (clamp, turn) {
         (Clamp::Open, _) => return,
         (Clamp::Closed, Turn::By(by)) => {
-            if out.repeats(view, key, by) {
-                return;
-            }
-            out.report(range, format!("{name} turns by {} while it is clamped", degrees(by)))
-                .note(note)
-                .help(format!(
-                    "release it before (M{}), and clamp it again afterwards",
-                    codes.off
-                ))
-                .value_text("axis", name)
-                .value("rotary_change_deg", deg(by))
-                .merge(key, by);
+            out.finding(view, Merge::run(key, by), |draft| {
+                draft
+                    .at_axis(entry.letter)
+                    .say(format!("{name} turns by {} while it is clamped", degrees(by)))
+                    .note(note())
+                    .help(format!(
+                        "release it before (M{}), and clamp it again afterwards",
+                        codes.off
+                    ))
+                    .value_text("axis", name.clone())
+                    .value("rotary_change_deg", deg(by));
+            });
             return;
         }
         (Clamp::Closed, _) => format!("{name} is clamped, and it is not known whether this motion turns it"),
@@ -205,13 +192,15 @@ fn by_code(view: &LegView<'_>, axis: usize, out: &mut Reporter<'_>) {
         }
     };
     let cause = clamp as u64 * 2 + u64::from(here);
-    out.report(range, message)
-        .note(note)
-        .help(format!(
-            "program M{} in a separate block before the axis turns",
-            codes.off
-        ))
-        .value_text("axis", name)
-        .unknown()
-        .merge_everywhere(key + 256 * (1 + cause));
+    out.unknown(view, Merge::once(key + 256 * (1 + cause)), |draft| {
+        draft
+            .at_axis(entry.letter)
+            .say(message)
+            .note(note())
+            .help(format!(
+                "program M{} in a separate block before the axis turns",
+                codes.off
+            ))
+            .value_text("axis", name.clone());
+    });
 }

@@ -38,12 +38,4 @@
 //! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
-
-fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    refused(fault, out, &[Refusal::Compensation]);
-}
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Refused(Refusal::Compensation, plain)]);

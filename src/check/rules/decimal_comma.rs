@@ -22,11 +22,7 @@
 //! * HEIDENHAIN TNC 640 34059x-05 (ISO programming): Klartext accepts both.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Text(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Text(check)]);
 
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     if error.kind == SyntaxErrorKind::DecimalComma {

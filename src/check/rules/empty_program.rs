@@ -23,16 +23,13 @@
 //! # Sources
 //! * docs/contract.md#verdicts
 use crate::prelude::*;
+use crate::unreadable::is_utf16;
 use trunnion_syntax::{Address, Block, Item};
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Program(check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::Program(check)]);
 
 fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
-    let unreadable = super::is_utf16(overview.program.source());
+    let unreadable = is_utf16(overview.program.source());
     if !unreadable && overview.program.blocks().any(|block| does_something(&block)) {
         return;
     }
@@ -61,7 +58,7 @@ fn does_something(block: &Block<'_>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::Severity;
     use crate::Verdict;
     use crate::fixture::Fixture;
 

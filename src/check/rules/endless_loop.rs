@@ -32,11 +32,7 @@
 //! * docs/contract.md#limits-of-a-run
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     let FaultKind::EndlessLoop { blocks, proved } = fault.kind else {

@@ -36,18 +36,9 @@
 //! # Sources
 //! * docs/kinematics.md#travel-ratios
 use crate::prelude::*;
-use crate::runs::SHORT_RUN;
-use trunnion_machine::{LinearTravel, Machine, excursions, linear_travel};
-use trunnion_syntax::Program;
+use trunnion_machine::excursions;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::TRAVELS), check),
-};
-
-/// A shorter tip path counts as this, mm.
-const LEAST_MM: f64 = 0.1;
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::FarCut(check)]);
 
 /// Key for merging what is not proven.
 const BETWEEN: u64 = 1;
@@ -55,111 +46,74 @@ const BETWEEN: u64 = 1;
 /// Axes that run farther than this beyond both ends are noted, mm.
 const BEYOND_MM: f64 = 1.0;
 
-/// How far the linear joints may run while the tip runs `tip`, mm.
-#[inline]
-pub(crate) fn allowed(machine: &Machine, tip: f64) -> f64 {
-    machine.tolerances.linear_ratio * tip.max(LEAST_MM)
-}
-
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    if !view.motion().is_feed() || !view.rotary_turns() {
-        return;
-    }
-    let Some((start, end)) = view.stances() else { return };
-    let tip = if view.leads_tip() && !view.motion().machine_coordinates {
-        view.leg.length
-    } else {
-        start.tip_distance_to(end)
-    };
-    let ratio = view.machine.tolerances.linear_ratio;
-    let allowed = allowed(view.machine, tip);
-    let Some(travel) = linear_travel(view.machine, view.leg, allowed) else {
-        return;
-    };
-    if travel.most_mm <= allowed {
-        return;
-    }
+fn check(cut: &facts::FarCut<'_>, out: &mut Reporter<'_>) {
+    const LEAST_MM: f64 = facts::FarCut::LEAST_MM;
+    let (travel, tip, allowed) = (&cut.travel, cut.tip_mm, cut.allowed_mm);
     if travel.least_mm <= allowed {
-        return between(view, out, &travel, tip, allowed);
+        return between(cut, out);
     }
     let times = travel.least_mm / tip.max(LEAST_MM);
-    if out.repeats(view, 0, times) {
-        return;
-    }
-    let range = turning_word(view, out.program());
-    let draft = out.report(
-        range,
-        format!(
-            "the linear axes travel {} while the tip travels {}",
-            mm(travel.least_mm),
-            mm(tip)
-        ),
-    );
-    draft
-        .note(format!(
-            "{} times as far; up to {} times is allowed, and a tip path below {LEAST_MM} mm counts as {LEAST_MM} mm",
-            number(times),
-            number(ratio)
-        ))
-        .help("turn the tool axis more evenly, set up the part closer to the rotary axes, or turn the axes out of the cut")
-        .value("value_mm", travel.least_mm)
-        .value("tip_mm", tip)
-        .value("limit_mm", allowed)
-        .merge_runs_over(SHORT_RUN, 0, times);
-    for excursion in excursions(view.machine, view.leg, BEYOND_MM) {
-        let name = letter(view.machine.axes[excursion.axis].letter);
-        let side = if excursion.upward { "above" } else { "below" };
-        draft.note(format!(
-            "inside the block {name} moves {} {side} both its end positions",
-            mm(excursion.beyond_mm)
-        ));
-    }
-    if view.turns_far() {
-        draft.fix("unwind-rotary");
-    }
+    out.finding(cut, Merge::runs(0, times), |draft| {
+        at_turning_word(cut, draft)
+            .say(format!(
+                "the linear axes travel {} while the tip travels {}",
+                mm(travel.least_mm),
+                mm(tip)
+            ))
+            .note(format!(
+                "{} times as far; up to {} times is allowed, and a tip path below {LEAST_MM} mm counts as {LEAST_MM} mm",
+                number(times),
+                number(cut.machine.tolerances.linear_ratio)
+            ))
+            .help("turn the tool axis more evenly, set up the part closer to the rotary axes, or turn the axes out of the cut")
+            .value("value_mm", travel.least_mm)
+            .value("tip_mm", tip)
+            .value("limit_mm", allowed);
+        for excursion in excursions(cut.machine, cut.leg, BEYOND_MM) {
+            let name = letter(cut.machine.axes[excursion.axis].letter);
+            let side = if excursion.upward { "above" } else { "below" };
+            draft.note(format!(
+                "inside the block {name} moves {} {side} both its end positions",
+                mm(excursion.beyond_mm)
+            ));
+        }
+        draft.fix_turns(cut);
+    });
 }
 
-/// The word of the rotary axis that turns most: it is what makes the linear axes run.
-fn turning_word(view: &LegView<'_>, program: &Program) -> TextRange {
-    let block = view.motion().block;
-    let turns = view.machine.rotary.iter().zip(view.leg.rotary_change);
-    let most = turns.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()));
-    most.map_or_else(
-        || code_range(program, block),
-        |(axis, _)| axis_word(program, block, view.machine.axes[*axis].letter),
-    )
+/// At the word of the rotary axis that turns most: it is what makes the linear axes run.
+fn at_turning_word<'d, 'p>(cut: &LegView<'_>, draft: &'d mut Draft<'p>) -> &'d mut Draft<'p> {
+    let turns = cut.machine.rotary.iter().zip(cut.leg.rotary_change);
+    match turns.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs())) {
+        Some((axis, _)) => draft.at_axis(cut.machine.axes[*axis].letter),
+        None => draft,
+    }
 }
 
 /// The threshold is between the bounds.
-fn between(view: &LegView<'_>, out: &mut Reporter<'_>, travel: &LinearTravel, tip: f64, allowed: f64) {
-    if out.repeats_unknown(view, BETWEEN, travel.most_mm) {
-        return;
-    }
-    let range = turning_word(view, out.program());
-    let most = if travel.most_mm.is_finite() {
-        format!("at most {}", bound_mm(travel.most_mm))
-    } else {
-        "no upper bound is known".to_owned()
-    };
-    let draft = out.report(
-        range,
-        format!(
-            "it is not proven whether the linear axes travel more than {} while the tip travels {}: at least {}, {most}",
-            mm(allowed),
-            mm(tip),
-            mm(travel.least_mm)
-        ),
-    );
-    draft
-        .help("divide the block into smaller steps")
-        .value("least_mm", travel.least_mm)
-        .value("tip_mm", tip)
-        .value("limit_mm", allowed)
-        .unknown()
-        .merge_runs_over(SHORT_RUN, BETWEEN, travel.most_mm);
-    if travel.most_mm.is_finite() {
-        draft.value("bound_mm", travel.most_mm);
-    }
+fn between(cut: &facts::FarCut<'_>, out: &mut Reporter<'_>) {
+    let (travel, tip, allowed) = (&cut.travel, cut.tip_mm, cut.allowed_mm);
+    out.unknown(cut, Merge::runs(BETWEEN, travel.most_mm), |draft| {
+        let most = if travel.most_mm.is_finite() {
+            format!("at most {}", bound_mm(travel.most_mm))
+        } else {
+            "no upper bound is known".to_owned()
+        };
+        at_turning_word(cut, draft)
+            .say(format!(
+                "it is not proven whether the linear axes travel more than {} while the tip travels {}: at least {}, {most}",
+                mm(allowed),
+                mm(tip),
+                mm(travel.least_mm)
+            ))
+            .help("divide the block into smaller steps")
+            .value("least_mm", travel.least_mm)
+            .value("tip_mm", tip)
+            .value("limit_mm", allowed);
+        if travel.most_mm.is_finite() {
+            draft.value("bound_mm", travel.most_mm);
+        }
+    });
 }
 
 #[cfg(test)]

@@ -39,14 +39,11 @@
 //!
 //! # Sources
 //! * docs/kinematics.md#travel-ratios
+use crate::place::code_range;
 use crate::prelude::*;
 use trunnion_geometry::rad;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Heuristic,
-    level: Level::Leg(Needs::ARRIVES, check),
-};
+pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Arrival(check)]);
 
 /// A shorter direct distance counts as this, mm or deg.
 const LEAST: f64 = 0.1;
@@ -54,18 +51,15 @@ const LEAST: f64 = 0.1;
 /// A smaller detour is not reported, mm or deg.
 const DETOUR: f64 = 10.0;
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let Some(rapids) = view.trail.rapids().filter(|rapids| rapids.count > 1) else {
-        return;
-    };
-    let ratio = view.machine.tolerances.rapid_ratio;
+fn check(arrival: &facts::Arrival<'_>, out: &mut Reporter<'_>) {
+    let rapids = arrival.rapids;
+    let ratio = arrival.machine.tolerances.rapid_ratio;
     let far =
         |way: f64, direct: f64, unit: f64| way > ratio * direct.max(LEAST * unit) && way - direct >= DETOUR * unit;
-    let range = code_range(out.program(), view.motion().block);
     let first = code_range(out.program(), rapids.first);
-    let told = |out: &mut Reporter<'_>, message: String, values: [(&'static str, f64); 2], axis: Option<String>| {
-        let draft = out.report(range, message);
+    let words = |draft: &mut Draft<'_>, message: String| {
         draft
+            .say(message)
             .note(format!(
                 "{} rapid motions; up to {} times the direct distance is allowed",
                 rapids.count,
@@ -73,33 +67,36 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
             ))
             .help("move there directly if nothing is in the way")
             .related(first, "the rapid motions start here");
-        for (key, value) in values {
-            draft.value(key, value);
-        }
-        if let Some(axis) = axis {
-            draft.value_text("axis", axis);
-        }
     };
     if far(rapids.way_mm, rapids.direct_mm, 1.0) {
-        let message = format!(
-            "the rapid motions to this block travel {} across the tool; the direct distance is {}",
-            mm(rapids.way_mm),
-            mm(rapids.direct_mm)
-        );
-        let values = [("value_mm", rapids.way_mm), ("direct_mm", rapids.direct_mm)];
-        told(out, message, values, None);
+        out.event(|draft| {
+            let (way, direct) = (mm(rapids.way_mm), mm(rapids.direct_mm));
+            words(
+                draft,
+                format!(
+                    "the rapid motions to this block travel {way} across the tool; the direct distance is {direct}"
+                ),
+            );
+            draft
+                .value("value_mm", rapids.way_mm)
+                .value("direct_mm", rapids.direct_mm);
+        });
     }
-    for (slot, &axis) in view.machine.rotary.iter().enumerate().take(2) {
+    for (slot, &axis) in arrival.machine.rotary.iter().enumerate().take(2) {
         let (turned, direct) = (rapids.turned[slot], rapids.direct_turn[slot]);
         if far(turned, direct, rad(1.0)) {
-            let name = letter(view.machine.axes[axis].letter);
-            let message = format!(
-                "the rapid motions to this block turn {name} by {}; the direct turn is {}",
-                degrees(turned),
-                degrees(direct)
-            );
-            let values = [("value_deg", deg(turned)), ("direct_deg", deg(direct))];
-            told(out, message, values, Some(name));
+            out.event(|draft| {
+                let name = letter(arrival.machine.axes[axis].letter);
+                let (by, least) = (degrees(turned), degrees(direct));
+                words(
+                    draft,
+                    format!("the rapid motions to this block turn {name} by {by}; the direct turn is {least}"),
+                );
+                draft
+                    .value("value_deg", deg(turned))
+                    .value("direct_deg", deg(direct))
+                    .value_text("axis", name);
+            });
         }
     }
 }

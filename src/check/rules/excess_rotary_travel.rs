@@ -52,63 +52,34 @@
 //! # Sources
 //! * docs/kinematics.md#travel-ratios
 use crate::prelude::*;
-use crate::trail::Trail;
 use trunnion_geometry::rad;
-use trunnion_machine::Machine;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::WINDS), check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::WindingCut(check)]);
 
-/// A smaller turn of the tool axis counts as this, deg.
-const LEAST_DEG: f64 = 0.1;
-
-/// Whether the last blocks may have turned too far.
-#[inline]
-pub(crate) fn winds(machine: &Machine, trail: &Trail) -> bool {
-    trail.may_exceed(machine.tolerances.rotary_ratio, rad(LEAST_DEG))
-}
-
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    if !view.motion().is_feed() || !view.rotary_turns() {
-        return;
-    }
-    let ratio = view.machine.tolerances.rotary_ratio;
-    let Some((turned, tilted)) = view.trail.excess_turn(ratio, rad(LEAST_DEG)) else {
-        return;
-    };
-    let times = turned / tilted.max(rad(LEAST_DEG));
-    if out.repeats(view, 0, times) {
-        return;
-    }
-    let range = orientation_range(out.program(), view.motion().block);
-    let draft = out.report(
-        range,
-        format!(
-            "the rotary axes turned {} in ten blocks while the tool axis turned {}",
-            degrees(turned),
-            degrees(tilted)
-        ),
-    );
-    draft
-        .note(format!(
-            "{} times as far; up to {} times is allowed, and a turn of the tool axis below {LEAST_DEG} deg counts as {LEAST_DEG} deg",
-            number(times),
-            number(ratio)
-        ))
-        .help("tilt the path away from the pole, or program the rotary positions of the posture that turns less")
-        .value("rotary_change_deg", deg(turned))
-        .value("tool_axis_change_deg", deg(tilted))
-        .value("limit_deg", ratio * deg(tilted).max(LEAST_DEG))
-        .merge(0, times);
-    if view.near_pole() && view.forced_swap().is_none() {
-        draft.fix("smooth-pole");
-    }
-    if view.turns_far() {
-        draft.fix("unwind-rotary");
-    }
+fn check(cut: &facts::WindingCut<'_>, out: &mut Reporter<'_>) {
+    const LEAST_DEG: f64 = facts::WindingCut::LEAST_DEG;
+    let ratio = cut.machine.tolerances.rotary_ratio;
+    let times = cut.turned / cut.tilted.max(rad(LEAST_DEG));
+    out.finding(cut, Merge::run(0, times), |draft| {
+        draft
+            .at_orientation()
+            .say(format!(
+                "the rotary axes turned {} in ten blocks while the tool axis turned {}",
+                degrees(cut.turned),
+                degrees(cut.tilted)
+            ))
+            .note(format!(
+                "{} times as far; up to {} times is allowed, and a turn of the tool axis below {LEAST_DEG} deg counts as {LEAST_DEG} deg",
+                number(times),
+                number(ratio)
+            ))
+            .help("tilt the path away from the pole, or program the rotary positions of the posture that turns less")
+            .value("rotary_change_deg", deg(cut.turned))
+            .value("tool_axis_change_deg", deg(cut.tilted))
+            .value("limit_deg", ratio * deg(cut.tilted).max(LEAST_DEG))
+            .fix_pole(cut)
+            .fix_turns(cut);
+    });
 }
 
 #[cfg(test)]

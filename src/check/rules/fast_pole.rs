@@ -36,112 +36,38 @@
 //! # Sources
 //! * docs/kinematics.md#how-fast-the-first-axis-turns-near-the-pole
 use crate::prelude::*;
-use crate::runs::SHORT_RUN;
-use crate::trail::axes_chord;
-use trunnion_geometry::math::angle_between;
-use trunnion_interp::Feed;
-use trunnion_machine::{Axis, Leg};
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Heuristic,
-    level: Level::Leg(Needs::FEED.and(Needs::POLE_HURRIES), check),
-};
+pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::PolePass(check)]);
 
-/// Where the first axis turns less than this many times as far as the tool axis the pole is not to blame.
-const AMPLIFIED: f64 = 5.0;
-
-/// A tool axis that turns less than this does not turn, rad: 1e-4 deg.
-const STILL: f64 = 1.7e-6;
-
-/// Peak acceleration of the first axis on a straight pass is this times w^2 / d^2 (docs/kinematics.md#how-fast-the-first-axis-turns-near-the-pole).
-const PASS: f64 = 0.6495;
-
-/// Seconds that an axis needs for a pass at 1 rad from the pole, per rad that the tool axis turns (docs/kinematics.md#how-fast-the-first-axis-turns-near-the-pole).
-pub(crate) fn pass(axis: &Axis) -> f64 {
-    let by_speed = axis.max_speed.map_or(0.0, |speed| 1.0 / speed);
-    let by_acceleration = axis.max_acceleration.map_or(0.0, |limit| (PASS / limit).sqrt());
-    by_speed.max(by_acceleration)
-}
-
-/// Whether the pole may be too near, by the chord between the tool axes instead of the angle; `pass` is that of the first rotary axis.
-/// Also where the block's time is not a number.
-#[inline]
-pub(crate) fn may_hurry(leg: &Leg, chord: f64, pass: f64, seconds: f64) -> bool {
-    let turn = leg.rotary_change[0];
-    if turn == 0.0 {
-        return false;
-    }
-    // an arc is at least its chord, at most pi / 2 times as long, and at most 1.0472 times where the chord is no longer than 1
-    let longest = if chord <= 1.0 {
-        1.05
-    } else {
-        core::f64::consts::FRAC_PI_2
-    };
-    let far = leg.pole_angle_min * seconds >= pass * chord * longest * (1.0 + 1e-9);
-    !far && turn > AMPLIFIED * chord * (1.0 - 1e-9)
-}
-
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let turn = view.leg.rotary_change[0];
-    if turn == 0.0 || !view.motion().is_feed() || !view.machine.constants.has_pair() {
+fn check(pass: &facts::PolePass<'_>, out: &mut Reporter<'_>) {
+    if pass.feed_is_ambiguous() {
         return;
     }
-    let Some((start, end)) = view.stances() else { return };
-    let axis = &view.machine.axes[view.machine.rotary[0]];
-    let Some(seconds) = duration(view) else { return };
-    let pass = pass(axis);
-    let cone = |angle: f64| pass * angle / seconds;
-    let passes = view.leg.pole_angle_min;
-    if !may_hurry(view.leg, axes_chord(view.leg), pass, seconds) {
-        return;
-    }
-    let angle = angle_between(&start.axis, &end.axis);
-    let distance = cone(angle);
-    if passes >= distance || angle <= STILL || turn <= AMPLIFIED * angle {
-        return;
-    }
-    if view.feed_is_ambiguous(out.dialect()) || out.repeats(view, 0, distance - passes) {
-        return;
-    }
-    let name = letter(axis.letter);
-    let range = axis_word(out.program(), view.motion().block, axis.letter);
-    let at = view
-        .programmed_feed()
-        .map_or_else(String::new, |feed| format!("at F{} ", number(feed)));
-    let draft = out.report(
-        range,
-        format!(
-            "{at}the tool axis must stay {} away from the pole so that {name} can follow; it passes {}",
-            degrees(distance),
-            past_pole(passes)
-        ),
-    );
-    draft
-        .note(format!(
-            "the tool axis turns at {} deg/s; {name} turns {} in the block",
-            number(deg(angle / seconds)),
-            degrees(turn)
-        ))
-        .help("reduce the feed near the pole, or tilt the path away from it")
-        .value_text("axis", name)
-        .value("pole_angle_deg", deg(passes))
-        .value("limit_deg", deg(distance))
-        .value("rotary_change_deg", deg(turn))
-        .merge_runs_over(SHORT_RUN, 0, distance - passes);
-    if view.near_pole() && view.forced_swap().is_none() {
-        draft.fix("smooth-pole");
-    }
-}
-
-/// How long the block takes at the programmed feed, s.
-fn duration(view: &LegView<'_>) -> Option<f64> {
-    let seconds = match view.motion().feed {
-        Feed::InverseTime(per_minute) => 60.0 / per_minute,
-        _ if view.leg.length > 0.0 => view.leg.length / view.programmed_feed()? * 60.0,
-        _ => return None,
-    };
-    (seconds > 0.0 && seconds.is_finite()).then_some(seconds)
+    let (turn, passes) = (pass.leg.rotary_change[0], pass.leg.pole_angle_min);
+    out.finding(pass, Merge::runs(0, pass.distance - passes), |draft| {
+        let name = letter(pass.axis.letter);
+        let at = pass
+            .programmed_feed()
+            .map_or_else(String::new, |feed| format!("at F{} ", number(feed)));
+        draft
+            .at_axis(pass.axis.letter)
+            .say(format!(
+                "{at}the tool axis must stay {} away from the pole so that {name} can follow; it passes {}",
+                degrees(pass.distance),
+                past_pole(passes)
+            ))
+            .note(format!(
+                "the tool axis turns at {} deg/s; {name} turns {} in the block",
+                number(deg(pass.angle / pass.seconds)),
+                degrees(turn)
+            ))
+            .help("reduce the feed near the pole, or tilt the path away from it")
+            .value_text("axis", name)
+            .value("pole_angle_deg", deg(passes))
+            .value("limit_deg", deg(pass.distance))
+            .value("rotary_change_deg", deg(turn))
+            .fix_pole(pass);
+    });
 }
 
 #[cfg(test)]

@@ -32,77 +32,55 @@
 //!
 //! # Sources
 //! * docs/kinematics.md#axis-speed-and-feed
-use super::axis_overspeed::feed_keys;
 use crate::prelude::*;
-use crate::runs::SHORT_RUN;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::HURRIES), check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::HeldBackCut(check)]);
 
 /// Relative room for rounding.
 const ROUNDING: f64 = 1e-9;
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    if !view.motion().is_feed() {
-        return;
-    }
-    let Some(limit) = view.feed_limit() else { return };
-    let Some(feed) = view.programmed_feed().filter(|feed| *feed > 0.0) else {
+fn check(cut: &facts::HeldBackCut<'_>, out: &mut Reporter<'_>) {
+    let Some(limit) = cut.feed_limit() else { return };
+    let Some(feed) = cut.programmed_feed().filter(|feed| *feed > 0.0) else {
         return;
     };
     let share = limit.feed_mm_min / feed;
-    let tolerances = &view.machine.tolerances;
-    if share >= tolerances.feed_drop_warning * (1.0 - ROUNDING) {
-        return;
-    }
-    // reported by axis-overspeed: the axis that drops the feed is too fast at the programmed one
-    if view.feed_is_ambiguous(out.dialect()) {
+    let tolerances = &cut.machine.tolerances;
+    // what is ambiguous is reported by axis-overspeed: the axis that drops the feed is too fast at the programmed one
+    if share >= tolerances.feed_drop_warning * (1.0 - ROUNDING) || cut.feed_is_ambiguous() {
         return;
     }
     let severity = if share < tolerances.feed_drop_error {
-        Severity::Error
+        Error
     } else {
-        Severity::Warning
+        Warning
     };
-    let key = u64::from(view.feed_in_degrees());
-    if out.repeats_as(severity, view, key, -limit.feed_mm_min) {
-        return;
-    }
-    let name = letter(view.machine.axes[limit.axis].letter);
-    let range = axis_word(out.program(), view.motion().block, b'F');
-    let (unit, keys) = (view.feed_unit(), feed_keys(view));
-    let percent = number((share * 1000.0).round() / 10.0);
-    let draft = out.report(
-        range,
-        format!(
-            "the axes allow {} {unit}, {percent} % of the programmed {} {unit}",
-            highest_rate(limit.feed_mm_min),
-            number(feed)
-        ),
-    );
-    draft
-        .note(format!("{name} limits the block"))
-        .help("reduce the feed in this block, or change the path so that the axis moves less")
-        .value(keys[0], feed)
-        .value(keys[1], limit.feed_mm_min)
-        .value("share_percent", share * 100.0)
-        .value_text("limiting_axis", name)
-        .severity(severity);
-    if view.near_pole() && view.forced_swap().is_none() {
-        draft.fix("smooth-pole");
-    }
-    if view.turns_far() {
-        draft.fix("unwind-rotary");
-    }
-    draft.merge_runs_over(SHORT_RUN, key, -limit.feed_mm_min);
+    let key = u64::from(cut.feed_in_degrees());
+    out.finding_as(severity, cut, Merge::runs(key, -limit.feed_mm_min), |draft| {
+        let name = letter(cut.machine.axes[limit.axis].letter);
+        let (unit, keys) = (cut.feed_unit(), cut.feed_keys());
+        let percent = number((share * 1000.0).round() / 10.0);
+        draft
+            .at_axis(b'F')
+            .say(format!(
+                "the axes allow {} {unit}, {percent} % of the programmed {} {unit}",
+                highest_rate(limit.feed_mm_min),
+                number(feed)
+            ))
+            .note(format!("{name} limits the block"))
+            .help("reduce the feed in this block, or change the path so that the axis moves less")
+            .value(keys[0], feed)
+            .value(keys[1], limit.feed_mm_min)
+            .value("share_percent", share * 100.0)
+            .value_text("limiting_axis", name)
+            .fix_pole(cut)
+            .fix_turns(cut);
+    });
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::Severity;
 
     #[test]
     fn below_eighty_percent_it_warns_below_thirty_it_is_an_error() {

@@ -24,11 +24,7 @@
 //! * docs/contract.md#verdicts
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Program(check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::Program(check)]);
 
 fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
     if overview.settings.machine.is_none() {

@@ -24,24 +24,18 @@
 use crate::prelude::*;
 use trunnion_machine::NoStance;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::LOST, check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::LostEnd(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    if let Err(NoStance::NoSuchAxis(axis)) = view.leg.end {
-        if out.repeats(view, u64::from(axis), 0.0) {
-            return;
-        }
-        let range = axis_word(out.program(), view.motion().block, axis);
+fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
+    let NoStance::NoSuchAxis(axis) = *lost.why else { return };
+    out.finding(lost, Merge::once(u64::from(axis)), |draft| {
         let name = letter(axis);
-        let axes: Vec<String> = view.machine.axes.iter().map(|axis| letter(axis.letter)).collect();
-        out.report(range, format!("{} has no axis {name}", view.machine.id))
+        let axes: Vec<String> = lost.machine.axes.iter().map(|axis| letter(axis.letter)).collect();
+        draft
+            .at_axis(axis)
+            .say(format!("{} has no axis {name}", lost.machine.id))
             .note(format!("its axes are {}", axes.join(" ")))
             .help("name the machine that the program was written for, or remove the word")
-            .value_text("axis", name)
-            .merge_everywhere(u64::from(axis));
-    }
+            .value_text("axis", name);
+    });
 }

@@ -25,15 +25,10 @@
 //! * NISTIR 6556 (2000), sections 2.1.2.5 on feed rate and 3.5.19 on inverse time (G93).
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check), Wake::Refused(Refusal::Feed, plain)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     let FaultKind::MissingFeed { inverse_time, zero } = fault.kind else {
-        refused(fault, out, &[Refusal::Feed]);
         return;
     };
     let (message, help) = match (zero, inverse_time) {
@@ -50,7 +45,9 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             "write F in this block or before it",
         ),
     };
-    out.report(fault.range, message).help(help).merge(u64::from(zero), 0.0);
+    out.report(fault.range, message)
+        .help(help)
+        .merge(Merge::run(u64::from(zero), 0.0));
 }
 
 #[cfg(test)]

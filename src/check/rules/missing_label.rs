@@ -25,14 +25,8 @@
 //! * FANUC Series 16i/18i-PB B-63684EN/01: custom macro, branch and repetition.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Refused(Refusal::Label, check)]);
 
-fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    if let Some(draft) = refused(fault, out, &[Refusal::Label]) {
-        draft.help("correct the number, or add the label where the program should continue");
-    }
+fn check(draft: &mut Draft<'_>) {
+    draft.help("correct the number, or add the label where the program should continue");
 }

@@ -25,29 +25,27 @@
 //! * NISTIR 6556 (2000), section 3.6.1 on program ending (M2, M30), and on files framed by `%`.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(
+    Warning,
+    &[Wake::Fault(check), Wake::Refused(Refusal::ProgramEnd, plain)],
+);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    refused(fault, out, &[Refusal::ProgramEnd]);
     if fault.kind == FaultKind::MissingProgramEnd {
-        let strict = out.dialect() == "linuxcnc";
+        let strict = out.dialect().quirks.rs274();
         let draft = out.report(fault.range, "the program ends without an end code");
         draft
             .note("the file may be incomplete")
             .help("end the program with M30, or with the code that your control expects");
         if strict {
-            draft.severity(Severity::Error);
+            draft.severity(Error);
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::Severity;
     use crate::fixture::assert_drawn;
 
     #[test]

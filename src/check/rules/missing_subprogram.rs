@@ -23,11 +23,7 @@
 //! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check), Wake::Refused(Refusal::Subprogram, plain)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::MissingSubprogram {
@@ -52,8 +48,6 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         }
         draft
             .help("put it in the folder of the program, or name its folder in trunnion.toml: subprogram_path = [\"subs\"]")
-            .merge_everywhere(hash(name));
-        return;
+            .merge(Merge::once(hash(name)));
     }
-    refused(fault, out, &[Refusal::Subprogram]);
 }

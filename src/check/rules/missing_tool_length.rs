@@ -32,53 +32,39 @@
 //!
 //! # Sources
 //! * docs/contract.md#offsets-and-tool-lengths
-use crate::InForce;
 use crate::prelude::*;
-use trunnion_interp::Motion;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Heuristic,
-    level: Level::Motion(Needs::FIRST_CUT, check),
-};
+pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::FirstCut(check)]);
 
-fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
+fn check(cut: &facts::FirstCut<'_>, out: &mut Reporter<'_>) {
+    let (motion, in_force) = (cut.motion, cut.in_force);
     let Some(tool @ 1..) = motion.tool else { return };
-    if !motion.is_feed() || !by_code(out.dialect()) || !out.once(u64::from(tool)) {
+    if !cut.dialect.length_by_code() || !out.once(u64::from(tool)) {
         return;
     }
-    if motion.tcp || motion.machine_coordinates || state.frame_unknown {
+    if motion.tcp || motion.machine_coordinates || in_force.frame_unknown {
         return;
     }
-    let range = code_range(out.program(), motion.block);
-    if let (Some(in_force), Some(own)) = (state.tool_length_mm, motion.other_length(state.own_length_mm)) {
-        out.report(
-            range,
-            format!(
+    let help = format!("write G43 H{tool} with the first Z move after the tool change");
+    match (in_force.tool_length_mm, motion.other_length(in_force.own_length_mm)) {
+        (Some(active), Some(own)) => {
+            out.report_block(format!(
                 "T{tool} is {} long, but cuts with an active length compensation of {}",
                 mm(own),
-                mm(in_force)
-            ),
-        )
-        .help(format!("write G43 H{tool} with the first Z move after the tool change"))
-        .value("tool_length_mm", own)
-        .value("length_in_force_mm", in_force);
-        return;
+                mm(active)
+            ))
+            .help(help)
+            .value("tool_length_mm", own)
+            .value("length_in_force_mm", active);
+        }
+        (Some(_), None) => {}
+        (None, _) => {
+            out.report_block(format!(
+                "T{tool} cuts without its length: no tool length compensation is active"
+            ))
+            .help(help);
+        }
     }
-    if state.tool_length_mm.is_some() {
-        return;
-    }
-    out.report(
-        range,
-        format!("T{tool} cuts without its length: no tool length compensation is active"),
-    )
-    .help(format!("write G43 H{tool} with the first Z move after the tool change"));
-}
-
-/// Whether the control switches the length on by G43. On lathes and on Sinumerik the tool word does it.
-fn by_code(dialect: &str) -> bool {
-    let mills = ["iso-6983", "linuxcnc", "fanuc-30i", "haas-ngc"];
-    mills.contains(&dialect)
 }
 
 #[cfg(test)]

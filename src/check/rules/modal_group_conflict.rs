@@ -23,11 +23,10 @@
 //! * grammar/dialects/iso-6983.toml and the other tables beside it, for the groups of each control.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(
+    Error,
+    &[Wake::Fault(check), Wake::Refused(Refusal::GroupConflict, plain)],
+);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     let FaultKind::GroupConflict {
@@ -37,7 +36,6 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         first_range,
     } = &fault.kind
     else {
-        refused(fault, out, &[Refusal::GroupConflict]);
         return;
     };
     out.report(

@@ -27,11 +27,7 @@
 //! * docs/contract.md#verdicts
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::NotDecided { what } = &fault.kind {

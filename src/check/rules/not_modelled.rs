@@ -22,18 +22,14 @@
 //! * docs/contract.md#verdicts
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::NotModelled { what } = &fault.kind {
         out.report(fault.range, format!("not modelled: {}", short(what)))
             .note("positions that depend on it are unknown until the program sets them again; nothing is checked from them")
             .unknown()
-            .merge_everywhere(hash(what));
+            .merge(Merge::once(hash(what)));
     }
 }
 
@@ -49,7 +45,7 @@ fn short(what: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::Severity;
 
     #[test]
     fn one_cause_is_told_once_with_its_count() {

@@ -29,63 +29,26 @@
 //! # Sources
 //! * docs/kinematics.md#two-postures
 use crate::prelude::*;
-use core::f64::consts::TAU;
-use trunnion_machine::{Limits, Machine, Orientations, Stance, orientations, windings};
+use trunnion_machine::Limits;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::LEADS_TIP), check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::OneSidedCut(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let machine = view.machine;
-    if machine.rotary.len() != 2 || !view.motion().is_feed() || !view.rotary_turns() || !view.leads_tip() {
-        return;
-    }
-    let full = |axis: &usize| match machine.axes[*axis].limits {
-        Limits::Unbounded => true,
-        Limits::Range(low, high) => high - low >= TAU,
-    };
-    if machine.rotary.iter().all(full) {
-        return;
-    }
-    let Some((start, end)) = view.stances() else { return };
-    let Some((joint, value)) = missing_posture(machine, end) else {
-        return;
-    };
-    if missing_posture(machine, start).is_some() {
-        return;
-    }
-    let axis = &machine.axes[joint];
-    let name = letter(axis.letter);
-    let range = orientation_range(out.program(), view.motion().block);
-    let draft = out.report(
-        range,
-        format!(
-            "only one posture is left: the other would need {name} = {}, outside its travel",
-            degrees(value)
-        ),
-    );
-    draft.value_text("axis", name).value("value_deg", deg(value));
-    if let Limits::Range(low, high) = axis.limits {
-        let limit = if value < low { low } else { high };
-        draft.value("limit_deg", deg(limit));
-    }
-}
-
-/// The axis that keeps the other posture of a stance from being legal, and the value it would need, rad; `None` where two postures are
-/// legal or there is only one anyway.
-fn missing_posture(machine: &Machine, stance: &Stance) -> Option<(usize, f64)> {
-    let Orientations::Postures(postures) = orientations(machine, &stance.axis) else {
-        return None;
-    };
-    let other = postures.iter().find(|posture| posture.branch * stance.branch < 0)?;
-    machine.rotary.iter().zip(other.q).find_map(|(&axis, q)| {
-        windings(machine, axis, q, stance.joints[axis])
-            .is_empty()
-            .then_some((axis, q))
-    })
+fn check(cut: &facts::OneSidedCut<'_>, out: &mut Reporter<'_>) {
+    let axis = &cut.machine.axes[cut.joint];
+    out.event(|draft| {
+        let name = letter(axis.letter);
+        draft
+            .at_orientation()
+            .say(format!(
+                "only one posture is left: the other would need {name} = {}, outside its travel",
+                degrees(cut.value)
+            ))
+            .value_text("axis", name)
+            .value("value_deg", deg(cut.value));
+        if let Limits::Range(low, high) = axis.limits {
+            draft.value("limit_deg", deg(if cut.value < low { low } else { high }));
+        }
+    });
 }
 
 #[cfg(test)]

@@ -39,14 +39,9 @@
 //! # Sources
 //! * docs/kinematics.md#deviation-of-the-tool-axis
 use crate::prelude::*;
-use crate::runs::SHORT_RUN;
-use trunnion_machine::{OrientationDeviation, orientation_deviation};
+use trunnion_machine::orientation_deviation;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::VECTORS), check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::VectorCut(check)]);
 
 /// Keys for merging: a deviation, one that is not proven, a control that is not known, ends that are opposite.
 const FOUND: u64 = 1;
@@ -54,100 +49,76 @@ const BETWEEN: u64 = 2;
 const ASSUMED: u64 = 3;
 const OPPOSITE: u64 = 4;
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    if !view.motion().is_feed() || !view.rotary_turns() || view.stances().is_none() {
-        return;
-    }
-    let tolerance = view.machine.tolerances.orientation;
-    let Some(deviation) = orientation_deviation(view.machine, view.leg, tolerance) else {
-        return opposite(view, out);
+fn check(cut: &facts::VectorCut<'_>, out: &mut Reporter<'_>) {
+    let tolerance = cut.machine.tolerances.orientation;
+    let Some(deviation) = orientation_deviation(cut.machine, cut.leg, tolerance) else {
+        return opposite(cut, out);
     };
-    if deviation.bound <= tolerance {
-        return;
-    }
-    if view.orientation_is_assumed() {
-        return assumed(view, out, &deviation);
-    }
-    let found = deviation.sampled > tolerance;
-    let repeats = if found {
-        out.repeats(view, FOUND, deviation.sampled)
+    let (sampled, bound) = (deviation.sampled, deviation.bound);
+    let values = |draft: &mut Draft<'_>| {
+        draft
+            .value("deviation_deg", deg(sampled))
+            .value("deviation_bound_deg", deg(bound))
+            .value("limit_deg", deg(tolerance))
+            .value("farthest_at_percent", deviation.at * 100.0);
+    };
+    if bound <= tolerance {
+    } else if cut.orientation_is_assumed() {
+        out.unknown(cut, Merge::once(ASSUMED), |draft| {
+            draft
+                .at_orientation()
+                .say(format!(
+                    "the tool axis leaves the great circle by {} if the control interpolates its rotary axes linearly: the machine file of {} does not say whether it does",
+                    degrees(sampled),
+                    cut.machine.id
+                ))
+                .help("declare it in the machine file: [control] tcp = { orientation = \"joint\" } or \"great-circle\"")
+                .value("deviation_deg", deg(sampled));
+        });
+    } else if sampled > tolerance {
+        out.finding(cut, Merge::runs(FOUND, sampled), |draft| {
+            draft
+                .at_orientation()
+                .say(format!(
+                    "the tool axis leaves the great circle between the vectors by {}",
+                    degrees(sampled)
+                ))
+                .note(format!(
+                    "largest after {} % of the block; proven to be at most {}; the tolerance is {}",
+                    number((deviation.at * 100.0).round()),
+                    bound_degrees(bound),
+                    degrees(tolerance)
+                ))
+                .help("make the control keep to the great circle (ORIVECT, G43.5 with vectors), or divide the block into smaller steps");
+            values(draft);
+        });
     } else {
-        out.repeats_unknown(view, BETWEEN, deviation.bound)
-    };
-    if repeats {
-        return;
+        out.unknown(cut, Merge::runs(BETWEEN, bound), |draft| {
+            draft
+                .at_orientation()
+                .say(format!(
+                    "the tool axis leaves the great circle by between {} and {}: the tolerance of {} is not proven",
+                    degrees(sampled),
+                    bound_degrees(bound),
+                    degrees(tolerance)
+                ))
+                .help("divide the block into smaller steps, or allow a slightly larger tolerance");
+            values(draft);
+        });
     }
-    let range = orientation_range(out.program(), view.motion().block);
-    let draft = if found {
-        out.report(
-            range,
-            format!(
-                "the tool axis leaves the great circle between the vectors by {}",
-                degrees(deviation.sampled)
-            ),
-        )
-        .note(format!(
-            "largest after {} % of the block; proven to be at most {}; the tolerance is {}",
-            number((deviation.at * 100.0).round()),
-            bound_degrees(deviation.bound),
-            degrees(tolerance)
-        ))
-        .help("make the control keep to the great circle (ORIVECT, G43.5 with vectors), or divide the block into smaller steps")
-        .merge_runs_over(SHORT_RUN, FOUND, deviation.sampled)
-    } else {
-        out.report(
-            range,
-            format!(
-                "the tool axis leaves the great circle by between {} and {}: the tolerance of {} is not proven",
-                degrees(deviation.sampled),
-                bound_degrees(deviation.bound),
-                degrees(tolerance)
-            ),
-        )
-        .help("divide the block into smaller steps, or allow a slightly larger tolerance")
-        .unknown()
-        .merge_runs_over(SHORT_RUN, BETWEEN, deviation.bound)
-    };
-    draft
-        .value("deviation_deg", deg(deviation.sampled))
-        .value("deviation_bound_deg", deg(deviation.bound))
-        .value("limit_deg", deg(tolerance))
-        .value("farthest_at_percent", deviation.at * 100.0);
 }
 
-fn assumed(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &OrientationDeviation) {
-    if out.repeats_unknown(view, ASSUMED, 0.0) {
-        return;
-    }
-    let range = orientation_range(out.program(), view.motion().block);
-    out.report(
-        range,
-        format!(
-            "the tool axis leaves the great circle by {} if the control interpolates its rotary axes linearly: the machine file of {} does not say whether it does",
-            degrees(deviation.sampled),
-            view.machine.id
-        ),
-    )
-    .help("declare it in the machine file: [control] tcp = { orientation = \"joint\" } or \"great-circle\"")
-    .value("deviation_deg", deg(deviation.sampled))
-    .unknown()
-    .merge_everywhere(ASSUMED);
-}
-
-fn opposite(view: &LegView<'_>, out: &mut Reporter<'_>) {
+fn opposite(cut: &LegView<'_>, out: &mut Reporter<'_>) {
     // the fault that removed the centre of an arc reports it
-    let lost = matches!(view.motion().kind, trunnion_interp::MotionKind::Arc(None));
-    if lost || out.repeats_unknown(view, OPPOSITE, 0.0) {
+    if matches!(cut.motion().kind, trunnion_interp::MotionKind::Arc(None)) {
         return;
     }
-    let range = orientation_range(out.program(), view.motion().block);
-    out.report(
-        range,
-        "the tool vectors at the two ends are opposite: it is not known which great circle is meant",
-    )
-    .help("program an intermediate vector")
-    .unknown()
-    .merge_everywhere(OPPOSITE);
+    out.unknown(cut, Merge::once(OPPOSITE), |draft| {
+        draft
+            .at_orientation()
+            .say("the tool vectors at the two ends are opposite: it is not known which great circle is meant")
+            .help("program an intermediate vector");
+    });
 }
 
 #[cfg(test)]

@@ -38,41 +38,25 @@
 //! * docs/kinematics.md#machine-model
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::OTHER_LENGTH), check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::OtherLength(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let motion = view.motion();
-    let Some(own) = motion.other_length(view.trail.own_length_mm) else {
-        return;
-    };
-    if !motion.is_feed() || !view.rotary_turns() {
-        return;
-    }
+fn check(cut: &facts::OtherLength<'_>, out: &mut Reporter<'_>) {
+    let (motion, own) = (cut.motion(), cut.own_mm);
     let key = u64::from(motion.tool.unwrap_or_default()) ^ motion.tool_length_mm.to_bits();
-    if out.repeats_unknown(view, key, 0.0) {
-        return;
-    }
-    let tool = motion
-        .tool
-        .map_or_else(|| "the tool".to_owned(), |tool| format!("T{tool}"));
-    let range = code_range(out.program(), motion.block);
-    out.report(
-        range,
-        format!(
-            "{tool} is {} long, but the active length compensation is {}: the path of its tip is not judged while rotary axes turn",
-            mm(own),
-            mm(motion.tool_length_mm)
-        ),
-    )
-    .help("activate the tool's own length (G43 H), or declare the length that is meant")
-    .value("tool_length_mm", own)
-    .value("length_in_force_mm", motion.tool_length_mm)
-    .unknown()
-    .merge_everywhere(key);
+    out.unknown(cut, Merge::once(key), |draft| {
+        let tool = motion
+            .tool
+            .map_or_else(|| "the tool".to_owned(), |tool| format!("T{tool}"));
+        draft
+            .say(format!(
+                "{tool} is {} long, but the active length compensation is {}: the path of its tip is not judged while rotary axes turn",
+                mm(own),
+                mm(motion.tool_length_mm)
+            ))
+            .help("activate the tool's own length (G43 H), or declare the length that is meant")
+            .value("tool_length_mm", own)
+            .value("length_in_force_mm", motion.tool_length_mm);
+    });
 }
 
 #[cfg(test)]

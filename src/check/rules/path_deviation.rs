@@ -35,88 +35,55 @@
 //! * docs/kinematics.md#between-the-ends-of-a-block
 //! * docs/kinematics.md#deviation-of-the-tip
 use crate::prelude::*;
-use crate::runs::SHORT_RUN;
-use trunnion_interp::MotionKind;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::STRAYS), check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::StrayingCut(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    // the fault that removed the centre of an arc reports it
-    let lost = matches!(view.motion().kind, MotionKind::Arc(None));
-    if !view.motion().is_feed() || lost || view.stances().is_none() {
-        return;
-    }
-    let tolerance = view.machine.tolerances.tip_mm;
-    let range = |out: &Reporter<'_>| code_range(out.program(), view.motion().block);
-    let Some(deviation) = view.deviation() else {
-        if out.repeats_unknown(view, 0, 0.0) {
-            return;
-        }
-        let range = range(out);
-        out.report(
-            range,
-            "the path of the tip is not modelled in this block: its deviation is not known",
-        )
-        .unknown()
-        .merge_everywhere(0);
-        return;
+/// Keys for merging: a path that is not modelled, a deviation, one that is not proven.
+const NOT_MODELLED: u64 = 0;
+const FOUND: u64 = 1;
+const BETWEEN: u64 = 2;
+
+fn check(cut: &facts::StrayingCut<'_>, out: &mut Reporter<'_>) {
+    let tolerance = cut.machine.tolerances.tip_mm;
+    let Some(deviation) = cut.deviation() else {
+        return out.unknown(cut, Merge::once(NOT_MODELLED), |draft| {
+            draft.say("the path of the tip is not modelled in this block: its deviation is not known");
+        });
     };
-    if deviation.bound_mm <= tolerance {
-        return;
-    }
-    let repeats = if deviation.sampled_mm > tolerance {
-        out.repeats(view, 1, deviation.sampled_mm)
-    } else {
-        out.repeats_unknown(view, 2, deviation.bound_mm)
-    };
-    if repeats {
-        return;
-    }
-    let range = range(out);
-    if deviation.sampled_mm > tolerance {
-        let draft = out.report(
-            range,
-            format!("the tip leaves the programmed segment by {}", mm(deviation.sampled_mm)),
-        );
+    let (sampled, bound) = (deviation.sampled_mm, deviation.bound_mm);
+    let values = |draft: &mut Draft<'_>| {
         draft
-            .note(format!(
-                "largest after {} % of the block; proven to be at most {}; the tolerance is {}",
-                number((deviation.at * 100.0).round()),
-                bound_mm(deviation.bound_mm),
-                mm(tolerance)
-            ))
-            .help("switch tool centre point control on, or insert points")
-            .value("deviation_mm", deviation.sampled_mm)
-            .value("deviation_bound_mm", deviation.bound_mm)
-            .value("limit_mm", tolerance)
-            .value("farthest_at_percent", deviation.at * 100.0)
-            .merge_runs_over(SHORT_RUN, 1, deviation.sampled_mm);
-        if view.turns_far() {
-            draft.fix("unwind-rotary");
-        }
+            .value("deviation_mm", sampled)
+            .value("deviation_bound_mm", bound)
+            .value("limit_mm", tolerance);
+    };
+    if bound <= tolerance {
+    } else if sampled > tolerance {
+        out.finding(cut, Merge::runs(FOUND, sampled), |draft| {
+            draft
+                .say(format!("the tip leaves the programmed segment by {}", mm(sampled)))
+                .note(format!(
+                    "largest after {} % of the block; proven to be at most {}; the tolerance is {}",
+                    number((deviation.at * 100.0).round()),
+                    bound_mm(bound),
+                    mm(tolerance)
+                ))
+                .help("switch tool centre point control on, or insert points");
+            values(draft);
+            draft.value("farthest_at_percent", deviation.at * 100.0).fix_turns(cut);
+        });
     } else {
-        let found = format!(
-            "between {} and {}",
-            mm(deviation.sampled_mm),
-            bound_mm(deviation.bound_mm)
-        );
-        out.report(
-            range,
-            format!(
-                "the deviation of the tip is {found}: the tolerance of {} is not proven",
-                mm(tolerance)
-            ),
-        )
-        .help("insert points, or allow a slightly larger tolerance")
-        .value("deviation_mm", deviation.sampled_mm)
-        .value("deviation_bound_mm", deviation.bound_mm)
-        .value("limit_mm", tolerance)
-        .unknown()
-        .merge_runs_over(SHORT_RUN, 2, deviation.bound_mm);
+        out.unknown(cut, Merge::runs(BETWEEN, bound), |draft| {
+            draft
+                .say(format!(
+                    "the deviation of the tip is between {} and {}: the tolerance of {} is not proven",
+                    mm(sampled),
+                    bound_mm(bound),
+                    mm(tolerance)
+                ))
+                .help("insert points, or allow a slightly larger tolerance");
+            values(draft);
+        });
     }
 }
 

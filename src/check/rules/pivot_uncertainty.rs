@@ -36,63 +36,45 @@
 //! # Sources
 //! * docs/kinematics.md#uncertainty-of-the-rotary-axes
 use crate::prelude::*;
-use trunnion_machine::{AxisUncertainty, Stance, pivot_sensitivity_between};
+use trunnion_machine::pivot_sensitivity_between;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Heuristic,
-    level: Level::Leg(Needs::FEED.and(Needs::UNCERTAIN), check),
-};
+pub(super) const RULE: Body = Body::heuristic(Info, &[Wake::UncertainCut(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let axes = &view.machine.axes;
-    let declared = |axis: &trunnion_machine::Axis| {
-        axis.extra.point_uncertainty.is_some() || axis.extra.direction_uncertainty.is_some()
-    };
-    if !view.motion().is_feed() || !axes.iter().any(declared) {
-        return;
-    }
-    let Some((start, end)) = view.stances() else { return };
-    let found = worst(view, start, end);
+fn check(cut: &facts::UncertainCut<'_>, out: &mut Reporter<'_>) {
+    let found = pivot_sensitivity_between(cut.machine, &cut.start.joints, &cut.end.joints, cut.end.tool_length);
     let sum: f64 = found.iter().map(|axis| axis.tip_mm).sum();
-    let allowed = view.machine.tolerances.pivot_mm;
+    let allowed = cut.machine.tolerances.pivot_mm;
     // what rounding adds is no news
-    if sum <= allowed * (1.0 + 1e-9) || out.repeats(view, 0, sum) {
+    if sum <= allowed * (1.0 + 1e-9) {
         return;
     }
-    let range = code_range(out.program(), view.motion().block);
-    let each: Vec<String> = found
-        .iter()
-        .filter(|axis| axis.tip_mm > 0.0)
-        .map(|axis| {
-            format!(
-                "{} {}, of which {} from its position",
-                letter(axis.letter),
-                mm(axis.tip_mm),
-                mm(axis.of_point_mm)
-            )
-        })
-        .collect();
-    out.report(
-        range,
-        format!(
-            "the tip may be off by {}, because of the declared uncertainty of the rotary axes",
-            mm(sum)
-        ),
-    )
-    .note(format!(
-        "by axis: {}; the tolerance is {}",
-        each.join("; "),
-        mm(allowed)
-    ))
-    .help("measure the rotary axes again, or allow more with `pivot` in [tolerances]")
-    .value("value_mm", sum)
-    .value("limit_mm", allowed)
-    .merge(0, sum);
-}
-
-fn worst(view: &LegView<'_>, start: &Stance, end: &Stance) -> Vec<AxisUncertainty> {
-    pivot_sensitivity_between(view.machine, &start.joints, &end.joints, end.tool_length)
+    out.finding(cut, Merge::run(0, sum), |draft| {
+        let each: Vec<String> = found
+            .iter()
+            .filter(|axis| axis.tip_mm > 0.0)
+            .map(|axis| {
+                format!(
+                    "{} {}, of which {} from its position",
+                    letter(axis.letter),
+                    mm(axis.tip_mm),
+                    mm(axis.of_point_mm)
+                )
+            })
+            .collect();
+        draft
+            .say(format!(
+                "the tip may be off by {}, because of the declared uncertainty of the rotary axes",
+                mm(sum)
+            ))
+            .note(format!(
+                "by axis: {}; the tolerance is {}",
+                each.join("; "),
+                mm(allowed)
+            ))
+            .help("measure the rotary axes again, or allow more with `pivot` in [tolerances]")
+            .value("value_mm", sum)
+            .value("limit_mm", allowed);
+    });
 }
 
 #[cfg(test)]

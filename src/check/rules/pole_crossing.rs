@@ -32,36 +32,28 @@
 //! * docs/kinematics.md#change-of-posture
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::CROSSES), check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::PoleCrossing(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let Some((start, end)) = view.stances() else { return };
-    let before = if start.branch == 0 {
-        view.posture_before
-    } else {
-        start.branch
-    };
-    let crossed = before * end.branch < 0;
-    if !crossed || !view.motion().is_feed() || view.leg.rotary_excess > view.machine.tolerances.swap_excess {
+fn check(crossing: &facts::PoleCrossing<'_>, out: &mut Reporter<'_>) {
+    let leg = crossing.leg;
+    if leg.rotary_excess > crossing.machine.tolerances.swap_excess {
         return;
     }
-    let [first, _] = view.rotary_letters();
-    let range = orientation_range(out.program(), view.motion().block);
-    let message = format!(
-        "the tool axis passes {} and the posture changes its sign",
-        past_pole(view.leg.pole_angle_min)
-    );
-    out.report(range, message)
-        .note(format!(
-            "at the pole the tool axis is parallel to {first}; {first} turns {}",
-            degrees(view.leg.rotary_change[0])
-        ))
-        .value("pole_angle_deg", deg(view.leg.pole_angle_min))
-        .value("rotary_change_deg", deg(view.leg.rotary_change[0]));
+    let [first, _] = crossing.rotary_letters();
+    out.event(|draft| {
+        draft
+            .at_orientation()
+            .say(format!(
+                "the tool axis passes {} and the posture changes its sign",
+                past_pole(leg.pole_angle_min)
+            ))
+            .note(format!(
+                "at the pole the tool axis is parallel to {first}; {first} turns {}",
+                degrees(leg.rotary_change[0])
+            ))
+            .value("pole_angle_deg", deg(leg.pole_angle_min))
+            .value("rotary_change_deg", deg(leg.rotary_change[0]));
+    });
 }
 
 #[cfg(test)]

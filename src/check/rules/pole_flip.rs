@@ -36,69 +36,64 @@
 //! # Sources
 //! * docs/kinematics.md#the-pole
 //! * Guide-vane paper (2006), on the C axis near the singularity.
-use super::axis_overspeed::feed_keys;
 use crate::prelude::*;
 use trunnion_geometry::rad;
 use trunnion_machine::feed_limit_tight;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::NEAR_POLE), check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::NearPole(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let tolerances = &view.machine.tolerances;
-    let turn = view.leg.rotary_change[0];
-    let flips = turn > tolerances.pole_angle && view.leg.pole_angle_min < tolerances.pole_cone;
-    if !flips || !view.motion().is_feed() || view.machine.rotary.len() < 2 || view.stances().is_none() {
+fn check(cut: &facts::NearPole<'_>, out: &mut Reporter<'_>) {
+    let turn = cut.leg.rotary_change[0];
+    let flips = turn > cut.machine.tolerances.pole_angle;
+    if !flips {
         return;
     }
-    let axis = &view.machine.axes[view.machine.rotary[0]];
-    let name = letter(axis.letter);
-    let range = axis_word(out.program(), view.motion().block, axis.letter);
-    let message = format!(
-        "{name} turns {} while the tool axis passes {}",
-        degrees(turn),
-        past_pole(view.leg.pole_angle_min)
-    );
-    let draft = out.report(range, message);
-    draft
-        .note(format!(
-            "at the pole the tool axis is parallel to {name}: near it a small change of direction turns {name} far"
-        ))
-        .value_text("axis", name.clone())
-        .value("rotary_change_deg", deg(turn))
-        .value("pole_angle_deg", deg(view.leg.pole_angle_min));
-    if view.forced_swap().is_some() {
-        draft.help("tilt the path away from the pole, or retract and change the posture out of the cut");
-    } else {
+    let axis = &cut.machine.axes[cut.machine.rotary[0]];
+    out.event(|draft| {
+        let name = letter(axis.letter);
         draft
-            .help("tilt the path away from the pole, or try `trunnion fix --rewrite smooth-pole`")
-            .fix("smooth-pole");
-    }
-    // the number is printed: not the coarse bound that settles whether an axis is overrun
-    if let Some(limit) = feed_limit_tight(view.machine, view.leg).or_else(|| view.feed_limit())
-        && limit.feed_mm_min.is_finite()
-    {
-        draft
-            .note(format!(
-                "no axis exceeds its speed up to a feed of {} {}",
-                highest_rate(limit.feed_mm_min),
-                view.feed_unit()
+            .at_axis(axis.letter)
+            .say(format!(
+                "{name} turns {} while the tool axis passes {}",
+                degrees(turn),
+                past_pole(cut.leg.pole_angle_min)
             ))
-            .value(feed_keys(view)[1], limit.feed_mm_min);
-    }
-    if (rad(175.0)..=rad(185.0)).contains(&turn) {
-        draft
-            .severity(Severity::Error)
-            .note("half a turn: the tool axis passes straight over the pole, or the posture changes");
-    }
+            .note(format!(
+                "at the pole the tool axis is parallel to {name}: near it a small change of direction turns {name} far"
+            ))
+            .value_text("axis", name.clone())
+            .value("rotary_change_deg", deg(turn))
+            .value("pole_angle_deg", deg(cut.leg.pole_angle_min));
+        if cut.forced_swap().is_some() {
+            draft.help("tilt the path away from the pole, or retract and change the posture out of the cut");
+        } else {
+            draft
+                .help("tilt the path away from the pole, or try `trunnion fix --rewrite smooth-pole`")
+                .fix("smooth-pole");
+        }
+        // the number is printed: not the coarse bound that settles whether an axis is overrun
+        if let Some(limit) = feed_limit_tight(cut.machine, cut.leg).or_else(|| cut.feed_limit())
+            && limit.feed_mm_min.is_finite()
+        {
+            draft
+                .note(format!(
+                    "no axis exceeds its speed up to a feed of {} {}",
+                    highest_rate(limit.feed_mm_min),
+                    cut.feed_unit()
+                ))
+                .value(cut.feed_keys()[1], limit.feed_mm_min);
+        }
+        if (rad(175.0)..=rad(185.0)).contains(&turn) {
+            draft
+                .severity(Error)
+                .note("half a turn: the tool axis passes straight over the pole, or the posture changes");
+        }
+    });
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::Severity;
     use crate::fixture::assert_drawn;
 
     #[test]

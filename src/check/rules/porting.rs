@@ -44,15 +44,7 @@
 //! * grammar/dialects/fanuc-30i.toml and grammar/dialects/linuxcnc.toml, the two tables.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Heuristic,
-    level: Level::Program(check),
-};
-
-fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
-    crate::porting::report(overview, out);
-}
+pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Port(crate::porting::report)]);
 
 #[cfg(test)]
 mod tests {

@@ -26,137 +26,112 @@
 //! # Sources
 //! * docs/contract.md#unknown-positions
 use crate::prelude::*;
-use trunnion_interp::{AXIS_LETTERS, Motion, MotionKind};
+use trunnion_interp::{AXIS_LETTERS, MotionKind};
 use trunnion_machine::NoStance;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::LOST, check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::LostEnd(check), Wake::LostArc(lost_arc)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let letters = match &view.leg.end {
-        Err(NoStance::PositionUnknown(letters)) => letters,
-        Err(NoStance::RotaryOffset(axis)) => return rotary_offset(*axis, view, out),
-        Err(NoStance::HeldElsewhere { axis, value, held }) => return held_elsewhere(*axis, [*value, *held], view, out),
-        Ok(_) if is_arc_from_nowhere(view.motion()) => return arc_from_nowhere(view, out),
-        _ => return,
-    };
-    let cause = hash(letters) ^ u64::from(view.motion().is_feed());
-    if !is_told(view) || out.repeats_unknown(view, cause, 0.0) {
+fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
+    // a rapid that names places before everything is positioned is how programs begin
+    let motion = lost.motion();
+    let nowhere = || lost.leg.start.is_some() || motion.says_way & !motion.end.known != 0;
+    if !(motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()) {
         return;
     }
-    let names: Vec<String> = AXIS_LETTERS
-        .iter()
-        .map(|axis| letter(*axis))
-        .filter(|axis| letters.contains(axis))
-        .collect();
-    let names = match names.as_slice() {
-        [] => "some axis".to_owned(),
-        [one] => one.clone(),
-        [most @ .., last] => format!("{} and {last}", most.join(", ")),
-    };
-    let verb = if letters.len() > 1 { "are" } else { "is" };
-    let range = code_range(out.program(), view.motion().block);
-    let rapid = !view.motion().is_feed();
-    let (message, why, help) = if rapid {
-        (
-            format!("end position of this rapid is unknown: {names} {verb} not determined"),
-            "it depends on a value that only the machine knows, on an undeclared reference point, or on a position that was already unknown",
-            format!("program {names} as numbers, or declare what is missing ([control] reference_points, [variables])"),
-        )
-    } else {
-        (
-            format!("the position of {names} is unknown"),
-            "it was never programmed, or it was lost where something is not modelled",
-            format!("position {names} before the first feed motion"),
-        )
-    };
-    out.report(range, message)
-        .note(format!(
-            "{why}: the axis positions of {} are unknown here",
-            view.machine.id
-        ))
-        .note("limits, postures, speeds and the tip's path are not checked until every axis has a position")
-        .help(help)
-        .unknown()
-        .merge_everywhere(cause);
+    match lost.why {
+        NoStance::PositionUnknown(letters) => not_positioned(letters, lost, out),
+        NoStance::RotaryOffset(axis) => rotary_offset(*axis, lost, out),
+        NoStance::HeldElsewhere { axis, value, held } => held_elsewhere(*axis, [*value, *held], lost, out),
+        _ => {}
+    }
 }
 
-/// Whether it is an arc that cannot be drawn because X, Y or Z of its start is unknown, as after a switch of tool centre point control.
-pub(crate) fn is_arc_from_nowhere(motion: &Motion) -> bool {
-    motion.kind == MotionKind::Arc(None) && motion.start.xyz().is_none()
+/// Some axes have no position.
+fn not_positioned(letters: &str, lost: &LegView<'_>, out: &mut Reporter<'_>) {
+    let rapid = !lost.motion().is_feed();
+    let cause = hash(letters) ^ u64::from(!rapid);
+    out.unknown(lost, Merge::once(cause), |draft| {
+        let names: Vec<String> = AXIS_LETTERS
+            .iter()
+            .map(|axis| letter(*axis))
+            .filter(|axis| letters.contains(axis))
+            .collect();
+        let names = match names.as_slice() {
+            [] => "some axis".to_owned(),
+            [one] => one.clone(),
+            [most @ .., last] => format!("{} and {last}", most.join(", ")),
+        };
+        let verb = if letters.len() > 1 { "are" } else { "is" };
+        let (message, why, help) = if rapid {
+            (
+                format!("end position of this rapid is unknown: {names} {verb} not determined"),
+                "it depends on a value that only the machine knows, on an undeclared reference point, or on a position that was already unknown",
+                format!("program {names} as numbers, or declare what is missing ([control] reference_points, [variables])"),
+            )
+        } else {
+            (
+                format!("the position of {names} is unknown"),
+                "it was never programmed, or it was lost where something is not modelled",
+                format!("position {names} before the first feed motion"),
+            )
+        };
+        draft
+            .say(message)
+            .note(format!(
+                "{why}: the axis positions of {} are unknown here",
+                lost.machine.id
+            ))
+            .note("limits, postures, speeds and the tip's path are not checked until every axis has a position")
+            .help(help);
+    });
 }
 
 /// Its end is known, its path is not: reported once.
-fn arc_from_nowhere(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    const CAUSE: u64 = u64::MAX;
-    if out.repeats_unknown(view, CAUSE, 0.0) {
-        return;
-    }
-    let range = code_range(out.program(), view.motion().block);
-    out.report(range, "the path of this arc is unknown: X, Y and Z at its start were never programmed, or were lost")
-        .note("limits, speeds and the tip's path are not checked in this block")
-        .help("program X, Y and Z in a straight motion before the arc: after tool centre point control is switched, they refer to a different point")
-        .unknown()
-        .merge_everywhere(CAUSE);
-}
-
-/// Feed motions, rapids from a known place to one that is not known, and rapids by an increment from one that is not known. A rapid that
-/// names places before everything is positioned is how programs begin.
-fn is_told(view: &LegView<'_>) -> bool {
-    let motion = view.motion();
-    let nowhere = || view.leg.start.is_some() || motion.says_way & !motion.end.known != 0;
-    motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()
+fn lost_arc(arc: &facts::LostArc<'_>, out: &mut Reporter<'_>) {
+    out.unknown(arc, Merge::once(u64::MAX), |draft| {
+        draft
+            .say("the path of this arc is unknown: X, Y and Z at its start were never programmed, or were lost")
+            .note("limits, speeds and the tip's path are not checked in this block")
+            .help("program X, Y and Z in a straight motion before the arc: after tool centre point control is switched, they refer to a different point");
+    });
 }
 
 /// A work offset turns the workpiece frame: reported once for each axis.
-fn rotary_offset(axis: u8, view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let cause = u64::from(axis);
-    if !is_told(view) || out.repeats_unknown(view, cause, 0.0) {
-        return;
-    }
-    let name = letter(axis);
-    let range = code_range(out.program(), view.motion().block);
-    out.report(range, format!("the position of X, Y and Z is unknown: the work offset turns {name}"))
-        .note(format!(
-            "it depends on the control whether X Y Z of the tip turn with an offset in {name}: the axis positions of {} are unknown here",
-            view.machine.id
-        ))
-        .note("limits, postures, speeds and the tip's path are not checked here")
-        .help(format!("program the turn of {name} instead of setting it in the work offset"))
-        .unknown()
-        .merge_everywhere(cause);
+fn rotary_offset(axis: u8, lost: &LegView<'_>, out: &mut Reporter<'_>) {
+    out.unknown(lost, Merge::once(u64::from(axis)), |draft| {
+        let name = letter(axis);
+        draft
+            .say(format!("the position of X, Y and Z is unknown: the work offset turns {name}"))
+            .note(format!(
+                "it depends on the control whether X Y Z of the tip turn with an offset in {name}: the axis positions of {} are unknown here",
+                lost.machine.id
+            ))
+            .note("limits, postures, speeds and the tip's path are not checked here")
+            .help(format!("program the turn of {name} instead of setting it in the work offset"));
+    });
 }
 
 /// The program moves an axis that the machine file holds: reported once for each axis and position.
-fn held_elsewhere(axis: u8, [value, held]: [f64; 2], view: &LegView<'_>, out: &mut Reporter<'_>) {
+fn held_elsewhere(axis: u8, [value, held]: [f64; 2], lost: &LegView<'_>, out: &mut Reporter<'_>) {
     let cause = hash(&format!("{} {value}", char::from(axis)));
-    if !is_told(view) || out.repeats_unknown(view, cause, 0.0) {
-        return;
-    }
-    let name = letter(axis);
-    let range = code_range(out.program(), view.motion().block);
-    out.report(
-        range,
-        format!(
-            "the position of X, Y and Z is unknown: {name} is at {}, but the machine file holds it at {}",
-            degrees(value),
-            degrees(held)
-        ),
-    )
-    .note(format!(
-        "{} has more rotary axes than the kinematics can solve, so {name} is held at the position in the machine file",
-        view.machine.id
-    ))
-    .note("limits, postures, speeds and the tip's path are not checked here")
-    .help(format!(
-        "check this part of the program with a copy of the machine file that says hold = {} for {name}",
-        deg(value)
-    ))
-    .unknown()
-    .merge_everywhere(cause);
+    out.unknown(lost, Merge::once(cause), |draft| {
+        let name = letter(axis);
+        draft
+            .say(format!(
+                "the position of X, Y and Z is unknown: {name} is at {}, but the machine file holds it at {}",
+                degrees(value),
+                degrees(held)
+            ))
+            .note(format!(
+                "{} has more rotary axes than the kinematics can solve, so {name} is held at the position in the machine file",
+                lost.machine.id
+            ))
+            .note("limits, postures, speeds and the tip's path are not checked here")
+            .help(format!(
+                "check this part of the program with a copy of the machine file that says hold = {} for {name}",
+                deg(value)
+            ));
+    });
 }
 
 #[cfg(test)]

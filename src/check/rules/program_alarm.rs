@@ -29,11 +29,7 @@
 //! * LinuxCNC 2.9 (2023): the answers of its interpreter.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::ProgramAlarm { message } = &fault.kind {

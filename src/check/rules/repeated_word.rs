@@ -22,30 +22,26 @@
 //! * NISTIR 6556 (2000), section 3.3.4 on item repeats.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(
+    Error,
+    &[Wake::Fault(check), Wake::Refused(Refusal::RepeatedWord, plain)],
+);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    refused(fault, out, &[Refusal::RepeatedWord]);
     if fault.kind == FaultKind::RepeatedWord {
         let text = out.text(fault.range);
-        let fanuc = out.dialect().starts_with("fanuc");
+        let last_wins = out.dialect().advice.last_word_wins;
         let draft = out.report(fault.range, format!("`{text}` repeats a word of this block"));
         draft.help("remove the one that you do not need");
-        if fanuc {
-            draft
-                .severity(Severity::Warning)
-                .note("on this control the last one wins");
+        if last_wins {
+            draft.severity(Warning).note("on this control the last one wins");
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::Severity;
     use crate::fixture::assert_drawn;
 
     #[test]

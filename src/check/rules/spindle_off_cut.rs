@@ -26,25 +26,15 @@
 //!
 //! # Sources
 //! * docs/contract.md#what-counts-as-a-cut
-use crate::InForce;
 use crate::prelude::*;
-use trunnion_interp::Motion;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Motion(Needs::FEED.and(Needs::SPINDLE_OFF), check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::CutSpindleOff(check)]);
 
-fn check(motion: &Motion, _: InForce, out: &mut Reporter<'_>) {
-    if !motion.is_feed() || motion.spindle_on != Some(false) || motion.machine_coordinates {
-        return;
-    }
-    let range = code_range(out.program(), motion.block);
-    out.report(range, "this feed motion runs with the spindle off")
+fn check(_: &facts::CutSpindleOff<'_>, out: &mut Reporter<'_>) {
+    out.report_block("this feed motion runs with the spindle off")
         .note("the program switched the spindle off earlier")
         .help("switch the spindle on (M3, M4), or use a rapid; if the tool does not turn (probe, drag knife), allow the rule and give that reason")
-        .merge(0, 0.0);
+        .merge(Merge::run(0, 0.0));
 }
 
 #[cfg(test)]

@@ -41,14 +41,9 @@
 //! # Sources
 //! * docs/kinematics.md#deviation-of-the-tool-body
 use crate::prelude::*;
-use crate::runs::SHORT_RUN;
 use trunnion_machine::{Deviation, swept_deviation};
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::FEED.and(Needs::TURNS).and(Needs::VECTORS), check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::VectorCut(check)]);
 
 /// No tool is longer, mm.
 const LONGEST_MM: f64 = 1000.0;
@@ -58,117 +53,101 @@ const FOUND: u64 = 1;
 const BETWEEN: u64 = 2;
 const NOT_KNOWN: u64 = 3;
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    if !view.motion().is_feed() || !view.rotary_turns() {
-        return;
-    }
-    let Some((_, end)) = view.stances() else { return };
-    let tolerance = view.machine.tolerances.swept_mm;
-    let declared = end.tool_length > 0.0;
-    let length = if declared { end.tool_length } else { LONGEST_MM };
+fn check(cut: &facts::VectorCut<'_>, out: &mut Reporter<'_>) {
+    let tolerance = cut.machine.tolerances.swept_mm;
+    let declared = cut.end.tool_length > 0.0;
+    let length = if declared { cut.end.tool_length } else { LONGEST_MM };
     // opposite tool axes are reported by orientation-deviation, a deviating tip by path-deviation
-    let Some(deviation) = swept_deviation(view.machine, view.leg, length, tolerance) else {
+    let Some(deviation) = swept_deviation(cut.machine, cut.leg, length, tolerance) else {
         return;
     };
     if deviation.bound_mm <= tolerance {
-        return;
-    }
-    if !declared {
-        return not_known(
-            view,
+    } else if !declared {
+        not_known(
+            cut,
             out,
             &deviation,
             length,
             "the tool length is not known, and a 1 m tool would exceed the tolerance",
             "declare the tool's length in trunnion.toml: [[tool]] number = ..., length = ...",
         );
-    }
-    if view.orientation_is_assumed() {
-        return not_known(
-            view,
+    } else if cut.orientation_is_assumed() {
+        not_known(
+            cut,
             out,
             &deviation,
             length,
             "the machine file does not say how the control turns the axes between vectors",
             "declare it in the machine file: [control] tcp = { orientation = \"joint\" } or \"great-circle\"",
         );
+    } else {
+        found(cut, out, &deviation, length);
     }
-    found(view, out, &deviation, length);
 }
 
-fn found(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &Deviation, length: f64) {
-    let tolerance = view.machine.tolerances.swept_mm;
-    let fails = deviation.sampled_mm > tolerance;
-    let repeats = if fails {
-        out.repeats(view, FOUND, deviation.sampled_mm)
-    } else {
-        out.repeats_unknown(view, BETWEEN, deviation.bound_mm)
+fn found(cut: &LegView<'_>, out: &mut Reporter<'_>, deviation: &Deviation, length: f64) {
+    let tolerance = cut.machine.tolerances.swept_mm;
+    let (sampled, bound) = (deviation.sampled_mm, deviation.bound_mm);
+    let values = |draft: &mut Draft<'_>| {
+        draft
+            .value("deviation_mm", sampled)
+            .value("deviation_bound_mm", bound)
+            .value("limit_mm", tolerance)
+            .value("above_tip_mm", length)
+            .value("farthest_at_percent", deviation.at * 100.0);
     };
-    if repeats {
-        return;
-    }
-    let range = orientation_range(out.program(), view.motion().block);
-    let draft = if fails {
-        out.report(
-            range,
-            format!(
-                "{} above its tip the tool leaves its path by {}",
-                mm(length),
-                mm(deviation.sampled_mm)
-            ),
-        )
-        .note(format!(
-            "largest after {} % of the block; proven to be at most {}; the tolerance is {}",
-            number((deviation.at * 100.0).round()),
-            bound_mm(deviation.bound_mm),
-            mm(tolerance)
-        ))
-        .help("make the control keep to the great circle (ORIVECT, G43.5 with vectors), or divide the block into smaller steps")
-        .merge_runs_over(SHORT_RUN, FOUND, deviation.sampled_mm)
+    if sampled > tolerance {
+        out.finding(cut, Merge::runs(FOUND, sampled), |draft| {
+            draft
+                .at_orientation()
+                .say(format!(
+                    "{} above its tip the tool leaves its path by {}",
+                    mm(length),
+                    mm(sampled)
+                ))
+                .note(format!(
+                    "largest after {} % of the block; proven to be at most {}; the tolerance is {}",
+                    number((deviation.at * 100.0).round()),
+                    bound_mm(bound),
+                    mm(tolerance)
+                ))
+                .help("make the control keep to the great circle (ORIVECT, G43.5 with vectors), or divide the block into smaller steps");
+            values(draft);
+        });
     } else {
-        out.report(
-            range,
-            format!(
-                "{} above its tip the tool leaves its path by between {} and {}: the tolerance of {} is not proven",
+        out.unknown(cut, Merge::runs(BETWEEN, bound), |draft| {
+            draft
+                .at_orientation()
+                .say(format!(
+                    "{} above its tip the tool leaves its path by between {} and {}: the tolerance of {} is not proven",
+                    mm(length),
+                    mm(sampled),
+                    bound_mm(bound),
+                    mm(tolerance)
+                ))
+                .help("divide the block into smaller steps, or allow a slightly larger tolerance");
+            values(draft);
+        });
+    }
+}
+
+fn not_known(cut: &LegView<'_>, out: &mut Reporter<'_>, deviation: &Deviation, length: f64, why: &str, help: &str) {
+    let tolerance = cut.machine.tolerances.swept_mm;
+    out.unknown(cut, Merge::once(NOT_KNOWN), |draft| {
+        draft
+            .at_orientation()
+            .say(format!("it is not known whether the body of the tool keeps to its path: {why}"))
+            .note(format!(
+                "linearly interpolated rotary axes leave the great circle between these tool vectors: by at most {1} at {0} above the tip; the tolerance is {2}",
                 mm(length),
-                mm(deviation.sampled_mm),
                 bound_mm(deviation.bound_mm),
                 mm(tolerance)
-            ),
-        )
-        .help("divide the block into smaller steps, or allow a slightly larger tolerance")
-        .unknown()
-        .merge_runs_over(SHORT_RUN, BETWEEN, deviation.bound_mm)
-    };
-    draft
-        .value("deviation_mm", deviation.sampled_mm)
-        .value("deviation_bound_mm", deviation.bound_mm)
-        .value("limit_mm", tolerance)
-        .value("above_tip_mm", length)
-        .value("farthest_at_percent", deviation.at * 100.0);
-}
-
-fn not_known(view: &LegView<'_>, out: &mut Reporter<'_>, deviation: &Deviation, length: f64, why: &str, help: &str) {
-    if out.repeats_unknown(view, NOT_KNOWN, 0.0) {
-        return;
-    }
-    let range = orientation_range(out.program(), view.motion().block);
-    out.report(
-        range,
-        format!("it is not known whether the body of the tool keeps to its path: {why}"),
-    )
-    .note(format!(
-        "linearly interpolated rotary axes leave the great circle between these tool vectors: by at most {1} at {0} above the tip; the tolerance is {2}",
-        mm(length),
-        bound_mm(deviation.bound_mm),
-        mm(view.machine.tolerances.swept_mm)
-    ))
-    .help(help)
-    .value("deviation_bound_mm", deviation.bound_mm)
-    .value("limit_mm", view.machine.tolerances.swept_mm)
-    .value("above_tip_mm", length)
-    .unknown()
-    .merge_everywhere(NOT_KNOWN);
+            ))
+            .help(help)
+            .value("deviation_bound_mm", deviation.bound_mm)
+            .value("limit_mm", tolerance)
+            .value("above_tip_mm", length);
+    });
 }
 
 #[cfg(test)]

@@ -27,16 +27,14 @@
 //! * ISO 6983-1:2009, the format of a block.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::TextAndFault(check, check_run),
-};
-
-/// What only the run shows: the control refuses the block as no block of its language.
-fn check_run(fault: &Fault, out: &mut Reporter<'_>) {
-    refused(fault, out, &[Refusal::Syntax]);
-}
+pub(super) const RULE: Body = Body::sound(
+    Error,
+    &[
+        Wake::Text(check),
+        Wake::Refused(Refusal::Syntax, plain),
+        Wake::Unreadable(report_utf16),
+    ],
+);
 
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     let text = out.text(error.range);
@@ -85,29 +83,16 @@ fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     out.report(error.range, message).help(help);
 }
 
-/// How many bytes decide whether a file is UTF-16.
-const LOOKED_AT: usize = 1024;
-
-/// Whether a file is UTF-16: by its byte order mark, or because at its beginning each second byte is NUL and no other is.
-pub(crate) fn is_utf16(source: &[u8]) -> bool {
-    if source.starts_with(&[0xFF, 0xFE]) || source.starts_with(&[0xFE, 0xFF]) {
-        return true;
-    }
-    let pairs = &source.as_chunks::<2>().0[..source.len().min(LOOKED_AT) / 2];
-    let nul_is = |low: usize| pairs.iter().all(|pair| pair[low] != 0 && pair[1 - low] == 0);
-    pairs.len() > 1 && (nul_is(0) || nul_is(1))
-}
-
 /// Says that a file is UTF-16, in place of a problem for each of its bytes.
-pub(crate) fn report_utf16(out: &mut Reporter<'_>) {
+fn report_utf16(out: &mut Reporter<'_>) {
     out.report(TextRange::new(0, 2), "this file is UTF-16; save it as UTF-8 or ASCII")
         .note("controls read one byte per character; nothing was checked");
 }
 
 #[cfg(test)]
 mod tests {
-    use super::is_utf16;
     use crate::fixture::Fixture;
+    use crate::unreadable::is_utf16;
 
     #[test]
     fn utf_16_is_one_finding() {

@@ -38,11 +38,7 @@
 use crate::prelude::*;
 use trunnion_interp::TcpMistake;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     let FaultKind::TcpState(mistake) = &fault.kind else {
@@ -73,7 +69,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     out.report(fault.range, message)
         .note(note)
         .help(help)
-        .merge(*mistake as u64, 0.0);
+        .merge(Merge::run(*mistake as u64, 0.0));
 }
 
 #[cfg(test)]

@@ -40,31 +40,25 @@
 use crate::prelude::*;
 use trunnion_machine::NoStance;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::LOST, check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::LostEnd(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let Err(NoStance::PlaneMisaligned(off)) = view.leg.end else {
+fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
+    let NoStance::PlaneMisaligned(off) = *lost.why else {
         return;
     };
-    if !view.motion().is_feed() || out.repeats(view, 0, off) {
+    if !lost.motion().is_feed() {
         return;
     }
-    let range = code_range(out.program(), view.motion().block);
-    out.report(
-        range,
-        format!("the tool is {} off the normal of the tilted plane", degrees(off)),
-    )
-    .note("X Y Z are coordinates of the tilted plane; while the tool is not perpendicular to it, the axes are not followed")
-    .help(
-        "turn the tool perpendicular to the plane first (G53.1, or CYCLE800 with a direction), or cancel the plane (G69, CYCLE800())",
-    )
-    .value("value_deg", deg(off))
-    .value("limit_deg", 0.01)
-    .merge(0, off);
+    out.finding(lost, Merge::run(0, off), |draft| {
+        draft
+            .say(format!("the tool is {} off the normal of the tilted plane", degrees(off)))
+            .note("X Y Z are coordinates of the tilted plane; while the tool is not perpendicular to it, the axes are not followed")
+            .help(
+                "turn the tool perpendicular to the plane first (G53.1, or CYCLE800 with a direction), or cancel the plane (G69, CYCLE800())",
+            )
+            .value("value_deg", deg(off))
+            .value("limit_deg", 0.01);
+    });
 }
 
 #[cfg(test)]

@@ -20,11 +20,7 @@
 //! * docs/contract.md#offsets-and-tool-lengths
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::ToolLengthUnset { tool } = &fault.kind {
@@ -43,6 +39,6 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         .help(format!(
             "declare it in trunnion.toml: [[tool]] number = {number}, length = ..."
         ))
-        .merge_everywhere(hash(tool));
+        .merge(Merge::once(hash(tool)));
     }
 }

@@ -31,11 +31,7 @@
 //! * docs/kinematics.md#tool-vectors
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::Fault(check)]);
 
 /// Above this difference from 1 it is a warning.
 const WARNING: f64 = 1e-4;
@@ -65,15 +61,15 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
     draft
         .help("correct its components: the sum of their squares must be 1")
         .value("norm", norm)
-        .merge(0, off);
+        .merge(Merge::run(0, off));
     if off > ERROR {
-        draft.severity(Severity::Error);
+        draft.severity(Error);
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::Severity;
 
     #[test]
     fn the_digits_that_differ_are_told() {

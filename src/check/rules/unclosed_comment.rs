@@ -24,11 +24,7 @@
 //! * NISTIR 6556 (2000), section 3.3.3 on comments and messages.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Text(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Text(check)]);
 
 fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
     if error.kind == SyntaxErrorKind::UnclosedComment {

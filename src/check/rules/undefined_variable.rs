@@ -27,14 +27,8 @@
 //! * FANUC Series 16i/18i-PB B-63684EN/01: custom macro, variables.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Refused(Refusal::Variable, check)]);
 
-fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    if let Some(draft) = refused(fault, out, &[Refusal::Variable]) {
-        draft.help("give the variable a value before it is used, or correct its name");
-    }
+fn check(draft: &mut Draft<'_>) {
+    draft.help("give the variable a value before it is used, or correct its name");
 }

@@ -27,40 +27,16 @@
 //! # Sources
 //! * NISTIR 6556 (2000), section 3.5.7 on length units.
 //! * FANUC Series 30i B-64484EN: G20 and G21, which keep the unit of the last session after power-off.
-use crate::InForce;
 use crate::prelude::*;
-use trunnion_interp::Motion;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Motion(Needs::UNITS_UNSAID, check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::UnsaidUnits(check)]);
 
-/// X, Y, Z, U, V, W in the order of a position.
-const LINEAR: [usize; 6] = [0, 1, 2, 6, 7, 8];
-
-fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
-    if state.units_said {
-        return;
+fn check(_: &facts::UnsaidUnits<'_>, out: &mut Reporter<'_>) {
+    if out.once(0) {
+        out.report_block("it is not declared whether lengths are in inches or millimetres: they are taken as mm")
+            .note("the control uses the unit that it was left in, or that its parameters set")
+            .help("write G21 or G20 (G71 or G70, UNITS/MM), or declare `[control] units = \"mm\"` in trunnion.toml or in the machine file");
     }
-    // zero is zero in any unit
-    let counts = |&axis: &usize| {
-        motion
-            .end
-            .get(axis)
-            .is_some_and(|end| end != 0.0 && motion.start.get(axis) != Some(end))
-    };
-    if !LINEAR.iter().any(counts) {
-        return;
-    }
-    let message = "it is not declared whether lengths are in inches or millimetres: they are taken as mm";
-    let Some(draft) = once_at(motion, message, out) else {
-        return;
-    };
-    draft
-        .note("the control uses the unit that it was left in, or that its parameters set")
-        .help("write G21 or G20 (G71 or G70, UNITS/MM), or declare `[control] units = \"mm\"` in trunnion.toml or in the machine file");
 }
 
 #[cfg(test)]

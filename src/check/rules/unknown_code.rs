@@ -22,40 +22,37 @@
 //! * grammar/README.md, the dialect tables and their sources.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
+    const HELP: &str = "correct the code, or name the dialect of the program: --dialect NAME";
     let text = out.text(fault.range);
-    let dialect = out.dialect().to_owned();
-    let FaultKind::UnknownCode { machine_builder } = fault.kind else {
-        let message = format!("{dialect} has no code {text}");
-        if let Some(draft) = refused(fault, out, &[Refusal::UnknownCode]) {
-            draft
-                .reword(message)
-                .help("correct the code, or name the dialect of the program: --dialect NAME")
-                .merge(hash(&text), 0.0);
-        }
+    let dialect = &out.dialect().name;
+    let message = format!("{dialect} has no code {text}");
+    let once = hash(&text);
+    if let Some(draft) = out.refused(fault, Refusal::UnknownCode) {
+        draft.say(message).help(HELP).merge(Merge::run(once, 0.0));
         return;
-    };
-    if machine_builder {
-        out.report(
-            fault.range,
-            format!("{dialect} leaves {text} to the machine builder: its effect is not known"),
-        )
-        .note("it is assumed to move nothing and to change nothing that is checked")
-        .help(format!(
-            "if it is harmless, say so: (trunnion: allow unknown-code because {text} only ...)"
-        ))
-        .unknown()
-        .merge_everywhere(hash(&text));
-    } else {
-        out.report(fault.range, format!("{dialect} has no code {text}"))
-            .note("it is ignored: what follows is checked as if it were not there")
-            .help("correct the code, or name the dialect of the program: --dialect NAME")
-            .merge(hash(&text), 0.0);
+    }
+    match fault.kind {
+        FaultKind::UnknownCode { machine_builder: true } => {
+            out.report(
+                fault.range,
+                format!("{dialect} leaves {text} to the machine builder: its effect is not known"),
+            )
+            .note("it is assumed to move nothing and to change nothing that is checked")
+            .help(format!(
+                "if it is harmless, say so: (trunnion: allow unknown-code because {text} only ...)"
+            ))
+            .unknown()
+            .merge(Merge::once(once));
+        }
+        FaultKind::UnknownCode { machine_builder: false } => {
+            out.report(fault.range, message)
+                .note("it is ignored: what follows is checked as if it were not there")
+                .help(HELP)
+                .merge(Merge::run(once, 0.0));
+        }
+        _ => {}
     }
 }

@@ -21,19 +21,14 @@
 //! * grammar/README.md, the dialect tables and their sources.
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check), Wake::Refused(Refusal::UnknownWord, plain)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    refused(fault, out, &[Refusal::UnknownWord]);
     if fault.kind == FaultKind::UnknownWord {
         let text = out.text(fault.range);
-        let dialect = out.dialect();
+        let dialect = &out.dialect().name;
         out.report(fault.range, format!("`{text}` has no meaning in {dialect}"))
             .help("correct the word, or name the dialect of the program: --dialect NAME")
-            .merge(hash(&text), 0.0);
+            .merge(Merge::run(hash(&text), 0.0));
     }
 }

@@ -27,34 +27,19 @@
 //!
 //! # Sources
 //! * FANUC Series 30i B-64484EN-1 (lathe system): constant surface speed control and maximum spindle speed clamp.
-use crate::InForce;
 use crate::prelude::*;
-use trunnion_interp::Motion;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Motion(Needs::FEED.and(Needs::SURFACE_SPEED), check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::CutSpindleUnlimited(check)]);
 
-fn check(motion: &Motion, state: InForce, out: &mut Reporter<'_>) {
-    if !state.surface_speed
-        || state.spindle_limit_rpm.is_some()
-        || !motion.is_feed()
-        || motion.spindle_on == Some(false)
-    {
-        return;
-    }
-    if !out.dialect().starts_with("fanuc") {
-        return;
-    }
-    let message = "constant surface speed without a spindle speed limit";
-    let Some(draft) = once_at(motion, message, out) else {
+fn check(cut: &facts::CutSpindleUnlimited<'_>, out: &mut Reporter<'_>) {
+    let Some(help) = &cut.dialect.advice.spindle_limit else {
         return;
     };
-    draft
-        .note("the spindle runs up to the machine's maximum speed as the tool approaches the centre line")
-        .help("program a limit first: G50 S2000 (G92 S2000 in G code systems B and C and on mills)");
+    if out.once(0) {
+        out.report_block("constant surface speed without a spindle speed limit")
+            .note("the spindle runs up to the machine's maximum speed as the tool approaches the centre line")
+            .help(help);
+    }
 }
 
 #[cfg(test)]

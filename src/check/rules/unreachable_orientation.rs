@@ -34,63 +34,54 @@
 use crate::prelude::*;
 use trunnion_machine::NoStance;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::LOST, check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::LostEnd(check)]);
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    match &view.leg.end {
-        Err(NoStance::Unreachable(angle)) => {
-            let range = orientation_range(out.program(), view.motion().block);
-            out.report(
-                range,
-                format!(
+fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
+    match *lost.why {
+        NoStance::Unreachable(angle) => out.finding(lost, Merge::run(0, angle), |draft| {
+            draft
+                .at_orientation()
+                .say(format!(
                     "no posture reaches this tool axis: it is {} outside the reach",
-                    degrees(*angle)
-                ),
-            )
-            .note(format!("the rotary axes of {} cannot tilt that far", view.machine.id))
-            .help("tilt the tool path, or set up the part differently")
-            .value("excess_deg", deg(*angle))
-            .merge(0, *angle);
-        }
-        Err(NoStance::OutsideLimits { axis, value, limit }) => {
-            let range = orientation_range(out.program(), view.motion().block);
-            let name = letter(*axis);
+                    degrees(angle)
+                ))
+                .note(format!("the rotary axes of {} cannot tilt that far", lost.machine.id))
+                .help("tilt the tool path, or set up the part differently")
+                .value("excess_deg", deg(angle));
+        }),
+        NoStance::OutsideLimits { axis, value, limit } => {
             let beyond = (value - limit).abs();
-            out.report(
-                range,
-                format!(
-                    "no posture within the limits reaches this tool axis: {name} would be {}, its limit is {}",
-                    degrees(*value),
-                    degrees(*limit)
-                ),
-            )
-            .note("every posture needs a rotary axis outside its travel; this is the nearest one")
-            .help("tilt the tool path, or set up the part differently")
-            .value_text("axis", name)
-            .value("value_deg", deg(*value))
-            .value("limit_deg", deg(*limit))
-            .value("excess_deg", deg(beyond))
-            .merge(u64::from(*axis), beyond);
+            out.finding(lost, Merge::run(u64::from(axis), beyond), |draft| {
+                let name = letter(axis);
+                draft
+                    .at_orientation()
+                    .say(format!(
+                        "no posture within the limits reaches this tool axis: {name} would be {}, its limit is {}",
+                        degrees(value),
+                        degrees(limit)
+                    ))
+                    .note("every posture needs a rotary axis outside its travel; this is the nearest one")
+                    .help("tilt the tool path, or set up the part differently")
+                    .value_text("axis", name)
+                    .value("value_deg", deg(value))
+                    .value("limit_deg", deg(limit))
+                    .value("excess_deg", deg(beyond));
+            });
         }
-        Err(NoStance::PostureRefused { axis, value }) => {
-            let range = orientation_range(out.program(), view.motion().block);
-            let name = letter(*axis);
-            out.report(
-                range,
-                format!(
-                    "no posture within the limits matches the program's choice: {name} would be {}",
-                    degrees(*value)
-                ),
-            )
-            .note("SEQ, STAT, TU or the solution number selects a sign of a rotary axis that the travel does not allow")
-            .help("leave the choice to the control, or select the other posture")
-            .value_text("axis", name)
-            .value("value_deg", deg(*value))
-            .merge(256 + u64::from(*axis), value.abs());
+        NoStance::PostureRefused { axis, value } => {
+            out.finding(lost, Merge::run(256 + u64::from(axis), value.abs()), |draft| {
+                let name = letter(axis);
+                draft
+                    .at_orientation()
+                    .say(format!(
+                        "no posture within the limits matches the program's choice: {name} would be {}",
+                        degrees(value)
+                    ))
+                    .note("SEQ, STAT, TU or the solution number selects a sign of a rotary axis that the travel does not allow")
+                    .help("leave the choice to the control, or select the other posture")
+                    .value_text("axis", name)
+                    .value("value_deg", deg(value));
+            });
         }
         _ => {}
     }

@@ -22,13 +22,8 @@
 //! # Sources
 //! * docs/contract.md#comments-that-trunnion-reads
 use crate::prelude::*;
-use crate::rule::Ending;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::End(check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::End(check)]);
 
 fn check(ending: &Ending<'_>, out: &mut Reporter<'_>) {
     for (range, rule) in &ending.unused {

@@ -29,35 +29,32 @@
 //! * Grbl 1.1 (2017): error 36.
 //! * grammar/README.md, the addresses of each code in the Fanuc and Haas tables.
 use crate::prelude::*;
-use crate::runs::SHORT_RUN;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Error,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Error, &[Wake::Fault(check), Wake::Refused(Refusal::UnusedWord, help)]);
+
+fn help(draft: &mut Draft<'_>) {
+    draft.help("remove the word, or add the code that it belongs to");
+}
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    if let Some(draft) = refused(fault, out, &[Refusal::UnusedWord]) {
-        draft.help("remove the word, or add the code that it belongs to");
-    }
     if fault.kind == FaultKind::UnusedWord {
         let text = out.text(fault.range);
         let text = text.trim();
-        out.report(
+        let draft = out.report(
             fault.range,
             format!("`{text}` is not used by any code of the block or any active code"),
-        )
-        .severity(Severity::Warning)
-        .note("the control ignores it, or uses it in a way that is not known here")
-        .help("remove the word, or add the code that it belongs to")
-        .merge_runs_over(SHORT_RUN, hash(text), 0.0);
+        );
+        draft
+            .severity(Warning)
+            .note("the control ignores it, or uses it in a way that is not known here")
+            .merge(Merge::runs(hash(text), 0.0));
+        help(draft);
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::Severity;
     use crate::fixture::assert_drawn;
 
     #[test]

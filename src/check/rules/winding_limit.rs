@@ -37,36 +37,27 @@ use crate::prelude::*;
 use trunnion_geometry::rad;
 use trunnion_machine::Limits;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Warning,
-    guarantee: Guarantee::Sound,
-    level: Level::Leg(Needs::CABLE, check),
-};
+pub(super) const RULE: Body = Body::sound(Warning, &[Wake::CableAxis(check)]);
 
 /// Least reserve, deg.
 const RESERVE_DEG: f64 = 30.0;
 
-fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
-    let (joints, known) = (&view.leg.known_joints.0, view.leg.known_joints.1);
-    for &joint in &view.machine.rotary {
-        let axis = &view.machine.axes[joint];
-        if !axis.extra.cable || known & (1 << joint) == 0 {
-            continue;
-        }
+fn check(cables: &facts::CableAxis<'_>, out: &mut Reporter<'_>) {
+    for (joint, value) in cables.joints() {
+        let axis = &cables.machine.axes[joint];
         let (name, key) = (letter(axis.letter), u64::from(axis.letter));
         let Limits::Range(low, high) = axis.limits else {
             if out.once(key) {
-                let range = axis_word(out.program(), view.motion().block, axis.letter);
-                out.report(
-                    range,
-                    format!("it is not declared how far {name} may wind up its cable"),
-                )
-                .help(format!("declare limits for {name} in the machine file"))
-                .unknown();
+                out.event(|draft| {
+                    draft
+                        .at_axis(axis.letter)
+                        .say(format!("it is not declared how far {name} may wind up its cable"))
+                        .help(format!("declare limits for {name} in the machine file"))
+                        .unknown();
+                });
             }
             continue;
         };
-        let value = joints[joint];
         let (reserve, limit) = if value - low < high - value {
             (value - low, low)
         } else {
@@ -76,30 +67,25 @@ fn check(view: &LegView<'_>, out: &mut Reporter<'_>) {
         if reserve >= rad(RESERVE_DEG) - 1e-9 || reserve < 0.0 {
             continue;
         }
-        let badness = rad(RESERVE_DEG) - reserve;
         // the lower end after the upper one is a separate finding, however close the blocks
-        let key = key + 256 * u64::from(limit == high);
-        if out.repeats(view, key, badness) {
-            continue;
-        }
-        let range = axis_word(out.program(), view.motion().block, axis.letter);
-        out.report(
-            range,
-            format!(
-                "{name} has {} left to its limit of {}",
-                degrees(reserve),
-                degrees(limit)
-            ),
-        )
-        .note(format!(
-            "{name} winds up a cable: {RESERVE_DEG} deg of reserve are required"
-        ))
-        .help(format!("unwind {name} first, or set up the part rotated"))
-        .value_text("axis", name)
-        .value("reserve_deg", deg(reserve))
-        .value("value_deg", deg(value))
-        .value("limit_deg", deg(limit))
-        .merge(key, badness);
+        let merge = Merge::run(key + 256 * u64::from(limit == high), rad(RESERVE_DEG) - reserve);
+        out.finding(cables, merge, |draft| {
+            draft
+                .at_axis(axis.letter)
+                .say(format!(
+                    "{name} has {} left to its limit of {}",
+                    degrees(reserve),
+                    degrees(limit)
+                ))
+                .note(format!(
+                    "{name} winds up a cable: {RESERVE_DEG} deg of reserve are required"
+                ))
+                .help(format!("unwind {name} first, or set up the part rotated"))
+                .value_text("axis", name.clone())
+                .value("reserve_deg", deg(reserve))
+                .value("value_deg", deg(value))
+                .value("limit_deg", deg(limit));
+        });
     }
 }
 

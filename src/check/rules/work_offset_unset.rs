@@ -21,11 +21,7 @@
 //! * docs/contract.md#offsets-and-tool-lengths
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body {
-    severity: Severity::Info,
-    guarantee: Guarantee::Sound,
-    level: Level::Fault(check),
-};
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::Fault(check)]);
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if let FaultKind::WorkOffsetUnset { name } = &fault.kind {
@@ -34,6 +30,6 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             .help(format!(
                 "declare it in trunnion.toml: [work_offsets] {name} = {{ X = 0, Y = 0, Z = 0 }}"
             ))
-            .merge_everywhere(hash(name));
+            .merge(Merge::once(hash(name)));
     }
 }

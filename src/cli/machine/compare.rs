@@ -1,4 +1,5 @@
 //! `machine compare`: what a wrong machine file does to the tip.
+use crate::cli::out::Out;
 use crate::cli::{
     Done,
     args::Global,
@@ -36,11 +37,11 @@ pub(super) fn run(global: &Global, options: &Options<'_>) -> Result<Done, Failur
         ));
     }
     let (believed, truth) = (
-        find_machine(options.believed, None)?,
-        find_machine(options.truth, None)?,
+        find_machine(options.believed, None)?.machine,
+        find_machine(options.truth, None)?.machine,
     );
     let comparison = Comparison::new(&believed, &truth).map_err(Failure::new)?;
-    let mut out = std::io::stdout().lock();
+    let mut out = Out::standard();
     writeln!(out, "believed {}, truth {}", believed.id, truth.id)?;
     let entries = comparison.entries();
     if entries.is_empty() {

@@ -3,9 +3,10 @@ use crate::cli::{
     Done,
     args::{Global, ImportFormat},
     failure::{Failure, remark},
+    load,
 };
-use std::io::Write;
 use std::path::Path;
+use trunnion_files::Outputs;
 use trunnion_machine::{MachineError, import_freecad, import_linuxcnc};
 use trunnion_workspace::LoadError;
 
@@ -17,7 +18,10 @@ pub(super) fn run(
     output: Option<&Path>,
     set: &[String],
 ) -> Result<Done, Failure> {
-    let text = std::fs::read_to_string(file).map_err(|error| Failure::io(file, "read the file", &error))?;
+    let text = trunnion_files::read_text(file)?;
+    let mut outputs = Outputs::new();
+    outputs.input(file);
+    let target = output.map(|path| outputs.output("-o", path)).transpose()?;
     let extension = file
         .extension()
         .and_then(|e| e.to_str())
@@ -42,13 +46,7 @@ pub(super) fn run(
         }
         ImportFormat::Freecad => import_freecad(name, &text).map_err(failed)?,
     };
-    match output {
-        None => write!(std::io::stdout().lock(), "{}", imported.toml)?,
-        Some(path) => {
-            std::fs::write(path, &imported.toml)
-                .map_err(|error| Failure::io(path, "write the machine file", &error))?;
-        }
-    }
+    load::put(target.as_ref(), imported.toml.as_bytes())?;
     for line in &imported.open {
         remark(global.quiet, &format!("open: {line}"));
     }

@@ -11,9 +11,7 @@ const OFF: f64 = 0.05;
 pub(super) fn pivot_off(name: &str) -> Result<String, Failure> {
     let text = match builtin_source(name) {
         Some(text) => text.to_owned(),
-        None => {
-            std::fs::read_to_string(name).map_err(|error| Failure::io(Path::new(name), "read the machine", &error))?
-        }
+        None => trunnion_files::read_text(Path::new(name))?,
     };
     let broken = |why: &str| Failure::new(format!("--plant pivot: machine {name}: {why}"));
     let mut table: Table = text.parse().map_err(|error: toml::de::Error| broken(error.message()))?;

@@ -1,0 +1,31 @@
+//! Facts that wake rules, one type each. A type says what it holds of (`of`), and what a first look must leave possible before that is
+//! worked out (`may`): `may` is cheap, and never false where the rules that the fact wakes would report something; debug builds look.
+//! A new fact is a type here and a line in `wake.rs`.
+mod axes;
+mod cut;
+mod motion;
+mod place;
+mod pole;
+mod posture;
+mod travel;
+
+pub(crate) use axes::{CableAxis, ClampedTurn, LongTurn, OverTravel};
+pub(crate) use cut::{Cut, HeldBackCut, OtherLength, StrayingCut, UncertainCut, VectorCut};
+pub(crate) use motion::{CutSpindleOff, CutSpindleUnlimited, FirstCut, UnsaidUnits};
+pub(crate) use place::{Arrival, LostArc, LostEnd};
+pub(crate) use pole::{NearPole, PoleCrossing, PolePass, first_pass};
+pub(crate) use posture::{OneSidedCut, OpenPosture, PostureSwap};
+pub(crate) use travel::{FarCut, WindingCut};
+
+/// A fact about a leg with its view in front: what the view knows, the fact knows.
+macro_rules! over_view {
+    ($($fact:ident),*) => {$(
+        impl<'v> core::ops::Deref for $fact<'v> {
+            type Target = crate::view::LegView<'v>;
+            fn deref(&self) -> &Self::Target {
+                self.view
+            }
+        }
+    )*};
+}
+use over_view;

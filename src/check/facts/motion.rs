@@ -1,0 +1,43 @@
+//! Facts about a motion as programmed.
+use crate::view::MotionView;
+use core::ops::Deref;
+
+/// Facts that add nothing to the view: the rule is woken where the condition holds.
+macro_rules! plain {
+    ($($(#[$doc:meta])* $fact:ident = |$view:ident| $holds:expr;)*) => {$(
+        $(#[$doc])*
+        pub(crate) struct $fact<'v>(&'v MotionView<'v>);
+
+        impl<'v> $fact<'v> {
+            #[inline]
+            pub(crate) fn may($view: &MotionView<'_>) -> bool {
+                $holds
+            }
+            pub(crate) fn of(view: &'v MotionView<'v>) -> Option<Self> {
+                Self::may(view).then_some(Self(view))
+            }
+        }
+
+        impl<'v> Deref for $fact<'v> {
+            type Target = MotionView<'v>;
+            fn deref(&self) -> &Self::Target {
+                self.0
+            }
+        }
+    )*};
+}
+
+plain! {
+    /// The first feed motion after the tool of the feed motions changed.
+    FirstCut = |view| view.motion.is_feed() && view.motion.tool != view.last_cut;
+    /// A feed motion with the spindle off.
+    CutSpindleOff = |view| view.motion.is_feed() && view.motion.spindle_on == Some(false) && !view.motion.machine_coordinates;
+    /// A feed motion under constant surface speed without a limit of the spindle speed, where the control wants one.
+    CutSpindleUnlimited = |view| view.in_force.surface_speed
+        && view.in_force.spindle_limit_rpm.is_none()
+        && view.motion.is_feed()
+        && view.motion.spindle_on != Some(false)
+        && view.dialect.advice.spindle_limit.is_some();
+    /// A length of which nothing says whether it is inch or mm.
+    UnsaidUnits = |view| !view.in_force.units_said && view.changes_a_length();
+}

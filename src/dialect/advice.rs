@@ -1,0 +1,74 @@
+//! `[check]` of a table: what a check says of a control. No run depends on it, so it is no part of a certificate.
+use serde::Deserialize;
+
+/// The language of expressions and flow, for carrying a program over to another control.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Expressions {
+    /// RS274/NGC: LinuxCNC, grbl.
+    Rs274Ngc,
+    /// Custom macro B: Fanuc, Haas.
+    MacroB,
+    /// Neither.
+    #[default]
+    Other,
+}
+
+/// What decides how F counts in a block that moves rotary axes, without tool centre point control.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RotaryFeed {
+    /// The language itself.
+    #[default]
+    Language,
+    /// The family of the machine's control: the table describes no particular control.
+    Family,
+    /// A parameter.
+    Parameter,
+    /// A parameter; and where only rotary axes turn, F counts along circles whose diameters are settings.
+    Diameters,
+}
+
+/// What a check says of a control. In TOML: table `[check]`, each key optional: what a table does not say stays as in the table that it
+/// extends.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Advice {
+    /// The language of its expressions.
+    pub expressions: Expressions,
+    /// What decides how F counts while rotary axes move.
+    pub rotary_feed: RotaryFeed,
+    /// Of two words with one letter in a block the last one counts, and the control says nothing.
+    pub last_word_wins: bool,
+    /// Which setting decides what a coordinate without a decimal point means.
+    pub whole_coordinate: Option<String>,
+    /// Which setting decides what F without a decimal point means.
+    pub whole_feed: Option<String>,
+    /// How to limit the spindle speed under constant surface speed; `None`: a check does not ask for a limit.
+    pub spindle_limit: Option<String>,
+}
+
+/// The keys of `[check]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct AdviceRow {
+    expressions: Option<Expressions>,
+    rotary_feed: Option<RotaryFeed>,
+    last_word_wins: Option<bool>,
+    whole_coordinate: Option<String>,
+    whole_feed: Option<String>,
+    spindle_limit: Option<String>,
+}
+
+impl AdviceRow {
+    /// Lays what the table says over `base`.
+    pub(crate) fn over(self, base: &Advice) -> Advice {
+        Advice {
+            expressions: self.expressions.unwrap_or(base.expressions),
+            rotary_feed: self.rotary_feed.unwrap_or(base.rotary_feed),
+            last_word_wins: self.last_word_wins.unwrap_or(base.last_word_wins),
+            whole_coordinate: self.whole_coordinate.or_else(|| base.whole_coordinate.clone()),
+            whole_feed: self.whole_feed.or_else(|| base.whole_feed.clone()),
+            spindle_limit: self.spindle_limit.or_else(|| base.spindle_limit.clone()),
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Reads a regular file whole.
+use crate::error::FileError;
+use crate::identity::{Identity, special};
+use std::{
+    fs::{File, Metadata},
+    io::Read,
+    path::Path,
+    time::SystemTime,
+};
+
+/// The state in which a file was read: as long as it holds, the bytes that were read are still the file's.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Seen {
+    pub(crate) identity: Identity,
+    pub(crate) length: u64,
+    pub(crate) modified: Option<SystemTime>,
+}
+
+impl Seen {
+    pub(crate) fn of(path: &Path, metadata: &Metadata) -> Self {
+        Self {
+            identity: Identity::of(path, metadata),
+            length: metadata.len(),
+            modified: metadata.modified().ok(),
+        }
+    }
+}
+
+/// A file as it was read.
+#[derive(Debug)]
+pub struct Input {
+    /// All of its bytes.
+    pub bytes: Vec<u8>,
+    /// Its state when they were read.
+    pub seen: Seen,
+}
+
+/// Reads the regular file that `path` leads to; `None` where it has more than `most` bytes. Symbolic links are followed.
+///
+/// # Errors
+/// The file is missing or unreadable; it is a folder, FIFO, socket or device (nothing is opened then, so no call waits for a writer);
+/// it changed while it was read.
+pub fn read(path: &Path, most: u64) -> Result<Option<Input>, FileError> {
+    let failed = |error: &std::io::Error| FileError::io(path, "read the file", error);
+    let metadata = std::fs::metadata(path).map_err(|error| failed(&error))?;
+    if let Some(kind) = special(&metadata) {
+        return Err(FileError::new(
+            path,
+            format!(
+                "is {kind}, not a regular file, and was not read; name a file (`-` reads standard input where a program is expected)"
+            ),
+        ));
+    }
+    let mut file = File::open(path).map_err(|error| failed(&error))?;
+    let before = file.metadata().map_err(|error| failed(&error))?;
+    if before.len() > most {
+        return Ok(None);
+    }
+    let mut bytes = Vec::new();
+    bytes.reserve_exact(before.len() as usize + 1);
+    // one byte more than allowed shows that the file grew
+    (&mut file)
+        .take(most.saturating_add(1))
+        .read_to_end(&mut bytes)
+        .map_err(|error| failed(&error))?;
+    let after = file.metadata().map_err(|error| failed(&error))?;
+    if bytes.len() as u64 > most {
+        return Ok(None);
+    }
+    let seen = Seen::of(path, &after);
+    // files of the system (/proc) report no length
+    let grew = before.len() != 0 && bytes.len() as u64 != after.len();
+    if Seen::of(path, &before) != seen || grew {
+        return Err(FileError::new(path, "changed while it was read; run the command again"));
+    }
+    Ok(Some(Input { bytes, seen }))
+}
+
+/// Largest text of settings, machines, posts, tables and certificates, bytes.
+const MOST_TEXT: u64 = 64 << 20;
+
+/// Reads a text file (settings, machine, post, certificate) of at most 64 MiB.
+///
+/// # Errors
+/// As [`read`]; the file is larger, or is not UTF-8, with the byte where that shows.
+pub fn read_text(path: &Path) -> Result<String, FileError> {
+    let Some(input) = read(path, MOST_TEXT)? else {
+        return Err(FileError::new(
+            path,
+            "is larger than 64 MiB, the largest size for a file of this kind; it was not read",
+        ));
+    };
+    String::from_utf8(input.bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to() + 1;
+        FileError::new(path, format!("is not UTF-8 text (from byte {at} on); save it as UTF-8"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn a_file_is_read_whole_or_said_to_be_too_large() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("p.nc");
+        fs::write(&path, b"G0 X1\n").expect("written");
+        let input = read(&path, 6).expect("readable").expect("small enough");
+        assert_eq!(input.bytes, b"G0 X1\n");
+        assert!(read(&path, 5).expect("readable").is_none());
+    }
+
+    #[test]
+    fn folders_and_devices_are_refused_at_once() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let error = read(folder.path(), 100).expect_err("a folder");
+        assert!(error.message.starts_with("is a folder"), "{error}");
+        #[cfg(unix)]
+        {
+            let error = read(Path::new("/dev/zero"), 100).expect_err("a device");
+            assert!(error.message.starts_with("is a device"), "{error}");
+        }
+    }
+
+    #[test]
+    fn text_that_is_not_utf_8_names_the_byte() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("m.toml");
+        fs::write(&path, b"ab\xff").expect("written");
+        let error = read_text(&path).expect_err("not UTF-8");
+        assert!(error.message.contains("from byte 3 on"), "{error}");
+    }
+}

@@ -186,7 +186,7 @@ impl Dialect {
     /// Whether a code switches the tool's length on (G43); on lathes the tool word does it, on other controls the tool change.
     pub fn length_by_code(&self) -> bool {
         let on = |code: &Code| code.action == Action::ToolLengthOn && code.id == "G43";
-        !self.quirks.tool_word_holds_offset && self.codes.iter().any(on)
+        self.quirks.tool_word != ToolWord::ChangesWithOffset && self.codes.iter().any(on)
     }
     /// The control's alarm for a mistake by its key in `[alarms]`: `peck-missing`.
     pub fn alarm(&self, mistake: &str) -> Option<&Alarm> {

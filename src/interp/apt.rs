@@ -1,11 +1,15 @@
 //! APT / CL records to motions.
+mod args;
+
+pub(crate) use args::{Args, is};
+
 use crate::Sink;
 use crate::core::{Core, Report};
 use crate::engine::Engine;
 use crate::{FaultKind, FeedMode, Motion, Orientation};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
-use trunnion_syntax::{AptArg, Block, BlockId, Program, Record, TextRange};
+use trunnion_syntax::{Block, BlockId, Program, Record, TextRange};
 
 /// What APT keeps between records beside the modal state.
 #[derive(Clone, Debug, Default)]
@@ -31,90 +35,6 @@ pub(crate) struct Circle {
     pub(crate) radius: Option<f64>,
 }
 
-/// The arguments of a record: up to sixteen numbers in order, and the minor words.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Args {
-    numbers: [f64; 16],
-    count: usize,
-    words: [TextRange; 8],
-    word_count: usize,
-    /// For each word, how many numbers come before it.
-    before: [usize; 8],
-    /// Something is neither a number nor a word.
-    pub(crate) odd: bool,
-    /// Bytes of the first argument to the last.
-    pub(crate) range: TextRange,
-}
-
-impl Args {
-    pub(crate) fn new(record: &Record<'_>) -> Self {
-        let mut args = Self {
-            numbers: [0.0; 16],
-            count: 0,
-            words: [TextRange::default(); 8],
-            word_count: 0,
-            before: [0; 8],
-            odd: false,
-            range: record.range,
-        };
-        let mut whole: Option<TextRange> = None;
-        for arg in record.args() {
-            let range = match arg {
-                AptArg::Number(decimal, range) => {
-                    let value = decimal.to_f64();
-                    if args.count == args.numbers.len() || value.abs() > 1e12 {
-                        args.odd = true;
-                    } else {
-                        args.numbers[args.count] = value;
-                        args.count += 1;
-                    }
-                    range
-                }
-                AptArg::Word(range) => {
-                    if args.word_count < args.words.len() {
-                        args.words[args.word_count] = range;
-                        args.before[args.word_count] = args.count;
-                        args.word_count += 1;
-                    }
-                    range
-                }
-                AptArg::Other(range) => {
-                    args.odd = true;
-                    range
-                }
-            };
-            whole = Some(whole.map_or(range, |whole| whole.cover(range)));
-        }
-        if let Some(whole) = whole {
-            args.range = whole;
-        }
-        args
-    }
-    pub(crate) fn numbers(&self) -> &[f64] {
-        &self.numbers[..self.count]
-    }
-    /// Minor words, upper case comparison is [`Args::has`].
-    pub(crate) fn words(&self) -> &[TextRange] {
-        &self.words[..self.word_count]
-    }
-    pub(crate) fn has(&self, program: &Program, word: &str) -> bool {
-        self.words().iter().any(|&range| is(program, range, word))
-    }
-    /// The number that follows a minor word.
-    pub(crate) fn after(&self, program: &Program, word: &str) -> Option<f64> {
-        let at = self.words().iter().position(|&range| is(program, range, word))?;
-        self.numbers().get(self.before[at]).copied()
-    }
-}
-
-/// Whether a range is this word, in either case.
-pub(crate) fn is(program: &Program, range: TextRange, word: &str) -> bool {
-    program
-        .source()
-        .get(range.as_usize())
-        .is_some_and(|text| text.eq_ignore_ascii_case(word.as_bytes()))
-}
-
 /// A major word in upper case, as far as it fits.
 fn upper<'b>(program: &Program, range: TextRange, buffer: &'b mut [u8; 12]) -> &'b [u8] {
     let text = program.source().get(range.as_usize()).unwrap_or_default();
@@ -133,7 +53,7 @@ fn upper<'b>(program: &Program, range: TextRange, buffer: &'b mut [u8; 12]) -> &
 #[derive(Clone)]
 pub(crate) struct Apt<'d> {
     pub(crate) core: Core<'d>,
-    pub(crate) apt: AptState,
+    pub(crate) kept: AptState,
     /// The record that runs next.
     next: u32,
     finished: bool,
@@ -166,7 +86,7 @@ impl<'d> Apt<'d> {
     pub(crate) fn new(core: Core<'d>) -> Self {
         Self {
             core,
-            apt: AptState::default(),
+            kept: AptState::default(),
             next: 0,
             finished: false,
         }
@@ -265,12 +185,12 @@ impl Apt<'_> {
                 if code.action == Action::FrameChange {
                     self.core.unknown.begin(code, false);
                 }
-                self.apt.circle = None;
-                self.apt.axis_lost = true;
+                self.kept.circle = None;
+                self.kept.axis_lost = true;
             }
             _ => {}
         }
-        self.core.state.frame_unknown = self.core.unknown.any() || self.apt.csys;
+        self.core.state.frame_unknown = self.core.unknown.any() || self.kept.csys;
     }
 
     /// A record without meaning may move the tool or the coordinates: neither is known until the end of the program.
@@ -284,9 +204,9 @@ impl Apt<'_> {
     /// Where the tool is, and along which axis, is not known until a GOTO says so.
     fn lose_place(&mut self) {
         self.core.forget_position();
-        self.apt.circle = None;
-        self.apt.axis = None;
-        self.apt.axis_lost = true;
+        self.kept.circle = None;
+        self.kept.axis = None;
+        self.kept.axis_lost = true;
     }
 
     fn forget_everything_of(&mut self, action: Action) {
@@ -298,7 +218,7 @@ impl Apt<'_> {
     }
 
     fn rapid(&mut self, report: &mut Report<'_>) {
-        if self.apt.circle.take().is_some() {
+        if self.kept.circle.take().is_some() {
             report.fault(
                 TextRange::default(),
                 FaultKind::NotModelled {
@@ -306,7 +226,7 @@ impl Apt<'_> {
                 },
             );
         }
-        self.apt.rapid = true;
+        self.kept.rapid = true;
     }
 
     fn units(&mut self, args: &Args, report: &mut Report<'_>) {
@@ -438,9 +358,9 @@ impl Apt<'_> {
                 },
             );
         }
-        if identity == self.apt.csys {
-            self.apt.csys = !identity;
-            self.core.state.frame_unknown = self.core.unknown.any() || self.apt.csys;
+        if identity == self.kept.csys {
+            self.kept.csys = !identity;
+            self.core.state.frame_unknown = self.core.unknown.any() || self.kept.csys;
             self.core.forget_position();
         }
     }

@@ -65,8 +65,8 @@ impl Apt<'_> {
         if numbers.len() == 6 {
             let vector = Vec3::new(numbers[3], numbers[4], numbers[5]);
             self.core.state.orientation = self.core.unit_vector(vector, true, args.range, report);
-            self.apt.axis_lost = self.core.state.orientation == Orientation::Words;
-        } else if self.core.state.orientation == Orientation::Words && !self.core.state.multax && !self.apt.axis_lost {
+            self.kept.axis_lost = self.core.state.orientation == Orientation::Words;
+        } else if self.core.state.orientation == Orientation::Words && !self.core.state.multax && !self.kept.axis_lost {
             // as for GOTO: straight along Z while MULTAX is off
             self.core.state.orientation = Orientation::Vector(None, Vec3::z());
         }
@@ -78,7 +78,7 @@ impl Apt<'_> {
             &[i, j, k] if !args.odd => {
                 let orientation = self.core.unit_vector(Vec3::new(i, j, k), true, args.range, report);
                 // set without motion: the tool turns with the next one
-                self.apt.axis = Some(orientation);
+                self.kept.axis = Some(orientation);
             }
             _ => {
                 let what = report.program.text(report.whole()).into_owned();
@@ -108,8 +108,8 @@ impl Apt<'_> {
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
         }
         let radius = numbers.get(6).filter(|_| readable).map(|radius| radius * unit);
-        self.apt.rapid = false;
-        self.apt.circle = Some(Circle { shape, radius });
+        self.kept.rapid = false;
+        self.kept.circle = Some(Circle { shape, radius });
     }
 
     /// DELAY/seconds, DELAY/turns,REV.
@@ -149,8 +149,8 @@ impl Apt<'_> {
     fn unreadable_goto(&mut self, report: &mut Report<'_>) -> Motion {
         let what = report.program.text(report.whole()).into_owned();
         report.fault(TextRange::default(), FaultKind::NotModelled { what });
-        self.apt.circle = None;
-        self.apt.axis_lost = true;
+        self.kept.circle = None;
+        self.kept.axis_lost = true;
         self.unknown_goto(Orientation::Words, report)
     }
 
@@ -165,7 +165,7 @@ impl Apt<'_> {
 
     /// The orientation of a GOTO: its vector, else the one in force, else straight along Z.
     fn goto_orientation(&mut self, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Orientation {
-        let set = self.apt.axis.take();
+        let set = self.kept.axis.take();
         if let Some(vector) = vector {
             return self.core.unit_vector(vector, true, range, report);
         }
@@ -175,18 +175,18 @@ impl Apt<'_> {
         match (set, self.core.state.orientation) {
             (Some(orientation), _) => orientation,
             (None, Orientation::Vector(_, vector)) => Orientation::Vector(Some(vector), vector),
-            (None, Orientation::Words) if self.apt.axis_lost => Orientation::Words,
+            (None, Orientation::Words) if self.kept.axis_lost => Orientation::Words,
             (None, Orientation::Words) => Orientation::Vector(None, Vec3::z()),
         }
     }
 
     /// The motion to a point.
     fn go(&mut self, target: Vec3, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Motion {
-        let rapid = std::mem::take(&mut self.apt.rapid);
-        let circle = self.apt.circle.take();
+        let rapid = std::mem::take(&mut self.kept.rapid);
+        let circle = self.kept.circle.take();
         let start = self.core.state.position;
         let orientation = self.goto_orientation(vector, range, report);
-        self.apt.axis_lost = orientation == Orientation::Words;
+        self.kept.axis_lost = orientation == Orientation::Words;
         let cycle = self.core.state.motion == Some(Action::CannedCycle);
         self.core.tools.use_cutter();
         if cycle {

@@ -234,8 +234,9 @@ impl<'a> Steps<'a> {
 
     /// An excerpt: what is in force before its first block. `feed` in mm/min.
     pub fn assume(&mut self, tcp: bool, feed: Option<f64>) {
-        self.interpreter.state.tcp |= tcp;
-        self.interpreter.state.feed = feed.or(self.interpreter.state.feed);
+        self.interpreter.state_mut().tcp |= tcp;
+        let state = self.interpreter.state_mut();
+        state.feed = feed.or(state.feed);
     }
 
     /// Whether motions are held back until a later one is known.
@@ -265,7 +266,7 @@ impl<'a> Steps<'a> {
 
     /// The modal state now.
     pub fn state(&self) -> &ModalState {
-        &self.interpreter.state
+        self.interpreter.state()
     }
 
     /// Runs the next block; `None` at the end.

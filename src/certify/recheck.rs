@@ -163,6 +163,7 @@ fn prove(
         across: false,
         path_only: matches!(claim, Claim::SamePath { .. }),
         cuts: !claim.is_rewrite(),
+        exact: None,
     };
     let verdict = compare(old_steps, new_steps, &asked, &mut proof);
     if verdict != Verdict::Same {

@@ -118,8 +118,7 @@ impl<'p> Draft<'p> {
         self
     }
 
-    /// A rewrite that may cure it.
-    pub(crate) fn fix(&mut self, rewrite: &'static str) -> &mut Self {
+    fn fix(&mut self, rewrite: &'static str) -> &mut Self {
         self.diagnostic.fixes.push(rewrite);
         self
     }

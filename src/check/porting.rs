@@ -67,7 +67,7 @@ pub(crate) fn report(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         let Some(to) = trunnion_dialect::builtin(name) else {
             continue;
         };
-        let both_iso = from.lex.format == Format::Iso && to.lex.format == Format::Iso;
+        let both_iso = from.lex.format == Format::Iso && to.lex.format == trunnion_syntax::Format::Iso;
         if to.name == from.name || !both_iso {
             continue;
         }

@@ -1,10 +1,5 @@
 //! `diff`: where two programs move the tool differently. What differs only in its text is not shown.
-mod align;
-mod changes;
-mod event;
 mod json;
-mod point;
-mod run;
 mod show;
 
 use super::{
@@ -16,8 +11,9 @@ use super::{
 };
 use crate::cli::out::Out;
 use clap::ValueEnum;
-use point::Tolerance;
 use std::{io::Write, path::PathBuf};
+use trunnion_diff::{Found, Pair, Tolerance, compare};
+use trunnion_same::Input;
 
 /// `diff`
 #[derive(clap::Args)]
@@ -70,7 +66,7 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
         mm: command.tolerance_mm,
         deg: command.tolerance_deg,
     };
-    let found = changes::compare(&before, &after, tolerance, command.claim == ClaimOf::Path);
+    let found = differences(&before, &after, tolerance, command.claim == ClaimOf::Path);
     let limit = if command.limit == 0 { usize::MAX } else { command.limit };
     let mut out = Out::standard();
     match command.format {
@@ -79,6 +75,20 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
     }
     out.flush()?;
     Ok(if found.same() { Done::Clean } else { Done::Found })
+}
+
+/// Compares two loaded programs, by joints of the machine of the first one.
+fn differences(before: &load::Loaded, after: &load::Loaded, tolerance: Tolerance, path_only: bool) -> Found {
+    let (old, new) = (&before.resolved, &after.resolved);
+    let pair = Pair {
+        before: before.input(),
+        after: Input {
+            machine: old.machine.as_ref(),
+            ..after.input()
+        },
+        one_setup: old.config_path == new.config_path,
+    };
+    compare(&pair, tolerance, path_only)
 }
 
 /// One line on how much of two programs that are not the same is the same, motion by motion.
@@ -92,6 +102,6 @@ pub(super) fn shared(
         mm: tolerance_mm,
         deg: tolerance_deg,
     };
-    let found = changes::compare(before, after, tolerance, path_only);
+    let found = differences(before, after, tolerance, path_only);
     show::shared(&found)
 }

@@ -191,9 +191,9 @@ fn renumber(loaded: &Loaded, numbers: Numbers, outcome: &mut Outcome) {
             ));
         }
         Renumbered::Differs(difference) => {
-            let at = place(&loaded.program, loaded.program.block(difference.block).range());
+            let at = place(&loaded.program, block_range(&loaded.program, &difference));
             outcome.refuse(&format!(
-                "{}{at}: block numbers are not changed: with new ones, {} would differ",
+                "{}{at}: block numbers are not changed: with new ones, {}",
                 loaded.name, difference.what
             ));
         }
@@ -216,6 +216,13 @@ fn place(program: &Program, range: TextRange) -> String {
     format!(":{line}:{column}")
 }
 
+/// The block before at which two runs part.
+fn block_range(program: &Program, difference: &trunnion_same::Difference) -> TextRange {
+    difference
+        .before
+        .map_or_else(TextRange::default, |block| program.block(block).range())
+}
+
 /// Why a layout was not taken.
 fn refusal(loaded: &Loaded, why: &Refusal) -> String {
     let name = &loaded.name;
@@ -228,8 +235,8 @@ fn refusal(loaded: &Loaded, why: &Refusal) -> String {
             format!("{name}: not formatted: at byte {at} a second run would change the layout again")
         }
         Refusal::Motions(difference) => {
-            let at = place(&loaded.program, loaded.program.block(difference.block).range());
-            format!("{name}{at}: not formatted: {} would differ", difference.what)
+            let at = place(&loaded.program, block_range(&loaded.program, difference));
+            format!("{name}{at}: not formatted: {}", difference.what)
         }
     }
 }

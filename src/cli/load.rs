@@ -9,6 +9,7 @@ use std::{
 };
 use trunnion_files::{Outputs, Seen, Target};
 use trunnion_machine::Machine;
+use trunnion_same::Input;
 use trunnion_syntax::Program;
 use trunnion_workspace::{Overrides, Resolved, resolve};
 
@@ -44,6 +45,15 @@ impl Loaded {
             outputs.input(file);
         }
         outputs
+    }
+    /// As the floors take it.
+    pub(crate) fn input(&self) -> Input<'_> {
+        Input {
+            program: &self.program,
+            dialect: self.resolved.dialect,
+            setup: &self.resolved.setup,
+            machine: self.resolved.machine.as_ref(),
+        }
     }
     /// One line on what was taken and why, for `-v`.
     pub(crate) fn explanation(&self) -> String {

@@ -20,7 +20,6 @@ mod render;
 mod sample;
 mod short;
 mod stats;
-mod stop;
 mod surface;
 mod trace;
 mod walk;

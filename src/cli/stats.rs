@@ -1,12 +1,12 @@
 //! `stats`: what a program is made of: blocks, motions, tools, distances, times, extents.
-mod calls;
 mod show;
-mod tally;
 
 use super::{Done, args::Global, args::ListFormat, failure::Failure, json::write_json, load, walk};
 use crate::cli::out::Out;
 use serde_json::json;
 use std::{io::Write, path::PathBuf};
+use trunnion_check::check;
+use trunnion_stats::Tally;
 
 /// `stats`
 #[derive(clap::Args)]
@@ -26,14 +26,17 @@ pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
     found.remark(global.quiet, global.verbose);
     for (number, path) in found.files.iter().enumerate() {
         let loaded = load::load(global, path)?;
-        let tally = tally::Tally::of(&loaded);
+        let tally = Tally::of(loaded.input());
+        let machine = loaded.resolved.machine.is_some();
+        let cycle_time_s = machine.then(|| check(&loaded.program, &loaded.resolved.settings()).cycle_time_s);
+        let cycle_time_s = cycle_time_s.flatten();
         match command.format {
-            ListFormat::Json => files.push(show::json(&loaded, &tally)),
+            ListFormat::Json => files.push(show::json(&loaded, &tally, cycle_time_s)),
             ListFormat::Text => {
                 if number > 0 {
                     writeln!(out)?;
                 }
-                out.text(&show::text(&loaded, &tally));
+                out.text(&show::text(&loaded, &tally, cycle_time_s));
             }
         }
     }

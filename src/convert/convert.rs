@@ -50,7 +50,7 @@ pub struct Converted {
 pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> Result<Converted, Refused> {
     let text = prepared(source, options);
     let machine = source.machine.filter(|_| source.dialect.lex.format != Format::Apt);
-    if source.assume != Assume::default() && source.dialect.quirks.rs274 {
+    if source.assume != Assume::default() && source.dialect.quirks.rs274() {
         return Err(Refused::new(
             "what holds at the start of an excerpt cannot be said of a LinuxCNC program: write it into the program",
         ));

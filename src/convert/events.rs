@@ -271,10 +271,10 @@ fn said(block: &Block<'_>, dialect: &Dialect) -> Result<Said, Cannot> {
                     .split_once(',')
                     .map(|(head, rest)| (head.trim().to_ascii_uppercase(), rest));
                 match head {
-                    Some((head, rest)) if dialect.quirks.rs274 && head == "MSG" => {
+                    Some((head, rest)) if dialect.quirks.rs274() && head == "MSG" => {
                         said.before.push(Event::Message(rest.trim().to_owned()));
                     }
-                    Some((head, _)) if dialect.quirks.rs274 && ACTIVE.contains(&head.as_str()) => {}
+                    Some((head, _)) if dialect.quirks.rs274() && ACTIVE.contains(&head.as_str()) => {}
                     _ => said.before.extend(comment(&text)),
                 }
             }
@@ -304,7 +304,7 @@ fn changes_tool(word: &Word, dialect: &Dialect) -> bool {
     };
     let tenths = (number.to_f64() * 10.0).round();
     match letter {
-        b'T' => dialect.quirks.tool_word_changes,
+        b'T' => dialect.quirks.tool_word.changes(),
         b'M' if (0.0..1e6).contains(&tenths) => {
             let code = dialect.m(tenths as u32);
             code.is_some_and(|code| code.action == Action::ToolChange)

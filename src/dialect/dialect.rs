@@ -1,5 +1,5 @@
 //! A dialect: look-ups over a loaded table.
-use crate::{Action, Advice, Code, CodeKind, Role};
+use crate::{Action, Advice, Code, CodeKind, Language, Macros, Role, ToolWord, WholeNumbers};
 use core::cmp::Ordering;
 use core::ops::RangeInclusive;
 use std::collections::BTreeMap;
@@ -12,12 +12,16 @@ pub(crate) const G_SLOTS: usize = 10_000;
 /// the table that it extends.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quirks {
-    /// Programs are run by LinuxCNC's own interpreter, not by the fold for all controls.
-    pub rs274: bool,
+    /// What the language has beside words and codes.
+    pub language: Language,
+    /// Whose rules custom macros follow.
+    pub macros: Macros,
+    /// What T does.
+    pub tool_word: ToolWord,
+    /// What numbers without a decimal point mean.
+    pub whole_numbers: WholeNumbers,
     /// Motion code in force at the start of a program (Sinumerik: `linear`); `None`: none until one is programmed.
     pub motion_at_start: Option<Action>,
-    /// T puts the tool into the spindle at once; else it only prepares it for M6.
-    pub tool_word_changes: bool,
     /// The length of a programmed tool vector must be 1 (I J K of G43.5; not A3= B3= C3=).
     pub unit_vectors: bool,
     /// A second `%` is a program end (LinuxCNC); else it only ends the text.
@@ -31,20 +35,14 @@ pub struct Quirks {
     /// Radii of an arc's start and end that differ by less than this part of the radius agree, whatever [`Dialect::arc`] says
     /// (LinuxCNC 0.001). In TOML: `relative` in `[arc-tolerance]`.
     pub arc_tolerance_relative: f64,
-    /// The program may define names of its own (variables, labels, subprograms), so an unknown name is no error in itself.
-    pub user_names: bool,
     /// Of two codes of one group, or two words with one letter, in a block the last one counts and the control says nothing.
     pub last_code_wins: bool,
     /// A number may follow a name directly (`DO1`, `GOTO900`).
     pub numbers_follow_names: bool,
-    /// A coordinate without a decimal point is millimetres or least increments, as a parameter of the control says (Fanuc).
-    pub whole_numbers_ambiguous: bool,
     /// Parameters up to this number (`#5000`) are the program's own; those above are the control's: offsets, positions, tools.
     pub own_parameters_to: u32,
     /// X, its increments and offsets are diameters (lathes).
     pub diameter: bool,
-    /// T names a tool and, in its last two digits, an offset: T0102 (lathes).
-    pub tool_word_holds_offset: bool,
     /// G28 without coordinates returns all axes (Haas); else it moves none.
     pub return_moves_all: bool,
     /// P of a scaling is the factor itself (Haas); else a parameter says in what unit a whole number is (Fanuc 5400.7).
@@ -55,14 +53,10 @@ pub struct Quirks {
     pub offset_compensation: bool,
     /// G10 writes the diameter or the radius of a cutter as a setting says (Haas setting 40); else the radius.
     pub cutter_offset_ambiguous: bool,
-    /// What F without a decimal point means is a setting of the control.
-    pub whole_feed_ambiguous: bool,
     /// A `/` inside a block deletes what follows it, if the block delete switch is on (Fanuc); otherwise only one at the start counts.
     pub delete_rest: bool,
     /// Axes in the block of a dwell move after it.
     pub dwell_then_moves: bool,
-    /// Custom macro B is part of the language: variables, IF, GOTO, WHILE, M98, G65.
-    pub macro_b: bool,
     /// Machine data decide whether a block in machine coordinates is without the tool's length (Sinumerik 10760 MN_G53_TOOLCORR);
     /// else it is without.
     pub machine_data_suppress_length: bool,
@@ -192,7 +186,7 @@ impl Dialect {
     /// Whether a code switches the tool's length on (G43); on lathes the tool word does it, on other controls the tool change.
     pub fn length_by_code(&self) -> bool {
         let on = |code: &Code| code.action == Action::ToolLengthOn && code.id == "G43";
-        !self.quirks.tool_word_holds_offset && self.codes.iter().any(on)
+        self.quirks.tool_word != ToolWord::ChangesWithOffset && self.codes.iter().any(on)
     }
     /// The control's alarm for a mistake by its key in `[alarms]`: `peck-missing`.
     pub fn alarm(&self, mistake: &str) -> Option<&Alarm> {

@@ -92,7 +92,7 @@ impl<'d> Interpreter<'d> {
             rest = after;
         }
         self.feed_word(codes, words);
-        if self.dialect.quirks.whole_feed_ambiguous {
+        if self.dialect.quirks.whole_numbers.feeds_ambiguous() {
             self.whole_feed(codes, words, report);
         }
         self.speed_word(codes, words);

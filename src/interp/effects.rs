@@ -15,7 +15,7 @@ use sort::{
     READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, letter_bit, name_of, said, sort,
     takes_axes, uncouples,
 };
-use trunnion_dialect::{Action, Role};
+use trunnion_dialect::{Action, Macros, Role};
 use trunnion_syntax::{Block, Item};
 
 /// Whether a fault means that its block does more than its motions and the modal state hold.
@@ -247,8 +247,8 @@ impl Interpreter<'_> {
             }
         }
         let dwell = |found: &Found<'_>| found.code.action == Action::Dwell;
-        let unclear = words.p.number().is_some_and(|p| p.has_point) && self.dialect.name.starts_with("fanuc")
-            || words.feed.is_said() && !self.dialect.quirks.user_names;
+        let unclear = words.p.number().is_some_and(|p| p.has_point) && self.dialect.quirks.macros == Macros::Fanuc
+            || words.feed.is_said() && !self.dialect.quirks.user_names();
         let ambiguous = ambiguous || codes.iter().any(dwell) && unclear;
         if ambiguous {
             // a parameter of the control decides what the number means

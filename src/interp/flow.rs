@@ -13,6 +13,7 @@ use crate::sinumerik;
 pub(crate) use run::Running;
 use std::sync::Arc;
 use told::Told;
+use trunnion_dialect::Language;
 use trunnion_flow::{Course, Key, Library};
 use trunnion_syntax::{BlockId, Program, TextRange};
 
@@ -152,9 +153,8 @@ impl Flow {
 
 /// The index of a file, as its language builds it.
 pub(crate) fn index_of(dialect: &trunnion_dialect::Dialect, program: &Program) -> Index {
-    if dialect.quirks.user_names {
-        sinumerik::index(program)
-    } else {
-        macro_b::index(program)
+    match dialect.quirks.language {
+        Language::Sinumerik => sinumerik::index(program),
+        Language::Words | Language::MacroB | Language::Linuxcnc => macro_b::index(program),
     }
 }

@@ -184,7 +184,7 @@ impl<'d> Interpreter<'d> {
             return None;
         }
         let block = self.apply(codes, words, report);
-        if words.letters & crate::unused::PARAMETERS != 0 && !self.dialect.quirks.user_names {
+        if words.letters & crate::unused::PARAMETERS != 0 && !self.dialect.quirks.user_names() {
             self.unused_words(codes, words, &block, report);
         }
         self.memory.corners.word = words
@@ -241,7 +241,7 @@ impl<'d> Interpreter<'d> {
         let is_arc = matches!(modal, Some(Action::ArcClockwise | Action::ArcCounterClockwise));
         let circle = is_arc && (words.centre.any() || words.radius.is_said()) && block.motion.is_some();
         if let Some(repeated) = block.repeated {
-            if self.dialect.quirks.whole_numbers_ambiguous && repeated.has_coordinates(words) {
+            if self.dialect.quirks.whole_numbers.lengths_ambiguous() && repeated.has_coordinates(words) {
                 self.whole_numbers(words, report);
             }
             self.repeated_cycle(repeated, words, report);
@@ -271,7 +271,7 @@ impl<'d> Interpreter<'d> {
                 | Action::Thread
                 | Action::VariableThread,
             ) if !unmodelled => {
-                if self.dialect.quirks.whole_numbers_ambiguous {
+                if self.dialect.quirks.whole_numbers.lengths_ambiguous() {
                     self.whole_numbers(words, report);
                 }
                 Some(self.modelled_motion(words, block, report))
@@ -290,7 +290,7 @@ impl<'d> Interpreter<'d> {
 
     /// Motions of a canned cycle.
     fn cycle_motion(&mut self, words: &Words, report: &mut Report<'_>) -> Option<Motion> {
-        if self.dialect.quirks.whole_numbers_ambiguous {
+        if self.dialect.quirks.whole_numbers.lengths_ambiguous() {
             self.whole_numbers(words, report);
         }
         if self.state.motion.is_some_and(Action::is_pass_cycle) {
@@ -303,7 +303,7 @@ impl<'d> Interpreter<'d> {
 
     /// Motions of codes that hold for one block.
     fn special_motion(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Option<Motion> {
-        if self.dialect.quirks.whole_numbers_ambiguous {
+        if self.dialect.quirks.whole_numbers.lengths_ambiguous() {
             self.whole_numbers(words, report);
         }
         if let Some((returns, range)) = block.returns {

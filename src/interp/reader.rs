@@ -151,7 +151,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             return;
         }
         self.system_word(name, word.range);
-        let variable = self.dialect.quirks.user_names || matches!(name.first(), Some(b'#' | b'$'));
+        let variable = self.dialect.quirks.user_names() || matches!(name.first(), Some(b'#' | b'$'));
         // FL[X]= and PO[X]= are FL and PO of an axis
         let stem = name.split(|byte| *byte == b'[').next().unwrap_or_default().trim_ascii();
         match (self.dialect.named_role(stem), name.first()) {
@@ -336,7 +336,7 @@ impl<'d, F: FnMut(TextRange, FaultKind)> Reader<'_, 'd, F> {
             if std::mem::replace(&mut self.words.forgets_all, true) {
                 return;
             }
-            let kind = if self.dialect.quirks.user_names {
+            let kind = if self.dialect.quirks.user_names() {
                 FaultKind::NotModelled {
                     what: self.text(call.range),
                 }

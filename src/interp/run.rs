@@ -124,7 +124,7 @@ impl<'d> Interpreter<'d> {
     /// With the last block it also reports a missing program end, and what is wrong with the text of blocks that did not run. M99
     /// of the main program ends the run: one pass is run.
     pub fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
-        if self.dialect.quirks.rs274 {
+        if self.dialect.quirks.rs274() {
             return self.advance_rs274(program, sink);
         }
         if self.flow.finished || program.block_count() == 0 {

@@ -97,11 +97,7 @@ impl Interpreter<'_> {
 
     /// The tool of a T word: T0102 of a lathe is tool 1 with offset 2.
     fn tool_number(&self, number: u32) -> u32 {
-        if self.dialect.quirks.tool_word_holds_offset && number >= 100 {
-            number / 100
-        } else {
-            number
-        }
+        self.dialect.quirks.tool_word.tool(number)
     }
 
     pub(crate) fn tool_word(&mut self, words: &Words, report: &mut Report<'_>) {
@@ -123,7 +119,7 @@ impl Interpreter<'_> {
             None
         };
         self.memory.prepared = chosen;
-        if self.dialect.quirks.tool_word_changes {
+        if self.dialect.quirks.tool_word.changes() {
             self.change_tool(report);
         }
     }

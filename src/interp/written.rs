@@ -132,7 +132,7 @@ fn word_argument(view: &Block<'_>, run: &Interpreter<'_>, words: &Words, word: &
 
 /// The value of an expression of a Sinumerik program.
 pub(crate) fn value_of(run: &Interpreter<'_>, text: &str) -> Option<f64> {
-    if run.dialect.quirks.user_names {
+    if run.dialect.quirks.user_names() {
         run.memory.own.value(text.trim())
     } else {
         run.variable(text.trim()).filter(|value| !value.is_nan())
@@ -188,7 +188,7 @@ pub fn canonical_text(text: &str) -> String {
 /// A text without blanks in upper case, in which variables with a known value are replaced by it.
 pub(crate) fn resolved(run: &Interpreter<'_>, text: &str) -> String {
     let text = packed(text);
-    let hash = !run.dialect.quirks.user_names;
+    let hash = !run.dialect.quirks.user_names();
     let mut out = String::new();
     let mut rest = text.as_str();
     // a word that is assigned keeps its name

@@ -1,14 +1,15 @@
 //! One program laid out, with the proof that nothing but the layout has changed.
-use crate::proof::{Difference, Faults, first_difference};
+use crate::proof::first_difference;
 use crate::same::same_text;
 use crate::style::Style;
 use crate::text::lay_out;
 use trunnion_dialect::Dialect;
 use trunnion_interp::Setup;
+use trunnion_same::Difference;
 use trunnion_syntax::{Program, TextRange, parse};
 
 /// What came of a layout.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Layout {
     /// The text has this layout already.
     Unchanged,
@@ -19,7 +20,7 @@ pub enum Layout {
 }
 
 /// Why a new layout was not taken.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The new text would not be the same words; the place in it.
     Words(TextRange),
@@ -44,7 +45,7 @@ pub fn layout(program: &Program, dialect: &Dialect, setup: &Setup, style: &Style
         let at = again.iter().zip(after.source()).take_while(|(a, b)| a == b).count();
         return Layout::Refused(Refusal::NotStable(at as u32));
     }
-    match first_difference(program, &after, dialect, setup, Faults::Whole) {
+    match first_difference(program, &after, dialect, setup, false) {
         Some(difference) => Layout::Refused(Refusal::Motions(difference)),
         None => Layout::Changed(after.source().to_vec()),
     }

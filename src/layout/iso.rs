@@ -82,7 +82,7 @@ impl Blocks<'_> {
         let range = block.range();
         // LinuxCNC refuses a long line: made shorter, it would run
         let length = range.as_usize().len();
-        if length > LAID_OUT || self.dialect.quirks.rs274 && length > LONGEST_NGC {
+        if length > LAID_OUT || self.dialect.quirks.rs274() && length > LONGEST_NGC {
             return true;
         }
         let errors = self.program.errors();
@@ -200,7 +200,7 @@ impl Blocks<'_> {
 
     /// Whether the letters of a token are the style's. Names are, where the control knows no names of the program's own (Macro B).
     fn letters(&self, item: Option<Item>, starts: bool, control: bool) -> Letters {
-        let own = self.dialect.quirks.numbers_follow_names && !self.dialect.quirks.user_names;
+        let own = self.dialect.quirks.numbers_follow_names && !self.dialect.quirks.user_names();
         let styled = match item {
             Some(Item::Word(word)) if starts => match word.address {
                 Address::Letter(b'O') => !control,

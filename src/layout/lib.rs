@@ -1,8 +1,7 @@
 //! Floor 6, beside rewrite: the layout of a text and the numbers of its blocks. Motions stay, and that is proved for each text:
-//! the new text is parsed and run beside the old one, and what differs in words, motions, faults or modal state is refused.
+//! the words are compared here, and `trunnion_same` runs both texts and compares motions, effects, faults and modal states exactly.
 //!
 //! It does no I/O. It does not know machines or rules.
-mod alike;
 mod apt;
 mod attempt;
 mod blanks;
@@ -17,7 +16,7 @@ mod text;
 mod words;
 
 pub use attempt::{Layout, Refusal, layout};
-pub use proof::Difference;
 pub use references::Obstacle;
 pub use renumber::{Numbers, Renumbered, renumber};
 pub use style::{Case, Spacing, Style, Zeros};
+pub use trunnion_same::Difference;

@@ -106,7 +106,7 @@ impl Reader<'_, '_> {
             }
         } else if has((b'M', 98)) || has((b'M', 198)) || has((b'G', 65)) || has((b'G', 66)) {
             self.call(word(b'P'));
-            let names = word(b'H').or_else(|| word(b'Q').filter(|_| self.dialect.quirks.macro_b));
+            let names = word(b'H').or_else(|| word(b'Q').filter(|_| self.dialect.quirks.macro_b()));
             if let (Some(h), true) = (names, has((b'M', 98))) {
                 let why = format!(
                     "`{}` in a block with M98 may name a block of the called program",

@@ -1,10 +1,11 @@
 //! New block numbers, with every jump, return and contour that names one changed along. Refused where a target is not known for
 //! certain. Proved by running both texts, and by finding that each reference leads to the same block as before.
-use crate::proof::{Difference, Faults, first_difference};
+use crate::proof::first_difference;
 use crate::references::{Found, Obstacle, Reference, begins_program, own_number, read};
 use std::collections::BTreeMap;
 use trunnion_dialect::Dialect;
 use trunnion_interp::Setup;
+use trunnion_same::Difference;
 use trunnion_syntax::{BlockId, Format, Program, TextEdit, TextRange, apply_edits, parse};
 
 /// Most digits of a block number: RS274/NGC 99999, others eight digits.
@@ -21,7 +22,7 @@ pub struct Numbers {
 }
 
 /// What came of new block numbers.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Renumbered {
     /// No block has a number.
     NoNumbers,
@@ -98,7 +99,7 @@ pub fn renumber(program: &Program, dialect: &Dialect, setup: &Setup, numbers: Nu
             "the new numbers would not lead to the same blocks".to_owned(),
         );
     }
-    if let Some(difference) = first_difference(program, &after, dialect, setup, Faults::Kinds) {
+    if let Some(difference) = first_difference(program, &after, dialect, setup, true) {
         return Renumbered::Differs(difference);
     }
     Renumbered::Changed {

@@ -11,7 +11,7 @@ use trunnion_syntax::{Block, Format, Item, Program};
 /// each one with a lone carriage return, which ends no line there. What follows the closing `%` is no program and stays byte for
 /// byte.
 pub(crate) fn lay_out(program: &Program, dialect: &Dialect, style: &Style) -> Vec<u8> {
-    let ending = common_line_end(program).filter(|ending| !(dialect.quirks.rs274 && *ending == b"\r"));
+    let ending = common_line_end(program).filter(|ending| !(dialect.quirks.rs274() && *ending == b"\r"));
     let Some(ending) = ending else {
         return program.source().to_vec();
     };

@@ -143,6 +143,12 @@ impl Engine {
             .map_or(&[][..], |(source, range)| &source.bytes()[range.as_usize()]);
         String::from_utf8_lossy(bytes.trim_ascii()).into_owned()
     }
+    /// The codes and words of a line that has just run; `None` where it is not a block (an O line, a comment).
+    pub fn block_at(&self, at: At) -> Option<&Block> {
+        let line = self.files.get(at.file.0 as usize)?.line(at.line)?;
+        let block = self.block.as_deref()?;
+        (line.start <= block.range.start && block.range.end <= line.end).then_some(block)
+    }
     /// Emits a canonical call. While cutter compensation holds moves back, calls wait after them in order.
     #[inline]
     pub(crate) fn emit(&mut self, call: Canon, at: At, sink: &mut dyn Sink) {

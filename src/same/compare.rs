@@ -3,8 +3,10 @@
 //! What counts is interface section 8.3: geometry, feed, spindle, tool and offsets, coolant, clamps, dwell, stops, path control, outputs,
 //! stored data, and the words of everything that is not modelled.
 use crate::cut::{cut, is_idle};
+use crate::exact::{self, Exact};
 use crate::process::{Process, motion_difference, shown};
 use crate::steps::{Item, Sort, Step, Steps};
+use crate::twins::Twins;
 use crate::verdict::{Difference, Verdict};
 use trunnion_interp::{MotionKind, same_number};
 
@@ -23,6 +25,8 @@ pub struct Claim {
     pub across: bool,
     /// Motions may be cut: a line in two is the line. Off, both programs must have the same motions one by one.
     pub cuts: bool,
+    /// Nothing may differ but the layout of the text, or its block numbers: to the last bit, and no tolerance counts.
+    pub exact: Option<Exact>,
 }
 
 /// Decides whether two motions lead the same way.
@@ -38,54 +42,92 @@ pub trait Judge {
 /// Runs both programs to their ends, or to the first difference. The runs of two programs with the same text are the same whatever is
 /// unknown in them.
 pub fn compare(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, judge: &mut dyn Judge) -> Verdict {
-    let text = |steps: &Steps<'_>| std::ptr::from_ref(steps.input().dialect);
-    let same_text = before.input().program.source() == after.input().program.source() && text(before) == text(after);
+    if let Some(exact) = claim.exact {
+        return exact::walk(before, after, exact).err().unwrap_or(Verdict::Same);
+    }
+    let twins = Twins::of(before.input(), after.input());
     let format = |steps: &Steps<'_>| steps.input().dialect.lex.format;
     let claim = &Claim {
         across: claim.across || format(before) != format(after),
         ..*claim
     };
-    match walk(before, after, claim, judge) {
+    match walk(before, after, claim, judge, &twins) {
         Ok(()) => Verdict::Same,
-        // other tools, offsets or called programs beside the same text still make a difference
-        Err(Verdict::Unknown(_)) if same_text => Verdict::Same,
+        Err(Verdict::Unknown(_)) if matches!(twins, Twins::All) => Verdict::Same,
         Err(verdict) => verdict,
     }
 }
 
-fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, judge: &mut dyn Judge) -> Result<(), Verdict> {
+fn walk(
+    before: &mut Steps<'_>,
+    after: &mut Steps<'_>,
+    claim: &Claim,
+    judge: &mut dyn Judge,
+    twins: &Twins,
+) -> Result<(), Verdict> {
     let mut a = next(before, claim);
     let mut b = next(after, claim);
-    loop {
-        match (&mut a, &mut b) {
-            (None, None) => break,
-            (Some(Item::Motion(was)), Some(Item::Motion(is))) => {
-                held(was, is, claim)?;
-                if claim.cuts && !ends_together(was, is, claim) {
-                    if let Some(off) = cut(is, was, (claim.mm, claim.deg)) {
-                        judge.cut(off);
-                        a = next(before, claim);
-                        continue;
-                    }
-                    if let Some(off) = cut(was, is, (claim.mm, claim.deg)) {
-                        judge.cut(off);
-                        b = next(after, claim);
-                        continue;
-                    }
-                }
-                judge.pair(was, is)?;
+    while let (Some(was), Some(is)) = (&mut a, &mut b) {
+        let found = pair(was, is, claim, judge);
+        let moved_on = match found {
+            Ok(Paired::Both) => (true, true),
+            Ok(Paired::FirstInPart) => (true, false),
+            Ok(Paired::SecondInPart) => (false, true),
+            Err(verdict) => {
+                twins.judge(was, is, Err(verdict))?;
+                (true, true)
             }
-            (Some(was @ Item::Happens { .. }), Some(is @ Item::Happens { .. })) => happens(was, is, claim)?,
-            (was, is) => return Err(only_one(was.as_ref(), is.as_ref())),
+        };
+        if moved_on.0 {
+            a = next(before, claim);
         }
-        a = next(before, claim);
-        b = next(after, claim);
+        if moved_on.1 {
+            b = next(after, claim);
+        }
+    }
+    if a.is_some() || b.is_some() {
+        return Err(only_one(a.as_ref(), b.as_ref()));
+    }
+    if twins.stopped(before, after)? {
+        return Ok(());
     }
     stopped(before, after)?;
     if !claim.path_only && !claim.across {
         at_end(before, after)?;
     }
     Ok(())
+}
+
+/// How far a comparison of two things got.
+enum Paired {
+    /// Both are done.
+    Both,
+    /// The first is the beginning of the second, of which the rest remains.
+    FirstInPart,
+    /// The second is the beginning of the first.
+    SecondInPart,
+}
+
+fn pair(was: &mut Item, is: &mut Item, claim: &Claim, judge: &mut dyn Judge) -> Result<Paired, Verdict> {
+    match (&mut *was, &mut *is) {
+        (Item::Motion(was), Item::Motion(is)) => {
+            held(was, is, claim)?;
+            if claim.cuts && !ends_together(was, is, claim) {
+                if let Some(off) = cut(is, was, (claim.mm, claim.deg)) {
+                    judge.cut(off);
+                    return Ok(Paired::FirstInPart);
+                }
+                if let Some(off) = cut(was, is, (claim.mm, claim.deg)) {
+                    judge.cut(off);
+                    return Ok(Paired::SecondInPart);
+                }
+            }
+            judge.pair(was, is)?;
+        }
+        (Item::Happens { .. }, Item::Happens { .. }) => happens(was, is, claim)?,
+        _ => return Err(only_one(Some(was), Some(is))),
+    }
+    Ok(Paired::Both)
 }
 
 /// The next item that counts.

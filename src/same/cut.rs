@@ -29,7 +29,13 @@ pub(crate) fn is_idle(step: &Step) -> bool {
         && step.process.get("coordinates").is_empty()
         && !open
         && stays(&motion.start, &motion.end)
-        && step.process.get("cycle").is_empty()
+        && !is_coupled(step)
+}
+
+/// Whether a cycle or the spindle goes along with the motion.
+fn is_coupled(step: &Step) -> bool {
+    let is_set = |key| !step.process.get(key).is_empty();
+    is_set("cycle") || is_set("synchronised")
 }
 
 /// Whether a motion may be made in several pieces without a difference: not where each piece ends with a stop, takes a time of its own, or
@@ -38,7 +44,7 @@ fn may_be_cut(step: &Step) -> bool {
     let stops = step.process.get("path-control").first();
     let stops = stops.is_some_and(|code| matches!(code.name.as_ref(), "G60" | "G61" | "G61.1"));
     !stops
-        && step.process.get("cycle").is_empty()
+        && !is_coupled(step)
         && !matches!(step.motion.feed, Feed::InverseTime(_))
         && step.motion.tilt.swivel == Swivel::No
 }

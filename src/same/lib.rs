@@ -7,13 +7,17 @@
 //! It does not know rules, rewrites or text for people beyond the one sentence of a [`Difference`].
 mod compare;
 mod cut;
+mod exact;
 mod near;
 mod process;
 mod steps;
+mod twins;
 mod verdict;
 
 pub use compare::{Claim, Judge, compare};
+pub use exact::Exact;
 pub use near::{Near, arcs_apart};
-pub use process::{Held, Process, shown};
+pub use process::{Held, Process, offset_name, shown};
 pub use steps::{Input, Item, Sort, Step, Steps, Stop};
+pub use twins::may_call;
 pub use verdict::{Difference, Verdict};

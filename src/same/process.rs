@@ -94,11 +94,11 @@ pub struct Held {
 }
 
 /// A work offset by one name: G110 to G129 of a Haas are G154 P1 to P20 (Haas mill operator's manual, G154).
-fn one_name(name: &Arc<str>) -> Arc<str> {
+pub fn offset_name(name: &str) -> Arc<str> {
     let number = name.strip_prefix('G').and_then(|digits| digits.parse::<u32>().ok());
     match number {
         Some(number @ 110..=129) => format!("G154 P{}", number - 109).into(),
-        _ => Arc::clone(name),
+        _ => name.into(),
     }
 }
 
@@ -106,7 +106,7 @@ impl Held {
     /// Of a modal state.
     pub fn new(state: &ModalState) -> Self {
         Self {
-            work_offset: state.work_offset.as_ref().map(one_name),
+            work_offset: state.work_offset.as_deref().map(offset_name),
             compensation: state.compensation,
             length_of: state.length_of,
             plane: state.plane,

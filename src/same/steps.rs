@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{
-    Argument, Effect, Fault, FaultKind, Interpreter, ModalState, Motion, Placed, ProgramRun as _, Setup, Sink, Value,
+    Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, Placed, ProgramRun as _, Setup, Sink,
+    Value,
 };
 use trunnion_machine::{Follower, Leg, Machine};
 use trunnion_syntax::{BlockId, Program};
@@ -109,6 +110,10 @@ struct Run<'a> {
     stop: Option<Stop>,
     /// Blocks of the main program whose called program is missing.
     missing: Vec<BlockId>,
+    /// What is wrong, where somebody asks for it.
+    faults: Option<Vec<Fault>>,
+    /// Effects with their numbers in the run, where somebody asks for them.
+    log: Option<Vec<(u32, Placed)>>,
 }
 
 impl Sink for Run<'_> {
@@ -127,8 +132,14 @@ impl Sink for Run<'_> {
                 why,
             });
         }
+        if let Some(faults) = &mut self.faults {
+            faults.push(fault);
+        }
     }
     fn effect(&mut self, effect: Placed) {
+        if let Some(log) = &mut self.log {
+            log.push((self.count, effect.clone()));
+        }
         self.effects.push_back((self.count, effect));
         self.count += 1;
     }
@@ -162,6 +173,8 @@ impl<'a> Steps<'a> {
                 stores: BTreeMap::new(),
                 stop: None,
                 missing: Vec::new(),
+                faults: None,
+                log: None,
             },
             ready: VecDeque::new(),
             ran: vec![0; input.program.block_count().div_ceil(64)],
@@ -187,12 +200,12 @@ impl<'a> Steps<'a> {
 
     /// Whether tool centre point control is on now.
     pub(crate) fn leads_tip(&self) -> bool {
-        self.interpreter.state.tcp
+        self.state().tcp
     }
 
     /// What the modal state holds now.
     pub(crate) fn held(&self) -> Held {
-        Held::new(&self.interpreter.state)
+        Held::new(self.state())
     }
 
     /// What is in force now.
@@ -208,17 +221,64 @@ impl<'a> Steps<'a> {
         stores
     }
 
-    /// Runs the next block; false at the end.
-    fn advance(&mut self) -> bool {
+    /// Keeps effects for [`Steps::take_effects`].
+    pub fn watch_effects(&mut self) {
+        self.run.log = Some(Vec::new());
+    }
+
+    /// The effects of the blocks that have run since the last call, as the interpreter reported them, each with its number in the run.
+    /// [`Motion::effects`] says how many of them come before a motion.
+    pub fn take_effects(&mut self) -> Vec<(u32, Placed)> {
+        self.run.log.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// An excerpt: what is in force before its first block. `feed` in mm/min.
+    pub fn assume(&mut self, tcp: bool, feed: Option<f64>) {
+        self.interpreter.state.tcp |= tcp;
+        self.interpreter.state.feed = feed.or(self.interpreter.state.feed);
+    }
+
+    /// Whether motions are held back until a later one is known.
+    pub fn motions_wait(&self) -> bool {
+        self.interpreter.motions_wait()
+    }
+
+    /// The calls that led to a motion, outermost first.
+    pub fn calls_of(&self, motion: &Motion) -> Vec<Frame> {
+        self.interpreter.chain(motion.chain)
+    }
+
+    /// Keeps faults for [`Steps::take_faults`].
+    pub fn watch_faults(&mut self) {
+        self.run.faults = Some(Vec::new());
+    }
+
+    /// What was found wrong since the last call.
+    pub fn take_faults(&mut self) -> Vec<Fault> {
+        self.run.faults.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// What the program did in the blocks that have run.
+    pub fn take_ready(&mut self) -> VecDeque<Item> {
+        std::mem::take(&mut self.ready)
+    }
+
+    /// The modal state now.
+    pub fn state(&self) -> &ModalState {
+        &self.interpreter.state
+    }
+
+    /// Runs the next block; `None` at the end.
+    pub fn advance(&mut self) -> Option<BlockId> {
         if self.over {
-            return false;
+            return None;
         }
         if self.ready.len() > MOST_WAITING {
             let block = self.ready.back().map_or(BlockId(0), Item::block);
             let why = format!("it does more than {MOST_WAITING} things without a motion");
             self.run.stop.get_or_insert(Stop { block, why });
             self.over = true;
-            return false;
+            return None;
         }
         let block = self.interpreter.advance(self.input.program, &mut self.run);
         self.over = block.is_none();
@@ -246,7 +306,7 @@ impl<'a> Steps<'a> {
         if self.over || !self.interpreter.motions_wait() {
             self.effects_before(u32::MAX);
         }
-        !self.over
+        block
     }
 
     /// Applies the effects that come before the motion that was made after so many.
@@ -287,10 +347,8 @@ impl Iterator for Steps<'_> {
     type Item = Item;
 
     fn next(&mut self) -> Option<Item> {
-        while self.ready.is_empty() {
-            if !self.advance() {
-                break;
-            }
+        while self.ready.is_empty() && !self.over {
+            self.advance();
         }
         self.ready.pop_front()
     }

@@ -1,5 +1,6 @@
 //! House rules as tests: floors look down only, lists equal folders, files stay short, rule headers are whole.
 mod debug_text;
+mod places;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -19,6 +20,8 @@ const FLOORS: &[(&str, u32)] = &[
     ("trunnion-interp", 3),
     ("trunnion-machine", 4),
     ("trunnion-same", 5),
+    ("trunnion-stats", 6),
+    ("trunnion-diff", 7),
     ("trunnion-certify", 6),
     ("trunnion-surface", 5),
     ("trunnion-check", 6),

@@ -1,6 +1,6 @@
 //! A dialect: notation, letters, codes, quirks and alarms.
 use super::{CanonicalV1, Encode};
-use trunnion_dialect::{ArcTolerance, Code, Dialect, DialectFacts, Quirks};
+use trunnion_dialect::{ArcTolerance, Code, Dialect, DialectFacts, Language, Macros, Quirks, ToolWord};
 use trunnion_syntax::LexOptions;
 
 impl Encode for Dialect {
@@ -37,14 +37,65 @@ record! {
     }
 }
 
-record! {
-    Quirks {
-        rs274 = 1, motion_at_start = 2, tool_word_changes = 3, unit_vectors = 4, percent_ends_program = 5,
-        first_offset_at_start = 6, edge_at_tool_change = 7, dwell_in_ms = 8, arc_tolerance_relative = 9,
-        user_names = 10, last_code_wins = 11, numbers_follow_names = 12, whole_numbers_ambiguous = 13,
-        own_parameters_to = 14, diameter = 15, tool_word_holds_offset = 16, return_moves_all = 17,
-        plain_scale_factor = 18, corner_words = 19, offset_compensation = 20, cutter_offset_ambiguous = 21,
-        whole_feed_ambiguous = 22, delete_rest = 23, dwell_then_moves = 24, macro_b = 25,
-        machine_data_suppress_length = 26,
+/// Decisions are written as the flags that they replace, so that stored certificates stay valid: a tag for each.
+impl Encode for Quirks {
+    fn encode(&self, out: &mut CanonicalV1) {
+        // no `..`: a new field does not compile until somebody decides whether it counts
+        let Self {
+            language,
+            macros,
+            tool_word,
+            whole_numbers,
+            motion_at_start,
+            unit_vectors,
+            percent_ends_program,
+            first_offset_at_start,
+            edge_at_tool_change,
+            dwell_in_ms,
+            arc_tolerance_relative,
+            last_code_wins,
+            numbers_follow_names,
+            own_parameters_to,
+            diameter,
+            return_moves_all,
+            plain_scale_factor,
+            corner_words,
+            offset_compensation,
+            cutter_offset_ambiguous,
+            delete_rest,
+            dwell_then_moves,
+            machine_data_suppress_length,
+        } = self;
+        let has = |wanted: Language| *language == wanted;
+        out.record(|fields| {
+            fields
+                .field(1, &has(Language::Linuxcnc))
+                .field(2, motion_at_start)
+                .field(3, &tool_word.changes())
+                .field(4, unit_vectors)
+                .field(5, percent_ends_program)
+                .field(6, first_offset_at_start)
+                .field(7, edge_at_tool_change)
+                .field(8, dwell_in_ms)
+                .field(9, arc_tolerance_relative)
+                .field(10, &has(Language::Sinumerik))
+                .field(11, last_code_wins)
+                .field(12, numbers_follow_names)
+                .field(13, &whole_numbers.lengths_ambiguous())
+                .field(14, own_parameters_to)
+                .field(15, diameter)
+                .field(16, &(*tool_word == ToolWord::ChangesWithOffset))
+                .field(17, return_moves_all)
+                .field(18, plain_scale_factor)
+                .field(19, corner_words)
+                .field(20, offset_compensation)
+                .field(21, cutter_offset_ambiguous)
+                .field(22, &whole_numbers.feeds_ambiguous())
+                .field(23, delete_rest)
+                .field(24, dwell_then_moves)
+                .field(25, &has(Language::MacroB))
+                .field(26, machine_data_suppress_length)
+                .field(27, &(*macros == Macros::Fanuc).then_some(true));
+        });
     }
 }

@@ -37,7 +37,7 @@ enum Judged {
 
 fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
     use Judged::{Motions, Named, Own};
-    if dialect.quirks.rs274
+    if dialect.quirks.rs274()
         && let Some(judged) = linuxcnc(code)
     {
         return judged;

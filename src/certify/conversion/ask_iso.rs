@@ -45,7 +45,7 @@ struct Coded<'a> {
 impl<'a> Blocks<'a> {
     pub(super) fn new(program: &'a Program, dialect: &'a Dialect, clamps: &'a AllClampCodes) -> Self {
         let mut local = BTreeSet::new();
-        if dialect.quirks.user_names {
+        if dialect.quirks.user_names() {
             for block in program.blocks() {
                 for item in block.items() {
                     if let Item::Call(call) = item {
@@ -190,7 +190,7 @@ impl<'a> Blocks<'a> {
     }
 
     fn comment(&self, text: &str, range: TextRange, found: &mut Found) {
-        let Some((head, _)) = text.split_once(',').filter(|_| self.dialect.quirks.rs274) else {
+        let Some((head, _)) = text.split_once(',').filter(|_| self.dialect.quirks.rs274()) else {
             return;
         };
         let head = head.trim().to_ascii_uppercase();
@@ -290,7 +290,7 @@ impl<'a> Blocks<'a> {
             return own.trim_start().starts_with('_');
         }
         let Ok(number) = rest.parse::<u32>() else { return true };
-        if self.dialect.quirks.rs274 {
+        if self.dialect.quirks.rs274() {
             return number > 30;
         }
         // common variables from 500 on are kept; up to 199 they are the program's own or cleared when the control is switched on

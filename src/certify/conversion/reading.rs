@@ -165,7 +165,7 @@ pub fn read(run: &Run<'_>) -> Reading {
         faults,
         elsewhere,
         tells_lengths: is_apt || run.dialect.quirks.edge_at_tool_change || run.dialect.g(430).is_some(),
-        changes_tools: is_apt || run.dialect.quirks.tool_word_changes || run.dialect.m(60).is_some(),
+        changes_tools: is_apt || run.dialect.quirks.tool_word.changes() || run.dialect.m(60).is_some(),
     }
 }
 

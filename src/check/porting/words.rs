@@ -168,7 +168,7 @@ pub(super) fn skip_inside(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit
 
 /// Coordinates without a decimal point, to a control where a parameter says what that means.
 pub(super) fn implicit_decimal(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) {
-    if !route.to.quirks.whole_numbers_ambiguous || route.from.quirks.whole_numbers_ambiguous {
+    if !route.to.quirks.whole_numbers.lengths_ambiguous() || route.from.quirks.whole_numbers.lengths_ambiguous() {
         return;
     }
     let whole = line.block.words().find(|word| {

@@ -80,7 +80,7 @@ fn check(leg: &facts::LongTurn<'_>, out: &mut Reporter<'_>) {
                 .value("shorter_deg", deg(short));
             if reachable {
                 draft.help(format!("write {name} as {}", number(deg(start.joints[joint] + short))));
-                draft.fix("unwind-rotary");
+                draft.fix_turns(leg);
             } else {
                 draft
                     .note(format!("the shorter way would take {name} out of its travel"))

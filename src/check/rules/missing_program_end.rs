@@ -32,7 +32,7 @@ pub(super) const RULE: Body = Body::sound(
 
 fn check(fault: &Fault, out: &mut Reporter<'_>) {
     if fault.kind == FaultKind::MissingProgramEnd {
-        let strict = out.dialect().quirks.rs274;
+        let strict = out.dialect().quirks.rs274();
         let draft = out.report(fault.range, "the program ends without an end code");
         draft
             .note("the file may be incomplete")

@@ -1,10 +1,8 @@
 //! Differences as JSON.
-use super::changes::{Change, Found};
-use super::event::Body;
-use super::point::{Point, Tolerance};
 use super::show::{Lines, counts, farthest, first, letter, moved};
 use crate::cli::{json::tidy, load::Loaded};
 use serde_json::{Value, json};
+use trunnion_diff::{Body, Change, Found, Point, Tolerance};
 use trunnion_interp::AXIS_LETTERS;
 use trunnion_same::Verdict;
 use trunnion_syntax::BlockId;

@@ -1,9 +1,7 @@
 //! Differences, for people and for programs.
-use super::changes::{Change, Found, TechChange};
-use super::event::Body;
-use super::point::{Point, Tolerance, Way};
 use crate::cli::{json::tidy, load::Loaded};
 use std::fmt::Write;
+use trunnion_diff::{Body, Change, Found, Point, TechChange, Tolerance, Way};
 use trunnion_interp::AXIS_LETTERS;
 use trunnion_same::Verdict;
 use trunnion_syntax::{BlockId, LineIndex};

@@ -1,9 +1,9 @@
 //! What was counted, for people and for programs.
-use super::tally::{Range, Tally};
 use crate::cli::{json::tidy, load::Loaded};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use trunnion_interp::AXIS_LETTERS;
+use trunnion_stats::{Range, Tally};
 
 /// Units of F, per minute, per turn, inverse time.
 const FEEDS: [(&str, &str); 3] = [
@@ -16,7 +16,7 @@ const FEEDS: [(&str, &str); 3] = [
 const ROWS: usize = 12;
 
 /// The form for people.
-pub(super) fn text(loaded: &Loaded, tally: &Tally) -> String {
+pub(super) fn text(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> String {
     let mut out = String::new();
     let resolved = &loaded.resolved;
     let machine = resolved
@@ -35,7 +35,7 @@ pub(super) fn text(loaded: &Loaded, tally: &Tally) -> String {
     row("blocks", &blocks);
     row("motions", &motions(tally));
     row("path", &path(tally));
-    row("time", &time(loaded, tally));
+    row("time", &time(loaded, tally, cycle_time_s));
     rows(&mut row, "extents", &extents(tally));
     rows(&mut row, "joints", &joints(tally));
     let feeds = tally
@@ -112,8 +112,8 @@ fn path(tally: &Tally) -> String {
     text
 }
 
-fn time(loaded: &Loaded, tally: &Tally) -> String {
-    let mut text = match (tally.cycle_time_s, &loaded.resolved.machine) {
+fn time(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> String {
+    let mut text = match (cycle_time_s, &loaded.resolved.machine) {
         (Some([low, high]), _) => format!("cycle {} to {}", duration(low), duration(high)),
         (None, Some(_)) => "cycle unknown: the time of some block is unknown on this machine".to_owned(),
         (None, None) => "cycle unknown without --machine".to_owned(),
@@ -232,7 +232,7 @@ fn ends(range: Range) -> Value {
 }
 
 /// The form for programs.
-pub(super) fn json(loaded: &Loaded, tally: &Tally) -> Value {
+pub(super) fn json(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]>) -> Value {
     let resolved = &loaded.resolved;
     let unit = |rotary: bool| if rotary { "deg" } else { "mm" };
     let mut extents = Map::new();
@@ -273,7 +273,7 @@ pub(super) fn json(loaded: &Loaded, tally: &Tally) -> Value {
         "feed_length_mm": tidy(tally.feed_mm),
         "feed_length_spindle_off_mm": tidy(tally.spindle_off_mm),
         "motions_of_unknown_length": tally.unmeasured,
-        "cycle_time_s": tally.cycle_time_s.map(|time| time.map(tidy)),
+        "cycle_time_s": cycle_time_s.map(|time| time.map(tidy)),
         "feed_time_s": tidy(tally.feed_s),
         "feed_motions_of_unknown_time": tally.untimed,
         "dwell_s": tidy(tally.dwell_s),

@@ -225,14 +225,14 @@ fn a_shop_table_adds_to_a_control() {
     assert_eq!(dialect.m(600).unwrap().owner, Owner::MachineBuilder);
     assert_eq!(dialect.m(600).unwrap().source, "the table shop");
     // what the table does not say is as in the control that it extends
-    assert!(dialect.quirks.dwell_in_ms && dialect.quirks.whole_numbers_ambiguous);
+    assert!(dialect.quirks.dwell_in_ms && dialect.quirks.whole_numbers.lengths_ambiguous());
     assert!(dialect.builder_may_own(crate::CodeKind::M, 1230));
     assert_eq!(dialect.alarm("peck-missing").unwrap().number, "PS0045");
     let own = crate::Dialect::from_table(
-        "name = \"shop\"\nextends = \"fanuc-30i\"\n[quirks]\ntool-word-changes = true\n",
+        "name = \"shop\"\nextends = \"fanuc-30i\"\n[quirks]\ntool-word = \"changes\"\n",
         "shop.toml",
     );
-    assert!(own.is_ok_and(|own| own.quirks.tool_word_changes && own.quirks.dwell_in_ms));
+    assert!(own.is_ok_and(|own| own.quirks.tool_word.changes() && own.quirks.dwell_in_ms));
 }
 
 #[test]

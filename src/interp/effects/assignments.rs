@@ -56,7 +56,7 @@ pub(crate) fn named_effects(run: &mut Interpreter<'_>, view: &Block<'_>, block: 
                 effects.push(Effect::set(full.clone(), [argument(full)]));
             }
             None if stem.starts_with('$') => effects.push(Effect::Event(vec![argument(full)])),
-            None if run.dialect.quirks.user_names && !run.memory.own.is_declared(&stem) => {
+            None if run.dialect.quirks.user_names() && !run.memory.own.is_declared(&stem) => {
                 effects.push(Effect::Store(stored(full)));
             }
             _ => {}
@@ -79,7 +79,7 @@ pub(crate) fn comments(view: &Block<'_>) -> Vec<Argument> {
 /// The words of a block that writes a variable of the control (Fanuc and Haas: #1000 and above), with the operator's message in its
 /// comment. A number that is computed may be any.
 pub(crate) fn system_assignment(run: &Interpreter<'_>, view: &Block<'_>) -> Option<Vec<Argument>> {
-    if !run.dialect.quirks.macro_b {
+    if !run.dialect.quirks.macro_b() {
         return None;
     }
     let mut found = Vec::new();
@@ -124,7 +124,7 @@ pub(crate) fn unknown_assignment(run: &Interpreter<'_>, view: &Block<'_>, words:
     };
     let assigns = view.items().any(|item| match item {
         Item::Word(word) => match word.address {
-            Address::Named(_) | Address::Indexed(..) if run.dialect.quirks.user_names => {
+            Address::Named(_) | Address::Indexed(..) if run.dialect.quirks.user_names() => {
                 let variable = matches!(named_role(run, view, &word), None | Some(Role::Variable));
                 let name = match word.address {
                     Address::Named(name) => packed(&view.program().text(name)),

@@ -49,7 +49,7 @@ impl Interpreter<'_> {
             Ok(place) => place,
             Err(searched) => {
                 let name = match &calling.program {
-                    Key::Name(name) if self.dialect.quirks.user_names => name.to_string(),
+                    Key::Name(name) if self.dialect.quirks.user_names() => name.to_string(),
                     key => ProgramName(key).to_string(),
                 };
                 let kind = FaultKind::MissingSubprogram {
@@ -126,7 +126,7 @@ impl Interpreter<'_> {
         let Some(library) = &self.setup.library.0 else {
             return Err(Vec::new());
         };
-        let tried = if dialect.quirks.user_names {
+        let tried = if dialect.quirks.user_names() {
             sinumerik::files(name)
         } else {
             crate::macro_b::files(name)
@@ -165,7 +165,7 @@ impl Interpreter<'_> {
         let changes = self.changes() + 1;
         let Some(trail) = &mut self.flow.trail else { return };
         if !trail.course.is_called() {
-            return if self.dialect.quirks.user_names {
+            return if self.dialect.quirks.user_names() {
                 self.leave_main_program(&back, running, from, sink);
             } else {
                 self.leave_main(back, running, from, sink);
@@ -209,7 +209,7 @@ impl Interpreter<'_> {
         let called = self.flow.trail.as_ref().is_some_and(|trail| trail.course.is_called());
         if !called {
             self.state.ended = true;
-        } else if self.dialect.quirks.user_names {
+        } else if self.dialect.quirks.user_names() {
             self.subprogram_runs_out(main, sink);
         } else {
             self.state.ended = true;

@@ -92,7 +92,7 @@ impl Interpreter<'_> {
 
     /// Why a jump is refused, or its outcome not known.
     fn wrong_target(&self, index: &Index, label: &Key, (from, to): (u32, u32)) -> Option<FaultKind> {
-        if !self.dialect.quirks.user_names {
+        if !self.dialect.quirks.user_names() {
             index.loops.entered(from, to, |_| true)?;
             let Key::Number(number) = label else { return None };
             let message = format!("GOTO {number} leads into a loop from outside: its DO has not run");
@@ -121,7 +121,7 @@ impl Interpreter<'_> {
             Key::Number(number) => format!("there is no block N{number} {where_to}"),
             Key::Name(name) => format!("there is no label {name} {where_to}"),
         };
-        let kind = if self.dialect.quirks.user_names {
+        let kind = if self.dialect.quirks.user_names() {
             sinumerik::no_label(message)
         } else {
             rejected(self.dialect, Mistake::NumberNotFound, Refusal::Label, message)
@@ -133,11 +133,11 @@ impl Interpreter<'_> {
     /// The block belongs to a loop that is not whole: the run ends. For Macro B the end of the run reports what is wrong in the main
     /// program's file.
     fn broken(&mut self, index: &Index, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
-        let told_at_end = self.dialect.quirks.macro_b && running.called.is_none();
+        let told_at_end = self.dialect.quirks.macro_b() && running.called.is_none();
         let here = index
             .broken
             .iter()
-            .find(|broken| broken.block == from && self.dialect.quirks.user_names);
+            .find(|broken| broken.block == from && self.dialect.quirks.user_names());
         if let (false, Some(broken)) = (told_at_end, here.or(index.broken.first())) {
             let kind = rejected(self.dialect, broken.mistake, Refusal::Structure, broken.message.clone());
             self.tell_of_flow(running, from, (broken.range, kind), sink);

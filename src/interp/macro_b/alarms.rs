@@ -2,7 +2,7 @@
 //!
 //! `PS0077` of a Series 30i is alarm 077 of older controls. Numbers marked as trade knowledge were not checked against a manual.
 use crate::{FaultKind, Refusal};
-use trunnion_dialect::Dialect;
+use trunnion_dialect::{Dialect, Macros};
 
 /// A mistake of a macro or of the flow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,9 +79,12 @@ const ROWS: [Row; 15] = [
     row(Mistake::EndOfRecord, Refusal::ProgramEnd, "PS5010", TRADE),
 ];
 
-/// Whether alarms have Fanuc's numbers.
+/// Whether macros follow Fanuc's rules.
 pub(crate) fn is_fanuc(dialect: &Dialect) -> bool {
-    dialect.name.starts_with("fanuc")
+    match dialect.quirks.macros {
+        Macros::Fanuc => true,
+        Macros::Generic => false,
+    }
 }
 
 /// The fact that the control refuses the block. `refusal` is taken where the mistake has no number.

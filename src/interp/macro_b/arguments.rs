@@ -70,7 +70,7 @@ pub(crate) fn read(
         let (held, reason) = match word.value {
             Value::Number(decimal) => {
                 let sized = !decimal.has_point && decimal.mantissa != 0 && !WHOLE.contains(&letter);
-                if sized && dialect.quirks.whole_numbers_ambiguous {
+                if sized && dialect.quirks.whole_numbers.lengths_ambiguous() {
                     report(word.range, FaultKind::AmbiguousDecimal);
                 }
                 (Some(decimal.to_f64()), None)

@@ -89,7 +89,7 @@ impl Interpreter<'_> {
             crate::flow::With::MacroB(with) => with.arguments.is_some(),
             crate::flow::With::Sinumerik(_) => false,
         };
-        let (depth, limit, what) = if self.dialect.quirks.user_names {
+        let (depth, limit, what) = if self.dialect.quirks.user_names() {
             return crate::sinumerik::too_deep(levels, self.setup.limits.depth as usize);
         } else if !is_fanuc(self.dialect) {
             (levels, self.setup.limits.depth as usize, "calls")

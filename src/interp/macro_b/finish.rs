@@ -18,7 +18,7 @@ impl Interpreter<'_> {
             return;
         }
         self.finish(program, sink);
-        let reads = self.dialect.quirks.macro_b || self.dialect.quirks.user_names && self.flow.trail.is_some();
+        let reads = self.dialect.quirks.macro_b() || self.dialect.quirks.user_names() && self.flow.trail.is_some();
         if !reads || program.options().format != Format::Iso {
             return;
         }
@@ -40,7 +40,7 @@ impl Interpreter<'_> {
 
     /// What is wrong with DO and END.
     fn broken_loops(&self, program: &Program, trail: &mut Trail, sink: &mut impl Sink) {
-        if self.dialect.quirks.user_names {
+        if self.dialect.quirks.user_names() {
             // structures are looked for while a program runs: what is not reached is no mistake
             return;
         }
@@ -77,7 +77,7 @@ impl Interpreter<'_> {
                 codes: &mut codes,
                 delete: None,
                 clamps: (&mut Clamps::default(), &self.setup.control.clamp_codes),
-                macros: self.dialect.quirks.macro_b.then_some(Macros {
+                macros: self.dialect.quirks.macro_b().then_some(Macros {
                     mode: Mode::Text,
                     file: 0,
                     deep: &mut deep,
@@ -100,15 +100,14 @@ impl Interpreter<'_> {
     }
 }
 
-/// Whether a block is the `%` that ends the text.
+/// Whether a block is the `%` that ends the text: the first line that holds something begins it.
 fn ends_text(program: &Program, block: u32) -> bool {
-    block > 0
-        && (block as usize) < program.block_count()
-        && program
-            .bytes(program.block(BlockId(block)).range())
-            .trim_ascii_start()
-            .first()
-            == Some(&b'%')
+    if block as usize >= program.block_count() {
+        return false;
+    }
+    let range = program.block(BlockId(block)).range();
+    let begins = program.source()[..range.start as usize].trim_ascii().is_empty();
+    !begins && program.bytes(range).trim_ascii_start().first() == Some(&b'%')
 }
 
 /// What the reader alone finds.

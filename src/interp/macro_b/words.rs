@@ -24,7 +24,7 @@ impl<'d> Interpreter<'d> {
         words: &mut Words,
         report: &mut Report<'_>,
     ) {
-        if self.dialect.quirks.user_names {
+        if self.dialect.quirks.user_names() {
             self.sinumerik_begins();
         }
         let mode = if self.flow.follows { Mode::Follow } else { Mode::Step };
@@ -47,8 +47,8 @@ impl<'d> Interpreter<'d> {
             codes,
             delete: self.setup.control.block_delete,
             clamps: (&mut clamps, &self.setup.control.clamp_codes),
-            macros: self.dialect.quirks.macro_b.then_some(macros),
-            own: self.dialect.quirks.user_names.then_some(&mut self.memory.own),
+            macros: self.dialect.quirks.macro_b().then_some(macros),
+            own: self.dialect.quirks.user_names().then_some(&mut self.memory.own),
             report: |range: TextRange, kind| report.fault(range, kind),
         };
         if let Some(own) = &mut reader.own {
@@ -71,10 +71,10 @@ impl<'d> Interpreter<'d> {
             words.forgets_all = true;
         }
         let calls = |found: &Found<'_>| found.code.action == Action::SubprogramCall;
-        if words.forgets_all || self.dialect.quirks.user_names && codes.iter().any(calls) {
+        if words.forgets_all || self.dialect.quirks.user_names() && codes.iter().any(calls) {
             self.memory.own.lose();
         }
-        if self.dialect.quirks.user_names {
+        if self.dialect.quirks.user_names() {
             self.sinumerik_words(block, codes, words, report);
         }
         if words.flow || words.program_number.is_some() {
@@ -90,7 +90,7 @@ impl<'d> Interpreter<'d> {
         words: &mut Words,
         report: &mut Report<'_>,
     ) {
-        if !self.dialect.quirks.macro_b {
+        if !self.dialect.quirks.macro_b() {
             return;
         }
         let writes = self.flow.deep.as_mut().map(|deep| std::mem::take(&mut deep.writes));

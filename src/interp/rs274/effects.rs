@@ -93,6 +93,14 @@ fn on(is_on: bool) -> Vec<Argument> {
     is_on.then(|| Argument::code("on")).into_iter().collect()
 }
 
+/// `(PROBEOPEN file)` and `(PROBECLOSE)`, which open and close a file for the results of probing.
+fn is_probe_file(text: &[u8]) -> bool {
+    [&b"PROBEOPEN"[..], b"PROBECLOSE"].iter().any(|word| {
+        text.get(..word.len())
+            .is_some_and(|head| head.eq_ignore_ascii_case(word))
+    })
+}
+
 /// What a call does beside moving. Calls that a [`crate::Motion`] or the modal state holds, and texts that do not stop the program, have
 /// none.
 #[expect(
@@ -223,6 +231,11 @@ fn effect(call: &Canon) -> Option<Effect> {
         Canon::Finish => Effect::End(vec![Argument::code("%")]),
         Canon::PalletShuttle => Effect::Event(vec![Argument::code("pallet shuttle")]),
         Canon::Log(text) => Effect::Event(vec![Argument::text("LOG", &String::from_utf8_lossy(text))]),
+        // files that the control writes
+        Canon::Comment(text) if is_probe_file(text) => Effect::Event(vec![Argument::text(
+            "",
+            &String::from_utf8_lossy(text).to_ascii_uppercase(),
+        )]),
         Canon::Probe(kind, _) => Effect::Event(vec![Argument::code(format!("G38.{kind}"))]),
         Canon::StartSync(synced) if !synced.velocity => {
             Effect::set("cycle", [Argument::number("synchronised", synced.per_revolution)])

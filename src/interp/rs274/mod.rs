@@ -140,26 +140,14 @@ impl Interpreter<'_> {
             self.memory.effects.add(block, Effect::Event(words));
             self.hand_on(sink);
         }
-        let upper = crate::written::packed(&text);
-        if upper.contains("(PROBE") || upper.contains("(LOG") {
-            // files that the control writes
-            self.memory
-                .effects
-                .add(block, Effect::Event(vec![Argument::text("", &upper)]));
-            self.hand_on(sink);
-        }
-        // in the main program it starts again, or ends, as the control is set up
         let Some(run) = &mut self.rs274 else { return };
-        if upper.contains("M99") && run.told.places.chain(at) == crate::ChainId::MAIN {
+        let codes = Codes::of(run.engine.block_at(at));
+        // in the main program it starts again, or ends, as the control is set up
+        if codes.returns && run.told.places.chain(at) == crate::ChainId::MAIN {
             self.memory.effects.add(block, Effect::End(vec![Argument::code("M99")]));
             self.hand_on(sink);
         }
-        let shifts = ["G92", "G52", "G10", "G53"]
-            .iter()
-            .any(|code| crate::written::packed(&text).contains(code));
-        // G10 L11 counts from the ninth coordinate system, which may not be declared
-        let ninth = upper.contains("L11");
-        let lost = shifts && (ninth || self.state.position.xyz().is_none());
+        let lost = codes.shifts && (codes.ninth || self.state.position.xyz().is_none());
         let unknown = lost || names.iter().any(|name| self.variable(name).is_some_and(f64::is_nan));
         if !(does_more || unknown_end || unknown) {
             return;
@@ -267,6 +255,27 @@ impl Interpreter<'_> {
         modal::refresh(&mut self.state, &engine.state, &shift);
         self.state.position = shift.coordinates(&engine.state.current);
         (!nothing_ran).then_some(block)
+    }
+}
+
+/// What the codes of a line do that no canonical call shows.
+#[derive(Default)]
+struct Codes {
+    /// M99.
+    returns: bool,
+    /// G10, G52, G53, G92: they count from the present position, or set where coordinates count from.
+    shifts: bool,
+    /// G10 L11 counts from the ninth coordinate system, which may not be declared.
+    ninth: bool,
+}
+
+impl Codes {
+    fn of(block: Option<&trunnion_ngc::Block>) -> Self {
+        block.map_or_else(Self::default, |block| Self {
+            returns: block.m_code(4) == Some(99),
+            shifts: matches!(block.g_code(0), Some(100 | 520 | 530 | 920..=923)),
+            ninth: block.g_code(0) == Some(100) && block.word(b'L') == Some(11.0),
+        })
     }
 }
 

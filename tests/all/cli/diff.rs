@@ -242,3 +242,32 @@ fn a_program_and_its_cl_data_are_the_same() {
         }
     }
 }
+
+/// The run ends undecided before a call: which program is called is not known to be the same in both folders.
+#[test]
+fn the_same_text_beside_another_called_program_is_not_the_same_where_the_run_stops() {
+    let folder = TempDir::new().expect("works");
+    let program =
+        |call: &str| format!("O1\nG21 G90 G94\nG0 X0. Y0. Z0.\nIF[#500 EQ 1]GOTO 10\n{call}\nN10 G1 X5. F100.\nM30\n");
+    let diff = |call: &str, called: [&str; 2]| {
+        let sides = ["a", "b"].map(|side| {
+            let place = folder.path().join(side);
+            std::fs::create_dir_all(&place).expect("works");
+            place
+        });
+        for (side, called) in sides.iter().zip(called) {
+            std::fs::write(side.join("x.nc"), program(call)).expect("works");
+            std::fs::write(side.join("O0100.nc"), format!("O0100\nG1 X{called} F100.\nM99\n")).expect("works");
+        }
+        let files = sides.map(|side| side.join("x.nc"));
+        let output = trunnion(&["diff", str(&files[0]), str(&files[1]), "--dialect", "fanuc-30i"]);
+        text(&output.stdout)
+    };
+    let undecided = diff("M98 P100", ["1.", "2."]);
+    assert!(
+        undecided.starts_with("UNKNOWN") && undecided.contains("may call"),
+        "{undecided}"
+    );
+    // nothing is called
+    assert!(diff("X3.", ["1.", "2."]).starts_with("SAME"));
+}

@@ -38,7 +38,7 @@ const PRINTED: &[(&str, &str)] = &[
 ];
 
 /// A file without comments and without the module of tests at its end; lines stay where they are.
-fn code(text: &str) -> String {
+pub(super) fn code(text: &str) -> String {
     let lines: Vec<&str> = text.lines().collect();
     let is_tests = |at: usize| {
         let next = lines[at + 1..].iter().find(|line| !line.starts_with("#["));

@@ -137,3 +137,21 @@ proptest! {
         prop_assert!(!matches!(outcome, Layout::Refused(_)), "{:?}", outcome);
     }
 }
+
+/// A name with arguments after a lone carriage return, found by the property above.
+#[test]
+fn a_message_before_a_jump_is_laid_out() {
+    let style = Style {
+        case: Case::Upper,
+        spacing: Spacing::One,
+        zeros: Zeros::Keep,
+        comment_column: None,
+        ..Style::default()
+    };
+    let text = b"\r%MSG(\"x\")GOTO/G1\rG1G2X1Y1R1G2X1Y1R1";
+    for name in BUILTIN_NAMES {
+        let dialect = dialect(name);
+        let outcome = layout(&program(text, dialect), dialect, &Setup::default(), &style);
+        assert!(!matches!(outcome, Layout::Refused(_)), "{name}: {outcome:?}");
+    }
+}

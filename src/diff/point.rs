@@ -7,31 +7,36 @@ use trunnion_machine::{AxisKind, Leg, Machine};
 
 /// What is still the same: mm and degrees.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Tolerance {
-    pub(super) mm: f64,
-    pub(super) deg: f64,
+pub struct Tolerance {
+    /// mm.
+    pub mm: f64,
+    /// Degrees.
+    pub deg: f64,
 }
 
 /// The sort of a motion, with what its path needs beside its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Way {
+pub enum Way {
+    /// A rapid motion.
     Rapid,
+    /// A feed along a line.
     Linear,
     /// Centre (mm) and signed sweep (deg) with the axis it turns about; `None` where the centre is not known.
     Arc(Option<([f64; 3], [f64; 3], f64)>),
     /// Seconds; `None`: not known.
     Dwell(Option<f64>),
+    /// It is not modelled.
     Unknown,
 }
 
 impl Way {
     /// Whether something moves.
-    pub(super) fn is_a_move(self) -> bool {
+    pub fn is_a_move(self) -> bool {
         !matches!(self, Self::Dwell(_))
     }
 
     /// As `trace` names it.
-    pub(super) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Rapid => "rapid",
             Self::Linear => "linear",
@@ -44,23 +49,26 @@ impl Way {
 
 /// Where a motion leads: programmed coordinates, or with a machine its joints. mm and degrees, in the order of the letters.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Point {
-    pub(super) way: Way,
-    pub(super) values: [f64; 9],
-    pub(super) known: u16,
+pub struct Point {
+    /// How.
+    pub way: Way,
+    /// mm or deg; 0 where it is not known.
+    pub values: [f64; 9],
+    /// Bit mask of those that are known.
+    pub known: u16,
     /// Tool axis, where it is programmed as a vector or the machine gives it.
-    pub(super) axis: Option<[f64; 3]>,
+    pub axis: Option<[f64; 3]>,
     /// Tip in the workpiece frame; without a machine X Y Z as programmed.
-    pub(super) tip: Option<[f64; 3]>,
+    pub tip: Option<[f64; 3]>,
     /// Length of the way along X Y Z, mm.
-    pub(super) length_mm: Option<f64>,
+    pub length_mm: Option<f64>,
     /// Words are the tip's, and of the machine: bits 0 and 1.
     frame: u8,
 }
 
 impl Point {
     /// As programmed; joints and tip from the machine, where one is given.
-    pub(super) fn new(motion: &Motion, machine: Option<(&Machine, &Leg)>) -> Self {
+    pub fn new(motion: &Motion, machine: Option<(&Machine, &Leg)>) -> Self {
         let way = way(motion);
         let length_mm = match &motion.kind {
             MotionKind::Arc(Some(arc)) => Some(arc.length()),
@@ -121,7 +129,7 @@ impl Point {
     }
 
     /// A number that is the same for points that are the same to the last bit of the tolerance's grid.
-    pub(super) fn hash(&self, tolerance: Tolerance, state: &mut impl Hasher) {
+    pub fn hash(&self, tolerance: Tolerance, state: &mut impl Hasher) {
         let grid = |value: f64, step: f64| {
             if step > 0.0 {
                 (value / step).round() as i64
@@ -149,7 +157,7 @@ impl Point {
     }
 
     /// Whether both lead to the same place in the same way.
-    pub(super) fn same(&self, other: &Self, tolerance: Tolerance) -> bool {
+    pub fn same(&self, other: &Self, tolerance: Tolerance) -> bool {
         let ways = match (self.way, other.way) {
             (Way::Arc(Some(a)), Way::Arc(Some(b))) => {
                 let near = |a: [f64; 3], b: [f64; 3], limit: f64| (0..3).all(|i| (a[i] - b[i]).abs() <= limit);
@@ -168,7 +176,7 @@ impl Point {
     }
 
     /// The axes known to both that differ at all: axis, from, to.
-    pub(super) fn moved(&self, other: &Self) -> Vec<(usize, f64, f64)> {
+    pub fn moved(&self, other: &Self) -> Vec<(usize, f64, f64)> {
         let both = self.known & other.known;
         let axes = (0..AXIS_LETTERS.len()).filter(|axis| both & (1 << axis) != 0);
         axes.map(|axis| (axis, self.values[axis], other.values[axis]))
@@ -177,20 +185,20 @@ impl Point {
     }
 
     /// Distance of the tips, mm.
-    pub(super) fn distance_mm(&self, other: &Self) -> Option<f64> {
+    pub fn distance_mm(&self, other: &Self) -> Option<f64> {
         let (a, b) = (self.tip?, other.tip?);
         let square: f64 = (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum();
         Some(square.sqrt())
     }
 
     /// Angle between the tool axes, degrees.
-    pub(super) fn angle_deg(&self, other: &Self) -> Option<f64> {
+    pub fn angle_deg(&self, other: &Self) -> Option<f64> {
         Some(deg(angle_between(&self.axis?.into(), &other.axis?.into())))
     }
 }
 
 /// The tolerance of an axis: A B C in degrees, others in mm.
-pub(super) fn step(axis: usize, tolerance: Tolerance) -> f64 {
+pub(crate) fn step(axis: usize, tolerance: Tolerance) -> f64 {
     if (3..6).contains(&axis) {
         tolerance.deg
     } else {

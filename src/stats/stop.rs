@@ -5,11 +5,11 @@ use trunnion_syntax::BlockId;
 
 /// A place where a run may have stopped.
 #[derive(Clone, Debug)]
-pub(super) struct Stop {
+pub(crate) struct Stop {
     /// The block of the main program.
-    pub(super) block: BlockId,
+    pub(crate) block: BlockId,
     /// A sentence.
-    pub(super) why: String,
+    pub(crate) why: String,
     /// Blocks that ran since; a refused block stops the run only if none did.
     since: u8,
     /// The run stops here whatever follows.
@@ -18,13 +18,13 @@ pub(super) struct Stop {
 
 /// Watches a run for the place where it stopped.
 #[derive(Debug, Default)]
-pub(super) struct Stops(Option<Stop>);
+pub(crate) struct Stops(Option<Stop>);
 
 impl Stops {
     /// Takes a fault of the run.
-    pub(super) fn fault(&mut self, fault: &Fault, dialect: &Dialect) {
+    pub(crate) fn fault(&mut self, fault: &Fault, dialect: &Dialect) {
         // LinuxCNC's interpreter continues after a refused block, and reads what follows the end
-        let may_stop = !dialect.quirks.rs274;
+        let may_stop = !dialect.quirks.rs274();
         let (why, sure) = match &fault.kind {
             FaultKind::EndlessLoop { proved: true, .. } => {
                 ("it never ends: a loop returns to the same values".to_owned(), true)
@@ -46,7 +46,7 @@ impl Stops {
     }
 
     /// A block has run to its end.
-    pub(super) fn block_done(&mut self) {
+    pub(crate) fn block_done(&mut self) {
         if let Some(stop) = &mut self.0 {
             stop.since = stop.since.saturating_add(1);
             if stop.since > 1 && !stop.sure {
@@ -56,7 +56,7 @@ impl Stops {
     }
 
     /// Where the run stopped before its end; asked when it is over.
-    pub(super) fn last(&self) -> Option<&Stop> {
+    pub(crate) fn last(&self) -> Option<&Stop> {
         self.0.as_ref()
     }
 }

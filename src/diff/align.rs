@@ -6,7 +6,7 @@ const MOST: usize = 2000;
 
 /// A stretch of both programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stretch {
+pub(crate) enum Stretch {
     /// The same: first index in each, and how many.
     Same(usize, usize, usize),
     /// Different: first index and how many in each.
@@ -14,7 +14,7 @@ pub(super) enum Stretch {
 }
 
 /// Aligns two lists of keys; `None` where they have more than [`MOST`] differences.
-pub(super) fn align(a: &[u64], b: &[u64]) -> Option<Vec<Stretch>> {
+pub(crate) fn align(a: &[u64], b: &[u64]) -> Option<Vec<Stretch>> {
     let head = a.iter().zip(b).take_while(|(x, y)| x == y).count();
     let tail = a[head..]
         .iter()

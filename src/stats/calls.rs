@@ -3,17 +3,17 @@ use trunnion_syntax::{Address, Block, Item, LineIndex, Program, Value};
 
 /// A program that is called.
 #[derive(Clone, Debug)]
-pub(super) struct Call {
+pub struct Call {
     /// As written, upper case: `M98 P1000`.
-    pub(super) name: String,
+    pub name: String,
     /// How often it is written.
-    pub(super) count: u64,
+    pub count: u64,
     /// Where first, from 1.
-    pub(super) line: u32,
+    pub line: u32,
 }
 
 /// All calls in the order of their first line.
-pub(super) fn calls(program: &Program, lines: &LineIndex) -> Vec<Call> {
+pub(crate) fn calls(program: &Program, lines: &LineIndex) -> Vec<Call> {
     let mut found: Vec<Call> = Vec::new();
     for block in program.blocks() {
         for name in of_block(program, &block) {

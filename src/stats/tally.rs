@@ -1,17 +1,20 @@
 //! Counts what a run says.
-use super::calls::{Call, calls};
-use crate::cli::{load::Loaded, stop::Stops};
+use crate::calls::{Call, calls};
+use crate::stop::Stops;
 use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{AXIS_LETTERS, Fault, FaultKind, Feed, ModalState, Motion, MotionKind, ProgramRun, Sink};
 use trunnion_machine::{AxisKind, Follower};
+use trunnion_same::Input;
 use trunnion_syntax::{BlockId, Item, LineIndex};
 
 /// Lowest and highest of the values seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Range {
-    pub(super) low: f64,
-    pub(super) high: f64,
+pub struct Range {
+    /// Lowest.
+    pub low: f64,
+    /// Highest.
+    pub high: f64,
 }
 
 /// Widens a range by a value.
@@ -28,53 +31,61 @@ fn widen(range: &mut Option<Range>, value: f64) {
 
 /// What is done with one tool.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct ToolUse {
+pub struct ToolUse {
     /// First block with it.
-    pub(super) line: u32,
-    pub(super) motions: u64,
+    pub line: u32,
+    /// Motions with it.
+    pub motions: u64,
     /// mm along the programmed X Y Z path.
-    pub(super) feed_mm: f64,
+    pub feed_mm: f64,
 }
 
 /// Everything counted. Lengths mm along the programmed X Y Z path, times s.
 #[derive(Default)]
-pub(super) struct Tally {
+pub struct Tally {
     /// Blocks that hold something.
-    pub(super) blocks: u64,
+    pub blocks: u64,
     /// Blocks that ran, repeated ones each time.
-    pub(super) run: u64,
-    pub(super) motions: BTreeMap<&'static str, u64>,
-    pub(super) rapid_mm: f64,
-    pub(super) feed_mm: f64,
+    pub run: u64,
+    /// Motions by kind.
+    pub motions: BTreeMap<&'static str, u64>,
+    /// Rapid motions.
+    pub rapid_mm: f64,
+    /// Feed motions.
+    pub feed_mm: f64,
     /// Of `feed_mm`, with the spindle off.
-    pub(super) spindle_off_mm: f64,
+    pub spindle_off_mm: f64,
     /// Motions whose length is not known.
-    pub(super) unmeasured: u64,
+    pub unmeasured: u64,
     /// Time of feed motions at the programmed feed.
-    pub(super) feed_s: f64,
+    pub feed_s: f64,
     /// Feed motions whose time is not known.
-    pub(super) untimed: u64,
-    pub(super) dwell_s: f64,
+    pub untimed: u64,
+    /// Dwells.
+    pub dwell_s: f64,
     /// Programmed, in the order of the letters.
-    pub(super) axes: [Option<Range>; AXIS_LETTERS.len()],
+    pub axes: [Option<Range>; AXIS_LETTERS.len()],
     /// Of the machine, in chain order, mm or deg.
-    pub(super) joints: Vec<(char, bool, Option<Range>)>,
-    pub(super) feed: [Option<Range>; 3],
-    pub(super) spindle: Option<Range>,
-    pub(super) tools: BTreeMap<Option<u32>, ToolUse>,
-    pub(super) tool_changes: u64,
-    pub(super) calls: Vec<Call>,
+    pub joints: Vec<(char, bool, Option<Range>)>,
+    /// F per minute, per turn, inverse time.
+    pub feed: [Option<Range>; 3],
+    /// Spindle speed of motions with the spindle on, 1/min.
+    pub spindle: Option<Range>,
+    /// By number; `None`: before the first tool.
+    pub tools: BTreeMap<Option<u32>, ToolUse>,
+    /// How often the tool changed.
+    pub tool_changes: u64,
+    /// Programs that it calls, as written.
+    pub calls: Vec<Call>,
     /// What is recognised and not modelled, with how often.
-    pub(super) not_modelled: BTreeMap<String, u64>,
+    pub not_modelled: BTreeMap<String, u64>,
     /// Line where the run stopped before the end, and why: nothing after it is counted.
-    pub(super) stop: Option<(u32, String)>,
-    /// From the check.
-    pub(super) cycle_time_s: Option<[f64; 2]>,
+    pub stop: Option<(u32, String)>,
 }
 
 /// Counts while a program runs.
 struct Counting<'a> {
-    loaded: &'a Loaded,
+    input: Input<'a>,
     lines: &'a LineIndex,
     follower: Option<Follower<'a>>,
     tally: Tally,
@@ -84,41 +95,38 @@ struct Counting<'a> {
 
 impl Tally {
     /// Runs a program and counts.
-    pub(super) fn of(loaded: &Loaded) -> Self {
-        let (program, resolved) = (&loaded.program, &loaded.resolved);
+    pub fn of(input: Input<'_>) -> Self {
+        let program = input.program;
         let lines = LineIndex::new(program.source());
         let mut tally = Self {
             blocks: program.blocks().filter(|block| holds_something(block)).count() as u64,
             calls: calls(program, &lines),
             ..Self::default()
         };
-        if let Some(machine) = &resolved.machine {
+        if let Some(machine) = input.machine {
             let axes = machine.axes.iter();
             tally.joints = axes
                 .map(|axis| (char::from(axis.letter), axis.kind == AxisKind::Rotary, None))
                 .collect();
         }
         let mut counting = Counting {
-            loaded,
+            input,
             lines: &lines,
-            follower: resolved.machine.as_ref().map(Follower::new),
+            follower: input.machine.map(Follower::new),
             tally,
             tool: None,
             stops: Stops::default(),
         };
-        trunnion_interp::run(program, resolved.dialect, &resolved.setup, &mut counting);
+        trunnion_interp::run(program, input.dialect, input.setup, &mut counting);
         let stop = counting.stops.last();
         let stop = stop.map(|stop| (counting.line(stop.block), stop.why.clone()));
         let mut tally = counting.tally;
         tally.stop = stop;
-        if resolved.machine.is_some() {
-            tally.cycle_time_s = trunnion_check::check(program, &resolved.settings()).cycle_time_s;
-        }
         tally
     }
 
     /// All motions.
-    pub(super) fn motions(&self) -> u64 {
+    pub fn motions(&self) -> u64 {
         self.motions.values().sum()
     }
 }
@@ -154,7 +162,7 @@ fn length(motion: &Motion) -> Option<f64> {
 
 impl Counting<'_> {
     fn line(&self, block: BlockId) -> u32 {
-        let program = &self.loaded.program;
+        let program = self.input.program;
         self.lines
             .line_column(program.source(), program.block(block).range().start)
             .0
@@ -251,7 +259,7 @@ impl Sink for Counting<'_> {
     }
 
     fn fault(&mut self, fault: Fault) {
-        self.stops.fault(&fault, self.loaded.resolved.dialect);
+        self.stops.fault(&fault, self.input.dialect);
         if let FaultKind::NotModelled { what } = fault.kind {
             *self.tally.not_modelled.entry(what).or_default() += 1;
         }
@@ -259,7 +267,7 @@ impl Sink for Counting<'_> {
 
     fn block_done(&mut self, block: BlockId, run: &dyn ProgramRun) {
         self.stops.block_done();
-        self.tally.run += u64::from(holds_something(&self.loaded.program.block(block)));
+        self.tally.run += u64::from(holds_something(&self.input.program.block(block)));
         if run.state().tool != self.tool {
             self.tool = run.state().tool;
             self.tally.tool_changes += 1;

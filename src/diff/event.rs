@@ -1,5 +1,5 @@
 //! What a program does, in order: motions with what is in force, and everything else by its words.
-use super::point::Point;
+use crate::point::Point;
 use std::sync::Arc;
 use trunnion_interp::{Feed, LengthOf, Motion};
 use trunnion_same::Step;
@@ -7,17 +7,19 @@ use trunnion_syntax::BlockId;
 
 /// One thing that happens.
 #[derive(Clone, Debug)]
-pub(super) struct Event {
-    pub(super) block: BlockId,
-    pub(super) body: Body,
+pub(crate) struct Event {
+    pub(crate) block: BlockId,
+    pub(crate) body: Body,
 }
 
+/// What happens.
 #[derive(Clone, Debug)]
 #[expect(
     clippy::large_enum_variant,
     reason = "nearly all events are motions, and a box for each would cost more"
 )]
-pub(super) enum Body {
+pub enum Body {
+    /// A motion, and what is in force in it.
     Motion(Point, Tech),
     /// Words: stops, ends, outputs, what is recognised and not modelled.
     Statement(String),
@@ -25,7 +27,7 @@ pub(super) enum Body {
 
 /// What is in force in a motion. Numbers as bits, so that it can be looked up.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Tech {
+pub struct Tech {
     feed: (&'static str, u64),
     tool: Option<u32>,
     length: u64,
@@ -39,7 +41,7 @@ pub(super) struct Tech {
 }
 
 impl Tech {
-    pub(super) fn new(step: &Step) -> Self {
+    pub(crate) fn new(step: &Step) -> Self {
         let motion: &Motion = &step.motion;
         let feed = match motion.feed {
             _ if !motion.is_feed() => ("", 0.0),
@@ -64,7 +66,7 @@ impl Tech {
     }
 
     /// What differs: its name, before and after.
-    pub(super) fn differences(&self, other: &Self) -> Vec<(String, String, String)> {
+    pub fn differences(&self, other: &Self) -> Vec<(String, String, String)> {
         let mut found = Vec::new();
         let mut pair = |name: &str, a: String, b: String| {
             if a != b {

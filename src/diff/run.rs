@@ -1,36 +1,25 @@
 //! A program as a stream of events that can be aligned with those of another.
-use super::event::{Body, Event, Tech};
-use super::point::Point;
-use crate::cli::load::Loaded;
+use crate::event::{Body, Event, Tech};
+use crate::point::Point;
 use trunnion_machine::Machine;
 use trunnion_same::{Input, Item, Steps, shown};
 
-/// A loaded program as the comparison takes it.
-pub(super) fn input<'a>(loaded: &'a Loaded, machine: Option<&'a Machine>) -> Input<'a> {
-    Input {
-        program: &loaded.program,
-        dialect: loaded.resolved.dialect,
-        setup: &loaded.resolved.setup,
-        machine,
-    }
-}
-
 /// Runs a program event by event.
-pub(super) struct Events<'a> {
+pub(crate) struct Events<'a> {
     steps: Steps<'a>,
     machine: Option<&'a Machine>,
 }
 
 impl<'a> Events<'a> {
-    pub(super) fn new(loaded: &'a Loaded, machine: Option<&'a Machine>) -> Self {
+    pub(crate) fn new(input: Input<'a>) -> Self {
         Self {
-            steps: Steps::new(input(loaded, machine)),
-            machine,
+            steps: Steps::new(input),
+            machine: input.machine,
         }
     }
 
     /// Where the run stopped before the end of its program; asked when there are no more events.
-    pub(super) fn stop(&self) -> Option<&trunnion_same::Stop> {
+    pub(crate) fn stop(&self) -> Option<&trunnion_same::Stop> {
         self.steps.stop()
     }
 }

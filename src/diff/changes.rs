@@ -1,14 +1,12 @@
 //! From two runs to the list of differences. First pass: a key per motion, 16 bytes each, which are aligned. Second pass: the
 //! motions of the stretches that differ are made again and compared in numbers, so that the first pass may be coarse.
-use super::align::{Stretch, align};
-use super::event::{Body, Event, Tech};
-use super::point::{Point, Tolerance};
-use super::run::{Events, input};
-use crate::cli::load::Loaded;
+use crate::align::{Stretch, align};
+use crate::event::{Body, Event, Tech};
+use crate::point::{Point, Tolerance};
+use crate::run::Events;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
-use trunnion_machine::Machine;
-use trunnion_same::{Claim, Near, Steps, Stop, Verdict};
+use trunnion_same::{Claim, Input, Near, Steps, Stop, Verdict, may_call};
 use trunnion_syntax::BlockId;
 
 /// So many motions are compared in detail; more are only counted.
@@ -18,7 +16,7 @@ const MOST_TECHS: usize = 10_000;
 
 /// One difference.
 #[derive(Clone, Debug)]
-pub(super) enum Change {
+pub enum Change {
     /// A motion leads elsewhere.
     Moved(Box<(BlockId, Point)>, Box<(BlockId, Point)>),
     /// Only in the first (`false`) or second (`true`) program.
@@ -27,35 +25,39 @@ pub(super) enum Change {
 
 /// A change of what is in force, with all motions that have it.
 #[derive(Clone, Debug)]
-pub(super) struct TechChange {
+pub struct TechChange {
     /// Name, before, after.
-    pub(super) parts: Vec<(String, String, String)>,
+    pub parts: Vec<(String, String, String)>,
     /// First motion in both programs.
-    pub(super) first: (BlockId, BlockId),
+    pub first: (BlockId, BlockId),
     /// Last motion in both programs.
-    pub(super) last: (BlockId, BlockId),
-    pub(super) count: u64,
+    pub last: (BlockId, BlockId),
+    /// How many motions have it.
+    pub count: u64,
 }
 
 /// Everything found.
-pub(super) struct Found {
+pub struct Found {
     /// The verdict of the comparison.
-    pub(super) verdict: Verdict,
-    pub(super) motions: [u64; 2],
-    pub(super) changes: Vec<Change>,
-    pub(super) techs: Vec<TechChange>,
+    pub verdict: Verdict,
+    /// Motions of each program.
+    pub motions: [u64; 2],
+    /// Motions that lead elsewhere, and what only one of them has.
+    pub changes: Vec<Change>,
+    /// Other feeds, speeds and the like.
+    pub techs: Vec<TechChange>,
     /// Motions and statements that differ and were not compared in detail.
-    pub(super) not_compared: u64,
+    pub not_compared: u64,
     /// Motions whose other feed and the like are not listed.
-    pub(super) techs_not_listed: u64,
+    pub techs_not_listed: u64,
     /// Motions whose end is not known in numbers: they are the same only as far as their words are.
-    pub(super) unknown: u64,
+    pub unknown: u64,
     /// The two have too little in common to be aligned.
-    pub(super) too_different: bool,
+    pub too_different: bool,
     /// Both were compared one by one, because they have the same number of motions and too many differences to be aligned.
-    pub(super) one_by_one: bool,
+    pub one_by_one: bool,
     /// Where the runs stopped before the end of their programs.
-    pub(super) stops: [Option<Stop>; 2],
+    pub stops: [Option<Stop>; 2],
 }
 
 impl Found {
@@ -74,7 +76,7 @@ impl Found {
         }
     }
     /// Whether the programs are the same.
-    pub(super) fn same(&self) -> bool {
+    pub fn same(&self) -> bool {
         self.verdict == Verdict::Same
     }
 }
@@ -95,9 +97,20 @@ struct Techs {
     index: HashMap<Tech, u32>,
 }
 
-/// Compares two programs; with the machine of the first one, by joints.
-pub(super) fn compare(before: &Loaded, after: &Loaded, tolerance: Tolerance, path_only: bool) -> Found {
-    let machine = before.resolved.machine.as_ref();
+/// Two programs that are compared.
+#[derive(Clone, Copy)]
+pub struct Pair<'a> {
+    /// Before.
+    pub before: Input<'a>,
+    /// After; with the machine of the first one.
+    pub after: Input<'a>,
+    /// They have the same settings, so that a certificate may be asked.
+    pub one_setup: bool,
+}
+
+/// Compares two programs; with a machine, by joints.
+pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found {
+    let (before, after) = (pair.before, pair.after);
     let claim = Claim {
         mm: tolerance.mm,
         deg: tolerance.deg,
@@ -105,21 +118,22 @@ pub(super) fn compare(before: &Loaded, after: &Loaded, tolerance: Tolerance, pat
         across: false,
         path_only,
         cuts: true,
+        exact: None,
     };
     let mut near = Near {
         mm: tolerance.mm,
         deg: tolerance.deg,
     };
-    let mut sides = [Steps::new(input(before, machine)), Steps::new(input(after, machine))];
+    let mut sides = [Steps::new(before), Steps::new(after)];
     let [one, other] = &mut sides;
     let mut verdict = trunnion_same::compare(one, other, &claim, &mut near);
-    if matches!(verdict, Verdict::Unknown(_)) && proved(before, after, tolerance, path_only) {
+    if matches!(verdict, Verdict::Unknown(_)) && proved(pair, tolerance, path_only) {
         verdict = Verdict::Same;
     }
     let mut found = Found::new(verdict);
     let mut techs = Techs::default();
-    let a = keys(before, machine, tolerance, &mut techs, (0, &mut found));
-    let b = keys(after, machine, tolerance, &mut techs, (1, &mut found));
+    let a = keys(before, tolerance, &mut techs, (0, &mut found));
+    let b = keys(after, tolerance, &mut techs, (1, &mut found));
     if found.same() {
         return found;
     }
@@ -127,7 +141,7 @@ pub(super) fn compare(before: &Loaded, after: &Loaded, tolerance: Tolerance, pat
         Some(stretches) => stretches,
         None if a.hashes.len() == b.hashes.len() => {
             found.one_by_one = true;
-            return one_by_one(before, after, machine, tolerance, found);
+            return one_by_one(pair, tolerance, found);
         }
         None => {
             found.too_different = true;
@@ -148,16 +162,23 @@ pub(super) fn compare(before: &Loaded, after: &Loaded, tolerance: Tolerance, pat
         }
     };
     same_stretches(&a, &b, &techs, &stretches, &mut found);
-    details(before, after, machine, tolerance, &stretches, &mut found);
+    details(pair, tolerance, &stretches, &mut found);
     found
 }
 
 /// Where ends and shapes do not decide, the bounds between the ends may: a tool vector beside rotary words.
-fn proved(before: &Loaded, after: &Loaded, tolerance: Tolerance, path_only: bool) -> bool {
-    let (old, new) = (&before.resolved, &after.resolved);
-    let Some(machine) = old.machine.as_ref().filter(|_| old.config_path == new.config_path) else {
+fn proved(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> bool {
+    let Some(machine) = pair.before.machine.filter(|_| pair.one_setup) else {
         return false;
     };
+    // one setup serves both: tools, offsets and the programs that are called must be the same
+    let (before, after) = (&pair.before, &pair.after);
+    let mut setup = before.setup.clone();
+    setup.library = after.setup.library.clone();
+    let one_library = before.setup.library == after.setup.library || ![before, after].into_iter().any(may_call);
+    if setup != *after.setup || !one_library {
+        return false;
+    }
     let (tolerance_mm, tolerance_deg) = (tolerance.mm, tolerance.deg);
     let claim = if path_only {
         trunnion_certify::Claim::SamePath {
@@ -170,28 +191,21 @@ fn proved(before: &Loaded, after: &Loaded, tolerance: Tolerance, path_only: bool
             tolerance_deg,
         }
     };
-    let texts = [before, after].map(|loaded| loaded.program.source());
     let outcome = trunnion_certify::certify_across(
-        texts[0],
-        texts[1],
-        [old.dialect, new.dialect],
+        pair.before.program.source(),
+        pair.after.program.source(),
+        [pair.before.dialect, pair.after.dialect],
         machine,
-        &old.setup,
+        pair.before.setup,
         &claim,
     );
     matches!(outcome, trunnion_certify::Outcome::Proved(_))
 }
 
-fn keys(
-    loaded: &Loaded,
-    machine: Option<&Machine>,
-    tolerance: Tolerance,
-    techs: &mut Techs,
-    to: (usize, &mut Found),
-) -> Keys {
+fn keys(input: Input<'_>, tolerance: Tolerance, techs: &mut Techs, to: (usize, &mut Found)) -> Keys {
     let (side, found) = to;
     let mut keys = Keys::default();
-    let mut events = Events::new(loaded, machine);
+    let mut events = Events::new(input);
     for event in &mut events {
         let mut state = DefaultHasher::new();
         let tech = match &event.body {
@@ -310,15 +324,8 @@ impl Found {
 }
 
 /// The second pass: makes the events of the stretches that differ again.
-fn details(
-    before: &Loaded,
-    after: &Loaded,
-    machine: Option<&Machine>,
-    tolerance: Tolerance,
-    stretches: &[Stretch],
-    found: &mut Found,
-) {
-    let mut sides = [Skipping::new(before, machine), Skipping::new(after, machine)];
+fn details(pair: &Pair<'_>, tolerance: Tolerance, stretches: &[Stretch], found: &mut Found) {
+    let mut sides = [Skipping::new(pair.before), Skipping::new(pair.after)];
     let mut compared = 0;
     for stretch in stretches {
         let Stretch::Different(x, more, y, other) = *stretch else {
@@ -349,9 +356,9 @@ struct Skipping<'a> {
 }
 
 impl<'a> Skipping<'a> {
-    fn new(loaded: &'a Loaded, machine: Option<&'a Machine>) -> Self {
+    fn new(input: Input<'a>) -> Self {
         Self {
-            events: Events::new(loaded, machine),
+            events: Events::new(input),
             next: 0,
         }
     }
@@ -367,14 +374,8 @@ impl<'a> Skipping<'a> {
 }
 
 /// Compares event by event.
-fn one_by_one(
-    before: &Loaded,
-    after: &Loaded,
-    machine: Option<&Machine>,
-    tolerance: Tolerance,
-    mut found: Found,
-) -> Found {
-    for (a, b) in Events::new(before, machine).zip(Events::new(after, machine)) {
+fn one_by_one(pair: &Pair<'_>, tolerance: Tolerance, mut found: Found) -> Found {
+    for (a, b) in Events::new(pair.before).zip(Events::new(pair.after)) {
         if found.changes.len() < MOST_DETAILS {
             found.pair(a, b, tolerance);
         } else if !same(&a, &b, tolerance) {

@@ -1,0 +1,118 @@
+//! Decisions in which controls differ: one type each, so that a new kind does not compile until every place has decided.
+use crate::Quirks;
+use serde::Deserialize;
+
+/// What a language has beside words and codes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Language {
+    /// Nothing (grbl).
+    #[default]
+    Words,
+    /// Custom macro B: variables, IF, GOTO, WHILE, M98, G65.
+    MacroB,
+    /// Sinumerik: names of the program's own (variables, labels, subprograms), so that an unknown name is no error in itself.
+    Sinumerik,
+    /// Programs are run by LinuxCNC's own interpreter.
+    Linuxcnc,
+}
+
+/// Whose custom macro B it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Macros {
+    /// No control's in particular.
+    #[default]
+    Generic,
+    /// Fanuc's: its alarms, levels of calls, numbers of modal groups (#4014) and P of M98 with the repetitions in front.
+    Fanuc,
+}
+
+/// What T does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ToolWord {
+    /// It prepares the tool for M6.
+    #[default]
+    Prepares,
+    /// It puts the tool into the spindle at once.
+    Changes,
+    /// The same, and its last two digits name an offset: T0102 (lathes).
+    ChangesWithOffset,
+}
+
+impl ToolWord {
+    /// T alone changes the tool.
+    pub fn changes(self) -> bool {
+        match self {
+            Self::Prepares => false,
+            Self::Changes | Self::ChangesWithOffset => true,
+        }
+    }
+    /// The tool that a number selects.
+    pub fn tool(self, number: u32) -> u32 {
+        match self {
+            Self::ChangesWithOffset if number >= 100 => number / 100,
+            Self::Prepares | Self::Changes | Self::ChangesWithOffset => number,
+        }
+    }
+}
+
+/// What numbers without a decimal point mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WholeNumbers {
+    /// What is written.
+    #[default]
+    AsWritten,
+    /// A coordinate is millimetres or least increments, as a parameter of the control says (Fanuc).
+    AmbiguousLengths,
+    /// The same of F, by a setting (Haas).
+    AmbiguousLengthsAndFeeds,
+}
+
+impl WholeNumbers {
+    /// Whether lengths without a point have two meanings.
+    #[inline]
+    pub fn lengths_ambiguous(self) -> bool {
+        match self {
+            Self::AsWritten => false,
+            Self::AmbiguousLengths | Self::AmbiguousLengthsAndFeeds => true,
+        }
+    }
+    /// Whether F without a point has.
+    #[inline]
+    pub fn feeds_ambiguous(self) -> bool {
+        match self {
+            Self::AsWritten | Self::AmbiguousLengths => false,
+            Self::AmbiguousLengthsAndFeeds => true,
+        }
+    }
+}
+
+impl Quirks {
+    /// Custom macro B is part of the language.
+    #[inline]
+    pub fn macro_b(&self) -> bool {
+        match self.language {
+            Language::MacroB => true,
+            Language::Words | Language::Sinumerik | Language::Linuxcnc => false,
+        }
+    }
+    /// The program may define names of its own.
+    #[inline]
+    pub fn user_names(&self) -> bool {
+        match self.language {
+            Language::Sinumerik => true,
+            Language::Words | Language::MacroB | Language::Linuxcnc => false,
+        }
+    }
+    /// Programs are run by LinuxCNC's own interpreter.
+    #[inline]
+    pub fn rs274(&self) -> bool {
+        match self.language {
+            Language::Linuxcnc => true,
+            Language::Words | Language::MacroB | Language::Sinumerik => false,
+        }
+    }
+}

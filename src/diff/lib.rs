@@ -1,0 +1,12 @@
+//! Floor 7: where two programs do something different, motion for motion, for people and for tools.
+//!
+//! [`trunnion_same`] decides whether they are the same; this floor lists what is not. It does not know terminals, JSON or files.
+mod align;
+mod changes;
+mod event;
+mod point;
+mod run;
+
+pub use changes::{Change, Found, Pair, TechChange, compare};
+pub use event::{Body, Tech};
+pub use point::{Point, Tolerance, Way};

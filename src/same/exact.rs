@@ -1,0 +1,321 @@
+//! Two texts that must do exactly the same, to the last bit: only their layout, or the numbers of their blocks, may differ.
+//!
+//! Both run block by block. After each block that holds something, every motion, effect and fault, and the whole modal state, must be
+//! equal. A number that is unknown equals another unknown number: both texts have the same words, so both are unknown for one reason.
+use crate::process::Process;
+use crate::steps::{Item, Steps};
+use crate::verdict::{Difference, Verdict};
+use std::collections::{BTreeSet, VecDeque};
+use std::sync::Arc;
+use trunnion_interp::{Argument, Fault, FaultKind, ModalState, Motion, MotionKind, Position, Value};
+use trunnion_syntax::{BlockId, Program, TokenKind};
+
+/// An exact comparison.
+#[derive(Clone, Copy, Debug)]
+pub struct Exact {
+    /// The numbers of blocks may differ, and what names them: texts in faults, and the words of blocks that are not modelled.
+    pub frees_block_numbers: bool,
+    /// So many blocks are run at most; an endless loop is the same as far as it was followed. The bound of the interpreters must be
+    /// larger: empty blocks of one side would make its interpreter stop before the other.
+    pub most_blocks: u64,
+}
+
+/// Replaces an unknown number where equality is decided; the interpreters take no number above 1e12.
+const UNKNOWN: f64 = f64::MAX;
+
+/// One program of the comparison.
+struct Side<'r, 'a> {
+    steps: &'r mut Steps<'a>,
+    /// How many blocks that hold something come before each block.
+    ordinals: Vec<u32>,
+    /// Blocks that it has run, empty ones too.
+    blocks: u64,
+    /// Blocks of which a mistake was found.
+    refused: BTreeSet<u32>,
+    /// Motions and effects that the other side has not matched yet.
+    items: VecDeque<Item>,
+    faults: VecDeque<(u32, FaultKind)>,
+}
+
+/// Runs both programs to their ends, or to the first difference.
+pub(crate) fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, exact: Exact) -> Result<(), Verdict> {
+    let (mut a, mut b) = (Side::new(before), Side::new(after));
+    let mut reached = BlockId(0);
+    // the settings of both sides that were found equal last
+    let mut settled: Option<(Arc<Process>, Arc<Process>)> = None;
+    loop {
+        if a.blocks.max(b.blocks) >= exact.most_blocks {
+            return Ok(());
+        }
+        let (left, right) = (a.advance(), b.advance());
+        reached = left.unwrap_or(reached);
+        let at = |what: &str| {
+            Err(Verdict::Differs(Difference {
+                before: Some(reached),
+                after: right,
+                what: what.to_owned(),
+            }))
+        };
+        while let (Some(x), Some(y)) = (a.items.front(), b.items.front()) {
+            if let Some(what) = item_difference(x, y, (&a, &b), exact, &mut settled) {
+                return at(what);
+            }
+            a.items.pop_front();
+            b.items.pop_front();
+        }
+        while let (Some((x, one)), Some((y, other))) = (a.faults.front(), b.faults.front()) {
+            if x != y || !same_fault(one, other, exact) {
+                return at("a fault differs");
+            }
+            a.faults.pop_front();
+            b.faults.pop_front();
+        }
+        match (left, right) {
+            (None, None) if a.is_compared() && b.is_compared() => return Ok(()),
+            (None, None) => return at("one program does more at its end"),
+            (Some(x), Some(y)) if a.ordinal(x) == b.ordinal(y) => {}
+            _ => return at("the order in which blocks run differs"),
+        }
+        if !same_state(a.steps.state(), b.steps.state()) {
+            // what the end of the text brings comes with the last block, or with an empty one after it
+            let more = a.advance().is_some() || b.advance().is_some();
+            if more || !same_state(a.steps.state(), b.steps.state()) {
+                return at("what is in force after the block differs");
+            }
+        }
+    }
+}
+
+impl<'r, 'a> Side<'r, 'a> {
+    fn new(steps: &'r mut Steps<'a>) -> Self {
+        steps.watch_faults();
+        let mut count = 0;
+        let program = steps.input().program;
+        let ordinals = program.blocks().map(|block| {
+            let own = count;
+            count += u32::from(!is_empty(program, block.id()));
+            own
+        });
+        Self {
+            ordinals: ordinals.collect(),
+            blocks: 0,
+            refused: BTreeSet::new(),
+            items: VecDeque::new(),
+            faults: VecDeque::new(),
+            steps,
+        }
+    }
+
+    fn ordinal(&self, block: BlockId) -> u32 {
+        self.ordinals.get(block.0 as usize).copied().unwrap_or(u32::MAX)
+    }
+
+    fn is_compared(&self) -> bool {
+        self.items.is_empty() && self.faults.is_empty()
+    }
+
+    /// Runs on to the end of the next block that holds something; `None` at the end.
+    fn advance(&mut self) -> Option<BlockId> {
+        loop {
+            let block = self.steps.advance();
+            self.items.append(&mut self.steps.take_ready());
+            for fault in self.steps.take_faults() {
+                self.fault(fault);
+            }
+            let block = block?;
+            self.blocks += 1;
+            if !is_empty(self.steps.input().program, block) {
+                return Some(block);
+            }
+        }
+    }
+
+    /// Of a line only the first mistake counts: what else is found after it depends on the blanks, because reading goes on at what looks
+    /// like a word. The control stops at the first. LinuxCNC's reader does not look at blanks.
+    fn fault(&mut self, fault: Fault) {
+        let ordinal = self.ordinal(fault.block);
+        if !self.steps.input().dialect.quirks.rs274() && is_refusal(&fault.kind) && !self.refused.insert(ordinal) {
+            return;
+        }
+        self.faults.push_back((ordinal, fault.kind));
+    }
+}
+
+/// Whether a block has no token but blanks.
+fn is_empty(program: &Program, block: BlockId) -> bool {
+    let table = program.tokens();
+    let blank = |id| matches!(table.kind(id), TokenKind::Newline | TokenKind::Blank);
+    program.block(block).tokens().all(blank)
+}
+
+/// What differs between two things that the programs do, if anything does.
+fn item_difference(
+    x: &Item,
+    y: &Item,
+    (a, b): (&Side<'_, '_>, &Side<'_, '_>),
+    exact: Exact,
+    settled: &mut Option<(Arc<Process>, Arc<Process>)>,
+) -> Option<&'static str> {
+    if a.ordinal(x.block()) != b.ordinal(y.block()) {
+        return Some("the block that moves or does something differs");
+    }
+    let (was, is) = match (x, y) {
+        (Item::Motion(was), Item::Motion(is)) => {
+            if !same_motion(&was.motion, &is.motion) || was.held != is.held {
+                return Some("a motion differs");
+            }
+            (&was.process, &is.process)
+        }
+        (
+            Item::Happens {
+                sort, words, process, ..
+            },
+            Item::Happens {
+                sort: other_sort,
+                words: others,
+                process: other,
+                ..
+            },
+        ) => {
+            // P and Q name blocks: of a return, of a contour
+            let free = |word: &Argument| {
+                exact.frees_block_numbers
+                    && (*sort == crate::Sort::Unmodelled || matches!(word.name.as_ref(), "P" | "Q"))
+            };
+            let same = |(a, b): (&Argument, &Argument)| same_word(a, b) || free(a) && a.name == b.name;
+            if sort != other_sort || words.len() != others.len() || !words.iter().zip(others).all(same) {
+                return Some("what a block does beside motions differs");
+            }
+            (process, other)
+        }
+        _ => return Some("the number of motions differs"),
+    };
+    let known = |(one, other): &(Arc<Process>, Arc<Process>)| Arc::ptr_eq(one, was) && Arc::ptr_eq(other, is);
+    if settled.as_ref().is_some_and(known) {
+        return None;
+    }
+    if was != is {
+        return Some("a setting differs");
+    }
+    *settled = Some((Arc::clone(was), Arc::clone(is)));
+    None
+}
+
+fn same_word(a: &Argument, b: &Argument) -> bool {
+    a.name == b.name
+        && match (&a.value, &b.value) {
+            (Value::Number(a), Value::Number(b)) => a.to_bits() == b.to_bits(),
+            (a, b) => a == b,
+        }
+}
+
+fn known(value: &mut f64) {
+    if value.is_nan() {
+        *value = UNKNOWN;
+    }
+}
+
+fn known_place(position: &mut Position) {
+    position.values.iter_mut().for_each(known);
+}
+
+/// Whether two motions are the same but for their blocks.
+pub(crate) fn same_motion(a: &Motion, b: &Motion) -> bool {
+    let comparable = |motion: &Motion| {
+        let mut motion = *motion;
+        motion.block = BlockId(0);
+        known_place(&mut motion.start);
+        known_place(&mut motion.end);
+        motion.zero.iter_mut().for_each(known);
+        known(&mut motion.tool_length_mm);
+        motion.spindle_rpm.iter_mut().for_each(known);
+        if let MotionKind::Arc(Some(arc)) = &mut motion.kind {
+            let values = [&mut arc.sweep, &mut arc.radius_start, &mut arc.radius_end];
+            values.into_iter().for_each(known);
+            for point in [&mut arc.start, &mut arc.end, &mut arc.centre, &mut arc.normal] {
+                point.iter_mut().for_each(known);
+            }
+        }
+        motion
+    };
+    comparable(a) == comparable(b)
+}
+
+/// Whether two modal states are the same.
+fn same_state(a: &ModalState, b: &ModalState) -> bool {
+    let comparable = |state: &ModalState| {
+        let mut state = state.clone();
+        known_place(&mut state.position);
+        state.zero.iter_mut().for_each(known);
+        let values = [
+            &mut state.feed,
+            &mut state.spindle_rpm,
+            &mut state.spindle_limit_rpm,
+            &mut state.tool_length_mm,
+        ];
+        values.into_iter().flatten().for_each(known);
+        state
+    };
+    a == b || comparable(a) == comparable(b)
+}
+
+/// Whether a control stops at the fault.
+fn is_refusal(kind: &FaultKind) -> bool {
+    matches!(
+        kind,
+        FaultKind::Rejected { .. }
+            | FaultKind::UnknownCode { .. }
+            | FaultKind::UnknownWord
+            | FaultKind::RepeatedWord
+            | FaultKind::GroupConflict { .. }
+    )
+}
+
+/// Whether two faults are the same but for places and the spelling of texts that they quote.
+fn same_fault(a: &FaultKind, b: &FaultKind, exact: Exact) -> bool {
+    let free = exact.frees_block_numbers;
+    let alike = |a: &str, b: &str| free || folded(a).eq(folded(b));
+    if a == b {
+        return true;
+    }
+    match (a, b) {
+        // the sentence may quote the text and name lines
+        (
+            FaultKind::Rejected { refusal, alarm, .. },
+            FaultKind::Rejected {
+                refusal: other,
+                alarm: number,
+                ..
+            },
+        ) => refusal == other && (alarm == number || quotes(alarm.as_ref()) && quotes(number.as_ref())),
+        (
+            FaultKind::MissingSubprogram {
+                name: a, searched: x, ..
+            },
+            FaultKind::MissingSubprogram {
+                name: b, searched: y, ..
+            },
+        ) => x == y && alike(a, b),
+        // how many blocks ran depends on empty ones
+        (FaultKind::EndlessLoop { proved: a, .. }, FaultKind::EndlessLoop { proved: b, .. }) => a == b,
+        (FaultKind::GroupConflict { group, .. }, FaultKind::GroupConflict { group: other, .. }) => group == other,
+        // texts as written
+        (FaultKind::NotModelled { what: a }, FaultKind::NotModelled { what: b })
+        | (FaultKind::NotDecided { what: a }, FaultKind::NotDecided { what: b })
+        | (FaultKind::WorkOffsetUnset { name: a }, FaultKind::WorkOffsetUnset { name: b })
+        | (FaultKind::ToolLengthUnset { tool: a }, FaultKind::ToolLengthUnset { tool: b })
+        | (FaultKind::ProgramAlarm { message: a }, FaultKind::ProgramAlarm { message: b }) => alike(a, b),
+        _ => free && std::mem::discriminant(a) == std::mem::discriminant(b),
+    }
+}
+
+/// LinuxCNC's messages may quote the text and name lines, too.
+fn quotes(alarm: Option<&String>) -> bool {
+    alarm.is_some_and(|alarm| alarm.starts_with("LinuxCNC: "))
+}
+
+/// A text without blanks and case.
+fn folded(text: &str) -> impl Iterator<Item = char> {
+    let visible = text.chars().filter(|c| !c.is_whitespace());
+    visible.map(|c| c.to_ascii_uppercase())
+}

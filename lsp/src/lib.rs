@@ -8,6 +8,7 @@ mod code_action;
 mod document;
 mod event;
 mod exit;
+mod frames;
 mod hover;
 mod names;
 mod outbox;
@@ -17,7 +18,7 @@ mod settings;
 mod to_proto;
 
 use backend::Backend;
-use exit::ExitOnExit;
+use exit::Outer;
 use std::sync::{
     Arc,
     atomic::{AtomicBool, Ordering},
@@ -41,8 +42,10 @@ pub fn serve() -> i32 {
     let seen = Arc::clone(&shutdown);
     runtime.block_on(async move {
         let (service, socket) = LspService::new(|client| Backend::start(client, Arc::clone(&seen)));
-        let service = ExitOnExit::new(service, Arc::clone(&seen));
-        Server::new(tokio::io::stdin(), tokio::io::stdout(), socket)
+        let service = Outer::new(service, Arc::clone(&seen));
+        let (messages, input) = tokio::io::duplex(1 << 16);
+        tokio::spawn(frames::pump(tokio::io::stdin(), messages));
+        Server::new(input, tokio::io::stdout(), socket)
             .concurrency_level(CONCURRENCY)
             .serve(service)
             .await;

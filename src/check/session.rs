@@ -189,8 +189,8 @@ impl Session {
             }
         }
         BlockInfo {
-            before: before.state.clone(),
-            after: after.state.clone(),
+            before: before.state().clone(),
+            after: after.state().clone(),
             rows: walk.rows,
             runs,
             variables: Variables(Box::new([before, after])),

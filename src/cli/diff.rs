@@ -81,7 +81,11 @@ pub(super) fn run(global: &Global, command: &Diff) -> Result<Done, Failure> {
 fn differences(before: &load::Loaded, after: &load::Loaded, tolerance: Tolerance, path_only: bool) -> Found {
     let (old, new) = (&before.resolved, &after.resolved);
     // files of one folder call the same programs
-    let folder = |loaded: &load::Loaded| std::path::Path::new(&loaded.name).parent().map(std::path::Path::to_path_buf);
+    let folder = |loaded: &load::Loaded| {
+        std::path::Path::new(&loaded.name)
+            .parent()
+            .map(std::path::Path::to_path_buf)
+    };
     let mut beside = new.setup.clone();
     if folder(before) == folder(after) {
         beside.library = old.setup.library.clone();

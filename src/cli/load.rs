@@ -110,7 +110,7 @@ type Source = (Vec<u8>, Option<Seen>);
 /// Bytes of a program whose blocks are all held at once: up to nine bytes of memory for each byte of it, so its size is bounded.
 pub(crate) fn read_program(global: &Global, path: &Path) -> Result<Source, Failure> {
     let most = global.max_file_mb;
-    bytes(path, most.min(MOST_MEGABYTES))?.ok_or_else(|| {
+    let source = bytes(path, most.min(MOST_MEGABYTES))?.ok_or_else(|| {
         if most >= MOST_MEGABYTES {
             let text = format!("is larger than {MOST_MEGABYTES} MB, the largest size that can be read; split it");
             return Failure::file(path, text);
@@ -122,7 +122,14 @@ pub(crate) fn read_program(global: &Global, path: &Path) -> Result<Source, Failu
                  file size or more)"
             ),
         )
-    })
+    })?;
+    let lines = memchr::memchr_iter(b'\n', &source.0).count() as u64;
+    if lines > global.max_lines {
+        let most = global.max_lines;
+        let text = format!("has {lines} lines, more than {most}, and was not read; `--max-lines N` raises the limit");
+        return Err(Failure::file(path, text));
+    }
+    Ok(source)
 }
 
 /// Bytes of a regular file or of standard input; `None` where there are more than `megabytes`.

@@ -6,7 +6,7 @@ use crate::point::{Point, Tolerance};
 use crate::run::Events;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
-use trunnion_same::{Claim, Input, Near, Steps, Stop, Verdict, may_call};
+use trunnion_same::{Claim, Input, Near, Steps, Stop, Verdict, run_alike};
 use trunnion_syntax::BlockId;
 
 /// So many motions are compared in detail; more are only counted.
@@ -171,12 +171,7 @@ fn proved(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> bool {
     let Some(machine) = pair.before.machine.filter(|_| pair.one_setup) else {
         return false;
     };
-    // one setup serves both: tools, offsets and the programs that are called must be the same
-    let (before, after) = (&pair.before, &pair.after);
-    let mut setup = before.setup.clone();
-    setup.library = after.setup.library.clone();
-    let one_library = before.setup.library == after.setup.library || ![before, after].into_iter().any(may_call);
-    if setup != *after.setup || !one_library {
+    if !run_alike(&pair.before, &pair.after) {
         return false;
     }
     let (tolerance_mm, tolerance_deg) = (tolerance.mm, tolerance.deg);

@@ -1,10 +1,8 @@
 //! From text to postfix code, without recursion: open brackets and waiting operators stand on stacks.
-use crate::bracketed::bracketed_number;
 use crate::brackets::{Bracket, Compiler, Waiting};
 use crate::code::{Code, Formula, Op, Step};
 use crate::cursor::is_blank;
-use crate::fast;
-use crate::words::{Function, take_angled, take_function, take_name, take_numeral, text};
+use crate::words::{Function, take_angled, take_function, take_name, take_numeral};
 use crate::{Cursor, FormulaError, FormulaErrorKind, Grammar, Name, Target};
 use smallvec::SmallVec;
 use trunnion_syntax::{Decimal, TextRange};
@@ -35,34 +33,6 @@ pub(crate) fn value_with(
     if let Some(number) = plain_number(cursor) {
         return (number, None);
     }
-    if let Some((value, range)) = bracketed_number(cursor) {
-        let mut steps = pool.pop().unwrap_or_default();
-        let op = Op::Number(value);
-        let range = range.shifted(start.wrapping_neg());
-        steps.push(Step { op, range });
-        let formula = Formula {
-            range: cursor.since(start),
-            code: Code::Steps { steps, depth: 1 },
-        };
-        return (formula, None);
-    }
-    if grammar == Grammar::Rs274 {
-        let mut steps = pool.pop().unwrap_or_default();
-        if let Some(formula) = fast::value(cursor, &mut steps) {
-            return (formula, None);
-        }
-        pool.push(steps);
-    }
-    compiled(cursor, grammar, pool)
-}
-
-/// A value of any shape.
-pub(crate) fn compiled(
-    cursor: &mut Cursor<'_>,
-    grammar: Grammar,
-    pool: &mut Vec<Vec<Step>>,
-) -> (Formula, Option<FormulaError>) {
-    let start = cursor.at();
     let mut compiler = Compiler {
         cursor,
         grammar,
@@ -119,7 +89,7 @@ fn take_variable_name(cursor: &mut Cursor<'_>, grammar: Grammar, hash: u32) -> R
                 kind: FormulaErrorKind::UnclosedName,
             }),
         },
-        (Grammar::MacroB, Some(b'_' | b'a'..=b'z')) => Ok(take_name(cursor)),
+        (Grammar::MacroB, Some(b'_' | b'a'..=b'z')) => Ok(Some(take_name(cursor))),
         _ => Ok(None),
     }
 }
@@ -155,7 +125,7 @@ fn plain_number(cursor: &mut Cursor<'_>) -> Option<Formula> {
 
 /// The value with its sign, which a decimal does not keep of `-0`.
 #[inline]
-pub(crate) fn signed(decimal: Decimal, negative: bool) -> f64 {
+fn signed(decimal: Decimal, negative: bool) -> f64 {
     if decimal.mantissa == 0 && negative {
         -0.0
     } else {
@@ -177,7 +147,7 @@ fn called(mut cursor: Cursor<'_>) -> TextRange {
 }
 
 /// Whether a number continues after the blanks at the start of `rest`.
-pub(crate) fn continues(rest: &[u8]) -> bool {
+fn continues(rest: &[u8]) -> bool {
     rest.iter()
         .find(|byte| !is_blank(**byte))
         .is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')
@@ -273,16 +243,15 @@ impl Compiler<'_, '_> {
             self.push(Op::Number(value), start, range);
             return Ok(());
         }
-        let numeral = take_numeral(self.cursor);
-        let digits = text(numeral);
+        let digits = take_numeral(self.cursor);
         let range = self.cursor.since(start);
         let points = digits.bytes().filter(|byte| *byte == b'.').count();
         if !digits.bytes().any(|byte| byte.is_ascii_digit()) {
             let range = if digits.is_empty() { self.cursor.here() } else { range };
-            return Self::fail(range, FormulaErrorKind::NotANumber { text: digits });
+            return Self::fail(range, FormulaErrorKind::NotANumber { text: digits.into() });
         }
         if points > 1 {
-            return Self::fail(range, FormulaErrorKind::TwoPoints { text: digits });
+            return Self::fail(range, FormulaErrorKind::TwoPoints { text: digits.into() });
         }
         let decimal = Decimal::parse(digits.as_bytes());
         let value = match decimal {

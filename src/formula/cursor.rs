@@ -1,5 +1,4 @@
 //! A cursor over the bytes of one line to which blanks, tabs and carriage returns do not exist.
-use nom::{Compare, CompareResult, Input, Needed, Offset};
 use trunnion_syntax::TextRange;
 
 /// Reads a piece of a program byte by byte, skips blanks (tabs and carriage returns, too), gives letters in lower case, and knows where it is.
@@ -118,84 +117,5 @@ impl<'s> Cursor<'s> {
                 self.skip();
             }
         }
-    }
-}
-
-/// The bytes of a cursor with their number, blanks not counted.
-#[derive(Debug)]
-pub struct Bytes<'s>(Cursor<'s>);
-
-impl Iterator for Bytes<'_> {
-    type Item = u8;
-    fn next(&mut self) -> Option<u8> {
-        self.0.bump()
-    }
-}
-
-/// To nom a cursor is a string without blanks: positions and lengths count bytes that have a meaning.
-impl<'s> Input for Cursor<'s> {
-    type Item = u8;
-    type Iter = Bytes<'s>;
-    type IterIndices = core::iter::Enumerate<Bytes<'s>>;
-
-    fn input_len(&self) -> usize {
-        self.iter_elements().count()
-    }
-    fn take(&self, index: usize) -> Self {
-        let behind = self.take_from(index);
-        Self {
-            end: behind.behind.max(self.at),
-            ..*self
-        }
-    }
-    fn take_from(&self, index: usize) -> Self {
-        let mut rest = *self;
-        for _ in 0..index {
-            rest.bump();
-        }
-        rest
-    }
-    fn take_split(&self, index: usize) -> (Self, Self) {
-        (self.take_from(index), self.take(index))
-    }
-    fn position<P: Fn(u8) -> bool>(&self, predicate: P) -> Option<usize> {
-        self.iter_elements().position(predicate)
-    }
-    fn iter_elements(&self) -> Self::Iter {
-        Bytes(*self)
-    }
-    fn iter_indices(&self) -> Self::IterIndices {
-        self.iter_elements().enumerate()
-    }
-    fn slice_index(&self, count: usize) -> Result<usize, Needed> {
-        match count - self.iter_elements().take(count).count() {
-            0 => Ok(count),
-            missing => Err(Needed::new(missing)),
-        }
-    }
-}
-
-impl Offset for Cursor<'_> {
-    fn offset(&self, second: &Self) -> usize {
-        let mut between = *self;
-        between.end = between.end.min(second.at);
-        between.input_len()
-    }
-}
-
-impl Compare<&str> for Cursor<'_> {
-    fn compare(&self, word: &str) -> CompareResult {
-        let mut rest = *self;
-        for expected in word.bytes() {
-            match rest.bump() {
-                None => return CompareResult::Incomplete,
-                Some(byte) if byte != expected => return CompareResult::Error,
-                Some(_) => {}
-            }
-        }
-        CompareResult::Ok
-    }
-    fn compare_no_case(&self, word: &str) -> CompareResult {
-        self.compare(word)
     }
 }

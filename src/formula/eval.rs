@@ -1,6 +1,6 @@
 //! Evaluation: one pass over the postfix code with a small stack of values.
 use crate::arithmetic::{binary, checked, is_vacant, unary, vacant, whole};
-use crate::code::{Binary, Code, Formula, Op, Step};
+use crate::code::{Code, Formula, Op, Step};
 use crate::{FormulaError, FormulaErrorKind, Name, ValueError, Variables};
 
 /// Formulas that keep at most this many values at once need no memory.
@@ -136,13 +136,8 @@ fn run<R: Room>(steps: &[Step], variables: &(impl Variables + ?Sized), depth: us
                 continue;
             }
         };
-        let quick = of_numbers(operation, first, second);
-        stack.last = if quick.is_nan() {
-            // only Macro B's angles ask the control
-            binary(operation, first, second, &|| variables.positive_angles()).map_err(failed)?
-        } else {
-            quick
-        };
+        // only Macro B's angles ask the control
+        stack.last = binary(operation, first, second, &|| variables.positive_angles()).map_err(failed)?;
     }
     let Some(last) = steps.last() else {
         return Ok(f64::NAN);
@@ -157,20 +152,6 @@ fn run<R: Room>(steps: &[Step], variables: &(impl Variables + ?Sized), depth: us
 fn failure(step: &Step, kind: FormulaErrorKind) -> Box<FormulaError> {
     let range = step.range;
     Box::new(FormulaError { range, kind })
-}
-
-/// The commonest operations where both values are numbers and the result is one; NaN elsewhere: a number comes out of numbers alone.
-#[inline]
-fn of_numbers(operation: Binary, a: f64, b: f64) -> f64 {
-    match operation {
-        Binary::Add => a + b,
-        Binary::Subtract => a - b,
-        Binary::Multiply => a * b,
-        Binary::Divide if b != 0.0 => a / b,
-        Binary::Greater | Binary::Less if a < b => f64::from(u8::from(operation == Binary::Less)),
-        Binary::Greater | Binary::Less if a > b => f64::from(u8::from(operation == Binary::Greater)),
-        _ => f64::NAN,
-    }
 }
 
 /// A value of a variable; a NaN of any kind is "not known".

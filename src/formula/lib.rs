@@ -4,7 +4,6 @@
 //! for formulas that keep at most eight values at once. A value that is not known is NaN and stays so through arithmetic.
 //! *It does not know what a word, a block or a variable means.*
 mod arithmetic;
-mod bracketed;
 mod brackets;
 mod code;
 mod compile;
@@ -12,16 +11,14 @@ mod cursor;
 mod degrees;
 mod error;
 mod eval;
-mod fast;
 mod name;
 mod pool;
 mod sinumerik;
 mod words;
 
-pub use bracketed::{literal_in_brackets, number_in_brackets};
 pub use code::Formula;
 pub use compile::{bracketed, target, value, value_or_error};
-pub use cursor::{Bytes, Cursor};
+pub use cursor::Cursor;
 pub use error::{FormulaError, FormulaErrorKind};
 pub use name::Name;
 pub use pool::Pool;

@@ -1,7 +1,8 @@
 //! What a control reads into words before it acts on them: increments and diameters of a lathe, and numbers without a decimal point.
 use crate::codes::{BlockCodes, Found, dwell_reads, not_modelled};
-use crate::offsets::LINEAR;
-use crate::run::{Interpreter, Report};
+use crate::core::LINEAR;
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::{Said, Words};
 use crate::{FaultKind, FeedMode, ImplicitDecimals};
 use trunnion_dialect::{Action, Role};
@@ -9,7 +10,7 @@ use trunnion_dialect::{Action, Role};
 /// Letters of distances and the axes that they move.
 const INCREMENTS: [(u8, usize); 4] = [(b'U', 0), (b'V', 1), (b'W', 2), (b'H', 5)];
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// G10.9: X1 makes X a diameter, X0 a radius (Fanuc Series 30i operator's manual, switching of diameter and radius programming).
     pub(crate) fn diameter_switch(
         &mut self,
@@ -21,13 +22,15 @@ impl Interpreter<'_> {
         block.takes_coordinates = true;
         let x = words.axes.get(0);
         match x {
-            Some(value) if self.dialect.quirks.diameter && (value == 0.0 || value == 1.0) && words.axes.given == 1 => {
+            Some(value)
+                if self.core.dialect.quirks.diameter && (value == 0.0 || value == 1.0) && words.axes.given == 1 =>
+            {
                 self.memory.diameter = Some(value == 1.0);
             }
             _ => {
                 not_modelled(found, report);
-                self.memory.hide_for_good();
-                self.forget_position();
+                self.core.unknown.for_good();
+                self.core.forget_position();
             }
         }
     }
@@ -36,22 +39,22 @@ impl Interpreter<'_> {
     #[cold]
     pub(crate) fn adjust(&self, codes: &[Found<'_>], words: &mut Words) {
         let has = |action: Action| codes.iter().any(|found| found.code.action == action);
-        if self.dialect.quirks.diameter {
+        if self.core.dialect.quirks.diameter {
             self.increments(words);
         }
-        match self.setup.control.implicit_decimals {
+        match self.core.setup.control.implicit_decimals {
             Some(ImplicitDecimals::LeastIncrement) => {
                 let inch = if has(Action::Inch) || has(Action::Metric) {
                     has(Action::Inch)
                 } else {
-                    self.state.length_unit_mm != 1.0
+                    self.core.state.length_unit_mm != 1.0
                 };
                 self.least_increments(codes, words, inch);
             }
             Some(ImplicitDecimals::Calculator) => words.axes.point |= words.axes.given,
             None => {}
         }
-        let diameter = self.memory.diameter.unwrap_or(self.dialect.quirks.diameter);
+        let diameter = self.memory.diameter.unwrap_or(self.core.dialect.quirks.diameter);
         if diameter && !has(Action::Dwell) && !has(Action::DiameterSwitch) {
             words.axes.values[0] *= 0.5;
         }
@@ -60,7 +63,7 @@ impl Interpreter<'_> {
     /// U, V, W, H are distances of X, Y, Z, C.
     fn increments(&self, words: &mut Words) {
         for (letter, axis) in INCREMENTS {
-            if self.dialect.role(letter) != Some(Role::Increment) {
+            if self.core.dialect.role(letter) != Some(Role::Increment) {
                 continue;
             }
             let bit = 1 << axis;
@@ -88,7 +91,7 @@ impl Interpreter<'_> {
             words.axes.values[axis] /= if linear { divisor } else { 1000.0 };
         }
         words.axes.point |= whole;
-        if !self.state.vector_mode {
+        if !self.core.state.vector_mode {
             let whole = words.centre.given & !words.centre.point;
             for place in (0..3).filter(|place| whole & (1 << place) != 0) {
                 words.centre.values[place] /= divisor;
@@ -108,7 +111,7 @@ impl Interpreter<'_> {
         scale(&mut words.radius, if turns { 1000.0 } else { divisor });
         let mode = codes
             .iter()
-            .fold(self.state.feed_mode, |mode, found| match found.code.action {
+            .fold(self.core.state.feed_mode, |mode, found| match found.code.action {
                 Action::FeedPerMinute => FeedMode::PerMinute,
                 Action::FeedPerRevolution => FeedMode::PerRevolution,
                 Action::FeedInverseTime => FeedMode::InverseTime,
@@ -125,7 +128,7 @@ impl Interpreter<'_> {
     /// Reports F without a decimal point, which a setting of the control reads as written or as least increments.
     pub(crate) fn whole_feed(&self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
         let feed = words.feed.number().filter(|feed| !feed.has_point && feed.value != 0.0);
-        let Some(feed) = feed.filter(|_| self.state.feed_mode != FeedMode::InverseTime) else {
+        let Some(feed) = feed.filter(|_| self.core.state.feed_mode != FeedMode::InverseTime) else {
             return;
         };
         if !dwell_reads(codes, "F") {

@@ -1,10 +1,15 @@
 //! APT / CL records to motions.
+mod args;
+
+pub(crate) use args::{Args, is};
+
 use crate::Sink;
-use crate::run::{Interpreter, Report};
+use crate::core::{Core, Report};
+use crate::engine::Engine;
 use crate::{FaultKind, FeedMode, Motion, Orientation};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
-use trunnion_syntax::{AptArg, Block, Program, Record, TextRange};
+use trunnion_syntax::{Block, BlockId, Program, Record, TextRange};
 
 /// What APT keeps between records beside the modal state.
 #[derive(Clone, Debug, Default)]
@@ -30,90 +35,6 @@ pub(crate) struct Circle {
     pub(crate) radius: Option<f64>,
 }
 
-/// The arguments of a record: up to sixteen numbers in order, and the minor words.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Args {
-    numbers: [f64; 16],
-    count: usize,
-    words: [TextRange; 8],
-    word_count: usize,
-    /// For each word, how many numbers come before it.
-    before: [usize; 8],
-    /// Something is neither a number nor a word.
-    pub(crate) odd: bool,
-    /// Bytes of the first argument to the last.
-    pub(crate) range: TextRange,
-}
-
-impl Args {
-    pub(crate) fn new(record: &Record<'_>) -> Self {
-        let mut args = Self {
-            numbers: [0.0; 16],
-            count: 0,
-            words: [TextRange::default(); 8],
-            word_count: 0,
-            before: [0; 8],
-            odd: false,
-            range: record.range,
-        };
-        let mut whole: Option<TextRange> = None;
-        for arg in record.args() {
-            let range = match arg {
-                AptArg::Number(decimal, range) => {
-                    let value = decimal.to_f64();
-                    if args.count == args.numbers.len() || value.abs() > 1e12 {
-                        args.odd = true;
-                    } else {
-                        args.numbers[args.count] = value;
-                        args.count += 1;
-                    }
-                    range
-                }
-                AptArg::Word(range) => {
-                    if args.word_count < args.words.len() {
-                        args.words[args.word_count] = range;
-                        args.before[args.word_count] = args.count;
-                        args.word_count += 1;
-                    }
-                    range
-                }
-                AptArg::Other(range) => {
-                    args.odd = true;
-                    range
-                }
-            };
-            whole = Some(whole.map_or(range, |whole| whole.cover(range)));
-        }
-        if let Some(whole) = whole {
-            args.range = whole;
-        }
-        args
-    }
-    pub(crate) fn numbers(&self) -> &[f64] {
-        &self.numbers[..self.count]
-    }
-    /// Minor words, upper case comparison is [`Args::has`].
-    pub(crate) fn words(&self) -> &[TextRange] {
-        &self.words[..self.word_count]
-    }
-    pub(crate) fn has(&self, program: &Program, word: &str) -> bool {
-        self.words().iter().any(|&range| is(program, range, word))
-    }
-    /// The number that follows a minor word.
-    pub(crate) fn after(&self, program: &Program, word: &str) -> Option<f64> {
-        let at = self.words().iter().position(|&range| is(program, range, word))?;
-        self.numbers().get(self.before[at]).copied()
-    }
-}
-
-/// Whether a range is this word, in either case.
-pub(crate) fn is(program: &Program, range: TextRange, word: &str) -> bool {
-    program
-        .source()
-        .get(range.as_usize())
-        .is_some_and(|text| text.eq_ignore_ascii_case(word.as_bytes()))
-}
-
 /// A major word in upper case, as far as it fits.
 fn upper<'b>(program: &Program, range: TextRange, buffer: &'b mut [u8; 12]) -> &'b [u8] {
     let text = program.source().get(range.as_usize()).unwrap_or_default();
@@ -128,13 +49,64 @@ fn upper<'b>(program: &Program, range: TextRange, buffer: &'b mut [u8; 12]) -> &
     }
 }
 
-impl Interpreter<'_> {
+/// The engine of APT / CL programs.
+#[derive(Clone)]
+pub(crate) struct Apt<'d> {
+    pub(crate) core: Core<'d>,
+    pub(crate) kept: AptState,
+    /// The record that runs next.
+    next: u32,
+    finished: bool,
+}
+
+impl<'d> Engine<'d> for Apt<'d> {
+    fn core(&self) -> &Core<'d> {
+        &self.core
+    }
+    fn core_mut(&mut self) -> &mut Core<'d> {
+        &mut self.core
+    }
+    fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
+        if self.finished || program.block_count() == 0 {
+            return None;
+        }
+        let block = BlockId(self.next);
+        self.next += 1;
+        self.step(program, block, sink);
+        if self.core.state.ended || self.next as usize >= program.block_count() {
+            self.finished = true;
+            self.core.missing_end(program, sink);
+        }
+        Some(block)
+    }
+}
+
+impl<'d> Apt<'d> {
+    /// At the start of a program.
+    pub(crate) fn new(core: Core<'d>) -> Self {
+        Self {
+            core,
+            kept: AptState::default(),
+            next: 0,
+            finished: false,
+        }
+    }
+    /// Runs one record.
+    pub(crate) fn step(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
+        self.core.declare(program);
+        if !self.core.state.ended {
+            self.step_apt(&program.block(block), sink);
+        }
+    }
+}
+
+impl Apt<'_> {
     /// Runs one APT record.
     pub(crate) fn step_apt(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
         let Some(record) = block.record() else { return };
-        self.memory.last_content = Some(block.id());
+        self.core.last_content = Some(block.id());
         let mut does_more = false;
-        if self.memory.effects.wanted {
+        if self.core.effects.wanted() {
             self.record_effects(&record, block);
         }
         let motion = {
@@ -149,14 +121,12 @@ impl Interpreter<'_> {
             };
             self.record(&record, &mut report)
         };
-        if self.memory.effects.wanted {
+        if self.core.effects.wanted() {
             self.late_record_effects(&record, block, motion.as_ref(), does_more);
-            for effect in std::mem::take(&mut self.memory.effects.ready) {
-                sink.effect(effect);
-            }
+            self.core.hand_on_effects(sink);
         }
         if let Some(motion) = motion {
-            sink.motion(&motion, &self.state);
+            sink.motion(&motion, &self.core.state);
         }
     }
 
@@ -172,7 +142,7 @@ impl Interpreter<'_> {
             b"DELAY" => return Some(self.delay(&args, report)),
             b"FEDRAT" => self.fedrat(&args, report),
             b"UNITS" | b"UNIT" => self.units(&args, report),
-            b"MULTAX" => self.state.multax = !args.has(program, "OFF"),
+            b"MULTAX" => self.core.state.multax = !args.has(program, "OFF"),
             b"TLAXIS" => self.tool_axis(&args, report),
             b"SPINDL" => self.spindl(&args, report),
             b"CUTTER" => self.cutter(&args, report),
@@ -182,8 +152,8 @@ impl Interpreter<'_> {
             b"CYCLE" => self.cycle(&args, report),
             b"CSYS" => self.csys(record, &args, report),
             b"END" | b"FINI" => {
-                self.state.ended = true;
-                self.memory.proper_end = true;
+                self.core.state.ended = true;
+                self.core.proper_end = true;
             }
             _ => self.other_record(record, report),
         }
@@ -193,7 +163,7 @@ impl Interpreter<'_> {
     /// Records that only the dialect's table knows.
     fn other_record(&mut self, record: &Record<'_>, report: &mut Report<'_>) {
         let text = report.program.text(record.major).into_owned();
-        let Some(code) = self.dialect.name(&text) else {
+        let Some(code) = self.core.dialect.name(&text) else {
             report.fault(record.major, FaultKind::AptUnknownRecord);
             return self.unknown_record(text, report);
         };
@@ -206,49 +176,49 @@ impl Interpreter<'_> {
                 self.lose_place();
             }
             Action::FrameChange if args.has(program, "OFF") || args.has(program, "NOMORE") => {
-                let ended = self.memory.end_frame(code);
-                self.forget_if(ended);
+                let ended = self.core.unknown.end(code);
+                self.core.forget_if(ended);
             }
             Action::NotModelled | Action::FrameChange | Action::CannedCycle | Action::SubprogramCall => {
                 report.fault(record.range, FaultKind::NotModelled { what: text });
                 self.forget_everything_of(code.action);
                 if code.action == Action::FrameChange {
-                    self.memory.begin_frame(code, false);
+                    self.core.unknown.begin(code, false);
                 }
-                self.apt.circle = None;
-                self.apt.axis_lost = true;
+                self.kept.circle = None;
+                self.kept.axis_lost = true;
             }
             _ => {}
         }
-        self.state.frame_unknown = self.memory.frame_unknown() || self.apt.csys;
+        self.core.state.frame_unknown = self.core.unknown.any() || self.kept.csys;
     }
 
     /// A record without meaning may move the tool or the coordinates: neither is known until the end of the program.
     fn unknown_record(&mut self, what: String, report: &mut Report<'_>) {
         report.fault(report.whole(), FaultKind::NotModelled { what });
         self.lose_place();
-        self.memory.hide_for_good();
-        self.state.frame_unknown = true;
+        self.core.unknown.for_good();
+        self.core.state.frame_unknown = true;
     }
 
     /// Where the tool is, and along which axis, is not known until a GOTO says so.
     fn lose_place(&mut self) {
-        self.forget_position();
-        self.apt.circle = None;
-        self.apt.axis = None;
-        self.apt.axis_lost = true;
+        self.core.forget_position();
+        self.kept.circle = None;
+        self.kept.axis = None;
+        self.kept.axis_lost = true;
     }
 
     fn forget_everything_of(&mut self, action: Action) {
         if action == Action::SubprogramCall {
-            self.forget_everything();
+            self.core.forget_everything();
         } else {
-            self.forget_position();
+            self.core.forget_position();
         }
     }
 
     fn rapid(&mut self, report: &mut Report<'_>) {
-        if self.apt.circle.take().is_some() {
+        if self.kept.circle.take().is_some() {
             report.fault(
                 TextRange::default(),
                 FaultKind::NotModelled {
@@ -256,7 +226,7 @@ impl Interpreter<'_> {
                 },
             );
         }
-        self.apt.rapid = true;
+        self.kept.rapid = true;
     }
 
     fn units(&mut self, args: &Args, report: &mut Report<'_>) {
@@ -273,11 +243,11 @@ impl Interpreter<'_> {
             _ => {
                 let what = report.program.text(report.whole()).into_owned();
                 report.fault(TextRange::default(), FaultKind::NotModelled { what });
-                self.forget_position();
+                self.core.forget_position();
                 return;
             }
         };
-        self.state.units(unit, unit);
+        self.core.state.units(unit, unit);
     }
 
     /// FEDRAT/v, FEDRAT/v,MMPM, FEDRAT/MMPM,v; without a unit length units per minute.
@@ -304,15 +274,15 @@ impl Interpreter<'_> {
         };
         match (unit, args.numbers().first()) {
             (Some((mode, unit)), Some(value)) if !args.odd => {
-                self.state.feed_mode = mode;
-                self.state.feed = Some(value * unit.unwrap_or(self.state.feed_unit_mm));
-                self.memory.feed_unread = false;
+                self.core.state.feed_mode = mode;
+                self.core.state.feed = Some(value * unit.unwrap_or(self.core.state.feed_unit_mm));
+                self.core.feed_unread = false;
             }
             _ => {
                 let what = program.text(report.whole()).into_owned();
                 report.fault(TextRange::default(), FaultKind::NotModelled { what });
-                self.state.feed = None;
-                self.memory.feed_unread = true;
+                self.core.state.feed = None;
+                self.core.feed_unread = true;
             }
         }
     }
@@ -321,34 +291,34 @@ impl Interpreter<'_> {
     fn spindl(&mut self, args: &Args, report: &Report<'_>) {
         let program = report.program;
         if args.has(program, "OFF") {
-            self.state.spindle_on = Some(false);
+            self.core.state.spindle_on = Some(false);
             return;
         }
         if args.has(program, "LOCK") || args.has(program, "ORIENT") {
-            self.state.spindle_on = Some(false);
+            self.core.state.spindle_on = Some(false);
             return;
         }
-        self.state.spindle_on = Some(true);
+        self.core.state.spindle_on = Some(true);
         if let Some(&speed) = args.numbers().first() {
             let cutting_speed = args.has(program, "SFM") || args.has(program, "SMM");
-            self.state.spindle_rpm = Some(speed).filter(|_| !cutting_speed && !args.odd);
+            self.core.state.spindle_rpm = Some(speed).filter(|_| !cutting_speed && !args.odd);
             if speed == 0.0 {
-                self.state.spindle_on = Some(false);
+                self.core.state.spindle_on = Some(false);
             }
         }
     }
 
     fn cutcom(&mut self, args: &Args, report: &mut Report<'_>) {
         let program = report.program;
-        self.state.compensation = if args.has(program, "LEFT") {
+        self.core.state.compensation = if args.has(program, "LEFT") {
             41
         } else if args.has(program, "RIGHT") {
             42
         } else {
             0
         };
-        let on = self.state.compensation != 0 || args.has(program, "ON");
-        if on && !std::mem::replace(&mut self.memory.compensation_said, true) {
+        let on = self.core.state.compensation != 0 || args.has(program, "ON");
+        if on && !std::mem::replace(&mut self.core.compensation_reported, true) {
             let what = "cutter radius compensation: the programmed path is used instead".to_owned();
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
         }
@@ -357,7 +327,7 @@ impl Interpreter<'_> {
     /// CYCLE/...: each GOTO until CYCLE/OFF runs it.
     fn cycle(&mut self, args: &Args, report: &mut Report<'_>) {
         if args.has(report.program, "OFF") {
-            self.state.motion = Some(Action::Linear);
+            self.core.state.motion = Some(Action::Linear);
             return;
         }
         if !args.has(report.program, "ON") || args.words().len() > 1 {
@@ -373,7 +343,7 @@ impl Interpreter<'_> {
                 },
             );
         }
-        self.state.motion = Some(Action::CannedCycle);
+        self.core.state.motion = Some(Action::CannedCycle);
     }
 
     /// CSYS/ with the identity changes nothing; any other system is not modelled.
@@ -388,10 +358,10 @@ impl Interpreter<'_> {
                 },
             );
         }
-        if identity == self.apt.csys {
-            self.apt.csys = !identity;
-            self.state.frame_unknown = self.memory.frame_unknown() || self.apt.csys;
-            self.forget_position();
+        if identity == self.kept.csys {
+            self.kept.csys = !identity;
+            self.core.state.frame_unknown = self.core.unknown.any() || self.kept.csys;
+            self.core.forget_position();
         }
     }
 }

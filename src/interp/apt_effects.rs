@@ -1,8 +1,8 @@
 //! The effects of an APT record, in the words that G-code programs use for the same, so that both can be compared.
 //!
 //! Source of the records: ISO 4343 (NC processor output, post processor commands): SPINDL, COOLNT, LOADTL, STOP, OPSTOP, END, FINI.
+use crate::apt::Apt;
 use crate::apt::Args;
-use crate::run::Interpreter;
 use crate::written::{call_argument, packed};
 use crate::{Argument, Effect};
 use crate::{Motion, MotionKind};
@@ -13,14 +13,14 @@ const NEUTRAL: [&str; 8] = [
     "PARTNO", "PPRINT", "REMARK", "PAINT", "DISPLY", "CUTTER", "TOOLNO", "MULTAX",
 ];
 
-impl Interpreter<'_> {
+impl Apt<'_> {
     /// What a record sets, before its motion.
     #[cold]
     pub(crate) fn record_effects(&mut self, record: &Record<'_>, view: &Block<'_>) {
         let args = Args::new(record);
         let program = view.program();
-        let block = self.flow.main_block(view.id());
-        let effects = &mut self.memory.effects;
+        let block = self.core.main_block(view.id());
+        let effects = &mut self.core.effects;
         // words that change what a record does, in a form that is not modelled
         let plain: Option<(&'static str, &[&str], usize)> = if record.is("COOLNT") {
             Some(("coolant words", &["ON", "OFF", "FLOOD", "MIST"], 0))
@@ -121,8 +121,8 @@ impl Interpreter<'_> {
         does_more: bool,
     ) {
         if record.is("GOTO") {
-            let block = self.flow.main_block(view.id());
-            self.memory.effects.add(block, Effect::set("circle", []));
+            let block = self.core.main_block(view.id());
+            self.core.effects.add(block, Effect::set("circle", []));
         }
         let held = [
             "GOTO", "FROM", "RAPID", "FEDRAT", "SPINDL", "COOLNT", "LOADTL", "STOP", "OPSTOP", "FINI", "END",
@@ -139,9 +139,9 @@ impl Interpreter<'_> {
         let known = held.iter().chain(&modelled).chain(&NEUTRAL).any(|name| record.is(name));
         let cutcom = record.is("CUTCOM") || record.is("CYCLE");
         if does_more || unknown || !known || cutcom {
-            let block = self.flow.main_block(view.id());
+            let block = self.core.main_block(view.id());
             let words = vec![Argument::text("", &written_record(record, view))];
-            self.memory.effects.add(block, Effect::Unmodelled(words));
+            self.core.effects.add(block, Effect::Unmodelled(words));
         }
     }
 }

@@ -1,15 +1,16 @@
 //! APT motions: FROM, GOTO, GODLTA, CIRCLE, DELAY.
+use crate::apt::Apt;
 use crate::apt::{Args, Circle};
 use crate::arc::mismatch;
-use crate::offsets::ROTARY;
-use crate::run::{Interpreter, Report};
-use crate::{FaultKind, Feed, FeedMode, Motion, MotionKind, Orientation, Position};
+use crate::core::ROTARY;
+use crate::core::Report;
+use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::{Arc, Turning};
 use trunnion_syntax::TextRange;
 
-impl Interpreter<'_> {
+impl Apt<'_> {
     /// GOTO/x,y,z[,i,j,k[,feed]].
     pub(crate) fn goto(&mut self, args: &Args, report: &mut Report<'_>) -> Motion {
         let numbers = args.numbers();
@@ -18,10 +19,10 @@ impl Interpreter<'_> {
             return self.unreadable_goto(report);
         }
         if let Some(&feed) = numbers.get(6) {
-            self.state.feed = Some(feed * self.state.feed_unit_mm);
-            self.memory.feed_unread = false;
+            self.core.state.feed = Some(feed * self.core.state.feed_unit_mm);
+            self.core.feed_unread = false;
         }
-        let unit = self.state.length_unit_mm;
+        let unit = self.core.state.length_unit_mm;
         let target = Vec3::new(numbers[0], numbers[1], numbers[2]) * unit;
         let vector = (numbers.len() >= 6).then(|| Vec3::new(numbers[3], numbers[4], numbers[5]));
         self.go(target, vector, args.range, report)
@@ -30,21 +31,21 @@ impl Interpreter<'_> {
     /// GODLTA/dx,dy,dz from where the tool is; GODLTA/d along the tool axis.
     pub(crate) fn godlta(&mut self, args: &Args, report: &mut Report<'_>) -> Motion {
         let numbers = args.numbers();
-        let unit = self.state.length_unit_mm;
-        let delta = match (numbers.len(), self.held_orientation()) {
+        let unit = self.core.state.length_unit_mm;
+        let delta = match (numbers.len(), self.core.held_orientation()) {
             _ if args.odd || !args.words().is_empty() => None,
             (3, _) => Some(Vec3::new(numbers[0], numbers[1], numbers[2]) * unit),
             (1, Orientation::Vector(_, axis)) => Some(axis * (numbers[0] * unit)),
             (1, Orientation::Words) => Some(Vec3::new(0.0, 0.0, numbers[0] * unit)),
             _ => None,
         };
-        match (delta, self.state.position.xyz()) {
+        match (delta, self.core.state.position.xyz()) {
             (Some(delta), Some(from)) => self.go(from + delta, None, args.range, report),
             // from unknown to unknown: the record is correct, but its effect is unknown
             (Some(_), None) => {
                 let what = "GODLTA from an unknown position".to_owned();
                 report.fault(report.whole(), FaultKind::NotModelled { what });
-                self.unknown_goto(self.held_orientation(), report)
+                self.unknown_goto(self.core.held_orientation(), report)
             }
             (None, _) => self.unreadable_goto(report),
         }
@@ -56,17 +57,18 @@ impl Interpreter<'_> {
         if args.odd || !matches!(numbers.len(), 3 | 6) {
             let what = report.program.text(report.whole()).into_owned();
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
-            self.forget_position();
+            self.core.forget_position();
             return;
         }
-        self.state.position = self.at(Vec3::new(numbers[0], numbers[1], numbers[2]) * self.state.length_unit_mm);
+        self.core.state.position =
+            self.at(Vec3::new(numbers[0], numbers[1], numbers[2]) * self.core.state.length_unit_mm);
         if numbers.len() == 6 {
             let vector = Vec3::new(numbers[3], numbers[4], numbers[5]);
-            self.state.orientation = self.unit_vector(vector, true, args.range, report);
-            self.apt.axis_lost = self.state.orientation == Orientation::Words;
-        } else if self.state.orientation == Orientation::Words && !self.state.multax && !self.apt.axis_lost {
+            self.core.state.orientation = self.core.unit_vector(vector, true, args.range, report);
+            self.kept.axis_lost = self.core.state.orientation == Orientation::Words;
+        } else if self.core.state.orientation == Orientation::Words && !self.core.state.multax && !self.kept.axis_lost {
             // as for GOTO: straight along Z while MULTAX is off
-            self.state.orientation = Orientation::Vector(None, Vec3::z());
+            self.core.state.orientation = Orientation::Vector(None, Vec3::z());
         }
     }
 
@@ -74,22 +76,22 @@ impl Interpreter<'_> {
     pub(crate) fn tool_axis(&mut self, args: &Args, report: &mut Report<'_>) {
         match args.numbers() {
             &[i, j, k] if !args.odd => {
-                let orientation = self.unit_vector(Vec3::new(i, j, k), true, args.range, report);
+                let orientation = self.core.unit_vector(Vec3::new(i, j, k), true, args.range, report);
                 // set without motion: the tool turns with the next one
-                self.apt.axis = Some(orientation);
+                self.kept.axis = Some(orientation);
             }
             _ => {
                 let what = report.program.text(report.whole()).into_owned();
                 report.fault(TextRange::default(), FaultKind::NotModelled { what });
-                self.state.orientation = Orientation::Words;
-                self.state.position.known &= !ROTARY;
+                self.core.state.orientation = Orientation::Words;
+                self.core.state.position.known &= !ROTARY;
             }
         }
     }
 
     /// CIRCLE/x,y,z,i,j,k[,r]: centre, axis (right-hand rule) and radius of the arc that the next GOTO ends.
     pub(crate) fn circle(&mut self, args: &Args, report: &mut Report<'_>) {
-        let unit = self.state.length_unit_mm;
+        let unit = self.core.state.length_unit_mm;
         let numbers = args.numbers();
         let readable = !args.odd && args.words().is_empty() && matches!(numbers.len(), 6 | 7);
         let axis = if readable {
@@ -106,8 +108,8 @@ impl Interpreter<'_> {
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
         }
         let radius = numbers.get(6).filter(|_| readable).map(|radius| radius * unit);
-        self.apt.rapid = false;
-        self.apt.circle = Some(Circle { shape, radius });
+        self.kept.rapid = false;
+        self.kept.circle = Some(Circle { shape, radius });
     }
 
     /// DELAY/seconds, DELAY/turns,REV.
@@ -118,18 +120,25 @@ impl Interpreter<'_> {
             .copied()
             .filter(|&value| value >= 0.0 && !args.odd);
         let seconds = if args.has(report.program, "REV") {
-            let rpm = self.state.spindle_rpm.filter(|&rpm| rpm > 0.0);
+            let rpm = self.core.state.spindle_rpm.filter(|&rpm| rpm > 0.0);
             value.zip(rpm).map(|(turns, rpm)| turns / rpm * 60.0)
         } else {
             value
         };
-        let position = self.state.position;
+        let position = self.core.state.position;
         let kind = MotionKind::Dwell(seconds);
-        self.new_motion(kind, position, position, self.held_orientation(), Feed::Unknown, report)
+        self.core.new_motion(
+            kind,
+            position,
+            position,
+            self.core.held_orientation(),
+            Feed::Unknown,
+            report,
+        )
     }
 
     fn at(&self, point: Vec3) -> Position {
-        let mut position = self.state.position;
+        let mut position = self.core.state.position;
         for axis in 0..3 {
             position.set(axis, point[axis]);
         }
@@ -140,49 +149,46 @@ impl Interpreter<'_> {
     fn unreadable_goto(&mut self, report: &mut Report<'_>) -> Motion {
         let what = report.program.text(report.whole()).into_owned();
         report.fault(TextRange::default(), FaultKind::NotModelled { what });
-        self.apt.circle = None;
-        self.apt.axis_lost = true;
+        self.kept.circle = None;
+        self.kept.axis_lost = true;
         self.unknown_goto(Orientation::Words, report)
     }
 
     fn unknown_goto(&mut self, orientation: Orientation, report: &mut Report<'_>) -> Motion {
-        let start = self.state.position;
-        self.forget_position();
-        self.state.orientation = orientation;
-        let end = self.state.position;
-        let mut motion = self.new_motion(MotionKind::Unknown, start, end, orientation, Feed::Unknown, report);
-        if self.state.frame_unknown {
-            self.hide(&mut motion);
-        }
-        motion
+        let start = self.core.state.position;
+        self.core.forget_position();
+        self.core.state.orientation = orientation;
+        let end = self.core.state.position;
+        self.core
+            .motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report)
     }
 
     /// The orientation of a GOTO: its vector, else the one in force, else straight along Z.
     fn goto_orientation(&mut self, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Orientation {
-        let set = self.apt.axis.take();
+        let set = self.kept.axis.take();
         if let Some(vector) = vector {
-            return self.unit_vector(vector, true, range, report);
+            return self.core.unit_vector(vector, true, range, report);
         }
-        if self.state.multax && set.is_none() {
+        if self.core.state.multax && set.is_none() {
             report.fault(range, FaultKind::AptVectorMissing);
         }
-        match (set, self.state.orientation) {
+        match (set, self.core.state.orientation) {
             (Some(orientation), _) => orientation,
             (None, Orientation::Vector(_, vector)) => Orientation::Vector(Some(vector), vector),
-            (None, Orientation::Words) if self.apt.axis_lost => Orientation::Words,
+            (None, Orientation::Words) if self.kept.axis_lost => Orientation::Words,
             (None, Orientation::Words) => Orientation::Vector(None, Vec3::z()),
         }
     }
 
     /// The motion to a point.
     fn go(&mut self, target: Vec3, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Motion {
-        let rapid = std::mem::take(&mut self.apt.rapid);
-        let circle = self.apt.circle.take();
-        let start = self.state.position;
+        let rapid = std::mem::take(&mut self.kept.rapid);
+        let circle = self.kept.circle.take();
+        let start = self.core.state.position;
         let orientation = self.goto_orientation(vector, range, report);
-        self.apt.axis_lost = orientation == Orientation::Words;
-        let cycle = self.state.motion == Some(Action::CannedCycle);
-        self.memory.cutter_used = true;
+        self.kept.axis_lost = orientation == Orientation::Words;
+        let cycle = self.core.state.motion == Some(Action::CannedCycle);
+        self.core.tools.use_cutter();
         if cycle {
             return self.unknown_goto(orientation, report);
         }
@@ -190,20 +196,16 @@ impl Interpreter<'_> {
         if let Orientation::Vector(..) = orientation {
             end.known &= !ROTARY;
         }
-        self.state.position = end;
-        self.state.orientation = orientation;
+        self.core.state.position = end;
+        self.core.state.orientation = orientation;
         let kind = match circle {
             Some(circle) => MotionKind::Arc(self.arc_to(&circle, start, end, report)),
             None if rapid => MotionKind::Rapid,
             None => MotionKind::Linear,
         };
-        self.state.motion = Some(if rapid { Action::Rapid } else { Action::Linear });
-        let feed = self.goto_feed(kind, range, report);
-        let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
-        if self.state.frame_unknown {
-            self.hide(&mut motion);
-        }
-        motion
+        self.core.state.motion = Some(if rapid { Action::Rapid } else { Action::Linear });
+        let feed = self.core.feed(kind, || range, report);
+        self.core.motion_in_frame(kind, [start, end], orientation, feed, report)
     }
 
     fn arc_to(&self, circle: &Circle, start: Position, end: Position, report: &mut Report<'_>) -> Option<Arc> {
@@ -213,38 +215,15 @@ impl Interpreter<'_> {
             report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
             return None;
         };
-        let unit = self.state.length_unit_mm;
+        let unit = self.core.state.length_unit_mm;
         let written = circle.radius.map(|radius| Arc {
             radius_start: radius,
             ..arc
         });
-        let fault = mismatch(&arc, self.dialect, unit).or_else(|| mismatch(&written?, self.dialect, unit));
+        let fault = mismatch(&arc, self.core.dialect, unit).or_else(|| mismatch(&written?, self.core.dialect, unit));
         if let Some(kind) = fault {
             report.fault(TextRange::default(), kind);
         }
         Some(arc)
-    }
-
-    fn goto_feed(&self, kind: MotionKind, range: TextRange, report: &mut Report<'_>) -> Feed {
-        match (kind, self.state.feed) {
-            (MotionKind::Rapid, _) => Feed::Rapid,
-            (_, Some(feed)) if feed > 0.0 => match self.state.feed_mode {
-                FeedMode::PerMinute => Feed::PerMinute(feed),
-                FeedMode::PerRevolution => Feed::PerRevolution(feed),
-                FeedMode::InverseTime => Feed::InverseTime(feed),
-            },
-            (_, None) if self.memory.feed_unread => Feed::Unknown,
-            (_, feed) => {
-                let inverse_time = self.state.feed_mode == FeedMode::InverseTime;
-                report.fault(
-                    range,
-                    FaultKind::MissingFeed {
-                        inverse_time,
-                        zero: feed.is_some(),
-                    },
-                );
-                Feed::Unknown
-            }
-        }
     }
 }

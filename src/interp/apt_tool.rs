@@ -1,7 +1,8 @@
 //! APT tools: CUTTER and LOADTL.
+use crate::apt::Apt;
 use crate::apt::Args;
-use crate::memory::Chosen;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::tools::Chosen;
 use crate::{FaultKind, LengthOf, Tool, ToolShape};
 use trunnion_syntax::TextRange;
 
@@ -28,12 +29,12 @@ fn shape(numbers: &[f64], diameter: f64, unit: f64) -> Option<ToolShape> {
     })
 }
 
-impl Interpreter<'_> {
+impl Apt<'_> {
     /// CUTTER: the shape of the tool in use, or of the one that is loaded next.
     pub(crate) fn cutter(&mut self, args: &Args, report: &mut Report<'_>) {
-        let unit = self.state.length_unit_mm;
+        let unit = self.core.state.length_unit_mm;
         let numbers = args.numbers();
-        self.memory.cutter = match numbers.first() {
+        let cutter = match numbers.first() {
             Some(&diameter) if !args.odd && args.words().is_empty() && diameter > 0.0 => {
                 let diameter = diameter * unit;
                 let shape = shape(numbers, diameter, unit);
@@ -50,8 +51,8 @@ impl Interpreter<'_> {
                 None
             }
         };
-        self.memory.cutter_used = false;
-        self.merge_tool();
+        self.core.tools.shape_by_cutter(cutter);
+        self.core.merge_tool();
     }
 
     /// LOADTL/n[,LENGTH,l], LOAD/TOOL,n: a shape that an earlier tool has cut with is not this tool's.
@@ -60,27 +61,25 @@ impl Interpreter<'_> {
         let number = number
             .filter(|&n| !args.odd && n >= 0.0 && n.fract() == 0.0 && n <= f64::from(u32::MAX))
             .map(|n| n as u32);
-        if std::mem::take(&mut self.memory.cutter_used) {
-            self.memory.cutter = None;
-        }
-        self.forget_linear();
-        self.memory.in_spindle = number.map_or(Chosen::Unread, Chosen::Number);
-        self.state.tool = number;
-        self.state.length_of = LengthOf::Tool(number);
-        self.merge_tool();
+        self.core.tools.end_cutter();
+        self.core.forget_linear();
+        self.core.tools.load(number.map_or(Chosen::Unread, Chosen::Number));
+        self.core.state.tool = number;
+        self.core.state.length_of = LengthOf::Tool(number);
+        self.core.merge_tool();
         if let Some(length) = args.after(report.program, "LENGTH") {
-            let length = length * self.state.length_unit_mm;
-            if let Some(tool) = &mut self.state.tool_data {
+            let length = length * self.core.state.length_unit_mm;
+            if let Some(tool) = &mut self.core.state.tool_data {
                 tool.length_mm = Some(length);
             }
-            self.state.tool_length_mm = Some(length);
+            self.core.state.tool_length_mm = Some(length);
             return;
         }
-        let length = self.state.tool_data.and_then(|tool| tool.length_mm);
-        let name = self.tool_name();
-        if length.is_none() && self.memory.length_is_news(&name) {
+        let length = self.core.state.tool_data.and_then(|tool| tool.length_mm);
+        let name = self.core.tools.name();
+        if length.is_none() && self.core.tools.first_report_of_length(&name) {
             report.fault(args.range, FaultKind::ToolLengthUnset { tool: name });
         }
-        self.state.tool_length_mm = Some(length.unwrap_or(0.0));
+        self.core.state.tool_length_mm = Some(length.unwrap_or(0.0));
     }
 }

@@ -1,7 +1,8 @@
 //! What the codes of a block change, in the order in which a control acts on them.
+use crate::core::Report;
 use crate::cycles::{Pattern, Repeated};
 use crate::frames::Return;
-use crate::run::{Interpreter, Report};
+use crate::iso::Iso;
 use crate::tcp::tcp_variant;
 use crate::travel::Travel;
 use crate::words::{Said, Words};
@@ -71,7 +72,7 @@ fn rank(action: Action) -> u8 {
 /// Codes of this rank and above act after F, S and T.
 const FIRST_AFTER_WORDS: u8 = 4;
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// Applies all codes and the words F S T D; what concerns the block's motion comes back.
     pub(crate) fn apply(&mut self, codes: &mut [Found<'d>], words: &Words, report: &mut Report<'_>) -> BlockCodes {
         if codes.len() > 1 {
@@ -92,7 +93,7 @@ impl<'d> Interpreter<'d> {
             rest = after;
         }
         self.feed_word(codes, words);
-        if self.dialect.quirks.whole_numbers.feeds_ambiguous() {
+        if self.core.dialect.quirks.whole_numbers.feeds_ambiguous() {
             self.whole_feed(codes, words, report);
         }
         self.speed_word(codes, words);
@@ -106,16 +107,16 @@ impl<'d> Interpreter<'d> {
         if words.length_offset.is_said() {
             self.length_word_alone(codes, words, report);
         }
-        if self.dialect.quirks.offset_compensation && self.state.compensation == 0 {
+        if self.core.dialect.quirks.offset_compensation && self.core.state.compensation == 0 {
             self.cutter_number_ahead(words);
         }
-        self.state.frame_unknown = self.memory.frame_unknown();
+        self.core.state.frame_unknown = self.core.unknown.any();
         block
     }
 
     fn apply_code(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
-        let state = &mut self.state;
-        self.memory.known_again(found.code);
+        let state = &mut self.core.state;
+        self.core.unknown.known_again(found.code);
         match found.code.action {
             motion @ (Action::Rapid
             | Action::Linear
@@ -168,7 +169,7 @@ impl<'d> Interpreter<'d> {
 
     fn apply_rare(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
         match found.code.action {
-            Action::CompensationOff => self.state.compensation = 0,
+            Action::CompensationOff => self.core.state.compensation = 0,
             Action::CompensationLeft => self.compensation(41, found, words, report),
             Action::CompensationRight => self.compensation(42, found, words, report),
             Action::ToolLengthOn => {
@@ -187,19 +188,19 @@ impl<'d> Interpreter<'d> {
                 self.tcp_on(found.code, found.code.action == Action::TcpVectorOn);
                 if let Some(what) = unread {
                     report.fault(found.range, FaultKind::NotModelled { what });
-                    self.memory.begin_frame(found.code, true);
-                    self.forget_position();
+                    self.core.unknown.begin(found.code, true);
+                    self.core.forget_position();
                 }
             }
             Action::TcpOff => {
-                self.memory.end_frame(found.code);
+                self.core.unknown.end(found.code);
                 self.tcp_off();
             }
             Action::WorkOffset => self.work_offset(found, words, report),
             Action::WorkOffsetNone => self.set_zero(None, [0.0; 9]),
             Action::FrameReset => {
-                let ended = self.memory.end_frame(found.code);
-                self.forget_if(ended);
+                let ended = self.core.unknown.end(found.code);
+                self.core.forget_if(ended);
             }
             Action::FrameChange => self.frame_change(found, words, block, report),
             Action::FrameLost => self.frame_lost(found, words, block, report),
@@ -241,11 +242,11 @@ impl<'d> Interpreter<'d> {
             Action::SubprogramCall => {
                 block.not_modelled = true;
                 not_modelled(found, report);
-                self.forget_everything();
+                self.core.forget_everything();
                 if found.code.group.as_deref() == Some("macro-call") {
                     // a macro runs after each motion, or instead of each block, until G67
-                    self.memory.begin_frame(found.code, false);
-                    self.memory.frame_turns_axes(found.code);
+                    self.core.unknown.begin(found.code, false);
+                    self.core.unknown.turns_axes(found.code);
                 }
             }
             _ => self.apply_frame(found, words, block, report),
@@ -253,28 +254,28 @@ impl<'d> Interpreter<'d> {
     }
 
     fn feed_mode(&mut self, mode: FeedMode) {
-        if self.state.feed_mode != mode {
-            self.state.feed_mode = mode;
-            self.state.feed = None;
-            self.memory.feed_unread = false;
+        if self.core.state.feed_mode != mode {
+            self.core.state.feed_mode = mode;
+            self.core.state.feed = None;
+            self.core.feed_unread = false;
         }
     }
 
     fn feed_word(&mut self, codes: &[Found<'_>], words: &Words) {
-        if self.state.feed_mode == FeedMode::InverseTime {
-            self.state.feed = None;
-            self.memory.feed_unread = false;
+        if self.core.state.feed_mode == FeedMode::InverseTime {
+            self.core.state.feed = None;
+            self.core.feed_unread = false;
         }
         if !words.feed.is_said() || dwell_reads(codes, "F") {
             return;
         }
-        let unit = if self.state.feed_mode == FeedMode::InverseTime {
+        let unit = if self.core.state.feed_mode == FeedMode::InverseTime {
             1.0
         } else {
-            self.state.feed_unit_mm
+            self.core.state.feed_unit_mm
         };
-        self.state.feed = words.feed.number().map(|number| number.value * unit);
-        self.memory.feed_unread = self.state.feed.is_none();
+        self.core.state.feed = words.feed.number().map(|number| number.value * unit);
+        self.core.feed_unread = self.core.state.feed.is_none();
     }
 
     fn speed_word(&mut self, codes: &[Found<'_>], words: &Words) {
@@ -286,7 +287,7 @@ impl<'d> Interpreter<'d> {
         };
         let limit = || codes.iter().any(limits);
         if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
-            self.state.spindle_rpm = words
+            self.core.state.spindle_rpm = words
                 .speed
                 .number()
                 .map(|number| number.value)

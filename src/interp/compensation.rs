@@ -7,8 +7,9 @@ mod corner;
 mod element;
 mod select;
 
+use crate::core::Report;
 use crate::frames::XYZ;
-use crate::run::{Interpreter, Report};
+use crate::iso::Iso;
 use crate::{FaultKind, ModalState, Motion, MotionKind, Refusal};
 use corner::{Join, Link, Trouble, join};
 use element::{Element, Point};
@@ -95,12 +96,12 @@ fn link(told: &Told, element: &Element, from: Point, link: Link) -> Told {
     (motion, state.clone())
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Takes a motion of the program while compensation is busy.
     pub(crate) fn compensate(&mut self, told: Told, report: &mut Report<'_>) {
         let motion = &told.0;
         let now = told.1.compensation;
-        let plane = *self.memory.compensation.plane.get_or_insert(self.state.plane);
+        let plane = *self.memory.compensation.plane.get_or_insert(self.core.state.plane);
         let Some(element) = Element::of(motion, plane) else {
             self.without_way(told, report);
             return;
@@ -130,7 +131,7 @@ impl Interpreter<'_> {
     /// A motion that does not move in the plane, or whose path is not known.
     fn without_way(&mut self, told: Told, report: &mut Report<'_>) {
         let motion = &told.0;
-        let still = Element::rests(motion, self.memory.compensation.plane.unwrap_or(self.state.plane));
+        let still = Element::rests(motion, self.memory.compensation.plane.unwrap_or(self.core.state.plane));
         if still && self.memory.compensation.held.is_some() {
             self.memory.compensation.between.push(told);
             return;
@@ -163,7 +164,7 @@ impl Interpreter<'_> {
 
     /// Side with mirrored coordinates taken into account.
     fn side(&self) -> f64 {
-        let plane = self.memory.compensation.plane.unwrap_or(self.state.plane);
+        let plane = self.memory.compensation.plane.unwrap_or(self.core.state.plane);
         if self.memory.frames.shape.flips(plane) {
             -self.memory.compensation.side
         } else {
@@ -192,7 +193,7 @@ impl Interpreter<'_> {
                 start: beside,
             })
         } else {
-            join(&held.element, &element, offset, self.setup.control.outer_corner)
+            join(&held.element, &element, offset, self.core.setup.control.outer_corner)
         };
         let joined = result.and_then(|join| {
             let end = join.end;
@@ -315,7 +316,7 @@ impl Interpreter<'_> {
     }
 
     fn reject(&self, text: &str, mistake: &str, report: &mut Report<'_>) {
-        let alarm = self.dialect.alarm(mistake).map(|alarm| alarm.number.clone());
+        let alarm = self.core.dialect.alarm(mistake).map(|alarm| alarm.number.clone());
         let kind = FaultKind::Rejected {
             refusal: Refusal::Compensation,
             message: text.to_owned(),

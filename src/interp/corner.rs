@@ -1,8 +1,9 @@
 //! `,R` and `,C`: a corner between two straight motions rounded by an arc or cut off by a line (Fanuc: optional chamfering and corner R).
 use crate::arc::plane_axes;
 use crate::compensation::Told;
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::reader::Reader;
-use crate::run::{Interpreter, Report};
 use crate::values::number;
 use crate::words::{Number, Said, Words};
 use crate::{FaultKind, Motion, MotionKind, Position, Refusal};
@@ -90,13 +91,13 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// R, I or K beside a straight cut of a lathe along one axis: a rounded or chamfered corner (Fanuc Series 30i operator's manual, lathe
     /// system, chamfering and corner R; with parameter 3405.4 CCR, C instead of I and K). The sign gives the direction of the next block, which
     /// is known from that block.
     pub(crate) fn turned_corner(&self, words: &Words) -> Option<(u8, Number)> {
-        let quirks = &self.dialect.quirks;
-        if !(quirks.diameter && quirks.corner_words) || self.state.motion != Some(Action::Linear) {
+        let quirks = &self.core.dialect.quirks;
+        if !(quirks.diameter && quirks.corner_words) || self.core.state.motion != Some(Action::Linear) {
             return None;
         }
         let sized = |kind: u8, value: f64| {
@@ -114,7 +115,7 @@ impl Interpreter<'_> {
 
     /// Takes a motion of the block; what can go on is pushed to `on`.
     pub(crate) fn round_corner(&mut self, motion: &Motion, on: &mut Vec<Told>, report: &mut Report<'_>) {
-        let mut told = (*motion, self.state.clone());
+        let mut told = (*motion, self.core.state.clone());
         if let Some(waiting) = self.memory.corners.waiting.take() {
             self.cut_corner(*waiting, &mut told, on, report);
         }
@@ -144,7 +145,7 @@ impl Interpreter<'_> {
         let kind = FaultKind::Rejected {
             refusal: Refusal::Other,
             message: text.to_owned(),
-            alarm: self.dialect.alarm(mistake).map(|alarm| alarm.number.clone()),
+            alarm: self.core.dialect.alarm(mistake).map(|alarm| alarm.number.clone()),
         };
         report.fault(report.whole(), kind);
     }

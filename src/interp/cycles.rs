@@ -19,7 +19,8 @@ pub(crate) use pattern::Pattern;
 pub(crate) use repeat::{Kept, Repeated};
 
 use crate::codes::{BlockCodes, Found, not_modelled};
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use trunnion_dialect::{Action, Code};
 
 /// What a cycle keeps from block to block.
@@ -47,21 +48,23 @@ pub(crate) struct Cycle {
     pub(crate) pass: [Stored; 3],
 }
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// Begins a cycle whose motions are modelled.
     pub(crate) fn begin_cycle(&mut self, found: &Found<'d>) {
         let action = found.code.action;
-        let in_cycle = self.state.motion.is_some_and(Action::is_hole_cycle);
+        let in_cycle = self.core.state.motion.is_some_and(Action::is_hole_cycle);
         if !in_cycle {
-            if self.state.motion != Some(Action::CannedCycle) && !self.state.motion.is_some_and(Action::is_pass_cycle) {
-                self.memory.before_cycle = self.state.motion;
+            if self.core.state.motion != Some(Action::CannedCycle)
+                && !self.core.state.motion.is_some_and(Action::is_pass_cycle)
+            {
+                self.memory.before_cycle = self.core.state.motion;
             }
-            let position = self.state.position;
+            let position = self.core.state.position;
             let here = self.memory.frames.programmed(&position);
-            let axis = crate::arc::plane_axes(self.state.plane)[2];
+            let axis = crate::arc::plane_axes(self.core.state.plane)[2];
             self.memory.cycle.hole = Hole::from(here.get(axis));
         }
-        if action.is_pass_cycle() && self.state.motion != Some(action) {
+        if action.is_pass_cycle() && self.core.state.motion != Some(action) {
             self.memory.cycle.pass = [Stored::Nothing; 3];
         }
         let reads = |word: &str| found.code.words.iter().any(|known| known == word);
@@ -70,7 +73,7 @@ impl<'d> Interpreter<'d> {
         cycle.letters = crate::unused::letters(found.code);
         cycle.repeats = if reads("L") { b'L' } else { b'K' };
         cycle.reads = [reads("I"), reads("J") && reads("I"), reads("K") && reads("L")];
-        self.state.motion = Some(action);
+        self.core.state.motion = Some(action);
     }
 
     pub(crate) fn canned_cycle(&mut self, found: &Found<'d>, block: &mut BlockCodes, report: &mut Report<'_>) {
@@ -78,13 +81,14 @@ impl<'d> Interpreter<'d> {
         self.memory.cycle.call = None;
         block.not_modelled = true;
         if !self
+            .core
             .state
             .motion
             .is_some_and(|motion| motion == Action::CannedCycle || motion.is_hole_cycle())
         {
-            self.memory.before_cycle = self.state.motion;
+            self.memory.before_cycle = self.core.state.motion;
         }
-        self.state.motion = Some(Action::CannedCycle);
+        self.core.state.motion = Some(Action::CannedCycle);
     }
 
     /// Ends a cycle: where it belongs to the motion group (LinuxCNC) no motion code is in force then, else the one before.
@@ -92,13 +96,14 @@ impl<'d> Interpreter<'d> {
         self.memory.cycle.call = None;
         let of_motion_group = code.group.is_some() && code.group.as_deref() == self.motion_group();
         if of_motion_group {
-            self.state.motion = None;
+            self.core.state.motion = None;
         } else if self
+            .core
             .state
             .motion
             .is_some_and(|motion| motion == Action::CannedCycle || motion.is_hole_cycle())
         {
-            self.state.motion = self.memory.before_cycle;
+            self.core.state.motion = self.memory.before_cycle;
         }
     }
 }

@@ -1,21 +1,19 @@
 //! Dwells: G4 with the words that its code reads.
 use crate::codes::Found;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Feed, Motion, MotionKind};
 use trunnion_dialect::Action;
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     pub(crate) fn dwell(&self, codes: &[Found<'_>], words: &Words, report: &Report<'_>) -> Motion {
         let seconds = self.dwell_seconds(codes, words).filter(|seconds| *seconds >= 0.0);
-        let position = self.state.position;
+        let position = self.core.state.position;
         let feed = Feed::Unknown;
         let kind = MotionKind::Dwell(seconds);
-        let mut motion = self.new_motion(kind, position, position, self.held_orientation(), feed, report);
-        if self.state.frame_unknown {
-            self.hide(&mut motion);
-        }
-        motion
+        self.core
+            .motion_in_frame(kind, [position, position], self.core.held_orientation(), feed, report)
     }
 
     /// Axes that are named in a dwell's block and are not its time.
@@ -38,14 +36,14 @@ impl Interpreter<'_> {
     pub(crate) fn moved_with_dwell(&mut self, axes: u16, words: &Words, report: &mut Report<'_>) -> Motion {
         let what = "axes in the block of a dwell".to_owned();
         report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
-        let start = self.state.position;
-        self.state.position.known &= !axes;
-        let end = self.state.position;
-        self.new_motion(
+        let start = self.core.state.position;
+        self.core.state.position.known &= !axes;
+        let end = self.core.state.position;
+        self.core.new_motion(
             MotionKind::Unknown,
             start,
             end,
-            self.held_orientation(),
+            self.core.held_orientation(),
             Feed::Unknown,
             report,
         )
@@ -56,7 +54,7 @@ impl Interpreter<'_> {
         let code = codes.iter().find(|found| found.code.action == Action::Dwell)?.code;
         let reads = |word: &str| code.words.iter().any(|known| known == word);
         let in_ms = |has_point: bool| {
-            if self.dialect.quirks.dwell_in_ms && !has_point {
+            if self.core.dialect.quirks.dwell_in_ms && !has_point {
                 1e-3
             } else {
                 1.0
@@ -69,7 +67,7 @@ impl Interpreter<'_> {
             return Some(f.value);
         }
         if let Some(turns) = words.speed.number().filter(|_| reads("S")) {
-            let rpm = self.state.spindle_rpm.filter(|&rpm| rpm > 0.0)?;
+            let rpm = self.core.state.spindle_rpm.filter(|&rpm| rpm > 0.0)?;
             return Some(turns.value / rpm * 60.0);
         }
         let axis = [(0, "X"), (6, "U")]

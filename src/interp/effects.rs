@@ -5,7 +5,7 @@ mod situation;
 mod sort;
 
 use crate::codes::{BlockCodes, Found, dwell_reads};
-use crate::run::Interpreter;
+use crate::iso::Iso;
 use crate::words::{Said, Words};
 use crate::written::{Keep, written};
 use crate::{Argument, Effect};
@@ -38,20 +38,12 @@ pub(crate) fn does_more(kind: &FaultKind) -> bool {
     )
 }
 
-/// Blocks of shifts and turns that wait for a motion that needs their words.
-const MOST_FRAMES: usize = 1000;
-
-impl Interpreter<'_> {
-    /// Asks for effects: without, [`crate::Sink::effect`] is never called.
-    pub fn watch_effects(&mut self) {
-        self.memory.effects.wanted = true;
-    }
-
+impl Iso<'_> {
     /// What the codes and the words S, T and D of a block set or do, before its motion.
     #[cold]
     pub(crate) fn code_effects(&mut self, codes: &[Found<'_>], words: &Words, taken: &BlockCodes, view: &Block<'_>) {
-        let block = self.flow.main_block(view.id());
-        if self.setup.control.block_delete.is_none() {
+        let block = self.core.main_block(view.id());
+        if self.core.setup.control.block_delete.is_none() {
             self.deleted_parts(view, block);
         }
         named_effects(self, view, block);
@@ -72,9 +64,9 @@ impl Interpreter<'_> {
                 // the first block of G76 only sets data for the second
                 let data = found.code.action == Action::ThreadRepeatCycle && !words.axes.any();
                 let key = if data { "cycle data" } else { "cycle" };
-                self.memory.effects.add(block, Effect::set(key, to));
+                self.core.effects.add(block, Effect::set(key, to));
             } else if uncouples(found.code.action) {
-                self.memory.effects.add(block, Effect::set("cycle", []));
+                self.core.effects.add(block, Effect::set("cycle", []));
             }
         }
         let mut opaque = Vec::new();
@@ -83,7 +75,7 @@ impl Interpreter<'_> {
                 Sort::Held => free &= !crate::unused::letters(found.code),
                 Sort::Setting("speed limit") => {
                     let to = [Argument::code(found.code.id.clone()), said("S", words.speed)];
-                    self.memory.effects.add(block, Effect::set("speed limit", to));
+                    self.core.effects.add(block, Effect::set("speed limit", to));
                     free = 0;
                     held = u32::MAX;
                 }
@@ -95,12 +87,12 @@ impl Interpreter<'_> {
                     to.extend(arguments(words, own));
                     free &= !own;
                     held |= own;
-                    self.memory.effects.add(block, Effect::set(key, to));
+                    self.core.effects.add(block, Effect::set(key, to));
                 }
                 Sort::Group if coolant(found.code).is_some() => {
                     for (key, on) in coolant(found.code).into_iter().flatten().filter(|(_, on)| *on) {
                         let to = on.then(|| Argument::code("on")).into_iter().collect::<Vec<_>>();
-                        self.memory.effects.add(block, Effect::set(*key, to));
+                        self.core.effects.add(block, Effect::set(*key, to));
                     }
                 }
                 Sort::Group | Sort::Before => opaque.push(found),
@@ -115,9 +107,9 @@ impl Interpreter<'_> {
                 .fold(0, |all, found| all | crate::unused::letters(found.code));
             free = (free | self.untaken(codes, words, taken)) & !own;
         }
-        if !self.dialect.quirks.user_names() && words.letters & letter_bit(b'D') != 0 && !words.edge.is_said() {
+        if !self.core.dialect.quirks.user_names() && words.letters & letter_bit(b'D') != 0 && !words.edge.is_said() {
             let to = [said("D", words.letter(b'D'))];
-            self.memory.effects.add(block, Effect::set("radius offset", to));
+            self.core.effects.add(block, Effect::set("radius offset", to));
             free &= !letter_bit(b'D');
         }
         let rest: Vec<Argument> = if words.flow {
@@ -127,14 +119,14 @@ impl Interpreter<'_> {
         };
         self.reference_effects(codes, words, block);
         if opaque.is_empty() && !rest.is_empty() {
-            self.memory.effects.add(block, Effect::Event(rest));
+            self.core.effects.add(block, Effect::Event(rest));
         } else if let [found] = opaque[..]
             && matches!(sort(found, words), Sort::Group)
         {
             let key = found.code.group.clone().unwrap_or_default();
             let mut to = vec![name_of(found, view)];
             to.extend(rest);
-            self.memory.effects.add(block, Effect::set(key, to));
+            self.core.effects.add(block, Effect::set(key, to));
         } else if !opaque.is_empty() {
             self.several(&opaque, rest, words, view);
         }
@@ -158,9 +150,9 @@ impl Interpreter<'_> {
         }
         let moves = words.axes.any() || to.is_empty();
         if moves {
-            self.memory.effects.add(block, Effect::set("reference point", to));
+            self.core.effects.add(block, Effect::set("reference point", to));
         } else {
-            self.memory.effects.add(block, Effect::Unmodelled(to));
+            self.core.effects.add(block, Effect::Unmodelled(to));
         }
     }
 
@@ -173,7 +165,7 @@ impl Interpreter<'_> {
                 Item::Skip(level, _) => {
                     // the switch decides whether the block runs at all
                     let words = vec![Argument::number("/", f64::from(level))];
-                    self.memory.effects.add(block, Effect::Event(words));
+                    self.core.effects.add(block, Effect::Event(words));
                 }
                 Item::Other(range) if view.program().text(range).starts_with('/') => {
                     after_slash = true;
@@ -185,14 +177,14 @@ impl Interpreter<'_> {
         }
         if after_slash {
             let words = vec![Argument::text("", &crate::canonical_text(&rest))];
-            self.memory.effects.add(block, Effect::Event(words));
+            self.core.effects.add(block, Effect::Event(words));
         }
     }
 
     /// Parameters of the block that neither its codes nor what is in force reads. The machine, or a macro that a code calls, may read them.
     fn untaken(&self, codes: &[Found<'_>], words: &Words, taken: &BlockCodes) -> u32 {
         let opaque = words.builder_code || words.unknown_code || words.forgets_all || words.flow;
-        if opaque || self.dialect.quirks.user_names() {
+        if opaque || self.core.dialect.quirks.user_names() {
             return 0;
         }
         let read = codes
@@ -211,14 +203,14 @@ impl Interpreter<'_> {
     /// Several codes that are compared by their words, or one that happens once: the codes in an order of their own, with all words that
     /// nothing else reads.
     fn several(&mut self, opaque: &[&Found<'_>], rest: Vec<Argument>, words: &Words, view: &Block<'_>) {
-        let block = self.flow.main_block(view.id());
+        let block = self.core.main_block(view.id());
         let mut alone = Vec::new();
         for found in opaque {
             let grouped = matches!(sort(found, words), Sort::Group);
             if grouped && rest.is_empty() {
                 let key = found.code.group.clone().unwrap_or_default();
                 let to = [name_of(found, view)];
-                self.memory.effects.add(block, Effect::set(key, to));
+                self.core.effects.add(block, Effect::set(key, to));
             } else {
                 alone.push(found);
             }
@@ -239,14 +231,14 @@ impl Interpreter<'_> {
         if coordinates {
             event.retain(|argument| argument.name.len() > 1);
             event.extend(all_arguments(words));
-            if self.state.length_unit_mm != 1.0 {
-                event.push(Argument::number("mm per unit", self.state.length_unit_mm));
+            if self.core.state.length_unit_mm != 1.0 {
+                event.push(Argument::number("mm per unit", self.core.state.length_unit_mm));
             }
-            if self.state.incremental {
+            if self.core.state.incremental {
                 event.push(Argument::code("incremental"));
             }
         }
-        self.memory.effects.add(block, Effect::Event(event));
+        self.core.effects.add(block, Effect::Event(event));
     }
 
     /// S, T, D.
@@ -255,29 +247,27 @@ impl Interpreter<'_> {
             .iter()
             .any(|found| matches!(sort(found, words), Sort::Setting("speed limit")));
         if words.speed.is_said() && !limits && !dwell_reads(codes, "S") {
-            self.memory
+            self.core
                 .effects
                 .add(block, Effect::set("speed", [said("S", words.speed)]));
         }
         if words.tool.is_said() {
-            let to = [chosen(&self.memory.prepared), said("T", words.tool)];
-            self.memory.effects.add(block, Effect::set("tool prepared", to));
+            let to = [chosen(self.core.tools.prepared()), said("T", words.tool)];
+            self.core.effects.add(block, Effect::set("tool prepared", to));
         }
         if words.tool.is_said() || codes.iter().any(|found| found.code.action == Action::ToolChange) {
-            let to = [chosen(&self.memory.in_spindle)];
-            self.memory.effects.add(block, Effect::set("tool in use", to));
+            let to = [chosen(self.core.tools.in_spindle())];
+            self.core.effects.add(block, Effect::set("tool in use", to));
         }
         if codes.iter().any(|found| found.code.action == Action::ToolChange) {
             let change = vec![Argument::code("tool change")];
-            self.memory.effects.add(block, Effect::Event(change));
+            self.core.effects.add(block, Effect::Event(change));
         }
         if words.edge.is_said() {
-            self.memory
-                .effects
-                .add(block, Effect::set("D", [said("D", words.edge)]));
+            self.core.effects.add(block, Effect::set("D", [said("D", words.edge)]));
         }
         if words.length_offset.is_said() {
-            self.memory
+            self.core
                 .effects
                 .add(block, Effect::set("H", [said("H", words.length_offset)]));
         }
@@ -286,9 +276,10 @@ impl Interpreter<'_> {
     /// Letters of parameters in the block that no cycle in force reads.
     fn free_letters(&self, words: &Words) -> u32 {
         let parameters = (b'A'..=b'Z')
-            .filter(|letter| self.dialect.role(*letter) == Some(Role::Parameter))
+            .filter(|letter| self.core.dialect.role(*letter) == Some(Role::Parameter))
             .fold(0, |all, letter| all | letter_bit(letter));
         let cycle = self
+            .core
             .state
             .motion
             .is_some_and(|motion| motion.is_hole_cycle() || motion.is_pass_cycle());
@@ -313,32 +304,27 @@ impl Interpreter<'_> {
         motions: &[Motion],
         (does_more, ambiguous): (bool, bool),
     ) {
-        let block = self.flow.main_block(view.id());
+        let block = self.core.main_block(view.id());
         let named = words.axes.given | words.axes.unread;
         let unknown_end = motions.iter().any(|motion| ends_unknown(motion, named));
         let frame = codes.iter().any(|found| is_frame(found.code.action));
         let offset = codes.iter().any(|found| found.code.action == Action::WorkOffset);
-        let lost = self.state.zero.iter().any(|value| value.is_nan()) || self.state.frame_unknown;
-        let unknown_frame = (frame || offset) && lost || frame && self.state.position.xyz().is_none();
+        let lost = self.core.state.zero.iter().any(|value| value.is_nan()) || self.core.state.frame_unknown;
+        let unknown_frame = (frame || offset) && lost || frame && self.core.state.position.xyz().is_none();
         let unread = has_unread(words);
         if frame && !unknown_frame {
             let words = written(view, self, words, Keep::All);
-            self.memory.effects.frames.push(words);
+            self.core.effects.keep_frame(words);
         }
-        if unknown_end || self.memory.effects.frames.len() > MOST_FRAMES {
-            // where a motion ends is unknown under these shifts and turns: they are compared by their words
-            for words in std::mem::take(&mut self.memory.effects.frames) {
-                self.memory.effects.add(block, Effect::Unmodelled(words));
-            }
-        }
+        self.core.effects.release_frames(block, unknown_end);
         let dwell = |found: &Found<'_>| found.code.action == Action::Dwell;
-        let unclear = words.p.number().is_some_and(|p| p.has_point) && self.dialect.quirks.macros == Macros::Fanuc
-            || words.feed.is_said() && !self.dialect.quirks.user_names();
+        let unclear = words.p.number().is_some_and(|p| p.has_point) && self.core.dialect.quirks.macros == Macros::Fanuc
+            || words.feed.is_said() && !self.core.dialect.quirks.user_names();
         let ambiguous = ambiguous || codes.iter().any(dwell) && unclear;
         if ambiguous {
             // a parameter of the control decides what the number means
             let words = vec![Argument::code("a number with or without decimal point")];
-            self.memory.effects.add(block, Effect::Unmodelled(words));
+            self.core.effects.add(block, Effect::Unmodelled(words));
         }
         let moved = !motions.is_empty() && !unknown_end && !unread;
         if does_more || unknown_end || unknown_frame || unread {
@@ -356,19 +342,19 @@ impl Interpreter<'_> {
                 arguments.extend(comments(view));
             }
             if !arguments.is_empty() {
-                self.memory.effects.add(block, Effect::Unmodelled(arguments));
+                self.core.effects.add(block, Effect::Unmodelled(arguments));
             }
         } else if let Some(arguments) = unknown_assignment(self, view, words) {
-            self.memory.effects.add(block, Effect::Unmodelled(arguments));
+            self.core.effects.add(block, Effect::Unmodelled(arguments));
         }
         if reads_machine_position(view) {
             // machine coordinates depend on work offsets that may not be declared
             let text = view.program().text(view.range());
             let words = vec![Argument::text("", &crate::canonical_text(&text))];
-            self.memory.effects.add(block, Effect::Unmodelled(words));
+            self.core.effects.add(block, Effect::Unmodelled(words));
         }
         if let Some(arguments) = system_assignment(self, view) {
-            self.memory.effects.add(block, Effect::Event(arguments));
+            self.core.effects.add(block, Effect::Event(arguments));
         }
         self.after_motion(codes, words, block);
     }
@@ -403,10 +389,10 @@ impl Interpreter<'_> {
     }
 
     fn unmodelled_line(&mut self, view: &Block<'_>, words: Vec<Argument>, sink: &mut impl crate::Sink) {
-        let block = self.flow.main_block(view.id());
+        let block = self.core.main_block(view.id());
         let effect = Effect::Unmodelled(words);
         sink.effect(crate::Placed { block, effect });
-        self.memory.effects.count += 1;
+        self.core.effects.skip();
     }
 
     /// What the codes of a block do after its motion.
@@ -415,23 +401,23 @@ impl Interpreter<'_> {
             .iter()
             .any(|found| found.code.action == Action::MachineCoordinates)
         {
-            self.memory.effects.add(block, Effect::set("coordinates", []));
+            self.core.effects.add(block, Effect::set("coordinates", []));
         }
         for found in codes {
             match sort(found, words) {
                 Sort::After => {
                     let mut event = vec![Argument::code(found.code.id.clone())];
                     event.extend(arguments(words, crate::unused::letters(found.code) & words.letters));
-                    self.memory.effects.add(block, Effect::Event(event));
+                    self.core.effects.add(block, Effect::Event(event));
                 }
                 Sort::Group => {
                     for (key, _) in coolant(found.code).into_iter().flatten().filter(|(_, on)| !*on) {
-                        self.memory.effects.add(block, Effect::set(*key, []));
+                        self.core.effects.add(block, Effect::set(*key, []));
                     }
                 }
                 _ if found.code.action == Action::ProgramEnd => {
                     let event = vec![Argument::code(found.code.id.clone())];
-                    self.memory.effects.add(block, Effect::End(event));
+                    self.core.effects.add(block, Effect::End(event));
                 }
                 _ => {}
             }

@@ -1,23 +1,24 @@
 //! The motion of an ISO block, from its words and what is in force.
 use crate::arc::{ArcSetting, arc};
 use crate::codes::BlockCodes;
+use crate::core::Report;
+use crate::core::{LINEAR, ROTARY};
 use crate::frames::XYZ;
-use crate::memory::Chosen;
-use crate::offsets::{LINEAR, ROTARY};
-use crate::run::{Interpreter, Report};
+use crate::iso::Iso;
+use crate::tools::Chosen;
 use crate::travel::Travel;
 use crate::words::{Places, Said, Words};
-use crate::{FaultKind, Feed, FeedMode, Motion, MotionKind, Orientation, Position};
+use crate::{FaultKind, Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_dialect::Action;
 use trunnion_geometry::arc::Turning;
 
 /// A coordinate that differs by no more than this has not moved, mm: sums of offsets round.
 const STANDS_MM: f64 = 1e-9;
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     pub(crate) fn modelled_motion(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Motion {
-        let frame_hides = self.state.frame_unknown && !block.machine_coordinates;
-        let mut start = self.state.position;
+        let frame_hides = self.core.state.frame_unknown && !block.machine_coordinates;
+        let mut start = self.core.state.position;
         if block.machine_coordinates {
             self.to_machine(&mut start, 1.0);
         }
@@ -37,7 +38,7 @@ impl Interpreter<'_> {
             self.suppressed_length(words, &mut end, report);
         }
         self.turned_by_hand(words, &mut end, block.machine_coordinates);
-        let mut kind = match self.state.motion {
+        let mut kind = match self.core.state.motion {
             Some(Action::Rapid) => MotionKind::Rapid,
             Some(Action::ArcClockwise) => self.arc(words, from, end, Turning::Clockwise, report),
             Some(Action::ArcCounterClockwise) => self.arc(words, from, end, Turning::CounterClockwise, report),
@@ -47,22 +48,22 @@ impl Interpreter<'_> {
             end = self.memory.frames.arrive(end);
             kind = self.memory.frames.kind_to_work(kind);
         }
-        self.state.position = end;
+        self.core.state.position = end;
         let orientation = self.orientation(words, report);
         if let Orientation::Vector(..) = orientation {
             self.memory.led_by_vector = true;
-            self.state.position.known &= !ROTARY;
+            self.core.state.position.known &= !ROTARY;
             end.known &= !ROTARY;
         }
-        end.known &= self.state.position.known;
+        end.known &= self.core.state.position.known;
         if block.machine_coordinates {
             let mut position = end;
             self.to_machine(&mut position, -1.0);
-            self.state.position = position;
+            self.core.state.position = position;
         }
-        let feed = if self.state.motion == Some(Action::Thread) {
+        let feed = if self.core.state.motion == Some(Action::Thread) {
             self.lead(words, report)
-        } else if self.state.motion == Some(Action::VariableThread) {
+        } else if self.core.state.motion == Some(Action::VariableThread) {
             // the lead changes along the path
             self.feed_of(kind, words, report);
             Feed::Unknown
@@ -70,7 +71,7 @@ impl Interpreter<'_> {
             let feed = self.feed_of(kind, words, report);
             self.turning_feed(kind, feed, words, [&start, &end])
         };
-        let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
+        let mut motion = self.core.new_motion(kind, start, end, orientation, feed, report);
         if block.machine_coordinates {
             motion.machine_coordinates = true;
             motion.tcp = false;
@@ -79,14 +80,14 @@ impl Interpreter<'_> {
         if self.memory.tcp_used {
             self.tcp_mistakes(&motion, words, report);
         }
-        if motion.is_feed() && self.memory.in_spindle == Chosen::Nothing {
+        if motion.is_feed() && *self.core.tools.in_spindle() == Chosen::Nothing {
             self.tool_never_changed(words, report);
         }
         if self.memory.travel != Travel::Continuous || words.posture.any() {
             self.travel(&mut motion, words, report);
         }
         if frame_hides {
-            self.hide(&mut motion);
+            self.core.hide(&mut motion);
         }
         motion
     }
@@ -94,17 +95,17 @@ impl Interpreter<'_> {
     /// Between programmed (sign -1) and machine coordinates (sign 1): the zero point and, along the tool at home, its length. Under tool
     /// centre point control the linear axes of one are not known from the other.
     pub(crate) fn to_machine(&self, position: &mut Position, sign: f64) {
-        for (value, zero) in position.values.iter_mut().zip(self.state.zero) {
+        for (value, zero) in position.values.iter_mut().zip(self.core.state.zero) {
             *value += sign * zero;
         }
-        let length = sign * self.state.tool_length_mm.unwrap_or(0.0);
-        for (value, along) in position.values.iter_mut().zip(self.setup.length_along()) {
+        let length = sign * self.core.state.tool_length_mm.unwrap_or(0.0);
+        for (value, along) in position.values.iter_mut().zip(self.core.setup.length_along()) {
             *value += length * along;
         }
-        if self.state.tcp || self.state.frame_unknown || self.memory.frames.tilt.is_some() {
+        if self.core.state.tcp || self.core.state.frame_unknown || self.memory.frames.tilt.is_some() {
             position.known &= !LINEAR;
         }
-        if self.memory.rotary_unknown() {
+        if self.core.unknown.hides_rotary() {
             position.known &= !ROTARY;
         }
     }
@@ -113,9 +114,9 @@ impl Interpreter<'_> {
     /// With D0 there is none.
     fn suppressed_length(&self, words: &Words, end: &mut Position, report: &mut Report<'_>) {
         let linear = (words.axes.given | words.axes.unread) & LINEAR;
-        let length = self.state.tool_length_mm;
+        let length = self.core.state.tool_length_mm;
         let active = length.is_some_and(|length| length != 0.0 || self.memory.tool_data_written);
-        if self.dialect.quirks.machine_data_suppress_length && active && linear != 0 {
+        if self.core.dialect.quirks.machine_data_suppress_length && active && linear != 0 {
             let what = "SUPA with tool length (MN_G53_TOOLCORR)";
             let kind = FaultKind::NotModelled { what: what.to_owned() };
             report.fault(words.first.unwrap_or_default(), kind);
@@ -131,7 +132,7 @@ impl Interpreter<'_> {
             let bit = 1 << axis;
             rest &= rest - 1;
             let scale = if LINEAR & bit != 0 {
-                self.state.length_unit_mm
+                self.core.state.length_unit_mm
             } else {
                 1.0
             };
@@ -139,7 +140,7 @@ impl Interpreter<'_> {
             let directed = axes.shortest | axes.positive | axes.negative;
             let absolute = axes.absolute | directed;
             let incremental =
-                axes.incremental & bit != 0 || (self.state.incremental && !machine && absolute & bit == 0);
+                axes.incremental & bit != 0 || (self.core.state.incremental && !machine && absolute & bit == 0);
             let before = end.get(axis);
             let target = match (incremental, before) {
                 (true, before) => before.map(|before| before + value),
@@ -161,7 +162,12 @@ impl Interpreter<'_> {
     /// In a tilted plane, without the tip being led, rotary words alone turn the tool away from where it was in the plane.
     fn turned_by_hand(&self, words: &Words, end: &mut Position, machine: bool) {
         let named = words.axes.given | words.axes.unread;
-        if self.memory.frames.tilt.is_some() && !self.state.tcp && !machine && named & ROTARY != 0 && named & XYZ == 0 {
+        if self.memory.frames.tilt.is_some()
+            && !self.core.state.tcp
+            && !machine
+            && named & ROTARY != 0
+            && named & XYZ == 0
+        {
             end.known &= !XYZ;
         }
     }
@@ -169,7 +175,7 @@ impl Interpreter<'_> {
     /// Letters whose words are no plain places: [`Motion::says_way`].
     fn says_way(&self, axes: &Places<9>, machine: bool) -> u16 {
         let directed = axes.shortest | axes.positive | axes.negative;
-        let modal = if self.state.incremental && !machine {
+        let modal = if self.core.state.incremental && !machine {
             axes.given & !axes.absolute
         } else {
             0
@@ -186,11 +192,11 @@ impl Interpreter<'_> {
         report: &mut Report<'_>,
     ) -> MotionKind {
         let setting = ArcSetting {
-            dialect: self.dialect,
-            plane: self.state.plane,
+            dialect: self.core.dialect,
+            plane: self.core.state.plane,
             turning,
-            centre_absolute: self.state.arc_centre_absolute,
-            length_unit_mm: self.state.length_unit_mm,
+            centre_absolute: self.core.state.arc_centre_absolute,
+            length_unit_mm: self.core.state.length_unit_mm,
             start,
             end,
             turns: self.turns(words),
@@ -214,7 +220,8 @@ impl Interpreter<'_> {
             return words.turns.index().filter(limit);
         }
         let reads_p = || {
-            self.dialect
+            self.core
+                .dialect
                 .g(20)
                 .is_some_and(|code| code.words.iter().any(|word| word == "P"))
         };
@@ -225,38 +232,25 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The feed of the block's motion; says when there is none.
+    /// The feed of the block's motion; reports when there is none.
     pub(crate) fn feed_of(&mut self, kind: MotionKind, words: &Words, report: &mut Report<'_>) -> Feed {
-        if kind == MotionKind::Rapid {
-            return Feed::Rapid;
-        }
-        let inverse_time = self.state.feed_mode == FeedMode::InverseTime;
-        match self.state.feed {
-            Some(feed) if feed > 0.0 => match self.state.feed_mode {
-                FeedMode::PerMinute => Feed::PerMinute(feed),
-                FeedMode::PerRevolution => Feed::PerRevolution(feed),
-                FeedMode::InverseTime => Feed::InverseTime(feed),
-            },
-            None if self.memory.feed_unread => Feed::Unknown,
-            feed => {
-                let range = words.feed.number().map(|number| number.range).or(words.first);
-                let zero = feed.is_some();
-                report.fault(range.unwrap_or_default(), FaultKind::MissingFeed { inverse_time, zero });
-                Feed::Unknown
-            }
-        }
+        let range = || {
+            let range = words.feed.number().map(|number| number.range).or(words.first);
+            range.unwrap_or_default()
+        };
+        self.core.feed(kind, range, report)
     }
 
     /// F counts degrees, not inches, where only rotary axes move and X Y Z are axis positions; a linear axis that is named without moving does
     /// not move. A full circle names none of them and runs all the same.
     fn turning_feed(&self, kind: MotionKind, feed: Feed, words: &Words, [start, end]: [&Position; 2]) -> Feed {
         let named = words.axes.given | words.axes.unread;
-        let inch = self.state.feed_unit_mm;
+        let inch = self.core.state.feed_unit_mm;
         let stands = |axis: usize| matches!((start.get(axis), end.get(axis)), (Some(from), Some(to)) if (from - to).abs() < STANDS_MM);
         let moves = |axis: &usize| named & LINEAR & (1 << axis) != 0 && !stands(*axis);
         if inch == 1.0
             || matches!(kind, MotionKind::Arc(_))
-            || self.state.tcp
+            || self.core.state.tcp
             || words.vector.any()
             || (0..start.values.len()).any(|axis| moves(&axis))
             || named & ROTARY == 0
@@ -270,81 +264,25 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A motion with what is in force.
-    pub(crate) fn new_motion(
-        &self,
-        kind: MotionKind,
-        start: Position,
-        end: Position,
-        orientation: Orientation,
-        feed: Feed,
-        report: &Report<'_>,
-    ) -> Motion {
-        let state = &self.state;
-        Motion {
-            block: self.flow.main_block(report.block),
-            chain: self.chain,
-            kind,
-            start,
-            end,
-            says_way: 0,
-            orientation,
-            tcp: state.tcp,
-            great_circle: state.great_circle,
-            feed,
-            spindle_on: state.spindle_on,
-            spindle_rpm: state.spindle_rpm,
-            zero: state.zero,
-            tool_length_mm: state.tool_length_mm.unwrap_or(0.0),
-            machine_coordinates: false,
-            radii: self.dialect.quirks.diameter,
-            tool: state.tool,
-            tilt: crate::Tilt::default(),
-            effects: self.memory.effects.count,
-        }
-    }
-
-    /// Under a frame that is not modelled X Y Z and vectors say nothing about the machine; rotary axes neither where it moves them.
-    pub(crate) fn hide(&self, motion: &mut Motion) {
-        let hidden = if self.memory.rotary_unknown() {
-            LINEAR | ROTARY
-        } else {
-            LINEAR
-        };
-        motion.start.known &= !hidden;
-        motion.end.known &= !hidden;
-        if let MotionKind::Arc(arc) = &mut motion.kind {
-            *arc = None;
-        }
-        if let Orientation::Vector(..) = motion.orientation {
-            motion.orientation = Orientation::Words;
-        }
-    }
-
     /// A motion that is not modelled: the axes that it names, and in a cycle the plane's third axis, are not known after it.
     pub(crate) fn unknown_motion(&mut self, words: &Words, report: &Report<'_>) -> Motion {
-        let start = self.state.position;
+        let start = self.core.state.position;
         let mut forgotten = words.axes.given | words.axes.unread;
-        if words.centre.any() || words.vector.any() || self.state.motion == Some(Action::CannedCycle) {
+        if words.centre.any() || words.vector.any() || self.core.state.motion == Some(Action::CannedCycle) {
             forgotten |= LINEAR;
         }
-        if words.vector.any() || self.state.vector_mode {
+        if words.vector.any() || self.core.state.vector_mode {
             forgotten |= ROTARY;
-            self.state.orientation = Orientation::Words;
+            self.core.state.orientation = Orientation::Words;
         }
-        self.state.position.known &= !forgotten;
-        let mut motion = self.new_motion(
+        self.core.state.position.known &= !forgotten;
+        self.core.motion_in_frame(
             MotionKind::Unknown,
-            start,
-            self.state.position,
-            self.state.orientation,
+            [start, self.core.state.position],
+            self.core.state.orientation,
             Feed::Unknown,
             report,
-        );
-        if self.state.frame_unknown {
-            self.hide(&mut motion);
-        }
-        motion
+        )
     }
 }
 

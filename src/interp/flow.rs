@@ -15,7 +15,7 @@ use std::sync::Arc;
 use told::Told;
 use trunnion_dialect::Language;
 use trunnion_flow::{Course, Key, Library};
-use trunnion_syntax::{BlockId, Program, TextRange};
+use trunnion_syntax::{Program, TextRange};
 
 /// Where a run is in its program.
 #[derive(Clone, Debug, Default)]
@@ -26,8 +26,6 @@ pub(crate) struct Flow {
     pub(crate) finished: bool,
     /// Blocks are run by [`crate::Interpreter::advance`], so that jumps are followed.
     pub(crate) follows: bool,
-    /// The block of the main program whose call led to the other file that runs.
-    pub(crate) called_at: Option<BlockId>,
     /// What jumps, loops and calls need; empty until the first of them.
     pub(crate) trail: Option<Box<Trail>>,
     /// Variables of Macro B; empty until the first statement of a macro.
@@ -126,12 +124,6 @@ impl Flow {
     #[inline]
     pub(crate) fn file(&self) -> u16 {
         self.trail.as_ref().map_or(0, |trail| trail.course.place().file)
-    }
-
-    /// The block of the main program to which a block of the program that runs belongs.
-    #[inline]
-    pub(crate) fn main_block(&self, block: BlockId) -> BlockId {
-        self.called_at.unwrap_or(block)
     }
 
     /// The calls of a chain, outermost first.

@@ -15,8 +15,9 @@ pub(crate) use shape::{Rotation, Scaling, Shape};
 pub(crate) use tilt::Tilted;
 
 use crate::codes::{BlockCodes, Found};
+use crate::core::Report;
 use crate::cycles::Pattern;
-use crate::run::{Interpreter, Report};
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, MotionKind, Position};
 use trunnion_dialect::Action;
@@ -109,7 +110,7 @@ impl Frames {
     }
 }
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// Codes of frames, returns and cycles.
     pub(crate) fn apply_frame(
         &mut self,

@@ -1,8 +1,12 @@
 //! ISO blocks to motions.
 
+mod engine;
+
+pub(crate) use engine::Iso;
+
 use crate::Sink;
 use crate::codes::{BlockCodes, Found};
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
 use crate::words::Words;
 use crate::{FaultKind, Motion};
 use trunnion_dialect::{Action, Role};
@@ -13,19 +17,19 @@ fn is_deleted(block: &Block<'_>) -> bool {
     matches!(block.items().next(), Some(Item::Skip(..)))
 }
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// Runs one ISO block. Blocks that begin with `/` are skipped where the switch for that is known to be on.
     pub(crate) fn step_iso(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
-        if self.setup.control.block_delete == Some(true) && is_deleted(block) {
+        if self.core.setup.control.block_delete == Some(true) && is_deleted(block) {
             return;
         }
         if self.memory.passed_over.is_some() && self.is_passed_over(block.id()) {
-            if self.memory.effects.wanted {
+            if self.core.effects.wanted() {
                 self.contour_effects(block, sink);
             }
             return;
         }
-        if self.memory.effects.wanted && self.dialect.name == "grbl" {
+        if self.core.effects.wanted() && self.core.dialect.name == "grbl" {
             self.grbl_line(block, sink);
         }
         let mut codes = std::mem::take(&mut self.codes);
@@ -46,10 +50,10 @@ impl<'d> Interpreter<'d> {
             self.read(block, &mut codes, &mut words, &mut report);
             self.percent(&words);
             if words.has_content {
-                self.memory.last_content = Some(block.id());
+                self.core.last_content = Some(block.id());
             }
-            if words.has_content && !self.state.ended {
-                if self.dialect.quirks.diameter || self.setup.control.implicit_decimals.is_some() {
+            if words.has_content && !self.core.state.ended {
+                if self.core.dialect.quirks.diameter || self.core.setup.control.implicit_decimals.is_some() {
                     self.adjust(&codes, &mut words);
                 }
                 self.run_block(&mut codes, &words, &mut report)
@@ -57,7 +61,7 @@ impl<'d> Interpreter<'d> {
                 None
             }
         };
-        if self.memory.effects.wanted && words.has_content {
+        if self.core.effects.wanted() && words.has_content {
             self.collect(block, (&codes, &words), motion.as_ref(), (does_more, ambiguous), sink);
         }
         self.put_out(motion.as_ref(), block, sink);
@@ -77,9 +81,7 @@ impl<'d> Interpreter<'d> {
         let motions: Vec<Motion> = self.memory.out.iter().chain(motion).copied().collect();
         let does_more = does_more || self.memory.frames.entering_data && codes.is_empty();
         self.late_effects(block, codes, words, &motions, (does_more, ambiguous));
-        for effect in std::mem::take(&mut self.memory.effects.ready) {
-            sink.effect(effect);
-        }
+        self.core.hand_on_effects(sink);
     }
 
     /// Whether a block belongs to the contour of the turning cycle before it, which has run it.
@@ -105,12 +107,12 @@ impl<'d> Interpreter<'d> {
         }
         if !self.memory.out.is_empty() {
             for motion in &self.memory.out {
-                sink.motion(&self.untilted(motion), &self.state);
+                sink.motion(&self.untilted(motion), &self.core.state);
             }
             self.memory.out.clear();
         }
         if let Some(motion) = motion {
-            sink.motion(&self.untilted(motion), &self.state);
+            sink.motion(&self.untilted(motion), &self.core.state);
         }
     }
 
@@ -128,7 +130,7 @@ impl<'d> Interpreter<'d> {
         for motion in out.iter().chain(motion) {
             self.round_corner(motion, &mut on, &mut report);
         }
-        if self.state.ended {
+        if self.core.state.ended {
             self.end_corners(&mut on, &mut report);
         }
         for told in on {
@@ -138,7 +140,7 @@ impl<'d> Interpreter<'d> {
                 self.memory.compensation.ready.push(told);
             }
         }
-        if self.state.ended {
+        if self.core.state.ended {
             self.end_compensation(&mut report);
         }
         for (motion, state) in std::mem::take(&mut self.memory.compensation.ready) {
@@ -149,7 +151,7 @@ impl<'d> Interpreter<'d> {
     /// What waits at the end of a program without an end.
     pub(crate) fn put_out_rest(&mut self, block: &Block<'_>, sink: &mut impl Sink) {
         if self.memory.compensation.is_busy() || self.memory.corners.is_busy() {
-            self.state.ended = true;
+            self.core.state.ended = true;
             self.put_out_compensated(None, block, sink);
         }
     }
@@ -157,11 +159,11 @@ impl<'d> Interpreter<'d> {
     /// The second `%`, or one after content, ends the text.
     fn percent(&mut self, words: &Words) {
         if words.percent.is_some() {
-            let ends = self.memory.percent_seen || self.memory.last_content.is_some();
+            let ends = self.memory.percent_seen || self.core.last_content.is_some();
             self.memory.percent_seen = true;
             if ends {
-                self.state.ended = true;
-                self.memory.proper_end |= self.dialect.quirks.percent_ends_program;
+                self.core.state.ended = true;
+                self.core.proper_end |= self.core.dialect.quirks.percent_ends_program;
             }
         }
     }
@@ -181,7 +183,7 @@ impl<'d> Interpreter<'d> {
             if calls {
                 let what = report.program.text(range).into_owned();
                 report.fault(range, FaultKind::NotModelled { what });
-                self.forget_everything();
+                self.core.forget_everything();
                 return None;
             }
         }
@@ -190,37 +192,37 @@ impl<'d> Interpreter<'d> {
             return None;
         }
         let block = self.apply(codes, words, report);
-        if words.letters & crate::unused::PARAMETERS != 0 && !self.dialect.quirks.user_names() {
+        if words.letters & crate::unused::PARAMETERS != 0 && !self.core.dialect.quirks.user_names() {
             self.unused_words(codes, words, &block, report);
         }
         self.memory.corners.word = words
             .corner
             .or_else(|| self.turned_corner(words).filter(|_| words.axes.any()))
             .filter(|_| !block.takes_coordinates)
-            .map(|(letter, number)| (letter, number.value * self.state.length_unit_mm));
-        if self.state.compensation != 0 && self.dialect.quirks.offset_compensation {
+            .map(|(letter, number)| (letter, number.value * self.core.state.length_unit_mm));
+        if self.core.state.compensation != 0 && self.core.dialect.quirks.offset_compensation {
             self.cutter_number(words, report);
         }
         if words.other_spindle {
-            self.state.spindle_on = None;
+            self.core.state.spindle_on = None;
         }
-        if self.memory.effects.wanted {
+        if self.core.effects.wanted() {
             self.code_effects(codes, words, &block, &report.program.block(report.block));
         }
         let mut motion = self.motion(codes, words, &block, report);
         self.called_cycle(codes, words, &block, &mut motion, report);
         if words.forgets_all {
-            self.memory.losses += 1;
-            self.forget_position();
+            self.core.losses += 1;
+            self.core.forget_position();
             // what is not understood may be a call
-            self.state.clamps.lose();
+            self.core.state.clamps.lose();
         }
         if words.writes_system {
             self.system_changed();
         }
         if block.end {
-            self.state.ended = true;
-            self.memory.proper_end = true;
+            self.core.state.ended = true;
+            self.core.proper_end = true;
         }
         motion
     }
@@ -240,15 +242,15 @@ impl<'d> Interpreter<'d> {
                 return Some(dwell);
             }
             self.memory.out.push(dwell);
-            if !self.dialect.quirks.dwell_then_moves {
+            if !self.core.dialect.quirks.dwell_then_moves {
                 return Some(self.moved_with_dwell(beside, words, report));
             }
         }
-        let modal = self.state.motion;
+        let modal = self.core.state.motion;
         let is_arc = matches!(modal, Some(Action::ArcClockwise | Action::ArcCounterClockwise));
         let circle = is_arc && (words.centre.any() || words.radius.is_said()) && block.motion.is_some();
         if let Some(repeated) = block.repeated {
-            if self.dialect.quirks.whole_numbers.lengths_ambiguous() && repeated.has_coordinates(words) {
+            if self.core.dialect.quirks.whole_numbers.lengths_ambiguous() && repeated.has_coordinates(words) {
                 self.whole_numbers(words, report);
             }
             self.repeated_cycle(repeated, words, report);
@@ -264,7 +266,7 @@ impl<'d> Interpreter<'d> {
         {
             return self.cycle_motion(words, report);
         }
-        let by_vector = words.vector.any() || (self.state.vector_mode && !is_arc && words.centre.any());
+        let by_vector = words.vector.any() || (self.core.state.vector_mode && !is_arc && words.centre.any());
         if block.takes_coordinates || !(words.axes.any() || by_vector || circle) {
             return None;
         }
@@ -278,7 +280,7 @@ impl<'d> Interpreter<'d> {
                 | Action::Thread
                 | Action::VariableThread,
             ) if !unmodelled => {
-                if self.dialect.quirks.whole_numbers.lengths_ambiguous() {
+                if self.core.dialect.quirks.whole_numbers.lengths_ambiguous() {
                     self.whole_numbers(words, report);
                 }
                 Some(self.modelled_motion(words, block, report))
@@ -297,10 +299,10 @@ impl<'d> Interpreter<'d> {
 
     /// Motions of a canned cycle.
     fn cycle_motion(&mut self, words: &Words, report: &mut Report<'_>) -> Option<Motion> {
-        if self.dialect.quirks.whole_numbers.lengths_ambiguous() {
+        if self.core.dialect.quirks.whole_numbers.lengths_ambiguous() {
             self.whole_numbers(words, report);
         }
-        if self.state.motion.is_some_and(Action::is_pass_cycle) {
+        if self.core.state.motion.is_some_and(Action::is_pass_cycle) {
             self.pass_cycle(words, report);
         } else {
             self.hole_cycle(words, report);
@@ -310,7 +312,7 @@ impl<'d> Interpreter<'d> {
 
     /// Motions of codes that hold for one block.
     fn special_motion(&mut self, words: &Words, block: &BlockCodes, report: &mut Report<'_>) -> Option<Motion> {
-        if self.dialect.quirks.whole_numbers.lengths_ambiguous() {
+        if self.core.dialect.quirks.whole_numbers.lengths_ambiguous() {
             self.whole_numbers(words, report);
         }
         if let Some((returns, range)) = block.returns {
@@ -327,10 +329,10 @@ impl<'d> Interpreter<'d> {
 
     /// Tells the first coordinate, centre or radius of a block whose missing decimal point makes its size ambiguous.
     fn whole_numbers(&self, words: &Words, report: &mut Report<'_>) {
-        if self.setup.control.implicit_decimals.is_some() {
+        if self.core.setup.control.implicit_decimals.is_some() {
             return;
         }
-        let cycle = self.state.motion.is_some_and(Action::is_hole_cycle);
+        let cycle = self.core.state.motion.is_some_and(Action::is_hole_cycle);
         let radius = words.radius.number().is_some_and(|r| !r.has_point);
         if !cycle && !radius && words.axes.all_pointed() && words.centre.all_pointed() {
             return;
@@ -339,14 +341,14 @@ impl<'d> Interpreter<'d> {
             let Address::Letter(letter) = word.address else {
                 return false;
             };
-            let role = self.dialect.role(letter);
+            let role = self.core.dialect.role(letter);
             let Value::Number(number) = word.value else {
                 return false;
             };
             let sized = match role {
                 Some(Role::Axis | Role::Increment | Role::ArcRadius) => true,
                 // under G43.5 I J K are a direction; K of a cycle counts
-                Some(Role::ArcCentre) => !self.state.vector_mode && (!cycle || letter != b'K'),
+                Some(Role::ArcCentre) => !self.core.state.vector_mode && (!cycle || letter != b'K'),
                 Some(Role::Parameter) => cycle && letter == b'Q',
                 _ => false,
             };

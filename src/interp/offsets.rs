@@ -1,44 +1,14 @@
 //! Work offsets, tool lengths and cutting edges, and what they do to the programmed position.
 use crate::codes::Found;
-use crate::memory::Chosen;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
+use crate::tools::Chosen;
 use crate::words::{Said, Words};
 use crate::{FaultKind, LengthOf, Tool};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
-/// X, Y, Z, U, V, W in [`crate::AXIS_LETTERS`].
-pub(crate) const LINEAR: u16 = 0b1_1100_0111;
-/// A, B, C.
-pub(crate) const ROTARY: u16 = 0b0_0011_1000;
-
-impl Interpreter<'_> {
-    /// Nothing is known of the position any more.
-    pub(crate) fn forget_position(&mut self) {
-        self.state.position.known = 0;
-        self.state.orientation = crate::Orientation::Words;
-    }
-    /// Coordinates have changed their meaning, if so.
-    pub(crate) fn forget_if(&mut self, changed: bool) {
-        if changed {
-            self.forget_position();
-        }
-    }
-    /// X Y Z U V W are not known any more.
-    pub(crate) fn forget_linear(&mut self) {
-        self.state.position.known &= !LINEAR;
-    }
-    /// A subprogram may have changed anything.
-    pub(crate) fn forget_everything(&mut self) {
-        self.memory.losses += 1;
-        self.forget_position();
-        self.state.clamps.lose();
-        self.state.spindle_on = None;
-        self.state.spindle_rpm = None;
-        self.state.feed = None;
-        self.memory.feed_unread = true;
-    }
-
+impl Iso<'_> {
     /// Selects a work offset by the code's own name, with P where the code reads one (G54.1 P3).
     pub(crate) fn work_offset(&mut self, found: &Found<'_>, words: &Words, report: &mut Report<'_>) {
         let mut name = found.code.id.clone();
@@ -50,7 +20,7 @@ impl Interpreter<'_> {
             name = format!("{name} P{p}");
         }
         let zero = self.offset_values(&name);
-        if zero.is_none() && self.memory.offset_is_news(&name) {
+        if zero.is_none() && self.core.offsets_reported.first(&name) {
             report.fault(found.range, FaultKind::WorkOffsetUnset { name: name.clone() });
         }
         self.set_zero(Some(name.into()), zero.unwrap_or([0.0; 9]));
@@ -58,20 +28,28 @@ impl Interpreter<'_> {
 
     /// Selects a zero point; shifts by the program (G52, G92) are added to it.
     pub(crate) fn set_zero(&mut self, name: Option<Arc<str>>, zero: [f64; 9]) {
-        self.state.work_offset = name;
+        self.core.state.work_offset = name;
         self.memory.frames.selected = zero;
         self.refresh_zero();
     }
 
     /// The machine stays where it is, so the programmed position moves against the zero point.
     pub(crate) fn move_zero(&mut self, zero: [f64; 9]) {
-        for ((value, old), new) in self.state.position.values.iter_mut().zip(self.state.zero).zip(zero) {
+        for ((value, old), new) in self
+            .core
+            .state
+            .position
+            .values
+            .iter_mut()
+            .zip(self.core.state.zero)
+            .zip(zero)
+        {
             *value += old - new;
         }
-        if self.memory.frames.tilt.is_some() && zero != self.state.zero {
-            self.forget_linear();
+        if self.memory.frames.tilt.is_some() && zero != self.core.state.zero {
+            self.core.forget_linear();
         }
-        self.state.zero = zero;
+        self.core.state.zero = zero;
     }
 
     /// G43 H: the length of the tool of that number; without H that of the tool in use.
@@ -80,14 +58,22 @@ impl Interpreter<'_> {
             self.memory.length_offset = Some(number);
         }
         let (tool, key, of) = match (offset, self.memory.length_offset) {
-            (Said::Nothing, None) => (self.state.tool_data, self.tool_name(), LengthOf::Tool(self.state.tool)),
+            (Said::Nothing, None) => (
+                self.core.state.tool_data,
+                self.core.tools.name(),
+                LengthOf::Tool(self.core.state.tool),
+            ),
             (Said::Nothing | Said::Number(_), Some(0)) => return self.set_length(Some(0.0), LengthOf::Nothing),
             (Said::Nothing | Said::Number(_), Some(number)) => {
                 let of = LengthOf::Tool(Some(number));
                 if let Some(length) = self.written_length(number) {
                     return self.set_length(Some(length), of);
                 }
-                (self.tool_of(Some(number)), format!("H{number}"), of)
+                (
+                    self.core.tools.data(Some(number), &self.core.setup),
+                    format!("H{number}"),
+                    of,
+                )
             }
             _ => (None, "H".to_owned(), LengthOf::Other),
         };
@@ -105,7 +91,7 @@ impl Interpreter<'_> {
             .length_offset
             .number()
             .map_or(TextRange::default(), |number| number.range);
-        if self.state.tool_length_mm.is_some() {
+        if self.core.state.tool_length_mm.is_some() {
             self.length_on(words.length_offset, range, report);
         } else if let Some(number) = words.length_offset.index() {
             self.memory.length_offset = Some(number);
@@ -115,7 +101,12 @@ impl Interpreter<'_> {
     /// The length of an offset number where the program has written any part of it.
     fn written_length(&self, number: u32) -> Option<f64> {
         let offset = self.tool_offset(number)?;
-        let declared = || self.tool_of(Some(number)).and_then(|tool| tool.length_mm);
+        let declared = || {
+            self.core
+                .tools
+                .data(Some(number), &self.core.setup)
+                .and_then(|tool| tool.length_mm)
+        };
         Some(offset.length.or_else(declared)? + offset.length_wear)
     }
 
@@ -126,7 +117,7 @@ impl Interpreter<'_> {
         match edge.index() {
             Some(0) => self.set_length(None, LengthOf::Nothing),
             // the tool is chosen, but not yet in the spindle: its length comes with it
-            _ if self.waits_for_change() => {}
+            _ if self.core.tools.waits_for_change() => {}
             edge => self.edge_length(edge, range, report),
         }
     }
@@ -134,11 +125,11 @@ impl Interpreter<'_> {
     /// A feed motion while T has chosen the first tool and nothing has brought it: where T alone changes tools the length of the tool is in
     /// force, elsewhere it is not (machine data 22550 TOOL_CHANGE_MODE of a Sinumerik 840D sl: trade knowledge, not read in a manual).
     pub(crate) fn tool_never_changed(&mut self, words: &Words, report: &mut Report<'_>) {
-        let waits = self.memory.in_spindle == Chosen::Nothing
-            && self.dialect.quirks.edge_at_tool_change
-            && self.waits_for_change()
+        let waits = *self.core.tools.in_spindle() == Chosen::Nothing
+            && self.core.dialect.quirks.edge_at_tool_change
+            && self.core.tools.waits_for_change()
             && self.memory.edge != Some(0)
-            && self.state.tool_length_mm.is_none();
+            && self.core.state.tool_length_mm.is_none();
         if waits && !self.memory.tool_never_changed {
             self.memory.tool_never_changed = true;
             let what = "the length of a tool that T selects and no M6 loads (machine data 22550 decides whether T alone changes tools)";
@@ -147,21 +138,16 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A tool is chosen that is not the one in the spindle.
-    fn waits_for_change(&self) -> bool {
-        self.memory.prepared != Chosen::Nothing && self.memory.prepared != self.memory.in_spindle
-    }
-
     pub(crate) fn edge_length(&mut self, edge: Option<u32>, range: TextRange, report: &mut Report<'_>) {
-        let name = match (&self.memory.in_spindle, edge) {
+        let name = match (&self.core.tools.in_spindle(), edge) {
             (Chosen::Nothing, Some(1)) => "D1".to_owned(),
-            _ => self.tool_name(),
+            _ => self.core.tools.name(),
         };
         match edge {
             Some(0) => self.set_length(None, LengthOf::Nothing),
             Some(1) => {
-                let of = LengthOf::Tool(self.state.tool);
-                self.take_length(self.state.tool_data, (&name, of), range, report);
+                let of = LengthOf::Tool(self.core.state.tool);
+                self.take_length(self.core.state.tool_data, (&name, of), range, report);
             }
             Some(edge) => self.take_length(None, (&format!("{name} D{edge}"), LengthOf::Other), range, report),
             None => self.take_length(None, (&format!("{name} D"), LengthOf::Other), range, report),
@@ -177,7 +163,7 @@ impl Interpreter<'_> {
         report: &mut Report<'_>,
     ) {
         let length = tool.and_then(|tool| tool.length_mm);
-        if length.is_none() && self.memory.length_is_news(key) {
+        if length.is_none() && self.core.tools.first_report_of_length(key) {
             report.fault(range, FaultKind::ToolLengthUnset { tool: key.to_owned() });
         }
         self.set_length(Some(length.unwrap_or(0.0)), of);
@@ -186,15 +172,15 @@ impl Interpreter<'_> {
     /// The machine stays where it is, so the programmed position moves: along the tool at home while the axes are joints; anywhere
     /// under tool centre point control.
     pub(crate) fn set_length(&mut self, length: Option<f64>, of: LengthOf) {
-        self.state.length_of = of;
-        let change = length.unwrap_or(0.0) - self.state.tool_length_mm.unwrap_or(0.0);
-        self.state.tool_length_mm = length;
+        self.core.state.length_of = of;
+        let change = length.unwrap_or(0.0) - self.core.state.tool_length_mm.unwrap_or(0.0);
+        self.core.state.tool_length_mm = length;
         if change != 0.0 {
-            if self.state.tcp {
-                self.forget_linear();
+            if self.core.state.tcp {
+                self.core.forget_linear();
             } else {
-                let along = self.setup.length_along();
-                for (value, along) in self.state.position.values.iter_mut().zip(along) {
+                let along = self.core.setup.length_along();
+                for (value, along) in self.core.state.position.values.iter_mut().zip(along) {
                     *value -= change * along;
                 }
             }

@@ -1,6 +1,6 @@
 //! Assignments to what belongs to the control: `$P_UIFR[1,X,TR]=200`, `$TC_DP3[1,1]=350`, `#5221=100`. They move zero points and
 //! change tools in ways that are not modelled.
-use crate::run::Interpreter;
+use crate::iso::Iso;
 use trunnion_dialect::Dialect;
 
 /// What an assignment to a variable of the control may change.
@@ -52,12 +52,12 @@ pub(crate) fn system_write(dialect: &Dialect, name: &[u8]) -> SystemWrite {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Zero points or tools have changed: no coordinate, linear or rotary, says where the machine is until the end of the program.
     pub(crate) fn system_changed(&mut self) {
-        self.memory.hide_for_good();
+        self.core.unknown.for_good();
         self.memory.tool_data_written = true;
-        self.forget_position();
-        self.state.frame_unknown = true;
+        self.core.forget_position();
+        self.core.state.frame_unknown = true;
     }
 }

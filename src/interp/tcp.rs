@@ -1,42 +1,43 @@
 //! Tool centre point control on and off.
 use crate::codes::Found;
-use crate::offsets::ROTARY;
-use crate::run::{Interpreter, Report};
+use crate::core::ROTARY;
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Motion, Orientation, Position, TcpMistake};
 use trunnion_dialect::{Code, CodeKind};
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// Begins tool centre point control.
     pub(crate) fn tcp_on(&mut self, code: &'d Code, vectors: bool) {
-        if !self.state.tcp {
-            self.forget_linear();
+        if !self.core.state.tcp {
+            self.core.forget_linear();
         }
-        self.state.tcp = true;
+        self.core.state.tcp = true;
         self.memory.tcp_used = true;
-        self.state.vector_mode = vectors;
+        self.core.state.vector_mode = vectors;
         self.memory.tcp_group = code.group.as_deref();
     }
 
     /// Ends tool centre point control: X Y Z change their meaning, and rotary axes that were set by a vector are not known.
     pub(crate) fn tcp_off(&mut self) {
-        if self.state.tcp {
-            self.forget_linear();
+        if self.core.state.tcp {
+            self.core.forget_linear();
         }
-        self.state.tcp = false;
-        self.state.vector_mode = false;
-        self.state.orientation = Orientation::Words;
+        self.core.state.tcp = false;
+        self.core.state.vector_mode = false;
+        self.core.state.orientation = Orientation::Words;
     }
 
     /// G43 and G49 end a tool centre point control that is a code of their own group (G43.4).
     pub(crate) fn end_tcp_of_group(&mut self, code: &Code) {
-        if self.state.tcp && code.group.is_some() && code.group.as_deref() == self.memory.tcp_group {
+        if self.core.state.tcp && code.group.is_some() && code.group.as_deref() == self.memory.tcp_group {
             self.tcp_off();
         }
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// What is wrong with tool centre point control in a motion by words of a block.
     pub(crate) fn tcp_mistakes(&mut self, motion: &Motion, words: &Words, report: &mut Report<'_>) {
         let range = words.first.unwrap_or_default();
@@ -47,7 +48,7 @@ impl Interpreter<'_> {
 
     /// The mistake of a motion that is about to be emitted.
     pub(crate) fn tcp_mistake(&mut self, motion: &Motion) -> Option<TcpMistake> {
-        let state = &self.state;
+        let state = &self.core.state;
         if state.tcp {
             if motion.machine_coordinates {
                 return Some(TcpMistake::MachineCoordinates);
@@ -65,10 +66,10 @@ impl Interpreter<'_> {
 
     /// The tool in the spindle changes.
     pub(crate) fn tcp_at_tool_change(&mut self, report: &mut Report<'_>) {
-        if self.state.tcp {
+        if self.core.state.tcp {
             report.fault(report.whole(), FaultKind::TcpState(TcpMistake::ToolChange));
         }
-        self.memory.tcp_used = self.state.tcp;
+        self.memory.tcp_used = self.core.state.tcp;
     }
 }
 

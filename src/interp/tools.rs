@@ -1,9 +1,38 @@
 //! Which tool is in use, and what is declared about it.
-use crate::memory::Chosen;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
+use crate::reported::Reported;
 use crate::words::{Said, Words};
 use crate::{LengthOf, Setup, Tool};
+use std::sync::Arc;
 use trunnion_syntax::Program;
+
+/// The tool that T has chosen and M6 will bring.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) enum Chosen {
+    /// No T yet.
+    #[default]
+    Nothing,
+    Number(u32),
+    Named(Arc<str>),
+    /// T with a value that is not evaluated.
+    Unread,
+}
+
+/// See the module.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tools {
+    prepared: Chosen,
+    in_spindle: Chosen,
+    /// APT: the tool shape that CUTTER gives.
+    cutter: Option<Tool>,
+    /// APT: a motion was made with it.
+    cutter_used: bool,
+    /// Tools that the program's comments declare.
+    declared: Vec<Tool>,
+    directives_read: bool,
+    lengths_reported: Reported,
+}
 
 /// Lays `over` on `under`: what it declares counts.
 fn lay(over: Option<&Tool>, under: Tool) -> Tool {
@@ -25,42 +54,81 @@ fn numbered(tools: &[Tool], number: u32) -> Option<&Tool> {
     tools.iter().rev().find(|tool| tool.number == number)
 }
 
-impl Interpreter<'_> {
-    /// What is declared about the tool in use, merged; `None` when nothing is declared and its number is not known. In order of
-    /// weight: number 0 of the setup (the tool in use whatever its number), APT CUTTER, the program's comments, the setup.
-    /// A program that names no tool uses the only one that its comments declare.
-    pub fn tool(&self) -> Option<Tool> {
-        self.state.tool_data
+impl Tools {
+    /// T has chosen a tool.
+    pub(crate) fn prepare(&mut self, chosen: Chosen) {
+        self.prepared = chosen;
     }
-
-    /// The program's own declarations count for the whole program, wherever they are.
-    pub(crate) fn declare(&mut self, program: &Program) {
-        self.memory.directives_read = true;
-        self.memory.declared = crate::directives(program)
-            .into_iter()
-            .filter_map(|(_, directive)| {
-                if let crate::Directive::Tool(tool) = directive {
-                    Some(tool)
-                } else {
-                    None
-                }
-            })
-            .collect();
-        self.merge_tool();
+    pub(crate) fn prepared(&self) -> &Chosen {
+        &self.prepared
     }
-
-    /// What is declared about the tool of a number, or the one in use.
-    pub(crate) fn tool_of(&self, number: Option<u32>) -> Option<Tool> {
-        let setup: &Setup = &self.setup;
-        let declared = &self.memory.declared;
-        let unnamed = self.memory.in_spindle == Chosen::Nothing;
+    pub(crate) fn in_spindle(&self) -> &Chosen {
+        &self.in_spindle
+    }
+    /// A tool comes into the spindle.
+    pub(crate) fn load(&mut self, chosen: Chosen) {
+        self.in_spindle = chosen;
+    }
+    /// The prepared tool comes into the spindle; whether there is one.
+    pub(crate) fn load_prepared(&mut self) -> bool {
+        let any = self.prepared != Chosen::Nothing;
+        if any {
+            self.in_spindle = self.prepared.clone();
+        }
+        any
+    }
+    /// A tool is chosen that is not the one in the spindle.
+    pub(crate) fn waits_for_change(&self) -> bool {
+        self.prepared != Chosen::Nothing && self.prepared != self.in_spindle
+    }
+    /// CUTTER gives the shape of the tool.
+    pub(crate) fn shape_by_cutter(&mut self, cutter: Option<Tool>) {
+        (self.cutter, self.cutter_used) = (cutter, false);
+    }
+    /// A motion is made with the shape that CUTTER gave.
+    pub(crate) fn use_cutter(&mut self) {
+        self.cutter_used = true;
+    }
+    /// A shape that an earlier tool has cut with is not the next tool's.
+    pub(crate) fn end_cutter(&mut self) {
+        if std::mem::take(&mut self.cutter_used) {
+            self.cutter = None;
+        }
+    }
+    /// Reads the tools that the program's comments declare, once; whether this was the time.
+    pub(crate) fn read_directives(&mut self, program: &Program) -> bool {
+        if std::mem::replace(&mut self.directives_read, true) {
+            return false;
+        }
+        let directives = crate::directives(program).into_iter();
+        let tools = directives.filter_map(|(_, directive)| match directive {
+            crate::Directive::Tool(tool) => Some(tool),
+            _ => None,
+        });
+        self.declared = tools.collect();
+        true
+    }
+    /// Tools that the program's comments declare.
+    pub(crate) fn declared(&self) -> &[Tool] {
+        &self.declared
+    }
+    /// Whether this is the first time that a length is found missing.
+    pub(crate) fn first_report_of_length(&mut self, tool: &str) -> bool {
+        self.lengths_reported.first(tool)
+    }
+    /// What is declared about the tool of a number, or the one in use, merged; `None` when nothing is declared and its number is unknown. In
+    /// order of weight: number 0 of the setup (the tool in use whatever its number), APT CUTTER, the program's comments, the setup. A
+    /// program that names no tool uses the only one that its comments declare.
+    pub(crate) fn data(&self, number: Option<u32>, setup: &Setup) -> Option<Tool> {
+        let declared = &self.declared;
+        let unnamed = self.in_spindle == Chosen::Nothing;
         let number = number.or_else(|| match &declared[..] {
             [only] if unnamed && only.number != 0 => Some(only.number),
             _ => None,
         });
         let any = numbered(&setup.tools, 0);
         let any_declared = numbered(declared, 0);
-        if number.is_none() && any.is_none() && any_declared.is_none() && self.memory.cutter.is_none() {
+        if number.is_none() && any.is_none() && any_declared.is_none() && self.cutter.is_none() {
             return None;
         }
         let empty = Tool {
@@ -77,29 +145,20 @@ impl Interpreter<'_> {
         let merged = lay(named(&setup.tools), empty);
         let merged = lay(named(declared), merged);
         let merged = lay(any_declared, merged);
-        let merged = lay(self.memory.cutter.as_ref(), merged);
+        let merged = lay(self.cutter.as_ref(), merged);
         Some(lay(any, merged))
     }
-
-    /// To be called whenever the tool in use or what is declared about it changes.
-    pub(crate) fn merge_tool(&mut self) {
-        self.state.tool_data = self.tool_of(self.state.tool);
-    }
-
     /// The tool in use as it was written, for people.
-    pub(crate) fn tool_name(&self) -> String {
-        match &self.memory.in_spindle {
+    pub(crate) fn name(&self) -> String {
+        match &self.in_spindle {
             Chosen::Number(number) => format!("T{number}"),
             Chosen::Named(name) => name.to_string(),
             Chosen::Nothing | Chosen::Unread => "T".to_owned(),
         }
     }
+}
 
-    /// The tool of a T word: T0102 of a lathe is tool 1 with offset 2.
-    fn tool_number(&self, number: u32) -> u32 {
-        self.dialect.quirks.tool_word.tool(number)
-    }
-
+impl Iso<'_> {
     pub(crate) fn tool_word(&mut self, words: &Words, report: &mut Report<'_>) {
         let chosen = match words.tool {
             Said::Nothing => return,
@@ -107,42 +166,93 @@ impl Interpreter<'_> {
                 let text = report.program.text(range);
                 Chosen::Named(text.trim_matches('"').into())
             }
-            Said::Number(_) => words
-                .tool
-                .index()
-                .map_or(Chosen::Unread, |number| Chosen::Number(self.tool_number(number))),
+            Said::Number(_) => words.tool.index().map_or(Chosen::Unread, |number| {
+                Chosen::Number(self.core.dialect.quirks.tool_word.tool(number))
+            }),
             Said::Unread => Chosen::Unread,
         };
-        self.state.tool_prepared = if let Chosen::Number(number) = chosen {
+        self.core.state.tool_prepared = if let Chosen::Number(number) = chosen {
             Some(number)
         } else {
             None
         };
-        self.memory.prepared = chosen;
-        if self.dialect.quirks.tool_word.changes() {
+        self.core.tools.prepare(chosen);
+        if self.core.dialect.quirks.tool_word.changes() {
             self.change_tool(report);
         }
     }
 
     /// Puts the chosen tool into the spindle. The change may move the machine, so X Y Z are not known after it; rotary axes stay.
     pub(crate) fn change_tool(&mut self, report: &mut Report<'_>) {
-        self.forget_linear();
+        self.core.forget_linear();
         self.tcp_at_tool_change(report);
-        if self.memory.prepared == Chosen::Nothing {
+        if !self.core.tools.load_prepared() {
             return;
         }
-        self.memory.in_spindle = self.memory.prepared.clone();
-        self.state.tool = self.state.tool_prepared;
-        self.merge_tool();
-        let edge = match (self.dialect.quirks.edge_at_tool_change, self.memory.edge) {
+        self.core.state.tool = self.core.state.tool_prepared;
+        self.core.merge_tool();
+        let edge = match (self.core.dialect.quirks.edge_at_tool_change, self.memory.edge) {
             (true, edge) => Some(edge.filter(|&edge| edge != 0).unwrap_or(1)),
             (false, edge) => edge,
         };
         // an empty spindle has no length
-        match (edge, &self.memory.in_spindle) {
+        match (edge, self.core.tools.in_spindle()) {
             (None, _) => {}
             (Some(_), Chosen::Number(0)) => self.set_length(None, LengthOf::Nothing),
             (edge, _) => self.edge_length(edge, report.whole(), report),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tool(number: u32, length_mm: f64) -> Tool {
+        Tool {
+            number,
+            shape: None,
+            diameter_mm: None,
+            length_mm: Some(length_mm),
+        }
+    }
+
+    #[test]
+    fn a_prepared_tool_waits_until_it_is_loaded() {
+        let mut tools = Tools::default();
+        assert!(!tools.load_prepared() && !tools.waits_for_change());
+        tools.prepare(Chosen::Number(3));
+        assert!(tools.waits_for_change());
+        assert_eq!(tools.name(), "T");
+        assert!(tools.load_prepared() && !tools.waits_for_change());
+        assert_eq!(tools.name(), "T3");
+    }
+
+    #[test]
+    fn the_tool_in_use_whatever_its_number_outweighs_the_numbered_one() {
+        let mut setup = Setup {
+            tools: vec![tool(3, 80.0)],
+            ..Setup::default()
+        };
+        let tools = Tools::default();
+        assert_eq!(tools.data(Some(4), &setup).and_then(|tool| tool.length_mm), None);
+        assert_eq!(tools.data(Some(3), &setup).and_then(|tool| tool.length_mm), Some(80.0));
+        setup.tools.push(tool(0, 120.0));
+        assert_eq!(tools.data(Some(3), &setup).and_then(|tool| tool.length_mm), Some(120.0));
+        assert_eq!(tools.data(None, &Setup::default()), None);
+    }
+
+    #[test]
+    fn a_cutter_that_has_cut_ends_with_its_tool() {
+        let mut tools = Tools::default();
+        tools.shape_by_cutter(Some(tool(0, 1.0)));
+        tools.end_cutter();
+        assert!(
+            tools.data(None, &Setup::default()).is_some(),
+            "it is for the tool that is loaded next"
+        );
+        tools.use_cutter();
+        tools.end_cutter();
+        assert_eq!(tools.data(None, &Setup::default()), None);
     }
 }

@@ -1,8 +1,9 @@
 //! Point-to-point travel of a Sinumerik under TRAORI (PTP, PTPG0, CP) and its words STAT and TU: the position is programmed as ever, the
 //! axes run there synchronously, each straight (840D sl Programming Manual, Job Planning, 03/2013, section 6.9). STAT is modal, TU holds
 //! for its block; with continuous-path travel the posture stays what it is, and neither is followed.
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::reader::Reader;
-use crate::run::{Interpreter, Report};
 use crate::values::number;
 use crate::words::{Said, Words};
 use crate::{FaultKind, Motion, MotionKind, Posture, Swivel};
@@ -65,7 +66,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Makes a motion point to point where that is active, and reports STAT and TU where they are followed or not.
     pub(crate) fn travel(&mut self, motion: &mut Motion, words: &Words, report: &mut Report<'_>) {
         let said = words.posture;

@@ -1,11 +1,12 @@
 //! Codes that are not modelled: what they make unknown, and until when.
 use crate::codes::{BlockCodes, Found, not_modelled};
-use crate::offsets::ROTARY;
-use crate::run::{Interpreter, Report};
+use crate::core::ROTARY;
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use trunnion_dialect::{Action, CodeKind};
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// A code whose effect is not modelled. In the motion group it is modal; in a group whose other codes give the coordinates
     /// their meaning, positions are unknown until one of those comes; else everything is forgotten.
     pub(crate) fn unmodelled_code(
@@ -19,12 +20,12 @@ impl<'d> Interpreter<'d> {
         block.not_modelled = true;
         let group = found.code.group.as_deref();
         if group.is_some() && group == self.motion_group() {
-            self.state.motion = Some(Action::NotModelled);
+            self.core.state.motion = Some(Action::NotModelled);
         } else if group.is_some() && self.gives_meaning(group) {
-            self.memory.begin_frame(found.code, true);
-            self.forget_position();
+            self.core.unknown.begin(found.code, true);
+            self.core.forget_position();
         } else if !words.axes.any() {
-            self.forget_position();
+            self.core.forget_position();
         }
     }
 
@@ -43,14 +44,15 @@ impl<'d> Interpreter<'d> {
                     | Action::Absolute
             )
         };
-        self.dialect
+        self.core
+            .dialect
             .codes()
             .iter()
             .any(|code| code.group.as_deref() == group && meaning(code.action))
     }
 
     pub(crate) fn motion_group(&self) -> Option<&'d str> {
-        self.dialect.g(0)?.group.as_deref()
+        self.core.dialect.g(0)?.group.as_deref()
     }
 
     pub(crate) fn frame_change(
@@ -62,8 +64,8 @@ impl<'d> Interpreter<'d> {
     ) {
         let with_values = found.with_arguments || words.has_values;
         if found.code.kind == CodeKind::Name && !with_values {
-            let ended = self.memory.end_frame(found.code);
-            self.forget_if(ended);
+            let ended = self.core.unknown.end(found.code);
+            self.core.forget_if(ended);
             return;
         }
         if !words.axes.any() && words.speed.is_said() && found.code.words.iter().any(|word| word == "S") {
@@ -85,31 +87,32 @@ impl<'d> Interpreter<'d> {
         block.takes_coordinates = true;
         let zero = (3..6).any(|axis| words.axes.get(axis) == Some(0.0));
         if zero {
-            let ended = self.memory.end_frame(found.code);
-            self.forget_if(ended);
+            let ended = self.core.unknown.end(found.code);
+            self.core.forget_if(ended);
             return;
         }
         not_modelled(found, report);
-        self.memory.begin_frame(found.code, false);
-        self.memory.frame_turns_axes(found.code);
-        self.forget_position();
+        self.core.unknown.begin(found.code, false);
+        self.core.unknown.turns_axes(found.code);
+        self.core.forget_position();
     }
 
     /// From here on positions are unknown.
     pub(crate) fn frame_begins(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes) {
         block.takes_coordinates = true;
-        self.memory.begin_frame(found.code, false);
+        self.core.unknown.begin(found.code, false);
         // a shift by TRANS may end with it, or lie inside it
         let shift = self
+            .core
             .dialect
             .name("TRANS")
             .filter(|_| self.memory.frames.local != [0.0; 9]);
         if let Some(shift) = shift {
-            self.memory.begin_frame(shift, false);
+            self.core.unknown.begin(shift, false);
         }
         if (words.axes.given | words.axes.unread) & ROTARY != 0 {
-            self.memory.frame_turns_axes(found.code);
+            self.core.unknown.turns_axes(found.code);
         }
-        self.forget_position();
+        self.core.forget_position();
     }
 }

@@ -4,7 +4,8 @@
 //! code has); RS274/NGC Interpreter, version 3 (NIST), section 3.5.
 use crate::arc::plane_axes;
 use crate::codes::{BlockCodes, Found};
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Refusal};
 use trunnion_dialect::{Action, Code, CodeKind, Owner, Role};
@@ -38,7 +39,7 @@ pub(crate) fn letters(code: &Code) -> u32 {
     code.words.iter().map(letter).fold(0, |all, one| all | one)
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Tells the words of the block that nothing reads.
     pub(crate) fn unused_words(&self, codes: &[Found<'_>], words: &Words, block: &BlockCodes, report: &mut Report<'_>) {
         let mut left = words.letters & PARAMETERS & !self.read_in_force(words, block);
@@ -59,7 +60,7 @@ impl Interpreter<'_> {
             if left & bit(letter) == 0 || !words.letter(letter).is_said() {
                 continue;
             }
-            let kind = match self.dialect.alarm("unused-word") {
+            let kind = match self.core.dialect.alarm("unused-word") {
                 Some(alarm) => FaultKind::Rejected {
                     refusal: Refusal::UnusedWord,
                     message: format!(
@@ -94,13 +95,15 @@ impl Interpreter<'_> {
             let number: Option<f64> = code.id.get(1..).and_then(|number| number.parse().ok());
             code.kind == CodeKind::M
                 && number.is_some_and(|number| {
-                    self.dialect
+                    self.core
+                        .dialect
                         .builder_may_own(CodeKind::M, (number * 10.0).round() as u32)
                 })
         };
         // an auxiliary function is the machine's: where the control does not refuse its words they may be for it, and move no axis
-        let auxiliary =
-            code.kind == CodeKind::M && code.action == Action::NoMotion && self.dialect.alarm("unused-word").is_none();
+        let auxiliary = code.kind == CodeKind::M
+            && code.action == Action::NoMotion
+            && self.core.dialect.alarm("unused-word").is_none();
         if opaque || auxiliary || code.owner == Owner::MachineBuilder || of_builder() {
             return ALL;
         }
@@ -114,8 +117,8 @@ impl Interpreter<'_> {
     /// Letters that what is in force reads: arcs, cycles, tool vectors, offsets that are modal.
     pub(crate) fn read_in_force(&self, words: &Words, block: &BlockCodes) -> u32 {
         let mut read = 0;
-        let role = |letter| self.dialect.role(letter);
-        if self.dialect.quirks.offset_compensation || self.state.compensation != 0 {
+        let role = |letter| self.core.dialect.role(letter);
+        if self.core.dialect.quirks.offset_compensation || self.core.state.compensation != 0 {
             read |= bit(b'D');
         }
         if role(b'D') == Some(Role::EdgeOffset) {
@@ -127,11 +130,11 @@ impl Interpreter<'_> {
         if words.flow {
             read |= bit(b'P') | bit(b'L');
         }
-        if self.state.vector_mode {
+        if self.core.state.vector_mode {
             read |= CENTRE;
         }
         let moves = !block.takes_coordinates && !block.dwell && (words.axes.any() || block.motion.is_some());
-        read | match self.state.motion {
+        read | match self.core.state.motion {
             Some(Action::ArcClockwise | Action::ArcCounterClockwise) if moves => self.read_by_arc(words),
             Some(Action::CannedCycle | Action::NotModelled) => ALL,
             // data of a cycle may be written alone
@@ -144,18 +147,18 @@ impl Interpreter<'_> {
 
     /// An arc reads the centre's two letters of its plane, or R; a spiral all three.
     fn read_by_arc(&self, words: &Words) -> u32 {
-        let code = self.dialect.g(20).map_or(0, letters);
+        let code = self.core.dialect.g(20).map_or(0, letters);
         if self.is_spiral(words) {
             return code;
         }
-        let [first, second, _] = plane_axes(self.state.plane);
+        let [first, second, _] = plane_axes(self.core.state.plane);
         let centre = bit(b'I' + first as u8) | bit(b'I' + second as u8);
         (code & !CENTRE) | centre
     }
 
     /// Q or L beside an arc, where the arc codes read them: a spiral or cone.
     pub(crate) fn is_spiral(&self, words: &Words) -> bool {
-        let code = || self.dialect.g(20).map_or(0, letters);
+        let code = || self.core.dialect.g(20).map_or(0, letters);
         words.letters & code() & (bit(b'Q') | bit(b'L')) != 0
     }
 }

@@ -1,10 +1,8 @@
 //! The words of a block as they are compared where the block's effect is not known: numbers by value, codes and names in one spelling,
 //! and expressions with the known variables in them replaced.
 use crate::Argument;
-use crate::ProgramRun;
-use crate::run::Interpreter;
 use crate::words::{Said, Words};
-use trunnion_dialect::Role;
+use trunnion_dialect::{Dialect, Role};
 use trunnion_syntax::{Address, Block, Item, TextRange, Value, Word};
 
 /// Which words of a block count.
@@ -17,7 +15,7 @@ pub(crate) enum Keep {
 }
 
 /// The words of a block, ordered by name.
-pub(crate) fn written(view: &Block<'_>, run: &Interpreter<'_>, words: &Words, keep: Keep) -> Vec<Argument> {
+pub(crate) fn written(view: &Block<'_>, run: &impl Values, words: &Words, keep: Keep) -> Vec<Argument> {
     let mut found = Vec::new();
     let text = |range: TextRange| view.program().text(range).into_owned();
     for item in view.items() {
@@ -28,7 +26,7 @@ pub(crate) fn written(view: &Block<'_>, run: &Interpreter<'_>, words: &Words, ke
                 }
             }
             Item::Call(call) => {
-                let known = run.dialect.name(&text(call.name)).is_some();
+                let known = run.dialect().name(&text(call.name)).is_some();
                 if !(keep == Keep::BesideMotion && known) {
                     found.push(call_argument(
                         &packed(&text(call.name)),
@@ -45,18 +43,18 @@ pub(crate) fn written(view: &Block<'_>, run: &Interpreter<'_>, words: &Words, ke
 }
 
 /// Whether the motion of the block or a setting holds the word.
-fn is_held(run: &Interpreter<'_>, view: &Block<'_>, word: &Word) -> bool {
+fn is_held(run: &impl Values, view: &Block<'_>, word: &Word) -> bool {
     let tenths = match word.value {
         Value::Number(decimal) => crate::values::tenths(decimal),
         _ => None,
     };
     let role = match word.address {
-        Address::Letter(letter) => run.dialect.role(letter),
+        Address::Letter(letter) => run.dialect().role(letter),
         Address::Indexed(..) | Address::Named(_) => named_role(run, view, word),
     };
     match role {
-        Some(Role::G) => tenths.is_some_and(|tenths| run.dialect.g(tenths).is_some()),
-        Some(Role::M) => tenths.is_some_and(|tenths| run.dialect.m(tenths).is_some()),
+        Some(Role::G) => tenths.is_some_and(|tenths| run.dialect().g(tenths).is_some()),
+        Some(Role::M) => tenths.is_some_and(|tenths| run.dialect().m(tenths).is_some()),
         Some(role) => {
             is_geometry(role)
                 || matches!(
@@ -94,19 +92,19 @@ pub(crate) fn stem(view: &Block<'_>, word: &Word) -> String {
     }
 }
 
-pub(crate) fn named_role(run: &Interpreter<'_>, view: &Block<'_>, word: &Word) -> Option<Role> {
-    let role = run.dialect.named_role(stem(view, word).as_bytes());
+pub(crate) fn named_role(run: &impl Values, view: &Block<'_>, word: &Word) -> Option<Role> {
+    let role = run.dialect().named_role(stem(view, word).as_bytes());
     match (role, word.address) {
-        (None, Address::Indexed(letter, _)) => run.dialect.role(letter).filter(|role| *role == Role::Variable),
+        (None, Address::Indexed(letter, _)) => run.dialect().role(letter).filter(|role| *role == Role::Variable),
         _ => role,
     }
 }
 
 /// A word with its value; `None` for block and program numbers.
-fn word_argument(view: &Block<'_>, run: &Interpreter<'_>, words: &Words, word: &Word) -> Option<Argument> {
+fn word_argument(view: &Block<'_>, run: &impl Values, words: &Words, word: &Word) -> Option<Argument> {
     let program = view.program();
     let name = match word.address {
-        Address::Letter(letter) => match run.dialect.role(letter) {
+        Address::Letter(letter) => match run.dialect().role(letter) {
             Some(Role::BlockNumber | Role::ProgramNumber) => return None,
             _ => char::from(letter.to_ascii_uppercase()).to_string(),
         },
@@ -122,7 +120,7 @@ fn word_argument(view: &Block<'_>, run: &Interpreter<'_>, words: &Words, word: &
         (_, Said::Number(number)) => Argument::number(name, number.value),
         _ => {
             let text = program.text(word.value_range);
-            match value_of(run, &text) {
+            match run.value(&text) {
                 Some(value) => Argument::number(name, value),
                 None => Argument::text(name, &resolved(run, &text)),
             }
@@ -130,13 +128,12 @@ fn word_argument(view: &Block<'_>, run: &Interpreter<'_>, words: &Words, word: &
     })
 }
 
-/// The value of an expression of a Sinumerik program.
-pub(crate) fn value_of(run: &Interpreter<'_>, text: &str) -> Option<f64> {
-    if run.dialect.quirks.user_names() {
-        run.memory.own.value(text.trim())
-    } else {
-        run.variable(text.trim()).filter(|value| !value.is_nan())
-    }
+/// What the texts of a program are read with.
+pub(crate) trait Values {
+    /// The dialect.
+    fn dialect(&self) -> &Dialect;
+    /// The value of an expression (Sinumerik) or of a variable as it is written; `None`: unknown, or there is none.
+    fn value(&self, text: &str) -> Option<f64>;
 }
 
 /// Upper case, without blanks.
@@ -186,9 +183,9 @@ pub fn canonical_text(text: &str) -> String {
 }
 
 /// A text without blanks in upper case, in which variables with a known value are replaced by it.
-pub(crate) fn resolved(run: &Interpreter<'_>, text: &str) -> String {
+pub(crate) fn resolved(run: &impl Values, text: &str) -> String {
     let text = packed(text);
-    let hash = !run.dialect.quirks.user_names();
+    let hash = !run.dialect().quirks.user_names();
     let mut out = String::new();
     let mut rest = text.as_str();
     // a word that is assigned keeps its name
@@ -223,10 +220,8 @@ pub(crate) fn resolved(run: &Interpreter<'_>, text: &str) -> String {
             token.parse::<f64>().ok()
         } else if !hash && after.starts_with(['(', '[']) {
             None
-        } else if hash {
-            run.variable(token).filter(|value| !value.is_nan())
         } else {
-            run.memory.own.value(token)
+            run.value(token)
         };
         match value {
             Some(value) => out.push_str(&(value + 0.0).to_string()),

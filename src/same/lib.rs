@@ -20,5 +20,5 @@ pub use exact::Exact;
 pub use near::{Near, arcs_apart};
 pub use process::{Held, Process, offset_name, shown};
 pub use steps::{Input, Item, Sort, Step, Steps, Stop};
-pub use twins::may_call;
+pub use twins::run_alike;
 pub use verdict::{Difference, Verdict};

@@ -15,6 +15,9 @@ use trunnion_syntax::{Address, BlockId, Format, Item as AnyItem, Program, Value 
 /// More items without a motion between them are not kept.
 const MOST_WAITING: usize = 1_000_000;
 
+/// More motions of one block (a pecking cycle with a tiny Q) are not kept: with all that is in force at each, they would fill the memory.
+const MOST_IN_BLOCK: usize = 100_000;
+
 /// A program with everything it is run with.
 #[derive(Clone, Copy)]
 pub struct Input<'a> {
@@ -115,6 +118,8 @@ struct Run<'a> {
     process: Arc<Process>,
     stores: BTreeMap<String, Value>,
     stop: Option<Stop>,
+    /// A block does more than is kept: the run ends with it.
+    given_up: bool,
     /// Blocks of the main program whose called program is missing.
     missing: Vec<BlockId>,
     /// What is wrong, where somebody asks for it.
@@ -125,6 +130,10 @@ struct Run<'a> {
 
 impl Sink for Run<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        if self.motions.len() >= MOST_IN_BLOCK {
+            self.give_up(motion.block);
+            return;
+        }
         let leg = self.follower.as_mut().map(|follower| follower.follow(motion));
         self.motions.push_back((*motion, leg, Held::new(state)));
     }
@@ -149,6 +158,23 @@ impl Sink for Run<'_> {
         }
         self.effects.push_back((self.count, effect, None));
         self.count += 1;
+    }
+}
+
+impl Run<'_> {
+    /// The block makes more motions than are kept: the run ends with it, and those who watch faults get one.
+    #[cold]
+    fn give_up(&mut self, block: BlockId) {
+        if !std::mem::replace(&mut self.given_up, true) {
+            let why = format!("one block makes more than {MOST_IN_BLOCK} motions");
+            let what = why.clone();
+            self.stop.get_or_insert(Stop { block, why });
+            if let Some(faults) = &mut self.faults {
+                let range = trunnion_syntax::TextRange::default();
+                let kind = FaultKind::NotDecided { what };
+                faults.push(Fault { block, range, kind });
+            }
+        }
     }
 }
 
@@ -179,6 +205,7 @@ impl<'a> Steps<'a> {
                 process: Arc::default(),
                 stores: BTreeMap::new(),
                 stop: None,
+                given_up: false,
                 missing: Vec::new(),
                 faults: None,
                 log: None,
@@ -242,8 +269,9 @@ impl<'a> Steps<'a> {
 
     /// An excerpt: what is in force before its first block. `feed` in mm/min.
     pub fn assume(&mut self, tcp: bool, feed: Option<f64>) {
-        self.interpreter.state.tcp |= tcp;
-        self.interpreter.state.feed = feed.or(self.interpreter.state.feed);
+        self.interpreter.state_mut().tcp |= tcp;
+        let state = self.interpreter.state_mut();
+        state.feed = feed.or(state.feed);
     }
 
     /// Whether motions are held back until a later one is known.
@@ -273,7 +301,7 @@ impl<'a> Steps<'a> {
 
     /// The modal state now.
     pub fn state(&self) -> &ModalState {
-        &self.interpreter.state
+        self.interpreter.state()
     }
 
     /// Runs the next block; `None` at the end.
@@ -291,7 +319,7 @@ impl<'a> Steps<'a> {
         let before = self.interpreter.situation();
         let (losses, effects) = (self.interpreter.losses(), self.run.count);
         let block = self.interpreter.advance(self.input.program, &mut self.run);
-        self.over = block.is_none();
+        self.over = block.is_none() || self.run.given_up;
         if let Some(block) = block
             && let Some(word) = self.ran.get_mut(block.0 as usize / 64)
         {

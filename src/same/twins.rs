@@ -2,8 +2,7 @@
 use crate::exact::same_motion;
 use crate::steps::{Input, Item, Steps};
 use crate::verdict::{Difference, Verdict};
-use trunnion_dialect::{Action, Role};
-use trunnion_syntax::{Address, Format, Value};
+use trunnion_syntax::Format;
 
 /// Two runs of one text.
 pub(crate) enum Twins {
@@ -78,42 +77,33 @@ fn alike(was: &Item, is: &Item) -> bool {
     }
 }
 
-/// Whether a text may call a program of another file.
-pub fn may_call(input: &Input<'_>) -> bool {
-    let (program, dialect) = (input.program, input.dialect);
+/// Whether the setup of one program serves the other: tools, offsets, variables and parameters are the same, and so are called programs.
+pub fn run_alike(before: &Input<'_>, after: &Input<'_>) -> bool {
+    let mut setup = before.setup.clone();
+    setup.library = after.setup.library.clone();
+    let one_library = before.setup.library == after.setup.library || !may_call(before) && !may_call(after);
+    setup == *after.setup && one_library
+}
+
+/// Whether a text may call a program of another file: it has the words of a call, or computes codes. A Sinumerik calls any name.
+fn may_call(input: &Input<'_>) -> bool {
+    let (program, quirks) = (input.program, &input.dialect.quirks);
     if program.options().format == Format::Apt {
         return false;
     }
-    if dialect.quirks.rs274() {
-        let text = program.source().to_ascii_uppercase();
-        return [&b"CALL"[..], b"M98", b"M098"]
+    let text: Vec<u8> = (program.source().iter())
+        .filter(|byte| !byte.is_ascii_whitespace())
+        .map(u8::to_ascii_uppercase)
+        .collect();
+    let words: &[&[u8]] = if quirks.rs274() {
+        &[b"CALL", b"M98", b"M098"]
+    } else {
+        &[
+            b"M98", b"M098", b"M198", b"G65", b"G065", b"G66", b"G066", b"M#", b"G#", b"M[", b"G[",
+        ]
+    };
+    quirks.user_names()
+        || words
             .iter()
-            .any(|word| text.windows(word.len()).any(|found| found == *word));
-    }
-    let calls = |action: Action| action == Action::SubprogramCall;
-    program.blocks().any(|block| {
-        block.items().any(|item| match item {
-            trunnion_syntax::Item::Call(call) => {
-                let code = dialect.name(&program.text(call.name));
-                code.map_or(dialect.quirks.user_names(), |code| calls(code.action))
-            }
-            trunnion_syntax::Item::Word(word) => match (word.address, word.value) {
-                (Address::Letter(letter), Value::Number(number)) => {
-                    let tenths = (number.to_f64() * 10.0).round();
-                    let code = match dialect.role(letter) {
-                        _ if !(0.0..1e6).contains(&tenths) => return true,
-                        Some(Role::G) => dialect.g(tenths as u32),
-                        Some(Role::M) => dialect.m(tenths as u32),
-                        // a Sinumerik calls L100 by its number
-                        _ => return letter == b'L' && dialect.quirks.user_names(),
-                    };
-                    code.is_none_or(|code| calls(code.action))
-                }
-                // the number of a code is computed
-                (Address::Letter(letter), _) => matches!(dialect.role(letter), Some(Role::G | Role::M)),
-                _ => false,
-            },
-            _ => false,
-        })
-    })
+            .any(|word| text.windows(word.len()).any(|found| found == *word))
 }

@@ -8,40 +8,28 @@ const TOPS: u64 = 0x8080_8080_8080_8080;
 /// Eight bytes, the first of them lowest, in which a digit is its value: the others are found by [`not_digits`].
 #[inline]
 #[must_use]
-pub const fn digits(bytes: [u8; 8]) -> u64 {
+pub(crate) const fn digits(bytes: [u8; 8]) -> u64 {
     u64::from_le_bytes(bytes) ^ ZEROS
 }
 
 /// A byte as it is among [`digits`].
 #[inline]
 #[must_use]
-pub const fn as_digit(byte: u8) -> u64 {
+pub(crate) const fn as_digit(byte: u8) -> u64 {
     byte as u64 ^ 0x30
 }
 
 /// The highest bit of each byte of [`digits`] that is none. What it says of bytes after one above `z` may be wrong.
 #[inline]
 #[must_use]
-pub const fn not_digits(digits: u64) -> u64 {
+pub(crate) const fn not_digits(digits: u64) -> u64 {
     // 10 and more reach the highest bit; a sum that overflows, of a byte that has it already, spoils only what follows
     (digits.wrapping_add(0x7676_7676_7676_7676) | digits) & TOPS
 }
 
-/// The whole number of the first `bits / 8` of eight [`digits`]; at most seven of them.
-#[inline]
-#[must_use]
-pub const fn whole_number(digits: u64, bits: u32) -> u64 {
-    // zeros in front, then pairs, fours and eight digits at once
-    let digits = digits << 8 << (56 - bits);
-    let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
-    let low = (pairs & 0x0000_00ff_0000_00ff).wrapping_mul(0x000f_4240_0000_0064);
-    let high = (pairs >> 16 & 0x0000_00ff_0000_00ff).wrapping_mul(0x0000_2710_0000_0001);
-    low.wrapping_add(high) >> 32
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{as_digit, digits, not_digits, whole_number};
+    use super::{as_digit, digits, not_digits};
 
     #[test]
     fn every_byte_is_a_digit_or_none_wherever_it_stands() {
@@ -60,15 +48,5 @@ mod tests {
         }
         let both = not_digits(digits(*b"1.23 456"));
         assert_eq!(both, 0x80_0000_8000);
-    }
-
-    #[test]
-    fn whole_numbers_are_those_that_are_written() {
-        let bytes = *b"9070605x";
-        let mut value = 0;
-        for count in 0..8_usize {
-            assert_eq!(whole_number(digits(bytes), 8 * count as u32), value);
-            value = value * 10 + u64::from(bytes[count].wrapping_sub(b'0'));
-        }
     }
 }

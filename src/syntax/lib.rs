@@ -29,7 +29,6 @@ mod table;
 mod token;
 
 pub use block::{Address, Block, Call, Comment, Item, Value, Word};
-pub use digits::{as_digit, digits, not_digits, whole_number};
 pub use edit::{TextEdit, apply_edits};
 pub use error::{SyntaxError, SyntaxErrorKind};
 pub use halves::parse_on;

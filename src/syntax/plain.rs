@@ -3,7 +3,7 @@
 //!
 //! It takes only what the lexer's own rules would cut in the same way (a test compares both), and stops before all else.
 use crate::builder::{Builder, HELD};
-use crate::length::{WHOLE, short, whole};
+use crate::length::short;
 use crate::straight::{Course, Sign};
 use crate::{LexOptions, TokenKind};
 
@@ -90,34 +90,6 @@ fn digits(source: &[u8], mut at: usize) -> usize {
         at += 1;
     }
     at
-}
-
-/// Words with plain numbers and one blank between them from `at` on, and the ends of their lines: most of every program. Between two items
-/// they leave the course where it is.
-#[inline(never)]
-fn words<'o>(source: &[u8], mut at: usize, options: LexOptions, mut cut: Cut<'o>) -> (usize, Cut<'o>) {
-    while let Some(word) = source.get(at..).and_then(<[u8]>::first_chunk::<WHOLE>) {
-        // a step adds three tokens at most
-        if cut.count > HELD - 3 {
-            cut.release();
-        }
-        let Some(length) = whole(word) else { break };
-        cut.hold(TokenKind::Word, at);
-        at += length;
-        match word[length] {
-            b' ' if GOES_ON[usize::from(word[length + 1])] & BLANK == 0 => {
-                cut.hold(TokenKind::Blank, at);
-                at += 1;
-            }
-            b'\n' => {
-                let start = at;
-                at += 1;
-                cut.line_end(source, options, start, at);
-            }
-            _ => break,
-        }
-    }
-    (at, cut)
 }
 
 /// The word at `at`, whose digits begin at `first`: pushed, and what is behind it; `None` if there is no number.
@@ -242,12 +214,6 @@ fn lex_into<'o>(source: &[u8], mut at: usize, options: LexOptions, mut cut: Cut<
         let start = at;
         match CLASSES[usize::from(byte)] {
             Class::Letter => {
-                if cut.course.is_between() {
-                    (at, cut) = words(source, at, options, cut);
-                    if at > start {
-                        continue;
-                    }
-                }
                 let Some(end) = lettered(source, at, &mut cut) else {
                     break;
                 };

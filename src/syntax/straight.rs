@@ -266,12 +266,6 @@ impl Course {
         self.pass(sign);
     }
 
-    /// Whether it is between two items, where words and blanks leave it.
-    #[inline]
-    pub(crate) fn is_between(self) -> bool {
-        self.0 == BETWEEN
-    }
-
     /// After a token that the grammar must look at.
     #[inline]
     pub(crate) fn odd(&mut self) {

@@ -10,6 +10,7 @@ mod guide_vane;
 mod independent;
 mod lsp;
 mod lsp_client;
+mod mutated_formats;
 mod mutations;
 mod real_files;
 mod rewrites;

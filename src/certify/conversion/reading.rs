@@ -130,10 +130,10 @@ pub fn read(run: &Run<'_>) -> Reading {
     };
     let mut interpreter = Interpreter::new(run.dialect, run.setup);
     if run.assume.tcp {
-        interpreter.state.tcp = true;
+        interpreter.state_mut().tcp = true;
     }
     if let Some(feed) = run.assume.feed_mm_min {
-        interpreter.state.feed = Some(feed);
+        interpreter.state_mut().feed = Some(feed);
     }
     while let Some(block) = interpreter.advance(&program, &mut sink) {
         sink.block_done(block, &interpreter);

@@ -2,17 +2,18 @@
 use super::Stage;
 use crate::FaultKind;
 use crate::codes::Found;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::{Said, Words};
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// G41 (41) or G42 (42).
     pub(crate) fn compensation(&mut self, side: u8, found: &Found<'d>, words: &Words, report: &mut Report<'_>) {
-        let before = self.state.compensation;
-        self.state.compensation = side;
-        let plane = self.dialect.quirks.offset_compensation && matches!(found.code.id.as_str(), "G41" | "G42");
+        let before = self.core.state.compensation;
+        self.core.state.compensation = side;
+        let plane = self.core.dialect.quirks.offset_compensation && matches!(found.code.id.as_str(), "G41" | "G42");
         if !plane {
-            if !std::mem::replace(&mut self.memory.compensation_said, true) {
+            if !std::mem::replace(&mut self.core.compensation_reported, true) {
                 let what = "cutter radius compensation: the programmed path is used instead".to_owned();
                 report.fault(found.range, FaultKind::NotModelled { what });
             }
@@ -43,7 +44,7 @@ impl<'d> Interpreter<'d> {
             }
             None => {
                 self.memory.compensation.stage = Stage::Off;
-                if !std::mem::replace(&mut self.memory.compensation_said, true) {
+                if !std::mem::replace(&mut self.core.compensation_reported, true) {
                     let d = d.map_or_else(|| "D".to_owned(), |d| format!("D{d}"));
                     let what = format!(
                         "cutter radius compensation: the radius of {d} is not declared; the programmed path is used instead"
@@ -64,7 +65,7 @@ impl<'d> Interpreter<'d> {
     /// D in a block of its own, while compensation is on.
     pub(crate) fn cutter_number(&mut self, words: &Words, report: &mut Report<'_>) {
         let d = words.letter(b'D');
-        if !d.is_said() || self.state.compensation == 0 || d.index() == self.memory.compensation.d {
+        if !d.is_said() || self.core.state.compensation == 0 || d.index() == self.memory.compensation.d {
             return;
         }
         self.memory.compensation.d = d.index();
@@ -82,7 +83,9 @@ impl<'d> Interpreter<'d> {
             return None;
         }
         let declared = || {
-            self.tool_of(Some(number))
+            self.core
+                .tools
+                .data(Some(number), &self.core.setup)
                 .and_then(|tool| tool.diameter_mm)
                 .map(|diameter| 0.5 * diameter)
         };

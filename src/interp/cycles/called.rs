@@ -7,7 +7,8 @@
 use super::hole::Plan;
 use crate::arc::plane_axes;
 use crate::codes::{BlockCodes, Found, not_modelled};
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Feed, FeedMode, Motion, MotionKind};
 use std::sync::Arc;
@@ -109,7 +110,7 @@ impl HoleCall {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// A cycle with its numbers in the block, or after the block's motion under MCALL, which is then emitted before it.
     pub(crate) fn called_cycle(
         &mut self,
@@ -124,7 +125,7 @@ impl Interpreter<'_> {
             let call = HoleCall::new(&found.code.id, numbers).filter(|_| !words.axes.any());
             let Some(call) = call else {
                 not_modelled(found, report);
-                self.forget_position();
+                self.core.forget_position();
                 return;
             };
             if block.modal_call {
@@ -168,7 +169,7 @@ impl Interpreter<'_> {
 
     /// Runs a cycle at the present position.
     fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
-        let axis = plane_axes(self.state.plane)[2];
+        let axis = plane_axes(self.core.state.plane)[2];
         let other_axis = match call.sort {
             Sort::Deep | Sort::Tap => call.number(12).or_zero() != Some(0.0),
             _ => false,
@@ -184,12 +185,12 @@ impl Interpreter<'_> {
             let what = format!("{} {}", call.id, why.unwrap_or_default());
             report.fault(TextRange::default(), FaultKind::NotModelled { what });
             let mut motion = self.unknown_motion(&Words::default(), report);
-            motion.end.known &= !crate::offsets::LINEAR;
-            self.forget_linear();
+            motion.end.known &= !crate::core::LINEAR;
+            self.core.forget_linear();
             self.memory.out.push(motion);
             return;
         };
-        let unit = self.state.length_unit_mm;
+        let unit = self.core.state.length_unit_mm;
         let feed = self.call_feed(call, words, report);
         let plan = Plan {
             axis,
@@ -205,13 +206,13 @@ impl Interpreter<'_> {
         if call.sort == Sort::Tap {
             // direction after the cycle: 3, 4, otherwise the spindle is off
             let after = call.number(6).or_zero();
-            self.state.spindle_on = after.map(|code| code == 3.0 || code == 4.0);
+            self.core.state.spindle_on = after.map(|code| code == 3.0 || code == 4.0);
         }
     }
 
     /// The feed that a cycle goes down with.
     fn call_feed(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) -> Feed {
-        let unit = self.state.length_unit_mm;
+        let unit = self.core.state.length_unit_mm;
         match call.sort {
             Sort::Ream => self.own_feed(call.number(6)),
             Sort::Tap => {
@@ -243,8 +244,8 @@ impl Interpreter<'_> {
         let Given::Number(number) = given else {
             return Feed::Unknown;
         };
-        let feed = number * self.state.feed_unit_mm;
-        match self.state.feed_mode {
+        let feed = number * self.core.state.feed_unit_mm;
+        match self.core.state.feed_mode {
             _ if feed <= 0.0 => Feed::Unknown,
             FeedMode::PerMinute => Feed::PerMinute(feed),
             FeedMode::PerRevolution => Feed::PerRevolution(feed),
@@ -256,9 +257,9 @@ impl Interpreter<'_> {
     fn call_spindle(&mut self, call: &HoleCall) {
         match call.sort {
             Sort::Tap => {
-                self.state.spindle_on = Some(true);
+                self.core.state.spindle_on = Some(true);
                 let speed = call.number(10).or_zero().filter(|speed| *speed > 0.0);
-                self.state.spindle_rpm = speed;
+                self.core.state.spindle_rpm = speed;
             }
             Sort::Bore | Sort::BoreStop => {
                 let place = match (call.sort, call.id) {
@@ -267,10 +268,10 @@ impl Interpreter<'_> {
                 };
                 if let Some(code) = call.number(place).or_zero() {
                     if code == 3.0 || code == 4.0 {
-                        self.state.spindle_on = Some(true);
+                        self.core.state.spindle_on = Some(true);
                     }
                 } else {
-                    self.state.spindle_on = None;
+                    self.core.state.spindle_on = None;
                 }
             }
             _ => {}
@@ -307,24 +308,24 @@ impl Interpreter<'_> {
                 self.down(&out, MotionKind::Linear, plan.r, report);
             }
             Sort::Bore => {
-                self.state.spindle_on = Some(false);
+                self.core.state.spindle_on = Some(false);
                 self.lift_off(call, 1.0, report);
                 self.down(plan, MotionKind::Rapid, plan.back, report);
                 self.lift_off(call, -1.0, report);
                 return;
             }
-            Sort::BoreStop => self.state.spindle_on = Some(false),
+            Sort::BoreStop => self.core.state.spindle_on = Some(false),
         }
         self.down(plan, MotionKind::Rapid, plan.back, report);
         if call.sort == Sort::BoreStop {
-            self.state.spindle_on = None;
+            self.core.state.spindle_on = None;
         }
     }
 
     /// CYCLE86: RPA, RPO and RPAP off the wall (1), and RPA and RPO back over the hole (-1).
     fn lift_off(&mut self, call: &HoleCall, sign: f64, report: &mut Report<'_>) {
-        let axes = plane_axes(self.state.plane);
-        let position = self.state.position;
+        let axes = plane_axes(self.core.state.plane);
+        let position = self.core.state.position;
         let before = self.memory.frames.programmed(&position);
         let mut place = before;
         for (number, axis) in [(7, axes[0]), (8, axes[1]), (9, axes[2])] {
@@ -332,7 +333,7 @@ impl Interpreter<'_> {
                 continue;
             }
             match (call.number(number).or_zero(), place.get(axis)) {
-                (Some(by), Some(at)) => place.set(axis, at + sign * by * self.state.length_unit_mm),
+                (Some(by), Some(at)) => place.set(axis, at + sign * by * self.core.state.length_unit_mm),
                 _ => place.forget(axis),
             }
         }
@@ -346,7 +347,7 @@ impl Interpreter<'_> {
         let seconds = match given {
             Given::Nothing => return,
             Given::Number(seconds) if seconds >= 0.0 => Some(seconds),
-            Given::Number(turns) => self.state.spindle_rpm.map(|rpm| -turns / rpm * 60.0),
+            Given::Number(turns) => self.core.state.spindle_rpm.map(|rpm| -turns / rpm * 60.0),
             Given::Unread => None,
         };
         if seconds != Some(0.0) {

@@ -3,7 +3,8 @@
 //! An arc of a lathe without Y is in the plane of X and Z all the same: a second run takes Y as 0, and counts only where nothing names
 //! or reads Y.
 use crate::Sink;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::{Said, Words};
 use crate::{Fault, FaultKind, ModalState, Motion, MotionKind, Refusal};
 use trunnion_flow::{Key, Search};
@@ -49,7 +50,7 @@ impl Sink for Collected {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Reads the contour that P and Q of the cycle name. Faults of its blocks are reported once. `None`: it is unknown, and that is reported.
     pub(super) fn contour(&mut self, words: &Words, report: &mut Report<'_>) -> Option<Contour> {
         let program = report.program;
@@ -63,7 +64,7 @@ impl Interpreter<'_> {
                 (report.faults)(fault);
             }
         }
-        let ends = self.memory.frames.active || self.memory.frames.tilt.is_some() || self.state.frame_unknown;
+        let ends = self.memory.frames.active || self.memory.frames.tilt.is_some() || self.core.state.frame_unknown;
         let known = |motion: &Motion| {
             let path = matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(_));
             let place = |axis| motion.start.get(axis).is_some() && motion.end.get(axis).is_some();
@@ -102,7 +103,7 @@ impl Interpreter<'_> {
     /// The motions of a contour in the plane of X and Z: arcs of a lathe that has no Y are known there.
     pub(super) fn in_plane(&self, contour: &Contour, program: &Program) -> Vec<Motion> {
         let reads = |block: u32| program.bytes(program.block(BlockId(block)).range()).contains(&b'#');
-        if self.state.position.get(Y).is_some() || (contour.first..=contour.last).any(reads) {
+        if self.core.state.position.get(Y).is_some() || (contour.first..=contour.last).any(reads) {
             return contour.motions.clone();
         }
         let mut found = self.run_blocks(program, contour.first, contour.last, Some(0.0));
@@ -126,17 +127,17 @@ impl Interpreter<'_> {
         ghost.memory.out.clear();
         ghost.memory.corners = crate::corner::Corners::default();
         if let Some(y) = y {
-            ghost.state.position.set(Y, y);
+            ghost.core.state.position.set(Y, y);
         }
         let mut found = Collected::default();
         for block in first..=last {
             ghost.step_iso(&program.block(BlockId(block)), &mut found);
-            if ghost.state.ended {
+            if ghost.core.state.ended {
                 break;
             }
         }
-        found.ended = ghost.state.ended;
-        found.feed = ghost.state.feed;
+        found.ended = ghost.core.state.ended;
+        found.feed = ghost.core.state.feed;
         ghost.put_out_rest(&program.block(BlockId(last)), &mut found);
         found
     }

@@ -1,6 +1,6 @@
 //! What drilling cycles keep from block to block.
 use crate::ImplicitDecimals;
-use crate::run::Interpreter;
+use crate::iso::Iso;
 use crate::words::Words;
 use trunnion_dialect::Action;
 
@@ -56,17 +56,17 @@ impl Hole {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// A word that is a length without being a coordinate, mm: Q, I, J, K of a cycle.
     pub(crate) fn length_word(&self, words: &Words, letter: u8) -> Option<f64> {
         let number = words.letter(letter).number()?;
-        let least = self.setup.control.implicit_decimals == Some(ImplicitDecimals::LeastIncrement);
-        let value = match (least && !number.has_point, self.state.length_unit_mm != 1.0) {
+        let least = self.core.setup.control.implicit_decimals == Some(ImplicitDecimals::LeastIncrement);
+        let value = match (least && !number.has_point, self.core.state.length_unit_mm != 1.0) {
             (true, true) => number.value / 10_000.0,
             (true, false) => number.value / 1000.0,
             (false, _) => number.value,
         };
-        Some(value * self.state.length_unit_mm)
+        Some(value * self.core.state.length_unit_mm)
     }
 
     /// Keeps the data of a block.
@@ -77,8 +77,8 @@ impl Interpreter<'_> {
             (true, Some(value)) if incremental => Some(Stored::By(value)),
             (true, Some(value)) => Some(Stored::At(value)),
         };
-        let incremental = self.state.incremental;
-        let unit = self.state.length_unit_mm;
+        let incremental = self.core.state.incremental;
+        let unit = self.core.state.length_unit_mm;
         let z = words.axes.get(axis).map(|value| value * unit);
         let z_said = (words.axes.given | words.axes.unread) & (1 << axis) != 0;
         let bottom = stored(z_said, z, incremental);
@@ -88,13 +88,13 @@ impl Interpreter<'_> {
         // P of a call is a program
         let p = words.p.number().filter(|_| !words.flow);
         let dwell = p.map(|p| {
-            let ms = self.dialect.quirks.dwell_in_ms && !p.has_point;
+            let ms = self.core.dialect.quirks.dwell_in_ms && !p.has_point;
             if ms { p.value / 1000.0 } else { p.value }
         });
         let reads = self.memory.cycle.reads;
         let ijk = [(b'I', reads[0]), (b'J', reads[1]), (b'K', reads[2])];
         let ijk = ijk.map(|(letter, reads)| self.length_word(words, letter).filter(|_| reads));
-        let taps = matches!(self.state.motion, Some(Action::TapCycle | Action::TapLeftCycle));
+        let taps = matches!(self.core.state.motion, Some(Action::TapCycle | Action::TapLeftCycle));
         let times = words.letter(b'J').number().filter(|_| taps).map(|number| number.value);
         let hole = &mut self.memory.cycle.hole;
         hole.bottom = bottom.unwrap_or(hole.bottom);

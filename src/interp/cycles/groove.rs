@@ -4,7 +4,8 @@
 //! reached; the end is back at the start. P and Q are radii in least increments, without sign. Sources: Fanuc Series 30i operator's manual,
 //! lathe system; Adtech CNC4620 programming manual, sections 3.6.5 and 3.6.6. Whether the first cut is relieved at its bottom (R of the second block) is
 //! described differently, so that is unknown.
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
 use trunnion_dialect::Action;
@@ -27,7 +28,7 @@ struct Grooves {
     feed: Feed,
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// G74 and G75: the first of two blocks says the lift, the second the rest.
     pub(super) fn peck_groove(&mut self, action: Action, words: &Words, report: &mut Report<'_>) {
         if !words.axes.any() {
@@ -36,7 +37,7 @@ impl Interpreter<'_> {
             }
             return;
         }
-        let start = self.state.position;
+        let start = self.core.state.position;
         let mut end = start;
         self.targets(&words.axes, false, &mut end);
         let axes = if action == Action::FacePeckCycle {
@@ -67,7 +68,7 @@ impl Interpreter<'_> {
         let relieved = words.radius.is_said() && words.radius.number().is_none_or(|number| number.value != 0.0);
         let way = |place: usize| (end.values[axes[place]] - start.values[axes[place]]).abs();
         let count = |place: usize| way(place) / steps[place].filter(|step| *step > 0.0).unwrap_or(f64::MAX);
-        let why = if self.memory.frames.active || self.state.frame_unknown || !known {
+        let why = if self.memory.frames.active || self.core.state.frame_unknown || !known {
             Some("from or to an unknown position")
         } else if relieved {
             Some("with a relief at the bottom (R)")
@@ -122,11 +123,11 @@ impl Interpreter<'_> {
     /// From the present position down to the end, in steps.
     fn pecks(&mut self, grooves: &Grooves, report: &Report<'_>) {
         let axis = grooves.axes[0];
-        let from = self.state.position.values[axis];
+        let from = self.core.state.position.values[axis];
         let way = grooves.ends[0] - from;
         let mut done = 0.0;
         let to = |interpreter: &mut Self, kind, value: Option<f64>| {
-            let mut place = interpreter.state.position;
+            let mut place = interpreter.core.state.position;
             match value {
                 Some(value) => place.set(axis, value),
                 None => place.forget(axis),
@@ -154,7 +155,7 @@ impl Interpreter<'_> {
     /// P or Q of these cycles, mm: least increments (0.001 mm, 0.0001 inch) where it has no decimal point.
     pub(super) fn increment_word(&self, words: &Words, letter: u8) -> Option<f64> {
         let number = words.letter(letter).number()?;
-        let unit = self.state.length_unit_mm;
+        let unit = self.core.state.length_unit_mm;
         let least = if unit == 1.0 { 0.001 } else { 0.0001 };
         Some((number.value * if number.has_point { unit } else { least * unit }).abs())
     }

@@ -1,7 +1,8 @@
 //! Drilling, tapping and boring cycles: to the hole, rapid to R, down to Z as the cycle says, and back.
 use super::data::Stored;
 use crate::arc::plane_axes;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::{Said, Words};
 use crate::{FaultKind, Feed, MotionKind, Position, Refusal};
 use trunnion_dialect::Action;
@@ -23,10 +24,10 @@ pub(super) struct Plan {
     pub(super) feed: Feed,
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Runs the cycle in force at the places that the block says.
     pub(crate) fn hole_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
-        let axis = plane_axes(self.state.plane)[2];
+        let axis = plane_axes(self.core.state.plane)[2];
         self.store_hole(words, axis);
         let repeats = match words.letter(self.memory.cycle.repeats) {
             // L of a call repeats the call
@@ -61,7 +62,7 @@ impl Interpreter<'_> {
             if self.is_full() {
                 return self.too_many(words, axis, report);
             }
-            let position = self.state.position;
+            let position = self.core.state.position;
             let mut place = self.memory.frames.programmed(&position);
             let before = place;
             let others = Words {
@@ -78,12 +79,12 @@ impl Interpreter<'_> {
 
     /// Whether the block in hand, or the cycles of the run together, have made more motions than are worked out.
     pub(super) fn is_full(&self) -> bool {
-        self.memory.out.len() > MOST_MOTIONS || self.cycle_motions > self.setup.limits.blocks
+        self.memory.out.len() > MOST_MOTIONS || self.cycle_motions > self.core.setup.limits.blocks
     }
 
     /// Why a block is full.
     pub(super) fn full(&self) -> String {
-        let blocks = self.setup.limits.blocks;
+        let blocks = self.core.setup.limits.blocks;
         if self.cycle_motions > blocks {
             return format!("more than {blocks} motions in the cycles of the program ([limits] blocks)");
         }
@@ -122,13 +123,13 @@ impl Interpreter<'_> {
             return None;
         };
         let feed = self.feed_of(MotionKind::Linear, words, report);
-        let always_initial = self.state.motion == Some(Action::BackBoreCycle);
+        let always_initial = self.core.state.motion == Some(Action::BackBoreCycle);
         let back = if self.memory.cycle.to_r && !always_initial {
             r
         } else {
             hole.initial
         };
-        let steps = matches!(self.state.motion, Some(Action::PeckCycle | Action::ChipBreakCycle));
+        let steps = matches!(self.core.state.motion, Some(Action::PeckCycle | Action::ChipBreakCycle));
         if steps && hole.q.is_none_or(|q| q == 0.0) && hole.ijk[0].is_none() {
             let message = format!("{} without Q, the depth of each step", self.memory.cycle.id);
             self.refuse(words, Refusal::CannedCycle, message, Some("peck-missing"), report);
@@ -153,7 +154,7 @@ impl Interpreter<'_> {
         alarm: Option<&str>,
         report: &mut Report<'_>,
     ) {
-        let alarm = alarm.and_then(|mistake| self.dialect.alarm(mistake));
+        let alarm = alarm.and_then(|mistake| self.core.dialect.alarm(mistake));
         let kind = FaultKind::Rejected {
             refusal,
             message,
@@ -169,14 +170,14 @@ impl Interpreter<'_> {
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
         }
         let mut motion = self.unknown_motion(words, report);
-        self.state.position.forget(axis);
+        self.core.state.position.forget(axis);
         motion.end.forget(axis);
         self.memory.out.push(motion);
     }
 
     /// A motion of the drilling axis alone; an unknown target is forgotten.
     pub(super) fn down(&mut self, plan: &Plan, kind: MotionKind, to: Option<f64>, report: &Report<'_>) {
-        let position = self.state.position;
+        let position = self.core.state.position;
         let here = self.memory.frames.programmed(&position);
         let mut place = here;
         match to {
@@ -201,12 +202,15 @@ impl Interpreter<'_> {
 
     /// A dwell; `None`: of unknown length.
     pub(super) fn pause(&mut self, seconds: Option<f64>, report: &Report<'_>) {
-        let position = self.state.position;
+        let position = self.core.state.position;
         let kind = MotionKind::Dwell(seconds);
-        let mut motion = self.new_motion(kind, position, position, self.held_orientation(), Feed::Unknown, report);
-        if self.state.frame_unknown {
-            self.hide(&mut motion);
-        }
+        let motion = self.core.motion_in_frame(
+            kind,
+            [position, position],
+            self.core.held_orientation(),
+            Feed::Unknown,
+            report,
+        );
         self.memory.out.push(motion);
     }
 
@@ -217,7 +221,7 @@ impl Interpreter<'_> {
             interpreter.down(plan, MotionKind::Linear, plan.r, report);
             interpreter.down(plan, MotionKind::Rapid, plan.back, report);
         };
-        let Some(action) = self.state.motion else { return };
+        let Some(action) = self.core.state.motion else { return };
         if action == Action::BackBoreCycle {
             self.back_bore(plan, report);
             return;
@@ -268,9 +272,9 @@ impl Interpreter<'_> {
     }
 
     fn with_spindle_off(&mut self, run: impl FnOnce(&mut Self)) {
-        let before = self.state.spindle_on.replace(false);
+        let before = self.core.state.spindle_on.replace(false);
         run(self);
-        self.state.spindle_on = before;
+        self.core.state.spindle_on = before;
     }
 
     /// How far the tool moves off the wall, first and second axis of the plane; `None`: a parameter of the control decides the direction, and
@@ -282,8 +286,13 @@ impl Interpreter<'_> {
         {
             return Some([i.unwrap_or(0.0), j.unwrap_or(0.0)]);
         }
-        let [a, b, _] = plane_axes(self.state.plane);
-        let declared = self.setup.control.bore_shift.filter(|_| !self.memory.frames.active);
+        let [a, b, _] = plane_axes(self.core.state.plane);
+        let declared = self
+            .core
+            .setup
+            .control
+            .bore_shift
+            .filter(|_| !self.memory.frames.active);
         if let Some(((axis, sense), q)) = declared
             .filter(|(axis, _)| [a, b].contains(axis))
             .zip(hole.q.map(f64::abs))
@@ -300,8 +309,8 @@ impl Interpreter<'_> {
 
     /// Moves the tool off the wall (1) or back (-1).
     fn shift(&mut self, aside: Option<[f64; 2]>, sign: f64, report: &Report<'_>) {
-        let [a, b, _] = plane_axes(self.state.plane);
-        let position = self.state.position;
+        let [a, b, _] = plane_axes(self.core.state.plane);
+        let position = self.core.state.position;
         let mut place = self.memory.frames.programmed(&position);
         let kept = self.memory.cycle.hole_place;
         match aside {
@@ -351,7 +360,7 @@ impl Interpreter<'_> {
         self.targets(&words.axes, false, place);
         if self.memory.frames.active {
             if let Some(mut polar) = self.memory.frames.polar {
-                polar.place(words, &self.state, place);
+                polar.place(words, &self.core.state, place);
                 self.memory.frames.polar = Some(polar);
             }
             self.after_turn(words, place);

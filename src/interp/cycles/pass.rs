@@ -3,7 +3,8 @@
 //! A thread may be left before its end: parameter 5130 says how many leads before (Fanuc Series 30i operator's manual, lathe system, threading
 //! cycle), and the sources show only in pictures how the tool retracts there.
 use super::Stored;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Feed, MotionKind};
 use trunnion_dialect::Action;
@@ -11,10 +12,10 @@ use trunnion_dialect::Action;
 const X: usize = 0;
 const Z: usize = 2;
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Runs the pass in force with what the block changes of it. X is a radius here; R is the difference of radii (or of Z when facing).
     pub(crate) fn pass_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
-        let position = self.state.position;
+        let position = self.core.state.position;
         let start = self.memory.frames.programmed(&position);
         self.keep_pass(words);
         let [x, z, taper] = self.memory.cycle.pass;
@@ -34,18 +35,18 @@ impl Interpreter<'_> {
             let what = format!("{} from or to an unknown position", self.memory.cycle.id);
             report.fault(words.first.unwrap_or_default(), FaultKind::NotModelled { what });
             let mut motion = self.unknown_motion(words, report);
-            motion.end.known &= !crate::offsets::LINEAR;
-            self.forget_linear();
+            motion.end.known &= !crate::core::LINEAR;
+            self.core.forget_linear();
             self.memory.out.push(motion);
             return;
         };
-        let threading = self.state.motion == Some(Action::ThreadingCycle);
+        let threading = self.core.state.motion == Some(Action::ThreadingCycle);
         let feed = if threading {
             self.lead(words, report)
         } else {
             self.feed_of(MotionKind::Linear, words, report)
         };
-        let (before, after) = if self.state.motion == Some(Action::FacingCycle) {
+        let (before, after) = if self.core.state.motion == Some(Action::FacingCycle) {
             ((x_start, z + taper), (x, z_start))
         } else {
             ((x + taper, z_start), (x_start, z))
@@ -66,7 +67,7 @@ impl Interpreter<'_> {
             self.pull_out(&mut corners, feed, report);
         }
         for (to, kind) in corners {
-            let position = self.state.position;
+            let position = self.core.state.position;
             let mut place = self.memory.frames.programmed(&position);
             place.set(X, to.0);
             place.set(Z, to.1);
@@ -90,8 +91,8 @@ impl Interpreter<'_> {
             if words.axes.unread & bit != 0 {
                 self.memory.cycle.pass[slot] = Stored::Unknown;
             } else if let Some(value) = self.axis_value(words, axis) {
-                let incremental =
-                    words.axes.incremental & bit != 0 || (self.state.incremental && words.axes.absolute & bit == 0);
+                let incremental = words.axes.incremental & bit != 0
+                    || (self.core.state.incremental && words.axes.absolute & bit == 0);
                 self.memory.cycle.pass[slot] = if incremental {
                     Stored::By(value)
                 } else {
@@ -103,14 +104,14 @@ impl Interpreter<'_> {
             let taper = words
                 .radius
                 .number()
-                .map(|number| number.value * self.state.length_unit_mm);
+                .map(|number| number.value * self.core.state.length_unit_mm);
             self.memory.cycle.pass[2] = taper.map_or(Stored::Unknown, Stored::By);
         }
     }
 
     /// What happens to the corners of a thread that is left before its end. If it is not declared whether it is, they stay, and that is reported.
     fn pull_out(&self, corners: &mut Vec<((f64, f64), MotionKind)>, lead: Feed, report: &mut Report<'_>) {
-        let (Some(leads), Feed::PerRevolution(lead)) = (self.setup.control.thread_pull_out, lead) else {
+        let (Some(leads), Feed::PerRevolution(lead)) = (self.core.setup.control.thread_pull_out, lead) else {
             let why =
                 "whether the tool pulls out before the end of the thread (declare [control] thread_pull_out, in leads)";
             return self.not_worked_out(why, report);

@@ -1,7 +1,8 @@
 //! Holes on a circle, an arc or a line (Haas G70, G71, G72): the cycle in force runs at each of them.
 use crate::arc::plane_axes;
 use crate::codes::Found;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Refusal};
 use trunnion_dialect::Action;
@@ -32,11 +33,11 @@ impl Pattern {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Runs the cycle in force at the holes of the pattern; I is a radius or distance, J an angle, K an angle, L counts.
     pub(crate) fn pattern(&mut self, pattern: Pattern, words: &Words, report: &mut Report<'_>) {
-        let [a, b, _] = plane_axes(self.state.plane);
-        if !self.state.motion.is_some_and(Action::is_hole_cycle) {
+        let [a, b, _] = plane_axes(self.core.state.plane);
+        if !self.core.state.motion.is_some_and(Action::is_hole_cycle) {
             let message = "a pattern of holes without a canned cycle: program the cycle first, with L0".to_owned();
             self.refuse(words, Refusal::CannedCycle, message, None, report);
             return;
@@ -59,19 +60,19 @@ impl Interpreter<'_> {
                 return;
             }
         };
-        let position = self.state.position;
+        let position = self.core.state.position;
         let mut centre = self.memory.frames.programmed(&position);
         self.place(words, &mut centre);
         let (Some(x), Some(y)) = (centre.get(a), centre.get(b)) else {
             let what = "a pattern of holes around an unknown point".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
-            self.forget_linear();
+            self.core.forget_linear();
             return;
         };
-        let incremental = std::mem::replace(&mut self.state.incremental, false);
+        let incremental = std::mem::replace(&mut self.core.state.incremental, false);
         for hole in 0..count {
             if self.is_full() {
-                self.too_many(words, plane_axes(self.state.plane)[2], report);
+                self.too_many(words, plane_axes(self.core.state.plane)[2], report);
                 break;
             }
             let number = f64::from(hole);
@@ -80,7 +81,7 @@ impl Interpreter<'_> {
                 _ => (size, first + step * number),
             };
             let (sin, cos) = sin_cos(degrees.to_radians());
-            let unit = self.state.length_unit_mm;
+            let unit = self.core.state.length_unit_mm;
             let mut place = Words::default();
             place.axes.values[a] = (x + along * cos) / unit;
             place.axes.values[b] = (y + along * sin) / unit;
@@ -89,6 +90,6 @@ impl Interpreter<'_> {
             place.feed = words.feed;
             self.hole_cycle(&place, report);
         }
-        self.state.incremental = incremental;
+        self.core.state.incremental = incremental;
     }
 }

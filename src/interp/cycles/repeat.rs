@@ -8,7 +8,8 @@ use super::contour::{Contour, shifted};
 use super::rough::Roughing;
 use super::thread::Thread;
 use crate::codes::Found;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Feed, Motion, MotionKind, Position};
 use trunnion_dialect::Action;
@@ -50,7 +51,7 @@ impl Repeated {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Takes the cycle of a block; its coordinates are its own.
     pub(crate) fn take_repeated(&mut self, found: &Found<'_>) -> Repeated {
         self.memory.cycle.id.clone_from(&found.code.id);
@@ -64,7 +65,7 @@ impl Interpreter<'_> {
         if self.memory.in_contour {
             let what = format!("{} inside the contour of a cycle", self.memory.cycle.id);
             report.fault(report.whole(), FaultKind::NotModelled { what });
-            self.forget_linear();
+            self.core.forget_linear();
             return;
         }
         match repeated.action {
@@ -91,7 +92,7 @@ impl Interpreter<'_> {
     }
 
     fn along_contour(&mut self, action: Action, words: &Words, report: &mut Report<'_>) {
-        let start = self.state.position;
+        let start = self.core.state.position;
         let Some(contour) = self.contour(words, report) else {
             self.nowhere(start, report);
             return;
@@ -118,15 +119,15 @@ impl Interpreter<'_> {
     /// G70: along the contour with its own feeds, then back.
     fn finish_contour(&mut self, contour: Contour, start: Position, report: &Report<'_>) {
         for mut motion in contour.motions {
-            motion.block = self.flow.main_block(report.block);
-            self.state.position = motion.end;
+            motion.block = self.core.main_block(report.block);
+            self.core.state.position = motion.end;
             self.memory.out.push(motion);
         }
         self.rapid_straight(start, report);
-        if contour.feed != self.state.feed {
+        if contour.feed != self.core.state.feed {
             // the sources do not say whether F of the contour stays
-            self.state.feed = None;
-            self.memory.feed_unread = true;
+            self.core.state.feed = None;
+            self.core.feed_unread = true;
         }
     }
 
@@ -165,19 +166,19 @@ impl Interpreter<'_> {
     pub(super) fn along(&mut self, motions: &[Motion], by: [f64; 2], feed: Feed, report: &Report<'_>) {
         for motion in motions {
             let mut motion = shifted(motion, by[0], by[1]);
-            motion.block = self.flow.main_block(report.block);
-            (motion.spindle_on, motion.spindle_rpm) = (self.state.spindle_on, self.state.spindle_rpm);
+            motion.block = self.core.main_block(report.block);
+            (motion.spindle_on, motion.spindle_rpm) = (self.core.state.spindle_on, self.core.state.spindle_rpm);
             if motion.kind != MotionKind::Rapid {
                 motion.feed = feed;
             }
-            self.state.position = motion.end;
+            self.core.state.position = motion.end;
             self.memory.out.push(motion);
         }
     }
 
     /// U (a diameter) and W of the block with P and Q: what is left for finishing, mm in X (radius) and Z; `None`: not known.
     pub(super) fn allowance(&self, words: &Words) -> Option<[f64; 2]> {
-        let diameter = self.memory.diameter.unwrap_or(self.dialect.quirks.diameter);
+        let diameter = self.memory.diameter.unwrap_or(self.core.dialect.quirks.diameter);
         let [x, z] = self.lengths(words)?;
         Some([x * if diameter { 0.5 } else { 1.0 }, z])
     }
@@ -194,27 +195,28 @@ impl Interpreter<'_> {
     /// The way of a cycle is not known; it ends where it began.
     pub(super) fn somehow_back(&mut self, what: &str, start: Position, report: &mut Report<'_>) {
         report.fault(report.whole(), FaultKind::NotModelled { what: what.to_owned() });
-        let orientation = self.held_orientation();
+        let orientation = self.core.held_orientation();
         // a cycle that is given up half way has already moved the tool
-        let from = std::mem::replace(&mut self.state.position, start);
-        let mut motion = self.new_motion(MotionKind::Unknown, from, start, orientation, Feed::Unknown, report);
-        if self.state.frame_unknown {
-            self.hide(&mut motion);
-        }
+        let from = std::mem::replace(&mut self.core.state.position, start);
+        let motion = self
+            .core
+            .motion_in_frame(MotionKind::Unknown, [from, start], orientation, Feed::Unknown, report);
         self.memory.out.push(motion);
     }
 
     /// Neither the path nor the end of a cycle is known.
     pub(super) fn nowhere(&mut self, start: Position, report: &Report<'_>) {
-        self.forget_linear();
-        let end = self.state.position;
-        let orientation = self.held_orientation();
-        let motion = self.new_motion(MotionKind::Unknown, start, end, orientation, Feed::Unknown, report);
+        self.core.forget_linear();
+        let end = self.core.state.position;
+        let orientation = self.core.held_orientation();
+        let motion = self
+            .core
+            .new_motion(MotionKind::Unknown, start, end, orientation, Feed::Unknown, report);
         self.memory.out.push(motion);
     }
 
     pub(super) fn rapid_straight(&mut self, to: Position, report: &Report<'_>) {
-        if self.state.position != to {
+        if self.core.state.position != to {
             self.goes(MotionKind::Rapid, to, Feed::Rapid, report);
         }
     }

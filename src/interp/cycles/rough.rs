@@ -11,7 +11,8 @@
 //! shorter than the escape: there the path is unknown, and what follows is known again.
 use super::contour::Contour;
 use super::levels::{Frame, Path};
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Feed, Motion, MotionKind, Position, Refusal, RoughingEscape};
 use trunnion_dialect::{Action, Plane};
@@ -47,7 +48,7 @@ struct Plan {
     feed: Feed,
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// The first block: U or W the depth of cut, R the escape, both radii.
     pub(super) fn keep_roughing(&mut self, action: Action, words: &Words) {
         let depth = if action == Action::RoughFaceCycle { b'W' } else { b'U' };
@@ -134,7 +135,7 @@ impl Interpreter<'_> {
         let depth = depth.ok_or("without a depth of cut above 0 in its first block (parameter 5132)")?;
         let escape = escape.ok_or("without an escape in its first block (parameter 5133)")?;
         let allowance = self.allowance(words).ok_or("its finishing allowance is unknown")?;
-        if self.state.plane != Plane::Zx {
+        if self.core.state.plane != Plane::Zx {
             return Err("a plane other than that of X and Z");
         }
         let motions = self.outline(contour, axes, start, report)?;
@@ -190,7 +191,7 @@ impl Interpreter<'_> {
         start: Position,
         report: &Report<'_>,
     ) -> Result<Vec<Motion>, &'static str> {
-        if contour.compensated || self.state.compensation != 0 {
+        if contour.compensated || self.core.state.compensation != 0 {
             return Err("tool nose radius compensation");
         }
         says_type_one(contour.first, axes, report)?;
@@ -208,9 +209,9 @@ impl Interpreter<'_> {
         let same = |motion: &Motion| {
             (motion.tool, motion.zero, motion.tool_length_mm)
                 == (
-                    self.state.tool,
-                    self.state.zero,
-                    self.state.tool_length_mm.unwrap_or(0.0),
+                    self.core.state.tool,
+                    self.core.state.zero,
+                    self.core.state.tool_length_mm.unwrap_or(0.0),
                 )
         };
         if !motions.iter().all(same) {
@@ -229,7 +230,7 @@ impl Interpreter<'_> {
     }
 
     fn cuts(&mut self, plan: &Plan, contour: &Contour, start: Position, report: &mut Report<'_>) {
-        let lift = match self.setup.control.roughing_escape {
+        let lift = match self.core.setup.control.roughing_escape {
             Some(RoughingEscape::Feed) => MotionKind::Linear,
             Some(RoughingEscape::Rapid) => MotionKind::Rapid,
             None => MotionKind::Unknown,
@@ -278,7 +279,7 @@ impl Interpreter<'_> {
 
     /// A motion in the plane of the cuts.
     fn cut_to(&mut self, plan: &Plan, kind: MotionKind, depth: f64, along: f64, report: &Report<'_>) {
-        let mut place = self.state.position;
+        let mut place = self.core.state.position;
         let coordinates = plan.frame.coordinates(depth, along);
         for (axis, value) in plan.frame.axes.into_iter().zip(coordinates) {
             place.set(axis, value);

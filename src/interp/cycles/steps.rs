@@ -3,7 +3,8 @@
 //! Fanuc: steps of Q. Haas: steps of Q; or of I, each J less than the one before, none below K; and G73 with Q and K leaves the hole
 //! whenever its steps add up to K (Haas Mill Operator's Manual, G73, G83). Any other combination has no meaning in the manual.
 use super::hole::Plan;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::{FaultKind, MotionKind};
 use trunnion_dialect::Action;
 
@@ -28,7 +29,7 @@ impl Steps {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Steps as the words give them; `None` where the words have no documented meaning.
     fn step_words(&self, action: Action, depth: f64) -> Option<Steps> {
         let hole = &self.memory.cycle.hole;
@@ -73,8 +74,8 @@ impl Interpreter<'_> {
             return;
         };
         let (back, clear) = (
-            self.setup.control.chip_break_retract_mm,
-            self.setup.control.peck_clearance_mm,
+            self.core.setup.control.chip_break_retract_mm,
+            self.core.setup.control.peck_clearance_mm,
         );
         let (mut done, mut inside, mut step) = (0.0, 0.0, steps.first);
         loop {

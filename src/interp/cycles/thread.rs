@@ -9,7 +9,8 @@
 //! Sources: HUST H6D-T manual, pages 3-59 and 3-60 (the same cycle: the least depth, and rapids everywhere but along the thread). Fanuc's own (Series
 //! 30i operator's manual, lathe system, multiple threading cycle) was not at hand. Where in Z a cut begins that goes in along the flank (angle above 0), and
 //! the shape of the pull-out (parameter 5131), are shown in pictures only: unknown.
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{Feed, MotionKind, Position};
 
@@ -49,13 +50,13 @@ struct Plan {
     lead: Feed,
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// G76: the first of two blocks has no coordinates.
     pub(super) fn thread_repeat(&mut self, words: &Words, report: &mut Report<'_>) {
         if !words.axes.any() {
             return self.keep_thread(words);
         }
-        let start = self.state.position;
+        let start = self.core.state.position;
         let lead = self.lead(words, report);
         match self.plan_thread(start, lead, words) {
             Ok(plan) => self.thread(&plan, report),
@@ -114,7 +115,7 @@ impl Interpreter<'_> {
         let known = [start, end]
             .iter()
             .all(|place| place.get(X).is_some() && place.get(Z).is_some());
-        if !known || self.memory.frames.active || self.state.frame_unknown {
+        if !known || self.memory.frames.active || self.core.state.frame_unknown {
             return Err("from or to an unknown position");
         }
         let taper = match self.length_word(words, b'R') {

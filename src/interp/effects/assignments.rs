@@ -1,14 +1,14 @@
 //! Words that are written with `=`: what they set, and what variables they write.
-use crate::ProgramRun;
-use crate::run::Interpreter;
+use crate::engine::Engine;
+use crate::iso::Iso;
 use crate::words::Words;
-use crate::written::{Keep, named_role, names, packed, resolved, stem, value_of, written};
+use crate::written::{Keep, Values, named_role, names, packed, resolved, stem, written};
 use crate::{Argument, Effect};
 use trunnion_dialect::{CodeKind, Role};
 use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 
 /// What words that are written with `=` set: `ADIS=0.5`, `LIMS=2000`, `R1=5`.
-pub(crate) fn named_effects(run: &mut Interpreter<'_>, view: &Block<'_>, block: BlockId) {
+pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId) {
     let mut effects = Vec::new();
     for word in view.words() {
         if matches!(word.address, Address::Letter(_)) {
@@ -22,7 +22,7 @@ pub(crate) fn named_effects(run: &mut Interpreter<'_>, view: &Block<'_>, block: 
             let text = view.program().text(word.value_range);
             match word.value {
                 Value::Number(decimal) => Argument::number(name, decimal.to_f64()),
-                _ => match value_of(run, &text) {
+                _ => match run.value(&text) {
                     Some(value) => Argument::number(name, value),
                     None => Argument::text(name, &resolved(run, &text)),
                 },
@@ -52,18 +52,23 @@ pub(crate) fn named_effects(run: &mut Interpreter<'_>, view: &Block<'_>, block: 
                     Effect::set(key, [argument(full)])
                 });
             }
-            None if run.dialect.name(&stem).is_some_and(|code| code.kind == CodeKind::Name) => {
+            None if run
+                .core
+                .dialect
+                .name(&stem)
+                .is_some_and(|code| code.kind == CodeKind::Name) =>
+            {
                 effects.push(Effect::set(full.clone(), [argument(full)]));
             }
             None if stem.starts_with('$') => effects.push(Effect::Event(vec![argument(full)])),
-            None if run.dialect.quirks.user_names() && !run.memory.own.is_declared(&stem) => {
+            None if run.core.dialect.quirks.user_names() && !run.memory.own.is_declared(&stem) => {
                 effects.push(Effect::Store(stored(full)));
             }
             _ => {}
         }
     }
     for effect in effects {
-        run.memory.effects.add(block, effect);
+        run.core.effects.add(block, effect);
     }
 }
 
@@ -78,8 +83,8 @@ pub(crate) fn comments(view: &Block<'_>) -> Vec<Argument> {
 
 /// The words of a block that writes a variable of the control (Fanuc and Haas: #1000 and above), with the operator's message in its
 /// comment. A number that is computed may be any.
-pub(crate) fn system_assignment(run: &Interpreter<'_>, view: &Block<'_>) -> Option<Vec<Argument>> {
-    if !run.dialect.quirks.macro_b() {
+pub(crate) fn system_assignment(run: &Iso<'_>, view: &Block<'_>) -> Option<Vec<Argument>> {
+    if !run.core.dialect.quirks.macro_b() {
         return None;
     }
     let mut found = Vec::new();
@@ -116,7 +121,7 @@ pub(crate) fn reads_machine_position(view: &Block<'_>) -> bool {
 }
 
 /// The words of a block that gives a variable a value which is not known.
-pub(crate) fn unknown_assignment(run: &Interpreter<'_>, view: &Block<'_>, words: &Words) -> Option<Vec<Argument>> {
+pub(crate) fn unknown_assignment(run: &Iso<'_>, view: &Block<'_>, words: &Words) -> Option<Vec<Argument>> {
     let unknown = |text: &str| {
         names(text)
             .iter()
@@ -124,7 +129,7 @@ pub(crate) fn unknown_assignment(run: &Interpreter<'_>, view: &Block<'_>, words:
     };
     let assigns = view.items().any(|item| match item {
         Item::Word(word) => match word.address {
-            Address::Named(_) | Address::Indexed(..) if run.dialect.quirks.user_names() => {
+            Address::Named(_) | Address::Indexed(..) if run.core.dialect.quirks.user_names() => {
                 let variable = matches!(named_role(run, view, &word), None | Some(Role::Variable));
                 let name = match word.address {
                     Address::Named(name) => packed(&view.program().text(name)),
@@ -133,7 +138,7 @@ pub(crate) fn unknown_assignment(run: &Interpreter<'_>, view: &Block<'_>, words:
                 variable
                     && !matches!(word.value, Value::Number(_))
                     && run.memory.own.held(&name).is_none()
-                    && value_of(run, &view.program().text(word.value_range)).is_none()
+                    && run.value(&view.program().text(word.value_range)).is_none()
             }
             _ => unknown(&view.program().text(word.range)),
         },

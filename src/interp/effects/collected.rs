@@ -1,22 +1,58 @@
 //! Effects that a run has collected.
 use crate::{Argument, Effect, Placed};
 
+/// Blocks of shifts and turns that wait for a motion that needs their words.
+const MOST_FRAMES: usize = 1000;
+
 /// Effects of the block in hand, collected only where somebody asks for them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Effects {
-    /// Somebody asks for them.
-    pub(crate) wanted: bool,
+    wanted: bool,
     /// How many there were so far in the run.
-    pub(crate) count: u32,
+    count: u32,
     /// Words of blocks that shift or turn the coordinates and were held by known positions so far.
-    pub(crate) frames: Vec<Vec<Argument>>,
+    frames: Vec<Vec<Argument>>,
     /// Not handed on yet.
-    pub(crate) ready: Vec<Placed>,
+    ready: Vec<Placed>,
 }
 
 impl Effects {
+    /// Asks for them.
+    pub(crate) fn watch(&mut self) {
+        self.wanted = true;
+    }
+    /// Whether somebody asks for them.
+    #[inline]
+    pub(crate) fn wanted(&self) -> bool {
+        self.wanted
+    }
+    /// How many there were so far in the run.
+    #[inline]
+    pub(crate) fn count(&self) -> u32 {
+        self.count
+    }
     pub(crate) fn add(&mut self, block: trunnion_syntax::BlockId, effect: Effect) {
         self.count += 1;
         self.ready.push(Placed { block, effect });
+    }
+    /// One that was handed on already.
+    pub(crate) fn skip(&mut self) {
+        self.count += 1;
+    }
+    /// Those that were not handed on yet.
+    pub(crate) fn take(&mut self) -> Vec<Placed> {
+        std::mem::take(&mut self.ready)
+    }
+    /// Keeps the words of a block that shifts or turns the coordinates.
+    pub(crate) fn keep_frame(&mut self, words: Vec<Argument>) {
+        self.frames.push(words);
+    }
+    /// Where a motion's end is unknown, or too many are kept, they are compared by their words.
+    pub(crate) fn release_frames(&mut self, block: trunnion_syntax::BlockId, unknown_end: bool) {
+        if unknown_end || self.frames.len() > MOST_FRAMES {
+            for words in std::mem::take(&mut self.frames) {
+                self.add(block, Effect::Unmodelled(words));
+            }
+        }
     }
 }

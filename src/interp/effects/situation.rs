@@ -1,6 +1,5 @@
 //! What a program or code that is not modelled could read at its place: the modal state, and the variables that are known.
-use crate::run::Interpreter;
-use crate::{Argument, FeedMode, ModalState, ProgramRun};
+use crate::{Argument, FeedMode, ModalState};
 use trunnion_dialect::Plane;
 
 /// The state before and after a block. Two runs do the same at something that is not modelled only if both states are the same.
@@ -11,6 +10,11 @@ pub struct Situation {
 }
 
 impl Situation {
+    pub(crate) fn new(state: &ModalState, to_r: bool) -> Self {
+        let state = state.clone();
+        Self { state, to_r }
+    }
+
     /// The first setting that differs: name, before, after. `feed_counts`: whether F may not differ.
     pub fn difference(&self, other: &Self, feed_counts: bool) -> Option<(&'static str, String, String)> {
         let (a, b) = (self.settings(feed_counts), other.settings(feed_counts));
@@ -90,51 +94,5 @@ fn mode(mode: FeedMode) -> &'static str {
         FeedMode::PerMinute => "per minute",
         FeedMode::PerRevolution => "per revolution",
         FeedMode::InverseTime => "inverse time",
-    }
-}
-
-impl Interpreter<'_> {
-    /// What is in force now, for something that is not modelled.
-    pub fn situation(&self) -> Situation {
-        Situation {
-            state: self.state.clone(),
-            to_r: self.memory.cycle.to_r,
-        }
-    }
-
-    /// How many times everything modal became unknown so far: a program that is missing may have changed it.
-    pub fn losses(&self) -> u64 {
-        self.memory.losses
-    }
-
-    /// All variables that are known, or were when something that is not followed ran, by name.
-    pub fn known_variables(&self) -> Vec<Argument> {
-        let mut found: Vec<Argument> = match &self.rs274 {
-            Some(_) => (self.outliving().into_iter())
-                .map(|(name, value)| Argument::number(name, value))
-                .collect(),
-            None => self.flow.all_variables(),
-        };
-        found.extend(self.memory.own.all());
-        found
-    }
-
-    /// Adds the values of the variables that words name.
-    pub fn add_values(&self, words: &mut Vec<Argument>) {
-        let text: String = words.iter().map(|word| format!("{word} ")).collect();
-        if self.dialect.quirks.user_names() {
-            words.extend(self.memory.own.named_in(&text));
-            return;
-        }
-        for name in crate::written::names(&text) {
-            if let Some(value) = self.variable(&name) {
-                words.push(Argument::number(format!("where {name}"), value));
-            }
-        }
-    }
-
-    /// The text of a block with the variables in it replaced by their values.
-    pub fn resolved_text(&self, text: &str) -> String {
-        crate::written::resolved(self, text)
     }
 }

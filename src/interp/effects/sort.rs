@@ -1,6 +1,6 @@
 //! What a code is for a comparison, and the words that belong to it.
 use crate::codes::Found;
-use crate::memory::Chosen;
+use crate::tools::Chosen;
 use crate::words::{Said, Words};
 use crate::written::call_argument;
 use crate::{Argument, Value};

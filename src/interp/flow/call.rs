@@ -1,8 +1,8 @@
 //! Calls of other programs and returns from them, for all languages.
 use super::{Back, Calling, Level, Running, With, index_of};
 use crate::Sink;
+use crate::iso::Iso;
 use crate::macro_b::ProgramName;
-use crate::run::Interpreter;
 use crate::{FaultKind, Frame, sinumerik};
 use trunnion_flow::{Ends, Going, Key};
 use trunnion_syntax::{BlockId, TextRange};
@@ -29,7 +29,7 @@ pub(crate) fn frame_of(running: &Running<'_>, from: u32) -> Frame {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Begins a call.
     pub(crate) fn enter(&mut self, calling: Calling, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
         if calling.times == 0 {
@@ -49,7 +49,7 @@ impl Interpreter<'_> {
             Ok(place) => place,
             Err(searched) => {
                 let name = match &calling.program {
-                    Key::Name(name) if self.dialect.quirks.user_names() => name.to_string(),
+                    Key::Name(name) if self.core.dialect.quirks.user_names() => name.to_string(),
                     key => ProgramName(key).to_string(),
                 };
                 let kind = FaultKind::MissingSubprogram {
@@ -82,7 +82,7 @@ impl Interpreter<'_> {
 
     /// What a program does that is not there is not known.
     pub(crate) fn call_is_not_followed(&mut self) {
-        self.forget_everything();
+        self.core.forget_everything();
         self.memory.own.lose();
         if let Some(deep) = &mut self.flow.deep {
             deep.variables.lose();
@@ -90,7 +90,7 @@ impl Interpreter<'_> {
     }
 
     fn push_call(&mut self, level: Level, times: u32, (file, start): (u16, u32), running: &Running<'_>, from: u32) {
-        let (chain, back) = (self.chain, self.flow.next);
+        let (chain, back) = (self.core.chain, self.flow.next);
         let Some(trail) = &mut self.flow.trail else { return };
         let going = Going {
             from,
@@ -102,16 +102,16 @@ impl Interpreter<'_> {
             ends: Ends::Return,
             level,
         };
-        self.chain = trail
+        self.core.chain = trail
             .course
             .enter(going, chain, main_range(running, from), || frame_of(running, from));
         self.flow.next = start;
-        self.flow.called_at = (file != 0).then_some(trail.course.place().main);
+        self.core.called_at = (file != 0).then_some(trail.course.place().main);
     }
 
     /// A program by its number or name: in the file that runs, in the main program's, in others that were called, in the library.
     pub(crate) fn find(&mut self, name: &Key, running: &Running<'_>, only_library: bool) -> Found {
-        let (dialect, own) = (self.dialect, self.flow.file());
+        let (dialect, own) = (self.core.dialect, self.flow.file());
         let trail = self.flow.trail();
         if !only_library {
             let here = trail.index(own, || index_of(dialect, running.program()));
@@ -123,7 +123,7 @@ impl Interpreter<'_> {
                 return Ok((0, block));
             }
         }
-        let Some(library) = &self.setup.library.0 else {
+        let Some(library) = &self.core.setup.library.0 else {
             return Err(Vec::new());
         };
         let tried = if dialect.quirks.user_names() {
@@ -138,7 +138,7 @@ impl Interpreter<'_> {
 
     /// The block where a program of another file begins: at its number or header, else behind the `%` at its start.
     fn first_block(&mut self, file: u16, name: &Key) -> u32 {
-        let dialect = self.dialect;
+        let dialect = self.core.dialect;
         let trail = self.flow.trail();
         let Some(called) = trail.library.file(file) else {
             return 0;
@@ -165,7 +165,7 @@ impl Interpreter<'_> {
         let changes = self.changes() + 1;
         let Some(trail) = &mut self.flow.trail else { return };
         if !trail.course.is_called() {
-            return if self.dialect.quirks.user_names() {
+            return if self.core.dialect.quirks.user_names() {
                 self.leave_main_program(&back, running, from, sink);
             } else {
                 self.leave_main(back, running, from, sink);
@@ -190,9 +190,9 @@ impl Interpreter<'_> {
         let Some(call) = trail.course.leave(self.flow.next) else {
             return;
         };
-        self.chain = call.chain;
+        self.core.chain = call.chain;
         self.flow.next = call.back;
-        self.flow.called_at = (call.place.file != 0).then_some(call.place.main);
+        self.core.called_at = (call.place.file != 0).then_some(call.place.main);
         match call.level {
             Level::MacroB(level) => self.leave_macro(&level, back, running, call.place.file, sink),
             Level::Sinumerik(level) => {
@@ -208,11 +208,11 @@ impl Interpreter<'_> {
     pub(crate) fn ran_out(&mut self, main: &trunnion_syntax::Program, sink: &mut impl Sink) {
         let called = self.flow.trail.as_ref().is_some_and(|trail| trail.course.is_called());
         if !called {
-            self.state.ended = true;
-        } else if self.dialect.quirks.user_names() {
+            self.core.state.ended = true;
+        } else if self.core.dialect.quirks.user_names() {
             self.subprogram_runs_out(main, sink);
         } else {
-            self.state.ended = true;
+            self.core.state.ended = true;
             self.macro_runs_out(main, sink);
         }
     }

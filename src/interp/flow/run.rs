@@ -2,7 +2,7 @@
 use super::through::Through;
 use super::{Label, Trail, Transfer};
 use crate::Sink;
-use crate::run::Interpreter;
+use crate::iso::Iso;
 use crate::{Fault, FaultKind, Frame};
 use std::sync::Arc;
 use trunnion_flow::{Called, Fuel};
@@ -28,13 +28,13 @@ impl Trail {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// The next block of a program that has jumps, loops or calls.
     #[cold]
     #[inline(never)]
     pub(crate) fn advance_deep(&mut self, main: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         let next = self.flow.next;
-        let limit = self.setup.limits.blocks.saturating_add(main.block_count() as u64);
+        let limit = self.core.setup.limits.blocks.saturating_add(main.block_count() as u64);
         let trail = self.flow.trail.as_mut()?;
         let place = trail.course.place();
         let called = trail.called();
@@ -49,7 +49,7 @@ impl Interpreter<'_> {
             called: called.as_deref(),
         };
         self.flow.next = next + 1;
-        let content = self.memory.last_content;
+        let content = self.core.last_content;
         let mut through = Through {
             told: std::mem::take(&mut trail.told),
             again: called.is_none() && trail.course.has_run(next),
@@ -58,21 +58,21 @@ impl Interpreter<'_> {
             moved: false,
             sink,
         };
-        let calls = self.chain;
+        let calls = self.core.chain;
         if let Some(called) = running.called {
-            self.chain = trail.course.stand(calls, next, || frame_of(called, next));
+            self.core.chain = trail.course.stand(calls, next, || frame_of(called, next));
         }
         self.step_iso(&running.program().block(BlockId(next)), &mut through);
-        self.chain = calls;
+        self.core.chain = calls;
         let (told, moved) = (through.told, through.moved);
         if let Some(trail) = &mut self.flow.trail {
             trail.told = told;
         }
         if running.called.is_some() {
-            self.memory.last_content = content;
-            if self.state.ended && !self.memory.proper_end {
+            self.core.last_content = content;
+            if self.core.state.ended && !self.core.proper_end {
                 // the % at the end of the other file
-                self.state.ended = false;
+                self.core.state.ended = false;
                 self.flow.next = u32::MAX;
             }
         }
@@ -94,7 +94,7 @@ impl Interpreter<'_> {
             return;
         }
         let pending = self.asked_for();
-        if self.state.ended {
+        if self.core.state.ended {
             return self.end(running.main, sink);
         }
         let pending = pending.or_else(|| {
@@ -106,10 +106,10 @@ impl Interpreter<'_> {
             self.transfer(pending, running, from, sink);
         }
         self.section_ends();
-        while !self.flow.finished && !self.state.ended && self.runs_out(running.main) {
+        while !self.flow.finished && !self.core.state.ended && self.runs_out(running.main) {
             self.ran_out(running.main, sink);
         }
-        if self.state.ended {
+        if self.core.state.ended {
             self.end(running.main, sink);
         }
     }
@@ -139,9 +139,9 @@ impl Interpreter<'_> {
 
     /// The run cannot go on: nothing after it is followed.
     pub(crate) fn stop(&mut self) {
-        self.state.ended = true;
+        self.core.state.ended = true;
         // what is missing is said already
-        self.memory.proper_end = true;
+        self.core.proper_end = true;
     }
 
     /// Tells a fact about a block of the program that runs.

@@ -1,17 +1,17 @@
 //! What a block asks for beside its motion: jumps, loops, branches, repeated sections.
 use super::{Index, Label, Level, Running, Transfer, index_of};
 use crate::Sink;
+use crate::iso::Iso;
 use crate::macro_b::{Mistake, rejected};
-use crate::run::Interpreter;
 use crate::{FaultKind, Refusal, sinumerik};
 use std::sync::Arc;
 use trunnion_flow::{Ends, Going, Key, Search};
 use trunnion_syntax::{Program, TextRange};
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Where jumps of the file that runs may lead.
     pub(crate) fn sequence_numbers(&mut self, program: &Program) -> Arc<Index> {
-        let (dialect, file) = (self.dialect, self.flow.file());
+        let (dialect, file) = (self.core.dialect, self.flow.file());
         match &mut self.flow.trail {
             Some(trail) => trail.index(file, || index_of(dialect, program)),
             None => Arc::new(index_of(dialect, program)),
@@ -61,7 +61,7 @@ impl Interpreter<'_> {
     /// The index of the program that runs, whose section is known from then on.
     pub(crate) fn index(&mut self, running: &Running<'_>) -> Option<Arc<Index>> {
         let from = self.flow.next.saturating_sub(1);
-        let (dialect, file) = (self.dialect, self.flow.file());
+        let (dialect, file) = (self.core.dialect, self.flow.file());
         let trail = self.flow.trail.as_mut()?;
         let index = trail.index(file, || index_of(dialect, running.program()));
         trail.course.section(|| index.section(from));
@@ -92,11 +92,16 @@ impl Interpreter<'_> {
 
     /// Why a jump is refused, or its outcome not known.
     fn wrong_target(&self, index: &Index, label: &Key, (from, to): (u32, u32)) -> Option<FaultKind> {
-        if !self.dialect.quirks.user_names() {
+        if !self.core.dialect.quirks.user_names() {
             index.loops.entered(from, to, |_| true)?;
             let Key::Number(number) = label else { return None };
             let message = format!("GOTO {number} leads into a loop from outside: its DO has not run");
-            return Some(rejected(self.dialect, Mistake::Unnumbered, Refusal::Structure, message));
+            return Some(rejected(
+                self.core.dialect,
+                Mistake::Unnumbered,
+                Refusal::Structure,
+                message,
+            ));
         }
         let repeated = self.flow.trail.as_ref().and_then(|trail| trail.course.repeated());
         sinumerik::wrong_target(index, repeated, (from, to))
@@ -121,10 +126,10 @@ impl Interpreter<'_> {
             Key::Number(number) => format!("there is no block N{number} {where_to}"),
             Key::Name(name) => format!("there is no label {name} {where_to}"),
         };
-        let kind = if self.dialect.quirks.user_names() {
+        let kind = if self.core.dialect.quirks.user_names() {
             sinumerik::no_label(message)
         } else {
-            rejected(self.dialect, Mistake::NumberNotFound, Refusal::Label, message)
+            rejected(self.core.dialect, Mistake::NumberNotFound, Refusal::Label, message)
         };
         self.tell_of_flow(running, from, (range, kind), sink);
         self.stop();
@@ -133,13 +138,18 @@ impl Interpreter<'_> {
     /// The block belongs to a loop that is not whole: the run ends. For Macro B the end of the run reports what is wrong in the main
     /// program's file.
     fn broken(&mut self, index: &Index, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
-        let told_at_end = self.dialect.quirks.macro_b() && running.called.is_none();
+        let told_at_end = self.core.dialect.quirks.macro_b() && running.called.is_none();
         let here = index
             .broken
             .iter()
-            .find(|broken| broken.block == from && self.dialect.quirks.user_names());
+            .find(|broken| broken.block == from && self.core.dialect.quirks.user_names());
         if let (false, Some(broken)) = (told_at_end, here.or(index.broken.first())) {
-            let kind = rejected(self.dialect, broken.mistake, Refusal::Structure, broken.message.clone());
+            let kind = rejected(
+                self.core.dialect,
+                broken.mistake,
+                Refusal::Structure,
+                broken.message.clone(),
+            );
             self.tell_of_flow(running, from, (broken.range, kind), sink);
         }
         self.stop();
@@ -168,7 +178,7 @@ impl Interpreter<'_> {
         if self.index(running).is_none() {
             return;
         }
-        let (chain, back) = (self.chain, self.flow.next);
+        let (chain, back) = (self.core.chain, self.flow.next);
         let Some(trail) = &mut self.flow.trail else { return };
         let place = trail.course.place();
         let going = Going {
@@ -195,7 +205,7 @@ impl Interpreter<'_> {
                 .course
                 .repeated()
                 .is_some_and(|(_, last)| self.flow.next == last + 1)
-            && !self.state.ended
+            && !self.core.state.ended
         {
             let end = self.flow.next;
             if let Some((start, _)) = trail.course.once_more() {

@@ -1,6 +1,7 @@
 //! G10: offsets that the program writes.
 use crate::codes::{BlockCodes, Found};
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::{Said, Words};
 use crate::{FaultKind, Refusal};
 use trunnion_dialect::Action;
@@ -21,7 +22,7 @@ pub(crate) struct ToolOffset {
     pub(crate) radius_unclear: bool,
 }
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// What the program has written for a number.
     pub(crate) fn tool_offset(&self, number: u32) -> Option<&ToolOffset> {
         let offsets = &self.memory.frames.tool_offsets;
@@ -52,7 +53,11 @@ impl<'d> Interpreter<'d> {
                 self.unclear_entry(found, words, block, report);
             }
             (Some(2), Some(number)) => {
-                let alarm = self.dialect.alarm("data-entry-l").map(|alarm| alarm.number.clone());
+                let alarm = self
+                    .core
+                    .dialect
+                    .alarm("data-entry-l")
+                    .map(|alarm| alarm.number.clone());
                 let message = format!("G10 L2 P{number}: P names a work offset, 0 to 6 (1 is G54)");
                 report.fault(
                     found.range,
@@ -76,7 +81,7 @@ impl<'d> Interpreter<'d> {
 
     /// The code that selects additional work offsets by P: G54.1, G154.
     fn additional_offsets(&self) -> Option<&'d str> {
-        let codes = self.dialect.codes();
+        let codes = self.core.dialect.codes();
         let code = codes
             .iter()
             .find(|code| code.action == Action::WorkOffset && code.words.iter().any(|word| word == "P"))?;
@@ -95,7 +100,11 @@ impl<'d> Interpreter<'d> {
         };
         for (axis, kept) in values.iter_mut().enumerate() {
             if let Some(value) = self.axis_value(words, axis) {
-                *kept = if self.state.incremental { *kept + value } else { value };
+                *kept = if self.core.state.incremental {
+                    *kept + value
+                } else {
+                    value
+                };
             }
         }
         let Some(name) = name else {
@@ -108,8 +117,8 @@ impl<'d> Interpreter<'d> {
             Some(known) => known.1 = values,
             None => written.push((name.clone().into(), values)),
         }
-        let in_force = self.state.work_offset.as_deref();
-        let first = in_force.is_none() && self.dialect.quirks.first_offset_at_start && name == "G54";
+        let in_force = self.core.state.work_offset.as_deref();
+        let first = in_force.is_none() && self.core.dialect.quirks.first_offset_at_start && name == "G54";
         if first || in_force.is_some_and(|known| known.eq_ignore_ascii_case(&name)) {
             self.set_zero(Some(name.into()), values);
         }
@@ -121,7 +130,7 @@ impl<'d> Interpreter<'d> {
         let written = written
             .filter(|(known, _)| known.eq_ignore_ascii_case(name))
             .map(|known| known.1);
-        let declared = self.setup.work_offsets.iter();
+        let declared = self.core.setup.work_offsets.iter();
         let declared = declared
             .filter(|known| known.name.eq_ignore_ascii_case(name))
             .map(|known| known.values);
@@ -129,11 +138,15 @@ impl<'d> Interpreter<'d> {
     }
 
     fn write_tool(&mut self, l: u32, number: u32, words: &Words, found: &Found<'d>, report: &mut Report<'_>) {
-        let value = words.radius.number().map_or(0.0, |number| number.value) * self.state.length_unit_mm;
-        let incremental = self.state.incremental;
+        let value = words.radius.number().map_or(0.0, |number| number.value) * self.core.state.length_unit_mm;
+        let incremental = self.core.state.incremental;
         let add = |old: f64| if incremental { old + value } else { value };
-        let declared = self.tool_of(Some(number)).and_then(|tool| tool.length_mm);
-        let unclear = self.dialect.quirks.cutter_offset_ambiguous;
+        let declared = self
+            .core
+            .tools
+            .data(Some(number), &self.core.setup)
+            .and_then(|tool| tool.length_mm);
+        let unclear = self.core.dialect.quirks.cutter_offset_ambiguous;
         let offsets = &mut self.memory.frames.tool_offsets;
         if !offsets.iter().any(|offset| offset.number == number) {
             offsets.push(ToolOffset {
@@ -155,13 +168,13 @@ impl<'d> Interpreter<'d> {
             offset.radius_unclear |= unclear && l >= 12;
         }
         // when the new length acts is a parameter of the control; the next G43 or G49 makes it plain
-        let in_force = self.memory.length_offset == Some(number) && self.state.tool_length_mm.is_some();
+        let in_force = self.memory.length_offset == Some(number) && self.core.state.tool_length_mm.is_some();
         if l <= 11 && in_force {
             let what = format!("{} of the active length offset", found.code.id);
             report.fault(found.range, FaultKind::NotModelled { what });
-            if let Some(code) = self.dialect.g(490) {
-                self.memory.begin_frame(code, true);
-                self.forget_linear();
+            if let Some(code) = self.core.dialect.g(490) {
+                self.core.unknown.begin(code, true);
+                self.core.forget_linear();
             }
         }
     }

@@ -1,6 +1,7 @@
 //! G27 to G30: returns to reference points.
 use crate::codes::Found;
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 use crate::{FaultKind, Feed, MotionKind, Position};
 use trunnion_dialect::Action;
@@ -28,10 +29,10 @@ impl Return {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// The motions of a return.
     pub(crate) fn returns(&mut self, what: Return, range: TextRange, words: &Words, report: &mut Report<'_>) {
-        let position = self.state.position;
+        let position = self.core.state.position;
         let mut point = self.memory.frames.programmed(&position);
         self.targets(&words.axes, false, &mut point);
         let mut named = words.axes.given | words.axes.unread;
@@ -41,8 +42,8 @@ impl Interpreter<'_> {
             Return::To(number) => {
                 if named != 0 {
                     self.rapid_to(point, report);
-                    self.memory.frames.intermediate = Some(self.state.position);
-                } else if self.dialect.quirks.return_moves_all {
+                    self.memory.frames.intermediate = Some(self.core.state.position);
+                } else if self.core.dialect.quirks.return_moves_all {
                     named = (1 << 9) - 1;
                 } else {
                     return;
@@ -54,13 +55,13 @@ impl Interpreter<'_> {
 
     /// The present point becomes a reference point; what is not known of it stays unknown.
     pub(crate) fn store_reference(&mut self, place: usize) {
-        let mut position = self.state.position;
+        let mut position = self.core.state.position;
         self.to_machine(&mut position, 1.0);
         self.memory.frames.stored_reference[place] = Some(position);
     }
 
     fn rapid_to(&mut self, point: Position, report: &Report<'_>) {
-        let position = self.state.position;
+        let position = self.core.state.position;
         if self.memory.frames.programmed(&position) != point {
             self.goes(MotionKind::Rapid, point, Feed::Rapid, report);
         }
@@ -68,7 +69,7 @@ impl Interpreter<'_> {
 
     /// G29: the named axes go to the point of the last return first.
     fn leave_reference(&mut self, named: u16, point: Position, report: &Report<'_>) {
-        let mut via = self.state.position;
+        let mut via = self.core.state.position;
         for axis in (0..9).filter(|axis| named & (1 << axis) != 0) {
             match self.memory.frames.intermediate.and_then(|via| via.get(axis)) {
                 Some(value) => via.set(axis, value),
@@ -84,8 +85,8 @@ impl Interpreter<'_> {
     fn reach_reference(&mut self, named: u16, number: u32, range: TextRange, report: &mut Report<'_>) {
         let place = (number.max(1) - 1) as usize;
         let stored = self.memory.frames.stored_reference.get(place).copied().flatten();
-        let declared = stored.or_else(|| self.setup.control.reference_points.get(place).copied());
-        let mut start = self.state.position;
+        let declared = stored.or_else(|| self.core.setup.control.reference_points.get(place).copied());
+        let mut start = self.core.state.position;
         self.to_machine(&mut start, 1.0);
         let mut end = start;
         let mut all = true;
@@ -97,12 +98,14 @@ impl Interpreter<'_> {
                 all = false;
             }
         }
-        let orientation = self.held_orientation();
+        let orientation = self.core.held_orientation();
         if all {
-            let mut motion = self.new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
+            let mut motion = self
+                .core
+                .new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
             (motion.machine_coordinates, motion.tcp) = (true, false);
             self.to_machine(&mut end, -1.0);
-            self.state.position = end;
+            self.core.state.position = end;
             self.memory.out.push(motion);
             return;
         }
@@ -110,27 +113,25 @@ impl Interpreter<'_> {
             let what = format!("reference point {number}: its position is not declared");
             report.fault(range, FaultKind::NotModelled { what });
         }
-        let start = self.state.position;
-        self.state.position.known &= !named;
-        let end = self.state.position;
-        let mut motion = self.new_motion(MotionKind::Unknown, start, end, orientation, Feed::Unknown, report);
-        if self.state.frame_unknown {
-            self.hide(&mut motion);
-        }
+        let start = self.core.state.position;
+        self.core.state.position.known &= !named;
+        let end = self.core.state.position;
+        let motion = self
+            .core
+            .motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report);
         self.memory.out.push(motion);
     }
 
     /// A motion to a position that is given as words give it; it is emitted with the others of the block.
     pub(crate) fn goes(&mut self, kind: MotionKind, to: Position, feed: Feed, report: &Report<'_>) {
         self.cycle_motions += 1;
-        let start = self.state.position;
+        let start = self.core.state.position;
         let end = self.memory.frames.arrive(to);
-        self.state.position = end;
+        self.core.state.position = end;
         let kind = self.memory.frames.kind_to_work(kind);
-        let mut motion = self.new_motion(kind, start, end, self.held_orientation(), feed, report);
-        if self.state.frame_unknown {
-            self.hide(&mut motion);
-        }
+        let motion = self
+            .core
+            .motion_in_frame(kind, [start, end], self.core.held_orientation(), feed, report);
         self.memory.out.push(motion);
     }
 }

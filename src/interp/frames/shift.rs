@@ -1,9 +1,10 @@
 //! Shifts of the zero point by the program: G52, G92, G92.1.
 use crate::codes::{BlockCodes, Found};
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// The zero point in force from its parts. The machine stays where it is.
     pub(crate) fn refresh_zero(&mut self) {
         let frames = &self.memory.frames;
@@ -16,15 +17,15 @@ impl<'d> Interpreter<'d> {
 
     /// Length of a word of an axis in mm or degrees, radius where the control programs diameters.
     pub(crate) fn axis_value(&self, words: &Words, axis: usize) -> Option<f64> {
-        let linear = crate::offsets::LINEAR & (1 << axis) != 0;
-        let unit = if linear { self.state.length_unit_mm } else { 1.0 };
+        let linear = crate::core::LINEAR & (1 << axis) != 0;
+        let unit = if linear { self.core.state.length_unit_mm } else { 1.0 };
         words.axes.get(axis).map(|value| value * unit)
     }
 
     /// Shifts can be applied only where words are work coordinates.
     fn shifts_plainly(&self, words: &Words) -> bool {
         let frames = &self.memory.frames;
-        frames.shape.is_identity() && words.axes.unread == 0 && !self.state.tcp && frames.tilt.is_none()
+        frames.shape.is_identity() && words.axes.unread == 0 && !self.core.state.tcp && frames.tilt.is_none()
     }
 
     /// G52: the work coordinates' zero moves to the given place; 0 ends it.
@@ -38,7 +39,7 @@ impl<'d> Interpreter<'d> {
         block.takes_coordinates = true;
         // the sources do not say whether the distance counts from the last shift
         let unclear =
-            self.state.incremental && (0..9).any(|axis| words.axes.get(axis).is_some_and(|value| value != 0.0));
+            self.core.state.incremental && (0..9).any(|axis| words.axes.get(axis).is_some_and(|value| value != 0.0));
         if unclear || !self.shifts_plainly(words) {
             self.frame_change(found, words, block, report);
             return;
@@ -63,17 +64,17 @@ impl<'d> Interpreter<'d> {
         block.takes_coordinates = true;
         let replaces = found.code.id == "TRANS";
         if replaces {
-            let ended = self.memory.end_frame(found.code);
-            self.forget_if(ended);
+            let ended = self.core.unknown.end(found.code);
+            self.core.forget_if(ended);
             self.memory.frames.local = [0.0; 9];
             self.refresh_zero();
         }
-        let turns = (words.axes.given | words.axes.unread) & crate::offsets::ROTARY != 0;
-        let plain = words.axes.unread == 0 && !(self.state.tcp && turns);
+        let turns = (words.axes.given | words.axes.unread) & crate::core::ROTARY != 0;
+        let plain = words.axes.unread == 0 && !(self.core.state.tcp && turns);
         if !words.axes.any() {
             return;
         }
-        if !plain || self.memory.frame_unknown() || self.memory.frames.tilt.is_some() {
+        if !plain || self.core.unknown.any() || self.memory.frames.tilt.is_some() {
             self.frame_change(found, words, block, report);
             return;
         }
@@ -95,29 +96,29 @@ impl<'d> Interpreter<'d> {
     ) {
         if words.speed.is_said() {
             let limit = words.speed.number().map_or(f64::NAN, |number| number.value);
-            self.state.spindle_limit_rpm = Some(limit);
+            self.core.state.spindle_limit_rpm = Some(limit);
             if !words.axes.any() {
                 return;
             }
         }
         block.takes_coordinates = true;
-        let known = words.axes.given & !self.state.position.known == 0;
+        let known = words.axes.given & !self.core.state.position.known == 0;
         // under a length offset the coordinates are those of the point before it
         let named = |(axis, along): (usize, f64)| along != 0.0 && words.axes.get(axis).is_some();
-        let length = self.state.tool_length_mm.is_some_and(|length| length != 0.0)
-            && self.setup.length_along().into_iter().enumerate().any(named);
-        if !known || length || !self.shifts_plainly(words) || self.state.frame_unknown {
+        let length = self.core.state.tool_length_mm.is_some_and(|length| length != 0.0)
+            && self.core.setup.length_along().into_iter().enumerate().any(named);
+        if !known || length || !self.shifts_plainly(words) || self.core.state.frame_unknown {
             self.frame_change(found, words, block, report);
             return;
         }
         for axis in 0..9 {
             if let Some(value) = self.axis_value(words, axis) {
-                let value = if self.dialect.quirks.diameter && words.axes.incremental & (1 << axis) != 0 {
-                    self.state.position.values[axis] + value
+                let value = if self.core.dialect.quirks.diameter && words.axes.incremental & (1 << axis) != 0 {
+                    self.core.state.position.values[axis] + value
                 } else {
                     value
                 };
-                self.memory.frames.shift[axis] += self.state.position.values[axis] - value;
+                self.memory.frames.shift[axis] += self.core.state.position.values[axis] - value;
             }
         }
         self.refresh_zero();
@@ -133,8 +134,8 @@ impl<'d> Interpreter<'d> {
         }
         self.refresh_zero();
         if named == 0 || named & super::XYZ == super::XYZ {
-            let ended = self.memory.end_frame(found.code);
-            self.forget_if(ended);
+            let ended = self.core.unknown.end(found.code);
+            self.core.forget_if(ended);
         }
     }
 }

@@ -1,19 +1,20 @@
 //! Codes of tilted working planes: G68.2, G68.4, G53.1, G53.6 of a Fanuc; CYCLE800 of a Sinumerik.
 use super::{Tilted, XYZ};
 use crate::codes::{BlockCodes, Found};
-use crate::offsets::{LINEAR, ROTARY};
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::core::{LINEAR, ROTARY};
+use crate::iso::Iso;
 use crate::words::{Said, Words};
 use crate::{FaultKind, Feed, ImplicitDecimals, Motion, MotionKind, Orientation, Posture, RollPitchYaw, Swivel};
 use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// A motion as it is put out: in the workpiece frame.
     #[inline]
     pub(crate) fn untilted(&self, motion: &Motion) -> Motion {
         match &self.memory.frames.tilt {
-            Some(tilt) if !motion.machine_coordinates && !self.state.frame_unknown => tilt.motion_to_work(motion),
+            Some(tilt) if !motion.machine_coordinates && !self.core.state.frame_unknown => tilt.motion_to_work(motion),
             _ => *motion,
         }
     }
@@ -24,9 +25,9 @@ impl<'d> Interpreter<'d> {
         if self.memory.compensation.is_busy() || self.memory.corners.is_busy() {
             let what = "a tilted plane starts or ends under cutter compensation".to_owned();
             report.fault(report.whole(), FaultKind::NotModelled { what });
-            self.forget_position();
+            self.core.forget_position();
         }
-        let mut position = self.state.position;
+        let mut position = self.core.state.position;
         if let Some(old) = self.memory.frames.tilt {
             position = old.to_work(&position);
         }
@@ -34,13 +35,13 @@ impl<'d> Interpreter<'d> {
             position = new.to_plane(&position);
         }
         self.memory.frames.tilt = tilt;
-        if !self.state.tcp {
+        if !self.core.state.tcp {
             // words without tool centre point control are no places of the tip where a rotary axis is turned, or the tool hangs off the
             // zero of the axes; where the tip is, the machine knows
             position.known &= !XYZ;
         }
-        self.state.position = position;
-        self.state.orientation = Orientation::Words;
+        self.core.state.position = position;
+        self.core.state.orientation = Orientation::Words;
         self.memory.frames.refresh(&position);
     }
 
@@ -63,9 +64,12 @@ impl<'d> Interpreter<'d> {
     ) {
         let adds = found.code.id == "G68.4";
         let turns = self.plane_turns(words, report);
-        let clear = words.axes.unread == 0 && !self.state.incremental && self.memory.frames.shape.is_identity();
+        let clear = words.axes.unread == 0 && !self.core.state.incremental && self.memory.frames.shape.is_identity();
         let outer = self.memory.frames.tilt.filter(|_| adds);
-        let (Some(turns), true) = (turns, clear && adds == outer.is_some() && !self.state.frame_unknown) else {
+        let (Some(turns), true) = (
+            turns,
+            clear && adds == outer.is_some() && !self.core.state.frame_unknown,
+        ) else {
             self.end_tilt(report);
             self.frame_change(found, words, block, report);
             return;
@@ -78,7 +82,7 @@ impl<'d> Interpreter<'d> {
 
     /// Axis and degrees of the turns that I J K tell.
     fn plane_turns(&self, words: &Words, report: &mut Report<'_>) -> Option<[(usize, f64); 3]> {
-        let implicit = self.setup.control.implicit_decimals;
+        let implicit = self.core.setup.control.implicit_decimals;
         let angle = |letter| match words.letter(letter) {
             Said::Nothing => Some(0.0),
             said => said.number().map(|number| match implicit {
@@ -119,7 +123,7 @@ impl<'d> Interpreter<'d> {
         if order > 333 || axes.iter().fold(0, |mask, axis| mask | 1 << axis) != 0b111 {
             return None;
         }
-        match self.setup.control.roll_pitch_yaw? {
+        match self.core.setup.control.roll_pitch_yaw? {
             RollPitchYaw::Turned => Some(axes.map(turn)),
             // the last turn about a fixed axis is the outermost
             RollPitchYaw::Fixed => Some([turn(axes[2]), turn(axes[1]), turn(axes[0])]),
@@ -147,7 +151,7 @@ impl<'d> Interpreter<'d> {
             self.unmodelled_code(found, words, block, report);
             return;
         };
-        if self.memory.frames.tilt.is_none() || self.state.tcp {
+        if self.memory.frames.tilt.is_none() || self.core.state.tcp {
             self.unmodelled_code(found, words, block, report);
             return;
         }
@@ -162,14 +166,16 @@ impl<'d> Interpreter<'d> {
 
     /// Turns the rotary axes onto the plane's normal.
     fn swivel(&mut self, swivel: Swivel, posture: Posture, report: &Report<'_>) {
-        let start = self.state.position;
+        let start = self.core.state.position;
         // also where the tip stays: what X Y Z were without it being led is no place of the tip
-        self.forget_linear();
-        self.state.position.known &= !ROTARY;
-        let mut end = self.state.position;
+        self.core.forget_linear();
+        self.core.state.position.known &= !ROTARY;
+        let mut end = self.core.state.position;
         end.known &= !LINEAR;
         let orientation = Orientation::Vector(None, Vec3::z());
-        let mut motion = self.new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
+        let mut motion = self
+            .core
+            .new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
         (motion.tilt.swivel, motion.tilt.posture, motion.tcp) = (swivel, posture, false);
         self.memory.out.push(motion);
     }
@@ -199,10 +205,10 @@ impl<'d> Interpreter<'d> {
             self.frame_change(found, words, block, report);
             return;
         };
-        let ended = self.memory.end_frame(found.code);
-        self.forget_if(ended);
+        let ended = self.core.unknown.end(found.code);
+        self.core.forget_if(ended);
         block.takes_coordinates = true;
-        let unit = self.state.length_unit_mm;
+        let unit = self.core.state.length_unit_mm;
         let shifted = |by: [f64; 3]| Tilted::new(Vec3::from(by) * unit, &[]);
         let plane = shifted(call.before)
             .then(&Tilted::new(Vec3::zeros(), &call.turns))
@@ -219,7 +225,7 @@ impl<'d> Interpreter<'d> {
             (false, true) => Swivel::TipStays,
             (false, false) => Swivel::AxesStay,
         };
-        self.state.frame_unknown = self.memory.frame_unknown();
+        self.core.state.frame_unknown = self.core.unknown.any();
         self.swivel(swivel, posture, report);
     }
 }

@@ -2,20 +2,21 @@
 use super::{Polar, Rotation, Scaling};
 use crate::arc::plane_axes;
 use crate::codes::{BlockCodes, Found};
-use crate::run::{Interpreter, Report};
+use crate::core::Report;
+use crate::iso::Iso;
 use crate::words::Words;
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// Whether nothing is in force that would make a new frame's place unclear.
     fn frames_are_plain(&self) -> bool {
-        !self.state.frame_unknown
-            && !self.state.tcp
+        !self.core.state.frame_unknown
+            && !self.core.state.tcp
             && self.memory.frames.polar.is_none()
             && self.memory.frames.tilt.is_none()
     }
 
     fn reshaped(&mut self) {
-        let position = self.state.position;
+        let position = self.core.state.position;
         self.memory.frames.refresh(&position);
     }
 
@@ -27,12 +28,12 @@ impl<'d> Interpreter<'d> {
         block: &mut BlockCodes,
         report: &mut Report<'_>,
     ) {
-        let plane = self.state.plane;
+        let plane = self.core.state.plane;
         let [a, b, _] = plane_axes(plane);
         let angle = words.radius.number().map(|number| number.value);
-        let position = self.state.position;
+        let position = self.core.state.position;
         let here = self.memory.frames.programmed(&position);
-        let unit = self.state.length_unit_mm;
+        let unit = self.core.state.length_unit_mm;
         let centre = [a, b].map(|axis| match words.axes.get(axis) {
             Some(value) => Some(value * unit),
             None if words.axes.unread & (1 << axis) != 0 => None,
@@ -63,8 +64,8 @@ impl<'d> Interpreter<'d> {
             self.memory.frames.must_be_absolute = (1 << a) | (1 << b);
             self.reshaped();
         }
-        let ended = self.memory.end_frame(found.code);
-        self.forget_if(ended);
+        let ended = self.core.unknown.end(found.code);
+        self.core.forget_if(ended);
     }
 
     /// G51: factor P for all axes, or I J K for X Y Z.
@@ -78,9 +79,9 @@ impl<'d> Interpreter<'d> {
         let shape = &self.memory.frames.shape;
         let plain = self.frames_are_plain() && shape.rotation.is_none() && shape.scaling.is_none();
         let factors = self.scale_factors(words);
-        let position = self.state.position;
+        let position = self.core.state.position;
         let here = self.memory.frames.programmed(&position);
-        let unit = self.state.length_unit_mm;
+        let unit = self.core.state.length_unit_mm;
         let mut centre = [0.0; 3];
         let mut known = words.axes.unread == 0 && plain;
         if let Some(factors) = factors {
@@ -102,7 +103,7 @@ impl<'d> Interpreter<'d> {
 
     /// Factors of X Y Z; `None` where the unit of a whole number is a parameter of the control, or one is zero.
     fn scale_factors(&self, words: &Words) -> Option<[f64; 3]> {
-        let plain = self.dialect.quirks.plain_scale_factor;
+        let plain = self.core.dialect.quirks.plain_scale_factor;
         let factor = |letter: u8| match words.letter(letter) {
             crate::words::Said::Nothing => Some(None),
             said => {
@@ -122,8 +123,8 @@ impl<'d> Interpreter<'d> {
     pub(crate) fn scaling_off(&mut self, found: &Found<'d>) {
         self.memory.frames.shape.scaling = None;
         self.reshaped();
-        let ended = self.memory.end_frame(found.code);
-        self.forget_if(ended);
+        let ended = self.core.unknown.end(found.code);
+        self.core.forget_if(ended);
     }
 
     /// G51.1: axes are mirrored about the given coordinates.
@@ -161,8 +162,8 @@ impl<'d> Interpreter<'d> {
             self.memory.frames.shape.mirror[axis] = None;
         }
         self.reshaped();
-        let ended = self.memory.end_frame(found.code);
-        self.forget_if(ended);
+        let ended = self.core.unknown.end(found.code);
+        self.core.forget_if(ended);
     }
 
     /// G16 and G15.
@@ -176,7 +177,7 @@ impl<'d> Interpreter<'d> {
     pub(crate) fn after_turn(&mut self, words: &Words, end: &mut crate::Position) {
         let named = words.axes.given | words.axes.unread;
         let frames = &mut self.memory.frames;
-        let absolute = !self.state.incremental;
+        let absolute = !self.core.state.incremental;
         if named & frames.fresh != 0 && absolute {
             end.known &= !(frames.fresh & !named);
             frames.fresh &= !named;

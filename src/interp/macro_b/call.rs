@@ -4,7 +4,7 @@ use super::variables::{Locals, Variables};
 use super::{Deep, FlowCode};
 use crate::Sink;
 use crate::flow::{Back, Calling, Level as Kept, Running};
-use crate::run::Interpreter;
+use crate::iso::Iso;
 use crate::{Fault, FaultKind, Refusal};
 use trunnion_dialect::{Action, Dialect};
 use trunnion_flow::{Key, Search};
@@ -43,7 +43,7 @@ impl Level {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Where the program of a call stands; `None`: M97 to a sequence number that is not there.
     pub(crate) fn find_macro(
         &mut self,
@@ -89,10 +89,10 @@ impl Interpreter<'_> {
             crate::flow::With::MacroB(with) => with.arguments.is_some(),
             crate::flow::With::Sinumerik(_) => false,
         };
-        let (depth, limit, what) = if self.dialect.quirks.user_names() {
-            return crate::sinumerik::too_deep(levels, self.setup.limits.depth as usize);
-        } else if !is_fanuc(self.dialect) {
-            (levels, self.setup.limits.depth as usize, "calls")
+        let (depth, limit, what) = if self.core.dialect.quirks.user_names() {
+            return crate::sinumerik::too_deep(levels, self.core.setup.limits.depth as usize);
+        } else if !is_fanuc(self.core.dialect) {
+            (levels, self.core.setup.limits.depth as usize, "calls")
         } else {
             let macros = trail.course.programs().filter(of_macro).count();
             if is_macro {
@@ -102,7 +102,7 @@ impl Interpreter<'_> {
             }
         };
         let message = format!("{what} are nested deeper than {limit} levels: does a program call itself?");
-        (depth >= limit).then(|| rejected(self.dialect, Mistake::Nesting, Refusal::Subprogram, message))
+        (depth >= limit).then(|| rejected(self.core.dialect, Mistake::Nesting, Refusal::Subprogram, message))
     }
 
     /// M99 has left a call: the caller's variables are back, and the run goes on at a sequence number if M99 names one.
@@ -149,7 +149,7 @@ impl Interpreter<'_> {
             Some((label, None)) => self.no_label(&label, Search::FromStart, back.range, running, from, sink),
             Some((_, Some(to))) if to > from => self.jump(to),
             _ => {
-                if !has_end(running.main, self.dialect) {
+                if !has_end(running.main, self.core.dialect) {
                     let what = "M99 of the main program, which begins it anew: one pass is run".to_owned();
                     self.tell_of_flow(running, from, (back.range, FaultKind::NotModelled { what }), sink);
                 }
@@ -171,7 +171,7 @@ impl Interpreter<'_> {
             _ => (place.main, place.main_range),
         };
         let message = "the program that is called ends without M99".to_owned();
-        let kind: FaultKind = rejected(self.dialect, Mistake::EndOfRecord, Refusal::ProgramEnd, message);
+        let kind: FaultKind = rejected(self.core.dialect, Mistake::EndOfRecord, Refusal::ProgramEnd, message);
         sink.fault(Fault { block, range, kind });
         self.stop();
     }

@@ -4,13 +4,13 @@ use super::alarms::rejected;
 use super::read::{Macros, Mode};
 use crate::Sink;
 use crate::flow::{Trail, index_of};
+use crate::iso::Iso;
 use crate::reader::Reader;
-use crate::run::Interpreter;
 use crate::words::Words;
 use crate::{Clamps, Fault, FaultKind, Refusal};
 use trunnion_syntax::{BlockId, Format, Program, TextRange};
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Nothing is left to run: tells what is missing, and what is wrong with the text of blocks that did not run.
     #[cold]
     pub(crate) fn end(&mut self, program: &Program, sink: &mut impl Sink) {
@@ -18,7 +18,8 @@ impl Interpreter<'_> {
             return;
         }
         self.finish(program, sink);
-        let reads = self.dialect.quirks.macro_b() || self.dialect.quirks.user_names() && self.flow.trail.is_some();
+        let reads =
+            self.core.dialect.quirks.macro_b() || self.core.dialect.quirks.user_names() && self.flow.trail.is_some();
         if !reads || program.options().format != Format::Iso {
             return;
         }
@@ -40,12 +41,17 @@ impl Interpreter<'_> {
 
     /// What is wrong with DO and END.
     fn broken_loops(&self, program: &Program, trail: &mut Trail, sink: &mut impl Sink) {
-        if self.dialect.quirks.user_names() {
+        if self.core.dialect.quirks.user_names() {
             // structures are looked for while a program runs: what is not reached is no mistake
             return;
         }
-        for broken in &trail.index(0, || index_of(self.dialect, program)).broken {
-            let kind = rejected(self.dialect, broken.mistake, Refusal::Structure, broken.message.clone());
+        for broken in &trail.index(0, || index_of(self.core.dialect, program)).broken {
+            let kind = rejected(
+                self.core.dialect,
+                broken.mistake,
+                Refusal::Structure,
+                broken.message.clone(),
+            );
             sink.fault(Fault {
                 block: BlockId(broken.block),
                 range: broken.range,
@@ -71,18 +77,18 @@ impl Interpreter<'_> {
             let view = program.block(block);
             let mut reader = Reader {
                 program,
-                dialect: self.dialect,
+                dialect: self.core.dialect,
                 block,
                 words: &mut words,
                 codes: &mut codes,
                 delete: None,
-                clamps: (&mut Clamps::default(), &self.setup.control.clamp_codes),
-                macros: self.dialect.quirks.macro_b().then_some(Macros {
+                clamps: (&mut Clamps::default(), &self.core.setup.control.clamp_codes),
+                macros: self.core.dialect.quirks.macro_b().then_some(Macros {
                     mode: Mode::Text,
                     file: 0,
                     deep: &mut deep,
-                    state: &self.state,
-                    setup: &self.setup,
+                    state: &self.core.state,
+                    setup: &self.core.setup,
                     frames: &self.memory.frames,
                 }),
                 own: None,

@@ -3,7 +3,7 @@
 //! Source: Fanuc Series 30i operator's manual, custom macro, system variables: #4001 to #4130 modal information of the block before,
 //! #5001 ff. its end point, #5021 ff. machine coordinates, #5041 ff. coordinates with the tool's length, #5221 to #5324 work offsets.
 use crate::frames::Frames;
-use crate::run::Interpreter;
+use crate::iso::Iso;
 use crate::{FeedMode, ModalState, Setup};
 use trunnion_dialect::{Action, Plane};
 
@@ -165,11 +165,11 @@ pub(crate) fn is_followed(number: u32) -> bool {
     offset_of(number).is_some()
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// An assignment to #5201 to #5323: a zero point moves, the machine stays where it is. `value` in program units.
     pub(crate) fn system_write(&mut self, number: u32, value: f64) {
         let Some((name, axis)) = offset_of(number) else { return };
-        let value = value * self.state.length_unit_mm;
+        let value = value * self.core.state.length_unit_mm;
         let Some(name) = name else {
             self.memory.frames.external[axis] = value;
             return self.refresh_zero();
@@ -181,9 +181,9 @@ impl Interpreter<'_> {
             Some(known) => known.1 = values,
             None => written.push((name.clone().into(), values)),
         }
-        let in_force = match self.state.work_offset.as_deref() {
+        let in_force = match self.core.state.work_offset.as_deref() {
             Some(known) => known.eq_ignore_ascii_case(&name),
-            None => self.dialect.quirks.first_offset_at_start && name == "G54",
+            None => self.core.dialect.quirks.first_offset_at_start && name == "G54",
         };
         if in_force {
             self.set_zero(Some(name.into()), values);

@@ -6,16 +6,17 @@ use super::read::{Macros, Mode};
 use super::variables::Held;
 use super::{Deep, FlowCode, Modal, With};
 use crate::codes::Found;
+use crate::core::Report;
 use crate::flow::{Back, Calling, Transfer, With as Handed};
+use crate::iso::Iso;
 use crate::reader::Reader;
-use crate::run::{Interpreter, Report};
 use crate::words::{Said, Words};
 use crate::{FaultKind, Refusal};
 use trunnion_dialect::{Action, Dialect};
 use trunnion_flow::Key;
 use trunnion_syntax::{Block, Item, TextRange};
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// Reads the words of a block; what macro statements ask for is done when it has run.
     pub(crate) fn read(
         &mut self,
@@ -24,31 +25,31 @@ impl<'d> Interpreter<'d> {
         words: &mut Words,
         report: &mut Report<'_>,
     ) {
-        if self.dialect.quirks.user_names() {
+        if self.core.dialect.quirks.user_names() {
             self.sinumerik_begins();
         }
         let mode = if self.flow.follows { Mode::Follow } else { Mode::Step };
-        let mut clamps = self.state.clamps;
+        let mut clamps = self.core.state.clamps;
         clamps.begin_block();
         let file = self.flow.file();
         let macros = Macros {
             mode,
             file,
             deep: &mut self.flow.deep,
-            state: &self.state,
-            setup: &self.setup,
+            state: &self.core.state,
+            setup: &self.core.setup,
             frames: &self.memory.frames,
         };
         let mut reader = Reader {
             program: block.program(),
-            dialect: self.dialect,
+            dialect: self.core.dialect,
             block: block.id(),
             words,
             codes,
-            delete: self.setup.control.block_delete,
-            clamps: (&mut clamps, &self.setup.control.clamp_codes),
-            macros: self.dialect.quirks.macro_b().then_some(macros),
-            own: self.dialect.quirks.user_names().then_some(&mut self.memory.own),
+            delete: self.core.setup.control.block_delete,
+            clamps: (&mut clamps, &self.core.setup.control.clamp_codes),
+            macros: self.core.dialect.quirks.macro_b().then_some(macros),
+            own: self.core.dialect.quirks.user_names().then_some(&mut self.memory.own),
             report: |range: TextRange, kind| report.fault(range, kind),
         };
         if let Some(own) = &mut reader.own {
@@ -63,7 +64,7 @@ impl<'d> Interpreter<'d> {
             }
             reader.take(item);
         }
-        self.state.clamps = clamps;
+        self.core.state.clamps = clamps;
         if let Some(range) = words.rest_deleted.filter(|_| words.flow) {
             // statements are read as a whole
             let what = "`/` behind a statement of a macro".to_owned();
@@ -71,10 +72,10 @@ impl<'d> Interpreter<'d> {
             words.forgets_all = true;
         }
         let calls = |found: &Found<'_>| found.code.action == Action::SubprogramCall;
-        if words.forgets_all || self.dialect.quirks.user_names() && codes.iter().any(calls) {
+        if words.forgets_all || self.core.dialect.quirks.user_names() && codes.iter().any(calls) {
             self.memory.own.lose();
         }
-        if self.dialect.quirks.user_names() {
+        if self.core.dialect.quirks.user_names() {
             self.sinumerik_words(block, codes, words, report);
         }
         if words.flow || words.program_number.is_some() {
@@ -90,7 +91,7 @@ impl<'d> Interpreter<'d> {
         words: &mut Words,
         report: &mut Report<'_>,
     ) {
-        if !self.dialect.quirks.macro_b() {
+        if !self.core.dialect.quirks.macro_b() {
             return;
         }
         let writes = self.flow.deep.as_mut().map(|deep| std::mem::take(&mut deep.writes));
@@ -104,16 +105,16 @@ impl<'d> Interpreter<'d> {
             // the program before it ends here, without M30 or M99
             codes.clear();
             *words = Words::default();
-            self.state.ended = true;
+            self.core.state.ended = true;
             return;
         }
         let Some(mut deep) = self.flow.deep.take() else { return };
         let statement = deep.statement.take();
         if let Some((code, range)) = deep.code.take() {
             self.flow_code(&mut deep, (code, range), block, words, report);
-        } else if let Some(range) = statement.filter(|_| is_fanuc(self.dialect) && mixes(codes, words)) {
+        } else if let Some(range) = statement.filter(|_| is_fanuc(self.core.dialect) && mixes(codes, words)) {
             let message = "a macro statement and words of the control stand in one block".to_owned();
-            let kind = rejected(self.dialect, Mistake::MixedBlock, Refusal::Structure, message);
+            let kind = rejected(self.core.dialect, Mistake::MixedBlock, Refusal::Structure, message);
             report.fault(range, kind);
         }
         self.flow.deep = Some(deep);
@@ -128,14 +129,14 @@ impl<'d> Interpreter<'d> {
             let again = trail.course.has_run(block.id().0);
             starts || again || trail.course.is_called()
         });
-        !inside && self.memory.last_content.is_some()
+        !inside && self.core.last_content.is_some()
     }
 
     /// G67: G66.1 has hidden the positions.
     fn macro_per_block_ends(&mut self) {
-        if let Some(code) = self.dialect.g(670) {
-            let ended = self.memory.end_frame(code);
-            self.forget_if(ended);
+        if let Some(code) = self.core.dialect.g(670) {
+            let ended = self.core.unknown.end(code);
+            self.core.forget_if(ended);
         }
     }
 
@@ -167,12 +168,12 @@ impl<'d> Interpreter<'d> {
                     mode: Mode::Follow,
                     file: self.flow.file(),
                     deep: &mut slot,
-                    state: &self.state,
-                    setup: &self.setup,
+                    state: &self.core.state,
+                    setup: &self.core.setup,
                     frames: &self.memory.frames,
                 };
                 let mut tell = |range: TextRange, kind| report.fault(range, kind);
-                let call = arguments::read(&mut macros, self.dialect, block, range, &mut tell);
+                let call = arguments::read(&mut macros, self.core.dialect, block, range, &mut tell);
                 *deep = slot.unwrap_or_default();
                 if let Some((range, what)) = call.unknown {
                     report.fault(range, FaultKind::NotDecided { what });
@@ -197,7 +198,7 @@ impl<'d> Interpreter<'d> {
         let name = name.and_then(|range| bracketed(report.program.bytes(range)));
         let place = report.program.block(report.block).range();
         let place = TextRange::new(range.start, place.end);
-        match target(self.dialect, code, (name, program), times) {
+        match target(self.core.dialect, code, (name, program), times) {
             Ok((program, times)) => {
                 let range = call_range(report, range, place);
                 if code == FlowCode::Modal {

@@ -5,7 +5,8 @@ use super::feed::Rate;
 use super::frames::Shift;
 use super::places::Places;
 use super::steady::Steady;
-use crate::{Fault, FaultKind, Feed, Interpreter, Motion, MotionKind, Orientation, Position, Sink};
+use crate::core::Core;
+use crate::{Fault, FaultKind, Feed, Motion, MotionKind, Orientation, Position, Sink};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::{Arc, Turning};
 use trunnion_ngc::{At, Canon, Error, FileId, OwnCode, Pose, State};
@@ -70,7 +71,7 @@ const SPLINE_TOLERANCE_MM: f64 = 0.001;
 
 /// Receives canonical calls.
 pub(super) struct Bridge<'i, 'd, 'p, S: Sink> {
-    pub(super) interpreter: &'i mut Interpreter<'d>,
+    pub(super) core: &'i mut Core<'d>,
     pub(super) told: &'i mut Told,
     pub(super) program: &'p Program,
     pub(super) sink: &'i mut S,
@@ -141,14 +142,14 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         at: At,
         state: &State,
     ) -> Motion {
-        if self.interpreter.memory.effects.wanted {
+        if self.core.effects.wanted() {
             self.machine_frame(state.machine_frame, at);
         }
         let block = self.block(at);
         let start = shift.programmed(&self.told.machine);
         let [mut end, mut machine] = ends;
         let mut kind = kind;
-        if self.interpreter.state.tcp && state.machine_frame {
+        if self.core.state.tcp && state.machine_frame {
             self.frame_unknown(at);
             kind = MotionKind::Unknown;
             for axis in LINEAR_AXES {
@@ -166,20 +167,20 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             }
         }
         self.told.machine = machine;
-        let interpreter = &mut *self.interpreter;
-        interpreter.state.position = end;
-        interpreter.chain = self.told.places.chain(at);
-        super::modal::refresh(&mut interpreter.state, state, shift);
-        let modal = &interpreter.state;
+        let core = &mut *self.core;
+        core.state.position = end;
+        core.chain = self.told.places.chain(at);
+        super::modal::refresh(&mut core.state, state, shift);
+        let modal = &core.state;
         let motion = Motion {
             block,
-            chain: interpreter.chain,
+            chain: core.chain,
             kind,
             start,
             end,
             // lines that are emitted as differences may name other rotary axes
             says_way: if modal.incremental {
-                crate::offsets::ROTARY | state.named_axes
+                crate::core::ROTARY | state.named_axes
             } else {
                 0
             },
@@ -195,7 +196,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             radii: state.lathe_diameter,
             tool: modal.tool,
             tilt: crate::Tilt::default(),
-            effects: interpreter.memory.effects.count,
+            effects: core.effects.count(),
         };
         let named = state.named_axes & !motion.end.known != 0;
         let no_path = matches!(
@@ -203,7 +204,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             MotionKind::Arc(None) | MotionKind::Unknown | MotionKind::Dwell(None)
         );
         self.told.unknown_end |= named || no_path;
-        self.sink.motion(&motion, &self.interpreter.state);
+        self.sink.motion(&motion, &self.core.state);
         motion
     }
 
@@ -263,7 +264,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
         if !matches!(call, Canon::Traverse(_) | Canon::Feed(_) | Canon::FeedRate(_)) {
             self.told.steady = None;
         }
-        if self.interpreter.memory.effects.wanted {
+        if self.core.effects.wanted() {
             self.effect_of_call(call, at);
         }
         match call {

@@ -3,7 +3,7 @@ use super::bridge::{Bridge, LINEAR_AXES};
 use super::feed::Rate;
 use super::frames::Shift;
 use super::setup::SYSTEMS;
-use crate::memory::Chosen;
+use crate::tools::Chosen;
 use crate::{Fault, FaultKind, LengthOf, Sink};
 use trunnion_dialect::{Action, Code, Dialect, Plane};
 use trunnion_ngc::{At, Canon, OwnCode, Pose, Side, SpindleTurn, State, Units};
@@ -16,7 +16,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         for own in codes {
             self.own_code(*own, at, state);
         }
-        let dialect = self.interpreter.dialect;
+        let dialect = self.core.dialect;
         let moves = |own: &&OwnCode| table_entry(dialect, **own).is_some_and(|code| !is_harmless(code.action));
         let moving: Vec<&OwnCode> = codes.iter().filter(moves).collect();
         let [_, .., last] = moving[..] else { return };
@@ -31,12 +31,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.told.kinematics_unknown = true;
         self.told.lost = true;
         self.told.lost_rotary = true;
-        self.interpreter.state.frame_unknown = true;
+        self.core.state.frame_unknown = true;
     }
 
     /// A code of the machine's own: what the dialect's table says of it, otherwise the position after it is unknown.
     fn own_code(&mut self, own: OwnCode, at: At, state: &State) {
-        let code = table_entry(self.interpreter.dialect, own);
+        let code = table_entry(self.core.dialect, own);
         let clamps_axis = self.clamp_code(own, state);
         let Some(code) = code else {
             if !clamps_axis {
@@ -59,7 +59,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             self.fault(at, own.range, FaultKind::NotModelled { what });
             self.told.kinematics_unknown = true;
             self.told.lost_rotary = true;
-            self.interpreter.state.frame_unknown = true;
+            self.core.state.frame_unknown = true;
             return;
         }
         if known && state.named_axes != 0 {
@@ -86,7 +86,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 }
             }
         }
-        self.interpreter.state.frame_unknown = self.told.is_hidden();
+        self.core.state.frame_unknown = self.told.is_hidden();
     }
 
     /// Takes a code that closes or opens a clamp; whether it is one.
@@ -94,9 +94,9 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if own.letter != b'M' {
             return false;
         }
-        let interpreter = &mut *self.interpreter;
-        let codes = &interpreter.setup.control.clamp_codes;
-        let clamps = &mut interpreter.state.clamps;
+        let core = &mut *self.core;
+        let codes = &core.setup.control.clamp_codes;
+        let clamps = &mut core.state.clamps;
         let is_one = clamps.hear(codes, own.tenths);
         // motions before it in the text may come after it
         if is_one && state.side != Side::Off {
@@ -107,7 +107,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// A code that switches the kinematics.
     fn kinematics(&mut self, code: &str, own: OwnCode, at: At) {
-        let declared = self.interpreter.setup.control.tcp_codes.as_ref();
+        let declared = self.core.setup.control.tcp_codes.as_ref();
         if let Some(on) = declared.and_then(|codes| codes.meaning(code)) {
             self.told.lost |= std::mem::take(&mut self.told.kinematics_unknown);
             self.tcp(on);
@@ -145,8 +145,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
 
     /// The linear axes of one kind of coordinates are not known from the other.
     pub(super) fn tcp(&mut self, on: bool) {
-        if self.interpreter.state.tcp != on {
-            self.interpreter.state.tcp = on;
+        if self.core.state.tcp != on {
+            self.core.state.tcp = on;
             self.told.lost = true;
         }
     }
@@ -159,7 +159,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                     mm: rate * unit,
                     deg: rate,
                 });
-                self.interpreter.state.feed = Some(rate * unit);
+                self.core.state.feed = Some(rate * unit);
             }
             Canon::FeedMode(_, mode) => self.told.per_revolution = mode == 1,
             Canon::StartSync(synced) => {
@@ -170,23 +170,23 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Canon::G92Offset(ref offset) => self.told.g92 = Shift::metric(offset, unit),
             Canon::StopSync => self.told.synced = None,
             Canon::Spindle(0, turn) => {
-                self.interpreter.state.spindle_on = Some(turn != SpindleTurn::Stop);
+                self.core.state.spindle_on = Some(turn != SpindleTurn::Stop);
             }
             Canon::SpindleSpeed(0, speed) => {
                 let surface = self.told.surface_speed;
-                self.interpreter.state.spindle_rpm = (!surface && speed.is_finite()).then_some(speed);
+                self.core.state.spindle_rpm = (!surface && speed.is_finite()).then_some(speed);
             }
             Canon::SelectTool(number) => {
                 let number = u32::try_from(number).ok();
-                self.interpreter.state.tool_prepared = number;
-                self.interpreter.memory.prepared = number.map_or(Chosen::Unread, Chosen::Number);
+                self.core.state.tool_prepared = number;
+                self.core.tools.prepare(number.map_or(Chosen::Unread, Chosen::Number));
             }
             Canon::ChangeTool { .. } | Canon::ChangeToolNumber { .. } => {
                 let number = u32::try_from(state.tool).ok();
-                let interpreter = &mut *self.interpreter;
-                interpreter.state.tool = number;
-                interpreter.memory.in_spindle = number.map_or(Chosen::Unread, Chosen::Number);
-                interpreter.merge_tool();
+                let core = &mut *self.core;
+                core.state.tool = number;
+                core.tools.load(number.map_or(Chosen::Unread, Chosen::Number));
+                core.merge_tool();
                 // the change may move the machine: the interpreter has forgotten X Y Z too
                 if matches!(call, Canon::ChangeTool { .. }) {
                     for axis in LINEAR_AXES {
@@ -199,14 +199,14 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             Canon::Units(units) => {
                 // the first one is the control's own, before the program
                 let own = !std::mem::replace(&mut self.told.own_units, true);
-                let modal = &mut self.interpreter.state;
+                let modal = &mut self.core.state;
                 let said = modal.units_said || !own;
                 let unit = if units == Units::Inch { 25.4 } else { 1.0 };
                 modal.units(unit, unit);
                 modal.units_said = said;
             }
             Canon::Plane(plane) => {
-                self.interpreter.state.plane = match plane {
+                self.core.state.plane = match plane {
                     trunnion_ngc::Plane::Xz => Plane::Zx,
                     trunnion_ngc::Plane::Yz => Plane::Yz,
                     _ => Plane::Xy,
@@ -220,16 +220,16 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let on = offset.iter().any(|value| *value != 0.0) || state.tool != 0;
         self.told.tool_offset = Shift::metric(offset, state.units.mm());
         let length = self.told.tool_offset[2];
-        self.interpreter.state.tool_length_mm = (on && length.is_finite()).then_some(length);
-        self.interpreter.state.length_of = match state.length_of {
-            Some(0) => LengthOf::Tool(self.interpreter.state.tool),
+        self.core.state.tool_length_mm = (on && length.is_finite()).then_some(length);
+        self.core.state.length_of = match state.length_of {
+            Some(0) => LengthOf::Tool(self.core.state.tool),
             Some(number) => u32::try_from(number).map_or(LengthOf::Other, |number| LengthOf::Tool(Some(number))),
             None => LengthOf::Nothing,
         };
-        let declared = self.interpreter.tool().and_then(|tool| tool.length_mm).is_some();
+        let declared = self.core.state.tool_data.and_then(|tool| tool.length_mm).is_some();
         if on && length == 0.0 && !declared {
-            let tool = self.interpreter.tool_name();
-            if self.interpreter.memory.length_is_news(&tool) {
+            let tool = self.core.tools.name();
+            if self.core.tools.first_report_of_length(&tool) {
                 let range = self.code_range(at, b'G', |code| (430..=432).contains(&code));
                 self.fault(at, range, FaultKind::ToolLengthUnset { tool });
             }
@@ -240,17 +240,17 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         let Some(name) = usize::try_from(index - 1).ok().and_then(|index| SYSTEMS.get(index)) else {
             return;
         };
-        let changed = self.interpreter.state.work_offset.as_deref() != Some(*name);
-        self.interpreter.state.work_offset = Some((*name).into());
+        let changed = self.core.state.work_offset.as_deref() != Some(*name);
+        self.core.state.work_offset = Some((*name).into());
         let declared = self
-            .interpreter
+            .core
             .setup
             .work_offsets
             .iter()
             .any(|known| known.name.eq_ignore_ascii_case(name));
         let zero = offset.iter().all(|value| *value == 0.0);
-        let begun = self.interpreter.memory.last_content.is_some();
-        if begun && changed && zero && !declared && self.interpreter.memory.offset_is_news(name) {
+        let begun = self.core.last_content.is_some();
+        if begun && changed && zero && !declared && self.core.offsets_reported.first(name) {
             let name = (*name).to_owned();
             let range = self.code_range(at, b'G', |code| (540..=593).contains(&code));
             self.fault(at, range, FaultKind::WorkOffsetUnset { name });

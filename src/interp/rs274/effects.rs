@@ -11,10 +11,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     pub(super) fn effect_of_call(&mut self, call: &Canon, at: At) {
         if let Some(effect) = effect(call) {
             let block = self.block(at);
-            self.interpreter.memory.effects.add(block, effect);
+            self.core.effects.add(block, effect);
             if matches!(call, Canon::ChangeTool { .. } | Canon::ChangeToolNumber { .. }) {
                 let change = vec![Argument::code("tool change")];
-                self.interpreter.memory.effects.add(block, Effect::Event(change));
+                self.core.effects.add(block, Effect::Event(change));
             }
             self.hand_on();
         }
@@ -37,12 +37,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             .told
             .synced
             .map_or(Feed::Unknown, |pitch| Feed::PerRevolution(pitch.mm));
-        if self.interpreter.memory.effects.wanted {
+        if self.core.effects.wanted() {
             self.tapping(Some(back), at);
         }
         self.motion(MotionKind::Linear, end, &shift, feed, at, state);
         self.motion(MotionKind::Linear, start, &shift, feed, at, state);
-        if self.interpreter.memory.effects.wanted {
+        if self.core.effects.wanted() {
             self.tapping(None, at);
         }
     }
@@ -52,7 +52,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     pub(super) fn tapping(&mut self, back: Option<f64>, at: At) {
         let block = self.block(at);
         let to: Vec<Argument> = back.map(|back| Argument::number("G33.1", back)).into_iter().collect();
-        self.interpreter.memory.effects.add(block, Effect::set("cycle", to));
+        self.core.effects.add(block, Effect::set("cycle", to));
         self.hand_on();
     }
 
@@ -61,18 +61,13 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if std::mem::replace(&mut self.told.machine_frame, is_on) != is_on {
             let block = self.block(at);
             let to: Vec<Argument> = is_on.then(|| Argument::code("G53")).into_iter().collect();
-            self.interpreter
-                .memory
-                .effects
-                .add(block, Effect::set("coordinates", to));
+            self.core.effects.add(block, Effect::set("coordinates", to));
             self.hand_on();
         }
     }
 
     fn hand_on(&mut self) {
-        for effect in std::mem::take(&mut self.interpreter.memory.effects.ready) {
-            self.sink.effect(effect);
-        }
+        self.core.hand_on_effects(self.sink);
     }
 }
 

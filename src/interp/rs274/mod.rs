@@ -11,20 +11,23 @@ mod places;
 mod setup;
 mod steady;
 
+use crate::core::Core;
+use crate::engine::Engine;
 use crate::words::Words;
-use crate::written::{Keep, resolved, written};
+use crate::written::{Keep, Values, resolved, written};
 use crate::{Argument, Effect};
-use crate::{FaultKind, Frame, Interpreter, ProgramRun, Sink};
+use crate::{FaultKind, Frame, Sink};
 use bridge::{Bridge, LINEAR_AXES, Told};
 use frames::Shift;
 use std::sync::Arc;
-use trunnion_ngc::{Engine, FileId, Source, Step};
+use trunnion_dialect::Dialect;
+use trunnion_ngc::{FileId, Source, Step};
 use trunnion_syntax::{BlockId, Program, TextRange};
 
 /// A run between two lines.
 #[derive(Clone)]
 pub(crate) struct Rs274 {
-    engine: Engine,
+    engine: trunnion_ngc::Engine,
     told: Told,
     /// Nothing is left to run.
     done: bool,
@@ -48,11 +51,11 @@ fn blocks_of_lines(program: &Program) -> Option<std::sync::Arc<[u32]>> {
 }
 
 impl Rs274 {
-    fn begin(program: &Program, interpreter: &Interpreter<'_>) -> Self {
-        let told = setup::told(&interpreter.setup, &interpreter.memory.declared, interpreter.dialect);
+    fn begin(program: &Program, core: &Core<'_>) -> Self {
+        let told = setup::told(&core.setup, core.tools.declared(), core.dialect);
         let source = Source::shared(String::new(), program.shared_source());
         Self {
-            engine: Engine::new(Arc::new(source), &told),
+            engine: trunnion_ngc::Engine::new(Arc::new(source), &told),
             told: Told {
                 blocks: blocks_of_lines(program),
                 ..Told::default()
@@ -96,19 +99,38 @@ impl Rs274 {
     }
 }
 
-impl Interpreter<'_> {
-    /// Runs the next line of a LinuxCNC program; see [`Interpreter::advance`].
-    pub(crate) fn advance_rs274(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
+/// The engine of LinuxCNC programs.
+#[derive(Clone)]
+pub(crate) struct Ngc<'d> {
+    core: Core<'d>,
+    /// Once begun.
+    run: Option<Box<Rs274>>,
+}
+
+impl<'d> Ngc<'d> {
+    /// At the start of a program.
+    pub(crate) fn new(core: Core<'d>) -> Self {
+        Self { core, run: None }
+    }
+}
+
+impl<'d> Engine<'d> for Ngc<'d> {
+    #[inline]
+    fn core(&self) -> &Core<'d> {
+        &self.core
+    }
+    fn core_mut(&mut self) -> &mut Core<'d> {
+        &mut self.core
+    }
+    fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         let empty = || program.source().iter().all(|byte| *byte <= b' ');
-        if self.rs274.is_none() && empty() {
+        if self.run.is_none() && empty() {
             return None;
         }
-        if !self.memory.directives_read {
-            self.declare(program);
-        }
-        let mut run = match self.rs274.take() {
+        self.core.declare(program);
+        let mut run = match self.run.take() {
             Some(run) => run,
-            None => Box::new(Rs274::begin(program, self)),
+            None => Box::new(Rs274::begin(program, &self.core)),
         };
         let block = if run.done {
             None
@@ -116,35 +138,63 @@ impl Interpreter<'_> {
             self.step_rs274(&mut run, program, sink)
         };
         let at = run.engine.at();
-        self.rs274 = Some(run);
-        if let Some(block) = block.filter(|_| self.memory.effects.wanted) {
+        self.run = Some(run);
+        if let Some(block) = block.filter(|_| self.core.effects.wanted()) {
             self.line_effect(program, block, at, sink);
         }
         block
     }
+    fn resolved_text(&self, text: &str) -> String {
+        crate::written::resolved(self, text)
+    }
+    fn chain(&self, chain: crate::ChainId) -> Vec<Frame> {
+        self.run.as_ref().map_or_else(Vec::new, |run| run.chain(chain))
+    }
+    fn motions_wait(&self) -> bool {
+        self.run.as_ref().is_some_and(|run| run.motions_wait())
+    }
+    fn variable(&self, text: &str) -> Option<f64> {
+        self.run.as_ref()?.variable(text)
+    }
+    fn outliving(&self) -> Vec<(String, f64)> {
+        self.run.as_ref().map_or_else(Vec::new, |run| run.outliving())
+    }
+}
 
+impl Values for Ngc<'_> {
+    fn dialect(&self) -> &Dialect {
+        self.core.dialect
+    }
+    fn value(&self, text: &str) -> Option<f64> {
+        self.variable(text).filter(|value| !value.is_nan())
+    }
+}
+
+impl Ngc<'_> {
     /// The words of a line that does more than is modelled, or whose values are unknown.
     #[cold]
     fn line_effect(&mut self, program: &Program, block: BlockId, at: trunnion_ngc::At, sink: &mut impl Sink) {
-        let Some(run) = &mut self.rs274 else { return };
+        let Some(run) = &mut self.run else { return };
         let does_more = std::mem::take(&mut run.told.does_more);
         let unknown_end = std::mem::take(&mut run.told.unknown_end);
         let text = run.engine.text_of(at.file, at.line);
         let names = crate::written::names(&text);
         let skip = match program.block(block).items().next() {
-            Some(trunnion_syntax::Item::Skip(level, _)) if self.setup.control.block_delete.is_none() => Some(level),
+            Some(trunnion_syntax::Item::Skip(level, _)) if self.core.setup.control.block_delete.is_none() => {
+                Some(level)
+            }
             _ => None,
         };
         if let Some(level) = skip.filter(|_| at.file == FileId::MAIN) {
             let words = vec![Argument::number("/", f64::from(level))];
-            self.memory.effects.add(block, Effect::Event(words));
+            self.core.effects.add(block, Effect::Event(words));
             self.hand_on(sink);
         }
-        let Some(run) = &mut self.rs274 else { return };
+        let Some(run) = &mut self.run else { return };
         let codes = Codes::of(run.engine.block_at(at));
         // in the main program it starts again, or ends, as the control is set up
         if codes.returns && run.told.places.chain(at) == crate::ChainId::MAIN {
-            self.memory.effects.add(block, Effect::End(vec![Argument::code("M99")]));
+            self.core.effects.add(block, Effect::End(vec![Argument::code("M99")]));
             self.hand_on(sink);
         }
         let upper = crate::written::packed(&text);
@@ -157,15 +207,15 @@ impl Interpreter<'_> {
             };
             let counts = |word: &Argument| matches!(word.name.as_ref(), "G" | "M" | "H" | "R" | "P" | "Q" | "");
             let words = words.into_iter().filter(counts).collect();
-            self.memory.effects.add(block, Effect::Event(words));
+            self.core.effects.add(block, Effect::Event(words));
             self.hand_on(sink);
         }
         // the control keeps what is written to its offsets, also where that is what they are without a declaration
         for store in stored_offsets(&upper, &names, |name| self.variable(name)) {
-            self.memory.effects.add(block, Effect::Store(store));
+            self.core.effects.add(block, Effect::Store(store));
             self.hand_on(sink);
         }
-        let lost = codes.shifts && (codes.ninth || self.state.position.xyz().is_none());
+        let lost = codes.shifts && (codes.ninth || self.core.state.position.xyz().is_none());
         let unknown = lost || names.iter().any(|name| self.variable(name).is_some_and(f64::is_nan));
         if !(does_more || unknown_end || unknown) {
             return;
@@ -183,18 +233,16 @@ impl Interpreter<'_> {
         if arguments.is_empty() {
             return;
         }
-        self.memory.effects.add(block, Effect::Unmodelled(arguments));
+        self.core.effects.add(block, Effect::Unmodelled(arguments));
         self.hand_on(sink);
     }
 
     fn hand_on(&mut self, sink: &mut impl Sink) {
-        if let Some(run) = &mut self.rs274 {
+        if let Some(run) = &mut self.run {
             // the next motion says anew how many effects came before it
             run.told.steady = None;
         }
-        for effect in std::mem::take(&mut self.memory.effects.ready) {
-            sink.effect(effect);
-        }
+        self.core.hand_on_effects(sink);
     }
 
     fn step_rs274(&mut self, run: &mut Rs274, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
@@ -206,7 +254,7 @@ impl Interpreter<'_> {
                 .collect();
         }
         let mut bridge = Bridge {
-            interpreter: self,
+            core: &mut self.core,
             told,
             program,
             sink,
@@ -214,7 +262,7 @@ impl Interpreter<'_> {
         if let Some(steady) = &mut bridge.told.steady {
             steady.settled = false;
         }
-        bridge.interpreter.state.clamps.begin_block();
+        bridge.core.state.clamps.begin_block();
         let step = engine.step(&mut bridge);
         let at = engine.at();
         // after the last line nothing runs, and nothing in a program without any content
@@ -230,7 +278,7 @@ impl Interpreter<'_> {
                 let named: Vec<usize> = (0..9).filter(|axis| refused.axes & (1 << axis) != 0).collect();
                 forget(engine, bridge.told, &named);
                 if refused.spindle {
-                    bridge.interpreter.state.spindle_on = None;
+                    bridge.core.state.spindle_on = None;
                 }
             }
             Step::Ended => *done = true,
@@ -239,7 +287,7 @@ impl Interpreter<'_> {
                 *done = true;
             }
             Step::OutOfFuel(opens) => {
-                let blocks = bridge.interpreter.setup.limits.blocks;
+                let blocks = bridge.core.setup.limits.blocks;
                 let kind = FaultKind::EndlessLoop { blocks, proved: false };
                 bridge.fault(opens, TextRange::default(), kind);
                 *done = true;
@@ -253,9 +301,9 @@ impl Interpreter<'_> {
         bridge.radius_unset(&engine.state, at);
         if *done {
             engine.read_rest(&mut bridge);
-            self.state.ended = true;
+            self.core.state.ended = true;
         }
-        self.memory.last_content = Some(block);
+        self.core.last_content = Some(block);
         let lost = [std::mem::take(&mut told.lost), std::mem::take(&mut told.lost_rotary)];
         let settled = told.steady.as_ref().is_some_and(|steady| steady.settled);
         if ran && settled && lost == [false; 2] {
@@ -267,11 +315,11 @@ impl Interpreter<'_> {
         }
         if lost[1] {
             forget(engine, told, &[3, 4, 5]);
-            self.state.clamps.lose();
+            self.core.state.clamps.lose();
         }
         let shift = Shift::of(&engine.state, &told.g92, &told.tool_offset);
-        modal::refresh(&mut self.state, &engine.state, &shift);
-        self.state.position = shift.coordinates(&engine.state.current);
+        modal::refresh(&mut self.core.state, &engine.state, &shift);
+        self.core.state.position = shift.coordinates(&engine.state.current);
         (!nothing_ran).then_some(block)
     }
 }
@@ -298,7 +346,7 @@ impl Codes {
 }
 
 /// Axes are not known any more.
-fn forget(engine: &mut Engine, told: &mut Told, axes: &[usize]) {
+fn forget(engine: &mut trunnion_ngc::Engine, told: &mut Told, axes: &[usize]) {
     for &axis in axes {
         engine.state.current[axis] = f64::NAN;
         engine.state.compensated[axis] = f64::NAN;

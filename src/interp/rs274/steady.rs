@@ -71,13 +71,13 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
         let feed = self.line_feed(rapid, &machine, at, state);
         let block = self.block(at);
-        let interpreter = &mut *self.interpreter;
-        interpreter.state.position = motion.end;
-        interpreter.chain = self.told.places.chain(at);
-        modal::refresh_motion(&mut interpreter.state, state);
+        let core = &mut *self.core;
+        core.state.position = motion.end;
+        core.chain = self.told.places.chain(at);
+        modal::refresh_motion(&mut core.state, state);
         self.told.machine = machine;
         motion.block = block;
-        motion.chain = interpreter.chain;
+        motion.chain = core.chain;
         // the larger kinds need not be written
         if rapid {
             motion.kind = MotionKind::Rapid;
@@ -85,7 +85,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             motion.kind = MotionKind::Linear;
         }
         motion.feed = feed;
-        self.sink.next_line(motion, &interpreter.state);
+        self.sink.next_line(motion, &core.state);
         goes_on(motion, &machine)
     }
 }

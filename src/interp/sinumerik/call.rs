@@ -1,8 +1,8 @@
 //! Subprograms: arguments, PROC, variables of their own, return.
 use crate::Sink;
 use crate::flow::{Back, Running};
+use crate::iso::Iso;
 use crate::own::{Own, Scope, Sort, arguments};
-use crate::run::Interpreter;
 use crate::{Fault, FaultKind, Refusal};
 use trunnion_syntax::{BlockId, Item, Program};
 
@@ -156,7 +156,7 @@ impl Proc {
     }
 }
 
-impl Interpreter<'_> {
+impl Iso<'_> {
     /// Gives a subprogram its parameters; what is kept for the caller. Else why the call cannot be followed.
     pub(crate) fn enter_subprogram(
         &mut self,
@@ -207,7 +207,7 @@ impl Interpreter<'_> {
         }
         own.begin_block();
         level.saves.then(|| {
-            self.forget_everything();
+            self.core.forget_everything();
             let what = "SAVE: modal codes and frames come back at the return".to_owned();
             FaultKind::NotModelled { what }
         })

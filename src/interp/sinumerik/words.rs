@@ -5,9 +5,10 @@ use super::statement::Statement;
 use super::text::Text;
 use crate::FaultKind;
 use crate::codes::Found;
+use crate::core::Report;
 use crate::flow::{Back, Calling, Transfer, With as Handed, index_of};
+use crate::iso::Iso;
 use crate::reader::Reader;
-use crate::run::{Interpreter, Report};
 use crate::words::Words;
 use std::sync::Arc;
 use trunnion_dialect::Action;
@@ -57,7 +58,7 @@ fn only(letters: u32, codes: &[Found<'_>], words: &Words) -> bool {
     codes.is_empty() && words.letters & !letters == 0 && !words.axes.any() && !words.forgets_all
 }
 
-impl<'d> Interpreter<'d> {
+impl<'d> Iso<'d> {
     /// Notes for the reader what counts in the block to come.
     pub(crate) fn sinumerik_begins(&mut self) {
         let own = &mut self.memory.own;
@@ -96,7 +97,7 @@ impl<'d> Interpreter<'d> {
 
     #[cold]
     fn sinumerik_statement(&mut self, block: &Block<'_>, range: TextRange, beside: bool, report: &mut Report<'_>) {
-        let (dialect, program, at) = (self.dialect, block.program(), block.id().0);
+        let (dialect, program, at) = (self.core.dialect, block.program(), block.id().0);
         let file = self.flow.file();
         let again = self.flow.trail.as_ref().is_some_and(|trail| trail.course.is_again(at));
         let (flow, memory) = (&mut self.flow, &mut self.memory);
@@ -179,7 +180,7 @@ impl<'d> Interpreter<'d> {
         let Key::Name(name) = key else { return false };
         let headed = memchr::memmem::find(program.source(), b"%_N_").is_some();
         if headed {
-            let (dialect, file) = (self.dialect, self.flow.file());
+            let (dialect, file) = (self.core.dialect, self.flow.file());
             let index = match &mut self.flow.trail {
                 Some(trail) => trail.index(file, || index_of(dialect, program)),
                 None => Arc::new(index_of(dialect, program)),
@@ -188,7 +189,7 @@ impl<'d> Interpreter<'d> {
                 return true;
             }
         }
-        let Some(library) = &self.setup.library.0 else {
+        let Some(library) = &self.core.setup.library.0 else {
             return false;
         };
         if self.memory.own.missing.contains(name) {

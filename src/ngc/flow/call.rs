@@ -61,7 +61,8 @@ impl Engine {
             None => self.store.enter_sharing(),
         }
         let site = self.flow.at;
-        let chain = self.chain_of(compiled, name, style);
+        let called_at = (compiled.place.file(), compiled.place.line());
+        let chain = self.flow.chains.call(self.flow.chain, called_at, name, style);
         self.flow.calls.push(Call {
             back: self.flow.here,
             site,
@@ -97,19 +98,6 @@ impl Engine {
             known: false,
         });
         Ok(())
-    }
-    /// The chain of the call made by the line in hand.
-    fn chain_of(&mut self, compiled: &mut Compiled, name: NameId, style: Style) -> crate::ChainId {
-        let parent = self.flow.chain;
-        if let Some((known, chain)) = compiled.memo.chain
-            && known == parent
-        {
-            return chain;
-        }
-        let site = (compiled.place.file(), compiled.place.line());
-        let chain = self.flow.chains.call(parent, site, name, style);
-        compiled.memo.chain = Some((parent, chain));
-        chain
     }
     /// The file of a subprogram, if there is one.
     fn load(&mut self, name: NameId) -> Option<FileId> {

@@ -1,6 +1,5 @@
 //! From the bytes of a line to its read form, and how lines are kept.
 use super::labels::Place;
-use super::lines::Kept;
 use super::oline::{self, Keyword};
 use super::texts::Key;
 use super::{Compiled, Kind, problems};
@@ -86,40 +85,24 @@ impl Engine {
     pub(super) fn behind(place: Place, range: TextRange) -> Place {
         place.further(1, range.end)
     }
-    /// The line at `here` in its read form, and whether it will run again: then what is found out about it is kept.
+    /// The line at `here` in its read form, and whether it runs repeatedly: then where a skip from it ends is remembered.
     #[inline]
     pub(super) fn fetch(&mut self) -> (Box<Compiled>, bool) {
         let place = self.flow.here;
-        let lines = self.flow.lines(place.file());
-        if !lines.run(place.line()) {
-            let keep = self.flow.looping;
-            return (self.read(place, keep), keep);
+        let again = self.flow.lines(place.file()).run(place.line());
+        if again {
+            self.flow.fuel = self.flow.fuel.saturating_sub(1);
         }
-        self.flow.fuel = self.flow.fuel.saturating_sub(1);
-        let Some(Kept { slot, memo }) = self.flow.lines[place.file().0 as usize].kept(place.line()) else {
-            return (self.read(place, true), true);
-        };
-        match self.flow.texts.again(*slot, place) {
-            // nothing is found out about words: what is kept of them stays as it is
-            Some(compiled) if compiled.kind == Kind::Words => (compiled, false),
-            Some(mut compiled) => {
-                compiled.memo = *memo;
-                (compiled, true)
-            }
-            None => {
-                let memo = *memo;
-                let mut compiled = self.read(place, true);
-                compiled.memo = memo;
-                (compiled, true)
-            }
+        let keep = again || self.flow.looping;
+        let mut compiled = self.read(place, keep);
+        if again && compiled.kind != Kind::Words {
+            compiled.skip = self.flow.lines(place.file()).skip(place.line());
         }
+        (compiled, keep)
     }
     /// The line at a place in its read form. `keep`: it will run again.
     #[inline]
     pub(super) fn read(&mut self, place: Place, keep: bool) -> Box<Compiled> {
-        if !keep && let Some(compiled) = self.short_o_line(place) {
-            return compiled;
-        }
         let source = self.files[place.file().0 as usize].bytes();
         match self.flow.texts.guess(source, place) {
             Some(compiled) => compiled,
@@ -155,7 +138,7 @@ impl Engine {
         let source = self.files[place.file().0 as usize].bytes();
         into.place = place;
         into.next = Self::behind(place, range);
-        into.memo = super::Memo::default();
+        into.skip = None;
         if let Some(line) = into.o.take() {
             into.spare = Some(line);
         }
@@ -192,23 +175,11 @@ impl Engine {
     /// Puts a line back where it came from.
     #[inline]
     pub(super) fn put_back(&mut self, compiled: Box<Compiled>, keep: bool) {
-        if keep {
-            self.keep(&compiled);
+        if keep && compiled.kind != Kind::Words {
+            let place = compiled.place;
+            self.flow.lines(place.file()).keep(place.line(), compiled.skip);
         }
         self.flow.texts.put_back(compiled);
-    }
-    /// Keeps what was found out about a line.
-    #[inline(never)]
-    fn keep(&mut self, compiled: &Compiled) {
-        let place = compiled.place;
-        let (slot, memo) = (compiled.slot(), compiled.memo);
-        let lines = self.flow.lines(place.file());
-        match lines.kept(place.line()) {
-            // nothing is found out about words
-            Some(kept) if kept.slot == slot && compiled.kind == Kind::Words => {}
-            Some(kept) => *kept = Kept { slot, memo },
-            None => lines.keep(place.line(), Kept { slot, memo }),
-        }
     }
 }
 

@@ -1,14 +1,15 @@
 //! A first look at a line that is skipped: most lines show by a few signs that they count for nothing.
 //!
 //! It settles only what the full look at a skipped line would settle in the same way (a test compares both).
-use super::oline::Keyword;
+use super::label::digits;
+use super::oline::{Keyword, written};
 
 /// Lines up to this length, their line end counted, are looked at here.
-pub(super) const LONGEST: usize = 253;
+const LONGEST: usize = 253;
 
 /// What a line is at first sight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Look<'s> {
+enum Look<'s> {
     /// It counts for nothing.
     Nothing,
     /// An O line with this name or number and a keyword that takes part in structures, or (`true`) in calls and returns; no `sub`.
@@ -56,52 +57,23 @@ pub(super) fn pass(text: &[u8], wanted: &[u8], global: bool, most: usize) -> Pas
 
 /// How many blanks a text begins with.
 #[inline]
-pub(super) fn blanks(text: &[u8]) -> usize {
-    if let Some(bytes) = text.first_chunk::<8>() {
-        let word = u64::from_le_bytes(*bytes);
-        let other = word ^ u64::from_le_bytes([b' '; 8]);
-        let count = other.trailing_zeros() / 8;
-        if count < 8 && (word >> (8 * count)) as u8 != b'\t' {
-            return count as usize;
-        }
-    }
+fn blanks(text: &[u8]) -> usize {
     text.iter().take_while(|byte| matches!(**byte, b' ' | b'\t')).count()
 }
 
 /// How long the first line of a text is, its line end counted, and whether there is a `(` in it.
 #[inline]
-pub(super) fn length(text: &[u8]) -> (usize, bool) {
-    const ONES: u64 = u64::from_ne_bytes([1; 8]);
-    const HIGH: u64 = u64::from_ne_bytes([0x80; 8]);
-    // with these bits set, line end and bracket are the same sign, and so are `*` and a control code
-    const APART: u64 = u64::from_ne_bytes([b'\n' ^ b'('; 8]);
-    const BOTH: u64 = u64::from_ne_bytes([b'\n' | b'('; 8]);
-    let mut at = 0;
-    // lines are short: words of eight bytes are faster than a call
-    'line: for bytes in text.as_chunks::<8>().0 {
-        let word = u64::from_le_bytes(*bytes);
-        let other = (word | APART) ^ BOTH;
-        // where a byte is one of them, its highest bit is set; above the first one others may be, too
-        let mut marks = other.wrapping_sub(ONES) & !other & HIGH;
-        while marks != 0 {
-            let place = marks.trailing_zeros() / 8;
-            match (word >> (8 * place)) as u8 {
-                b'\n' => return (at + place as usize + 1, false),
-                b'(' => break 'line,
-                _ => marks &= marks - 1,
-            }
-        }
-        at += 8;
+fn length(text: &[u8]) -> (usize, bool) {
+    let line = |end: Option<usize>| end.map_or(text.len(), |end| end + 1);
+    match memchr::memchr2(b'\n', b'(', text) {
+        Some(at) if text[at] == b'(' => (line(memchr::memchr(b'\n', text)), true),
+        end => (line(end), false),
     }
-    let rest = &text[at..];
-    let end = memchr::memchr(b'\n', rest);
-    let length = end.map_or(rest.len(), |end| end + 1);
-    (at + length, memchr::memchr(b'(', &rest[..length]).is_some())
 }
 
 /// Looks at the first line of a text; `bracket`: there is a `(` in it.
 #[inline]
-pub(super) fn look(text: &[u8], bracket: bool) -> Look<'_> {
+fn look(text: &[u8], bracket: bool) -> Look<'_> {
     let rest = &text[blanks(text)..];
     let Some(first) = rest.first() else {
         return Look::Nothing;
@@ -139,118 +111,14 @@ fn label(rest: &[u8]) -> Option<Look<'_>> {
         }
         end + 1
     } else {
-        while rest.get(end).is_some_and(u8::is_ascii_digit) {
-            end += 1;
-        }
-        if !(1..=9).contains(&end) || (rest[0] == b'0' && end > 1) {
-            return None;
-        }
+        end = digits(rest)?.1;
         end
     };
-    while matches!(rest.get(at), Some(b' ' | b'\t')) {
-        at += 1;
-    }
-    let letters = keyword(rest.get(at..)?);
-    at += letters.len;
-    let global = is_global(letters.word)?;
+    at += blanks(&rest[at..]);
+    let (keyword, length) = written(&rest[at..])?;
     // a line that ends here was cut off
-    rest.get(at)?;
-    Some(Look::Label(&rest[usize::from(named)..end], global))
-}
-
-/// The letters that a text begins with.
-struct Letters {
-    /// In lower case, the first one lowest; 0 where they are more than eight.
-    word: u64,
-    len: usize,
-}
-
-/// The word that a text begins with.
-#[inline]
-fn keyword(text: &[u8]) -> Letters {
-    let Some(bytes) = text.first_chunk::<8>() else {
-        let mut word = [0; 8];
-        let len = text.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
-        for (to, byte) in word.iter_mut().zip(&text[..len]) {
-            *to = byte | 0x20;
-        }
-        let word = u64::from_le_bytes(word);
-        return Letters { word, len };
-    };
-    let of = |byte: u8| u64::from_le_bytes([byte; 8]);
-    let lower = u64::from_le_bytes(*bytes) | of(0x20);
-    // the highest bit of each byte: not ASCII, from `a` on, after `z`
-    let plain = lower & of(0x7f);
-    let letter = (plain + of(0x80 - b'a')) & !(plain + of(0x80 - b'z' - 1)) & !lower;
-    let others = !letter & of(0x80);
-    let len = others.trailing_zeros() as usize / 8;
-    if len == 8 {
-        // longer words are for the full look
-        let longer = text.get(8).is_some_and(u8::is_ascii_alphabetic);
-        let word = if longer { 0 } else { lower };
-        return Letters { word, len };
-    }
-    let word = lower & ((1 << (8 * len)) - 1);
-    Letters { word, len }
-}
-
-/// The keyword that a text begins with, where it needs no value and a letter after it would belong to it; how many letters it has.
-#[inline]
-pub(super) fn plain_keyword(text: &[u8]) -> Option<(Keyword, usize)> {
-    let letters = keyword(text);
-    let found = PLAIN.iter().find(|(word, _)| *word == letters.word)?.1;
-    // `else if` is one word
-    let alone = found != Keyword::Else || !matches!(text.get(letters.len), Some(b' ' | b'\t' | b'\r'));
-    alone.then_some((found, letters.len))
-}
-
-/// A word of up to eight letters as one number, the first one lowest.
-const fn of(word: &[u8]) -> u64 {
-    let mut letters = 0;
-    let mut at = 0;
-    while at < word.len() {
-        letters |= (word[at] as u64) << (8 * at);
-        at += 1;
-    }
-    letters
-}
-
-/// Keywords that need no value.
-const PLAIN: [(u64, Keyword); 10] = [
-    (of(b"endwhile"), Keyword::EndWhile),
-    (of(b"endif"), Keyword::EndIf),
-    (of(b"else"), Keyword::Else),
-    (of(b"call"), Keyword::Call),
-    (of(b"sub"), Keyword::Sub),
-    (of(b"endsub"), Keyword::EndSub),
-    (of(b"return"), Keyword::Return),
-    (of(b"do"), Keyword::Do),
-    (of(b"break"), Keyword::Break),
-    (of(b"continue"), Keyword::Continue),
-];
-
-/// Whether a keyword, its letters as one number, takes part in calls and returns (true) or in structures; `None` for `sub`, and for a word
-/// that is none of them.
-#[inline]
-fn is_global(letters: u64) -> Option<bool> {
-    const GLOBAL: [u64; 3] = [of(b"endsub"), of(b"call"), of(b"return")];
-    const LOCAL: [u64; 10] = [
-        of(b"if"),
-        of(b"else"),
-        of(b"endif"),
-        of(b"while"),
-        of(b"endwhile"),
-        of(b"elseif"),
-        of(b"do"),
-        of(b"repeat"),
-        of(b"break"),
-        of(b"continue"),
-    ];
-    if LOCAL.contains(&letters) {
-        Some(false)
-    } else {
-        GLOBAL.contains(&letters).then_some(true)
-    }
+    rest.get(at + length)?;
+    (keyword != Keyword::Sub).then(|| Look::Label(&rest[usize::from(named)..end], keyword.is_global()))
 }
 
 #[cfg(test)]
@@ -293,7 +161,7 @@ mod tests {
 
     #[test]
     fn keywords_are_known_at_first_sight() {
-        let local = "if else elseif endif while endwhile do repeat break continue";
+        let local = "if else elseif endif while endwhile do repeat endrepeat break continue";
         let global = "endsub call return";
         for (words, is_global) in [(local, false), (global, true)] {
             for word in words.split(' ') {
@@ -305,7 +173,7 @@ mod tests {
                 }
             }
         }
-        for word in ["sub", "endrepeat", "iff", "whilewhile", "x"] {
+        for word in ["sub", "iff", "whilewhile", "x"] {
             assert_eq!(
                 look(format!("o1 {word}\nG1\n").as_bytes(), false),
                 Look::Unclear,

@@ -1,21 +1,9 @@
-//! Lines that ran: which ones, and what was found out about those that ran more than once.
-use super::Memo;
-use std::collections::VecDeque;
+//! Lines that ran: which ones, and where skips from those that ran more than once ended.
+use super::labels::Place;
+use foldhash::HashMap;
 
-/// Lines of one page.
-const PAGE: u32 = 128;
-/// So many pages are kept per file, those that began last.
-const KEPT: usize = 64;
-
-type Page = [Option<Kept>; PAGE as usize];
-
-/// What is kept of a line.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Kept {
-    /// Where its read form is, if it is not gone.
-    pub(super) slot: u32,
-    pub(super) memo: Memo,
-}
+/// Where a skip ended, and the generation of labels for which that holds.
+pub(super) type Skip = Option<(u64, Place)>;
 
 /// What is remembered of one file's lines.
 #[derive(Debug, Default)]
@@ -26,9 +14,8 @@ pub(crate) struct Lines {
     frontier: u32,
     /// Lines from here on were never skipped.
     glanced: u32,
-    pages: Vec<Option<Box<Page>>>,
-    /// Pages that are there, in the order in which they began.
-    order: VecDeque<u32>,
+    /// Of lines that run repeatedly: where the skip that they began ended.
+    skips: HashMap<u32, Skip>,
 }
 
 /// A copy finds out again: check-points must not copy what can be computed again.
@@ -38,8 +25,7 @@ impl Clone for Lines {
             ran: self.ran.clone(),
             frontier: self.frontier,
             glanced: self.glanced,
-            pages: Vec::new(),
-            order: VecDeque::new(),
+            skips: HashMap::default(),
         }
     }
 }
@@ -86,38 +72,18 @@ impl Lines {
         self.glanced = self.glanced.max(line + 1);
         before
     }
-    /// What is kept of a line.
-    #[inline]
-    pub(crate) fn kept(&mut self, line: u32) -> Option<&mut Kept> {
-        let page = self.pages.get_mut((line / PAGE) as usize)?.as_mut()?;
-        page[(line % PAGE) as usize].as_mut()
+    /// Where the skip from a line ended, if that is known.
+    pub(super) fn skip(&self, line: u32) -> Skip {
+        self.skips.get(&line).copied().flatten()
     }
-    /// Keeps what was found out about a line.
-    #[inline]
-    pub(crate) fn keep(&mut self, line: u32, kept: Kept) {
-        let page = (line / PAGE) as usize;
-        if page >= self.pages.len() {
-            self.pages.resize_with(page + 1, || None);
-        }
-        if self.pages[page].is_none() {
-            self.pages[page] = Some(self.begin_page(page as u32));
-        }
-        if let Some(page) = &mut self.pages[page] {
-            page[(line % PAGE) as usize] = Some(kept);
-        }
+    /// Notes that a line runs repeatedly, and where its skip ended.
+    pub(super) fn keep(&mut self, line: u32, skip: Skip) {
+        self.skips.insert(line, skip);
     }
-    /// An empty page: where there are enough the oldest one is forgotten.
-    fn begin_page(&mut self, page: u32) -> Box<Page> {
-        self.order.push_back(page);
-        let oldest = if self.order.len() > KEPT {
-            self.order.pop_front()
-        } else {
-            None
-        };
-        let Some(mut old) = oldest.and_then(|oldest| self.pages[oldest as usize].take()) else {
-            return Box::new([const { None }; PAGE as usize]);
-        };
-        old.fill(None);
-        old
+    /// Notes where the skip from a line ended, if the line runs repeatedly.
+    pub(super) fn skipped(&mut self, line: u32, skip: Skip) {
+        if let Some(kept) = self.skips.get_mut(&line) {
+            *kept = skip;
+        }
     }
 }

@@ -1,7 +1,6 @@
 //! The order of execution: O words, calls, files, `%`, the bounds of a run.
 //!
-//! A line is fetched, read and run. Lines that run again are kept in their read form with what was found out about them (their
-//! label's number, where skipping from them ends), so that a loop neither reads nor hashes.
+//! A line is fetched, read and run. Lines that run again are found in their read form by their text.
 pub(crate) mod context;
 
 mod call;
@@ -21,7 +20,6 @@ mod problems;
 mod refused;
 mod rest;
 mod seek;
-mod short;
 mod step;
 mod structure;
 mod texts;
@@ -87,19 +85,6 @@ enum Kind {
     ReturnNumbered,
 }
 
-/// What was found out when the line ran before.
-#[derive(Clone, Copy, Debug, Default)]
-struct Memo {
-    /// The label's name, where it is text.
-    name: Option<NameId>,
-    /// The label inside a subprogram.
-    label: Option<(NameId, LabelId)>,
-    /// Where skipping from here ended, and the generation of labels for which that holds.
-    skip: Option<(u64, Place)>,
-    /// The chain of the call made here, by the chain that led here.
-    chain: Option<(ChainId, ChainId)>,
-}
-
 /// A line in its read form.
 #[derive(Debug, Default)]
 pub(crate) struct Compiled {
@@ -116,7 +101,8 @@ pub(crate) struct Compiled {
     /// What is wrong with its text as a whole; it is not read further then.
     flaw: Option<Error>,
     line: Line,
-    memo: Memo,
+    /// Where skipping from here ended the last time.
+    skip: lines::Skip,
     /// Which text it is the read form of.
     origin: texts::Origin,
 }
@@ -136,7 +122,7 @@ enum Goal {
 #[derive(Clone, Copy, Debug)]
 struct Seeking {
     goal: Goal,
-    /// The line that began it; its memo takes down where it ended.
+    /// The line that began it.
     opener: Place,
     /// `break` or `continue` began it.
     leaving: bool,

@@ -2,7 +2,7 @@
 use super::label::{Label, label};
 use super::problems;
 use crate::Problem;
-use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Name, Pool, ValueError, Variables, number_in_brackets};
+use trunnion_formula::{Cursor, Formula, FormulaError, Grammar, Name, Pool, ValueError, Variables};
 use trunnion_syntax::TextRange;
 
 /// What an O line says.
@@ -87,7 +87,7 @@ pub(crate) struct OLine {
 }
 
 /// Most arguments of a call: they become #1 to #30.
-pub(super) const ARGUMENTS: usize = 30;
+const ARGUMENTS: usize = 30;
 
 /// Reads an O line; the cursor is before the O. `line` lends its storage.
 pub(crate) fn read(cursor: &mut Cursor<'_>, pool: &mut Pool, line: &mut OLine) {
@@ -189,8 +189,7 @@ fn keyword(cursor: &mut Cursor<'_>) -> Option<(Keyword, TextRange)> {
 }
 
 /// The keyword that a word without blanks is, in whatever case.
-#[inline]
-pub(super) fn keyword_of(word: &[u8]) -> Option<Keyword> {
+fn keyword_of(word: &[u8]) -> Option<Keyword> {
     let mut lower = [0u8; 9];
     let letters = lower.get_mut(..word.len())?;
     letters.copy_from_slice(word);
@@ -216,7 +215,7 @@ pub(super) fn keyword_of(word: &[u8]) -> Option<Keyword> {
 }
 
 /// The keyword that a word without blanks is, after which no letter can follow that would make it longer, and its length.
-fn written(rest: &[u8]) -> Option<(Keyword, usize)> {
+pub(super) fn written(rest: &[u8]) -> Option<(Keyword, usize)> {
     let length = rest
         .iter()
         .position(|byte| !byte.is_ascii_alphabetic())
@@ -293,10 +292,6 @@ fn arguments(cursor: &mut Cursor<'_>, line: &mut OLine, pool: &mut Pool) {
 }
 
 fn push(cursor: &mut Cursor<'_>, line: &mut OLine, pool: &mut Pool) {
-    if let Some(value) = number_in_brackets(cursor) {
-        line.values.push(value);
-        return;
-    }
     let (value, error) = pool.value_or_error(cursor, Grammar::Rs274);
     line.values.push(value);
     line.errors.extend(error);

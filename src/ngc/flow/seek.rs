@@ -29,12 +29,12 @@ impl Engine {
     /// Begins to skip; `compiled` is the line that makes it necessary.
     pub(super) fn begin_seeking(&mut self, compiled: &mut Compiled, goal: Goal) -> &mut Seeking {
         let mut known = false;
-        if let Some((generation, place)) = compiled.memo.skip {
+        if let Some((generation, place)) = compiled.skip {
             known = generation == self.flow.labels.generation;
             if known {
                 self.flow.here = place;
             } else {
-                compiled.memo.skip = None;
+                compiled.skip = None;
             }
         }
         self.flow.seeking.insert(Seeking {
@@ -103,7 +103,7 @@ impl Engine {
         compiled.kind = Kind::Label;
         compiled.only_sets = false;
         compiled.flaw = None;
-        compiled.memo = super::Memo::default();
+        compiled.skip = None;
         compiled.o = Some(Box::new(line));
         Sought::Landed(compiled, seeking, false)
     }
@@ -112,9 +112,8 @@ impl Engine {
         let generation = self.flow.labels.generation;
         if seeking.fixed {
             let opener = seeking.opener;
-            if let Some(kept) = self.flow.lines(opener.file()).kept(opener.line()) {
-                kept.memo.skip = Some((generation, place));
-            }
+            let skip = Some((generation, place));
+            self.flow.lines(opener.file()).skipped(opener.line(), skip);
         }
         self.flow.seeking = None;
         self.flow.texts.skip();

@@ -35,14 +35,7 @@ impl Engine {
         sought: Option<&Seeking>,
         sink: &mut dyn Sink,
     ) -> Result<After, Halt> {
-        let name = match (compiled.memo.name, &line.label) {
-            (Some(name), _) => name,
-            (None, Label::Number(number)) => self.flow.labels.numbered(*number),
-            (None, _) => self.name_of(line)?,
-        };
-        if !matches!(line.label, Label::Computed(_)) {
-            compiled.memo.name = Some(name);
-        }
+        let name = self.name_of(line)?;
         if let Some(flaw) = line.flaw {
             return Err(Error::new(flaw.problem, flaw.range).into());
         }
@@ -71,20 +64,6 @@ impl Engine {
             }
         }
     }
-    /// The label inside the subprogram that runs.
-    fn label_of(&mut self, compiled: &mut Compiled, line: &OLine, name: NameId) -> LabelId {
-        let sub = self.flow.sub;
-        if let Some((known, label)) = compiled.memo.label
-            && known == sub
-        {
-            return label;
-        }
-        let label = self.flow.labels.label(sub, name);
-        if !matches!(line.label, Label::Computed(_)) {
-            compiled.memo.label = Some((sub, label));
-        }
-        label
-    }
     fn run_structure(
         &mut self,
         compiled: &mut Compiled,
@@ -92,7 +71,7 @@ impl Engine {
         name: NameId,
         sought: Option<&Seeking>,
     ) -> Result<(), Halt> {
-        let label = self.label_of(compiled, line, name);
+        let label = self.flow.labels.label(self.flow.sub, name);
         let goal = Goal::Label(label, name);
         // the control computes the condition while it reads the line, before it asks whether the line is allowed here
         let value = match line.values.first() {
@@ -313,7 +292,7 @@ impl Engine {
             }
         };
         let Ok(name) = self.name_of(line) else { return };
-        let label = self.label_of(compiled, line, name);
+        let label = self.flow.labels.label(self.flow.sub, name);
         let place = compiled.place;
         let fuel = self.flow.fuel;
         let fresh = self

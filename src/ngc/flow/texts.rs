@@ -146,14 +146,6 @@ impl Clone for Texts {
 }
 
 impl Texts {
-    /// The line at a place, if its text has this slot and was run at this very place the last time.
-    #[inline]
-    pub(super) fn again(&mut self, slot: u32, place: Place) -> Option<Box<Compiled>> {
-        self.slots
-            .get_mut(slot as usize)?
-            .read
-            .take_if(|read| read.place == place)
-    }
     /// Lines are skipped: what is read next does not follow what was read last.
     #[inline]
     pub(super) fn skip(&mut self) {
@@ -316,7 +308,7 @@ impl Compiled {
     pub(super) fn stands_at(&mut self, place: Place, text: TextRange) {
         self.place = place;
         self.next = place.further(1, text.end);
-        self.memo = super::Memo::default();
+        self.skip = None;
         let by = text.start.wrapping_sub(self.origin.text.start);
         self.origin.file = place.file();
         self.origin.text = text;

@@ -5,7 +5,7 @@
 use super::evaluate::put;
 use crate::Block;
 use crate::parameters::Values;
-use trunnion_syntax::{TextRange, as_digit, digits, not_digits, whole_number};
+use trunnion_syntax::TextRange;
 
 /// Powers of ten that a double holds exactly.
 const POWERS: [f64; 19] = [
@@ -59,11 +59,7 @@ pub(crate) fn plain(source: &[u8], start: u32, values: &Values<'_>, block: &mut 
         if place >= 26 || open >> place & 1 == 0 {
             break;
         }
-        let near = text.get(at..).and_then(|rest| rest.first_chunk()).and_then(close);
-        let (value, end) = match near {
-            Some((value, length)) => (value, at + length),
-            None => number(text, at + 1)?,
-        };
+        let (value, end) = number(text, at + 1)?;
         let range = TextRange::new(start + at as u32, start + end as u32);
         if ANY_VALUE >> place & 1 != 0 {
             block.put(letter, value, range);
@@ -102,7 +98,7 @@ fn behind_blanks(text: &[u8], at: &mut usize) -> Option<u8> {
 /// N at the line's start and the blanks after its number: digits, perhaps with one point between them.
 fn sequence_number(text: &[u8]) -> Option<(Option<f64>, usize)> {
     text.get(1).filter(|byte| byte.is_ascii_digit())?;
-    let (mantissa, places, mut end) = short(text, 1).or_else(|| long(text, 1))?;
+    let (mantissa, places, mut end) = digits(text, 1)?;
     let value = quotient(mantissa, places);
     if text[end - 1] == b'.' {
         return None;
@@ -114,37 +110,13 @@ fn sequence_number(text: &[u8]) -> Option<(Option<f64>, usize)> {
 }
 
 /// Sign, digits and point at `at`, and what follows them.
-#[inline(never)]
+#[inline]
 fn number(text: &[u8], at: usize) -> Option<(f64, usize)> {
     let sign = *text.get(at)?;
     let first = at + usize::from(sign == b'-' || sign == b'+');
-    let (mantissa, places, end) = short(text, first).or_else(|| long(text, first))?;
+    let (mantissa, places, end) = digits(text, first)?;
     let value = quotient(mantissa, places);
     Some((if sign == b'-' { -value } else { value }, end))
-}
-
-/// The longest word of at most seven digits and a point: letter, sign, and the byte after it.
-const CLOSE: usize = 11;
-
-/// The number of a word, and how long the word is, all at once: of at most seven digits and a point; `None` elsewhere. A line's end is no digit,
-/// so that nothing after it is taken.
-#[inline]
-fn close(word: &[u8; CLOSE]) -> Option<(f64, usize)> {
-    let [_, sign, ..] = *word;
-    let signed = sign == b'-' || sign == b'+';
-    let (bytes, ninth) = if signed {
-        let [_, _, bytes @ .., ninth] = *word;
-        (bytes, ninth)
-    } else {
-        let [_, bytes @ .., ninth, _] = *word;
-        (bytes, ninth)
-    };
-    let (mantissa, places, count) = few(bytes, ninth)?;
-    let value = quotient(mantissa, places);
-    Some((
-        if sign == b'-' { -value } else { value },
-        1 + usize::from(signed) + count,
-    ))
 }
 
 /// A number by its digits and how many of them are after the point.
@@ -154,37 +126,9 @@ fn quotient(mantissa: u64, places: usize) -> f64 {
     mantissa as i64 as f64 / POWERS[places]
 }
 
-/// All digits as a whole number, how many are after the point, and how many bytes they are with it: of at most seven digits and a point.
+/// Digits and point: all digits as a whole number, how many are after the point, and where they end.
 #[inline]
-fn few(bytes: [u8; 8], ninth: u8) -> Option<(u64, usize, usize)> {
-    let word = digits(bytes);
-    let other = not_digits(word);
-    if other == 0 {
-        return None;
-    }
-    // bits before the first byte that is no digit: 0, 8, .. 56
-    let whole = other.trailing_zeros() & 0x38;
-    if word >> whole & 0xff != as_digit(b'.') {
-        let found = (whole_number(word, whole), 0, (whole / 8) as usize);
-        return (whole > 0).then_some(found);
-    }
-    // the next that is no digit ends it
-    let behind = other & (other - 1);
-    let count = match (behind.trailing_zeros() & 0x38).checked_sub(8) {
-        Some(0) => return None,
-        Some(count) => count,
-        None if ninth.is_ascii_digit() => return None,
-        None => 56,
-    };
-    // the digits after the point move up to those before it
-    let before = (1 << whole) - 1;
-    let joined = word & before | word >> 8 & !before;
-    let places = ((count - whole) / 8) as usize;
-    Some((whole_number(joined, count), places, (count / 8) as usize + 1))
-}
-
-/// Digits and point one by one: all digits as a whole number, how many are after the point, and where they end.
-fn long(text: &[u8], first: usize) -> Option<(u64, usize, usize)> {
+fn digits(text: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     let (mut mantissa, mut end, mut point) = (0u64, first, usize::MAX);
     loop {
         let byte = *text.get(end)?;
@@ -204,32 +148,6 @@ fn long(text: &[u8], first: usize) -> Option<(u64, usize, usize)> {
     }
     let places = if point == usize::MAX { 0 } else { end - point - 1 };
     Some((mantissa, places, end))
-}
-
-/// Digits and point eight bytes at a time on either side of the point, with at most seven digits on each; `None` elsewhere. A line's end is no digit,
-/// so that nothing after it is taken.
-#[inline]
-fn short(wide: &[u8], first: usize) -> Option<(u64, usize, usize)> {
-    let (whole, before) = eight(wide, first)?;
-    let end = first + before;
-    if wide[end] != b'.' {
-        return (before > 0).then_some((whole, 0, end));
-    }
-    let (part, behind) = eight(wide, end + 1)?;
-    (before + behind > 0).then_some((whole * SCALES[behind] + part, behind, end + 1 + behind))
-}
-
-/// Powers of ten.
-const SCALES: [u64; 8] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000];
-
-/// The digits at `at` as a whole number, and how many they are, where they are fewer than eight.
-#[inline]
-fn eight(wide: &[u8], at: usize) -> Option<(u64, usize)> {
-    let word = digits(*wide.get(at..)?.first_chunk()?);
-    let other = not_digits(word);
-    // bits before the first byte that is no digit: 0, 8, .. 56
-    let bits = other.trailing_zeros() & 0x38;
-    (other != 0).then(|| (whole_number(word, bits), (bits / 8) as usize))
 }
 
 #[cfg(test)]

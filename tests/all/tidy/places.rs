@@ -3,6 +3,7 @@
 use super::debug_text::code;
 use super::{files, root};
 use std::collections::BTreeSet;
+use std::path::Path;
 
 /// A row of the table in CONTRIBUTING.
 struct Row {
@@ -32,7 +33,7 @@ fn rows() -> Vec<Row> {
             let names = quoted(last);
             let name = |place: &str| {
                 let (snake, dashed) = (names[0].replace('-', "_"), names[0].replace('_', "-"));
-                let is_code = place.ends_with(".rs") || place.ends_with('/');
+                let is_code = has_extension(place, "rs") || place.ends_with('/');
                 place.replace("NAME", if is_code { &snake } else { &dashed })
             };
             Row {
@@ -42,6 +43,10 @@ fn rows() -> Vec<Row> {
             }
         })
         .collect()
+}
+
+fn has_extension(place: &str, wanted: &str) -> bool {
+    Path::new(place).extension().is_some_and(|own| own == wanted)
 }
 
 /// Whether a text has a name as a whole word, with dashes or underscores.
@@ -79,23 +84,24 @@ fn touched(row: &Row) -> BTreeSet<String> {
                 .expect("below the root")
                 .to_string_lossy()
                 .replace('\\', "/");
-            let is_prose = place.ends_with(".md") && !place.starts_with("docs/");
+            let is_prose = has_extension(&place, "md") && !place.starts_with("docs/");
             let is_test = is_prose || place.contains("/tests/") || place.ends_with("tests.rs");
             let Ok(text) = std::fs::read_to_string(&path) else {
                 continue;
             };
-            let is_code = place.ends_with(".rs");
+            let is_code = has_extension(&place, "rs");
             let text = if is_code { code(&text) } else { text };
             let own = place
                 .rsplit('/')
                 .next()
                 .and_then(|name| name.split('.').next())
                 .unwrap_or_default();
-            let named = |name: &String| match engine {
-                true => place.contains(name) || text.to_lowercase().contains(name),
-                false => mentions(own, name) || mentions(&text, name),
-            };
-            let named = row.names.iter().any(named);
+            let of_engine = |name: &String| place.contains(name) || text.to_lowercase().contains(name);
+            let named = |name: &String| mentions(own, name) || mentions(&text, name);
+            let named = row
+                .names
+                .iter()
+                .any(|name| if engine { of_engine(name) } else { named(name) });
             if !is_test && named {
                 found.insert(place);
             }

@@ -1,0 +1,291 @@
+//! What every engine has: the setting of the run, what is in force, tools, unknown coordinates, effects.
+use crate::effects::Effects;
+use crate::reported::Reported;
+use crate::tools::Tools;
+use crate::unknown::Unknown;
+use crate::{
+    ChainId, Fault, FaultKind, Feed, FeedMode, ModalState, Motion, MotionKind, Orientation, Position, Setup, Sink, Tilt,
+};
+use std::sync::Arc;
+use trunnion_dialect::Dialect;
+use trunnion_geometry::Vec3;
+use trunnion_syntax::{BlockId, Program, TextRange};
+
+/// X, Y, Z, U, V, W in [`crate::AXIS_LETTERS`].
+pub(crate) const LINEAR: u16 = 0b1_1100_0111;
+/// A, B, C.
+pub(crate) const ROTARY: u16 = 0b0_0011_1000;
+/// A norm that differs from 1 by less than this is what six decimals can do.
+const UNIT_NORM: f64 = 1e-5;
+
+/// See the module.
+#[derive(Clone)]
+pub(crate) struct Core<'d> {
+    pub(crate) dialect: &'d Dialect,
+    pub(crate) setup: Arc<Setup>,
+    /// What is in force.
+    pub(crate) state: ModalState,
+    /// The calls in which the block in hand runs.
+    pub(crate) chain: ChainId,
+    /// The block of the main program whose call led to the other file that runs.
+    pub(crate) called_at: Option<BlockId>,
+    pub(crate) tools: Tools,
+    /// Codes that made coordinates unknown.
+    pub(crate) unknown: Unknown<'d>,
+    /// What the program does beside its motions.
+    pub(crate) effects: Effects,
+    /// How often everything may have changed: missing programs, words that are not understood.
+    pub(crate) losses: u64,
+    /// F has a value that is not evaluated.
+    pub(crate) feed_unread: bool,
+    /// It was reported that cutter compensation is not followed.
+    pub(crate) compensation_reported: bool,
+    /// Work offsets that were reported as missing.
+    pub(crate) offsets_reported: Reported,
+    /// The last block with content, for a missing program end.
+    pub(crate) last_content: Option<BlockId>,
+    /// A code or character that ends the program was seen.
+    pub(crate) proper_end: bool,
+}
+
+/// Where facts about the block in hand go.
+pub(crate) struct Report<'a> {
+    pub(crate) program: &'a Program,
+    pub(crate) block: BlockId,
+    /// Bytes of the record, in APT.
+    pub(crate) record: Option<TextRange>,
+    pub(crate) faults: &'a mut dyn FnMut(Fault),
+}
+
+impl Report<'_> {
+    /// Bytes of the record or block in hand.
+    #[cold]
+    pub(crate) fn whole(&self) -> TextRange {
+        self.record.unwrap_or_else(|| self.program.block(self.block).range())
+    }
+    /// A fact; an empty range means the whole block.
+    #[cold]
+    pub(crate) fn fault(&mut self, range: TextRange, kind: FaultKind) {
+        let range = if range == TextRange::default() {
+            self.whole()
+        } else {
+            range
+        };
+        (self.faults)(Fault {
+            block: self.block,
+            range,
+            kind,
+        });
+    }
+}
+
+impl<'d> Core<'d> {
+    /// At the start of a program.
+    pub(crate) fn new(dialect: &'d Dialect, setup: &Setup) -> Self {
+        let mut state = crate::start::at_start(dialect);
+        if let Some(unit) = setup.control.units {
+            let mm = unit.mm();
+            state.units(mm, mm);
+        }
+        Self {
+            dialect,
+            setup: Arc::new(setup.clone()),
+            state,
+            chain: ChainId::MAIN,
+            called_at: None,
+            tools: Tools::default(),
+            unknown: Unknown::default(),
+            effects: Effects::default(),
+            losses: 0,
+            feed_unread: false,
+            compensation_reported: false,
+            offsets_reported: Reported::default(),
+            last_content: None,
+            proper_end: false,
+        }
+    }
+
+    /// The block of the main program to which a block of the program that runs belongs.
+    #[inline]
+    pub(crate) fn main_block(&self, block: BlockId) -> BlockId {
+        self.called_at.unwrap_or(block)
+    }
+
+    /// Nothing is known of the position any more.
+    pub(crate) fn forget_position(&mut self) {
+        self.state.position.known = 0;
+        self.state.orientation = Orientation::Words;
+    }
+    /// Coordinates have changed their meaning, if so.
+    pub(crate) fn forget_if(&mut self, changed: bool) {
+        if changed {
+            self.forget_position();
+        }
+    }
+    /// X Y Z U V W are not known any more.
+    pub(crate) fn forget_linear(&mut self) {
+        self.state.position.known &= !LINEAR;
+    }
+    /// A subprogram may have changed anything.
+    pub(crate) fn forget_everything(&mut self) {
+        self.losses += 1;
+        self.forget_position();
+        self.state.clamps.lose();
+        self.state.spindle_on = None;
+        self.state.spindle_rpm = None;
+        self.state.feed = None;
+        self.feed_unread = true;
+    }
+
+    /// To be called whenever the tool in use or what is declared about it changes.
+    pub(crate) fn merge_tool(&mut self) {
+        self.state.tool_data = self.tools.data(self.state.tool, &self.setup);
+    }
+
+    /// The program's own declarations of tools count for the whole program, wherever they are.
+    pub(crate) fn declare(&mut self, program: &Program) {
+        if self.tools.read_directives(program) {
+            self.merge_tool();
+        }
+    }
+
+    /// The feed of a motion; reports at `range` when there is none.
+    pub(crate) fn feed(&self, kind: MotionKind, range: impl FnOnce() -> TextRange, report: &mut Report<'_>) -> Feed {
+        if kind == MotionKind::Rapid {
+            return Feed::Rapid;
+        }
+        match self.state.feed {
+            Some(feed) if feed > 0.0 => match self.state.feed_mode {
+                FeedMode::PerMinute => Feed::PerMinute(feed),
+                FeedMode::PerRevolution => Feed::PerRevolution(feed),
+                FeedMode::InverseTime => Feed::InverseTime(feed),
+            },
+            None if self.feed_unread => Feed::Unknown,
+            feed => {
+                let (inverse_time, zero) = (self.state.feed_mode == FeedMode::InverseTime, feed.is_some());
+                report.fault(range(), FaultKind::MissingFeed { inverse_time, zero });
+                Feed::Unknown
+            }
+        }
+    }
+
+    /// The orientation that is in force with nothing programmed.
+    pub(crate) fn held_orientation(&self) -> Orientation {
+        match self.state.orientation {
+            Orientation::Words => Orientation::Words,
+            Orientation::Vector(_, vector) => Orientation::Vector(Some(vector), vector),
+        }
+    }
+
+    pub(crate) fn unknown_orientation(&mut self) -> Orientation {
+        self.state.position.known &= !ROTARY;
+        Orientation::Words
+    }
+
+    /// The orientation along a vector of any length; reports a length that should be 1, and 0.
+    pub(crate) fn unit_vector(
+        &mut self,
+        vector: Vec3,
+        unit: bool,
+        range: TextRange,
+        report: &mut Report<'_>,
+    ) -> Orientation {
+        let norm = vector.norm();
+        if norm <= f64::MIN_POSITIVE || !norm.is_finite() {
+            report.fault(range, FaultKind::VectorNotUnit { norm: 0.0 });
+            return self.unknown_orientation();
+        }
+        if unit && (norm - 1.0).abs() > UNIT_NORM {
+            report.fault(range, FaultKind::VectorNotUnit { norm });
+        }
+        let before = match self.state.orientation {
+            Orientation::Vector(_, before) => Some(before),
+            Orientation::Words => None,
+        };
+        Orientation::Vector(before, vector / norm)
+    }
+
+    /// A motion with what is in force.
+    #[inline]
+    pub(crate) fn new_motion(
+        &self,
+        kind: MotionKind,
+        start: Position,
+        end: Position,
+        orientation: Orientation,
+        feed: Feed,
+        report: &Report<'_>,
+    ) -> Motion {
+        let state = &self.state;
+        Motion {
+            block: self.main_block(report.block),
+            chain: self.chain,
+            kind,
+            start,
+            end,
+            says_way: 0,
+            orientation,
+            tcp: state.tcp,
+            great_circle: state.great_circle,
+            feed,
+            spindle_on: state.spindle_on,
+            spindle_rpm: state.spindle_rpm,
+            zero: state.zero,
+            tool_length_mm: state.tool_length_mm.unwrap_or(0.0),
+            machine_coordinates: false,
+            radii: self.dialect.quirks.diameter,
+            tool: state.tool,
+            tilt: Tilt::default(),
+            effects: self.effects.count(),
+        }
+    }
+
+    /// The same, its coordinates unknown where a frame is not modelled.
+    pub(crate) fn motion_in_frame(
+        &self,
+        kind: MotionKind,
+        [start, end]: [Position; 2],
+        orientation: Orientation,
+        feed: Feed,
+        report: &Report<'_>,
+    ) -> Motion {
+        let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
+        if self.state.frame_unknown {
+            self.hide(&mut motion);
+        }
+        motion
+    }
+
+    /// Under a frame that is not modelled X Y Z and vectors say nothing about the machine; rotary axes neither where it moves them.
+    pub(crate) fn hide(&self, motion: &mut Motion) {
+        let hidden = if self.unknown.hides_rotary() {
+            LINEAR | ROTARY
+        } else {
+            LINEAR
+        };
+        motion.start.known &= !hidden;
+        motion.end.known &= !hidden;
+        if let MotionKind::Arc(arc) = &mut motion.kind {
+            *arc = None;
+        }
+        if let Orientation::Vector(..) = motion.orientation {
+            motion.orientation = Orientation::Words;
+        }
+    }
+
+    /// Hands on the effects that were collected.
+    pub(crate) fn hand_on_effects(&mut self, sink: &mut impl Sink) {
+        for effect in self.effects.take() {
+            sink.effect(effect);
+        }
+    }
+
+    /// Reports a missing program end.
+    pub(crate) fn missing_end(&self, program: &Program, sink: &mut impl Sink) {
+        if let Some(block) = self.last_content.filter(|_| !self.proper_end) {
+            let range = program.block(block).range();
+            let kind = FaultKind::MissingProgramEnd;
+            sink.fault(Fault { block, range, kind });
+        }
+    }
+}

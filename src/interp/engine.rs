@@ -1,0 +1,54 @@
+//! What the engines of all languages have in common.
+use crate::core::Core;
+use crate::{Argument, ChainId, Frame, Sink};
+use trunnion_syntax::{BlockId, Program};
+
+/// A language engine between two blocks. Cloning it makes a check-point to go on from.
+pub(crate) trait Engine<'d>: Clone {
+    /// What every engine has.
+    fn core(&self) -> &Core<'d>;
+    /// The same, to be changed.
+    fn core_mut(&mut self) -> &mut Core<'d>;
+    /// Runs the next block in the control's order; see [`crate::Interpreter::advance`].
+    fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId>;
+    /// The calls that led to a motion.
+    fn chain(&self, chain: ChainId) -> Vec<Frame> {
+        let _ = chain;
+        Vec::new()
+    }
+    /// Whether motions are held back until a later one is known.
+    fn motions_wait(&self) -> bool {
+        false
+    }
+    /// The value of a variable as it is written.
+    fn variable(&self, text: &str) -> Option<f64> {
+        let _ = text;
+        None
+    }
+    /// Variables that outlive the program and whose value is known.
+    fn outliving(&self) -> Vec<(String, f64)> {
+        Vec::new()
+    }
+    /// Whether drilling cycles return to the R level.
+    fn returns_to_r(&self) -> bool {
+        false
+    }
+    /// All variables that are known, or were when something that is not followed ran, by name.
+    fn known_variables(&self) -> Vec<Argument> {
+        let known = self.outliving().into_iter();
+        known.map(|(name, value)| Argument::number(name, value)).collect()
+    }
+    /// The values of the variables that a text names.
+    fn values_in(&self, text: &str) -> Vec<Argument> {
+        let value = |name: &String| self.variable(name).map(|value| (format!("where {name}"), value));
+        let named = crate::written::names(text).into_iter();
+        named
+            .filter_map(|name| value(&name))
+            .map(|(name, value)| Argument::number(name, value))
+            .collect()
+    }
+    /// The text of a block with the variables in it replaced by their values.
+    fn resolved_text(&self, text: &str) -> String {
+        text.to_owned()
+    }
+}

@@ -1,0 +1,144 @@
+//! The engine of ISO programs: its parts, and the order in which blocks run.
+use crate::Sink;
+use crate::codes::Found;
+use crate::core::Core;
+use crate::engine::Engine;
+use crate::flow::Flow;
+use crate::memory::Memory;
+use crate::written::Values;
+use trunnion_dialect::{Dialect, Language};
+use trunnion_syntax::{BlockId, Program};
+
+/// The engine of all controls whose programs are blocks of words: Fanuc, Haas, grbl, ISO 6983, Sinumerik.
+#[derive(Clone)]
+pub(crate) struct Iso<'d> {
+    pub(crate) core: Core<'d>,
+    pub(crate) memory: Memory<'d>,
+    /// Codes of the block in hand: kept only for its storage.
+    pub(crate) codes: Vec<Found<'d>>,
+    pub(crate) flow: Flow,
+    /// Motions of cycles so far: they have a bound as executed blocks have.
+    pub(crate) cycle_motions: u64,
+}
+
+impl<'d> Engine<'d> for Iso<'d> {
+    #[inline]
+    fn core(&self) -> &Core<'d> {
+        &self.core
+    }
+    fn core_mut(&mut self) -> &mut Core<'d> {
+        &mut self.core
+    }
+    #[inline]
+    fn advance(&mut self, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
+        if self.flow.finished || program.block_count() == 0 {
+            return None;
+        }
+        if self.flow.trail.is_some() {
+            return self.advance_deep(program, sink);
+        }
+        let block = BlockId(self.flow.next);
+        self.flow.next += 1;
+        self.flow.follows = true;
+        self.run_one(program, block, sink);
+        if self.flow.deep.is_some() || self.memory.own.pending.is_some() {
+            self.first_statement(program, block, sink);
+        }
+        if self.core.state.ended || self.flow.next as usize >= program.block_count() {
+            self.end(program, sink);
+        }
+        Some(block)
+    }
+    fn returns_to_r(&self) -> bool {
+        self.memory.cycle.to_r
+    }
+    fn known_variables(&self) -> Vec<crate::Argument> {
+        let mut found = self.flow.all_variables();
+        found.extend(self.memory.own.all());
+        found
+    }
+    fn values_in(&self, text: &str) -> Vec<crate::Argument> {
+        if self.core.dialect.quirks.user_names() {
+            return self.memory.own.named_in(text);
+        }
+        let value = |name: &String| self.variable(name).map(|value| (format!("where {name}"), value));
+        let named = crate::written::names(text).into_iter();
+        named
+            .filter_map(|name| value(&name))
+            .map(|(name, value)| crate::Argument::number(name, value))
+            .collect()
+    }
+    fn resolved_text(&self, text: &str) -> String {
+        crate::written::resolved(self, text)
+    }
+    fn chain(&self, chain: crate::ChainId) -> Vec<crate::Frame> {
+        self.flow.chain(chain)
+    }
+    fn motions_wait(&self) -> bool {
+        self.memory.compensation.is_busy() || self.memory.corners.is_busy()
+    }
+    fn variable(&self, text: &str) -> Option<f64> {
+        self.flow.variable(text)
+    }
+    fn outliving(&self) -> Vec<(String, f64)> {
+        self.flow.outliving()
+    }
+}
+
+impl Values for Iso<'_> {
+    fn dialect(&self) -> &Dialect {
+        self.core.dialect
+    }
+    fn value(&self, text: &str) -> Option<f64> {
+        match self.core.dialect.quirks.language {
+            Language::Sinumerik => self.memory.own.value(text.trim()),
+            Language::Words | Language::MacroB | Language::Linuxcnc => {
+                self.variable(text.trim()).filter(|value| !value.is_nan())
+            }
+        }
+    }
+}
+
+impl<'d> Iso<'d> {
+    /// At the start of a program.
+    pub(crate) fn new(core: Core<'d>) -> Self {
+        let mut engine = Self {
+            core,
+            memory: Memory::default(),
+            codes: Vec::new(),
+            flow: Flow::default(),
+            cycle_motions: 0,
+        };
+        let setup = std::sync::Arc::clone(&engine.core.setup);
+        if engine.core.dialect.quirks.first_offset_at_start {
+            let mut offsets = setup.work_offsets.iter();
+            if let Some(offset) = offsets.find(|offset| offset.name.eq_ignore_ascii_case("G54")) {
+                engine.set_zero(Some("G54".into()), offset.values);
+            }
+        }
+        engine.memory.tcp_used = engine.core.state.tcp && setup.control.tcp_codes.is_some();
+        engine
+    }
+
+    /// Runs one block, for callers that choose the blocks themselves.
+    pub(crate) fn step(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
+        self.flow.follows = false;
+        self.run_one(program, block, sink);
+    }
+
+    #[inline]
+    fn run_one(&mut self, program: &Program, block: BlockId, sink: &mut impl Sink) {
+        self.core.declare(program);
+        if !self.core.state.ended {
+            self.step_iso(&program.block(block), sink);
+        }
+    }
+
+    /// What waits at the end of the text, and a missing program end.
+    pub(crate) fn finish(&mut self, program: &Program, sink: &mut impl Sink) {
+        if let Some(block) = self.core.last_content {
+            self.put_out_rest(&program.block(block), sink);
+        }
+        self.core.missing_end(program, sink);
+    }
+}

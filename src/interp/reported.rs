@@ -1,0 +1,30 @@
+//! What was reported, so that it is reported once.
+
+/// Names of what was reported.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Reported(Vec<Box<str>>);
+
+impl Reported {
+    /// Whether this is the first time; from then on it is not.
+    pub(crate) fn first(&mut self, what: &str) -> bool {
+        let first = !self.0.iter().any(|known| &**known == what);
+        if first {
+            self.0.push(what.into());
+        }
+        first
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Reported;
+
+    #[test]
+    fn each_name_is_new_once() {
+        let mut reported = Reported::default();
+        assert_eq!(
+            ["G54", "G55", "G54"].map(|name| reported.first(name)),
+            [true, true, false]
+        );
+    }
+}

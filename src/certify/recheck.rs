@@ -8,6 +8,7 @@ use crate::library::Recorder;
 use crate::proof::Proof;
 use crate::text::text_change;
 use crate::{Certificate, Claim, Outcome};
+use std::sync::Arc;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{Library, Setup};
 use trunnion_machine::Machine;
@@ -158,15 +159,7 @@ fn prove(
         ));
     }
     let mut proof = Proof::new(machine, claim, &new);
-    let (recorded, library) = Recorder::wrap(setup);
-    // one library for both where they are the same, so that runs of one text are seen to be the same
-    let (recorded_after, other_library) = if *after_library == setup.library {
-        (recorded.clone(), None)
-    } else {
-        let mut beside = setup.clone();
-        beside.library = after_library.clone();
-        Recorder::wrap(&beside)
-    };
+    let (recorded, recorded_after, libraries) = record_both(setup, after_library);
     let input = |program, dialect, setup| Input {
         program,
         dialect,
@@ -216,11 +209,7 @@ fn prove(
             sha256: machine_digest(machine),
         },
         setup_sha256: setup_digest(setup),
-        library: [library, other_library]
-            .into_iter()
-            .flatten()
-            .flat_map(|library| library.loaded())
-            .collect(),
+        library: libraries.iter().flat_map(|library| library.loaded()).collect(),
         claim: claim.clone(),
         text,
         motions: proof.motions,
@@ -230,6 +219,19 @@ fn prove(
         seal_sha256: String::new(),
     }
     .sealed())
+}
+
+/// The settings of both runs with recorders of the programs that they call: one recorder where both call from the same places, so that runs
+/// of one text are seen to be the same.
+fn record_both(setup: &Setup, after_library: &Library) -> (Setup, Setup, Vec<Arc<Recorder>>) {
+    let (recorded, library) = Recorder::wrap(setup);
+    if *after_library == setup.library {
+        return (recorded.clone(), recorded, library.into_iter().collect());
+    }
+    let mut beside = setup.clone();
+    beside.library = after_library.clone();
+    let (recorded_after, other) = Recorder::wrap(&beside);
+    (recorded, recorded_after, library.into_iter().chain(other).collect())
 }
 
 /// Every block that differs ran: what did not run was not compared.

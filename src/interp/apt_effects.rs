@@ -21,24 +21,8 @@ impl Apt<'_> {
         let program = view.program();
         let block = self.core.main_block(view.id());
         let effects = &mut self.core.effects;
-        // words that change what a record does, in a form that is not modelled
-        let plain: Option<(&'static str, &[&str], usize)> = if record.is("COOLNT") {
-            Some(("coolant words", &["ON", "OFF", "FLOOD", "MIST"], 0))
-        } else if record.is("FEDRAT") {
-            let units = &["MMPM", "IPM", "MMPR", "IPR", "PERMIN", "PERREV", "INVERS"];
-            Some(("feed words", units, 1))
-        } else if record.is("RAPID") {
-            Some(("rapid words", &[], 0))
-        } else if record.is("DELAY") {
-            Some(("dwell words", &["REV", "SEC"], 1))
-        } else {
-            None
-        };
-        if let Some((key, known, numbers)) = plain {
-            let is_known = |word| known.iter().any(|known| crate::apt::is(program, word, known));
-            let more = args.words().iter().any(|&word| !is_known(word)) || args.numbers().len() > numbers;
-            let to = more.then(|| Argument::text("", &written_record(record, view)));
-            effects.add(block, Effect::set(key, to.into_iter().collect::<Vec<_>>()));
+        if let Some(effect) = unmodelled_words(record, &args, view) {
+            effects.add(block, effect);
         }
         if record.is("COOLNT") {
             let off = args.has(program, "OFF");
@@ -153,4 +137,28 @@ fn written_record(record: &Record<'_>, view: &Block<'_>) -> String {
         Some((major, arguments)) => call_argument(major, &format!("({arguments})")).to_string(),
         None => text,
     }
+}
+
+/// Words that change what a record does, in a form that is not modelled.
+fn unmodelled_words(record: &Record<'_>, args: &Args, view: &Block<'_>) -> Option<Effect> {
+    let program = view.program();
+    let plain: Option<(&'static str, &[&str], usize)> = if record.is("COOLNT") {
+        Some(("coolant words", &["ON", "OFF", "FLOOD", "MIST"], 0))
+    } else if record.is("FEDRAT") {
+        let units = &["MMPM", "IPM", "MMPR", "IPR", "PERMIN", "PERREV", "INVERS"];
+        Some(("feed words", units, 1))
+    } else if record.is("RAPID") {
+        Some(("rapid words", &[], 0))
+    } else if record.is("DELAY") {
+        Some(("dwell words", &["REV", "SEC"], 1))
+    } else {
+        None
+    };
+    if let Some((key, known, numbers)) = plain {
+        let is_known = |word| known.iter().any(|known| crate::apt::is(program, word, known));
+        let more = args.words().iter().any(|&word| !is_known(word)) || args.numbers().len() > numbers;
+        let to = more.then(|| Argument::text("", &written_record(record, view)));
+        return Some(Effect::set(key, to.into_iter().collect::<Vec<_>>()));
+    }
+    None
 }

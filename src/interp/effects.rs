@@ -1,6 +1,8 @@
 //! The effects of an ISO block: which of its codes and words are held neither by its motions nor by the modal state.
 mod assignments;
 mod collected;
+mod lines;
+mod parts;
 mod situation;
 mod sort;
 
@@ -17,8 +19,8 @@ use sort::{
     READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, letter_bit, name_of, said, sort,
     takes_axes, uncouples,
 };
-use trunnion_dialect::{Action, CodeKind, Macros, Role};
-use trunnion_syntax::{Block, Item};
+use trunnion_dialect::{Action, Macros, Role};
+use trunnion_syntax::Block;
 
 /// Whether a fault means that its block does more than its motions and the modal state hold.
 pub(crate) fn does_more(kind: &FaultKind) -> bool {
@@ -52,23 +54,7 @@ impl Iso<'_> {
         let mut free = self.free_letters(words);
         // read by a setting below
         let mut held = 0;
-        for found in codes {
-            if couples(found.code.action) {
-                let mut to = vec![name_of(found, view)];
-                let letters = match found.code.action {
-                    Action::VariableThread | Action::Thread => letter_bit(b'Q') | letter_bit(b'K'),
-                    Action::ThreadRepeatCycle => crate::unused::letters(found.code),
-                    _ => letter_bit(b'Q') | letter_bit(b'I') | letter_bit(b'J'),
-                };
-                to.extend(arguments(words, letters));
-                // the first block of G76 only sets data for the second
-                let data = found.code.action == Action::ThreadRepeatCycle && !words.axes.any();
-                let key = if data { "cycle data" } else { "cycle" };
-                self.core.effects.add(block, Effect::set(key, to));
-            } else if uncouples(found.code.action) {
-                self.core.effects.add(block, Effect::set("cycle", []));
-            }
-        }
+        self.cycle_effects(codes, words, view);
         let mut opaque = Vec::new();
         for found in codes {
             match sort(found, words) {
@@ -99,13 +85,14 @@ impl Iso<'_> {
                 Sort::After => {}
             }
         }
-        if !codes.iter().any(|found| found.code.action == Action::ProgramStop) {
-            free |= self.untaken(codes, words, taken) & !held;
-        } else {
+        let unread = self.untaken(codes, words, taken);
+        if codes.iter().any(|found| found.code.action == Action::ProgramStop) {
             let own = codes
                 .iter()
                 .fold(0, |all, found| all | crate::unused::letters(found.code));
-            free = (free | self.untaken(codes, words, taken)) & !own;
+            free = (free | unread) & !own;
+        } else {
+            free |= unread & !held;
         }
         if !self.core.dialect.quirks.user_names() && words.letters & letter_bit(b'D') != 0 && !words.edge.is_said() {
             let to = [said("D", words.letter(b'D'))];
@@ -130,74 +117,6 @@ impl Iso<'_> {
         } else if !opaque.is_empty() {
             self.several(&opaque, rest, words, view);
         }
-    }
-
-    /// A return to a reference point: which point it is, and that it is one. Where no axis is named the machine decides which move.
-    fn reference_effects(&mut self, codes: &[Found<'_>], words: &Words, block: trunnion_syntax::BlockId) {
-        let reference = |action| {
-            matches!(
-                action,
-                Action::ReferenceCheck | Action::ReferenceReturn | Action::ReferenceReturnOther | Action::ReferenceFrom
-            )
-        };
-        let mut to = Vec::new();
-        for found in codes.iter().filter(|found| reference(found.code.action)) {
-            to.push(Argument::code(found.code.id.clone()));
-            if found.code.action == Action::ReferenceReturnOther {
-                // without P it is the second
-                to.push(Argument::number("P", words.p.number().map_or(2.0, |p| p.value)));
-            }
-        }
-        let moves = words.axes.any() || to.is_empty();
-        if moves {
-            self.core.effects.add(block, Effect::set("reference point", to));
-        } else {
-            self.core.effects.add(block, Effect::Unmodelled(to));
-        }
-    }
-
-    /// What the switch for block delete may leave out: the block, or its end.
-    fn deleted_parts(&mut self, view: &Block<'_>, block: trunnion_syntax::BlockId) {
-        let mut after_slash = false;
-        let mut rest = String::new();
-        for item in view.items() {
-            match item {
-                Item::Skip(level, _) => {
-                    // the switch decides whether the block runs at all
-                    let words = vec![Argument::number("/", f64::from(level))];
-                    self.core.effects.add(block, Effect::Event(words));
-                }
-                Item::Other(range) if view.program().text(range).starts_with('/') => {
-                    after_slash = true;
-                    rest.push_str(&view.program().text(range));
-                }
-                Item::Word(word) if after_slash => rest.push_str(&view.program().text(word.range)),
-                _ => {}
-            }
-        }
-        if after_slash {
-            let words = vec![Argument::text("", &crate::canonical_text(&rest))];
-            self.core.effects.add(block, Effect::Event(words));
-        }
-    }
-
-    /// Parameters of the block that neither its codes nor what is in force reads. The machine, or a macro that a code calls, may read them.
-    fn untaken(&self, codes: &[Found<'_>], words: &Words, taken: &BlockCodes) -> u32 {
-        let opaque = words.builder_code || words.unknown_code || words.forgets_all || words.flow;
-        if opaque || self.core.dialect.quirks.user_names() {
-            return 0;
-        }
-        let read = codes
-            .iter()
-            .filter(|found| !(found.code.kind == CodeKind::M && found.code.action == Action::NoMotion))
-            .fold(self.read_in_force(words, taken), |read, found| {
-                read | if found.code.kind == CodeKind::M {
-                    crate::unused::letters(found.code)
-                } else {
-                    self.read_by(found.code)
-                }
-            });
-        words.letters & crate::unused::PARAMETERS & !read
     }
 
     /// Several codes that are compared by their words, or one that happens once: the codes in an order of their own, with all words that
@@ -239,6 +158,28 @@ impl Iso<'_> {
             }
         }
         self.core.effects.add(block, Effect::Event(event));
+    }
+
+    /// The cycle that a block begins or ends.
+    fn cycle_effects(&mut self, codes: &[Found<'_>], words: &Words, view: &Block<'_>) {
+        let block = self.core.main_block(view.id());
+        for found in codes {
+            if couples(found.code.action) {
+                let mut to = vec![name_of(found, view)];
+                let letters = match found.code.action {
+                    Action::VariableThread | Action::Thread => letter_bit(b'Q') | letter_bit(b'K'),
+                    Action::ThreadRepeatCycle => crate::unused::letters(found.code),
+                    _ => letter_bit(b'Q') | letter_bit(b'I') | letter_bit(b'J'),
+                };
+                to.extend(arguments(words, letters));
+                // the first block of G76 only sets data for the second
+                let data = found.code.action == Action::ThreadRepeatCycle && !words.axes.any();
+                let key = if data { "cycle data" } else { "cycle" };
+                self.core.effects.add(block, Effect::set(key, to));
+            } else if uncouples(found.code.action) {
+                self.core.effects.add(block, Effect::set("cycle", []));
+            }
+        }
     }
 
     /// S, T, D.
@@ -356,47 +297,12 @@ impl Iso<'_> {
         if let Some(arguments) = system_assignment(self, view) {
             self.core.effects.add(block, Effect::Event(arguments));
         }
-        self.after_motion(codes, words, block);
-    }
-
-    /// A setting of grbl (`$32=1`) or one of its realtime characters, which act when they arrive (grbl 1.1 documentation, interface).
-    #[cold]
-    pub(crate) fn grbl_line(&mut self, view: &Block<'_>, sink: &mut impl crate::Sink) {
-        let text = view.program().text(view.range());
-        let text = text.trim();
-        let bare = text.split([';', '(']).next().unwrap_or_default();
-        if text.starts_with('$') || bare.contains(['!', '~', '?', '\u{18}']) {
-            let words = vec![Argument::text("", &crate::canonical_text(text))];
-            self.unmodelled_line(view, words, sink);
-        }
-    }
-
-    /// What a block of a contour does beside the contour: the control does it in the finishing cut, or in every cut.
-    #[cold]
-    pub(crate) fn contour_effects(&mut self, view: &Block<'_>, sink: &mut impl crate::Sink) {
-        let of_contour = |argument: &Argument| match (argument.name.as_ref(), &argument.value) {
-            ("G", crate::Value::Number(code)) => matches!(*code, 0.0..=3.0),
-            (name, _) => matches!(
-                name,
-                "X" | "Z" | "U" | "W" | "I" | "K" | "R" | "F" | "C" | "A" | "Y" | "V"
-            ),
-        };
-        let mut words = written(view, self, &Words::default(), Keep::All);
-        words.retain(|argument| !of_contour(argument));
-        if !words.is_empty() {
-            self.unmodelled_line(view, words, sink);
-        }
-    }
-
-    fn unmodelled_line(&mut self, view: &Block<'_>, words: Vec<Argument>, sink: &mut impl crate::Sink) {
-        let block = self.core.main_block(view.id());
-        let effect = Effect::Unmodelled(words);
-        sink.effect(crate::Placed { block, effect });
-        self.core.effects.skip();
+        self.after_motion(codes, words, view);
     }
 
     /// What the codes of a block do after its motion.
-    fn after_motion(&mut self, codes: &[Found<'_>], words: &Words, block: trunnion_syntax::BlockId) {
+    fn after_motion(&mut self, codes: &[Found<'_>], words: &Words, view: &Block<'_>) {
+        let block = self.core.main_block(view.id());
         if codes
             .iter()
             .any(|found| found.code.action == Action::MachineCoordinates)
@@ -408,6 +314,9 @@ impl Iso<'_> {
                 Sort::After => {
                     let mut event = vec![Argument::code(found.code.id.clone())];
                     event.extend(arguments(words, crate::unused::letters(found.code) & words.letters));
+                    if READ_COMMENTS.contains(&found.code.id.as_str()) {
+                        event.extend(comments(view));
+                    }
                     self.core.effects.add(block, Effect::Event(event));
                 }
                 Sort::Group => {

@@ -120,7 +120,8 @@ impl<'d> Interpreter<'d> {
 
     /// Adds the values of the variables that words name.
     pub fn add_values(&self, words: &mut Vec<crate::Argument>) {
-        let text: String = words.iter().map(|word| format!("{word} ")).collect();
+        let text: Vec<String> = words.iter().map(ToString::to_string).collect();
+        let text = text.join(" ");
         words.extend(with_engine!(&self.engine, engine => engine.values_in(&text)));
     }
 

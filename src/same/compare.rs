@@ -274,9 +274,8 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
     }
     if let (Some(was), Some(is), false) = (situation, other_situation, claim.across) {
         let found = was.iter().zip(is.iter());
-        let found = found
-            .filter_map(|(was, is)| was.difference(is, !claim.frees_feed))
-            .next();
+        let mut found = found;
+        let found = found.find_map(|(was, is)| was.difference(is, !claim.frees_feed));
         if let Some((name, from, to)) = found {
             return Err(Verdict::Unknown(place(format!(
                 "{name} differs at `{}`, whose effect is not modelled: {from} and {to}",

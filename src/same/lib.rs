@@ -8,7 +8,9 @@
 mod compare;
 mod cut;
 mod exact;
+mod input;
 mod near;
+mod notes;
 mod process;
 mod since;
 mod steps;
@@ -17,8 +19,9 @@ mod verdict;
 
 pub use compare::{Claim, Judge, compare};
 pub use exact::Exact;
+pub use input::Input;
 pub use near::{Near, arcs_apart};
 pub use process::{Held, Process, offset_name, shown};
-pub use steps::{Input, Item, Sort, Step, Steps, Stop};
+pub use steps::{Item, Sort, Step, Steps, Stop};
 pub use twins::run_alike;
 pub use verdict::{Difference, Verdict};

@@ -1,35 +1,21 @@
 //! A program as a stream of what it does: nothing is kept but what the block in hand has brought.
+use crate::input::Input;
 use crate::process::{Held, Process};
-use crate::since::{Since, disturbs, is_own_code, keeps_place, writes_control};
+use crate::since::{Since, disturbs};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
-use trunnion_dialect::{Dialect, Role};
 use trunnion_interp::Situation;
 use trunnion_interp::{
-    Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, Placed, ProgramRun as _, Setup, Sink,
-    Value,
+    Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, Placed, ProgramRun as _, Sink, Value,
 };
-use trunnion_machine::{Follower, Leg, Machine};
-use trunnion_syntax::{Address, BlockId, Format, Item as AnyItem, Program, Value as SyntaxValue};
+use trunnion_machine::{Follower, Leg};
+use trunnion_syntax::BlockId;
 
 /// More items without a motion between them are not kept.
 const MOST_WAITING: usize = 1_000_000;
 
 /// More motions of one block (a pecking cycle with a tiny Q) are not kept: with all that is in force at each, they would fill the memory.
 const MOST_IN_BLOCK: usize = 100_000;
-
-/// A program with everything it is run with.
-#[derive(Clone, Copy)]
-pub struct Input<'a> {
-    /// The program.
-    pub program: &'a Program,
-    /// Its dialect.
-    pub dialect: &'a Dialect,
-    /// Tools, offsets, parameters of the control, called programs.
-    pub setup: &'a Setup,
-    /// The machine; without one, programmed coordinates are compared.
-    pub machine: Option<&'a Machine>,
-}
 
 /// A motion with everything that is in force.
 #[derive(Clone, Debug)]
@@ -98,21 +84,24 @@ pub struct Stop {
     pub why: String,
 }
 
+/// What is in force before and after the block of an effect, where something that is not modelled may read it.
+pub(crate) type Around = Option<Arc<[Situation; 2]>>;
+
 /// Runs a program and yields what it does.
 pub struct Steps<'a> {
-    input: Input<'a>,
-    interpreter: Interpreter<'a>,
-    run: Run<'a>,
+    pub(crate) input: Input<'a>,
+    pub(crate) interpreter: Interpreter<'a>,
+    pub(crate) run: Run<'a>,
     ready: VecDeque<Item>,
-    since: Since,
+    pub(crate) since: Since,
     ran: Vec<u64>,
     over: bool,
 }
 
-struct Run<'a> {
+pub(crate) struct Run<'a> {
     follower: Option<Follower<'a>>,
     motions: VecDeque<(Motion, Option<Leg>, Held)>,
-    effects: VecDeque<(u32, Placed, Option<Arc<[Situation; 2]>>)>,
+    pub(crate) effects: VecDeque<(u32, Placed, Around)>,
     /// Effects so far.
     count: u32,
     process: Arc<Process>,
@@ -121,7 +110,7 @@ struct Run<'a> {
     /// A block does more than is kept: the run ends with it.
     given_up: bool,
     /// Blocks of the main program whose called program is missing.
-    missing: Vec<BlockId>,
+    pub(crate) missing: Vec<BlockId>,
     /// What is wrong, where somebody asks for it.
     faults: Option<Vec<Fault>>,
     /// Effects with their numbers in the run, where somebody asks for them.
@@ -361,109 +350,6 @@ impl<'a> Steps<'a> {
             self.effects_before(u32::MAX);
         }
         block
-    }
-
-    /// Gives the effects of a block that something else may decide what that may read. `effects`: how many there were before the block.
-    fn note_situation(&mut self, before: Situation, effects: u32, lost: bool) {
-        let own_code = |effect: &Effect| self.input.dialect.quirks.rs274() && is_own_code(effect);
-        let counts = |effect: &Effect| matches!(effect, Effect::Unmodelled(_)) || own_code(effect);
-        let new = |index: u32| index >= effects;
-        let fresh = self.run.effects.iter().filter(|(index, ..)| new(*index));
-        let own = fresh.clone().any(|(_, placed, _)| own_code(&placed.effect));
-        let opaque = fresh.clone().any(|(_, placed, _)| counts(&placed.effect));
-        let first = fresh.map(|(_, placed, _)| placed.block).next();
-        if opaque {
-            let situation = Arc::new([before, self.interpreter.situation()]);
-            let mut variables = (lost || own).then(|| self.interpreter.known_variables());
-            for (index, placed, at) in &mut self.run.effects {
-                if !new(*index) || !(matches!(placed.effect, Effect::Unmodelled(_)) || is_own_code(&placed.effect)) {
-                    continue;
-                }
-                *at = Some(Arc::clone(&situation));
-                if let (Effect::Unmodelled(words) | Effect::Event(words), Some(variables)) =
-                    (&mut placed.effect, variables.take())
-                {
-                    words.extend(variables);
-                }
-            }
-        }
-        for (index, placed, _) in &mut self.run.effects {
-            if new(*index) {
-                match &mut placed.effect {
-                    Effect::Set { to: words, .. } if words.is_empty() => {}
-                    Effect::Set { to: words, .. } | Effect::Event(words) | Effect::Unmodelled(words) => {
-                        self.interpreter.add_values(words);
-                    }
-                    Effect::Store(_) | Effect::End(_) => {}
-                }
-            }
-        }
-        if lost || own {
-            let block = first.unwrap_or(BlockId(0));
-            for key in self.since.lose() {
-                let effect = Effect::set(key, []);
-                self.run.effect(Placed { block, effect });
-            }
-        }
-    }
-
-    /// Words of a block of the main program: what they restate counts where everything was unknown, and what they change may move the
-    /// coordinates.
-    fn note_block(&mut self, block: BlockId, lost: bool) {
-        let (program, dialect) = (self.input.program, self.input.dialect);
-        if program.options().format == Format::Apt {
-            return;
-        }
-        let view = program.block(block);
-        for item in view.items() {
-            let (key, to) = match item {
-                AnyItem::Word(word) => {
-                    let Address::Letter(letter) = word.address else {
-                        self.since.disturbed |= writes_control(&program.text(word.range));
-                        continue;
-                    };
-                    let letter = letter.to_ascii_uppercase();
-                    let role = dialect.role(letter);
-                    if matches!(role, Some(Role::G | Role::M)) {
-                        let number = match word.value {
-                            SyntaxValue::Number(number) => (number.to_f64() * 10.0).round(),
-                            _ => -1.0,
-                        };
-                        let known = (0.0..1e6).contains(&number).then_some(number as u32);
-                        let code = known.and_then(|tenths| match role {
-                            Some(Role::G) => dialect.g(tenths),
-                            _ => dialect.m(tenths),
-                        });
-                        self.since.disturbed |= code.is_none_or(|code| !keeps_place(code));
-                        let Some(code) = code else { continue };
-                        let key = code.group.clone().unwrap_or_else(|| code.id.clone());
-                        (key, code.id.clone())
-                    } else if matches!(letter, b'F' | b'S' | b'T' | b'D' | b'H') {
-                        self.since.disturbed |= matches!(letter, b'D' | b'H');
-                        let text = program.text(word.value_range).into_owned();
-                        (char::from(letter).to_string(), text)
-                    } else {
-                        continue;
-                    }
-                }
-                AnyItem::Call(call) => {
-                    let code = dialect.name(&program.text(call.name));
-                    self.since.disturbed |= code.is_none_or(|code| !keeps_place(code));
-                    let Some(code) = code else { continue };
-                    let key = code.group.clone().unwrap_or_else(|| code.id.clone());
-                    (key, code.id.clone())
-                }
-                AnyItem::Other(range) => {
-                    self.since.disturbed |= writes_control(&program.text(range));
-                    continue;
-                }
-                _ => continue,
-            };
-            if !lost && let Some(key) = self.since.restated(&key) {
-                let effect = Effect::set(key, [Argument::text("", &trunnion_interp::canonical_text(&to))]);
-                self.run.effect(Placed { block, effect });
-            }
-        }
     }
 
     /// Applies the effects that come before the motion that was made after so many.

@@ -1,8 +1,8 @@
 //! Calls of other programs and returns from them, for all languages.
 use super::{Back, Calling, Level, Running, With, index_of};
-use crate::Sink;
 use crate::iso::Iso;
 use crate::macro_b::ProgramName;
+use crate::{Argument, Sink};
 use crate::{FaultKind, Frame, sinumerik};
 use trunnion_flow::{Ends, Going, Key};
 use trunnion_syntax::{BlockId, TextRange};
@@ -59,6 +59,7 @@ impl Iso<'_> {
                     caller: None,
                 };
                 self.tell_of_flow(running, from, (calling.range, kind), sink);
+                self.missing_macro(&calling, from);
                 return self.call_is_not_followed();
             }
         };
@@ -78,6 +79,22 @@ impl Iso<'_> {
             },
         };
         self.push_call(level, times, place, running, from);
+    }
+
+    /// What a modal macro that is not there would read: its arguments, which are in the block of its G66.
+    fn missing_macro(&mut self, calling: &Calling, from: u32) {
+        let With::MacroB(with) = &calling.with else { return };
+        let Some(locals) = with.arguments.as_ref().filter(|_| self.core.effects.wanted()) else {
+            return;
+        };
+        let mut words = vec![Argument::code("macro call")];
+        for (number, value) in locals.iter().enumerate() {
+            if let Some(value) = value {
+                words.push(Argument::number(format!("#{number}"), *value));
+            }
+        }
+        let block = self.core.main_block(BlockId(from));
+        self.core.effects.add(block, crate::Effect::Unmodelled(words));
     }
 
     /// What a program does that is not there is not known.

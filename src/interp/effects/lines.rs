@@ -1,0 +1,44 @@
+//! Lines whose effect is known by their words alone: commands of grbl, blocks inside the contour of a turning cycle.
+use crate::iso::Iso;
+use crate::words::Words;
+use crate::written::{Keep, written};
+use crate::{Argument, Effect};
+use trunnion_syntax::Block;
+
+impl Iso<'_> {
+    /// A setting of grbl (`$32=1`) or one of its realtime characters, which act when they arrive (grbl 1.1 documentation, interface).
+    #[cold]
+    pub(crate) fn grbl_line(&mut self, view: &Block<'_>, sink: &mut impl crate::Sink) {
+        let text = view.program().text(view.range());
+        let text = text.trim();
+        let bare = text.split([';', '(']).next().unwrap_or_default();
+        if text.starts_with('$') || bare.contains(['!', '~', '?', '\u{18}']) {
+            let words = vec![Argument::text("", &crate::canonical_text(text))];
+            self.unmodelled_line(view, words, sink);
+        }
+    }
+
+    /// What a block of a contour does beside the contour: the control does it in the finishing cut, or in every cut.
+    #[cold]
+    pub(crate) fn contour_effects(&mut self, view: &Block<'_>, sink: &mut impl crate::Sink) {
+        let of_contour = |argument: &Argument| match (argument.name.as_ref(), &argument.value) {
+            ("G", crate::Value::Number(code)) => matches!(*code, 0.0..=3.0),
+            (name, _) => matches!(
+                name,
+                "X" | "Z" | "U" | "W" | "I" | "K" | "R" | "F" | "C" | "A" | "Y" | "V"
+            ),
+        };
+        let mut words = written(view, self, &Words::default(), Keep::All);
+        words.retain(|argument| !of_contour(argument));
+        if !words.is_empty() {
+            self.unmodelled_line(view, words, sink);
+        }
+    }
+
+    fn unmodelled_line(&mut self, view: &Block<'_>, words: Vec<Argument>, sink: &mut impl crate::Sink) {
+        let block = self.core.main_block(view.id());
+        let effect = Effect::Unmodelled(words);
+        sink.effect(crate::Placed { block, effect });
+        self.core.effects.skip();
+    }
+}

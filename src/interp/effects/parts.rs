@@ -1,0 +1,81 @@
+//! Parts of a block that are effects of their own: reference points, what block delete may leave out, words that nothing reads.
+use crate::codes::{BlockCodes, Found};
+use crate::iso::Iso;
+use crate::words::Words;
+use crate::{Argument, Effect};
+use trunnion_dialect::{Action, CodeKind};
+use trunnion_syntax::{Block, Item};
+
+impl Iso<'_> {
+    /// A return to a reference point: which point it is, and that it is one. Where no axis is named the machine decides which move.
+    pub(super) fn reference_effects(&mut self, codes: &[Found<'_>], words: &Words, block: trunnion_syntax::BlockId) {
+        let reference = |action| {
+            matches!(
+                action,
+                Action::ReferenceCheck | Action::ReferenceReturn | Action::ReferenceReturnOther | Action::ReferenceFrom
+            )
+        };
+        let mut to = Vec::new();
+        for found in codes.iter().filter(|found| reference(found.code.action)) {
+            to.push(Argument::code(found.code.id.clone()));
+            if found.code.action == Action::ReferenceReturnOther {
+                // without P it is the second
+                to.push(Argument::number("P", words.p.number().map_or(2.0, |p| p.value)));
+            }
+        }
+        let checks = codes.iter().any(|found| found.code.action == Action::ReferenceCheck);
+        let moves = words.axes.any() || to.is_empty();
+        if checks {
+            // the control stops with an alarm where the axes do not stand at the reference point
+            self.core.effects.add(block, Effect::Event(to));
+        } else if moves {
+            self.core.effects.add(block, Effect::set("reference point", to));
+        } else {
+            self.core.effects.add(block, Effect::Unmodelled(to));
+        }
+    }
+
+    /// What the switch for block delete may leave out: the block, or its end.
+    pub(super) fn deleted_parts(&mut self, view: &Block<'_>, block: trunnion_syntax::BlockId) {
+        let mut after_slash = false;
+        let mut rest = String::new();
+        for item in view.items() {
+            match item {
+                Item::Skip(level, _) => {
+                    // the switch decides whether the block runs at all
+                    let words = vec![Argument::number("/", f64::from(level))];
+                    self.core.effects.add(block, Effect::Event(words));
+                }
+                Item::Other(range) if view.program().text(range).starts_with('/') => {
+                    after_slash = true;
+                    rest.push_str(&view.program().text(range));
+                }
+                Item::Word(word) if after_slash => rest.push_str(&view.program().text(word.range)),
+                _ => {}
+            }
+        }
+        if after_slash {
+            let words = vec![Argument::text("", &crate::canonical_text(&rest))];
+            self.core.effects.add(block, Effect::Event(words));
+        }
+    }
+
+    /// Parameters of the block that neither its codes nor what is in force reads. The machine, or a macro that a code calls, may read them.
+    pub(super) fn untaken(&self, codes: &[Found<'_>], words: &Words, taken: &BlockCodes) -> u32 {
+        let opaque = words.builder_code || words.unknown_code || words.forgets_all || words.flow;
+        if opaque || self.core.dialect.quirks.user_names() {
+            return 0;
+        }
+        let read = codes
+            .iter()
+            .filter(|found| !(found.code.kind == CodeKind::M && found.code.action == Action::NoMotion))
+            .fold(self.read_in_force(words, taken), |read, found| {
+                read | if found.code.kind == CodeKind::M {
+                    crate::unused::letters(found.code)
+                } else {
+                    self.read_by(found.code)
+                }
+            });
+        words.letters & crate::unused::PARAMETERS & !read
+    }
+}

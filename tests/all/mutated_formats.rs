@@ -137,16 +137,18 @@ fn changed_files_of_every_format_are_read_or_refused_with_a_message() {
         let (mut taken, mut refused) = (0, 0);
         for number in 0..mutations() {
             let bytes = random.mutate(&source);
-            match std::panic::catch_unwind(|| read(&bytes)) {
-                Ok(Ok(())) => taken += 1,
-                Ok(Err(message)) => {
+            let Ok(outcome) = std::panic::catch_unwind(|| read(&bytes)) else {
+                panic!("{name}, mutation {number}: {:?}", String::from_utf8_lossy(&bytes));
+            };
+            match outcome {
+                Ok(()) => taken += 1,
+                Err(message) => {
                     assert!(
                         !message.is_empty(),
                         "{name}, mutation {number}: refused without a message"
                     );
                     refused += 1;
                 }
-                Err(_) => panic!("{name}, mutation {number}: {:?}", String::from_utf8_lossy(&bytes)),
             }
         }
         assert!(

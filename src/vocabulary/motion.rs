@@ -153,7 +153,7 @@ pub enum MotionKind {
 pub struct Motion {
     /// The block where it ends: of the main program. For a motion inside another file the block of the call that led there.
     pub block: BlockId,
-    /// How it came about; [`crate::Interpreter::chain`] returns the calls.
+    /// How it came about; `Interpreter::chain` of the interp floor returns the calls.
     pub chain: ChainId,
     /// Kind.
     pub kind: MotionKind,

@@ -87,7 +87,10 @@ impl Iso<'_> {
         let Some(locals) = with.arguments.as_ref().filter(|_| self.core.effects.wanted()) else {
             return;
         };
-        let mut words = vec![Argument::code("macro call")];
+        let mut words = vec![
+            Argument::text("macro", &ProgramName(&calling.program).to_string()),
+            Argument::number("times", f64::from(calling.times)),
+        ];
         for (number, value) in locals.iter().enumerate() {
             if let Some(value) = value {
                 words.push(Argument::number(format!("#{number}"), *value));

@@ -53,7 +53,9 @@ fn main() {
         "macro: 40 000 subprograms, each called once, whose lines differ in their O numbers and arguments: what a line says is read once\n\
          and found again by its text. distinct: the same with other numbers in each line, so that no line is found again"
     );
-    println!("limits: parsing at least 5 x gcode's visitor; interpretation at least 25 x rs274 on five-axis, 15 x on loops, 8 x on macros");
+    println!(
+        "limits: parsing at least 5 x gcode's visitor; interpretation at least 25 x rs274 on five-axis, 15 x on loops, 8 x on macros"
+    );
 }
 
 fn compare(name: &str, text: &str, executed: u64) {

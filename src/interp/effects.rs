@@ -12,7 +12,7 @@ use crate::words::{Said, Words};
 use crate::written::{Keep, written};
 use crate::{Argument, Effect};
 use crate::{FaultKind, Motion, MotionKind};
-use assignments::{comments, named_effects, reads_machine_position, system_assignment, unknown_assignment};
+use assignments::{comments, declarations, named_effects, reads_machine_position, system_assignment, unknown_assignment};
 pub(crate) use collected::Effects;
 pub use situation::Situation;
 use sort::{
@@ -294,8 +294,14 @@ impl Iso<'_> {
             let words = vec![Argument::text("", &crate::canonical_text(&text))];
             self.core.effects.add(block, Effect::Unmodelled(words));
         }
-        if let Some(arguments) = system_assignment(self, view) {
-            self.core.effects.add(block, Effect::Event(arguments));
+        if words.declares && self.core.dialect.quirks.user_names() {
+            let arguments = declarations(self, view);
+            if !arguments.is_empty() {
+                self.core.effects.add(block, Effect::Unmodelled(arguments));
+            }
+        }
+        if let Some(effect) = system_assignment(self, view) {
+            self.core.effects.add(block, effect);
         }
         self.after_motion(codes, words, view);
     }

@@ -8,7 +8,8 @@ use trunnion_syntax::{Address, BlockId, Format, Item as AnyItem, Value as Syntax
 
 impl Steps<'_> {
     /// Gives the effects of a block that something else may decide what that may read. `effects`: how many there were before the block.
-    pub(super) fn note_situation(&mut self, before: Situation, effects: u32, lost: bool) {
+    /// `own_locals`: what runs there begins with local variables of its own.
+    pub(super) fn note_situation(&mut self, before: Situation, effects: u32, lost: bool, own_locals: bool) {
         let own_code = |effect: &Effect| self.input.dialect.quirks.rs274() && is_own_code(effect);
         let counts = |effect: &Effect| matches!(effect, Effect::Unmodelled(_)) || own_code(effect);
         let new = |index: u32| index >= effects;
@@ -19,6 +20,9 @@ impl Steps<'_> {
         if opaque {
             let situation = Arc::new([before, self.interpreter.situation()]);
             let mut variables = (lost || own).then(|| self.interpreter.known_variables());
+            if let Some(variables) = variables.as_mut().filter(|_| own_locals) {
+                variables.retain(|variable| !is_local(&variable.name));
+            }
             for (index, placed, at) in &mut self.run.effects {
                 if !new(*index) || !(matches!(placed.effect, Effect::Unmodelled(_)) || is_own_code(&placed.effect)) {
                     continue;
@@ -108,5 +112,43 @@ impl Steps<'_> {
                 self.run.effect(Placed { block, effect });
             }
         }
+    }
+}
+
+/// #1 to #33 of Macro B.
+fn is_local(name: &str) -> bool {
+    let number = name.strip_prefix('#').and_then(|digits| digits.parse::<u32>().ok());
+    number.is_some_and(|number| number <= 33)
+}
+
+/// The words of a macro call in one order. I, J and K keep theirs, which says to which variables they go (Series 30i operator's manual,
+/// custom macro, argument specification II).
+pub(super) fn arguments_in_order(text: &str) -> String {
+    let mut words: Vec<String> = Vec::new();
+    let mut deep = 0;
+    for sign in text.chars() {
+        match words.last_mut() {
+            Some(word) if deep > 0 || !sign.is_ascii_alphabetic() => word.push(sign),
+            _ => words.push(sign.to_string()),
+        }
+        deep += i32::from(sign == '[') - i32::from(sign == ']');
+    }
+    let key = |word: &String| match word.as_bytes().first() {
+        Some(b'I' | b'J' | b'K') => b'I',
+        first => first.copied().unwrap_or_default(),
+    };
+    words.sort_by_key(key);
+    words.concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::arguments_in_order;
+
+    #[test]
+    fn arguments_of_a_macro_have_no_order_but_i_j_k() {
+        let [one, other] = ["G65P100B[#500*ABS[2]]A1", "G65A1P100B[#500*ABS[2]]"].map(arguments_in_order);
+        assert_eq!(one, other);
+        assert_ne!(arguments_in_order("G65P1I1J2"), arguments_in_order("G65P1J2I1"));
     }
 }

@@ -1,5 +1,6 @@
 //! A program as a stream of what it does: nothing is kept but what the block in hand has brought.
 use crate::input::Input;
+use crate::notes::arguments_in_order;
 use crate::process::{Held, Process};
 use crate::since::{Since, disturbs};
 use std::collections::{BTreeMap, VecDeque};
@@ -314,7 +315,7 @@ impl<'a> Steps<'a> {
         {
             *word |= 1 << (block.0 % 64);
         }
-        let mut missing = false;
+        let (mut missing, mut own_locals) = (false, false);
         for block in std::mem::take(&mut self.run.missing) {
             let text = self.input.program.text(self.input.program.block(block).range());
             let text = if self.input.dialect.quirks.user_names() {
@@ -323,14 +324,17 @@ impl<'a> Steps<'a> {
                     .resolved_text(text.split(';').next().unwrap_or_default())
             } else {
                 let text = trunnion_interp::canonical_text(&text);
-                self.interpreter.resolved_text(&text)
+                let text = self.interpreter.resolved_text(&text);
+                let macro_call = self.input.dialect.quirks.macro_b() && text.contains("G65");
+                own_locals |= macro_call;
+                if macro_call { arguments_in_order(&text) } else { text }
             };
             let effect = Effect::Unmodelled(vec![Argument::text("", &text)]);
             self.run.effect(Placed { block, effect });
             missing = true;
         }
         let lost = missing || self.interpreter.losses() != losses;
-        self.note_situation(before, effects, lost);
+        self.note_situation(before, effects, lost, own_locals);
         if let Some(block) = block {
             self.note_block(block, lost);
         }

@@ -41,8 +41,11 @@ impl Iso<'_> {
         let mut rest = String::new();
         for item in view.items() {
             match item {
-                Item::Skip(level, _) => {
-                    // the switch decides whether the block runs at all
+                Item::Skip(level, range) => {
+                    // the switch decides whether the block runs at all; a Sinumerik counts its levels from 0 (Programming Manual,
+                    // Fundamentals, skipping blocks)
+                    let bare = view.program().text(range).trim() == "/";
+                    let level = if bare && self.core.dialect.quirks.user_names() { 0 } else { level };
                     let words = vec![Argument::number("/", f64::from(level))];
                     self.core.effects.add(block, Effect::Event(words));
                 }

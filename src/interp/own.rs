@@ -164,7 +164,9 @@ impl Own {
     }
     /// R parameters with the values that are known: they outlive the program.
     pub(crate) fn parameters(&self) -> impl Iterator<Item = (String, f64)> {
-        self.parameters.iter().map(|(number, value)| (format!("R{number}"), *value))
+        self.parameters
+            .iter()
+            .map(|(number, value)| (format!("R{number}"), *value))
     }
     /// Notes what is written to a name whose value is not followed.
     pub(crate) fn note_text(&mut self, name: &str, text: &str) {

@@ -69,12 +69,7 @@ fn is_held(run: &impl Values, view: &Block<'_>, word: &Word) -> bool {
 fn is_geometry(role: Role) -> bool {
     matches!(
         role,
-        Role::Axis
-            | Role::Increment
-            | Role::ArcCentre
-            | Role::ArcRadius
-            | Role::ArcTurns
-            | Role::ToolVector
+        Role::Axis | Role::Increment | Role::ArcCentre | Role::ArcRadius | Role::ArcTurns | Role::ToolVector
     )
 }
 
@@ -97,11 +92,16 @@ pub(crate) fn full_name(run: &impl Values, view: &Block<'_>, word: &Word) -> (St
         return (stem(view, word), true);
     };
     let name = packed(&view.program().text(name));
-    let inside = name.split_once('[').and_then(|(stem, rest)| Some((stem, rest.strip_suffix(']')?)));
+    let inside = name
+        .split_once('[')
+        .and_then(|(stem, rest)| Some((stem, rest.strip_suffix(']')?)));
     let Some((stem, inside)) = inside.filter(|_| run.dialect().quirks.user_names()) else {
         return (name, true);
     };
-    let parts: Vec<Option<f64>> = crate::own::arguments(inside).iter().map(|part| run.value(part)).collect();
+    let parts: Vec<Option<f64>> = crate::own::arguments(inside)
+        .iter()
+        .map(|part| run.value(part))
+        .collect();
     let shown: Option<Vec<String>> = parts.iter().map(|part| part.map(|value| value.to_string())).collect();
     match shown {
         None => (format!("{stem}[{}]", resolved(run, inside)), false),

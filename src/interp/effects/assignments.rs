@@ -3,7 +3,7 @@ use crate::engine::Engine;
 use crate::iso::Iso;
 use crate::words::Words;
 use crate::written::{Keep, Values, full_name, named_role, names, packed, resolved, stem, written};
-use crate::{Argument, Effect};
+use crate::{Argument, Effect, Reach};
 use trunnion_dialect::{Action, CodeKind, Role};
 use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 
@@ -71,7 +71,10 @@ pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId)
         }
     }
     for effect in effects {
-        run.core.effects.add(block, effect);
+        // a setting of one axis or frame: `POS[X]=5`
+        let of_axis = matches!(&effect, Effect::Set { key, .. } if key.contains('['));
+        let reach = if of_axis { Reach::Place } else { effect.usual_reach() };
+        run.core.effects.add_with(block, effect, reach);
     }
 }
 
@@ -92,18 +95,31 @@ pub(crate) fn declarations(run: &Iso<'_>, view: &Block<'_>) -> Vec<Argument> {
         let name = packed(&view.program().text(call.name));
         let text = view.program().text(call.range);
         let rest = text.trim_start().get(name.len()..).unwrap_or_default().trim();
-        if run.core.dialect.name(&name).is_none_or(|code| code.action != Action::Declaration) {
+        if run
+            .core
+            .dialect
+            .name(&name)
+            .is_none_or(|code| code.action != Action::Declaration)
+        {
             continue;
         }
         match name.as_str() {
-            "DEFINE" => found.push(Argument::text(name, &crate::canonical_text(rest))),
+            "DEFINE" => {
+                let defined = rest.split(char::is_whitespace).next().unwrap_or_default();
+                if is_used(view, defined) {
+                    found.push(Argument::text(name, &crate::canonical_text(rest)));
+                }
+            }
             "DEF" => {
                 let Some((kind, names)) = rest.split_once(char::is_whitespace) else {
                     continue;
                 };
                 for one in crate::own::arguments(names) {
-                    let Some((variable, value)) = one.split_once('=') else { continue };
-                    if run.memory.own.held(variable.trim()).is_none() {
+                    let Some((variable, value)) = one.split_once('=') else {
+                        continue;
+                    };
+                    let stem = variable.split('[').next().unwrap_or_default().trim();
+                    if run.memory.own.held(variable.trim()).is_none() && is_used(view, stem) {
                         let text = format!("{} {}={}", packed(kind), packed(variable), resolved(run, value));
                         found.push(Argument::text("DEF", &text));
                     }
@@ -113,6 +129,13 @@ pub(crate) fn declarations(run: &Iso<'_>, view: &Block<'_>) -> Vec<Argument> {
         }
     }
     found
+}
+
+/// Whether a name that the block declares is in the text of the program anywhere else.
+fn is_used(view: &Block<'_>, name: &str) -> bool {
+    let text = view.program().source().to_ascii_uppercase();
+    let name = name.to_ascii_uppercase();
+    memchr::memmem::find_iter(&text, name.as_bytes()).nth(1).is_some()
 }
 
 /// The words of a block that writes a variable of the control (Fanuc and Haas: #1000 and above), with the operator's message in its

@@ -289,6 +289,15 @@ impl Iso<'_> {
                 Keep::All
             };
             let mut arguments = written(view, self, words, keep);
+            // the cycle that runs after each motion
+            arguments.extend(
+                self.memory
+                    .cycle
+                    .call
+                    .as_ref()
+                    .filter(|_| does_more)
+                    .map(|call| call.said.clone()),
+            );
             if !arguments.is_empty()
                 && codes
                     .iter()

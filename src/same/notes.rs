@@ -87,7 +87,7 @@ impl Steps<'_> {
                             Some(Role::G) => dialect.g(tenths),
                             _ => dialect.m(tenths),
                         });
-                        self.since.disturbed |= code.is_none_or(|code| !keeps_place(code));
+                        self.since.disturbed |= code.is_none_or(|code| !keeps_place(code, dialect));
                         let Some(code) = code else { continue };
                         let key = code.group.clone().unwrap_or_else(|| code.id.clone());
                         (key, code.id.clone())
@@ -101,7 +101,7 @@ impl Steps<'_> {
                 }
                 AnyItem::Call(call) => {
                     let code = dialect.name(&program.text(call.name));
-                    self.since.disturbed |= code.is_none_or(|code| !keeps_place(code));
+                    self.since.disturbed |= code.is_none_or(|code| !keeps_place(code, dialect));
                     let Some(code) = code else { continue };
                     let key = code.group.clone().unwrap_or_else(|| code.id.clone());
                     (key, code.id.clone())

@@ -1,6 +1,6 @@
 //! What happened since the last motion, and since something ran that may have changed everything modal.
 use crate::process::Held;
-use trunnion_dialect::{Action, Code};
+use trunnion_dialect::{Action, Code, Dialect};
 use trunnion_interp::Motion;
 
 /// See the module.
@@ -46,7 +46,10 @@ pub(crate) fn writes_control(text: &str) -> bool {
 }
 
 /// Whether a code surely leaves the machine where it is, and its coordinates where they lie, but for what a motion itself says of them.
-pub(crate) fn keeps_place(code: &Code) -> bool {
-    code.action.keeps_place()
+pub(crate) fn keeps_place(code: &Code, dialect: &Dialect) -> bool {
+    // LinuxCNC's engine runs its cycles itself
+    let runs_cycles = dialect.quirks.rs274() && code.action == Action::CannedCycle;
+    runs_cycles
+        || code.action.keeps_place()
         || code.action == Action::NoMotion && matches!(code.group.as_deref(), Some("coolant" | "mist"))
 }

@@ -61,12 +61,18 @@ impl<'d> Engine<'d> for Iso<'d> {
         if self.core.dialect.quirks.user_names() {
             return self.memory.own.named_in(text);
         }
-        let value = |name: &String| self.variable(name).map(|value| (format!("where {name}"), value));
-        let named = crate::written::names(text).into_iter();
-        named
-            .filter_map(|name| value(&name))
-            .map(|(name, value)| crate::Argument::number(name, value))
-            .collect()
+        let mut found = Vec::new();
+        for name in crate::written::names(text) {
+            let Some(value) = self.variable(&name) else { continue };
+            found.push(crate::Argument::number(format!("where {name}"), value));
+            if value.is_nan() {
+                // what it held before it was lost may be what it holds
+                let mut before = self.flow.all_variables();
+                before.retain(|known| known.name == name);
+                found.extend(before);
+            }
+        }
+        found
     }
     fn resolved_text(&self, text: &str) -> String {
         crate::written::resolved(self, text)

@@ -219,7 +219,15 @@ impl Ngc<'_> {
         }
         if codes.own && at.file == FileId::MAIN {
             // what the machine's own codes do is not known: they may read any word of their line
-            let words = written(&program.block(block), self, &Words::default(), Keep::BesideMotion);
+            let held = |word: &Argument| {
+                let letter = word.name.as_bytes();
+                matches!(
+                    letter,
+                    [b'G' | b'M' | b'F' | b'S' | b'T' | b'D' | b'H' | b'A'..=b'C' | b'U'..=b'Z']
+                )
+            };
+            let words = written(&program.block(block), self, &Words::default(), Keep::All);
+            let words: Vec<Argument> = words.into_iter().filter(|word| !held(word)).collect();
             if !words.is_empty() {
                 self.core.effects.add(block, Effect::Unmodelled(words));
                 self.hand_on(sink);

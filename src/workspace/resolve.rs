@@ -216,10 +216,14 @@ fn machine_for(
             .map(|(folder, _)| home.join(folder))
             .collect();
         let folder = folder_of(path).unwrap_or_default();
-        return Ok((
-            Some(machine_of_comment(name, &folder, &machine_path)?),
-            "modeline comment in the program".into(),
-        ));
+        let machine = machine_of_comment(name, &folder, &machine_path).map_err(|error| match path {
+            Some(path) if error.place.is_empty() => LoadError {
+                place: format!("{}:{}", path.display(), mode.machine_line),
+                ..error
+            },
+            _ => error,
+        })?;
+        return Ok((Some(machine), "modeline comment in the program".into()));
     }
     if let Some(name) = &config.machine {
         let folder = config_file.and_then(|(path, _)| path.parent());

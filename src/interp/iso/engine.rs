@@ -61,12 +61,7 @@ impl<'d> Engine<'d> for Iso<'d> {
         if self.core.dialect.quirks.user_names() {
             return self.memory.own.named_in(text);
         }
-        let value = |name: &String| self.variable(name).map(|value| (format!("where {name}"), value));
-        let named = crate::written::names(text).into_iter();
-        named
-            .filter_map(|name| value(&name))
-            .map(|(name, value)| crate::Argument::number(name, value))
-            .collect()
+        crate::written::values(text, |name| self.variable(name))
     }
     fn resolved_text(&self, text: &str) -> String {
         crate::written::resolved(self, text)

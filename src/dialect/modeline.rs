@@ -55,7 +55,8 @@ mod tests {
             all,
             Modeline {
                 dialect: Some("linuxcnc".into()),
-                machine: Some("samples/my.toml".into())
+                machine: Some("samples/my.toml".into()),
+                machine_line: 3
             }
         );
         assert_eq!(

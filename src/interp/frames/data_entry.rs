@@ -110,11 +110,11 @@ impl<'d> Iso<'d> {
     }
 
     /// The code that selects additional work offsets by P: G54.1, G154.
-    fn additional_offsets(&self) -> Option<&'d str> {
+    pub(crate) fn additional_offsets(&self) -> Option<&'d str> {
         let codes = self.core.dialect.codes();
-        let code = codes
-            .iter()
-            .find(|code| code.action == Action::WorkOffset && code.words.iter().any(|word| word == "P"))?;
+        let code = codes.iter().find(|code| {
+            code.action == Action::WorkOffset && code.words.iter().any(|word| word == "P") && code.id != "G54"
+        })?;
         Some(&code.id)
     }
 

@@ -77,7 +77,9 @@ impl<'d> Engine<'d> for Iso<'d> {
         self.flow.variable(text)
     }
     fn outliving(&self) -> Vec<(String, f64)> {
-        self.flow.outliving()
+        let mut kept = self.flow.outliving();
+        kept.extend(self.memory.own.parameters());
+        kept
     }
 }
 

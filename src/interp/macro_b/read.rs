@@ -337,7 +337,12 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         });
         let Some(macros) = &mut self.macros else { return true };
         let (view, ..) = macros.view(self.dialect);
-        match assigned(self.dialect, self.program, name, &view) {
+        let target = assigned(self.dialect, self.program, name, &view);
+        macros.deep().assigned = match target {
+            Ok(Assigned::Number(index)) => index,
+            _ => None,
+        };
+        match target {
             _ if macros.mode == Mode::Text => {}
             Ok(Assigned::Name(name)) => macros.deep().variables.set_named(&name, held),
             Ok(Assigned::Number(Some(index))) => self.assign(index, held, reason.as_deref(), word.range),

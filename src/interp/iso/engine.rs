@@ -4,6 +4,7 @@ use crate::codes::Found;
 use crate::core::Core;
 use crate::engine::Engine;
 use crate::flow::Flow;
+use crate::frames::OffsetValues;
 use crate::memory::Memory;
 use crate::written::Values;
 use trunnion_dialect::{Dialect, Language};
@@ -62,10 +63,11 @@ impl<'d> Engine<'d> for Iso<'d> {
             return self.memory.own.named_in(text);
         }
         let mut found = Vec::new();
-        for name in crate::written::names(text) {
-            let Some(value) = self.variable(&name) else { continue };
-            found.push(crate::Argument::number(format!("where {name}"), value));
-            if value.is_nan() {
+        for argument in crate::written::values(text, |name| self.variable(name)) {
+            let lost = matches!(argument.value, crate::Value::Text(_));
+            let name = argument.name.trim_start_matches("where ").to_owned();
+            found.push(argument);
+            if lost {
                 // what it held before it was lost may be what it holds
                 let mut before = self.flow.all_variables();
                 before.retain(|known| known.name == name);
@@ -121,7 +123,7 @@ impl<'d> Iso<'d> {
         if engine.core.dialect.quirks.first_offset_at_start {
             let mut offsets = setup.work_offsets.iter();
             if let Some(offset) = offsets.find(|offset| offset.name.eq_ignore_ascii_case("G54")) {
-                engine.set_zero(Some("G54".into()), offset.values);
+                engine.set_zero(Some("G54".into()), OffsetValues::declared(offset.values));
             }
         }
         engine.memory.tcp_used = engine.core.state.tcp && setup.control.tcp_codes.is_some();

@@ -1,6 +1,7 @@
 //! The effects of an ISO block: which of its codes and words are held neither by its motions nor by the modal state.
 mod assignments;
 mod collected;
+mod lengths;
 mod lines;
 mod parts;
 mod situation;
@@ -10,12 +11,13 @@ use crate::codes::{BlockCodes, Found, dwell_reads};
 use crate::iso::Iso;
 use crate::words::{Said, Words};
 use crate::written::{Keep, written};
-use crate::{Argument, Effect, Reach, Value};
+use crate::{Argument, Effect, Reach};
 use crate::{FaultKind, Motion, MotionKind};
 use assignments::{
     comments, declarations, named_effects, reads_machine_position, system_assignment, unknown_assignment,
 };
 pub(crate) use collected::Effects;
+use lengths::{in_lengths, to_mm};
 pub use situation::Situation;
 use sort::{
     READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, is_modal_call, is_plain_cycle,
@@ -361,21 +363,6 @@ impl Iso<'_> {
                 _ => {}
             }
         }
-    }
-}
-
-/// Whether the numbers of a data entry are lengths where they are not angles: work offsets, and offsets of tools.
-fn in_lengths(codes: &[&&Found<'_>], words: &Words) -> bool {
-    let entry = |found: &&&Found<'_>| found.code.action == Action::DataEntry;
-    codes.iter().all(entry) && matches!(words.letter(b'L').index(), Some(2 | 20 | 10..=13))
-}
-
-/// A length in programmed units becomes one in mm.
-fn to_mm(argument: &mut Argument, unit_mm: f64) {
-    if let (b"X" | b"Y" | b"Z" | b"U" | b"V" | b"W" | b"R", Value::Number(value)) =
-        (argument.name.as_bytes(), &mut argument.value)
-    {
-        *value *= unit_mm;
     }
 }
 

@@ -3,9 +3,11 @@
 //! What counts is interface section 8.3: geometry, feed, spindle, tool and offsets, coolant, clamps, dwell, stops, path control, outputs,
 //! stored data, and the words of everything that is not modelled.
 use crate::cut::{cut, is_idle, repeats_place};
+use crate::ending::{at_end, stopped};
 use crate::exact::{self, Exact};
+use crate::item::{Item, Sort, Step};
 use crate::process::{motion_difference, shown, unlike};
-use crate::steps::{Item, Sort, Step, Steps};
+use crate::steps::Steps;
 use crate::twins::Twins;
 use crate::verdict::{Difference, Verdict};
 use trunnion_interp::{MotionKind, Orientation, same_number};
@@ -357,72 +359,4 @@ fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
     } else {
         Verdict::Differs(place)
     }
-}
-
-/// Both were followed to their ends.
-fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
-    for (which, steps) in [("before", before), ("after", after)] {
-        if let Some(stop) = steps.stop() {
-            let block = Some(stop.block);
-            return Err(Verdict::Unknown(Difference {
-                before: block.filter(|_| which == "before"),
-                after: block.filter(|_| which == "after"),
-                what: format!("the program {which} was not followed to its end: {}", stop.why),
-            }));
-        }
-    }
-    Ok(())
-}
-
-/// What both leave behind.
-fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
-    let nowhere = |what: String| {
-        Err(Verdict::Differs(Difference {
-            before: None,
-            after: None,
-            what,
-        }))
-    };
-    let unknown = |what: String| {
-        Err(Verdict::Unknown(Difference {
-            before: None,
-            after: None,
-            what,
-        }))
-    };
-    let (a, b) = (before.stored(), after.stored());
-    for name in a.keys().chain(b.keys().filter(|name| !a.contains_key(*name))) {
-        if a.get(name) != b.get(name) {
-            let value = |value: Option<&trunnion_interp::Value>| match value {
-                None | Some(trunnion_interp::Value::Nothing) => "nothing".to_owned(),
-                Some(trunnion_interp::Value::Number(value)) => value.to_string(),
-                Some(trunnion_interp::Value::Text(text)) => text.to_string(),
-            };
-            return nowhere(format!(
-                "{name} outlives the program and holds {} and {}",
-                value(a.get(name)),
-                value(b.get(name))
-            ));
-        }
-    }
-    if before.leads_tip() != after.leads_tip() {
-        return nowhere("tool centre point control is on at the end of only one of the programs".into());
-    }
-    if let Some((name, from, to)) = before.held().difference(&after.held(), true) {
-        return nowhere(format!("{name} at the end differs: {from} and {to}"));
-    }
-    if let Some(found) = unlike(before.process(), after.process(), false) {
-        let what = format!("{} at the end differs: {} and {}", found.key, found.from, found.to);
-        return if found.is_restated {
-            unknown(what)
-        } else {
-            nowhere(what)
-        };
-    }
-    let (zero, other) = (before.state().zero, after.state().zero);
-    let same = |(a, b): (&f64, &f64)| same_number(*a, *b) || a.is_nan() && b.is_nan();
-    if !zero.iter().zip(&other).all(same) {
-        return unknown("the zero point at the end differs, and whether the control resets it is not known".to_owned());
-    }
-    Ok(())
 }

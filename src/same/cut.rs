@@ -1,6 +1,6 @@
 //! Motions that do nothing, and motions that another program makes in several pieces.
 use crate::compare::Claim;
-use crate::steps::Step;
+use crate::item::Step;
 use trunnion_geometry::arc::Arc;
 use trunnion_interp::{Feed, MotionKind, Orientation, Position, Swivel};
 

@@ -2,8 +2,9 @@
 //!
 //! Both run block by block. After each block that holds something, every motion, effect and fault, and the whole modal state, must be
 //! equal. A number that is unknown equals another unknown number: both texts have the same words, so both are unknown for one reason.
+use crate::item::Item;
 use crate::process::Process;
-use crate::steps::{Item, Steps};
+use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
 use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;

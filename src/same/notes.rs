@@ -1,7 +1,8 @@
 //! What is noted at a block beside its effects: what something that is not modelled could read, and words that restate what may be lost.
+use crate::item::{Around, Waiting, Waits};
 use crate::process::Process;
 use crate::since::{keeps_place, writes_control};
-use crate::steps::{Around, Steps, Waiting, Waits};
+use crate::steps::Steps;
 use std::sync::Arc;
 use trunnion_dialect::Role;
 use trunnion_interp::{Argument, Effect, Situation};
@@ -160,7 +161,10 @@ pub(super) fn arguments_in_order(text: &str) -> String {
         }
         deep += i32::from(sign == '[') - i32::from(sign == ']');
     }
+    // the code and its program come first, as people write a call
     let key = |word: &String| match word.as_bytes().first() {
+        Some(b'G') => 0,
+        Some(b'P') => 1,
         Some(b'I' | b'J' | b'K') => b'I',
         first => first.copied().unwrap_or_default(),
     };

@@ -44,7 +44,7 @@ impl crate::frames::Frames {
     pub(crate) fn offset_values(&self, name: &str, setup: &Setup) -> Option<OffsetValues> {
         let same = |known: &str| known.eq_ignore_ascii_case(name);
         let written = self.written.iter().find(|(known, _)| same(known));
-        let declared = || setup.work_offsets.iter().find(|known| same(&known.name));
+        let declared = || setup.work_offset(name);
         match written {
             Some((_, zero)) => Some(*zero),
             None => declared().map(|offset| OffsetValues::declared(offset.values)),

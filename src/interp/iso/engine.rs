@@ -121,8 +121,7 @@ impl<'d> Iso<'d> {
         };
         let setup = std::sync::Arc::clone(&engine.core.setup);
         if engine.core.dialect.quirks.first_offset_at_start {
-            let mut offsets = setup.work_offsets.iter();
-            if let Some(offset) = offsets.find(|offset| offset.name.eq_ignore_ascii_case("G54")) {
+            if let Some(offset) = setup.work_offset("G54") {
                 engine.set_zero(Some("G54".into()), OffsetValues::declared(offset.values));
             }
         }

@@ -12,6 +12,7 @@ mod finish;
 mod index;
 mod name;
 mod read;
+mod statement;
 mod system;
 mod variables;
 mod words;

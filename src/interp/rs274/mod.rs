@@ -10,6 +10,8 @@ mod modal;
 mod places;
 mod setup;
 mod steady;
+mod stored;
+mod told;
 
 use crate::core::Core;
 use crate::engine::Engine;
@@ -17,9 +19,11 @@ use crate::words::Words;
 use crate::written::{Keep, Values, resolved, written};
 use crate::{Argument, Effect};
 use crate::{FaultKind, Frame, Sink};
-use bridge::{Bridge, LINEAR_AXES, Told};
+use bridge::{Bridge, LINEAR_AXES};
 use frames::Shift;
 use std::sync::Arc;
+use stored::stored_offsets;
+use told::Told;
 use trunnion_dialect::Dialect;
 use trunnion_ngc::{FileId, Source, Step};
 use trunnion_syntax::{BlockId, Program, TextRange};
@@ -385,56 +389,4 @@ fn forget(engine: &mut trunnion_ngc::Engine, told: &mut Told, axes: &[usize]) {
         engine.state.compensated[axis] = f64::NAN;
         told.machine.forget(axis);
     }
-}
-
-/// What a line writes to the offsets that outlive the program: `G10 L2`, `G10 L20`, `#5221=0` (LinuxCNC user manual: numbered parameters).
-fn stored_offsets(line: &str, names: &[String], value: impl Fn(&str) -> Option<f64>) -> Vec<Argument> {
-    let active = value("#5220").unwrap_or(f64::NAN);
-    let is_offset = |name: &&String| {
-        let number = name.trim_start_matches('#').parse::<u32>();
-        number.is_ok_and(|number| (5161..=5390).contains(&number)) && line.contains(&format!("{name}="))
-    };
-    let mut stores: Vec<Argument> = names
-        .iter()
-        .filter(is_offset)
-        .map(|name| Argument::number(format!("written to {name}"), value(name).unwrap_or(f64::NAN)))
-        .collect();
-    if line.contains("G10") && line.contains("L2") {
-        stores.extend(written_by_g10(line, active));
-    }
-    stores
-}
-
-/// The values of a line `G10 L2 P2 X5`, each under a name of its own; with an expression the whole line.
-fn written_by_g10(line: &str, active: f64) -> Vec<Argument> {
-    let text = crate::canonical_text(line);
-    let mut words: Vec<(char, f64)> = Vec::new();
-    let mut rest = text.as_str();
-    while let Some(letter) = rest.chars().next() {
-        let after = &rest[letter.len_utf8()..];
-        let end = after.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(after.len());
-        let Ok(value) = after[..end].parse::<f64>() else {
-            return vec![Argument::text("written by G10", &text)];
-        };
-        words.push((letter, value));
-        rest = &after[end..];
-    }
-    let of = |name: char| {
-        words
-            .iter()
-            .find(|(letter, _)| *letter == name)
-            .map_or(0.0, |(_, value)| *value)
-    };
-    // P0 is the system that is active
-    let of_system = matches!(of('L'), 2.0 | 20.0) && of('P') == 0.0;
-    let place = if of_system {
-        format!("G10 L{} P{}", of('L'), active)
-    } else {
-        format!("G10 L{} P{}", of('L'), of('P'))
-    };
-    let data = words
-        .iter()
-        .filter(|(letter, _)| !matches!(letter, 'G' | 'L' | 'P' | 'N'));
-    data.map(|(letter, value)| Argument::number(format!("{place} {letter}"), *value))
-        .collect()
 }

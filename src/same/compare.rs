@@ -6,7 +6,7 @@ use crate::cut::{cut, is_idle, repeats_place};
 use crate::ending::{at_end, stopped};
 use crate::exact::{self, Exact};
 use crate::item::{Item, Sort, Step};
-use crate::process::{motion_difference, shown, unlike};
+use crate::process::{motion_difference, shown, stops, unlike};
 use crate::steps::Steps;
 use crate::twins::Twins;
 use crate::verdict::{Difference, Verdict};
@@ -323,10 +323,7 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
             Verdict::Differs(place(what))
         });
     }
-    let stops = words
-        .first()
-        .is_some_and(|word| matches!(word.name.as_ref(), "M0" | "M1"));
-    if stops && process.message() != other_process.message() {
+    if stops(words) && process.message() != other_process.message() {
         return Err(Verdict::Unknown(place(format!(
             "the operator reads another message at the stop: {} and {}",
             shown(process.message()),

@@ -129,6 +129,13 @@ pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike
     })
 }
 
+/// Whether an event stops the program, so that the operator reads the message on the screen.
+pub(crate) fn stops(words: &[Argument]) -> bool {
+    words
+        .first()
+        .is_some_and(|word| matches!(word.name.as_ref(), "M0" | "M1"))
+}
+
 /// Words as people read them.
 pub fn shown(words: &[Argument]) -> String {
     if words.is_empty() {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use trunnion_check::config::{FormatSettings, parse_tool_flag};
 use trunnion_check::{Assume, Config, RuleLevel, Settings, did_you_mean, or_known, rule_names};
 use trunnion_dialect::{Dialect, Modeline};
-use trunnion_interp::{Library, Setup};
+use trunnion_interp::{ControlData, Library, Setup};
 use trunnion_machine::Machine;
 
 /// What the user says beside the files: it wins over them.
@@ -108,8 +108,8 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
             .push(parse_tool_flag(flag).map_err(|error| LoadError::new(format!("--tool {flag}: {error}")))?);
     }
     setup.control.block_delete = overrides.block_delete.or(setup.control.block_delete);
-    if let (None, Some(machine)) = (setup.control.units, &machine) {
-        setup.control.units = machine.control.units;
+    if let Some(machine) = &machine {
+        declared_by(machine, &mut setup.control);
     }
     let declared = setup.control.tcp_codes.take();
     Machine::tell(machine.as_ref(), &mut setup.control);
@@ -147,6 +147,17 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
         assume,
         format: config.format,
     })
+}
+
+/// What the machine file declares of its control counts where the settings declare nothing.
+fn declared_by(machine: &Machine, control: &mut ControlData) {
+    let of = &machine.control;
+    control.units = control.units.or(of.units);
+    control.peck_clearance_mm = control.peck_clearance_mm.or(of.peck_clearance_mm);
+    control.chip_break_retract_mm = control.chip_break_retract_mm.or(of.chip_break_retract_mm);
+    if control.reference_points.is_empty() {
+        control.reference_points.clone_from(&of.reference_points);
+    }
 }
 
 /// Where programs that this one calls are looked for: its own folder, then those of the settings, relative to the settings' file.

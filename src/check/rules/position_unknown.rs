@@ -34,7 +34,7 @@ pub(super) const RULE: Body = Body::sound(Info, &[Wake::LostEnd(check), Wake::Lo
 fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
     // a rapid that names places before everything is positioned is how programs begin
     let motion = lost.motion();
-    let nowhere = || lost.leg.start.is_some() || motion.says_way & !motion.end.known != 0;
+    let nowhere = || (motion.start.known | motion.says_way) & !motion.end.known != 0;
     if !(motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()) {
         return;
     }

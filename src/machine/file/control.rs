@@ -1,11 +1,12 @@
 //! The `[control]` part of a machine file: how the numerical control interpolates, picks postures and plans.
 use crate::file::raw::{Number, RawBranch, RawControl, RawOrientation, RawRapid, RawTcpCodes, Word};
 use crate::file::text::number;
-use crate::file::validate::{Fault, non_negative, positive};
+use crate::file::validate::{Fault, finite, non_negative, positive};
 use crate::follow::requests::posture_words;
 use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction, PostureRule, RapidPath};
+use std::collections::BTreeMap;
 use trunnion_geometry::{deg, rad};
-use trunnion_interp::{LengthUnit, TcpCodes};
+use trunnion_interp::{AxisLetter, LengthUnit, Position, TcpCodes};
 
 /// Names that `family` may have (docs/contract.md#machine-files).
 const FAMILIES: &[&str] = &[
@@ -61,6 +62,9 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
             Some(_) => Some(LengthUnit::Millimetre),
             None => None,
         },
+        reference_points: reference_points(&raw.reference_points, axes)?,
+        peck_clearance_mm: non_negative("peck_clearance", raw.peck_clearance.as_ref())?,
+        chip_break_retract_mm: non_negative("chip_break_retract", raw.chip_break_retract.as_ref())?,
     };
     if let Some(pole) = &raw.pole {
         let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;
@@ -148,6 +152,21 @@ fn one_of(name: &str, word: Option<&Word>, known: &[&str]) -> Result<Option<Stri
         message,
         span: word.span(),
     })
+}
+
+/// Where G28, G30 P2, ... end: mm and degrees, by letters of axes.
+fn reference_points(points: &[BTreeMap<Word, Number>], axes: &[Axis]) -> Result<Vec<Position>, Fault> {
+    let mut out = vec![Position::default(); points.len()];
+    for (point, position) in points.iter().zip(&mut out) {
+        for (letter, value) in point {
+            known_axis(letter, axes)?;
+            let axis = letter.get_ref().bytes().next().and_then(AxisLetter::new);
+            if let Some(axis) = axis {
+                position.set(usize::from(axis.0), finite("reference_points", value)?);
+            }
+        }
+    }
+    Ok(out)
 }
 
 fn known_axis(word: &Word, axes: &[Axis]) -> Result<(), Fault> {

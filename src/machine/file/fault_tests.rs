@@ -76,6 +76,9 @@ tail | [control];;pole = { passing_type = 3 } | 3 | write 1 or 2
 tail | [control];;pole = { action = "jump" } | "jump" | known: through
 tail | [control];;corner = { model = "round" } | "round" | known: axis-jump
 tail | [control];;units = "cm" | "cm" | units
+tail | [control];;reference_points = [{ Q = 1 }] | Q | not an axis
+tail | [control];;reference_points = [{ X = inf }] | inf | reference_points
+tail | [control];;peck_clearance = -1 | -1 | negative
 tail | [control];;tcp_codes = { on = ["428"] } | "428" | is not a code
 tail | [control];;tcp_codes = { on = ["M428"], off = ["M428"] } | "M428" | both on and off
 tail | [control];;planner = { block_time = -1 } | -1 | negative

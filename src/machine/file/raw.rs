@@ -178,6 +178,10 @@ pub(crate) struct RawControl {
     #[serde(default)]
     pub(crate) posture_words: RawPostureWords,
     pub(crate) units: Option<Word>,
+    #[serde(default)]
+    pub(crate) reference_points: Vec<BTreeMap<Word, Number>>,
+    pub(crate) peck_clearance: Option<Number>,
+    pub(crate) chip_break_retract: Option<Number>,
 }
 
 #[derive(Deserialize, Default)]

@@ -2,7 +2,7 @@
 use super::{convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
-use trunnion_check::Severity;
+use trunnion_check::{Scope, Severity};
 
 /// Checks NC programs against the machine that will run them.
 #[derive(Parser)]
@@ -154,9 +154,32 @@ pub(crate) struct Check {
     /// Output format. Default: pretty on a terminal, otherwise short.
     #[arg(long, value_enum)]
     pub(crate) format: Option<CheckFormat>,
-    /// Show at most this many findings per file in pretty and short form (0: all).
+    /// How much is judged: the text, also the programmed motions, also the axes of the machine. Default: machine where one is named,
+    /// otherwise motion.
+    #[arg(long, value_enum)]
+    pub(crate) scope: Option<CheckScope>,
+    /// Show at most this many findings per file in pretty and short form, the worst ones first (0: all).
     #[arg(long, default_value_t = 200)]
     pub(crate) limit: usize,
+}
+
+/// `--scope`.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CheckScope {
+    Language,
+    Motion,
+    Machine,
+}
+
+impl CheckScope {
+    /// As the check takes it.
+    pub(crate) fn scope(self) -> Scope {
+        match self {
+            Self::Language => Scope::Language,
+            Self::Motion => Scope::Motion,
+            Self::Machine => Scope::Machine,
+        }
+    }
 }
 
 /// Formats of `check`.

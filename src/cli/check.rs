@@ -1,7 +1,7 @@
 //! `check`: the verdict on files and folders.
 use super::{
     Done,
-    args::{Check, CheckFormat, Global},
+    args::{Check, CheckFormat, CheckScope, Global},
     failure::{Failure, remark, shown},
     json, load, render, short, walk,
 };
@@ -12,7 +12,7 @@ use std::{
     io::{IsTerminal, Write},
     path::{Path, PathBuf},
 };
-use trunnion_check::{Report, Severity, Summary, Verdict};
+use trunnion_check::{Coverage, Report, Scope, Severity, Summary, Verdict};
 
 /// Files that are checked before the first of them is printed.
 const AT_ONCE: usize = 64;
@@ -31,6 +31,16 @@ pub(super) struct Checked {
     pub(super) summary: Summary,
     /// Machine it was checked for.
     pub(super) machine: Option<String>,
+    /// Why the file is not read, if it is not.
+    pub(super) not_read: Option<String>,
+    /// The dialect and why, where that was not certain.
+    pub(super) read_as: Option<String>,
+    /// How much was judged.
+    pub(super) scope: Scope,
+    /// What was looked at.
+    pub(super) coverage: Coverage,
+    /// What nobody declared and was taken for granted.
+    pub(super) assumptions: Vec<String>,
     /// Some finding at or above `--deny`, or unknown under `--strict`.
     pub(super) found: bool,
     /// For `-v`.
@@ -181,8 +191,9 @@ fn print_text(
 }
 
 fn check_file(global: &Global, command: &Check, format: CheckFormat, path: &Path) -> Result<Checked, Failure> {
-    let loaded = load::load(global, path)?;
-    let settings = loaded.resolved.settings();
+    let loaded = load::load_any(global, path)?;
+    let mut settings = loaded.resolved.settings();
+    settings.scope = command.scope.map(CheckScope::scope);
     let report = trunnion_check::check(&loaded.program, &settings);
     let lines = trunnion_syntax::LineIndex::new(loaded.program.source());
     let text = match format {
@@ -192,8 +203,12 @@ fn check_file(global: &Global, command: &Check, format: CheckFormat, path: &Path
     };
     let deny = global.deny.severity();
     let verdict = report.verdict(deny);
-    let json = (format == CheckFormat::Json).then(|| json::file(&loaded, &lines, &report, verdict));
+    let json = (format == CheckFormat::Json).then(|| json::file(&loaded, &lines, &report, (verdict, settings.scope())));
     Ok(Checked {
+        scope: settings.scope(),
+        not_read: loaded.not_read(),
+        read_as: (!loaded.resolved.dialect_certain)
+            .then(|| format!("{} ({})", loaded.resolved.dialect.name, loaded.resolved.dialect_reason)),
         text,
         json,
         verdict,
@@ -201,6 +216,8 @@ fn check_file(global: &Global, command: &Check, format: CheckFormat, path: &Path
         machine: loaded.resolved.machine.as_ref().map(|m| m.id.clone()),
         found: is_found(&report, deny, global.strict),
         explanation: loaded.explanation(),
+        coverage: report.coverage,
+        assumptions: report.assumptions,
         name: loaded.name,
     })
 }

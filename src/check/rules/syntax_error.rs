@@ -80,6 +80,13 @@ fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
         | SyntaxErrorKind::DecimalComma
         | SyntaxErrorKind::BlankInNumber => return,
     };
+    if error.kind == SyntaxErrorKind::WordWithoutValue && text.trim().eq_ignore_ascii_case("N") {
+        // whoever leaves out one number leaves out many
+        out.report(error.range, "`N` has no number")
+            .help("write the block number, or remove the N; the rest of the block is read")
+            .merge(Merge::once(hash("N")));
+        return;
+    }
     out.report(error.range, message).help(help);
 }
 
@@ -116,6 +123,20 @@ mod tests {
         for text in [&b""[..], b"\0\0\0\0", b"G0", b"G\0", b"G0 X1\n\0\0"] {
             assert!(!is_utf16(text), "{text:?}");
         }
+    }
+
+    #[test]
+    fn block_numbers_that_are_missing_are_one_finding() {
+        let report = Fixture::parse("gcode mill-3axis", "N G21\nN10 G0 X0 Y0 Z0\nN G1 X5 F100\nN\nM30\n")
+            .check()
+            .unwrap();
+        let found: Vec<_> = report
+            .diagnostics
+            .iter()
+            .map(|d| (d.message.as_str(), d.count))
+            .collect();
+        assert_eq!(found, [("`N` has no number", 3)]);
+        assert_eq!(report.summary.motions, 2, "the blocks are read");
     }
 
     #[test]

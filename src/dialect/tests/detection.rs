@@ -3,7 +3,7 @@ use crate::{Detected, builtin, detect, is_program_file_name, program_extensions}
 use std::path::{Path, PathBuf};
 
 fn named(name: Option<&str>, text: &str, family: Option<&str>) -> (String, String) {
-    let Detected { dialect, reason } = detect(name, text.as_bytes(), family);
+    let Detected { dialect, reason, .. } = detect(name, text.as_bytes(), family);
     (dialect.name.clone(), reason)
 }
 

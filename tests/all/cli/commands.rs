@@ -137,12 +137,17 @@ fn deny_strict_and_allow_decide_the_exit_status() {
     assert_eq!(
         status(&trunnion(&["check", str(&good)])),
         0,
-        "without a machine it is unknown"
+        "without a machine the motions are judged"
     );
     assert_eq!(
         status(&trunnion(&["check", str(&good), "--strict"])),
+        0,
+        "and nothing of them is unknown"
+    );
+    assert_eq!(
+        status(&trunnion(&["check", str(&good), "--strict", "--scope", "machine"])),
         1,
-        "which strict counts"
+        "without a machine its axes are"
     );
     let bad = write(&folder, "bad.ngc", "G21 G90\nG1 X1 Y1 Z1\nM2\n");
     let base = ["check", str(&bad), "--machine", "mill-3axis"];
@@ -229,7 +234,7 @@ fn standard_input_is_a_program_too() {
         .stdin
         .take()
         .expect("works")
-        .write_all(b"G21 G90\nG1 X1\nM2\n")
+        .write_all(b"G21 G90 G0 X0\nG1 X1\nM2\n")
         .expect("works");
     let output = child.wait_with_output().expect("works");
     assert_eq!(status(&output), 1);

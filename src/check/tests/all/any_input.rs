@@ -19,6 +19,8 @@ fn settings(dialect: usize, machine: &str) -> Settings<'static> {
         },
         rules: Vec::new(),
         port_to: Vec::new(),
+        scope: None,
+        foreign: None,
     }
 }
 

@@ -178,6 +178,7 @@ mod tests {
             port_to: Vec::new(),
             scope: None,
             foreign: None,
+            assume: crate::Assume::ALL,
         }
     }
 

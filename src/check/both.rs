@@ -74,11 +74,6 @@ pub(crate) fn join(off: &mut Report, on: &Report) {
     off.diagnostics
         .sort_by_key(|found| (found.range.start, found.range.end));
     off.coverage.join(&on.coverage);
-    for assumed in &on.assumptions {
-        if !off.assumptions.contains(assumed) {
-            off.assumptions.push(assumed.clone());
-        }
-    }
     let (blocks, motions) = (off.summary.blocks, off.summary.motions);
     off.summary = Summary {
         blocks,
@@ -86,6 +81,11 @@ pub(crate) fn join(off: &mut Report, on: &Report) {
         ..Summary::default()
     };
     off.summary.count(&off.diagnostics);
+    for assumed in &on.assumptions {
+        if !off.assumptions.contains(assumed) {
+            off.assumptions.push(assumed.clone());
+        }
+    }
     off.cycle_time_s = match (off.cycle_time_s, on.cycle_time_s) {
         (Some(a), Some(b)) => Some([a[0].min(b[0]), a[1].max(b[1])]),
         _ => None,

@@ -1,4 +1,4 @@
-//! What is counted while a program runs, and what its faults say of the whole.
+//! What is counted while a program runs.
 use super::{Coverage, GivenUp};
 use crate::visited::Visited;
 use trunnion_dialect::Dialect;
@@ -14,8 +14,6 @@ pub(crate) struct Tally {
     /// Motions with a known end.
     known: u64,
     given_up: Option<GivenUp>,
-    /// What was taken for granted, each once.
-    pub(crate) assumptions: Vec<String>,
 }
 
 impl Tally {
@@ -25,7 +23,6 @@ impl Tally {
             travels: 0,
             known: 0,
             given_up: None,
-            assumptions: Vec::new(),
         }
     }
 
@@ -37,27 +34,16 @@ impl Tally {
         self.known += u64::from(is_known);
     }
 
-    /// A fault may say where the run was given up, or what was taken for granted.
+    /// A fault may say where the run was given up.
     pub(crate) fn fault(&mut self, fault: &Fault) {
         let reason = match &fault.kind {
             FaultKind::NotDecided { .. } => "not-decided",
             FaultKind::EndlessLoop { .. } => "endless-loop",
             FaultKind::ProgramAlarm { .. } => "program-alarm",
-            FaultKind::WorkOffsetUnset { name } => return self.assume(format!("{name} = 0 (not declared)")),
-            FaultKind::ToolLengthUnset { tool } => {
-                return self.assume(format!("length of tool {tool} = 0 (not declared)"));
-            }
             _ => return,
         };
         let block = fault.block;
         self.given_up.get_or_insert(GivenUp { block, reason });
-    }
-
-    /// Notes something that is taken for granted.
-    pub(crate) fn assume(&mut self, what: String) {
-        if !self.assumptions.contains(&what) {
-            self.assumptions.push(what);
-        }
     }
 
     /// What was covered, before [`Coverage::complete`] works out what was not.

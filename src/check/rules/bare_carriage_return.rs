@@ -40,13 +40,16 @@ fn check(overview: &Overview<'_>, out: &mut Reporter<'_>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Settings, Severity, Verdict, check};
+    use crate::{Assume, Settings, Severity, Verdict, check};
     use trunnion_interp::Setup;
 
     #[test]
     fn the_program_is_still_read() {
         let dialect = trunnion_dialect::builtin("iso-6983").expect("built in");
-        let settings = Settings::new(dialect, trunnion_machine::builtin("mill-3axis"), Setup::default());
+        let settings = Settings {
+            assume: Assume::ALL,
+            ..Settings::new(dialect, trunnion_machine::builtin("mill-3axis"), Setup::default())
+        };
         let found = |text: &str| {
             let report = check(
                 &trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex),

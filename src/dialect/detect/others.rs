@@ -239,6 +239,11 @@ fn wire(code: &str, votes: &mut Votes) {
     if cone {
         votes.add("wire-edm", 6, "the taper G51 or G52 A");
     }
+    for (alone, weight) in [("G38", 5), ("G39", 3)] {
+        if unnumbered(code) == alone {
+            votes.add("wire-edm", weight, &format!("{alone} alone"));
+        }
+    }
     if has(code, b'G', "38") && word(code, b'D') {
         votes.add("wire-edm", 8, "G38 D");
     }

@@ -13,6 +13,9 @@ pub(super) struct Seen {
     shape: Shape,
 }
 
+/// Signs that tell a Haas from a Fanuc.
+const HAAS: &[&str] = &["haas-ngc", supported::HAAS_HINT];
+
 /// Controls that share their language; inside the first group brand and kind of machine decide.
 const GROUPS: &[&[&str]] = &[
     &["fanuc-30i", "haas-ngc"],
@@ -149,13 +152,9 @@ impl Seen {
         match group[0] {
             FANUC => {
                 let enough = if known.family == Some(FANUC) { 9 } else { 6 };
-                let by_text = self.votes.weight(&["haas-ngc"]) >= enough;
+                let by_text = self.votes.weight(HAAS) >= enough;
                 let haas = by_text || known.family.is_some_and(|family| family.starts_with("haas"));
-                let brand = if by_text {
-                    strongest(&["haas-ngc"])
-                } else {
-                    strongest(group)
-                };
+                let brand = if by_text { strongest(HAAS) } else { strongest(group) };
                 let (name, sign) = match (lathe, haas) {
                     (Some(found), true) => ("haas-lathe", Some(found.reason.clone())),
                     (Some(found), false) if found.system_b => ("fanuc-30i-lathe-b", Some(found.reason.clone())),

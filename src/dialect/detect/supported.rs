@@ -202,6 +202,9 @@ fn program_number(rest: &str, votes: &mut Votes) {
     }
 }
 
+/// What tells a Haas from a Fanuc, but neither from other controls.
+pub(super) const HAAS_HINT: &str = "haas-hint";
+
 /// Codes that a Haas has and a Fanuc has not.
 fn haas(code: &str, votes: &mut Votes) {
     for number in [
@@ -228,14 +231,14 @@ fn haas(code: &str, votes: &mut Votes) {
     // other controls want G90 beside it
     if has(code, b'G', "53") && !has(code, b'G', "90") {
         if word(code, b'Z') {
-            votes.add("haas-ngc", 3, "G53 Z");
+            votes.add(HAAS_HINT, 3, "G53 Z");
         }
         if word(code, b'X') || word(code, b'Y') {
-            votes.add("haas-ngc", 3, "G53 X or Y");
+            votes.add(HAAS_HINT, 3, "G53 X or Y");
         }
     }
     if has(code, b'M', "31") || has(code, b'M', "33") {
-        votes.add("haas-ngc", 3, "the chip auger M31 or M33");
+        votes.add(HAAS_HINT, 3, "the chip auger M31 or M33");
     }
     for cycle in ["71", "72"] {
         let one_block = [b'P', b'Q', b'U', b'W', b'D'].iter().all(|letter| word(code, *letter));

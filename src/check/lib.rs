@@ -38,6 +38,7 @@ mod trail;
 mod unreadable;
 mod view;
 mod visited;
+mod waiting;
 mod wake;
 mod words;
 

@@ -50,7 +50,7 @@ impl Steps<'_> {
             match &mut waiting.what {
                 Waits::Effect(Effect::Set { to: words, .. }, _) if words.is_empty() => {}
                 Waits::Effect(Effect::Set { to: words, .. } | Effect::Event(words) | Effect::Unmodelled(words), _) => {
-                    self.interpreter.add_values(words)
+                    self.interpreter.add_values(words);
                 }
                 Waits::Effect(Effect::Store(_) | Effect::End(_), _) | Waits::Restated(..) | Waits::Lost => {}
             }

@@ -120,10 +120,10 @@ impl<'d> Iso<'d> {
             cycle_motions: 0,
         };
         let setup = std::sync::Arc::clone(&engine.core.setup);
-        if engine.core.dialect.quirks.first_offset_at_start {
-            if let Some(offset) = setup.work_offset("G54") {
-                engine.set_zero(Some("G54".into()), OffsetValues::declared(offset.values));
-            }
+        if engine.core.dialect.quirks.first_offset_at_start
+            && let Some(offset) = setup.work_offset("G54")
+        {
+            engine.set_zero(Some("G54".into()), OffsetValues::declared(offset.values));
         }
         engine.memory.tcp_used = engine.core.state.tcp && setup.control.tcp_codes.is_some();
         engine

@@ -1,8 +1,11 @@
 //! The command line arguments; docs/commands.md lists the commands.
-use super::{convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface};
+use super::{
+    check::CheckScope, convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats,
+    surface::Surface,
+};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
-use trunnion_check::{Scope, Severity};
+use trunnion_check::Severity;
 
 /// Checks NC programs against the machine that will run them.
 #[derive(Parser)]
@@ -164,25 +167,6 @@ pub(crate) struct Check {
     /// Show at most this many findings per file in pretty and short form, the worst ones first (0: all).
     #[arg(long, default_value_t = 200)]
     pub(crate) limit: usize,
-}
-
-/// `--scope`.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum CheckScope {
-    Language,
-    Motion,
-    Machine,
-}
-
-impl CheckScope {
-    /// As the check takes it.
-    pub(crate) fn scope(self) -> Scope {
-        match self {
-            Self::Language => Scope::Language,
-            Self::Motion => Scope::Motion,
-            Self::Machine => Scope::Machine,
-        }
-    }
 }
 
 /// Formats of `check`.

@@ -1,11 +1,12 @@
 //! `check`: the verdict on files and folders.
 use super::{
     Done,
-    args::{Check, CheckFormat, CheckScope, Global},
+    args::{Check, CheckFormat, Global},
     failure::{Failure, remark, shown},
     json, load, render, short, walk,
 };
 use crate::cli::out::Out;
+use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::prelude::*;
 use std::{
@@ -16,6 +17,25 @@ use trunnion_check::{Coverage, Report, Scope, Severity, Summary, Verdict};
 
 /// Files that are checked before the first of them is printed.
 const AT_ONCE: usize = 64;
+
+/// `--scope`.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CheckScope {
+    Language,
+    Motion,
+    Machine,
+}
+
+impl CheckScope {
+    /// As the check takes it.
+    pub(crate) fn scope(self) -> Scope {
+        match self {
+            Self::Language => Scope::Language,
+            Self::Motion => Scope::Motion,
+            Self::Machine => Scope::Machine,
+        }
+    }
+}
 
 /// One checked file, rendered.
 pub(super) struct Checked {

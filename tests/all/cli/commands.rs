@@ -226,6 +226,7 @@ fn settings_are_found_upward_and_the_command_line_wins() {
 fn standard_input_is_a_program_too() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_trunnion"))
         .args(["check", "-", "--machine", "mill-3axis", "--dialect", "linuxcnc"])
+        .args(["--assume", "work-offset,tool-length"])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::null())

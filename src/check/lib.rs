@@ -45,7 +45,7 @@ mod words;
 pub use analysis::{check, check_on};
 pub use config::{Config, ConfigError, RuleLevel, Scope, Settings};
 pub use coverage::{Coverage, GivenUp, NotRun, NotRunReason};
-pub use datum::Assume;
+pub use datum::{Assume, assumptions};
 pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
 pub use nearest::{did_you_mean, or_known};
 pub use report::{Report, Summary, Verdict};

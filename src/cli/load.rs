@@ -7,6 +7,7 @@ use std::{
     io::{Read, Write},
     path::Path,
 };
+use trunnion_check::assumptions;
 use trunnion_dialect::Foreign;
 use trunnion_files::{Outputs, Seen, Target};
 use trunnion_machine::Machine;
@@ -51,6 +52,14 @@ impl Loaded {
             None => Some(&self.resolved.dialect.name),
         }
     }
+    /// Work offsets and tool lengths that the program uses and nobody declares, as `check` lists them: the joints of the machine are computed
+    /// with zero. Empty without a machine.
+    pub(crate) fn assumptions(&self) -> Vec<String> {
+        if self.resolved.machine.is_none() {
+            return Vec::new();
+        }
+        assumptions(&self.program, self.resolved.dialect, &self.resolved.setup)
+    }
     /// The files of a command that reads this program: none of its outputs may replace one of them.
     pub(crate) fn outputs(&self) -> Outputs {
         let mut outputs = Outputs::new();
@@ -87,6 +96,24 @@ impl Loaded {
             r.machine_reason
         )
     }
+}
+
+/// What one or two programs rest on, as a line of text begins or goes on: `assuming G54 = 0 (not declared)`; `None` where everything is
+/// declared.
+pub(crate) fn assuming(programs: &[&Loaded]) -> Option<String> {
+    let all = assumed_by(programs);
+    (!all.is_empty()).then(|| format!("assuming {}", all.join(", ")))
+}
+
+/// What one or two programs rest on, each once.
+pub(crate) fn assumed_by(programs: &[&Loaded]) -> Vec<String> {
+    let mut all = Vec::new();
+    for text in programs.iter().flat_map(|loaded| loaded.assumptions()) {
+        if !all.contains(&text) {
+            all.push(text);
+        }
+    }
+    all
 }
 
 /// What the global options say.

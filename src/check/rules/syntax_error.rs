@@ -147,4 +147,19 @@ mod tests {
         assert_eq!(found.message, format!("`{}...` is not a number", "1".repeat(40)));
         assert!(report.diagnostics.iter().all(|d| d.message.len() < 200));
     }
+
+    #[test]
+    fn the_number_of_a_spindle_is_a_word_of_linuxcnc_alone() {
+        let found = |dialect: &str| {
+            let text = "G21 G90 G94\nM3 $0 S1000\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM5 $0\nM2\n";
+            let report = Fixture::parse(&format!("gcode {dialect}"), text).check().unwrap();
+            let errors = report
+                .diagnostics
+                .iter()
+                .filter(|d| d.severity == crate::Severity::Error);
+            errors.map(|d| d.rule).collect::<Vec<_>>()
+        };
+        assert_eq!(found("linuxcnc"), [""; 0]);
+        assert_eq!(found("fanuc-30i"), ["unknown-word", "unknown-word"]);
+    }
 }

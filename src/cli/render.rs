@@ -111,7 +111,7 @@ fn assumed(all: &[String]) -> String {
 }
 
 /// `1 error`, `2 errors`.
-fn counted(count: u64, what: &str) -> String {
+pub(super) fn counted(count: u64, what: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{count} {what}{plural}")
 }

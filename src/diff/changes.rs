@@ -2,6 +2,7 @@
 //! motions of the stretches that differ are made again and compared in numbers, so that the first pass may be coarse.
 use crate::align::{Stretch, align};
 use crate::event::{Body, Event, Tech};
+use crate::match_up::match_up;
 use crate::point::{Point, Tolerance};
 use crate::run::Events;
 use std::collections::{BTreeMap, HashMap};
@@ -265,7 +266,9 @@ fn same_stretches(a: &Keys, b: &Keys, techs: &Techs, stretches: &[Stretch], foun
 impl TechChange {
     fn add(&mut self, blocks: (BlockId, BlockId)) {
         self.count += 1;
-        self.last = blocks;
+        // the stretches that differ are looked at after those that do not
+        self.first = self.first.min(blocks);
+        self.last = self.last.max(blocks);
     }
 }
 
@@ -333,14 +336,15 @@ fn details(pair: &Pair<'_>, tolerance: Tolerance, stretches: &[Stretch], found: 
             continue;
         }
         compared += more + other;
-        let mut a = sides[0].take(x, more).into_iter();
-        let mut b = sides[1].take(y, other).into_iter();
-        loop {
-            match (a.next(), b.next()) {
+        let (left, right) = (sides[0].take(x, more), sides[1].take(y, other));
+        let matched = match_up(&left, &right);
+        let (mut a, mut b) = (left.into_iter(), right.into_iter());
+        for (one, two) in matched {
+            match (one.and_then(|_| a.next()), two.and_then(|_| b.next())) {
                 (Some(a), Some(b)) => found.pair(a, b, tolerance),
                 (Some(a), None) => found.only(false, a.block, a.body),
                 (None, Some(b)) => found.only(true, b.block, b.body),
-                (None, None) => break,
+                (None, None) => {}
             }
         }
     }

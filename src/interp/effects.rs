@@ -279,9 +279,7 @@ impl Iso<'_> {
             || words.feed.is_said() && !self.core.dialect.quirks.user_names();
         let ambiguous = ambiguous || codes.iter().any(dwell) && unclear;
         if ambiguous {
-            // a parameter of the control decides what the number means
-            let words = vec![Argument::code("a number with or without decimal point")];
-            self.core.effects.add(block, Effect::Unmodelled(words));
+            self.core.effects.ambiguous_number(block);
         }
         let moved = !motions.is_empty() && !unknown_end && !unread;
         if does_more || unknown_end || unknown_frame || unread {

@@ -332,7 +332,7 @@ impl<'d> Iso<'d> {
     }
 
     /// Tells the first coordinate, centre or radius of a block whose missing decimal point makes its size ambiguous.
-    fn whole_numbers(&self, words: &Words, report: &mut Report<'_>) {
+    fn whole_numbers(&mut self, words: &Words, report: &mut Report<'_>) {
         if self.core.setup.control.implicit_decimals.is_some() {
             return;
         }
@@ -358,8 +358,12 @@ impl<'d> Iso<'d> {
             };
             sized && !number.has_point && number.mantissa != 0
         };
-        if let Some(word) = report.program.block(report.block).words().find(size) {
+        let found = report.program.block(report.block).words().find(size);
+        if let Some(word) = found {
             report.fault(word.range, FaultKind::AmbiguousDecimal);
+            // before the motions whose size it decides
+            let block = self.core.main_block(report.block);
+            self.core.effects.ambiguous_number(block);
         }
     }
 }

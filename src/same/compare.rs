@@ -337,6 +337,7 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
 fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
     let name = |item: Option<&Item>| match item {
         None => "ends".to_owned(),
+        Some(Item::Motion(step)) if step.is_part => format!("goes on with {}", kind(&step.motion.kind)),
         Some(Item::Motion(step)) => format!("makes {}", kind(&step.motion.kind)),
         Some(Item::Happens { words, .. }) => format!("does `{}`", shown(words)),
     };
@@ -349,7 +350,12 @@ fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
             })
         ) || matches!(item, Some(Item::Motion(step)) if step.motion.kind == MotionKind::Unknown)
     };
-    let what = format!("the program before {}, the one after {}", name(was), name(is));
+    let part = |item: Option<&Item>| matches!(item, Some(Item::Motion(step)) if step.is_part);
+    let what = match (part(was), part(is)) {
+        (true, false) | (false, true) => "a motion ends elsewhere: ",
+        _ => "",
+    };
+    let what = format!("{what}the program before {}, the one after {}", name(was), name(is));
     let place = at(was, is, what);
     if unmodelled(was) || unmodelled(is) {
         Verdict::Unknown(place)

@@ -2,6 +2,7 @@
 use crate::cli::{
     json::tidy,
     load::{Loaded, assuming},
+    render::counted,
 };
 use std::fmt::Write;
 use trunnion_diff::{Body, Change, Found, Point, TechChange, Tolerance, Way};
@@ -239,9 +240,9 @@ pub(super) fn shared(found: &Found) -> String {
     };
     let paired = found.motions[0].saturating_sub(moved + only(false) + found.not_compared);
     format!(
-        "{} of {} motions lead the same way; {moved} lead elsewhere, {removed} motions and statements are only before, {added} only after, \
-         {state} motions have other settings; `trunnion diff` lists them",
-        paired, found.motions[0]
+        "{paired} of {} follow the same path, {moved} differ in their path, {state} in their settings; motions and statements only before: \
+         {removed}, only after: {added}; `trunnion diff` lists them",
+        counted(found.motions[0], "motion")
     )
 }
 
@@ -279,13 +280,13 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
         String::new()
     } else {
         format!(
-            "; {} motions have no known end and are compared by their words alone",
-            found.unknown
+            "; compared by their words alone, because their ends are not known: {}",
+            counted(found.unknown, "motion")
         )
     };
     let stops = stops(lines, found);
     if found.same() {
-        return format!("SAME {} motions {within}{unknown}\n", found.motions[0]);
+        return format!("SAME {} {within}{unknown}\n", counted(found.motions[0], "motion"));
     }
     let first = first(lines, found);
     let word = if matches!(found.verdict, Verdict::Unknown(_)) {
@@ -309,22 +310,23 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
     }
     if techs > 0 {
         parts.push(format!(
-            "{techs} motions with other feed, spindle, tool, offset or coolant"
+            "{} with other feed, spindle, tool, offset or coolant",
+            counted(techs, "motion")
         ));
     }
     if found.not_compared > 0 {
         parts.push(format!("{} more not compared in detail", found.not_compared));
     }
-    let counted = format!("{} -> {} motions", found.motions[0], found.motions[1]);
+    let numbers = format!("{} -> {}", found.motions[0], counted(found.motions[1], "motion"));
     let listed = if parts.is_empty() {
         String::new()
     } else {
         format!("; {}", parts.join(", "))
     };
-    let mut text = format!("{word} {first}\n{counted}{listed}; other motions are the same {within}{unknown}\n");
+    let mut text = format!("{word} {first}\n{numbers}{listed}; other motions are the same {within}{unknown}\n");
     if found.too_different {
         text = format!(
-            "{word} {first}\n{counted}: too little in common to say which motion is which; they part at the first line above\n"
+            "{word} {first}\n{numbers}: too little in common to say which motion is which; they part at the first line above\n"
         );
     } else if found.one_by_one {
         text.push_str(

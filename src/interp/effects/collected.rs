@@ -40,6 +40,14 @@ impl Effects {
         self.count += 1;
         self.ready.push(Placed { block, effect, reach });
     }
+    /// A parameter of the control decides what a number of the block means; once for each block.
+    pub(crate) fn ambiguous_number(&mut self, block: trunnion_syntax::BlockId) {
+        let effect = Effect::Unmodelled(vec![Argument::code("a number with or without decimal point")]);
+        let known = |placed: &Placed| placed.block == block && placed.effect == effect;
+        if self.wanted && !self.ready.iter().any(known) {
+            self.add(block, effect);
+        }
+    }
     /// One that was handed on already.
     pub(crate) fn skip(&mut self) {
         self.count += 1;

@@ -146,6 +146,24 @@ fn what_is_not_modelled_is_compared_by_its_words() {
 }
 
 #[test]
+fn a_longer_approach_hides_no_motion_that_is_a_little_off() {
+    let folder = TempDir::new().expect("works");
+    let program = |approach: &str, x: &str| {
+        format!("G21 G90\nS1000 M3\n{approach}\nG1 Z-1 F100\nG1 X{x} Y0.5\nG1 X20 Y1.5\nM30\n")
+    };
+    let (status, shown) = differ(
+        &folder,
+        &program("G0 X0 Y0 Z2", "10"),
+        &program("G0 X-30 Y-30 Z80\nG0 X-5 Y-5\nG0 X0 Y0\nG0 Z2", "10.01"),
+        &[],
+    );
+    assert_eq!(status, 1, "{shown}");
+    assert!(shown.contains("linear X 10 -> 10.01 mm"), "{shown}");
+    assert!(!shown.contains("linear ->") && !shown.contains("rapid ->"), "{shown}");
+    assert_eq!(shown.matches(" added ").count(), 3, "{shown}");
+}
+
+#[test]
 fn with_a_machine_joints_are_compared() {
     let folder = TempDir::new().expect("works");
     let (a, b) = (

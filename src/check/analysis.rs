@@ -2,12 +2,14 @@
 //! program is findings and one modal state.
 use crate::apart;
 use crate::both;
+use crate::coverage;
 use crate::pass::Pass;
 use crate::suppress::{Suppressions, has_code};
 use crate::unreadable::is_utf16;
 use crate::view::Overview;
 use crate::{Report, Settings};
 use core::ops::ControlFlow;
+use trunnion_dialect::Foreign;
 use trunnion_interp::{Interpreter, directives};
 use trunnion_machine::Follower;
 use trunnion_syntax::{BlockId, Program};
@@ -57,7 +59,7 @@ pub fn check_on(program: &Program, settings: &Settings<'_>, threads: usize) -> R
 fn check_apart(program: &Program, settings: &Settings<'_>) -> Report {
     let whole = with_both(program, settings, |settings| {
         analyse(program, settings, |interpreter, read, pass| {
-            Some(apart::run(program, settings.machine, interpreter, read, pass))
+            Some(apart::run(program, settings.judged_machine(), interpreter, read, pass))
         })
     });
     whole.unwrap_or_default()
@@ -84,13 +86,26 @@ fn with_both(
     settings: &Settings<'_>,
     mut check: impl FnMut(&Settings<'_>) -> Option<Report>,
 ) -> Option<Report> {
+    if let Some(foreign) = settings.foreign {
+        return Some(not_read(program, settings, foreign));
+    }
     let mut report = check(settings)?;
     if both::is_open(program, settings) {
         let mut on = settings.clone();
         on.setup.control.block_delete = Some(true);
         both::join(&mut report, &check(&on)?);
     }
+    report.coverage.complete(program, settings.dialect);
+    coverage::tell(program, settings, &mut report);
     Some(report)
+}
+
+/// The report on a file that is not read: one finding.
+fn not_read(program: &Program, settings: &Settings<'_>, foreign: Foreign) -> Report {
+    let suppressions = Suppressions::default();
+    let mut pass = Pass::new(program, settings, &suppressions);
+    pass.tell_foreign(foreign);
+    pass.finish(&settings.interpreter())
 }
 
 /// Runs a program to its end; `None` when `watch` broke off.
@@ -150,7 +165,7 @@ fn analyse(
 mod tests {
     use super::*;
     use crate::fixture::Fixture;
-    use crate::{RuleLevel, Session, Severity, Verdict};
+    use crate::{RuleLevel, Scope, Session, Severity, Verdict};
     use trunnion_interp::Setup;
     use trunnion_syntax::parse;
 
@@ -161,6 +176,8 @@ mod tests {
             setup: Setup::default(),
             rules: rules.iter().map(|(name, level)| ((*name).to_owned(), *level)).collect(),
             port_to: Vec::new(),
+            scope: None,
+            foreign: None,
             assume: crate::Assume::ALL,
         }
     }
@@ -193,12 +210,34 @@ mod tests {
     }
 
     #[test]
-    fn without_a_machine_the_verdict_is_unknown() {
+    fn without_a_machine_the_motions_are_judged() {
         let found = Fixture::parse("gcode", "G0 X0\n;^ machine-unset: \nM30\n")
             .check()
             .unwrap();
-        assert_eq!(found.verdict(Severity::Error), Verdict::Unknown);
+        assert_eq!(found.verdict(Severity::Error), Verdict::Pass);
         assert_eq!(found.cycle_time_s, None);
+        let text = "G21\nG0 X0 Y0 Z0\nG1 X5 F100\nM30\n";
+        let cut = "G21\nM5\nG0 X0 Y0 Z0\nG1 X5 F100\nM30\n";
+        let judged = |text: &str, scope, machine| {
+            let settings = Settings {
+                machine,
+                scope,
+                ..settings(&[])
+            };
+            let report = check(&parse(text.as_bytes().to_vec(), settings.dialect.lex), &settings);
+            let rules: Vec<_> = report.diagnostics.iter().map(|found| found.rule).collect();
+            (rules.join(" "), report.verdict(Severity::Error))
+        };
+        insta::assert_debug_snapshot!([
+            judged(cut, Some(Scope::Language), None),
+            judged(cut, Some(Scope::Motion), None),
+            judged(text, Some(Scope::Language), None),
+            judged(text, Some(Scope::Motion), None),
+            judged(text, None, None),
+            judged(text, Some(Scope::Machine), None),
+            judged(text, Some(Scope::Motion), trunnion_machine::builtin("mill-3axis")),
+            judged(text, None, trunnion_machine::builtin("mill-3axis")),
+        ]);
     }
 
     #[test]

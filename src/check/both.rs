@@ -73,6 +73,7 @@ pub(crate) fn join(off: &mut Report, on: &Report) {
     off.diagnostics.append(&mut only_on);
     off.diagnostics
         .sort_by_key(|found| (found.range.start, found.range.end));
+    off.coverage.join(&on.coverage);
     let (blocks, motions) = (off.summary.blocks, off.summary.motions);
     off.summary = Summary {
         blocks,

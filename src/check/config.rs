@@ -9,7 +9,7 @@ pub use format::{FormatCase, FormatSettings, FormatSpacing, FormatZeros};
 pub use tool::parse_tool_flag;
 
 use crate::{Assume, Severity};
-use trunnion_dialect::Dialect;
+use trunnion_dialect::{Dialect, Foreign};
 use trunnion_geometry::rad;
 use trunnion_interp::{Interpreter, Setup};
 use trunnion_machine::{Machine, Tolerances};
@@ -168,6 +168,28 @@ fn apply(tolerances: &mut Tolerances, name: &str, value: f64) -> bool {
     true
 }
 
+/// How much of a program is judged. Each includes those before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Scope {
+    /// The text, and what the control refuses.
+    Language,
+    /// The programmed motions.
+    Motion,
+    /// What the axes of the machine do.
+    Machine,
+}
+
+impl Scope {
+    /// `language`, `motion` or `machine`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Language => "language",
+            Self::Motion => "motion",
+            Self::Machine => "machine",
+        }
+    }
+}
+
 /// Everything one check needs.
 #[derive(Clone)]
 pub struct Settings<'a> {
@@ -181,6 +203,10 @@ pub struct Settings<'a> {
     pub rules: Vec<(String, RuleLevel)>,
     /// Dialects that the program is to be carried over to: the rule `porting` says what would change its meaning there.
     pub port_to: Vec<String>,
+    /// How much is judged, if somebody says so. Default: all that the machine allows, and without a machine the motions.
+    pub scope: Option<Scope>,
+    /// The text is not for a control that is supported: it gets one finding and is not read.
+    pub foreign: Option<Foreign>,
     /// What is taken as zero although it is not declared.
     pub assume: Assume,
 }
@@ -194,8 +220,24 @@ impl<'a> Settings<'a> {
             setup,
             rules: Vec::new(),
             port_to: Vec::new(),
+            scope: None,
+            foreign: None,
             assume: Assume::default(),
         }
+    }
+
+    /// How much is judged.
+    pub fn scope(&self) -> Scope {
+        self.scope.unwrap_or(if self.machine.is_some() {
+            Scope::Machine
+        } else {
+            Scope::Motion
+        })
+    }
+
+    /// The machine whose axes are judged.
+    pub(crate) fn judged_machine(&self) -> Option<&'a Machine> {
+        self.machine.filter(|_| self.scope() == Scope::Machine)
     }
 
     /// At the start of a program, as the machine declares its codes.

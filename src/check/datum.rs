@@ -4,10 +4,12 @@
 //! what spans more than the travel fits no zero point, and what spans less fits a range of them. Where rotary axes turn the part or the
 //! tool, nothing is said about linear joints.
 mod fit;
+mod listed;
 mod name;
 mod span;
 
 pub(crate) use fit::{Fit, Missing, Open, Overrun};
+pub use listed::assumptions;
 pub(crate) use name::OffsetName;
 
 use crate::place::names_axis;

@@ -15,7 +15,13 @@ use trunnion_machine::Machine;
 use trunnion_syntax::LineIndex;
 
 /// Rules that say what a fragment lacks; they are silent in fixtures that do not draw them.
-pub const QUIET: &[&str] = &["machine-unset", "missing-program-end", "units-unset"];
+pub const QUIET: &[&str] = &["machine-unset", "missing-program-end", "not-run", "units-unset"];
+
+/// Lines end with a carriage return alone.
+const CR: &str = "line-ends=cr";
+
+/// In place of a dialect: what the text shows.
+const DETECTED: &str = "detected";
 
 /// One finding as drawn.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,7 +41,7 @@ pub struct Drawn {
 /// A program and what is expected of it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Fixture {
-    /// Name of a built-in dialect.
+    /// Name of a built-in dialect, or `detected`: the text shows it.
     pub dialect: String,
     /// Name of a built-in machine, if any; `NAME+clamp` is one whose first rotary axis has `clamp = true`, `NAME+A.cable` one whose A
     /// has `cable = true`.
@@ -52,14 +58,14 @@ pub struct Fixture {
 
 impl Fixture {
     /// Reads a fixture; `info` is a fence's info string: `gcode`, then names of a dialect (else iso-6983) and a machine, and
-    /// `port=NAME` for each dialect that the program is to be carried over to; `undeclared`: see that field.
+    /// `port=NAME` for each dialect that the program is to be carried over to; `line-ends=cr`; `undeclared`: see that field.
     pub fn parse(info: &str, text: &str) -> Self {
         let undeclared = info.split_whitespace().any(|word| word == "undeclared");
-        let is_dialect = |word: &&str| trunnion_dialect::BUILTIN_NAMES.contains(word);
+        let is_dialect = |word: &&str| trunnion_dialect::BUILTIN_NAMES.contains(word) || *word == DETECTED;
         let (ported, names): (Vec<&str>, Vec<&str>) = info
             .split_whitespace()
             .skip(1)
-            .filter(|word| *word != "undeclared")
+            .filter(|word| !matches!(*word, CR | "undeclared"))
             .partition(|word| word.starts_with("port="));
         let dialect = names
             .iter()
@@ -88,12 +94,21 @@ impl Fixture {
             }
         }
         fixture.drawn.sort();
+        if info.split_whitespace().any(|word| word == CR) {
+            fixture.program = fixture.program.replace('\n', "\r");
+        }
         fixture
     }
 
     /// Checks the program; `Err` says that dialect or machine do not exist.
     pub fn check(&self) -> Result<Report, String> {
-        let dialect = trunnion_dialect::builtin(&self.dialect).ok_or_else(|| format!("no dialect {}", self.dialect))?;
+        let (dialect, foreign) = if self.dialect == DETECTED {
+            let found = trunnion_dialect::detect(None, self.program.as_bytes(), None);
+            (found.dialect, found.foreign)
+        } else {
+            let dialect = trunnion_dialect::builtin(&self.dialect);
+            (dialect.ok_or_else(|| format!("no dialect {}", self.dialect))?, None)
+        };
         let machine = self.machine.as_deref().map(machine).transpose()?;
         let drawn = |rule: &&&str| self.drawn.iter().any(|drawn| drawn.rule == **rule);
         let rules = QUIET
@@ -110,6 +125,8 @@ impl Fixture {
                 setup: setup(),
                 rules,
                 port_to: self.port_to.clone(),
+                scope: None,
+                foreign,
                 assume: Assume {
                     work_offset: !self.undeclared,
                     tool_length: !self.undeclared,

@@ -12,6 +12,7 @@ mod both;
 #[cfg(test)]
 mod clamp_tests;
 pub mod config;
+mod coverage;
 mod datum;
 mod diagnostic;
 mod facts;
@@ -42,8 +43,9 @@ mod wake;
 mod words;
 
 pub use analysis::{check, check_on};
-pub use config::{Config, ConfigError, RuleLevel, Settings};
-pub use datum::Assume;
+pub use config::{Config, ConfigError, RuleLevel, Scope, Settings};
+pub use coverage::{Coverage, GivenUp, NotRun, NotRunReason};
+pub use datum::{Assume, assumptions};
 pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
 pub use nearest::{did_you_mean, or_known};
 pub use report::{Report, Summary, Verdict};

@@ -1,4 +1,6 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
+use crate::config::Scope;
+use crate::coverage::Tally;
 use crate::datum::{Assume, Datum};
 use crate::look::Looker;
 use crate::report::Summary;
@@ -11,7 +13,7 @@ use crate::visited::Visited;
 use crate::waiting::Waiting;
 use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
-use trunnion_dialect::Dialect;
+use trunnion_dialect::{Dialect, Foreign};
 use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, ProgramRun, Refusal, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
@@ -45,6 +47,7 @@ pub(crate) struct Pass<'a> {
     /// The block that ran last.
     last_ran: Option<BlockId>,
     executed: u64,
+    tally: Tally,
 }
 
 impl<'a> Pass<'a> {
@@ -52,7 +55,10 @@ impl<'a> Pass<'a> {
         let (legs, rest): (Vec<_>, Vec<_>) = active(&settings.rules)
             .into_iter()
             .partition(|rule| rule.wake.level() == "machine");
-        let (motions, rules) = rest.into_iter().partition(|rule| rule.wake.reads_motions());
+        let (mut motions, rules): (Vec<_>, _) = rest.into_iter().partition(|rule| rule.wake.reads_motions());
+        if settings.scope() < Scope::Motion {
+            motions.clear();
+        }
         let waiting = |rules| Waiting {
             rules,
             awake: (None, Vec::new()),
@@ -65,12 +71,14 @@ impl<'a> Pass<'a> {
             legs: waiting(legs),
             in_force: None,
             last_cut: None,
-            looker: settings.machine.map(Looker::new),
+            looker: settings.judged_machine().map(Looker::new),
             assume: settings.assume,
-            datum: settings.machine.map(|machine| Datum::new(machine, settings.assume)),
+            datum: settings
+                .judged_machine()
+                .map(|machine| Datum::new(machine, settings.assume)),
             suppressions,
             ported: !settings.port_to.is_empty(),
-            follower: settings.machine.map(Follower::new),
+            follower: settings.judged_machine().map(Follower::new),
             leg: None,
             posture: 0,
             trail: Trail::default(),
@@ -79,6 +87,7 @@ impl<'a> Pass<'a> {
             visited: Visited::new(program.block_count()),
             last_ran: None,
             executed: 0,
+            tally: Tally::new(settings.dialect),
         }
     }
 
@@ -115,6 +124,15 @@ impl<'a> Pass<'a> {
                 }
             });
         }
+    }
+
+    /// Says that the file is not read: it is for a control that is not supported, or no program.
+    pub(crate) fn tell_foreign(&mut self, foreign: Foreign) {
+        ask(&self.rules, &mut self.reporter, (None, 0), |wake, out| {
+            if let Wake::Foreign(rule) = wake {
+                rule(&foreign, out);
+            }
+        });
     }
 
     /// Says that the file is not text; false where the rules that say so are allowed.
@@ -195,7 +213,7 @@ impl<'a> Pass<'a> {
     fn looked_for(&self, name: &str) -> bool {
         let has = |rules: &[Active]| rules.iter().any(|rule| rule.name == name);
         let asked = |rule: &Active| match rule.wake {
-            Wake::End(_) => false,
+            Wake::End(_) | Wake::Coverage(_) => false,
             Wake::Port(_) => self.ported,
             _ => true,
         };
@@ -204,7 +222,7 @@ impl<'a> Pass<'a> {
     }
 
     /// What was found; `interpreter` is at its end and knows the call chains.
-    pub(crate) fn finish(self, interpreter: &Interpreter<'_>) -> Report {
+    pub(crate) fn finish(mut self, interpreter: &Interpreter<'_>) -> Report {
         let cycle_time_s = if self.follower.is_some() {
             self.time.interval()
         } else {
@@ -256,13 +274,14 @@ impl<'a> Pass<'a> {
             diagnostics,
             summary,
             cycle_time_s,
+            coverage: self.tally.coverage(summary.motions, self.visited, self.last_ran),
             assumptions,
         }
     }
 }
 
 /// Asks rules one after the other. `at`: the block they look at, and its number in the run.
-fn ask(
+pub(crate) fn ask(
     rules: &[Active],
     reporter: &mut Reporter<'_>,
     at: (Option<BlockId>, u64),
@@ -297,6 +316,7 @@ impl Sink for Pass<'_> {
         if self.text_has_told(&fault) {
             return;
         }
+        self.tally.fault(&fault);
         self.reporter.origin(self.visited.has(fault.block), ChainId::MAIN);
         let at = (Some(fault.block), self.executed);
         ask(&self.rules, &mut self.reporter, at, |wake, out| {
@@ -331,6 +351,7 @@ impl Pass<'_> {
     /// `next`: it is a line as [`Self::take_line`] wants it.
     fn judge(&mut self, motion: &Motion, in_force: &InForce, next: bool) {
         self.summary.motions += 1;
+        self.tally.motion(motion);
         // cutter compensation emits a motion when the next block is known: that is not a further pass of its block
         let late = motion.chain == ChainId::MAIN && self.last_ran == Some(motion.block);
         self.reporter

@@ -10,6 +10,7 @@ mod axis_limit;
 mod axis_overspeed;
 mod bad_expression;
 mod bad_number;
+mod bare_carriage_return;
 mod block_delete_unset;
 mod block_number_order;
 mod branch_swap;
@@ -36,8 +37,10 @@ mod missing_subprogram;
 mod missing_tool_length;
 mod missing_word;
 mod modal_group_conflict;
+mod not_a_program;
 mod not_decided;
 mod not_modelled;
+mod not_run;
 mod only_one_posture;
 mod orientation_deviation;
 mod other_tool_length;
@@ -64,6 +67,7 @@ mod unknown_code;
 mod unknown_word;
 mod unlimited_spindle;
 mod unreachable_orientation;
+mod unsupported_control;
 mod unused_suppression;
 mod unused_word;
 mod winding_limit;
@@ -98,6 +102,7 @@ static RULES: &[&Rule] = table![
     axis_overspeed,
     bad_expression,
     bad_number,
+    bare_carriage_return,
     block_delete_unset,
     block_number_order,
     branch_swap,
@@ -124,8 +129,10 @@ static RULES: &[&Rule] = table![
     missing_tool_length,
     missing_word,
     modal_group_conflict,
+    not_a_program,
     not_decided,
     not_modelled,
+    not_run,
     only_one_posture,
     orientation_deviation,
     other_tool_length,
@@ -152,6 +159,7 @@ static RULES: &[&Rule] = table![
     unknown_word,
     unlimited_spindle,
     unreachable_orientation,
+    unsupported_control,
     unused_suppression,
     unused_word,
     winding_limit,

@@ -2,7 +2,7 @@
 use trunnion_syntax::BlockId;
 
 /// A set of blocks.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Visited {
     bits: Vec<u64>,
 }
@@ -20,6 +20,13 @@ impl Visited {
         self.bits
             .get(block.0 as usize / 64)
             .is_some_and(|word| word >> (block.0 % 64) & 1 == 1)
+    }
+
+    /// Puts in all that another set of the same program has.
+    pub(crate) fn join(&mut self, other: &Self) {
+        for (word, more) in self.bits.iter_mut().zip(&other.bits) {
+            *word |= more;
+        }
     }
 
     /// Puts a block in; whether it was new. Blocks there is no room for are not kept.

@@ -1,4 +1,5 @@
 //! What wakes a rule: the type that its function reads. This list is all that there is to choose from.
+use crate::coverage::Coverage;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
     Arrival, CableAxis, ClampedTurn, CutSpindleOff, CutSpindleUnlimited, FarCut, FirstCut, HeldBackCut, LongTurn,
@@ -9,6 +10,7 @@ use crate::finding::Draft;
 use crate::look::Look;
 use crate::sink::Reporter;
 use crate::view::{LegView, MotionView, Overview};
+use trunnion_dialect::Foreign;
 use trunnion_interp::{Fault, Refusal};
 use trunnion_syntax::{SyntaxError, TextRange};
 
@@ -28,6 +30,8 @@ macro_rules! wakes {
         pub(crate) enum Wake {
             /// The file cannot be read as text.
             Unreadable(fn(&mut Reporter<'_>)),
+            /// The file is not read, and why.
+            Foreign(fn(&Foreign, &mut Reporter<'_>)),
             /// Each problem of the text.
             Text(fn(&SyntaxError, &mut Reporter<'_>)),
             /// The program as a whole, once.
@@ -46,6 +50,8 @@ macro_rules! wakes {
             Overrun(fn(&Overrun, &mut Reporter<'_>)),
             /// What is known at the end, once.
             End(fn(&Ending<'_>, &mut Reporter<'_>)),
+            /// What of the program was looked at, once, after everything else.
+            Coverage(fn(&Coverage, &mut Reporter<'_>)),
         }
 
         /// The place of each fact in a mask.
@@ -56,8 +62,8 @@ macro_rules! wakes {
             /// One word for lists: `text`, `program`, `motion`, `machine`.
             pub(crate) fn level(self) -> &'static str {
                 match self {
-                    Self::Unreadable(_) | Self::Text(_) | Self::End(_) => "text",
-                    Self::Program(_) | Self::Port(_) => "program",
+                    Self::Unreadable(_) | Self::Foreign(_) | Self::Text(_) | Self::End(_) => "text",
+                    Self::Program(_) | Self::Port(_) | Self::Coverage(_) => "program",
                     Self::Fault(_) | Self::Refused(..) $(| Self::$motion(_))* => "motion",
                     Self::Open(_) | Self::Overrun(_) => "machine",
                     $(Self::$leg(_))|* => "machine",

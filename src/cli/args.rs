@@ -1,5 +1,8 @@
 //! The command line arguments; docs/commands.md lists the commands.
-use super::{convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats, surface::Surface};
+use super::{
+    check::CheckScope, convert::Convert, diff::Diff, fmt::Fmt, plot::Plot, sample::Sample, stats::Stats,
+    surface::Surface,
+};
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use trunnion_check::Severity;
@@ -157,7 +160,11 @@ pub(crate) struct Check {
     /// Output format. Default: pretty on a terminal, otherwise short.
     #[arg(long, value_enum)]
     pub(crate) format: Option<CheckFormat>,
-    /// Show at most this many findings per file in pretty and short form (0: all).
+    /// How much is judged: the text, also the programmed motions, also the axes of the machine. Default: machine where one is named,
+    /// otherwise motion.
+    #[arg(long, value_enum)]
+    pub(crate) scope: Option<CheckScope>,
+    /// Show at most this many findings per file in pretty and short form, the worst ones first (0: all).
     #[arg(long, default_value_t = 200)]
     pub(crate) limit: usize,
 }

@@ -57,10 +57,12 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         let path_only = command.claim == ClaimOf::Path;
         Some(diff::shared(&loaded, second, tolerances, path_only))
     };
-    match outcome {
+    let programs: Vec<&load::Loaded> = std::iter::once(&loaded).chain(second.as_ref()).collect();
+    let assuming = load::assuming(&programs);
+    let done = match outcome {
         Outcome::Proved(certificate) => {
             out.text(&format!("PROVED {}\n", certificate.summary()));
-            Ok(Done::Clean)
+            Done::Clean
         }
         Outcome::Refuted(witness) => {
             let line = witness.line.map(|line| format!(":{line}")).unwrap_or_default();
@@ -72,14 +74,18 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
             if let Some(line) = shared() {
                 out.text(&format!("{line}\n"));
             }
-            Ok(Done::Found)
+            Done::Found
         }
         Outcome::Unknown(gap) => {
             out.text(&format!("UNKNOWN {}\n", gap.message));
             if let Some(line) = shared() {
                 out.text(&format!("{line}\n"));
             }
-            Ok(Done::Found)
+            Done::Found
         }
+    };
+    if let Some(line) = assuming {
+        out.text(&format!("{line}\n"));
     }
+    Ok(done)
 }

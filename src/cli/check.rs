@@ -6,16 +6,36 @@ use super::{
     json, load, render, short, walk,
 };
 use crate::cli::out::Out;
+use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::prelude::*;
 use std::{
     io::{IsTerminal, Write},
     path::{Path, PathBuf},
 };
-use trunnion_check::{Report, Severity, Summary, Verdict};
+use trunnion_check::{Coverage, Report, Scope, Severity, Summary, Verdict};
 
 /// Files that are checked before the first of them is printed.
 const AT_ONCE: usize = 64;
+
+/// `--scope`.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CheckScope {
+    Language,
+    Motion,
+    Machine,
+}
+
+impl CheckScope {
+    /// As the check takes it.
+    pub(crate) fn scope(self) -> Scope {
+        match self {
+            Self::Language => Scope::Language,
+            Self::Motion => Scope::Motion,
+            Self::Machine => Scope::Machine,
+        }
+    }
+}
 
 /// One checked file, rendered.
 pub(super) struct Checked {
@@ -31,6 +51,16 @@ pub(super) struct Checked {
     pub(super) summary: Summary,
     /// Machine it was checked for.
     pub(super) machine: Option<String>,
+    /// Why the file is not read, if it is not.
+    pub(super) not_read: Option<String>,
+    /// The dialect and why, where that was not certain.
+    pub(super) read_as: Option<String>,
+    /// How much was judged.
+    pub(super) scope: Scope,
+    /// What was looked at.
+    pub(super) coverage: Coverage,
+    /// What nobody declared and was taken for granted.
+    pub(super) assumptions: Vec<String>,
     /// Some finding at or above `--deny`, or unknown under `--strict`.
     pub(super) found: bool,
     /// For `-v`.
@@ -182,8 +212,9 @@ fn print_text(
 }
 
 fn check_file(global: &Global, command: &Check, format: CheckFormat, path: &Path) -> Result<Checked, Failure> {
-    let loaded = load::load(global, path)?;
-    let settings = loaded.resolved.settings();
+    let loaded = load::load_any(global, path)?;
+    let mut settings = loaded.resolved.settings();
+    settings.scope = command.scope.map(CheckScope::scope);
     let report = trunnion_check::check(&loaded.program, &settings);
     let lines = trunnion_syntax::LineIndex::new(loaded.program.source());
     let text = match format {
@@ -193,8 +224,12 @@ fn check_file(global: &Global, command: &Check, format: CheckFormat, path: &Path
     };
     let deny = global.deny.severity();
     let verdict = report.verdict(deny);
-    let json = (format == CheckFormat::Json).then(|| json::file(&loaded, &lines, &report, verdict));
+    let json = (format == CheckFormat::Json).then(|| json::file(&loaded, &lines, &report, (verdict, settings.scope())));
     Ok(Checked {
+        scope: settings.scope(),
+        not_read: loaded.not_read(),
+        read_as: (!loaded.resolved.dialect_certain)
+            .then(|| format!("{} ({})", loaded.resolved.dialect.name, loaded.resolved.dialect_reason)),
         text,
         json,
         verdict,
@@ -202,6 +237,8 @@ fn check_file(global: &Global, command: &Check, format: CheckFormat, path: &Path
         machine: loaded.resolved.machine.as_ref().map(|m| m.id.clone()),
         found: is_found(&report, deny, global.strict),
         explanation: loaded.explanation(),
+        coverage: report.coverage,
+        assumptions: report.assumptions,
         name: loaded.name,
     })
 }

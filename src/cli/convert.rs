@@ -148,6 +148,9 @@ pub(super) fn run(global: &Global, command: &Convert) -> Result<Done, Failure> {
     for line in summary(&loaded.name, &converted) {
         remark(global.quiet, &line);
     }
+    if let Some(line) = load::assuming(&[&loaded]) {
+        remark(global.quiet, &format!("{}: {line}", loaded.name));
+    }
     Ok(Done::Clean)
 }
 
@@ -322,6 +325,7 @@ fn document(loaded: &Loaded, machine: Option<&Machine>, converted: &Converted) -
         "from": loaded.resolved.dialect.name,
         "to": converted.dialect.name,
         "machine": machine.map(|machine| machine.id.clone()),
+        "assumptions": loaded.assumptions(),
         "program": converted.text,
         "proof": {
             "motions_before": proof.motions_before,

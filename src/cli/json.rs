@@ -3,7 +3,7 @@ use super::{check::Checked, failure::Failure, load::Loaded, short};
 use serde::{Serialize, Serializer, ser::SerializeMap};
 use serde_json::json;
 use std::io::Write;
-use trunnion_check::{Report, Status, ValueKey, Verdict};
+use trunnion_check::{Report, Scope, Status, ValueKey, Verdict};
 use trunnion_syntax::LineIndex;
 
 #[derive(Clone, Copy, Default, Serialize)]
@@ -21,14 +21,70 @@ struct Summary {
 #[derive(Serialize)]
 pub(super) struct File {
     path: String,
-    dialect: &'static str,
+    dialect: Option<String>,
     dialect_reason: String,
     machine: Option<String>,
     verdict: &'static str,
+    scope: &'static str,
     blocks: u64,
     motions: u64,
     cycle_time_s: Option<[f64; 2]>,
+    coverage: Coverage,
+    assumptions: Vec<String>,
     diagnostics: Vec<Item>,
+}
+
+/// What was looked at.
+#[derive(Serialize)]
+struct Coverage {
+    blocks: u64,
+    blocks_run: u64,
+    motions: u64,
+    motions_known: u64,
+    not_run: Vec<NotRun>,
+    given_up: Option<GivenUp>,
+}
+
+#[derive(Serialize)]
+struct NotRun {
+    line: u32,
+    last_line: u32,
+    reason: &'static str,
+}
+
+#[derive(Serialize)]
+struct GivenUp {
+    line: u32,
+    reason: &'static str,
+}
+
+impl Coverage {
+    fn of(loaded: &Loaded, lines: &LineIndex, report: &Report) -> Self {
+        let line = |block| {
+            let start = loaded.program.block(block).range().start;
+            lines.line_column(loaded.program.source(), start).0
+        };
+        let found = &report.coverage;
+        Self {
+            blocks: found.blocks,
+            blocks_run: found.blocks_run,
+            motions: found.motions,
+            motions_known: found.motions_known,
+            not_run: found
+                .not_run
+                .iter()
+                .map(|part| NotRun {
+                    line: line(part.first),
+                    last_line: line(part.last),
+                    reason: part.reason.name(),
+                })
+                .collect(),
+            given_up: found.given_up.as_ref().map(|given_up| GivenUp {
+                line: line(given_up.block),
+                reason: given_up.reason,
+            }),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -103,7 +159,7 @@ pub(super) fn verdict(verdict: Verdict) -> &'static str {
 }
 
 /// One file.
-pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, outcome: Verdict) -> File {
+pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, (outcome, scope): (Verdict, Scope)) -> File {
     let place = |offset| lines.line_column(loaded.program.source(), offset);
     let item = |d: &trunnion_check::Diagnostic| {
         let (line, column) = place(d.range.start);
@@ -144,13 +200,16 @@ pub(super) fn file(loaded: &Loaded, lines: &LineIndex, report: &Report, outcome:
     };
     File {
         path: loaded.name.clone(),
-        dialect: &loaded.resolved.dialect.name,
+        dialect: loaded.dialect_name().map(str::to_owned),
         dialect_reason: loaded.resolved.dialect_reason.clone(),
         machine: loaded.resolved.machine.as_ref().map(|m| m.id.clone()),
         verdict: verdict(outcome),
+        scope: scope.name(),
         blocks: report.summary.blocks,
         motions: report.summary.motions,
         cycle_time_s: report.cycle_time_s.map(|t| t.map(tidy)),
+        coverage: Coverage::of(loaded, lines, report),
+        assumptions: report.assumptions.clone(),
         diagnostics: report.diagnostics.iter().map(item).collect(),
     }
 }

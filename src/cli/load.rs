@@ -7,6 +7,8 @@ use std::{
     io::{Read, Write},
     path::Path,
 };
+use trunnion_check::assumptions;
+use trunnion_dialect::Foreign;
 use trunnion_files::{Outputs, Seen, Target};
 use trunnion_machine::Machine;
 use trunnion_same::Input;
@@ -34,6 +36,29 @@ impl Loaded {
                  `machine = \"NAME\"` in trunnion.toml"
             ))
         })
+    }
+    /// Why the file is not read, if it is not.
+    pub(crate) fn not_read(&self) -> Option<String> {
+        self.resolved.foreign.map(|foreign| match foreign {
+            Foreign::Control(control) => format!("the program is for {}, which is not supported", control.title),
+            Foreign::NotAProgram(what) => format!("this is {what}"),
+        })
+    }
+    /// The name of the dialect, or of the control that is not supported; none of a file that is no program.
+    pub(crate) fn dialect_name(&self) -> Option<&str> {
+        match self.resolved.foreign {
+            Some(Foreign::Control(control)) => Some(control.name),
+            Some(Foreign::NotAProgram(_)) => None,
+            None => Some(&self.resolved.dialect.name),
+        }
+    }
+    /// Work offsets and tool lengths that the program uses and nobody declares, as `check` lists them: the joints of the machine are computed
+    /// with zero. Empty without a machine.
+    pub(crate) fn assumptions(&self) -> Vec<String> {
+        if self.resolved.machine.is_none() {
+            return Vec::new();
+        }
+        assumptions(&self.program, self.resolved.dialect, &self.resolved.setup)
     }
     /// The files of a command that reads this program: none of its outputs may replace one of them.
     pub(crate) fn outputs(&self) -> Outputs {
@@ -65,9 +90,30 @@ impl Loaded {
             .map_or_else(|| "none".to_owned(), |p| p.display().to_string());
         format!(
             "{}: dialect {} ({}); machine {machine} ({}); settings {config}",
-            self.name, r.dialect.name, r.dialect_reason, r.machine_reason
+            self.name,
+            self.dialect_name().unwrap_or("none"),
+            r.dialect_reason,
+            r.machine_reason
         )
     }
+}
+
+/// What one or two programs rest on, as a line of text begins or goes on: `assuming G54 = 0 (not declared)`; `None` where everything is
+/// declared.
+pub(crate) fn assuming(programs: &[&Loaded]) -> Option<String> {
+    let all = assumed_by(programs);
+    (!all.is_empty()).then(|| format!("assuming {}", all.join(", ")))
+}
+
+/// What one or two programs rest on, each once.
+pub(crate) fn assumed_by(programs: &[&Loaded]) -> Vec<String> {
+    let mut all = Vec::new();
+    for text in programs.iter().flat_map(|loaded| loaded.assumptions()) {
+        if !all.contains(&text) {
+            all.push(text);
+        }
+    }
+    all
 }
 
 /// What the global options say.
@@ -149,8 +195,17 @@ fn bytes(path: &Path, megabytes: u64) -> Result<Option<Source>, Failure> {
     Ok(trunnion_files::read(path, most)?.map(|input| (input.bytes, Some(input.seen))))
 }
 
-/// Reads and parses a program with its settings.
+/// Reads and parses a program with its settings; a file that is for a control that is not supported, or is no program, is a failure.
 pub(crate) fn load(global: &Global, path: &Path) -> Result<Loaded, Failure> {
+    let loaded = load_any(global, path)?;
+    if let Some(why) = loaded.not_read() {
+        return Err(Failure::file(path, format!("{why}, so it is not read")));
+    }
+    Ok(loaded)
+}
+
+/// Reads and parses a file with its settings, whatever it is.
+pub(crate) fn load_any(global: &Global, path: &Path) -> Result<Loaded, Failure> {
     let (source, seen) = read_program(global, path)?;
     let stdin = is_stdin(path);
     let resolved = resolve((!stdin).then_some(path), &source, &overrides(global))?;

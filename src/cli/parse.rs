@@ -15,7 +15,7 @@ use std::io::Write;
 
 /// Runs `parse`. Problems of the text make the exit status 1.
 pub(super) fn run(global: &Global, command: &Parse) -> Result<Done, Failure> {
-    let loaded = load::load(global, &command.file)?;
+    let loaded = load::load_any(global, &command.file)?;
     let mut out = Out::standard();
     match (command.tokens, command.format) {
         (true, ListFormat::Text) => tokens_text(&mut out, &loaded)?,

@@ -10,7 +10,7 @@ use miette::{
     SourceSpan, SpanContents,
 };
 use std::fmt::{self, Write};
-use trunnion_check::{Report, Severity, Status, Verdict};
+use trunnion_check::{Report, Scope, Severity, Verdict};
 use trunnion_syntax::{LineIndex, TextRange};
 
 /// Lines of program shown before and after the finding.
@@ -29,19 +29,19 @@ pub(super) fn pretty(loaded: &Loaded, lines: &LineIndex, report: &Report, limit:
         .with_width(110)
         .with_context_lines(CONTEXT)
         .with_links(false);
-    let most = if limit == 0 { report.diagnostics.len() } else { limit };
+    let worst = short::worst(report, limit);
     let mut out = String::new();
-    for d in report.diagnostics.iter().take(most) {
+    for &d in &worst {
         let excerpt = Excerpt::new(loaded, lines, d.range);
         let repeats = short::repeats(loaded, lines, d);
         let finding = Finding { d, excerpt, repeats };
         // Writing into a String cannot fail; if rendering fails, the one-line form of the finding replaces it.
         if handler.render_report(&mut out, &finding).is_err() {
-            let _ = writeln!(out, "{}[{}] {}", short::severity(d.severity), d.rule, d.message);
+            let _ = writeln!(out, "{}[{}] {}", short::weight(d), d.rule, d.message);
         }
         out.push('\n');
     }
-    out.push_str(&shown(&short::rest(report, most, &loaded.name)));
+    out.push_str(&shown(&short::rest(report, worst.len(), &loaded.name)));
     out
 }
 
@@ -57,18 +57,57 @@ pub(super) fn verdict_line(file: &Checked, color: bool) -> String {
     } else {
         word.to_owned()
     };
+    if let Some(why) = &file.not_read {
+        return format!("{word} {}: not read, because {why}", shown(&file.name));
+    }
+    let of = match (file.scope, file.machine.as_deref()) {
+        (Scope::Machine, Some(machine)) => format!(" on {machine}"),
+        (Scope::Machine, None) => " on no machine".to_owned(),
+        (scope, None) => format!(" in scope {} (no machine)", scope.name()),
+        (scope, Some(_)) => format!(" in scope {}", scope.name()),
+    };
     let s = &file.summary;
-    let machine = file.machine.as_deref().unwrap_or("no machine");
-    format!(
-        "{word} {} on {machine}: {}, {}; {}, {}, {}, {} unknown",
+    let mut line = format!(
+        "{word} {}{of}: {} of {} run, {}",
         shown(&file.name),
-        counted(s.blocks, "block"),
+        file.coverage.blocks_run,
+        counted(file.coverage.blocks, "block"),
         counted(s.motions, "motion"),
-        counted(s.errors, "error"),
-        counted(s.warnings, "warning"),
-        counted(s.infos, "info"),
-        s.unknown
-    )
+    );
+    if let Some(read_as) = &file.read_as {
+        let _ = write!(line, ", read as {read_as}");
+    }
+    if !file.assumptions.is_empty() {
+        let _ = write!(line, ", assuming {}", assumed(&file.assumptions));
+    }
+    let found = [
+        (s.errors, counted(s.errors, "error")),
+        (s.warnings, counted(s.warnings, "warning")),
+        (s.infos, counted(s.infos, "info")),
+        (s.unknown, format!("{} unknown", s.unknown)),
+    ];
+    let found: Vec<&str> = found
+        .iter()
+        .filter(|(n, _)| *n > 0)
+        .map(|(_, text)| text.as_str())
+        .collect();
+    if !found.is_empty() {
+        let _ = write!(line, "; {}", found.join(", "));
+    }
+    line
+}
+
+/// Assumptions in a line: the first few, and how many more there are.
+fn assumed(all: &[String]) -> String {
+    const MOST: usize = 4;
+    let plain: Vec<&str> = all
+        .iter()
+        .map(|text| text.trim_end_matches(" (not declared)"))
+        .collect();
+    match plain.split_at_checked(MOST) {
+        Some((some, rest)) if !rest.is_empty() => format!("{} and {} more", some.join(", "), rest.len()),
+        _ => plain.join(", "),
+    }
 }
 
 /// `1 error`, `2 errors`.
@@ -101,16 +140,7 @@ impl std::error::Error for Finding<'_> {}
 
 impl Diagnostic for Finding<'_> {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        let unknown = if self.d.status == Status::Unknown {
-            ", not decided"
-        } else {
-            ""
-        };
-        Some(Box::new(format!(
-            "{}[{}]{unknown}",
-            short::severity(self.d.severity),
-            self.d.rule
-        )))
+        Some(Box::new(format!("{}[{}]", short::weight(self.d), self.d.rule)))
     }
     fn severity(&self) -> Option<miette::Severity> {
         Some(match self.d.severity {

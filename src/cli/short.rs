@@ -1,28 +1,52 @@
 //! One line per finding: `path:line:col: severity[rule] message`.
 use super::load::Loaded;
 use std::fmt::Write;
-use trunnion_check::{Diagnostic, Report, Severity};
+use trunnion_check::{Diagnostic, Report, Severity, Status};
 use trunnion_syntax::LineIndex;
 
 /// The findings of one file; at most `limit` of them (0: all), and a line that counts the rest.
 pub(super) fn short(loaded: &Loaded, lines: &LineIndex, report: &Report, limit: usize) -> String {
     let mut out = String::new();
-    let shown = if limit == 0 { report.diagnostics.len() } else { limit };
-    for d in report.diagnostics.iter().take(shown) {
+    let shown = worst(report, limit);
+    for d in &shown {
         let (line, column) = lines.line_column(loaded.program.source(), d.range.start);
         let _ = write!(
             out,
             "{}:{line}:{column}: {}[{}] {}",
             loaded.name,
-            severity(d.severity),
+            weight(d),
             d.rule,
             d.message
         );
         out.push_str(&repeats(loaded, lines, d));
         out.push('\n');
     }
-    out.push_str(&rest(report, shown, &loaded.name));
+    out.push_str(&rest(report, shown.len(), &loaded.name));
     out
+}
+
+/// The findings that are shown: all in the order of the file, or if there are more than `limit` (0: no limit) the worst of them, errors first.
+pub(super) fn worst(report: &Report, limit: usize) -> Vec<&Diagnostic> {
+    let mut found: Vec<&Diagnostic> = report.diagnostics.iter().collect();
+    if limit > 0 && found.len() > limit {
+        // stable: findings of one weight stay in the order of the file
+        found.sort_by_key(|d| match (d.status, d.severity) {
+            (Status::Fail, Severity::Error) => 0,
+            (Status::Fail, Severity::Warning) => 1,
+            (Status::Unknown, _) => 2,
+            (Status::Fail, Severity::Info) => 3,
+        });
+        found.truncate(limit);
+    }
+    found
+}
+
+/// The word before a finding: its severity, or `unknown` where the rule could not decide. The last line counts them by the same words.
+pub(super) fn weight(d: &Diagnostic) -> &'static str {
+    match d.status {
+        Status::Fail => severity(d.severity),
+        Status::Unknown => "unknown",
+    }
 }
 
 /// How often a finding was found, where that was more than once: again and again in one place (a loop, a subprogram), or in one

@@ -189,7 +189,7 @@ fn roles(rows: &BTreeMap<Spanned<String>, Role>, dialect: &mut Dialect) -> Resul
         let Some(slot) = slot else {
             return error(
                 letter.span(),
-                format!("`{}` is not one upper-case letter, `@` or `^`", letter.get_ref()),
+                format!("`{}` is not one upper-case letter, `@`, `^` or `$`", letter.get_ref()),
             );
         };
         if role == Role::Axis && !b"XYZABCUVW".contains(&letter.get_ref().as_bytes()[0]) {

@@ -11,13 +11,14 @@ pub const BUILTIN_NAMES: &[&str] = &[
     "fanuc-30i-lathe-a",
     "fanuc-30i-lathe-b",
     "fanuc-30i-lathe-c",
+    "haas-lathe",
     "grbl",
     "sinumerik-840d",
     "apt",
 ];
 
 /// Texts of the tables, in the order of [`BUILTIN_NAMES`]. A table may extend only one that comes before it.
-const TABLES: [&str; 10] = [
+const TABLES: [&str; 11] = [
     include_str!("../../grammar/dialects/iso-6983.toml"),
     include_str!("../../grammar/dialects/linuxcnc.toml"),
     include_str!("../../grammar/dialects/fanuc-30i.toml"),
@@ -25,12 +26,13 @@ const TABLES: [&str; 10] = [
     include_str!("../../grammar/dialects/fanuc-30i-lathe-a.toml"),
     include_str!("../../grammar/dialects/fanuc-30i-lathe-b.toml"),
     include_str!("../../grammar/dialects/fanuc-30i-lathe-c.toml"),
+    include_str!("../../grammar/dialects/haas-lathe.toml"),
     include_str!("../../grammar/dialects/grbl.toml"),
     include_str!("../../grammar/dialects/sinumerik-840d.toml"),
     include_str!("../../grammar/dialects/apt.toml"),
 ];
 
-static LOADED: [OnceLock<Dialect>; 10] = [const { OnceLock::new() }; 10];
+static LOADED: [OnceLock<Dialect>; 11] = [const { OnceLock::new() }; 11];
 
 /// A built-in dialect by name; loaded once. `None` when there is no such name.
 pub fn builtin(name: &str) -> Option<&'static Dialect> {

@@ -113,8 +113,8 @@ pub struct Dialect {
     pub(crate) m: Vec<u16>,
     /// Indexes into `codes` of the names, sorted by name.
     pub(crate) names: Vec<u16>,
-    /// By letter, then `@` and `^`.
-    pub(crate) roles: [Option<Role>; 28],
+    /// By letter, then `@`, `^` and `$`.
+    pub(crate) roles: [Option<Role>; 29],
     /// Roles of names with `=`, upper case: `CR`, `TURN`, `A3`.
     pub(crate) named: Vec<(String, Role)>,
     /// Facts that are neither letters nor codes.
@@ -164,7 +164,7 @@ impl Dialect {
         let fixed = if inch { self.arc.inch_mm } else { self.arc.mm };
         fixed.max((self.arc.relative * radius_mm).min(self.arc.relative_up_to * fixed))
     }
-    /// What a letter (upper case, or `@`, `^`) means.
+    /// What a letter (upper case, or `@`, `^`, `$`) means.
     pub fn role(&self, letter: u8) -> Option<Role> {
         self.roles[role_slot(letter)?]
     }
@@ -220,7 +220,7 @@ impl Dialect {
             g: Vec::new(),
             m: Vec::new(),
             names: Vec::new(),
-            roles: [None; 28],
+            roles: [None; 29],
             named: Vec::new(),
             quirks: Quirks::default(),
             advice: Advice::default(),
@@ -241,6 +241,7 @@ pub(crate) fn role_slot(letter: u8) -> Option<usize> {
         b'A'..=b'Z' => Some(usize::from(letter - b'A')),
         b'@' => Some(26),
         b'^' => Some(27),
+        b'$' => Some(28),
         _ => None,
     }
 }

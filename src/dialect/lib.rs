@@ -15,15 +15,18 @@ mod own_table;
 mod pattern;
 mod quirks;
 mod schema;
-mod signs;
 mod textmate;
+mod unsupported;
 
 pub use action::Role;
 pub use advice::{Advice, RotaryFeed};
 pub use builtin::{BUILTIN_NAMES, builtin};
 pub use code::{Code, CodeKind};
 pub use decisions::{Expressions, Language, Macros, ToolWord, WholeNumbers};
-pub use detect::{Detected, detect, is_program_file_name, looks_like_program, program_extensions};
+pub use detect::{
+    Detected, Foreign, Surroundings, detect, detect_on, is_program_file_name, looks_like_program, named, not_text,
+    program_extensions,
+};
 pub use dialect::{Alarm, ArcTolerance, Dialect, Quirks};
 pub use facts::DialectFacts;
 pub use modeline::{Modeline, modeline};
@@ -31,6 +34,8 @@ pub use own_table::TableError;
 pub use schema::{DialectError, Owner, load};
 pub use textmate::textmate;
 pub use trunnion_vocabulary::{Action, Plane};
+
+pub use unsupported::{UNSUPPORTED, Unsupported, unsupported};
 
 #[cfg(test)]
 mod tests;

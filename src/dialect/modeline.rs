@@ -18,7 +18,8 @@ pub struct Modeline {
 /// yet, so any comment mark will do: what counts is the word `trunnion:` followed by a key and a name.
 pub fn modeline(source: &[u8]) -> Modeline {
     let mut found = Modeline::default();
-    for (number, line) in (1..).zip(source.split(|&b| b == b'\n').take(LINES)) {
+    let end = if source.contains(&b'\n') { b'\n' } else { b'\r' };
+    for (number, line) in (1..).zip(source.split(|&b| b == end).take(LINES)) {
         let text = String::from_utf8_lossy(&line[..line.len().min(400)]);
         let Some(at) = text.to_ascii_lowercase().find("trunnion:") else {
             continue;

@@ -251,7 +251,8 @@ impl<'d> Iso<'d> {
         }
         let modal = self.core.state.motion;
         let is_arc = matches!(modal, Some(Action::ArcClockwise | Action::ArcCounterClockwise));
-        let circle = is_arc && (words.centre.any() || words.radius.is_said()) && block.motion.is_some();
+        let begins = is_arc && (words.centre.any() || words.radius.is_said()) && block.motion.is_some();
+        let circle = begins || self.circle_goes_on(codes, words, block);
         if let Some(repeated) = block.repeated {
             if self.core.dialect.quirks.whole_numbers.lengths_ambiguous() && repeated.has_coordinates(words) {
                 self.whole_numbers(words, report);

@@ -43,6 +43,9 @@ impl Iso<'_> {
     /// Tells the words of the block that nothing reads.
     pub(crate) fn unused_words(&self, codes: &[Found<'_>], words: &Words, block: &BlockCodes, report: &mut Report<'_>) {
         let mut left = words.letters & PARAMETERS & !self.read_in_force(words, block);
+        if self.circle_goes_on(codes, words, block) {
+            left &= !self.read_by_arc(words);
+        }
         for found in codes {
             if left == 0 {
                 return;
@@ -143,6 +146,25 @@ impl Iso<'_> {
             Some(Action::Linear) if moves && self.turned_corner(words).is_some() => bit(b'R') | bit(b'I') | bit(b'K'),
             _ => 0,
         }
+    }
+
+    /// A further full circle: I, J, K alone while G2 or G3 is in force, and nothing else in the block reads them (Fanuc Series 30i operator's
+    /// manual, circular interpolation: without an end point, I, J, K give an arc of 360 deg). grbl refuses such words.
+    pub(crate) fn circle_goes_on(&self, codes: &[Found<'_>], words: &Words, block: &BlockCodes) -> bool {
+        let is_arc = || {
+            matches!(
+                self.core.state.motion,
+                Some(Action::ArcClockwise | Action::ArcCounterClockwise)
+            )
+        };
+        words.centre.any()
+            && is_arc()
+            && !block.takes_coordinates
+            && !block.dwell
+            && !words.axes.any()
+            && self.core.dialect.alarm("unused-word").is_none()
+            && self.read_by_arc(words) & words.letters & CENTRE != 0
+            && codes.iter().all(|found| self.read_by(found.code) & CENTRE == 0)
     }
 
     /// An arc reads the centre's two letters of its plane, or R; a spiral all three.

@@ -13,7 +13,7 @@ pub struct Block<'p> {
 /// The address of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Address {
-    /// One letter, upper case: `X`; also `@` and `^` (polar words).
+    /// One letter, upper case: `X`; also `@` and `^` (polar words) and `$` (number of a spindle).
     Letter(u8),
     /// A letter with a number of its own before `=`: `A3=`, `S2=`, `R1=` (letter upper case, number).
     Indexed(u8, u16),

@@ -17,11 +17,11 @@ enum Raw {
     Blank,
     #[regex(b"\r\n|\n|\r")]
     Newline,
-    #[regex(br"[A-Za-z@^][ \t]*[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)", priority = 10)]
+    #[regex(br"[A-Za-z@^$][ \t]*[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)", priority = 10)]
     Word,
     #[regex(br"[A-Za-z@^][ \t]*[+-][ \t]+([0-9]+(\.[0-9]*)?|\.[0-9]+)", priority = 9)]
     SpacedWord,
-    #[regex(b"[A-Za-z@^]", priority = 8)]
+    #[regex(b"[A-Za-z@^$]", priority = 8)]
     Letter,
     #[regex(b"[A-Za-z][A-Za-z_]+|[_$][A-Za-z_][A-Za-z0-9_]*|[A-Za-z][A-Za-z_]+[A-Za-z0-9]{0,30}_[A-Za-z0-9_]*")]
     Name,

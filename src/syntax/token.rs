@@ -8,7 +8,7 @@ pub enum TokenKind {
     Blank,
     /// `\n`, `\r\n` or `\r`: ends a block (APT: unless continued).
     Newline,
-    /// A letter with its number in one piece: `G1`, `X-.5`, `x 1.5`; also `@1` and `^30` (polar words), and broken numbers (`X1.2.3`).
+    /// A letter with its number in one piece: `G1`, `X-.5`, `x 1.5`; also `@1` and `^30` (polar words), `$0` (number of a spindle), and broken numbers (`X1.2.3`).
     Word,
     /// A single letter (or `@`, `^`) without a number after it: the `X` of `X=R1`, `X#1`, `X[1+2]`.
     Letter,

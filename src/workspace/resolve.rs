@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use trunnion_check::config::{FormatSettings, parse_tool_flag};
 use trunnion_check::{Assume, Config, RuleLevel, Settings, did_you_mean, or_known, rule_names};
-use trunnion_dialect::{Dialect, Modeline};
+use trunnion_dialect::{Detected, Dialect, Foreign, Modeline, Surroundings};
 use trunnion_interp::{ControlData, Library, Setup};
 use trunnion_machine::Machine;
 
@@ -36,6 +36,10 @@ pub struct Resolved {
     pub dialect: &'static Dialect,
     /// Why this dialect.
     pub dialect_reason: String,
+    /// The reason leaves little doubt, or somebody named the dialect.
+    pub dialect_certain: bool,
+    /// The text is for a control that is not supported, or is no program.
+    pub foreign: Option<Foreign>,
     /// Machine with the settings' tolerances applied.
     pub machine: Option<Machine>,
     /// Why this machine.
@@ -65,6 +69,8 @@ impl Resolved {
             setup: self.setup.clone(),
             rules: self.rules.clone(),
             port_to: self.port_to.clone(),
+            scope: None,
+            foreign: self.foreign,
             assume: self.assume,
         }
     }
@@ -83,15 +89,14 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let mode = trunnion_dialect::modeline(source);
     let (machine, machine_reason) = machine_for(path, overrides, &mode, &config, config_file.as_ref())?;
     let (machine, machine_file) = machine.map_or((None, None), |found| (Some(found.machine), found.file));
-    let family = machine.as_ref().map(|m| m.control.family.as_str());
     let file_name = path.and_then(Path::file_name).and_then(|name| name.to_str());
-    let (dialect, dialect_reason, dialect_file) = dialect_for(
+    let (detected, dialect_file) = dialect_for(
         overrides,
         &mode,
         (&config, config_file.as_ref()),
         file_name,
         source,
-        family,
+        machine.as_ref(),
     )?;
     let mut rules = config.rules.clone();
     for rule in &overrides.allow {
@@ -132,8 +137,10 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     }
     let machine = machine.map(|machine| config.machine_with_tolerances(&machine));
     Ok(Resolved {
-        dialect,
-        dialect_reason,
+        dialect: detected.dialect,
+        dialect_reason: detected.reason,
+        dialect_certain: detected.certain,
+        foreign: detected.foreign,
         machine,
         machine_reason,
         files: [config_path.clone(), machine_file, dialect_file]
@@ -266,8 +273,11 @@ fn dialect_for(
     (config, config_file): (&Config, Option<&(PathBuf, String)>),
     file_name: Option<&str>,
     source: &[u8],
-    family: Option<&str>,
-) -> Result<(&'static Dialect, String, Option<PathBuf>), LoadError> {
+    machine: Option<&Machine>,
+) -> Result<(Detected, Option<PathBuf>), LoadError> {
+    if let Some(detected) = trunnion_dialect::not_text(source) {
+        return Ok((detected, None));
+    }
     let choices = [
         (&overrides.dialect, "named by the user"),
         (&mode.dialect, "modeline comment in the program"),
@@ -275,11 +285,11 @@ fn dialect_for(
     ];
     for (name, reason) in choices {
         let Some(name) = name else { continue };
-        let Some(dialect) = trunnion_dialect::builtin(name) else {
+        let Some(detected) = trunnion_dialect::named(name, reason.to_owned(), true) else {
             let hint = or_known(name, trunnion_dialect::BUILTIN_NAMES, "dialects");
             return Err(LoadError::new(format!("unknown dialect `{name}` ({reason}){hint}")));
         };
-        return Ok((dialect, reason.to_owned(), None));
+        return Ok((detected, None));
     }
     if let (Some((name, span)), Some((file, text))) = (&config.dialect_table, config_file) {
         let path = file.parent().unwrap_or(Path::new("")).join(name);
@@ -288,8 +298,23 @@ fn dialect_for(
             return Err(LoadError::at(file, text, Some(span), message));
         }
         let dialect = crate::table::table(&path)?;
-        return Ok((dialect, format!("the table {name} of trunnion.toml"), Some(path)));
+        let detected = Detected {
+            dialect,
+            reason: format!("the table {name} of trunnion.toml"),
+            certain: true,
+            foreign: None,
+        };
+        return Ok((detected, Some(path)));
     }
-    let detected = trunnion_dialect::detect(file_name, source, family);
-    Ok((detected.dialect, detected.reason, None))
+    let known = Surroundings {
+        family: machine.map(|machine| machine.control.family.as_str()),
+        turns: machine.map(turns),
+    };
+    Ok((trunnion_dialect::detect_on(file_name, source, known), None))
+}
+
+/// Whether the part can turn on a spindle of the machine: an axis is one, X words are diameters, or there is no Y.
+fn turns(machine: &Machine) -> bool {
+    let spins = |axis: &trunnion_machine::Axis| axis.extra.spindle || axis.extra.diameter;
+    machine.axes.iter().any(spins) || machine.axes.iter().all(|axis| axis.letter != b'Y')
 }

@@ -18,3 +18,4 @@ mod rules;
 mod same;
 mod samples;
 mod tidy;
+mod wild;

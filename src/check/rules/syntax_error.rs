@@ -80,6 +80,13 @@ fn check(error: &SyntaxError, out: &mut Reporter<'_>) {
         | SyntaxErrorKind::DecimalComma
         | SyntaxErrorKind::BlankInNumber => return,
     };
+    if error.kind == SyntaxErrorKind::WordWithoutValue && text.trim().eq_ignore_ascii_case("N") {
+        // whoever leaves out one number leaves out many
+        out.report(error.range, "`N` has no number")
+            .help("write the block number, or remove the N; the rest of the block is read")
+            .merge(Merge::once(hash("N")));
+        return;
+    }
     out.report(error.range, message).help(help);
 }
 
@@ -119,11 +126,40 @@ mod tests {
     }
 
     #[test]
+    fn block_numbers_that_are_missing_are_one_finding() {
+        let report = Fixture::parse("gcode mill-3axis", "N G21\nN10 G0 X0 Y0 Z0\nN G1 X5 F100\nN\nM30\n")
+            .check()
+            .unwrap();
+        let found: Vec<_> = report
+            .diagnostics
+            .iter()
+            .map(|d| (d.message.as_str(), d.count))
+            .collect();
+        assert_eq!(found, [("`N` has no number", 3)]);
+        assert_eq!(report.summary.motions, 2, "the blocks are read");
+    }
+
+    #[test]
     fn a_long_piece_of_text_is_not_quoted_in_full() {
         let text = format!("G0 X{}.1.2\n", "1".repeat(5000));
         let report = Fixture::parse("gcode mill-3axis", &text).check().unwrap();
         let found = report.diagnostics.iter().find(|d| d.rule == "bad-number").unwrap();
         assert_eq!(found.message, format!("`{}...` is not a number", "1".repeat(40)));
         assert!(report.diagnostics.iter().all(|d| d.message.len() < 200));
+    }
+
+    #[test]
+    fn the_number_of_a_spindle_is_a_word_of_linuxcnc_alone() {
+        let found = |dialect: &str| {
+            let text = "G21 G90 G94\nM3 $0 S1000\nG0 X0 Y0 Z5\nG1 Z-1 F100\nM5 $0\nM2\n";
+            let report = Fixture::parse(&format!("gcode {dialect}"), text).check().unwrap();
+            let errors = report
+                .diagnostics
+                .iter()
+                .filter(|d| d.severity == crate::Severity::Error);
+            errors.map(|d| d.rule).collect::<Vec<_>>()
+        };
+        assert_eq!(found("linuxcnc"), [""; 0]);
+        assert_eq!(found("fanuc-30i"), ["unknown-word", "unknown-word"]);
     }
 }

@@ -1,6 +1,9 @@
 //! Differences as JSON.
 use super::show::{Lines, counts, farthest, first, letter, moved};
-use crate::cli::{json::tidy, load::Loaded};
+use crate::cli::{
+    json::tidy,
+    load::{Loaded, assumed_by},
+};
 use serde_json::{Value, json};
 use trunnion_diff::{Body, Change, Found, Point, Tolerance};
 use trunnion_interp::AXIS_LETTERS;
@@ -61,6 +64,7 @@ pub(super) fn json(before: &Loaded, after: &Loaded, found: &Found, tolerance: To
         "schema": "trunnion-diff/1", "version": env!("CARGO_PKG_VERSION"),
         "before": before.name, "after": after.name, "machine": before.resolved.machine.as_ref().map(|machine| &machine.id),
         "tolerance_mm": tolerance.mm, "tolerance_deg": tolerance.deg, "same": found.same(), "verdict": match found.verdict { Verdict::Same => "same", Verdict::Differs(_) => "different", Verdict::Unknown(_) => "unknown" },
+        "assumptions": assumed_by(&[before, after]),
         "first_difference": (!found.same()).then(|| first(&lines, found)),
         "not_followed_before": stop(0), "not_followed_after": stop(1),
         "summary": {

@@ -1,5 +1,9 @@
 //! Differences, for people and for programs.
-use crate::cli::{json::tidy, load::Loaded, render::counted};
+use crate::cli::{
+    json::tidy,
+    load::{Loaded, assuming},
+    render::counted,
+};
 use std::fmt::Write;
 use trunnion_diff::{Body, Change, Found, Point, TechChange, Tolerance, Way};
 use trunnion_interp::AXIS_LETTERS;
@@ -52,6 +56,9 @@ pub(super) fn text(before: &Loaded, after: &Loaded, found: &Found, tolerance: To
         format!("  on {}, coordinates are its joints", machine.id)
     });
     let _ = writeln!(out, "{} -> {}{on}", lines.name(0), lines.name(1));
+    if let Some(line) = assuming(&[before, after]) {
+        let _ = writeln!(out, "  {line}");
+    }
     let mut rows: Vec<(u32, [String; 2], String)> = Vec::new();
     for change in &found.changes {
         rows.push(change_row(&lines, change));

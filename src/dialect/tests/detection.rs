@@ -1,9 +1,9 @@
 //! Which dialect is found for a file.
-use crate::{Detected, builtin, detect, is_program_file_name, program_extensions};
+use crate::{Detected, Foreign, Surroundings, builtin, detect, detect_on, is_program_file_name, program_extensions};
 use std::path::{Path, PathBuf};
 
 fn named(name: Option<&str>, text: &str, family: Option<&str>) -> (String, String) {
-    let Detected { dialect, reason } = detect(name, text.as_bytes(), family);
+    let Detected { dialect, reason, .. } = detect(name, text.as_bytes(), family);
     (dialect.name.clone(), reason)
 }
 
@@ -205,6 +205,73 @@ fn signs_of_haas_grbl_and_lathes() {
         "fanuc-30i"
     );
     assert_eq!(content("G71\nG54 G0 X1\n").0, "iso-6983");
+}
+
+#[test]
+fn controls_that_are_not_read() {
+    for (text, name) in [
+        (
+            "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0 FMAX\n2 END PGM A MM\n",
+            "heidenhain-klartext",
+        ),
+        (
+            "FN 18: SYSREAD Q1 = ID20 NR1\nLBL 1\nL X+5 FMAX\n",
+            "heidenhain-klartext",
+        ),
+        ("%A G71 *\nN10 G30 G17 X+0 Y+0 Z-20*\nN20 G00 X+5*\n", "heidenhain-iso"),
+        ("OHOME\nG0 X60.\nG20 HP=4\nRTS\n", "okuma-osp"),
+        ("$PART.MIN%\nG50 S2000\nT010101\nG0 X50 Z2\nM2\n", "okuma-osp-lathe"),
+        ("IF #4201 || #4202 THEN GOTO 1000\n#29952 = #25012\nN1000\n", "centroid"),
+        ("Sub user_1\n    DlgMsg \"a\" \"b\" 1\nEndSub\n", "eding"),
+        ("E001=10 16 15 09 08\nH1=0.1670\nG92 X0 Y0\nE1\nG1 X3.\n", "wire-edm"),
+        ("G92 X0 Y0\nG60\nG38\nG39\nG41 D0\nG1 X5\n", "wire-edm"),
+        (";FLAVOR:Marlin\nM104 S200\nG28\nG92 E0\nG1 X5 E0.2 F1200\n", "marlin"),
+    ] {
+        let found = detect(Some("a.nc"), text.as_bytes(), None);
+        let control = match found.foreign {
+            Some(Foreign::Control(control)) => control.name,
+            other => panic!("{text}: {} {other:?} {}", found.dialect.name, found.reason),
+        };
+        assert_eq!(control, name, "{text}: {}", found.reason);
+    }
+}
+
+#[test]
+fn programs_of_mills_are_none_of_lathes() {
+    let mill = "%\nO1\nT1 M6\nG0 X5. Y5.\nG43 H1 Z9.\n";
+    for code in ["G92 S2000\n", "G50 S2000\n"] {
+        assert_eq!(content(&format!("{mill}{code}M30\n")).0, "fanuc-30i", "{code}");
+    }
+    let lathe = "%\nO1\nG50 S2000\nT0101\nG96 S200 M3\nG0 X50. Z2.\nG1 Z-9. F.2\nM30\n";
+    assert_eq!(content(lathe).0, "fanuc-30i-lathe-a");
+    assert_eq!(content(&lathe.replace("G50 S", "G92 S")).0, "fanuc-30i-lathe-b");
+    let on_mill = Surroundings {
+        family: None,
+        turns: Some(false),
+    };
+    assert_eq!(
+        detect_on(None, lathe.as_bytes(), on_mill).dialect.name,
+        "fanuc-30i",
+        "the machine contradicts"
+    );
+    let haas = lathe.replace("O1\n", "O12345\n");
+    assert_eq!(content(&haas).0, "haas-lathe");
+}
+
+#[test]
+fn program_numbers_of_all_lengths() {
+    for number in ["O1", "O12", "O0100", "O12345678", ":1234", "O<NAME>"] {
+        assert_eq!(
+            content(&format!("%\n{number}\nG0 X1.\nM30\n")).0,
+            "fanuc-30i",
+            "{number}"
+        );
+    }
+    assert_eq!(content("%\nO01001\nG0 X1.\nM30\n").0, "haas-ngc");
+    // a hint tells brands apart, nothing else
+    assert_eq!(content("G53 G0 Z0.\nG53 G0 X0.\nG1 X5 F9\n").0, "iso-6983");
+    assert_eq!(content("O1031\nG53 G0 Z0.\nG53 G0 X0.\n").0, "haas-ngc");
+    assert_eq!(content("G21\rO1234\rM30\r").1, "content: a program number O in line 2");
 }
 
 #[test]

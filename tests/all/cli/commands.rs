@@ -138,12 +138,17 @@ fn deny_strict_and_allow_decide_the_exit_status() {
     assert_eq!(
         status(&trunnion(&["check", str(&good)])),
         0,
-        "without a machine it is unknown"
+        "without a machine the motions are judged"
     );
     assert_eq!(
         status(&trunnion(&["check", str(&good), "--strict"])),
+        0,
+        "and nothing of them is unknown"
+    );
+    assert_eq!(
+        status(&trunnion(&["check", str(&good), "--strict", "--scope", "machine"])),
         1,
-        "which strict counts"
+        "without a machine its axes are"
     );
     let bad = write(&folder, "bad.ngc", "G21 G90\nG1 X1 Y1 Z1\nM2\n");
     let base = ["check", str(&bad), "--machine", "mill-3axis"];
@@ -221,6 +226,7 @@ fn settings_are_found_upward_and_the_command_line_wins() {
 fn standard_input_is_a_program_too() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_trunnion"))
         .args(["check", "-", "--machine", "mill-3axis", "--dialect", "linuxcnc"])
+        .args(["--assume", "work-offset,tool-length"])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
@@ -230,7 +236,7 @@ fn standard_input_is_a_program_too() {
         .stdin
         .take()
         .expect("works")
-        .write_all(b"G21 G90\nG1 X1\nM2\n")
+        .write_all(b"G21 G90 G0 X0\nG1 X1\nM2\n")
         .expect("works");
     let output = child.wait_with_output().expect("works");
     assert_eq!(status(&output), 1);

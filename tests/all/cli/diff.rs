@@ -289,3 +289,36 @@ fn the_same_text_beside_another_called_program_is_not_the_same_where_the_run_sto
     // nothing is called
     assert!(diff("X3.", ["1.", "2."]).starts_with("SAME"));
 }
+
+#[test]
+fn what_nobody_declared_is_listed_where_joints_are_compared() {
+    let folder = TempDir::new().expect("works");
+    let program = "G21 G90 G17 G94 G54\nT1 M6\nS1000 M3\nG0 G43 H1 X0 Y0 Z5\nG1 Z-1 F100\nX10\nM30\n";
+    let (a, b) = (
+        write(&folder, "a.nc", program),
+        write(&folder, "b.nc", &program.replace("S1000 M3", "M3 S1000")),
+    );
+    let rest = ["--dialect", "fanuc-30i", "--machine", "mill-3axis"];
+    let of = |command: &str, more: &[&str]| {
+        let output = trunnion(&[&[command, str(&a), str(&b)], &rest[..], more].concat());
+        assert_eq!(status(&output), 0, "{}", text(&output.stdout));
+        output
+    };
+    let both = "assuming G54 = 0 (not declared), the length of tool 1 = 0 (not declared)\n";
+    for command in ["certify", "diff"] {
+        assert!(text(&of(command, &[]).stdout).contains(both), "{command}");
+    }
+    let listed = json(&of("diff", &["--format", "json"]))["assumptions"].clone();
+    assert_eq!(
+        listed,
+        serde_json::json!(["G54 = 0 (not declared)", "the length of tool 1 = 0 (not declared)"])
+    );
+    write(
+        &folder,
+        "trunnion.toml",
+        "[[tool]]\nnumber = 1\nlength = 80.0\n[work_offsets]\nG54 = { X = 0, Y = 0, Z = 0 }\n",
+    );
+    for command in ["certify", "diff"] {
+        assert!(!text(&of(command, &[]).stdout).contains("assuming"), "{command}");
+    }
+}

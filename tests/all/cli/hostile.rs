@@ -76,7 +76,7 @@ fn inputs() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         (
             "self.nc",
             "O1\nM98 P1\nM30\n".into(),
-            "calls are nested deeper than 100 levels",
+            "calls are nested deeper than 10 levels",
         ),
         ("macro.nc", "O1\nG65 P1 A#1\nM30\n".into(), "are nested deeper than"),
         (

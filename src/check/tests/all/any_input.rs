@@ -20,6 +20,8 @@ fn settings(dialect: usize, machine: &str) -> Settings<'static> {
         rules: Vec::new(),
         assume: trunnion_check::Assume::default(),
         port_to: Vec::new(),
+        scope: None,
+        foreign: None,
     }
 }
 

@@ -31,6 +31,28 @@ fn helices_and_full_circles() {
 }
 
 #[test]
+fn a_full_circle_needs_no_motion_code_of_its_own() {
+    for dialect in ["fanuc-30i", "haas-ngc", "sinumerik-840d", "iso-6983"] {
+        let text = "G17 G90 G0 X15. Y0. Z0.\nG2 X15. Y0. I-15. J0. F100.\nI-15. J0.\nJ-15.\n";
+        let circle = "A(0 0 0; -360) X15 Y0 Z0 F100";
+        let got = lines(dialect, text);
+        assert_eq!(got[1..3], [circle, circle], "{dialect}");
+        assert_eq!(got[3], "A(15 -15 0; -360) X15 Y0 Z0 F100", "{dialect}");
+        assert_eq!(faults(dialect, text), [""; 0], "{dialect}");
+        // K lies outside the plane, and G1 reads no centre
+        for other in ["G2 X15. Y0. I-15. F100.\nK5.\n", "G1 X14. F100.\nI-15. J0.\n"] {
+            let text = format!("G17 G90 G0 X15. Y0. Z0.\n{other}");
+            assert_eq!(lines(dialect, &text).len(), 2, "{dialect}: {other}");
+        }
+    }
+    // grbl refuses the words
+    assert_eq!(
+        lines("grbl", "G17 G90 G0 X15 Y0 Z0\nG2 X15 Y0 I-15 F100\nI-15 J0\n").len(),
+        2
+    );
+}
+
+#[test]
 fn turns_are_further_full_turns() {
     let got = lines("sinumerik-840d", "G0 X10 Y0 Z0\nG3 X0 Y10 Z-5 I-10 J0 TURN=2 F100\n");
     assert_eq!(got[1], "A(0 0 0; 810) X0 Y10 Z-5 F100");

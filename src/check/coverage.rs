@@ -1,0 +1,219 @@
+//! What of a program was looked at: which blocks ran, how many motions, and what was left out and why.
+mod moves;
+mod sections;
+mod tally;
+
+use crate::both::slash;
+use crate::sink::{Reporter, active};
+use crate::suppress::{Suppressions, has_code};
+use crate::visited::Visited;
+use crate::wake::Wake;
+use crate::{Diagnostic, Report, Settings};
+use moves::moves;
+use sections::Sections;
+pub(crate) use tally::Tally;
+use trunnion_dialect::Dialect;
+use trunnion_interp::directives;
+use trunnion_syntax::{Block, BlockId, Program};
+
+/// Why blocks did not run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotRunReason {
+    /// They belong to a subprogram that nothing calls.
+    SubprogramNotCalled,
+    /// They come after the end of the program.
+    AfterEnd,
+    /// A jump or a branch leads past them.
+    JumpedOver,
+    /// They begin with `/`, and the settings say that such blocks are skipped.
+    BlockDelete,
+    /// The run could not be followed so far.
+    GivenUp,
+}
+
+impl NotRunReason {
+    /// As reports spell it: `subprogram-not-called`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SubprogramNotCalled => "subprogram-not-called",
+            Self::AfterEnd => "after-end",
+            Self::JumpedOver => "jumped-over",
+            Self::BlockDelete => "block-delete",
+            Self::GivenUp => "given-up",
+        }
+    }
+    /// For people: completes "lines 3 to 9 did not run: ...".
+    pub(crate) fn because(self) -> &'static str {
+        match self {
+            Self::SubprogramNotCalled => "nothing in this file calls their subprogram",
+            Self::AfterEnd => "they come after the end of the program",
+            Self::JumpedOver => "a jump or branch leads past them",
+            Self::BlockDelete => "block delete skips them",
+            Self::GivenUp => "the run could not be followed so far",
+        }
+    }
+}
+
+/// Consecutive blocks that did not run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotRun {
+    /// The first.
+    pub first: BlockId,
+    /// The last.
+    pub last: BlockId,
+    /// Why.
+    pub reason: NotRunReason,
+    /// Some of them would move the machine.
+    pub moves: bool,
+}
+
+/// Where a run was given up.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GivenUp {
+    /// The block.
+    pub block: BlockId,
+    /// The rule that says why: `not-decided`.
+    pub reason: &'static str,
+}
+
+/// What of a program was looked at.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Coverage {
+    /// Blocks with content in the file, each once.
+    pub blocks: u64,
+    /// Those of them that ran at least once.
+    pub blocks_run: u64,
+    /// Motions, as often as they are run; dwells are motions.
+    pub motions: u64,
+    /// Motions whose end is known.
+    pub motions_known: u64,
+    /// Motions that move something: all but dwells.
+    pub travels: u64,
+    /// Blocks with content that did not run.
+    pub not_run: Vec<NotRun>,
+    /// Where the run was given up.
+    pub given_up: Option<GivenUp>,
+    /// The blocks that ran.
+    pub(crate) ran: Visited,
+    /// The block that ran last.
+    pub(crate) last: Option<BlockId>,
+}
+
+impl Coverage {
+    /// Adds what another run of the same program covered (block delete in its other state).
+    pub(crate) fn join(&mut self, other: &Self) {
+        self.ran.join(&other.ran);
+        self.last = self.last.max(other.last);
+        self.travels = self.travels.min(other.travels);
+        if self.given_up.is_none() {
+            self.given_up.clone_from(&other.given_up);
+        }
+    }
+
+    /// Parts that move the machine and were not looked at, and of which nothing else says why.
+    pub(crate) fn gaps(&self) -> impl Iterator<Item = &NotRun> {
+        let explained = |reason| matches!(reason, NotRunReason::GivenUp | NotRunReason::BlockDelete);
+        self.not_run
+            .iter()
+            .filter(move |part| part.moves && !explained(part.reason))
+    }
+
+    /// Works out which blocks did not run, once the run is over.
+    pub(crate) fn complete(&mut self, program: &Program, dialect: &Dialect) {
+        let with_code = || {
+            (0..program.block_count() as u32)
+                .map(BlockId)
+                .filter(|&id| has_code(program, id))
+        };
+        let (mut blocks, mut run) = (0, 0);
+        for id in with_code() {
+            blocks += 1;
+            run += u64::from(self.ran.has(id));
+        }
+        (self.blocks, self.blocks_run) = (blocks, run);
+        if run == blocks {
+            return;
+        }
+        let sections = Sections::of(program, dialect, &self.ran);
+        let mut open: Option<(NotRun, usize)> = None;
+        for id in with_code() {
+            if self.ran.has(id) {
+                self.not_run.extend(open.take().map(|part| part.0));
+                continue;
+            }
+            let block = program.block(id);
+            let (section, called) = sections.at(id);
+            let reason = self.reason(&block, dialect, called);
+            let moves = moves(&block, dialect);
+            match &mut open {
+                Some((part, of)) if *of == section && part.reason == reason => {
+                    part.last = id;
+                    part.moves |= moves;
+                }
+                _ => {
+                    let part = NotRun {
+                        first: id,
+                        last: id,
+                        reason,
+                        moves,
+                    };
+                    self.not_run.extend(open.replace((part, section)).map(|part| part.0));
+                }
+            }
+        }
+        self.not_run.extend(open.map(|part| part.0));
+    }
+
+    fn reason(&self, block: &Block<'_>, dialect: &Dialect, called: bool) -> NotRunReason {
+        let id = block.id();
+        if !called {
+            return NotRunReason::SubprogramNotCalled;
+        }
+        if self.given_up.as_ref().is_some_and(|given_up| id > given_up.block) {
+            return NotRunReason::GivenUp;
+        }
+        if slash(block, dialect).is_some() {
+            return NotRunReason::BlockDelete;
+        }
+        if self.last.is_none_or(|last| id > last) {
+            return NotRunReason::AfterEnd;
+        }
+        NotRunReason::JumpedOver
+    }
+}
+
+/// Adds what the rules have to say about the parts of the program that did not run.
+pub(crate) fn tell(program: &Program, settings: &Settings<'_>, report: &mut Report) {
+    let coverage = &report.coverage;
+    let has = |rule: &str| report.diagnostics.iter().any(|found| found.rule == rule);
+    // a file without any block has its finding, and a run that was given up has said why
+    let is_told = has("empty-program") || coverage.given_up.as_ref().is_some_and(|given_up| has(given_up.reason));
+    let is_open = coverage.gaps().next().is_some() || (coverage.travels == 0 && !is_told);
+    if !is_open || crate::unreadable::is_utf16(program.source()) {
+        return;
+    }
+    let directives = directives(program);
+    let suppressions = Suppressions::new(program, &directives);
+    let mut found = findings(program, settings, &suppressions, coverage);
+    report.summary.count(&found);
+    report.diagnostics.append(&mut found);
+    report
+        .diagnostics
+        .sort_by_key(|found| (found.range.start, found.range.end));
+}
+
+/// What the rules find in what was looked at.
+fn findings(
+    program: &Program,
+    settings: &Settings<'_>,
+    suppressions: &Suppressions,
+    coverage: &Coverage,
+) -> Vec<Diagnostic> {
+    let mut reporter = Reporter::new(program, settings.dialect, suppressions);
+    crate::pass::ask(&active(&settings.rules), &mut reporter, (None, 0), |wake, out| {
+        if let Wake::Coverage(rule) = wake {
+            rule(coverage, out);
+        }
+    });
+    reporter.finish(&|_| Vec::new())
+}

@@ -1,0 +1,49 @@
+//! The file is no NC program: a picture, a binary, prose, source code.
+//!
+//! # Why
+//! A folder of programs holds other files too, and a wrong file may be sent to a machine. Nothing in it can be checked, and
+//! a list of a thousand strange characters helps nobody.
+//!
+//! # Example
+//! ```gcode detected
+//! Dear colleague,
+//! ;^^^^^^^^^^^^^^ not-a-program: this is text that is no program
+//! here is the program that you asked for.
+//! Please run it slowly the first time.
+//! ```
+//!
+//! # Use instead
+//! ```gcode detected
+//! (here is the program that you asked for)
+//! G21 G90
+//! G0 X0 Y0
+//! M30
+//! ```
+//!
+//! # Guarantee
+//! Sound: a file that is recognised as none has this finding and no other. A text counts as prose if hardly any line is
+//! a block and no sign of a control is in it; a dialect named in the settings or on the command line says that it is a program
+//! (but not of a picture or a binary).
+//!
+//! # Sources
+//! * docs/contract.md#verdicts
+use super::unsupported_control::first_line;
+use crate::prelude::*;
+use trunnion_dialect::Foreign;
+
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::Foreign(check)]);
+
+fn check(foreign: &Foreign, out: &mut Reporter<'_>) {
+    let Foreign::NotAProgram(what) = foreign else { return };
+    let source = out.program().source();
+    let is_text = core::str::from_utf8(&source[..source.len().min(64)]).is_ok();
+    let range = if is_text {
+        first_line(source)
+    } else {
+        TextRange::new(0, u32::from(!source.is_empty()))
+    };
+    out.report(range, format!("this is {what}"))
+        .note("nothing in it was checked")
+        .help("name the program, or leave this file out")
+        .unknown();
+}

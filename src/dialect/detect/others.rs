@@ -1,0 +1,279 @@
+//! Signs of controls whose programs are recognised and not read. Named after what each writes that no other control does.
+use super::text::{has, has_word, unnumbered, word, words};
+use super::votes::Votes;
+
+/// Signs in a line as it is written, in upper case.
+pub(super) fn raw(line: &str, votes: &mut Votes) {
+    klartext(line, votes);
+    marlin_comments(line, votes);
+    if line.starts_with("//") {
+        votes.add("wire-edm", 4, "a `//` comment");
+    }
+    if has_word(line, "WEDM") || line.contains("ACCUTEX") || line.starts_with("(EXTERNAL TEC") {
+        votes.add("wire-edm", 12, "the conditions of a wire EDM");
+    }
+    let is_name = line.starts_with('$') && [".MIN", ".SSB", ".SUB"].iter().any(|end| line.contains(end));
+    if is_name {
+        votes.add("okuma-osp", 12, "a file name $...MIN");
+    }
+}
+
+/// Signs in a line without comments, in upper case.
+pub(super) fn code(code: &str, votes: &mut Votes) {
+    okuma(code, votes);
+    centroid_and_eding(code, votes);
+    wire(code, votes);
+    marlin(code, votes);
+}
+
+fn klartext(line: &str, votes: &mut Votes) {
+    let text = unnumbered(line);
+    for start in ["BEGIN PGM ", "END PGM "] {
+        if text.starts_with(start) {
+            votes.add("heidenhain-klartext", 40, start.trim_end());
+        }
+    }
+    for start in [
+        "TOOL CALL",
+        "TOOL DEF",
+        "BLK FORM",
+        "CYCL DEF",
+        "CYCL CALL",
+        "CALL LBL",
+        "CALL PGM",
+        "TCH PROBE",
+        "PLANE SPATIAL",
+        "PLANE RESET",
+        "FUNCTION TCPM",
+        "APPR L",
+        "APPR C",
+        "DEP L",
+        "DEP C",
+        "FN 0:",
+        "FN 9:",
+        "FN 18:",
+        "PATTERN DEF",
+        "TRANS DATUM",
+    ] {
+        if text.starts_with(start) {
+            votes.add("heidenhain-klartext", 10, start);
+        }
+    }
+    if let Some(rest) = text.strip_prefix("LBL ") {
+        let named = rest.starts_with('"') || rest.starts_with(|c: char| c.is_ascii_digit());
+        if named {
+            votes.add("heidenhain-klartext", 8, "LBL");
+        }
+    }
+    let signed = |rest: &str| {
+        let mut chars = rest.trim_start_matches('I').chars();
+        matches!(chars.next(), Some('X' | 'Y' | 'Z' | 'A' | 'B' | 'C')) && matches!(chars.next(), Some('+' | '-'))
+    };
+    if ["L ", "LN ", "CC ", "C "]
+        .iter()
+        .any(|start| text.strip_prefix(start).is_some_and(|rest| signed(rest.trim_start())))
+    {
+        votes.add("heidenhain-klartext", 8, "an L, C or CC block");
+    }
+    if has_word(text, "FMAX") {
+        votes.add("heidenhain-klartext", 8, "FMAX");
+    }
+    // DIN/ISO: every block ends with an asterisk
+    let ends = line.trim_end().strip_suffix('*').map(str::trim_end);
+    if ends.is_some_and(|code| code.starts_with(['N', '%']) && code.len() > 3) {
+        votes.add("heidenhain-iso", 20, "a block that ends with `*`");
+    }
+}
+
+fn okuma(code: &str, votes: &mut Votes) {
+    let code = code.strip_prefix('/').unwrap_or(code);
+    if let Some(rest) = code.strip_prefix('O') {
+        let name = rest.trim();
+        let is_name = name.len() > 1
+            && name.starts_with(|c: char| c.is_ascii_uppercase())
+            && name.bytes().all(|b| b.is_ascii_uppercase() || b.is_ascii_digit());
+        // the name stands at the head of the file, or of a subprogram in a library
+        if is_name {
+            votes.add("okuma-osp", if votes.line <= 5 { 10 } else { 4 }, "a program name O...");
+        }
+    }
+    if code == "RTS" || unnumbered(code) == "RTS" || (code.starts_with('N') && code.ends_with(" RTS")) {
+        votes.add("okuma-osp", 10, "RTS");
+    }
+    if code.starts_with("CALL O") || code.contains(" CALL O") {
+        votes.add("okuma-osp", 10, "CALL O");
+    }
+    for name in [
+        "NOEX", "MODIN", "MODOUT", "VSIOX", "VPVDX", "VTLCN", "VTLNN", "VDOUT[", "VUACM[", "VWKCC[", "VATOL", "VGCOD[",
+    ] {
+        if has_word(code, name) {
+            votes.add("okuma-osp", 10, name);
+        }
+    }
+    for axis in ["X", "Y", "Z", "A", "B", "C"] {
+        if code.contains(&format!("VZOF{axis}[")) || code.contains(&format!("VETF{axis}[")) {
+            votes.add("okuma-osp", 10, "VZOF");
+        }
+    }
+    let common = code.match_indices("VC").any(|(at, _)| {
+        let after = code[at + 2..].trim_start_matches(|c: char| c.is_ascii_digit());
+        after.len() < code.len() - at - 2 && !code[..at].ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_')
+    });
+    if common {
+        votes.add("okuma-osp", 8, "a variable VC");
+    }
+    if has(code, b'G', "15") && word(code, b'H') {
+        votes.add("okuma-osp", 10, "G15 H");
+    }
+    if has(code, b'G', "116") && word(code, b'T') {
+        votes.add("okuma-osp", 8, "G116 T");
+    }
+    if code.contains("HP=") {
+        votes.add("okuma-osp", 8, "HP=");
+    }
+    // IF [A EQ B] NSKIP, GOTO NSKIP, NSKIP: sequence names
+    let named = |rest: &str| {
+        let mut chars = rest.trim_start().chars();
+        chars.next() == Some('N') && chars.next().is_some_and(|c| c.is_ascii_alphanumeric())
+    };
+    let jumps = code.find("IF").is_some_and(|at| {
+        let rest = &code[at + 2..];
+        rest.trim_start().starts_with('[') && rest.rfind(']').is_some_and(|end| named(&rest[end + 1..]))
+    });
+    if jumps || code.split_once("GOTO ").is_some_and(|(_, rest)| named(rest)) {
+        votes.add("okuma-osp", 8, "a jump to a sequence name");
+    }
+    let label = code.split_whitespace().next().unwrap_or_default();
+    if label.len() > 2 && label.starts_with('N') && label.as_bytes()[1].is_ascii_uppercase() && !label.ends_with(':') {
+        let plain = label.bytes().all(|b| b.is_ascii_uppercase() || b.is_ascii_digit());
+        if plain && label[1..].bytes().any(|b| b.is_ascii_digit()) {
+            votes.add("okuma-osp", 4, "a sequence name");
+        }
+        if plain && (label.starts_with("NLAP") || label.starts_with("NAT")) {
+            votes.add("okuma-osp", 8, "a sequence name NLAP or NAT");
+            votes.add("okuma-osp-lathe", 4, "a sequence name NLAP or NAT");
+        }
+    }
+    // T with the offset twice: T010101
+    if words(code)
+        .any(|(letter, number)| letter == b'T' && number.len() == 6 && number.bytes().all(|b| b.is_ascii_digit()))
+    {
+        votes.add("okuma-osp-lathe", 4, "a T word of six digits");
+    }
+}
+
+fn centroid_and_eding(code: &str, votes: &mut Votes) {
+    if code.contains("||") || code.contains("&&") {
+        votes.add("centroid", 6, "|| or &&");
+    }
+    if code.starts_with("IF ") && code.contains(" THEN ") && !code.starts_with("IF [") {
+        votes.add("centroid", 5, "IF without brackets");
+    }
+    for number in ["200", "223", "224", "225"] {
+        if has(code, b'M', number) && code.contains('"') {
+            votes.add("centroid", 10, "a message with M200 or M223 to M225");
+        }
+    }
+    let is_system = |digits: &str| digits.len() == 5 && digits.starts_with(['2', '3', '5']);
+    let variable = code.match_indices('#').any(|(at, _)| {
+        let rest = &code[at + 1..];
+        let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+        is_system(&rest[..end])
+    });
+    if variable {
+        votes.add("centroid", 5, "a variable of five digits");
+    }
+    for name in [
+        "DLGMSG",
+        "ERRMSG",
+        "WARNMSG",
+        "LOGMSG",
+        "GOSUB",
+        "LOGFILE",
+        "TCAGUARD",
+        "ZEROSETTOOLLENGTH",
+    ] {
+        if code.starts_with(name) {
+            votes.add("eding", 12, name);
+        }
+    }
+    if code.strip_prefix("SUB ").is_some_and(|name| !name.contains(['(', ','])) {
+        votes.add("eding", 8, "SUB");
+    }
+    if code == "ENDSUB" {
+        votes.add("eding", 8, "ENDSUB");
+    }
+    if code.starts_with("MSG \"") {
+        votes.add("eding", 6, "MSG");
+    }
+}
+
+fn wire(code: &str, votes: &mut Votes) {
+    let mut parts = code.splitn(2, '=');
+    let (name, rest) = (parts.next().unwrap_or_default().trim(), parts.next());
+    let condition = name.len() >= 4 && name.starts_with(['E', 'C']) && name[1..].bytes().all(|b| b.is_ascii_digit());
+    if condition && rest.is_some_and(|rest| rest.split_whitespace().count() >= 3) {
+        votes.add("wire-edm", 15, "a table of cutting conditions");
+    }
+    let offset = name.len() >= 2 && name.starts_with('H') && name[1..].bytes().all(|b| b.is_ascii_digit());
+    if offset && rest.is_some() {
+        votes.add("wire-edm", 5, "an offset H1=");
+    }
+    let bare = code.len() >= 2 && code.starts_with(['E', 'C']) && code[1..].bytes().all(|b| b.is_ascii_digit());
+    if bare {
+        votes.add("wire-edm", 5, "a condition alone in its line");
+    }
+    for name in ["TEC,", "WIR,", "CLE,", "HPA,", "CCF,", "RSA,", "PRF,", "TNL", "GLU"] {
+        if unnumbered(code).starts_with(name) {
+            votes.add("wire-edm", 10, name);
+        }
+    }
+    let thread = ["84", "85", "90", "91", "94"]
+        .iter()
+        .any(|number| has(code, b'T', number));
+    if thread && !word(code, b'M') && !word(code, b'X') && code.len() <= 8 {
+        votes.add("wire-edm", 5, "a machine function T84 to T94");
+    }
+    // conical cutting
+    let cone = ["51", "52"].iter().any(|number| has(code, b'G', number)) && word(code, b'A') && !word(code, b'X');
+    if cone {
+        votes.add("wire-edm", 6, "the taper G51 or G52 A");
+    }
+    for (alone, weight) in [("G38", 5), ("G39", 3)] {
+        if unnumbered(code) == alone {
+            votes.add("wire-edm", weight, &format!("{alone} alone"));
+        }
+    }
+    if has(code, b'G', "38") && word(code, b'D') {
+        votes.add("wire-edm", 8, "G38 D");
+    }
+}
+
+fn marlin_comments(line: &str, votes: &mut Votes) {
+    for start in [";FLAVOR:", ";LAYER:", ";TYPE:", ";LAYER_CHANGE", ";LAYER_COUNT"] {
+        if line.starts_with(start) {
+            votes.add("marlin", 10, start);
+        }
+    }
+}
+
+fn marlin(code: &str, votes: &mut Votes) {
+    if has(code, b'G', "92") && words(code).any(|(letter, number)| letter == b'E' && !number.is_empty()) {
+        votes.add("marlin", 10, "G92 E");
+    }
+    for number in ["104", "109", "140"] {
+        if has(code, b'M', number) && word(code, b'S') {
+            votes.add("marlin", 8, &format!("M{number} S"));
+        }
+    }
+    let extrudes =
+        (has(code, b'G', "1") || has(code, b'G', "0")) && word(code, b'E') && (word(code, b'X') || word(code, b'F'));
+    if extrudes && !word(code, b'P') {
+        votes.add("marlin", 8, "G1 with E");
+    }
+    for number in ["82", "83", "107"] {
+        if code == format!("M{number}") {
+            votes.add("marlin", 3, &format!("M{number} alone"));
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! What the text of a program shows, and the control that this and the surroundings point to.
+use super::shape::{Lathe, Shape};
+use super::text::{has_word, lines, strip_comments};
+use super::votes::Votes;
+use super::{Detected, Surroundings, named, others, supported};
+
+/// What an extension that one control owns weighs against signs in the text.
+const EXTENSION: u32 = 9;
+
+/// What the text shows.
+pub(super) struct Seen {
+    votes: Votes,
+    shape: Shape,
+}
+
+/// Signs that tell a Haas from a Fanuc.
+const HAAS: &[&str] = &["haas-ngc", supported::HAAS_HINT];
+
+/// Controls that share their language; inside the first group brand and kind of machine decide.
+const GROUPS: &[&[&str]] = &[
+    &["fanuc-30i", "haas-ngc"],
+    &["linuxcnc"],
+    &["sinumerik-840d"],
+    &["apt"],
+    &["grbl"],
+    &["heidenhain-klartext"],
+    &["heidenhain-iso"],
+    &["okuma-osp", "okuma-osp-lathe"],
+    &["centroid"],
+    &["eding"],
+    &["wire-edm"],
+    &["marlin"],
+];
+
+/// Names of controls as people write them in comments.
+const IN_COMMENTS: &[(&str, &str)] = &[
+    ("GRBL", "grbl"),
+    ("LINUXCNC", "linuxcnc"),
+    ("EMC2", "linuxcnc"),
+    ("HAAS", "haas-ngc"),
+    ("FANUC", "fanuc-30i"),
+    ("SINUMERIK", "sinumerik-840d"),
+    ("840D", "sinumerik-840d"),
+    ("HEIDENHAIN", "heidenhain-klartext"),
+    ("OKUMA", "okuma-osp"),
+    ("CENTROID", "centroid"),
+    ("EDINGCNC", "eding"),
+    ("MARLIN", "marlin"),
+    ("ROBOFIL", "wire-edm"),
+    ("SODICK", "wire-edm"),
+];
+
+impl Seen {
+    /// Signs in an upper-case text.
+    pub(super) fn of(text: &str) -> Self {
+        let mut seen = Self {
+            votes: Votes::default(),
+            shape: Shape::default(),
+        };
+        let votes = &mut seen.votes;
+        for (at, line) in lines(text).map(str::trim).enumerate() {
+            votes.line = at + 1;
+            if line.is_empty() {
+                continue;
+            }
+            supported::raw(line, votes);
+            others::raw(line, votes);
+            let stripped = strip_comments(line);
+            let code = stripped.trim();
+            if code.len() < line.len() {
+                for (word, name) in IN_COMMENTS {
+                    if has_word(line, word) && !has_word(code, word) {
+                        votes.add(name, 5, &format!("a comment with the name {word}"));
+                    }
+                }
+            }
+            // the name of a program may stand after the percent sign
+            let code = code.strip_prefix('%').map_or(code, str::trim);
+            if code.is_empty()
+                || line.starts_with("$$")
+                || line.starts_with("%_N_")
+                || line.starts_with('$')
+                || line.starts_with("//")
+            {
+                continue;
+            }
+            let plain = code.strip_prefix('/').map_or(code, str::trim_start);
+            supported::code(plain, votes);
+            others::code(plain, votes);
+            seen.shape.look(plain, at + 1);
+        }
+        seen
+    }
+
+    /// What the signs of one group weigh, at most.
+    pub(super) fn most(&self) -> u32 {
+        GROUPS
+            .iter()
+            .map(|group| self.votes.weight(group))
+            .max()
+            .unwrap_or_default()
+    }
+
+    /// The control whose signs weigh most, with what name and machine add; `None` where the text shows too little.
+    pub(super) fn decide(&self, owner: Option<&'static str>, known: Surroundings<'_>) -> Option<Detected> {
+        let lathe = self.shape.lathe().filter(|_| known.turns != Some(false));
+        let shown = |group: &[&'static str]| {
+            let turned = group.contains(&FANUC) && lathe.as_ref().is_some_and(|found| found.strong);
+            self.votes.weight(group) + if turned { 10 } else { 0 }
+        };
+        let (mut best, mut most, mut second) = (GROUPS[0], 0, 0);
+        for group in GROUPS {
+            let signs = shown(group);
+            let named = owner.is_some_and(|name| group.contains(&name));
+            let runs = signs > 0 && known.family.is_some_and(|family| group.contains(&family));
+            let weight = signs + if named { EXTENSION } else { 0 } + if runs { 2 } else { 0 };
+            if weight > most {
+                (best, second, most) = (group, most, weight);
+            } else {
+                second = second.max(weight);
+            }
+        }
+        let signs = shown(best);
+        let family = known
+            .family
+            .filter(|family| *family != "iso-6983" && named(family, String::new(), true).is_some());
+        let silent = owner.is_none() && family.is_none();
+        if signs == 0 {
+            // nothing but the shape of a lathe
+            let found = lathe.filter(|_| silent)?;
+            return named("fanuc-30i-lathe-a", format!("content: {}", found.reason), false);
+        }
+        // a hint alone says too little
+        if signs < 4 {
+            return None;
+        }
+        let agrees =
+            owner.is_some_and(|name| best.contains(&name)) || family.is_some_and(|family| best.contains(&family));
+        let certain = (signs >= 6 || agrees) && most >= second + 2;
+        let (name, reason) = self.in_group(best, lathe.as_ref(), known)?;
+        named(name, format!("content: {reason}"), certain)
+    }
+
+    /// The control inside a group, and the sign that shows it.
+    fn in_group(
+        &self,
+        group: &'static [&'static str],
+        lathe: Option<&Lathe>,
+        known: Surroundings<'_>,
+    ) -> Option<(&'static str, String)> {
+        let strongest = |of: &[&'static str]| self.votes.strongest(of).map(|vote| vote.sign.clone());
+        match group[0] {
+            FANUC => {
+                let enough = if known.family == Some(FANUC) { 9 } else { 6 };
+                let by_text = self.votes.weight(HAAS) >= enough;
+                let haas = by_text || known.family.is_some_and(|family| family.starts_with("haas"));
+                let brand = if by_text { strongest(HAAS) } else { strongest(group) };
+                let (name, sign) = match (lathe, haas) {
+                    (Some(found), true) => ("haas-lathe", Some(found.reason.clone())),
+                    (Some(found), false) if found.system_b => ("fanuc-30i-lathe-b", Some(found.reason.clone())),
+                    (Some(found), false) => ("fanuc-30i-lathe-a", Some(found.reason.clone())),
+                    (None, true) => ("haas-ngc", brand.clone()),
+                    (None, false) => (FANUC, strongest(&[FANUC]).or_else(|| brand.clone())),
+                };
+                let mut reason = sign?;
+                if let (Some(_), true, Some(brand)) = (lathe, by_text, brand) {
+                    reason = format!("{reason}, {brand}");
+                }
+                if lathe.is_none() && self.shape.lathe().is_some() {
+                    reason.push_str("; no dialect of lathes, because the machine does not turn the part");
+                }
+                Some((name, reason))
+            }
+            "okuma-osp" => {
+                let turns = self.shape.turns() || self.votes.weight(&["okuma-osp-lathe"]) > 0;
+                let name = if turns { "okuma-osp-lathe" } else { "okuma-osp" };
+                Some((name, strongest(group)?))
+            }
+            name => Some((name, strongest(group)?)),
+        }
+    }
+}
+
+/// The control of the group that shares the most.
+const FANUC: &str = "fanuc-30i";

@@ -1,0 +1,103 @@
+//! Mill or lathe: what the blocks of a program look like together.
+use super::text::{has, word, words};
+
+/// What was seen in a program, whatever its control.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shape {
+    /// G43, or a T word with M6: no lathe has them.
+    pub(super) mill: bool,
+    /// Motions with Y.
+    y: u32,
+    /// Motions in X or Z without Y.
+    xz: u32,
+    /// T words that name tool and offset: T0101.
+    turret: bool,
+    surface_speed: bool,
+    /// G50 S, G28 U W, a turning cycle: with the line.
+    lathe: Option<(&'static str, usize)>,
+    /// G92 S.
+    limit: Option<usize>,
+}
+
+/// What a lathe shows, in the order in which it says most.
+pub(super) struct Lathe {
+    pub(super) reason: String,
+    /// A code of lathes shows it, not the shape of the blocks alone.
+    pub(super) strong: bool,
+    /// G code system B: G92 S limits the spindle.
+    pub(super) system_b: bool,
+}
+
+impl Shape {
+    /// Looks at a line without comments, in upper case.
+    pub(super) fn look(&mut self, code: &str, line: usize) {
+        let tool = words(code).find(|(letter, digits)| *letter == b'T' && digits.bytes().any(|b| b.is_ascii_digit()));
+        let length = (has(code, b'G', "43") || has(code, b'G', "44")) && word(code, b'H');
+        self.mill |= length || (tool.is_some() && has(code, b'M', "6"));
+        if let Some((_, digits)) = tool {
+            let plain = digits.bytes().all(|b| b.is_ascii_digit());
+            self.turret |= plain && matches!(digits.len(), 3 | 4) && digits != "0000";
+        }
+        if word(code, b'Y') {
+            self.y += 1;
+        } else if word(code, b'X') || word(code, b'Z') {
+            self.xz += 1;
+        }
+        self.surface_speed |= has(code, b'G', "96") && word(code, b'S');
+        let mut sign = |seen| _ = self.lathe.get_or_insert((seen, line));
+        if has(code, b'G', "50") && word(code, b'S') {
+            sign("G50 S");
+        }
+        if has(code, b'G', "28") && (word(code, b'U') || word(code, b'W')) && !word(code, b'Y') {
+            sign("G28 U or W");
+        }
+        for (cycle, seen) in [
+            ("71", "the turning cycle G71"),
+            ("72", "the turning cycle G72"),
+            ("73", "the turning cycle G73"),
+            ("76", "the turning cycle G76"),
+        ] {
+            let contour = word(code, b'P') && word(code, b'Q');
+            let depth = word(code, b'U') && word(code, b'R');
+            if has(code, b'G', cycle) && (contour || depth) && !word(code, b'Z') {
+                sign(seen);
+            }
+        }
+        if has(code, b'G', "92") && word(code, b'S') && !word(code, b'X') {
+            self.limit.get_or_insert(line);
+        }
+    }
+
+    /// Whether it is the program of a lathe, and what shows it. A code that mills have too needs a witness: a turret's T0101, surface speed, or
+    /// motions in X and Z alone. G43, M6 with T, and motions in Y without a turret speak against all of it.
+    pub(super) fn lathe(&self) -> Option<Lathe> {
+        let flat = self.y == 0 && self.xz >= 2;
+        if self.mill || (self.y > 0 && !self.turret) {
+            return None;
+        }
+        let found = |reason: &str, line: usize, system_b| {
+            Some(Lathe {
+                reason: format!("{reason} in line {line}"),
+                strong: true,
+                system_b,
+            })
+        };
+        if let Some((sign, line)) = self.lathe {
+            return found(sign, line, false);
+        }
+        if let Some(line) = self.limit.filter(|_| self.turret || (self.surface_speed && flat)) {
+            return found("G92 S", line, true);
+        }
+        let plain = self.turret && flat && self.surface_speed;
+        plain.then(|| Lathe {
+            reason: "T with an offset, G96, X and Z alone".to_owned(),
+            strong: false,
+            system_b: false,
+        })
+    }
+
+    /// Whether only X and Z move, with a turret: a lathe of whatever control.
+    pub(super) fn turns(&self) -> bool {
+        !self.mill && self.y == 0 && self.xz > 0 && (self.turret || self.surface_speed || self.lathe.is_some())
+    }
+}

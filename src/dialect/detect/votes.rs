@@ -1,0 +1,51 @@
+//! Signs of controls and what they weigh. Each sign counts once, however often it occurs.
+//!
+//! 10 and more: only programs for this control have it. 4 to 8: unusual elsewhere. Less: tips the scales.
+
+/// A group of controls that share their language, or one control.
+pub(super) type Name = &'static str;
+
+/// One sign.
+#[derive(Clone, Debug)]
+pub(super) struct Vote {
+    pub(super) name: Name,
+    pub(super) weight: u32,
+    /// What was seen, with its place: `G43.4 in line 1`.
+    pub(super) sign: String,
+}
+
+/// All signs that were seen.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Votes {
+    seen: Vec<(Name, String)>,
+    all: Vec<Vote>,
+    /// The line that is looked at, from 1.
+    pub(super) line: usize,
+}
+
+impl Votes {
+    /// A sign of a control in the line that is looked at.
+    pub(super) fn add(&mut self, name: Name, weight: u32, sign: &str) {
+        if self.seen.iter().any(|(known, seen)| *known == name && seen == sign) {
+            return;
+        }
+        self.seen.push((name, sign.to_owned()));
+        self.all.push(Vote {
+            name,
+            weight,
+            sign: format!("{sign} in line {}", self.line),
+        });
+    }
+
+    /// What the signs of these controls weigh together.
+    pub(super) fn weight(&self, of: &[Name]) -> u32 {
+        let own = self.all.iter().filter(|vote| of.contains(&vote.name));
+        own.map(|vote| vote.weight).sum()
+    }
+
+    /// The heaviest sign of these controls; of equal ones the first.
+    pub(super) fn strongest(&self, of: &[Name]) -> Option<&Vote> {
+        let own = self.all.iter().filter(|vote| of.contains(&vote.name));
+        own.rev().max_by_key(|vote| vote.weight)
+    }
+}

@@ -1,0 +1,51 @@
+//! Controls whose programs are recognised and not read: they get one finding, and no guess.
+
+/// A control whose programs are recognised and not read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unsupported {
+    /// `heidenhain-klartext`, beside the names of the dialects that are built in.
+    pub name: &'static str,
+    /// For people.
+    pub title: &'static str,
+}
+
+/// All of them.
+pub const UNSUPPORTED: &[Unsupported] = &[
+    Unsupported {
+        name: "heidenhain-klartext",
+        title: "HEIDENHAIN Klartext",
+    },
+    Unsupported {
+        name: "heidenhain-iso",
+        title: "HEIDENHAIN DIN/ISO",
+    },
+    Unsupported {
+        name: "okuma-osp",
+        title: "Okuma OSP",
+    },
+    Unsupported {
+        name: "okuma-osp-lathe",
+        title: "Okuma OSP, lathe",
+    },
+    Unsupported {
+        name: "centroid",
+        title: "Centroid",
+    },
+    Unsupported {
+        name: "eding",
+        title: "Eding CNC",
+    },
+    Unsupported {
+        name: "wire-edm",
+        title: "wire EDM (Accutex, Agie, Charmilles, Fanuc, Sodick and the like)",
+    },
+    Unsupported {
+        name: "marlin",
+        title: "Marlin and other 3D printers",
+    },
+];
+
+/// The one of a name.
+pub fn unsupported(name: &str) -> Option<&'static Unsupported> {
+    UNSUPPORTED.iter().find(|control| control.name == name)
+}

@@ -1,0 +1,158 @@
+//! Programs from public repositories as shops write them, for many controls: is the control recognised, how many errors come per 100
+//! blocks, and does anything pass that was not looked at. The programs lie in ../shared/data/wild; the numbers are a snapshot.
+#![expect(clippy::print_stdout, reason = "a skipped test says so")]
+use crate::cli::tools::{str, trunnion};
+use serde_json::Value;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fmt::Write,
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// Dialects that are right for a control of `FILES.tsv`.
+fn right(control: &str) -> &'static [&'static str] {
+    match control {
+        "apt" => &["apt"],
+        "fanuc-mill" => &["fanuc-30i"],
+        "haas-mill" => &["haas-ngc"],
+        "haas-lathe" => &["haas-lathe"],
+        "heidenhain" => &["heidenhain-klartext"],
+        "hobby" => &["grbl", "iso-6983", "linuxcnc"],
+        "linuxcnc" => &["linuxcnc"],
+        "okuma" => &["okuma-osp", "okuma-osp-lathe"],
+        "sinumerik" => &["sinumerik-840d"],
+        "other:centroid" => &["centroid"],
+        "other:eding" => &["eding"],
+        "other:wire-edm" => &["wire-edm"],
+        other => panic!("no dialect is known to be right for {other}"),
+    }
+}
+
+/// Rows of a table without its head.
+fn rows(path: &Path) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(path).expect("a table");
+    let fields = |line: &str| line.split('\t').map(str::to_owned).collect();
+    text.lines().skip(1).map(fields).collect()
+}
+
+/// What is counted for one control.
+#[derive(Default)]
+struct Counts {
+    files: u64,
+    right: u64,
+    /// Blocks and errors of the files whose mistakes are not known.
+    blocks: u64,
+    errors: u64,
+    motions: u64,
+    known: u64,
+    verdicts: BTreeMap<String, u64>,
+    /// Errors by rule.
+    rules: BTreeMap<String, u64>,
+}
+
+/// Checks all files in a few calls; the JSON of each by its path.
+fn checked(files: &[PathBuf], more: &[&str]) -> BTreeMap<PathBuf, Value> {
+    let mut found = BTreeMap::new();
+    for some in files.chunks(100) {
+        let mut arguments = vec!["check", "--format", "json", "-q"];
+        arguments.extend(more);
+        arguments.extend(some.iter().map(|path| str(path)));
+        let output = trunnion(&arguments);
+        let document: Value =
+            serde_json::from_slice(&output.stdout).expect("a JSON document: no file makes the check stop");
+        for file in document["files"].as_array().expect("files") {
+            found.insert(PathBuf::from(file["path"].as_str().expect("a path")), file.clone());
+        }
+    }
+    found
+}
+
+/// `pass` without any motion, or although blocks that move were not run.
+fn passes_unseen(file: &Value) -> bool {
+    file["verdict"] == "pass" && file["coverage"]["motions"] == 0
+}
+
+#[test]
+fn every_control_is_recognised_and_nothing_passes_unseen() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/wild");
+    if !folder.is_dir() {
+        println!("skipped: {} is not there", folder.display());
+        return;
+    }
+    let table = rows(&folder.join("FILES.tsv"));
+    let faulty: BTreeSet<String> = rows(&folder.join("faulty.tsv"))
+        .into_iter()
+        .map(|row| row[0].clone())
+        .collect();
+    let paths: Vec<PathBuf> = table.iter().map(|row| folder.join(&row[0])).collect();
+    let found = checked(&paths, &[]);
+    let mut counts: BTreeMap<&str, Counts> = BTreeMap::new();
+    let (mut wrong, mut unseen) = (String::new(), Vec::new());
+    for (row, path) in table.iter().zip(&paths) {
+        let file = &found[path];
+        let of = counts.entry(&row[1]).or_default();
+        let dialect = file["dialect"].as_str().unwrap_or("none");
+        of.files += 1;
+        if right(&row[1]).contains(&dialect) {
+            of.right += 1;
+        } else {
+            let reason = file["dialect_reason"].as_str().unwrap_or_default();
+            let _ = writeln!(wrong, "  {} {}: {dialect}, {reason}", row[1], row[0]);
+        }
+        *of.verdicts
+            .entry(file["verdict"].as_str().unwrap_or_default().to_owned())
+            .or_default() += 1;
+        let number = |key: &str| file["coverage"][key].as_u64().unwrap_or_default();
+        of.motions += number("motions");
+        of.known += number("motions_known");
+        if passes_unseen(file) {
+            unseen.push(row[0].clone());
+        }
+        if faulty.contains(&row[0]) {
+            continue;
+        }
+        of.blocks += number("blocks");
+        for finding in file["diagnostics"].as_array().expect("findings") {
+            if finding["severity"] == "error" {
+                let times = finding["count"].as_u64().unwrap_or(1);
+                of.errors += times;
+                let rule = finding["rule"].as_str().unwrap_or_default().to_owned();
+                *of.rules.entry(rule).or_default() += times;
+            }
+        }
+    }
+    let on_machine = checked(&paths, &["--machine", "mill-3axis"]);
+    unseen.extend(
+        on_machine
+            .values()
+            .filter(|file| passes_unseen(file))
+            .map(|file| file["path"].to_string()),
+    );
+    assert_eq!(unseen, [] as [String; 0], "passes without a motion");
+    let mut out = String::new();
+    let (mut files, mut all_right) = (0, 0);
+    for (control, of) in &counts {
+        files += of.files;
+        all_right += of.right;
+        let verdicts: Vec<String> = of.verdicts.iter().map(|(name, n)| format!("{n} {name}")).collect();
+        let _ = writeln!(
+            out,
+            "{control}: {} of {} recognised; {}; {} errors in {} blocks ({:.2} per 100); {} of {} motions known",
+            of.right,
+            of.files,
+            verdicts.join(", "),
+            of.errors,
+            of.blocks,
+            100.0 * of.errors as f64 / of.blocks.max(1) as f64,
+            of.known,
+            of.motions,
+        );
+        for (rule, n) in &of.rules {
+            let _ = writeln!(out, "  {rule}: {n}");
+        }
+    }
+    let _ = write!(out, "all: {all_right} of {files} recognised; not:\n{wrong}");
+    assert!(all_right * 100 >= files * 98, "{out}");
+    insta::assert_snapshot!("wild", out);
+}

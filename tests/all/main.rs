@@ -1,4 +1,5 @@
 //! All tests of the whole program in one binary: one link instead of many. `cargo test --test all NAME` runs those whose path has NAME in it.
+mod bounds;
 mod canon;
 mod cli;
 mod differential;

@@ -26,7 +26,7 @@ const ENDINGS: [&str; 2] = ["ngc", "nc"];
 
 /// Runs `canon`. An error of the program makes the exit status 1.
 pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
-    let bytes: Arc<[u8]> = load::read(&command.file)?.into();
+    let bytes: Arc<[u8]> = load::read_program(global, &command.file)?.0.into();
     let main = Arc::new(Source::new(command.file.display().to_string(), bytes));
     let sources: Sources = Arc::new(Mutex::new(vec![Arc::clone(&main)]));
     let mut outputs = Outputs::new();
@@ -41,7 +41,11 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
         .as_ref()
         .map(|path| Kept::read(path, &mut outputs))
         .transpose()?;
-    let setup = setup(command, global, &sources, kept.as_ref())?;
+    let mut setup = setup(command, global, &sources, kept.as_ref())?;
+    let lines = memchr::memchr_iter(b'\n', main.bytes()).count() as u64;
+    setup.limits = load::limits(global, setup.limits).of_steps();
+    // the lines of the text itself are always read
+    setup.limits.blocks = setup.limits.blocks.saturating_add(lines);
     remark(false, "executing");
     let mut engine = Engine::new(main, &setup);
     let mut out = Printer {
@@ -62,7 +66,11 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
         return Err(Failure::file(&command.file, format!("cannot be decided: {why}")));
     }
     if let Step::OutOfFuel(at) = last {
-        let text = format!("does not end: the loop or call at line {} was stopped", at.line + 1);
+        let text = format!(
+            "does not end: the loop or call at line {} was stopped after {} executed lines; if it is only long, use --max-steps N",
+            at.line + 1,
+            setup.limits.blocks
+        );
         return Err(Failure::file(&command.file, text));
     }
     if let Step::Endless(at, _) = last {

@@ -22,8 +22,14 @@ pub trait Files: Send + Sync {
 /// Bounds of a run: a program that does not end within them is reported, not awaited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Executed lines.
+    /// Executed lines, and motions of cycles, of a run that keeps nothing (`check`, `stats`). The blocks that the program itself has are
+    /// not counted: a program without loops and calls is followed to its end.
     pub blocks: u64,
+    /// The same for a run whose every step is compared, proved, listed or drawn (`diff`, `certify`, `fix`, `trace`, `canon`, `plot`,
+    /// `surface`): a step takes ten times as long there.
+    pub steps: u64,
+    /// Motions that are held in memory at once, with all that is known of them: `convert` and `plot`, and those of one block elsewhere.
+    pub held: u64,
     /// Calls inside calls, where the control sets no lower bound itself: LinuxCNC stops at [`Limits::LINUXCNC_DEPTH`].
     pub depth: u32,
 }
@@ -32,6 +38,8 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             blocks: 10_000_000,
+            steps: 1_000_000,
+            held: 250_000,
             depth: 100,
         }
     }
@@ -40,4 +48,22 @@ impl Default for Limits {
 impl Limits {
     /// So many levels of calls LinuxCNC has, the main program's among them.
     pub const LINUXCNC_DEPTH: u32 = 10;
+
+    /// For a run whose motions are held.
+    #[must_use]
+    pub fn of_held(self) -> Self {
+        Self {
+            blocks: self.blocks.min(self.steps).min(self.held),
+            ..self
+        }
+    }
+
+    /// For a run whose every step is compared, proved, listed or drawn.
+    #[must_use]
+    pub fn of_steps(self) -> Self {
+        Self {
+            blocks: self.blocks.min(self.steps),
+            ..self
+        }
+    }
 }

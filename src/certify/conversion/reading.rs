@@ -96,6 +96,8 @@ pub struct Reading {
     pub motions: Vec<Posed>,
     /// Blocks in the order the control runs them.
     pub blocks: Vec<Ran>,
+    /// The block with which the run was given up, because it made more motions than are held ([`trunnion_interp::Limits::held`]).
+    pub given_up: Option<BlockId>,
     /// What is wrong.
     pub faults: Vec<Fault>,
     /// The first block that leads into another file.
@@ -127,8 +129,11 @@ pub fn read(run: &Run<'_>) -> Reading {
         chains: BTreeSet::new(),
         elsewhere: None,
         setup: run.setup,
+        given_up: None,
     };
-    let mut interpreter = Interpreter::new(run.dialect, run.setup);
+    let mut setup = run.setup.clone();
+    setup.limits = setup.limits.of_held();
+    let mut interpreter = Interpreter::new(run.dialect, &setup);
     if run.assume.tcp {
         interpreter.state_mut().tcp = true;
     }
@@ -137,12 +142,16 @@ pub fn read(run: &Run<'_>) -> Reading {
     }
     while let Some(block) = interpreter.advance(&program, &mut sink) {
         sink.block_done(block, &interpreter);
+        if sink.given_up.is_some() {
+            break;
+        }
     }
     let Collector {
         mut motions,
         mut blocks,
         faults,
         elsewhere,
+        given_up,
         ..
     } = sink;
     let clamp_codes = run.setup.control.clamp_codes;
@@ -162,6 +171,7 @@ pub fn read(run: &Run<'_>) -> Reading {
         program,
         motions,
         blocks,
+        given_up,
         faults,
         elsewhere,
         tells_lengths: is_apt || run.dialect.quirks.edge_at_tool_change || run.dialect.g(430).is_some(),
@@ -184,10 +194,15 @@ struct Collector<'m> {
     chains: BTreeSet<ChainId>,
     elsewhere: Option<BlockId>,
     setup: &'m Setup,
+    given_up: Option<BlockId>,
 }
 
 impl Sink for Collector<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        if self.motions.len() as u64 >= self.setup.limits.held {
+            self.given_up.get_or_insert(motion.block);
+            return;
+        }
         if self.length.0 != motion.tool || motion.tool_length_mm != 0.0 {
             self.length = (motion.tool, motion.tool_length_mm);
         }

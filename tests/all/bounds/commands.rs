@@ -3,13 +3,16 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 /// A command of the matrix.
+#[derive(Clone, Copy)]
 pub(super) struct Command {
     /// Its name in the table.
     pub(super) name: &'static str,
-    /// The arguments; `FILE` is the program.
+    /// The arguments; `FILE` is the program, `OTHER` a copy in which every second line has another number.
     arguments: &'static [&'static str],
     /// Standard output is a JSON document.
     pub(super) json: bool,
+    /// The command beside it in the list is another form of it: one has an even place, the other an odd one.
+    pub(super) has_twin: bool,
 }
 
 const fn command(name: &'static str, arguments: &'static [&'static str]) -> Command {
@@ -17,6 +20,7 @@ const fn command(name: &'static str, arguments: &'static [&'static str]) -> Comm
         name,
         arguments,
         json: false,
+        has_twin: false,
     }
 }
 
@@ -25,22 +29,33 @@ const fn json_command(name: &'static str, arguments: &'static [&'static str]) ->
         name,
         arguments,
         json: true,
+        has_twin: false,
+    }
+}
+
+const fn twin(command: Command) -> Command {
+    Command {
+        has_twin: true,
+        ..command
     }
 }
 
 /// The commands.
 pub(super) const COMMANDS: &[Command] = &[
-    command("check", &["check", "--format", "pretty", "FILE"]),
-    json_command("check-json", &["check", "--format", "json", "FILE"]),
-    command("trace", &["trace", "FILE"]),
-    json_command("trace-json", &["trace", "--format", "json", "FILE"]),
+    twin(command("check", &["check", "--format", "pretty", "FILE"])),
+    twin(json_command("check-json", &["check", "--format", "json", "FILE"])),
+    twin(command("trace", &["trace", "FILE"])),
+    twin(json_command("trace-json", &["trace", "--format", "json", "FILE"])),
     command("canon", &["canon", "FILE"]),
-    command("fmt", &["fmt", "--diff", "FILE"]),
-    command("fmt-renumber", &["fmt", "--check", "--renumber", "10", "FILE"]),
-    command("diff-itself", &["diff", "FILE", "FILE"]),
-    json_command("diff-other", &["diff", "--format", "json", "FILE", "plain.nc"]),
-    command("certify", &["certify", "FILE", "FILE"]),
-    command("certify-other", &["certify", "plain.nc", "FILE"]),
+    twin(command("fmt", &["fmt", "--diff", "FILE"])),
+    twin(command("fmt-renumber", &["fmt", "--check", "--renumber", "10", "FILE"])),
+    twin(command("diff-itself", &["diff", "FILE", "FILE"])),
+    twin(json_command(
+        "diff-other",
+        &["diff", "--format", "json", "FILE", "OTHER"],
+    )),
+    twin(command("certify", &["certify", "FILE", "FILE"])),
+    twin(command("certify-other", &["certify", "FILE", "OTHER"])),
     command("convert-apt", &["convert", "FILE", "--to", "apt"]),
     command(
         "convert-code",
@@ -52,26 +67,43 @@ pub(super) const COMMANDS: &[Command] = &[
     command("plot-deviation", &["plot", "FILE", "--kind", "deviation"]),
     command("surface", &["surface", "FILE", "--required", "required.toml"]),
     json_command("stats", &["stats", "--format", "json", "FILE"]),
-    command("parse-tokens", &["parse", "--tokens", "FILE"]),
-    command("parse", &["parse", "FILE"]),
+    twin(command("parse-tokens", &["parse", "--tokens", "FILE"])),
+    twin(command("parse", &["parse", "FILE"])),
     command("lsp", &["lsp"]),
 ];
 
 /// Files that commands need beside the program.
 pub(super) fn write_helpers(folder: &Path) {
-    let required = "[[grid]]\npoints = [[[0, 0, 0], [100, 0, 0]], [[0, 100, 0], [100, 100, 0]]]\n";
+    let required =
+        "schema = \"trunnion-surface/1\"\n[[grid]]\nrows = [[[0, 0, 0], [100, 0, 0]], [[0, 100, 0], [100, 100, 0]]]\n";
     std::fs::write(folder.join("required.toml"), required).expect("written");
-    let plain = "G21 G90 G17 G94 G54\nT1 M6\nS1000 M3\nG43 H1\nF100.\nG1 X0. Y0. Z50.\nX1.\nX5.\nM30\n";
-    std::fs::write(folder.join("plain.nc"), plain).expect("written");
+}
+
+/// The name of the changed copy of a program.
+pub(super) fn other(file: &str) -> String {
+    format!("other-{file}")
+}
+
+/// The changed copy: the last digit of every second line is another one.
+pub(super) fn changed(program: &[u8]) -> Vec<u8> {
+    let mut copy = program.to_vec();
+    for line in copy.split_mut(|&byte| byte == b'\n').skip(8).step_by(2) {
+        if let Some(digit) = line.iter_mut().rev().find(|byte| byte.is_ascii_digit()) {
+            *digit = b'0' + (*digit - b'0' + 1) % 10;
+        }
+    }
+    copy
 }
 
 impl Command {
     /// The arguments for a program in a dialect.
     pub(super) fn arguments(&self, file: &str, dialect: &str) -> Vec<String> {
-        let own = self
-            .arguments
-            .iter()
-            .map(|word| if *word == "FILE" { file } else { word });
+        let other = other(file);
+        let own = self.arguments.iter().map(|word| match *word {
+            "FILE" => file,
+            "OTHER" => other.as_str(),
+            word => word,
+        });
         let more: &[&str] = if self.name == "lsp" {
             &[]
         } else {

@@ -1,6 +1,7 @@
 //! One block that makes a great deal: pecks, repeats, turns, patterns, pockets.
 use super::{HEAD, Input, cut, lines};
 
+#[expect(clippy::too_many_lines, reason = "it is one list")]
 pub(super) fn inputs() -> Vec<Input> {
     vec![
         Input::new("peck-tiny", |_| cut("G83 Z-30. R2. Q0.0000001 F100.\nG80\nG1 X5.")),

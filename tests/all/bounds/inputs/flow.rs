@@ -5,6 +5,7 @@ use super::{Input, cut, lines};
 const ROUND: &str = "#1=#1+1\nG1 X#1 Y1.\n";
 const ROUND_R: &str = "R1=R1+1\nG1 X=R1 Y1\n";
 
+#[expect(clippy::too_many_lines, reason = "it is one list")]
 pub(super) fn inputs() -> Vec<Input> {
     vec![
         Input::new("while-true-do", |_| cut("WHILE[1EQ1]DO1\nG1 X1.\nG1 X2.\nEND1")),

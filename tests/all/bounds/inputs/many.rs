@@ -1,6 +1,7 @@
 //! Numbers: labels, variables, tools, calls, comments, findings.
 use super::{Input, cut, lines, repeat};
 
+#[expect(clippy::too_many_lines, reason = "it is one list")]
 pub(super) fn inputs() -> Vec<Input> {
     vec![
         Input::new("lines", |n| cut(&lines(n, |i| format!("X{i}")))),
@@ -35,8 +36,12 @@ pub(super) fn inputs() -> Vec<Input> {
         Input::new("jumps-here-and-there", |n| {
             cut(&format!(
                 "{}{}",
-                lines(n / 2, |i| format!("N{} GOTO{}", 2 * i, n - 1 - 2 * i)),
-                lines(n / 2, |i| format!("N{} GOTO{}", 2 * i + 1, n - 3 - 2 * i))
+                lines(n / 2, |i| format!("N{} GOTO{}", 2 * i, (n - 1).saturating_sub(2 * i))),
+                lines(n / 2, |i| format!(
+                    "N{} GOTO{}",
+                    2 * i + 1,
+                    (n - 1).saturating_sub(2 * i + 2)
+                ))
             ))
         }),
         Input::new("jumps-to-labels-here-and-there", |n| {

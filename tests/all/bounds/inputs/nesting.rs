@@ -5,6 +5,7 @@ fn around(open: &str, inside: &str, close: &str, size: usize) -> String {
     format!("{}{inside}{}", repeat(open, size), repeat(close, size))
 }
 
+#[expect(clippy::too_many_lines, reason = "it is one list")]
 pub(super) fn inputs() -> Vec<Input> {
     vec![
         Input::new("brackets", |n| cut(&format!("#1={}", around("[", "1", "]", n)))),

@@ -161,6 +161,7 @@ mod tests {
             setup: Setup::default(),
             rules: rules.iter().map(|(name, level)| ((*name).to_owned(), *level)).collect(),
             port_to: Vec::new(),
+            assume: crate::Assume::ALL,
         }
     }
 

@@ -80,6 +80,11 @@ pub(crate) fn join(off: &mut Report, on: &Report) {
         ..Summary::default()
     };
     off.summary.count(&off.diagnostics);
+    for assumed in &on.assumptions {
+        if !off.assumptions.contains(assumed) {
+            off.assumptions.push(assumed.clone());
+        }
+    }
     off.cycle_time_s = match (off.cycle_time_s, on.cycle_time_s) {
         (Some(a), Some(b)) => Some([a[0].min(b[0]), a[1].max(b[1])]),
         _ => None,

@@ -8,7 +8,7 @@ mod variables;
 pub use format::{FormatCase, FormatSettings, FormatSpacing, FormatZeros};
 pub use tool::parse_tool_flag;
 
-use crate::Severity;
+use crate::{Assume, Severity};
 use trunnion_dialect::Dialect;
 use trunnion_geometry::rad;
 use trunnion_interp::{Interpreter, Setup};
@@ -44,6 +44,8 @@ pub struct Config {
     pub machine_path: Vec<(String, core::ops::Range<usize>)>,
     /// `port_to`: dialects of the controls that the programs are meant to run on too.
     pub port_to: Vec<String>,
+    /// `assume`: what is taken as zero although it is not declared.
+    pub assume: Assume,
     /// `[format]`.
     pub format: FormatSettings,
     /// Axis letters in `[work_offsets]` with their bytes in the file.
@@ -179,10 +181,12 @@ pub struct Settings<'a> {
     pub rules: Vec<(String, RuleLevel)>,
     /// Dialects that the program is to be carried over to: the rule `porting` says what would change its meaning there.
     pub port_to: Vec<String>,
+    /// What is taken as zero although it is not declared.
+    pub assume: Assume,
 }
 
 impl<'a> Settings<'a> {
-    /// Every rule at its own level, and no other dialect to be carried over to.
+    /// Every rule at its own level, no other dialect to be carried over to, and nothing assumed.
     pub fn new(dialect: &'static Dialect, machine: Option<&'a Machine>, setup: Setup) -> Self {
         Self {
             dialect,
@@ -190,6 +194,7 @@ impl<'a> Settings<'a> {
             setup,
             rules: Vec::new(),
             port_to: Vec::new(),
+            assume: Assume::default(),
         }
     }
 

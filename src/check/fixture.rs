@@ -8,7 +8,7 @@
 //! A line of carets (`;` or `$$`, carets, a rule's name, a colon, text) belongs to the nearest line above that is none. It
 //! is taken out before the program is read. The mark hides the first column: carets directly after it reach back to it, and
 //! `;^` there means a width of 1 or 2.
-use crate::{Report, RuleLevel, Settings, check};
+use crate::{Assume, Report, RuleLevel, Settings, check};
 use std::sync::Arc;
 use trunnion_interp::{Files, Library, Limits, Loaded, Setup};
 use trunnion_machine::Machine;
@@ -42,6 +42,8 @@ pub struct Fixture {
     pub machine: Option<String>,
     /// Dialects to carry the program over to.
     pub port_to: Vec<String>,
+    /// Work offsets and tool lengths that are not declared are unknown; else they are taken as zero.
+    pub undeclared: bool,
     /// The program without caret lines.
     pub program: String,
     /// What is drawn, sorted.
@@ -50,12 +52,14 @@ pub struct Fixture {
 
 impl Fixture {
     /// Reads a fixture; `info` is a fence's info string: `gcode`, then names of a dialect (else iso-6983) and a machine, and
-    /// `port=NAME` for each dialect that the program is to be carried over to.
+    /// `port=NAME` for each dialect that the program is to be carried over to; `undeclared`: see that field.
     pub fn parse(info: &str, text: &str) -> Self {
+        let undeclared = info.split_whitespace().any(|word| word == "undeclared");
         let is_dialect = |word: &&str| trunnion_dialect::BUILTIN_NAMES.contains(word);
         let (ported, names): (Vec<&str>, Vec<&str>) = info
             .split_whitespace()
             .skip(1)
+            .filter(|word| *word != "undeclared")
             .partition(|word| word.starts_with("port="));
         let dialect = names
             .iter()
@@ -69,6 +73,7 @@ impl Fixture {
         let mut fixture = Self {
             dialect: dialect.to_owned(),
             machine,
+            undeclared,
             port_to: ported.iter().map(|word| word["port=".len()..].to_owned()).collect(),
             ..Self::default()
         };
@@ -105,6 +110,10 @@ impl Fixture {
                 setup: setup(),
                 rules,
                 port_to: self.port_to.clone(),
+                assume: Assume {
+                    work_offset: !self.undeclared,
+                    tool_length: !self.undeclared,
+                },
             },
         ))
     }
@@ -279,6 +288,9 @@ pub(crate) fn check_on(machine: &Machine, dialect: &str, text: &str) -> Report {
 pub(crate) fn check_with(machine: &Machine, dialect: &str, text: &str, setup: Setup) -> Report {
     let dialect = trunnion_dialect::builtin(dialect).expect("built in");
     let program = trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex);
-    let settings = Settings::new(dialect, Some(machine), setup);
+    let settings = Settings {
+        assume: Assume::ALL,
+        ..Settings::new(dialect, Some(machine), setup)
+    };
     check(&program, &settings)
 }

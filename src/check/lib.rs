@@ -12,6 +12,7 @@ mod both;
 #[cfg(test)]
 mod clamp_tests;
 pub mod config;
+mod datum;
 mod diagnostic;
 mod facts;
 mod finding;
@@ -41,6 +42,7 @@ mod words;
 
 pub use analysis::{check, check_on};
 pub use config::{Config, ConfigError, RuleLevel, Settings};
+pub use datum::Assume;
 pub use diagnostic::{Diagnostic, Severity, Status, ValueKey};
 pub use nearest::{did_you_mean, or_known};
 pub use report::{Report, Summary, Verdict};

@@ -1,4 +1,5 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
+use crate::datum::{Assume, Datum};
 use crate::look::Looker;
 use crate::report::Summary;
 use crate::sink::{Active, Reporter, active};
@@ -63,6 +64,8 @@ pub(crate) struct Pass<'a> {
     /// The tool of the last feed motion.
     last_cut: Option<u32>,
     looker: Option<Looker<'a>>,
+    assume: Assume,
+    datum: Option<Datum>,
     suppressions: &'a Suppressions,
     ported: bool,
     follower: Option<Follower<'a>>,
@@ -98,6 +101,8 @@ impl<'a> Pass<'a> {
             in_force: None,
             last_cut: None,
             looker: settings.machine.map(Looker::new),
+            assume: settings.assume,
+            datum: settings.machine.map(|machine| Datum::new(machine, settings.assume)),
             suppressions,
             ported: !settings.port_to.is_empty(),
             follower: settings.machine.map(Follower::new),
@@ -172,6 +177,9 @@ impl<'a> Pass<'a> {
             return;
         };
         let machine = follower.machine();
+        if let (Some(datum), Some(in_force)) = (&mut self.datum, &self.in_force) {
+            datum.add(leg, in_force, self.reporter.program());
+        }
         let chord = axes_chord(leg);
         self.trail.add(machine, leg, chord);
         let possible = possible_of_leg(&looker.look(leg, self.posture, &self.trail, chord));
@@ -241,6 +249,8 @@ impl<'a> Pass<'a> {
         let ending = Ending {
             unused: self.suppressions.unused(&looked_for),
         };
+        let assumed = self.datum.as_ref().map(Datum::assumed).unwrap_or_default();
+        let assumptions = assumed.iter().map(|missing| missing.assumption(self.dialect)).collect();
         let mut reporter = self.reporter;
         reporter.origin(false, ChainId::MAIN);
         ask(&self.rules, &mut reporter, (None, 0), |wake, out| {
@@ -251,6 +261,29 @@ impl<'a> Pass<'a> {
         if let Some(follower) = &self.follower {
             reporter.word_worst(follower.machine(), &self.legs.rules);
         }
+        if let Some(datum) = &self.datum {
+            for overrun in datum.overruns() {
+                reporter.origin(false, overrun.chain);
+                ask(
+                    &self.legs.rules,
+                    &mut reporter,
+                    (Some(overrun.block), 0),
+                    |wake, out| {
+                        if let Wake::Overrun(rule) = wake {
+                            rule(overrun, out);
+                        }
+                    },
+                );
+            }
+            for open in datum.open() {
+                reporter.origin(false, open.chain);
+                ask(&self.legs.rules, &mut reporter, (Some(open.block), 0), |wake, out| {
+                    if let Wake::Open(rule) = wake {
+                        rule(&open, out);
+                    }
+                });
+            }
+        }
         let diagnostics = reporter.finish(&|chain| interpreter.chain(chain));
         let mut summary = self.summary;
         summary.count(&diagnostics);
@@ -258,6 +291,7 @@ impl<'a> Pass<'a> {
             diagnostics,
             summary,
             cycle_time_s,
+            assumptions,
         }
     }
 }
@@ -358,6 +392,7 @@ impl Pass<'_> {
         if let Some(follower) = &mut self.follower {
             self.trail.clamps = in_force.clamps;
             self.trail.own_length_mm = in_force.own_length_mm;
+            self.trail.undeclared = self.assume.leaves(motion.undeclared);
             let mut leg = self.leg.take();
             if next {
                 follower.follow_line_into(motion, &mut leg);

@@ -16,6 +16,13 @@ pub(crate) fn axis_word(program: &Program, block: BlockId, letter: u8) -> TextRa
     code(&view)
 }
 
+/// Whether a block has a word of an axis (upper case letter), or is none of words.
+pub(crate) fn names_axis(program: &Program, block: BlockId, letter: u8) -> bool {
+    let view = program.block(block);
+    let named = |word: trunnion_syntax::Word| word.address == Address::Letter(letter);
+    program.options().format != Format::Iso || view.words().any(named)
+}
+
 /// The words or numbers that give the tool's orientation: A B C, A3= B3= C3=, I J K of a vector, the last three numbers of GOTO;
 /// failing that, the code of the block.
 pub(crate) fn orientation_range(program: &Program, block: BlockId) -> TextRange {

@@ -74,7 +74,7 @@ pub(crate) fn report(overview: &Overview<'_>, out: &mut Reporter<'_>) {
         let route = Route {
             from,
             to,
-            languages: (from.advice.expressions, to.advice.expressions),
+            languages: (from.expressions(), to.expressions()),
         };
         let mut hits = Vec::new();
         for block in overview.program.blocks() {

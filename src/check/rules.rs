@@ -288,7 +288,14 @@ mod tests {
 
     #[test]
     fn every_fault_is_told_by_exactly_one_rule() {
-        for kind in faults() {
+        // what depends on an offset or a length is judged, not its word
+        let unset = |kind: &FaultKind| {
+            matches!(
+                kind,
+                FaultKind::WorkOffsetUnset { .. } | FaultKind::ToolLengthUnset { .. }
+            )
+        };
+        for kind in faults().into_iter().filter(|kind| !unset(kind)) {
             let fault = Fault {
                 block: BlockId(0),
                 range: TextRange::new(0, 5),

@@ -3,7 +3,7 @@ use crate::view::leads_tip;
 use core::f64::consts::PI;
 use trunnion_geometry::Vec3;
 use trunnion_geometry::math::{asin, rotate};
-use trunnion_interp::{Clamps, MotionKind};
+use trunnion_interp::{Clamps, MotionKind, Undeclared};
 use trunnion_machine::{Joints, Leg, Machine, Stance};
 use trunnion_syntax::BlockId;
 
@@ -20,6 +20,8 @@ pub(crate) struct Trail {
     pub(crate) clamps: Clamps,
     /// Declared length of the tool in use with the leg in hand, mm.
     pub(crate) own_length_mm: Option<f64>,
+    /// What the leg in hand rests on that is not declared.
+    pub(crate) undeclared: Undeclared,
 }
 
 /// What the last leg was.
@@ -93,6 +95,7 @@ impl Trail {
             *self = Self {
                 clamps: self.clamps,
                 own_length_mm: self.own_length_mm,
+                undeclared: self.undeclared,
                 ..Self::default()
             };
             return;

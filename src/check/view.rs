@@ -1,14 +1,15 @@
 //! What rules look at: a leg with what is computed from it at most once, and the program as a whole.
 use crate::Settings;
+use crate::datum::OffsetName;
 use crate::trail::Trail;
 use core::cell::OnceCell;
 use core::f64::consts::TAU;
 use trunnion_dialect::{Dialect, RotaryFeed};
 use trunnion_geometry::{deg, math};
-use trunnion_interp::{Clamps, Directive, Feed, ModalState, Motion, Orientation, Swivel};
+use trunnion_interp::{AxisLetter, Clamps, Directive, Feed, LengthOf, ModalState, Motion, Orientation, Swivel};
 use trunnion_machine::{
-    Deviation, Excess, FeedLimit, Leg, Limits, Machine, Orientations, Stance, feed_limit, orientations, tip_deviation,
-    windings,
+    AxisKind, Deviation, Excess, FeedLimit, Leg, Limits, Machine, Orientations, Stance, feed_limit, orientations,
+    tip_deviation, windings,
 };
 use trunnion_syntax::{Program, TextRange};
 
@@ -70,6 +71,10 @@ pub(crate) struct InForce {
     pub(crate) units_said: bool,
     /// Clamps of rotary axes.
     pub(crate) clamps: Clamps,
+    /// Work offset.
+    pub(crate) offset: OffsetName,
+    /// Whose length is compensated.
+    pub(crate) length_of: LengthOf,
 }
 
 impl InForce {
@@ -84,6 +89,8 @@ impl InForce {
             spindle_limit_rpm: state.spindle_limit_rpm,
             units_said: state.units_said,
             clamps: state.clamps,
+            offset: state.work_offset.as_deref().map(OffsetName::new).unwrap_or_default(),
+            length_of: state.length_of,
         }
     }
 }
@@ -144,9 +151,33 @@ impl<'a> LegView<'a> {
 
     /// Highest feed of the block in its unit, see [`feed_limit`] and [`Self::feed_unit`].
     pub(crate) fn feed_limit(&self) -> Option<FeedLimit> {
-        *self
-            .feed_limit
-            .get_or_init(|| feed_limit(self.machine, self.leg).or_else(|| self.turning_limit()))
+        *self.feed_limit.get_or_init(|| {
+            let limit = feed_limit(self.machine, self.leg).or_else(|| self.turning_limit())?;
+            if self.lever_is_undeclared() && self.machine.axes[limit.axis].kind == AxisKind::Linear {
+                // how fast a linear axis runs is not known; a rotary one runs at its mean speed at least
+                return self.mean_turn_limit();
+            }
+            Some(limit)
+        })
+    }
+
+    /// Whether the place of a linear joint rests on a zero point or a tool length that is not declared.
+    pub(crate) fn rests_on_undeclared(&self, joint: usize) -> bool {
+        let undeclared = self.trail.undeclared;
+        let axis = &self.machine.axes[joint];
+        if axis.kind == AxisKind::Rotary || !undeclared.any() {
+            return false;
+        }
+        if !self.machine.rotary.is_empty() && self.leads_tip() {
+            return true;
+        }
+        let zero = AxisLetter::new(axis.letter).is_some_and(|letter| undeclared.zero & (1 << letter.0) != 0);
+        zero || undeclared.length && self.machine.per_length(joint) != 0.0
+    }
+
+    /// Whether the motion of the linear joints, or of the tip, rests on one: a rotary axis turns, and the distance to it is not known.
+    pub(crate) fn lever_is_undeclared(&self) -> bool {
+        self.trail.undeclared.any() && self.rotary_turns()
     }
 
     /// Whether X Y Z are the tip's in the workpiece frame: tool centre point control, or vectors.
@@ -229,6 +260,12 @@ impl<'a> LegView<'a> {
         if !self.feed_in_degrees() || !self.motion().is_feed() || way <= 0.0 || self.stances().is_none() {
             return None;
         }
+        self.mean_turn_limit()
+    }
+
+    /// The feed at which the mean speed of a rotary axis is the highest that it can turn at.
+    fn mean_turn_limit(&self) -> Option<FeedLimit> {
+        let way = self.way();
         let mut slowest: Option<FeedLimit> = None;
         for (axis, change) in self.machine.rotary.iter().zip(self.leg.rotary_change) {
             let Some(axis_limit) = self.machine.axes[*axis].max_speed else {

@@ -1,4 +1,5 @@
 //! What wakes a rule: the type that its function reads. This list is all that there is to choose from.
+use crate::datum::{Open, Overrun};
 use crate::facts::{
     Arrival, CableAxis, ClampedTurn, CutSpindleOff, CutSpindleUnlimited, FarCut, FirstCut, HeldBackCut, LongTurn,
     LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, PoleCrossing, PolePass, PostureSwap,
@@ -39,6 +40,10 @@ macro_rules! wakes {
             Refused(Refusal, fn(&mut Draft<'_>)),
             $($(#[$motion_doc])* $motion(fn(&$motion<'_>, &mut Reporter<'_>)),)*
             $($(#[$leg_doc])* $leg(fn(&$leg<'_>, &mut Reporter<'_>)),)*
+            /// On a machine: each undeclared zero point or tool length on which something depends, at the end.
+            Open(fn(&Open, &mut Reporter<'_>)),
+            /// On a machine: each axis that leaves its travel wherever an undeclared zero lies, at the end.
+            Overrun(fn(&Overrun, &mut Reporter<'_>)),
             /// What is known at the end, once.
             End(fn(&Ending<'_>, &mut Reporter<'_>)),
         }
@@ -54,6 +59,7 @@ macro_rules! wakes {
                     Self::Unreadable(_) | Self::Text(_) | Self::End(_) => "text",
                     Self::Program(_) | Self::Port(_) => "program",
                     Self::Fault(_) | Self::Refused(..) $(| Self::$motion(_))* => "motion",
+                    Self::Open(_) | Self::Overrun(_) => "machine",
                     $(Self::$leg(_))|* => "machine",
                 }
             }

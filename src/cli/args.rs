@@ -38,6 +38,9 @@ pub(crate) struct Global {
     /// Also report what would change its meaning on this control (name of a dialect; may be repeated).
     #[arg(long, global = true, value_name = "DIALECT", action = ArgAction::Append)]
     pub(crate) port_to: Vec<String>,
+    /// Take undeclared values as zero: work-offset, tool-length (with a comma between them). The verdict lists them.
+    #[arg(long, global = true, value_name = "WHAT", value_delimiter = ',')]
+    pub(crate) assume: Vec<String>,
     /// Blocks that begin with `/`: run them (off) or skip them (on). Default: trunnion.toml; without it, check judges both.
     #[arg(long, global = true, value_enum, value_name = "STATE")]
     pub(crate) block_delete: Option<Switch>,

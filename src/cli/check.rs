@@ -120,7 +120,8 @@ impl Tally {
         } else {
             format!(", {failed} not checked")
         };
-        format!("{files} files: {pass} pass, {fail} fail, {unknown} unknown{failed}")
+        let noun = if *files == 1 { "file" } else { "files" };
+        format!("{files} {noun}: {pass} pass, {fail} fail, {unknown} unknown{failed}")
     }
 }
 

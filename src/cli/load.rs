@@ -80,6 +80,7 @@ pub(crate) fn overrides(global: &Global) -> Overrides {
         tool: global.tool.clone(),
         allow: global.allow.clone(),
         port_to: global.port_to.clone(),
+        assume: global.assume.clone(),
         block_delete: global.block_delete.map(|switch| switch == Switch::On),
     }
 }

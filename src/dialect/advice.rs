@@ -1,19 +1,6 @@
 //! `[check]` of a table: what a check says of a control. No run depends on it, so it is no part of a certificate.
 use serde::Deserialize;
 
-/// The language of expressions and flow, for carrying a program over to another control.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Expressions {
-    /// RS274/NGC: LinuxCNC, grbl.
-    Rs274Ngc,
-    /// Custom macro B: Fanuc, Haas.
-    MacroB,
-    /// Neither.
-    #[default]
-    Other,
-}
-
 /// What decides how F counts in a block that moves rotary axes, without tool centre point control.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -33,8 +20,6 @@ pub enum RotaryFeed {
 /// extends.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Advice {
-    /// The language of its expressions.
-    pub expressions: Expressions,
     /// What decides how F counts while rotary axes move.
     pub rotary_feed: RotaryFeed,
     /// Of two words with one letter in a block the last one counts, and the control says nothing.
@@ -51,7 +36,6 @@ pub struct Advice {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct AdviceRow {
-    expressions: Option<Expressions>,
     rotary_feed: Option<RotaryFeed>,
     last_word_wins: Option<bool>,
     whole_coordinate: Option<String>,
@@ -63,7 +47,6 @@ impl AdviceRow {
     /// Lays what the table says over `base`.
     pub(crate) fn over(self, base: &Advice) -> Advice {
         Advice {
-            expressions: self.expressions.unwrap_or(base.expressions),
             rotary_feed: self.rotary_feed.unwrap_or(base.rotary_feed),
             last_word_wins: self.last_word_wins.unwrap_or(base.last_word_wins),
             whole_coordinate: self.whole_coordinate.or_else(|| base.whole_coordinate.clone()),

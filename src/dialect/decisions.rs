@@ -1,6 +1,7 @@
 //! Decisions in which controls differ: one type each, so that a new kind does not compile until every place has decided.
-use crate::Quirks;
+use crate::{Dialect, Quirks};
 use serde::Deserialize;
+use trunnion_syntax::Format;
 
 /// What a language has beside words and codes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -86,6 +87,28 @@ impl WholeNumbers {
         match self {
             Self::AsWritten | Self::AmbiguousLengths => false,
             Self::AmbiguousLengthsAndFeeds => true,
+        }
+    }
+}
+
+/// The language of expressions and flow, for carrying a program over to another control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Expressions {
+    /// RS274/NGC: LinuxCNC, grbl.
+    Rs274Ngc,
+    /// Custom macro B: Fanuc, Haas.
+    MacroB,
+    /// Neither.
+    Other,
+}
+
+impl Dialect {
+    /// The language of its expressions and flow. Words alone are read as RS274/NGC, whose subset they are.
+    pub fn expressions(&self) -> Expressions {
+        match (self.lex.format, self.quirks.language) {
+            (Format::Apt, _) | (Format::Iso, Language::Sinumerik) => Expressions::Other,
+            (Format::Iso, Language::MacroB) => Expressions::MacroB,
+            (Format::Iso, Language::Words | Language::Linuxcnc) => Expressions::Rs274Ngc,
         }
     }
 }

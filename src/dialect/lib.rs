@@ -19,10 +19,10 @@ mod signs;
 mod textmate;
 
 pub use action::Role;
-pub use advice::{Advice, Expressions, RotaryFeed};
+pub use advice::{Advice, RotaryFeed};
 pub use builtin::{BUILTIN_NAMES, builtin};
 pub use code::{Code, CodeKind};
-pub use decisions::{Language, Macros, ToolWord, WholeNumbers};
+pub use decisions::{Expressions, Language, Macros, ToolWord, WholeNumbers};
 pub use detect::{Detected, detect, is_program_file_name, looks_like_program, program_extensions};
 pub use dialect::{Alarm, ArcTolerance, Dialect, Quirks};
 pub use facts::DialectFacts;

@@ -10,13 +10,15 @@ pub struct Modeline {
     pub dialect: Option<String>,
     /// `; trunnion: machine NAME`.
     pub machine: Option<String>,
+    /// The line of `machine`, from 1.
+    pub machine_line: u32,
 }
 
 /// Reads `trunnion: dialect NAME` and `trunnion: machine NAME` from comments in the first ten lines. The dialect is not known
 /// yet, so any comment mark will do: what counts is the word `trunnion:` followed by a key and a name.
 pub fn modeline(source: &[u8]) -> Modeline {
     let mut found = Modeline::default();
-    for line in source.split(|&b| b == b'\n').take(LINES) {
+    for (number, line) in (1..).zip(source.split(|&b| b == b'\n').take(LINES)) {
         let text = String::from_utf8_lossy(&line[..line.len().min(400)]);
         let Some(at) = text.to_ascii_lowercase().find("trunnion:") else {
             continue;
@@ -32,7 +34,10 @@ pub fn modeline(source: &[u8]) -> Modeline {
         };
         match key.to_ascii_lowercase().as_str() {
             "dialect" => found.dialect = found.dialect.or(Some(name.to_ascii_lowercase())),
-            "machine" => found.machine = found.machine.or(Some(name.to_owned())),
+            "machine" if found.machine.is_none() => {
+                found.machine = Some(name.to_owned());
+                found.machine_line = number;
+            }
             _ => {}
         }
     }
@@ -50,7 +55,8 @@ mod tests {
             all,
             Modeline {
                 dialect: Some("linuxcnc".into()),
-                machine: Some("samples/my.toml".into())
+                machine: Some("samples/my.toml".into()),
+                machine_line: 3
             }
         );
         assert_eq!(

@@ -73,6 +73,7 @@ impl Apt<'_> {
                 tool.length_mm = Some(length);
             }
             self.core.state.tool_length_mm = Some(length);
+            self.core.state.undeclared.length = false;
             return;
         }
         let length = self.core.state.tool_data.and_then(|tool| tool.length_mm);
@@ -81,5 +82,6 @@ impl Apt<'_> {
             report.fault(args.range, FaultKind::ToolLengthUnset { tool: name });
         }
         self.core.state.tool_length_mm = Some(length.unwrap_or(0.0));
+        self.core.state.undeclared.length = length.is_none();
     }
 }

@@ -197,7 +197,7 @@ impl<'d> Iso<'d> {
                 self.tcp_off();
             }
             Action::WorkOffset => self.work_offset(found, words, report),
-            Action::WorkOffsetNone => self.set_zero(None, [0.0; 9]),
+            Action::WorkOffsetNone => self.no_work_offset(&found.code.id),
             Action::FrameReset => {
                 let ended = self.core.unknown.end(found.code);
                 self.core.forget_if(ended);

@@ -232,6 +232,7 @@ impl<'d> Core<'d> {
             spindle_rpm: state.spindle_rpm,
             zero: state.zero,
             tool_length_mm: state.tool_length_mm.unwrap_or(0.0),
+            undeclared: state.undeclared,
             machine_coordinates: false,
             radii: self.dialect.quirks.diameter,
             tool: state.tool,

@@ -40,12 +40,7 @@ pub(crate) trait Engine<'d>: Clone {
     }
     /// The values of the variables that a text names.
     fn values_in(&self, text: &str) -> Vec<Argument> {
-        let value = |name: &String| self.variable(name).map(|value| (format!("where {name}"), value));
-        let named = crate::written::names(text).into_iter();
-        named
-            .filter_map(|name| value(&name))
-            .map(|(name, value)| Argument::number(name, value))
-            .collect()
+        crate::written::values(text, |name| self.variable(name))
     }
     /// The text of a block with the variables in it replaced by their values.
     fn resolved_text(&self, text: &str) -> String {

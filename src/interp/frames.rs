@@ -9,6 +9,7 @@ mod swivel;
 mod tilt;
 mod turn;
 
+pub(crate) use data_entry::OffsetValues;
 pub(crate) use polar::Polar;
 pub(crate) use reference::Return;
 pub(crate) use shape::{Rotation, Scaling, Shape};
@@ -52,7 +53,7 @@ pub(crate) struct Frames {
     /// Offset of all zero points, written by G10 L2 P0.
     pub(crate) external: [f64; 9],
     /// Work offsets that the program has written, by name.
-    pub(crate) written: Vec<(Box<str>, [f64; 9])>,
+    pub(crate) written: Vec<(Box<str>, OffsetValues)>,
     /// Tool offsets that the program has written.
     pub(crate) tool_offsets: Vec<data_entry::ToolOffset>,
     /// Blocks hold data until G11.

@@ -1,10 +1,11 @@
 //! Work offsets, tool lengths and cutting edges, and what they do to the programmed position.
 use crate::codes::Found;
 use crate::core::Report;
+use crate::frames::OffsetValues;
 use crate::iso::Iso;
 use crate::tools::Chosen;
 use crate::words::{Said, Words};
-use crate::{FaultKind, LengthOf, Tool};
+use crate::{FaultKind, LengthOf, Tool, Undeclared};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
@@ -23,14 +24,21 @@ impl Iso<'_> {
         if zero.is_none() && self.core.offsets_reported.first(&name) {
             report.fault(found.range, FaultKind::WorkOffsetUnset { name: name.clone() });
         }
-        self.set_zero(Some(name.into()), zero.unwrap_or([0.0; 9]));
+        self.set_zero(Some(name.into()), zero.unwrap_or_default());
     }
 
     /// Selects a zero point; shifts by the program (G52, G92) are added to it.
-    pub(crate) fn set_zero(&mut self, name: Option<Arc<str>>, zero: [f64; 9]) {
+    pub(crate) fn set_zero(&mut self, name: Option<Arc<str>>, zero: OffsetValues) {
         self.core.state.work_offset = name;
-        self.memory.frames.selected = zero;
+        self.core.state.undeclared.zero = Undeclared::ALL_ZEROS & !zero.known;
+        self.memory.frames.selected = zero.values;
         self.refresh_zero();
+    }
+
+    /// Selects no work offset (G500): what is left of the zero point is its base, which may be declared under that name.
+    pub(crate) fn no_work_offset(&mut self, name: &str) {
+        let base = self.offset_values(name).unwrap_or_default();
+        self.set_zero(None, base);
     }
 
     /// The machine stays where it is, so the programmed position moves against the zero point.
@@ -167,12 +175,14 @@ impl Iso<'_> {
             report.fault(range, FaultKind::ToolLengthUnset { tool: key.to_owned() });
         }
         self.set_length(Some(length.unwrap_or(0.0)), of);
+        self.core.state.undeclared.length = length.is_none();
     }
 
     /// The machine stays where it is, so the programmed position moves: along the tool at home while the axes are joints; anywhere
     /// under tool centre point control.
     pub(crate) fn set_length(&mut self, length: Option<f64>, of: LengthOf) {
         self.core.state.length_of = of;
+        self.core.state.undeclared.length = false;
         let change = length.unwrap_or(0.0) - self.core.state.tool_length_mm.unwrap_or(0.0);
         self.core.state.tool_length_mm = length;
         if change != 0.0 {

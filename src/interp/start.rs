@@ -1,5 +1,5 @@
 //! What is in force before the first block.
-use crate::{FeedMode, LengthOf, ModalState, Orientation, Position};
+use crate::{FeedMode, LengthOf, ModalState, Orientation, Position, Undeclared};
 use trunnion_dialect::{Dialect, Plane};
 use trunnion_syntax::Format;
 
@@ -27,6 +27,11 @@ pub(crate) fn at_start(dialect: &Dialect) -> ModalState {
         spindle_limit_rpm: None,
         work_offset: None,
         zero: [0.0; 9],
+        undeclared: Undeclared {
+            zero: Undeclared::ALL_ZEROS,
+            length: false,
+            set_here: false,
+        },
         tool: None,
         tool_prepared: None,
         tool_data: None,

@@ -277,6 +277,14 @@ pub(crate) fn names(text: &str) -> Vec<String> {
     found
 }
 
+/// The known values of the variables that a text names, as arguments named `where #1`.
+pub(crate) fn values(text: &str, value: impl Fn(&str) -> Option<f64>) -> Vec<Argument> {
+    let named = names(text).into_iter();
+    named
+        .filter_map(|name| value(&name).map(|value| Argument::number(format!("where {name}"), value)))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -33,7 +33,7 @@ pub use kinematics::uncertainty::{AxisUncertainty, pivot_sensitivity_between};
 pub use kinematics::windings::{Windings, pole_angle, solution_s, windings};
 pub use path::block_path::{BlockPath, Moment};
 pub use path::deviation::{Deviation, tip_deviation};
-pub use path::limits::{Excess, limit_excess};
+pub use path::limits::{Excess, LIMIT_SLACK, limit_excess};
 pub use path::orientation::{OrientationDeviation, orientation_deviation};
 pub use path::quick_bounds::{Allowances, QuickBounds, quick_bounds};
 pub use path::rotary_path::{NO_TURN, rotary_turns};

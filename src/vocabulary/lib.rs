@@ -19,7 +19,9 @@ pub use effect::{Argument, Effect, Placed, Value, same_number};
 pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
 pub use library::{Files, Limits, Loaded};
 pub use modal::{FeedMode, LengthOf, ModalState};
-pub use motion::{AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt};
+pub use motion::{
+    AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt, Undeclared,
+};
 pub use setup::{
     ControlData, ImplicitDecimals, LengthUnit, Library, OuterCorner, RollPitchYaw, RoughingEscape, Setup, TcpCodes,
     Tool, ToolShape, WorkOffset,

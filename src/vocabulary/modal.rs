@@ -1,5 +1,5 @@
 //! The modal state: what is in force between blocks.
-use crate::{Action, Orientation, Plane, Position, Tool, ToolShape};
+use crate::{Action, Orientation, Plane, Position, Tool, ToolShape, Undeclared};
 use std::sync::Arc;
 
 /// How F is meant.
@@ -69,6 +69,8 @@ pub struct ModalState {
     pub work_offset: Option<Arc<str>>,
     /// Its values, mm and degrees.
     pub zero: [f64; 9],
+    /// What of zero and tool length is not declared.
+    pub undeclared: Undeclared,
     /// Tool in the spindle; `None` unknown, or chosen by a name.
     pub tool: Option<u32>,
     /// Tool prepared by T, waiting for M6.

@@ -148,6 +148,34 @@ pub enum MotionKind {
     Unknown,
 }
 
+/// What a motion rests on that neither the settings nor the program declare: it counts as zero there, and is unknown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Undeclared {
+    /// Axes whose zero point is not declared, bits as in [`Position::known`].
+    pub zero: u16,
+    /// The length of the tool in force is not declared.
+    pub length: bool,
+    /// The zero point was set from where the machine stood (G92).
+    pub set_here: bool,
+}
+
+impl Undeclared {
+    /// No zero point is declared.
+    pub const ALL_ZEROS: u16 = (1 << AXIS_LETTERS.len()) - 1;
+    /// Nothing is undeclared.
+    pub const NOTHING: Self = Self {
+        zero: 0,
+        length: false,
+        set_here: false,
+    };
+
+    /// Whether anything is undeclared.
+    #[inline]
+    pub fn any(self) -> bool {
+        self.zero != 0 || self.length
+    }
+}
+
 /// One motion as programmed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
@@ -182,6 +210,8 @@ pub struct Motion {
     /// Length of the tool that is compensated, mm: G43 H / active D / TCP. Zero when off or undeclared. In force also where the words are
     /// machine coordinates, which it does not shift.
     pub tool_length_mm: f64,
+    /// What of the two is not declared; nothing of machine coordinates.
+    pub undeclared: Undeclared,
     /// Programmed under G53: machine coordinates.
     pub machine_coordinates: bool,
     /// The control takes words of X for diameters itself, or was set not to (turning dialects, G7 of LinuxCNC): coordinates are
@@ -214,12 +244,18 @@ impl Motion {
             spindle_rpm: None,
             zero: [0.0; 9],
             tool_length_mm: 0.0,
+            undeclared: Undeclared::NOTHING,
             machine_coordinates: false,
             radii: false,
             tool: None,
             tilt: Tilt::default(),
             effects: 0,
         }
+    }
+    /// Its words are machine coordinates: no offset, no length and no tool centre point control applies.
+    pub fn in_machine_coordinates(&mut self) {
+        (self.machine_coordinates, self.tcp) = (true, false);
+        self.undeclared = Undeclared::NOTHING;
     }
     /// Whether it is a feed motion (line or arc).
     pub fn is_feed(&self) -> bool {

@@ -43,7 +43,7 @@ pub(crate) fn machine_of_comment(
         let machine = machine.clone();
         return Ok(FoundMachine { machine, file: None });
     }
-    if !is_toml(Path::new(name)) {
+    if !is_toml(Path::new(name)) && !name.contains(['/', '\\']) {
         return Err(unknown(name));
     }
     let beside = std::fs::canonicalize(program_folder.join(name)).ok();

@@ -3,7 +3,7 @@ use crate::{FoundMachine, LoadError, Subprograms, find_machine, machine::machine
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use trunnion_check::config::{FormatSettings, parse_tool_flag};
-use trunnion_check::{Config, RuleLevel, Settings, did_you_mean, or_known, rule_names};
+use trunnion_check::{Assume, Config, RuleLevel, Settings, did_you_mean, or_known, rule_names};
 use trunnion_dialect::{Dialect, Modeline};
 use trunnion_interp::{Library, Setup};
 use trunnion_machine::Machine;
@@ -25,6 +25,8 @@ pub struct Overrides {
     pub port_to: Vec<String>,
     /// Whether blocks that begin with `/` are skipped (`--block-delete`).
     pub block_delete: Option<bool>,
+    /// What is taken as zero although it is not declared (`--assume`), beside what the settings name.
+    pub assume: Vec<String>,
 }
 
 /// Everything a check needs beside the program.
@@ -48,6 +50,8 @@ pub struct Resolved {
     pub rules: Vec<(String, RuleLevel)>,
     /// Dialects that the program is to be carried over to.
     pub port_to: Vec<String>,
+    /// What is taken as zero although it is not declared.
+    pub assume: Assume,
     /// How the program is laid out.
     pub format: FormatSettings,
 }
@@ -61,6 +65,7 @@ impl Resolved {
             setup: self.setup.clone(),
             rules: self.rules.clone(),
             port_to: self.port_to.clone(),
+            assume: self.assume,
         }
     }
 }
@@ -118,6 +123,13 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
         }
         port_to.push(name.clone());
     }
+    let mut assume = config.assume;
+    for name in &overrides.assume {
+        if !assume.add(name) {
+            let hint = or_known(name, &Assume::NAMES, "names");
+            return Err(LoadError::new(format!("--assume {name}: this cannot be assumed{hint}")));
+        }
+    }
     let machine = machine.map(|machine| config.machine_with_tolerances(&machine));
     Ok(Resolved {
         dialect,
@@ -132,6 +144,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
         setup,
         rules,
         port_to,
+        assume,
         format: config.format,
     })
 }
@@ -216,10 +229,14 @@ fn machine_for(
             .map(|(folder, _)| home.join(folder))
             .collect();
         let folder = folder_of(path).unwrap_or_default();
-        return Ok((
-            Some(machine_of_comment(name, &folder, &machine_path)?),
-            "modeline comment in the program".into(),
-        ));
+        let machine = machine_of_comment(name, &folder, &machine_path).map_err(|error| match path {
+            Some(path) if error.place.is_empty() => LoadError {
+                place: format!("{}:{}", path.display(), mode.machine_line),
+                ..error
+            },
+            _ => error,
+        })?;
+        return Ok((Some(machine), "modeline comment in the program".into()));
     }
     if let Some(name) = &config.machine {
         let folder = config_file.and_then(|(path, _)| path.parent());

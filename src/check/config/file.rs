@@ -24,6 +24,8 @@ struct File {
     #[serde(default)]
     port_to: Vec<Spanned<String>>,
     #[serde(default)]
+    assume: Vec<Spanned<String>>,
+    #[serde(default)]
     limits: FileLimits,
     #[serde(default)]
     control: super::control::FileControl,
@@ -85,6 +87,12 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
         }
         let span = table.span();
         config.dialect_table = Some((table.into_inner(), span));
+    }
+    for name in file.assume {
+        if !config.assume.add(name.get_ref()) {
+            let hint = crate::or_known(name.get_ref(), &crate::Assume::NAMES, "names");
+            return Err(at(&name, format!("`{}` cannot be assumed{hint}", name.get_ref())));
+        }
     }
     for dialect in file.port_to {
         config.port_to.push(known_dialect(dialect)?);
@@ -265,10 +273,11 @@ fn is_work_offset(name: &str) -> bool {
     let Some(code) = name.strip_prefix('G') else {
         return false;
     };
-    if let Some(further) = code.strip_prefix("54.1 P") {
+    if let Some(further) = code.strip_prefix("54.1 P").or_else(|| code.strip_prefix("154 P")) {
         return number(further).is_some();
     }
-    matches!(code, "59.1" | "59.2" | "59.3") || number(code).is_some_and(|code| matches!(code, 54..=59 | 505..=599))
+    matches!(code, "59.1" | "59.2" | "59.3")
+        || number(code).is_some_and(|code| matches!(code, 54..=59 | 110..=129 | 500 | 505..=599))
 }
 
 fn work_offset(
@@ -276,7 +285,7 @@ fn work_offset(
     values: &BTreeMap<Spanned<String>, Spanned<f64>>,
 ) -> Result<WorkOffset, ConfigError> {
     if !is_work_offset(name.get_ref()) {
-        let known = "G54 to G59, G59.1 to G59.3, G54.1 P1 and so on, G505 to G599";
+        let known = "G54 to G59, G59.1 to G59.3, G54.1 P1 and so on, G505 to G599, G500, of a Haas G110 to G129 and G154 P1 and so on";
         return Err(at(
             name,
             format!("`{}` is not a work offset; known are {known}", name.get_ref()),

@@ -40,7 +40,8 @@ impl<'v> OverTravel<'v> {
     }
     pub(crate) fn of(view: &'v LegView<'v>) -> Option<Self> {
         let mut found = Vec::new();
-        let settled = limit_excess(view.machine, view.leg, &mut found);
+        let settled = limit_excess(view.machine, view.leg, &mut found) || view.lever_is_undeclared();
+        found.retain(|excess| !view.rests_on_undeclared(excess.axis));
         (!settled || !found.is_empty()).then_some(Self { view, found, settled })
     }
 }

@@ -53,7 +53,7 @@ cuts! {
     /// A cut that may leave the programmed segment by more than the tolerance; not an arc whose centre a fault removed.
     StrayingCut:
         |look| look.cut && look.leaves(|bounds| !at_most(bounds.stray_mm, look.of.machine.tolerances.tip_mm)),
-        |cut| !matches!(cut.motion().kind, MotionKind::Arc(None));
+        |cut| !matches!(cut.motion().kind, MotionKind::Arc(None)) && !cut.lever_is_undeclared();
     /// A cut that an axis may have to hold back, or in which one without a declared speed may move.
     HeldBackCut:
         |look| look.cut && look.leaves(|bounds| {
@@ -65,7 +65,7 @@ cuts! {
         |look| look.turning_cut && matches!(look.leg.motion.orientation, Orientation::Vector(..)),
         |cut| cut.rotary_turns() && matches!(cut.motion().orientation, Orientation::Vector(..));
     /// A cut on a machine whose file says how well an axis is known.
-    UncertainCut: |look| look.cut && look.of.uncertain, |_cut| true;
+    UncertainCut: |look| look.cut && look.of.uncertain, |cut| !cut.lever_is_undeclared();
 }
 
 /// A turning cut with a tool of a length other than the active compensation.

@@ -31,7 +31,7 @@ impl<'v> FarCut<'v> {
         look.turning_cut && look.leaves(|bounds| !near(bounds.linear_mm, bounds.tip_mm))
     }
     pub(crate) fn of(view: &'v LegView<'v>) -> Option<Self> {
-        let cut = Cut::turning(view)?;
+        let cut = Cut::turning(view).filter(|cut| !cut.lever_is_undeclared())?;
         let tip_mm = if view.leads_tip() && !view.motion().machine_coordinates {
             view.leg.length
         } else {

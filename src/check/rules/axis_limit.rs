@@ -19,6 +19,8 @@
 //!
 //! # Guarantee
 //! Sound for axes whose position is known: inside a block it uses a bound on the motion of the axes, not samples.
+//! Where a work offset or tool length is not declared, a chain of linear axes is judged by how far the path spans:
+//! it fails if no zero point fits, else the zero points that fit are reported and the result is unknown.
 //! An axis that was never positioned is not judged. Travel inside a rapid block is unknown where the machine file
 //! does not say whether the axes arrive together, and also where it says that they do not while the control guides
 //! the tip.
@@ -29,10 +31,112 @@
 //! # Sources
 //! * docs/kinematics.md#between-the-ends-of-a-block
 //! * docs/kinematics.md#limits-inside-a-block
+use crate::datum::{Missing, Open, Overrun};
 use crate::prelude::*;
 use trunnion_machine::{AxisKind, RapidPath};
 
-pub(super) const RULE: Body = Body::sound(Error, &[Wake::OverTravel(check)]);
+pub(super) const RULE: Body = Body::sound(
+    Error,
+    &[
+        Wake::OverTravel(check),
+        Wake::Overrun(no_zero_fits),
+        Wake::Open(what_fits),
+    ],
+);
+
+/// The path spans more than the travel.
+fn no_zero_fits(overrun: &Overrun, out: &mut Reporter<'_>) {
+    let name = letter(overrun.letter);
+    let missing = overrun.missing.name(out.dialect());
+    let beyond = overrun.span_mm - overrun.travel_mm;
+    out.event(|draft| {
+        draft
+            .at_axis(overrun.letter)
+            .say(format!(
+                "{name} spans {}, {} more than its travel of {}: no value of {missing} fits",
+                mm(overrun.span_mm),
+                mm(beyond),
+                mm(overrun.travel_mm)
+            ))
+            .note(format!(
+                "{missing} is not declared; all motions that rest on it are counted"
+            ))
+            .help("divide the program into set-ups, or use a machine with more travel")
+            .value_text("axis", name)
+            .value("span_mm", overrun.span_mm)
+            .value("travel_mm", overrun.travel_mm)
+            .value("excess_mm", beyond);
+    });
+}
+
+/// The zero points with which a chain of linear axes stays within its travel.
+fn what_fits(open: &Open, out: &mut Reporter<'_>) {
+    if open.fits.is_empty() || !matches!(open.missing, Missing::Offset(_)) {
+        return;
+    }
+    let dialect = out.dialect();
+    let missing = open.missing.name(dialect);
+    let help = open.missing.help(dialect);
+    out.event(|draft| {
+        draft.unknown().help(help);
+        let mut ranges = Vec::new();
+        for fit in &open.fits {
+            let name = letter(fit.letter);
+            let Some([low, high]) = fit.range else {
+                draft.note(format!(
+                    "{name}: not known, because it is not settled which motions rest on {missing}"
+                ));
+                continue;
+            };
+            let [shown_low, shown_high] = [bound_up(low), bound_down(high)];
+            match fit.with_length {
+                Some(of) => {
+                    let length = Missing::Length(of).name(dialect);
+                    draft.note(format!(
+                        "{name} of {missing} plus {length}: {shown_low} to {shown_high}"
+                    ));
+                }
+                None => {
+                    ranges.push(format!("{name} {shown_low} to {shown_high}"));
+                    if let Some([low_key, high_key]) = fit_keys(fit.letter) {
+                        draft.value(low_key, low).value(high_key, high);
+                    }
+                }
+            }
+        }
+        let fits = if ranges.is_empty() {
+            String::new()
+        } else {
+            format!("; it fits with {}", ranges.join(", "))
+        };
+        draft.say(format!(
+            "{missing} is not declared, so it is not known whether the program stays within the travel{fits}"
+        ));
+    });
+}
+
+/// A number of millimetres as the lower end of a range: rounded up to 0.001 mm, so that all that is shown fits.
+fn bound_up(value: f64) -> String {
+    mm((value * 1000.0).ceil() / 1000.0)
+}
+
+/// The same of the upper end.
+fn bound_down(value: f64) -> String {
+    mm((value * 1000.0).floor() / 1000.0)
+}
+
+/// Keys of the lowest and highest zero of an axis.
+fn fit_keys(letter: u8) -> Option<[&'static str; 2]> {
+    Some(match letter {
+        b'X' => ["fits_x_min_mm", "fits_x_max_mm"],
+        b'Y' => ["fits_y_min_mm", "fits_y_max_mm"],
+        b'Z' => ["fits_z_min_mm", "fits_z_max_mm"],
+        b'U' => ["fits_u_min_mm", "fits_u_max_mm"],
+        b'V' => ["fits_v_min_mm", "fits_v_max_mm"],
+        b'W' => ["fits_w_min_mm", "fits_w_max_mm"],
+        _ => return None,
+    })
+}
 
 /// Key of the unknown path; the keys of findings are letters and more.
 const UNSETTLED: u64 = 0;
@@ -159,7 +263,11 @@ mod tests {
             machine.control.rapid = rapid;
             let program = trunnion_syntax::parse(text.into(), dialect.lex);
             let setup = trunnion_interp::Setup::default();
-            let report = crate::check(&program, &crate::Settings::new(dialect, Some(&machine), setup));
+            let settings = crate::Settings {
+                assume: crate::Assume::ALL,
+                ..crate::Settings::new(dialect, Some(&machine), setup)
+            };
+            let report = crate::check(&program, &settings);
             let found = report.diagnostics.iter().filter(|found| found.rule == "axis-limit");
             let found: Vec<Status> = found.map(|found| found.status).collect();
             assert_eq!(found, wanted, "{rapid:?}");

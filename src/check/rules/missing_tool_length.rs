@@ -75,7 +75,7 @@ mod tests {
     fn only_the_first_feed_motion_of_a_tool_is_judged() {
         assert_drawn(
             "gcode linuxcnc",
-            "T1 M6 S100 M3\nG43 H1 G0 X0 Y0 Z0\n;^^ tool-length-unset: \nG1 X1 F100\nG49 X2\nM2\n",
+            "T1 M6 S100 M3\nG43 H1 G0 X0 Y0 Z0\nG1 X1 F100\nG49 X2\nM2\n",
         );
         let report = assert_drawn(
             "gcode linuxcnc",
@@ -87,10 +87,7 @@ mod tests {
     #[test]
     fn nothing_is_said_without_a_tool_change_or_where_the_tool_word_does_it() {
         assert_drawn("gcode", "G0 X0 Y0 Z0\nG1 X1 F100\n");
-        assert_drawn(
-            "gcode sinumerik-840d",
-            "T1\nM6\n;^ tool-length-unset: \nG1 X1 F100\nM30\n",
-        );
+        assert_drawn("gcode sinumerik-840d", "T1\nM6\nG1 X1 F100\nM30\n");
     }
 
     #[test]

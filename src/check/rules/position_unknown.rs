@@ -198,9 +198,9 @@ mod tests {
     fn a_rapid_by_an_increment_from_nowhere_is_told() {
         let report = assert_drawn(
             "gcode fanuc-30i mikron-ucp710",
-            "N1 G90 G21 G0 X0. Y0. Z50. A0. C0.\nN2 G43.4 H1\n;  ^^^^^ tool-length-unset: \nN3 G91 G0 X5000.\n;  ^^^^^^^^^^^^^ position-unknown: end position of this rapid is unknown\nN4 G90 G0 X0. Y0. Z60.\nN5 M30\n",
+            "N1 G90 G21 G0 X0. Y0. Z50. A0. C0.\nN2 G43.4 H1\nN3 G91 G0 X5000.\n;  ^^^^^^^^^^^^^ position-unknown: end position of this rapid is unknown\nN4 G90 G0 X0. Y0. Z60.\nN5 M30\n",
         );
-        assert_eq!(report.diagnostics[1].status, crate::Status::Unknown);
+        assert_eq!(report.diagnostics[0].status, crate::Status::Unknown);
     }
 
     /// What only the machine knows: where a probe touched, where its reference point is.

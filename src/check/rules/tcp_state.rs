@@ -8,7 +8,6 @@
 //! # Example
 //! ```gcode fanuc-30i mikron-ucp710
 //! N10 G43.4 H1
-//! ;   ^^^^^ tool-length-unset: the length of H1 is not declared
 //! N20 G0 X0. Y0. Z50. A20. C0.
 //! N30 G1 X10. F500.
 //! N40 G49
@@ -21,7 +20,6 @@
 //! # Use instead
 //! ```gcode fanuc-30i mikron-ucp710
 //! N10 G43.4 H1
-//! ;   ^^^^^ tool-length-unset: the length of H1 is not declared
 //! N20 G0 X0. Y0. Z50. A20. C0.
 //! N30 G1 X10. A20.01 F500.
 //! N40 G49

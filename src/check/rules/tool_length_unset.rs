@@ -1,44 +1,59 @@
-//! The program uses a tool length that is not declared: it is taken as zero.
+//! The program uses a tool length that is not declared.
 //!
 //! # Why
 //! With tool centre point control the linear axes move together with the rotary axes; the longer the tool, the
-//! farther. With a length of zero the computed travel and speed of the linear axes are too small.
+//! farther. The travel of the axis along the tool depends on the length in any case. All of that is unknown until the
+//! length is declared.
 //!
 //! # Example
-//! ```gcode fanuc-30i
-//! N10 G0 G43 H5 Z10.
-//! ;      ^^^ tool-length-unset: the length of H5 is not declared and is taken as zero
+//! ```gcode fanuc-30i mikron-ucp710 undeclared
+//! N10 G90 G54
+//! N20 G0 X0. Y0. Z100.
+//! ;   ^^^^^^^^^^^^^^^^ work-offset-unset: G54 is not declared
+//! N30 G0 G43 H5 Z100.
+//! ;   ^^^^^^^^^^^^^^^ tool-length-unset: the length of tool 5 is not declared
 //! ```
 //!
 //! # Use instead
-//! Declare it in `trunnion.toml`: `[[tool]] number = 5, length = 120.5`, in mm.
+//! Declare it in `trunnion.toml`: `[[tool]] number = 5, length = 120.5`, in mm. To take all undeclared lengths as
+//! zero, use `--assume tool-length` or `assume = ["tool-length"]`: the verdict lists it.
 //!
 //! # Guarantee
-//! Sound; reported once per tool.
+//! Sound; reported once per tool, at the first motion that rests on its length.
 //!
 //! # Sources
 //! * docs/contract.md#offsets-and-tool-lengths
+use crate::datum::{Missing, Open};
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::sound(Info, &[Wake::Fault(check)]);
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::Open(check)]);
 
-fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    if let FaultKind::ToolLengthUnset { tool } = &fault.kind {
-        let digits = tool.trim_start_matches(|c: char| !c.is_ascii_digit());
-        let number = if digits.chars().all(|c| c.is_ascii_digit()) && !digits.is_empty() {
-            digits
-        } else {
-            "..."
-        };
-        let name = if tool == "T" { "the tool in use" } else { tool };
-        out.report(
-            fault.range,
-            format!("the length of {name} is not declared and is taken as zero"),
-        )
-        .note("the tool length is measured from the gauge point of the spindle to the tip, in mm")
-        .help(format!(
-            "declare it in trunnion.toml: [[tool]] number = {number}, length = ..."
-        ))
-        .merge(Merge::once(hash(tool)));
+fn check(open: &Open, out: &mut Reporter<'_>) {
+    if !matches!(open.missing, Missing::Length(_)) {
+        return;
     }
+    let missing = open.missing.name(out.dialect());
+    let help = open.missing.help(out.dialect());
+    out.event(|draft| {
+        draft
+            .unknown()
+            .say(format!(
+                "{missing} is not declared: the travel of the axes that it shifts is not known"
+            ))
+            .note("the tool length is measured from the gauge point of the spindle to the tip, in mm")
+            .help(help);
+        for fit in &open.fits {
+            if let Some([low, high]) = fit.range {
+                draft
+                    .note(format!(
+                        "{} stays within its travel with a length of {} to {}",
+                        letter(fit.letter),
+                        mm(low),
+                        mm(high)
+                    ))
+                    .value("fits_length_min_mm", low)
+                    .value("fits_length_max_mm", high);
+            }
+        }
+    });
 }

@@ -1,35 +1,43 @@
-//! The program uses a work offset that is not declared: it is taken as zero.
+//! The program uses a work offset that is not declared.
 //!
 //! # Why
-//! The position of the part in the machine decides whether the axes have enough travel and, without tool centre
-//! point control, how the tip moves. With an offset of zero the part zero is the machine zero.
+//! The position of the part in the machine decides whether the axes have enough travel. Where rotary axes turn, it
+//! also decides how far and how fast the linear axes move and, without tool centre point control, how the tip moves.
+//! All of that is unknown until the offset is declared.
 //!
 //! # Example
-//! ```gcode
-//! N10 G54
-//! ;   ^^^ work-offset-unset: G54 is not declared and is taken as zero
-//! N20 G0 X0 Y0
+//! ```gcode fanuc-30i mikron-ucp710 undeclared
+//! N10 G90 G54
+//! N20 G0 X0. Y0. Z100.
+//! ;   ^^^^^^^^^^^^^^^^ work-offset-unset: G54 is not declared
 //! ```
 //!
 //! # Use instead
-//! Declare it in `trunnion.toml`: `[work_offsets] G54 = { X = 0, Y = 0, Z = 0 }`, in mm and degrees.
+//! Declare it in `trunnion.toml`: `[work_offsets] G54 = { X = 0, Y = 0, Z = 0 }`, in mm and degrees. To take all
+//! undeclared offsets as zero, use `--assume work-offset` or `assume = ["work-offset"]`: the verdict lists it.
 //!
 //! # Guarantee
-//! Sound; reported once per offset.
+//! Sound; reported once per offset, on machines with rotary axes, at the first motion that rests on it. On a chain
+//! of linear axes `axis-limit` reports the offsets that fit.
 //!
 //! # Sources
 //! * docs/contract.md#offsets-and-tool-lengths
+use crate::datum::{Missing, Open};
 use crate::prelude::*;
 
-pub(super) const RULE: Body = Body::sound(Info, &[Wake::Fault(check)]);
+pub(super) const RULE: Body = Body::sound(Info, &[Wake::Open(check)]);
 
-fn check(fault: &Fault, out: &mut Reporter<'_>) {
-    if let FaultKind::WorkOffsetUnset { name } = &fault.kind {
-        out.report(fault.range, format!("{name} is not declared and is taken as zero"))
-            .note("the part zero is assumed to be at the machine zero")
-            .help(format!(
-                "declare it in trunnion.toml: [work_offsets] {name} = {{ X = 0, Y = 0, Z = 0 }}"
-            ))
-            .merge(Merge::once(hash(name)));
+fn check(open: &Open, out: &mut Reporter<'_>) {
+    if !open.fits.is_empty() || !matches!(open.missing, Missing::Offset(_)) {
+        return;
     }
+    let missing = open.missing.name(out.dialect());
+    let help = open.missing.help(out.dialect());
+    out.event(|draft| {
+        draft
+            .unknown()
+            .say(format!("{missing} is not declared: the travel of the linear axes is not known"))
+            .note("where rotary axes turn, the speed of the linear axes and, without tool centre point control, the path of the tip are not known either; what depends on the tool axis alone is judged")
+            .help(help);
+    });
 }

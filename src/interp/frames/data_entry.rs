@@ -3,7 +3,7 @@ use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::{Said, Words};
-use crate::{FaultKind, Refusal};
+use crate::{FaultKind, Refusal, Setup, Undeclared};
 use trunnion_dialect::Action;
 
 /// What G10 L10 to L13 have written for one number; mm.
@@ -20,6 +20,36 @@ pub(crate) struct ToolOffset {
     pub(crate) radius_wear: f64,
     /// Whether L12 or L13 wrote a diameter or a radius is a setting.
     pub(crate) radius_unclear: bool,
+}
+
+/// Values of a work offset, mm and degrees; zero where they are not known.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub(crate) struct OffsetValues {
+    /// In the order of [`crate::AXIS_LETTERS`].
+    pub(crate) values: [f64; 9],
+    /// Axes that are declared or that the program has written, bits as in [`crate::Position::known`].
+    pub(crate) known: u16,
+}
+
+impl OffsetValues {
+    /// All of them are known.
+    pub(crate) fn declared(values: [f64; 9]) -> Self {
+        let known = Undeclared::ALL_ZEROS;
+        Self { values, known }
+    }
+}
+
+impl crate::frames::Frames {
+    /// Values of a work offset: written by the program, else declared.
+    pub(crate) fn offset_values(&self, name: &str, setup: &Setup) -> Option<OffsetValues> {
+        let same = |known: &str| known.eq_ignore_ascii_case(name);
+        let written = self.written.iter().find(|(known, _)| same(known));
+        let declared = || setup.work_offsets.iter().find(|known| same(&known.name));
+        match written {
+            Some((_, zero)) => Some(*zero),
+            None => declared().map(|offset| OffsetValues::declared(offset.values)),
+        }
+    }
 }
 
 impl<'d> Iso<'d> {
@@ -94,47 +124,48 @@ impl<'d> Iso<'d> {
             (false, 0) => None,
             (false, p) => Some(format!("G{}", 53 + p)),
         };
-        let mut values = match &name {
-            Some(name) => self.offset_values(name).unwrap_or([0.0; 9]),
-            None => self.memory.frames.external,
+        let mut zero = match &name {
+            Some(name) => self.offset_values(name).unwrap_or_default(),
+            None => OffsetValues::declared(self.memory.frames.external),
         };
-        for (axis, kept) in values.iter_mut().enumerate() {
+        for (axis, kept) in zero.values.iter_mut().enumerate() {
             if let Some(value) = self.axis_value(words, axis) {
-                *kept = if self.core.state.incremental {
-                    *kept + value
+                if self.core.state.incremental {
+                    *kept += value;
                 } else {
-                    value
-                };
+                    *kept = value;
+                    zero.known |= 1 << axis;
+                }
             }
         }
-        let Some(name) = name else {
-            self.memory.frames.external = values;
-            self.refresh_zero();
-            return;
-        };
+        match name {
+            Some(name) => self.store_offset(&name, zero),
+            None => {
+                self.memory.frames.external = zero.values;
+                self.refresh_zero();
+            }
+        }
+    }
+
+    /// The program writes a work offset; it acts at once where it is in force.
+    pub(crate) fn store_offset(&mut self, name: &str, zero: OffsetValues) {
         let written = &mut self.memory.frames.written;
         match written.iter_mut().find(|(known, _)| **known == *name) {
-            Some(known) => known.1 = values,
-            None => written.push((name.clone().into(), values)),
+            Some(known) => known.1 = zero,
+            None => written.push((name.into(), zero)),
         }
-        let in_force = self.core.state.work_offset.as_deref();
-        let first = in_force.is_none() && self.core.dialect.quirks.first_offset_at_start && name == "G54";
-        if first || in_force.is_some_and(|known| known.eq_ignore_ascii_case(&name)) {
-            self.set_zero(Some(name.into()), values);
+        let in_force = match self.core.state.work_offset.as_deref() {
+            Some(known) => known.eq_ignore_ascii_case(name),
+            None => self.core.dialect.quirks.first_offset_at_start && name == "G54",
+        };
+        if in_force {
+            self.set_zero(Some(name.into()), zero);
         }
     }
 
     /// Values of a work offset: written by the program, else declared.
-    pub(crate) fn offset_values(&self, name: &str) -> Option<[f64; 9]> {
-        let written = self.memory.frames.written.iter();
-        let written = written
-            .filter(|(known, _)| known.eq_ignore_ascii_case(name))
-            .map(|known| known.1);
-        let declared = self.core.setup.work_offsets.iter();
-        let declared = declared
-            .filter(|known| known.name.eq_ignore_ascii_case(name))
-            .map(|known| known.values);
-        written.chain(declared).next()
+    pub(crate) fn offset_values(&self, name: &str) -> Option<OffsetValues> {
+        self.memory.frames.offset_values(name, &self.core.setup)
     }
 
     fn write_tool(&mut self, l: u32, number: u32, words: &Words, found: &Found<'d>, report: &mut Report<'_>) {

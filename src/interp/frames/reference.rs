@@ -103,7 +103,7 @@ impl Iso<'_> {
             let mut motion = self
                 .core
                 .new_motion(MotionKind::Rapid, start, end, orientation, Feed::Rapid, report);
-            (motion.machine_coordinates, motion.tcp) = (true, false);
+            motion.in_machine_coordinates();
             self.to_machine(&mut end, -1.0);
             self.core.state.position = end;
             self.memory.out.push(motion);

@@ -12,6 +12,7 @@ impl<'d> Iso<'d> {
         for (axis, value) in zero.iter_mut().enumerate() {
             *value += frames.added(axis);
         }
+        self.core.state.undeclared.set_here = frames.shift != [0.0; 9];
         self.move_zero(zero);
     }
 

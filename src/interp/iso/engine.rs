@@ -4,6 +4,7 @@ use crate::codes::Found;
 use crate::core::Core;
 use crate::engine::Engine;
 use crate::flow::Flow;
+use crate::frames::OffsetValues;
 use crate::memory::Memory;
 use crate::written::Values;
 use trunnion_dialect::{Dialect, Language};
@@ -61,12 +62,7 @@ impl<'d> Engine<'d> for Iso<'d> {
         if self.core.dialect.quirks.user_names() {
             return self.memory.own.named_in(text);
         }
-        let value = |name: &String| self.variable(name).map(|value| (format!("where {name}"), value));
-        let named = crate::written::names(text).into_iter();
-        named
-            .filter_map(|name| value(&name))
-            .map(|(name, value)| crate::Argument::number(name, value))
-            .collect()
+        crate::written::values(text, |name| self.variable(name))
     }
     fn resolved_text(&self, text: &str) -> String {
         crate::written::resolved(self, text)
@@ -113,7 +109,7 @@ impl<'d> Iso<'d> {
         if engine.core.dialect.quirks.first_offset_at_start {
             let mut offsets = setup.work_offsets.iter();
             if let Some(offset) = offsets.find(|offset| offset.name.eq_ignore_ascii_case("G54")) {
-                engine.set_zero(Some("G54".into()), offset.values);
+                engine.set_zero(Some("G54".into()), OffsetValues::declared(offset.values));
             }
         }
         engine.memory.tcp_used = engine.core.state.tcp && setup.control.tcp_codes.is_some();

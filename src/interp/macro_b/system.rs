@@ -141,11 +141,8 @@ impl Known<'_> {
         let value = match name {
             None => self.frames.external[axis],
             Some(name) => {
-                let written = self.frames.written.iter().map(|(name, values)| (&**name, values));
-                let declared = self.setup.work_offsets.iter();
-                let declared = declared.map(|offset| (offset.name.as_str(), &offset.values));
-                let mut known = written.chain(declared);
-                known.find(|(known, _)| known.eq_ignore_ascii_case(&name))?.1[axis]
+                let zero = self.frames.offset_values(&name, self.setup)?;
+                (zero.known & (1 << axis) != 0).then_some(zero.values[axis])?
             }
         };
         Some(value / self.state.length_unit_mm)
@@ -174,19 +171,9 @@ impl Iso<'_> {
             self.memory.frames.external[axis] = value;
             return self.refresh_zero();
         };
-        let mut values = self.offset_values(&name).unwrap_or([0.0; 9]);
-        values[axis] = value;
-        let written = &mut self.memory.frames.written;
-        match written.iter_mut().find(|(known, _)| **known == *name) {
-            Some(known) => known.1 = values,
-            None => written.push((name.clone().into(), values)),
-        }
-        let in_force = match self.core.state.work_offset.as_deref() {
-            Some(known) => known.eq_ignore_ascii_case(&name),
-            None => self.core.dialect.quirks.first_offset_at_start && name == "G54",
-        };
-        if in_force {
-            self.set_zero(Some(name.into()), values);
-        }
+        let mut zero = self.offset_values(&name).unwrap_or_default();
+        zero.values[axis] = value;
+        zero.known |= 1 << axis;
+        self.store_offset(&name, zero);
     }
 }

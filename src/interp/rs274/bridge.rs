@@ -192,6 +192,11 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             spindle_rpm: modal.spindle_rpm,
             zero: shift.zero,
             tool_length_mm: shift.length,
+            undeclared: if state.machine_frame {
+                crate::Undeclared::NOTHING
+            } else {
+                modal.undeclared
+            },
             machine_coordinates: false,
             radii: state.lathe_diameter,
             tool: modal.tool,

@@ -2,7 +2,7 @@
 use super::bridge::{Bridge, LINEAR_AXES};
 use super::feed::Rate;
 use super::frames::Shift;
-use super::setup::SYSTEMS;
+use super::setup::{FIRST_SYSTEM, SYSTEMS};
 use crate::tools::Chosen;
 use crate::{Fault, FaultKind, LengthOf, Sink};
 use trunnion_dialect::{Action, Code, Dialect, Plane};
@@ -167,7 +167,10 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 self.told.synced = Some(Rate { mm: deg * unit, deg });
             }
             Canon::SpindleMode(0, ceiling) => self.told.surface_speed = ceiling != 0.0,
-            Canon::G92Offset(ref offset) => self.told.g92 = Shift::metric(offset, unit),
+            Canon::G92Offset(ref offset) => {
+                self.told.g92 = Shift::metric(offset, unit);
+                self.core.state.undeclared.set_here = self.told.g92 != [0.0; 9];
+            }
             Canon::StopSync => self.told.synced = None,
             Canon::Spindle(0, turn) => {
                 self.core.state.spindle_on = Some(turn != SpindleTurn::Stop);
@@ -227,6 +230,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             None => LengthOf::Nothing,
         };
         let declared = self.core.state.tool_data.and_then(|tool| tool.length_mm).is_some();
+        self.core.state.undeclared.length =
+            on && length == 0.0 && !declared && self.core.state.length_of != LengthOf::Nothing;
         if on && length == 0.0 && !declared {
             let tool = self.core.tools.name();
             if self.core.tools.first_report_of_length(&tool) {
@@ -249,12 +254,34 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             .iter()
             .any(|known| known.name.eq_ignore_ascii_case(name));
         let zero = offset.iter().all(|value| *value == 0.0);
+        self.core.state.undeclared.zero = if declared {
+            0
+        } else {
+            self.zeros_without_value(index, offset)
+        };
         let begun = self.core.last_content.is_some();
         if begun && changed && zero && !declared && self.core.offsets_reported.first(name) {
             let name = (*name).to_owned();
             let range = self.code_range(at, b'G', |code| (540..=593).contains(&code));
             self.fault(at, range, FaultKind::WorkOffsetUnset { name });
         }
+    }
+
+    /// Axes of a work offset of which nothing says that it is declared: the control knows no difference between a zero that somebody set and
+    /// one that was never set.
+    fn zeros_without_value(&self, index: i32, offset: &Pose) -> u16 {
+        let first = FIRST_SYSTEM + 20 * (index - 1).max(0).unsigned_abs();
+        let given = |axis: usize| {
+            let number = first + axis as u32;
+            let variables = &self.core.setup.variables;
+            offset[axis] != 0.0
+                || variables
+                    .iter()
+                    .any(|(known, value)| *known == number && value.is_some())
+        };
+        (0..offset.len())
+            .filter(|axis| !given(*axis))
+            .fold(0, |mask, axis| mask | 1 << axis)
     }
 
     /// The program has no end: reported at its last line that is not blank.

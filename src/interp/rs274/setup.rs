@@ -4,7 +4,7 @@ use trunnion_dialect::{Code, CodeKind, Dialect};
 use trunnion_ngc::{Ini, Parameters, Setup as Told, Start, ToolEntry, ToolTable, Units};
 
 /// First parameter of the coordinate systems: X of G54; 20 further on that of G55 (LinuxCNC documentation, Parameters).
-const FIRST_SYSTEM: u32 = 5221;
+pub(super) const FIRST_SYSTEM: u32 = 5221;
 /// X of the points that G28 and G30 go to.
 const FIRST_HOMES: [u32; 2] = [5161, 5181];
 /// Names of the coordinate systems in the order of their parameters.

@@ -13,6 +13,11 @@ impl Machine {
         control.length_along = machine.and_then(Self::length_along);
     }
 
+    /// How far 1 mm of tool length moves a joint while words are joints, mm: 0 for rotary axes.
+    pub fn per_length(&self, joint: usize) -> f64 {
+        Words::new(self).joint_per_length(joint)
+    }
+
     /// Letters of its axes beside X Y Z A B C.
     fn further_axes(&self) -> Vec<u8> {
         let letters = self.axes.iter().map(|axis| axis.letter);

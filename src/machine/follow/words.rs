@@ -84,6 +84,11 @@ impl Words {
         words
     }
 
+    /// How far 1 mm of tool length moves a joint, mm.
+    pub(crate) fn joint_per_length(&self, joint: usize) -> f64 {
+        self.per_length.get(joint).copied().unwrap_or(0.0)
+    }
+
     /// Whether a position gives all axes.
     #[inline]
     pub(crate) fn names_all(&self, position: &Position) -> bool {

@@ -23,7 +23,7 @@ pub struct Excess {
 }
 
 /// How far a joint may lie beyond its limit and still count as on it, mm or rad: rounding.
-pub(crate) const SLACK: f64 = 1e-6;
+pub const LIMIT_SLACK: f64 = 1e-6;
 
 /// How near sample and bound are brought, mm, where a limit is broken inside a block.
 const CLOSE_MM: f64 = 1e-3;
@@ -125,9 +125,9 @@ fn may_bend(machine: &Machine, leg: &Leg) -> bool {
 /// The limit that a value breaks.
 fn broken(limits: Limits, value: f64) -> Option<f64> {
     let Limits::Range(low, high) = limits else { return None };
-    if value > high + SLACK {
+    if value > high + LIMIT_SLACK {
         Some(high)
-    } else if value < low - SLACK {
+    } else if value < low - LIMIT_SLACK {
         Some(low)
     } else {
         None
@@ -189,9 +189,9 @@ fn judge(
             tag_to: (),
         };
         // what the ends reach is already reported, here or by the block before
-        let told = over(from).max(over(to)).max(0.0) + SLACK;
+        let told = over(from).max(over(to)).max(0.0) + LIMIT_SLACK;
         // where an end is beyond it, that much is certain
-        let certain = if_together && told > 2.0 * SLACK;
+        let certain = if_together && told > 2.0 * LIMIT_SLACK;
         if certain || bound(&whole) <= told {
             continue;
         }

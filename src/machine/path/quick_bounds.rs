@@ -1,6 +1,6 @@
 //! What a block in which all joints run straight does at most, in one look at its joints: enough to settle most blocks.
 use crate::follow::follower::leads_path;
-use crate::path::limits::SLACK;
+use crate::path::limits::LIMIT_SLACK;
 use crate::{AxisKind, Leg, Limits, MAX_AXES, Machine, RotaryRadii};
 use trunnion_interp::MotionKind;
 
@@ -41,7 +41,7 @@ impl Allowances {
         };
         for (own, axis) in allowances.axes.iter_mut().zip(&machine.axes) {
             if let Limits::Range(low, high) = axis.limits {
-                (own.low, own.high) = (low - SLACK, high + SLACK);
+                (own.low, own.high) = (low - LIMIT_SLACK, high + LIMIT_SLACK);
             }
             if let Some(speed) = axis.max_speed {
                 own.per_speed = 1.0 / speed;

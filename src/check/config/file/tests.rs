@@ -98,11 +98,21 @@ fn errors_in_a_tool_are_not_told_at_the_start_of_the_file() {
 
 #[test]
 fn work_offsets_of_all_dialects_are_known() {
-    for name in ["G54", "g59", "G59.3", "G54.1 P12", "G505", "G599"] {
+    for name in [
+        "G54",
+        "g59",
+        "G59.3",
+        "G54.1 P12",
+        "G500",
+        "G505",
+        "G599",
+        "G110",
+        "G154 P3",
+    ] {
         assert!(is_work_offset(name), "{name}");
     }
     for name in [
-        "G53", "G500", "G60", "G643", "G600", "G59.4", "G54.1 P", "G54.1 P0", "54", "G054", "X",
+        "G53", "G501", "G60", "G130", "G643", "G600", "G59.4", "G54.1 P", "G54.1 P0", "54", "G054", "X",
     ] {
         assert!(!is_work_offset(name), "{name}");
     }

@@ -18,6 +18,7 @@ fn settings(dialect: usize, machine: &str) -> Settings<'static> {
             ..Setup::default()
         },
         rules: Vec::new(),
+        assume: trunnion_check::Assume::default(),
         port_to: Vec::new(),
     }
 }

@@ -21,14 +21,17 @@ impl Files for One {
 
 fn settings() -> Settings<'static> {
     let sub = One("7", "G1 X5000. F500.\nX0.\nM99\n");
-    Settings::new(
-        trunnion_dialect::builtin("fanuc-30i").expect("built in"),
-        trunnion_machine::builtin("mill-3axis"),
-        Setup {
-            library: Library(Some(Arc::new(sub))),
-            ..Setup::default()
-        },
-    )
+    Settings {
+        assume: trunnion_check::Assume::ALL,
+        ..Settings::new(
+            trunnion_dialect::builtin("fanuc-30i").expect("built in"),
+            trunnion_machine::builtin("mill-3axis"),
+            Setup {
+                library: Library(Some(Arc::new(sub))),
+                ..Setup::default()
+            },
+        )
+    }
 }
 
 fn program(text: &str) -> Program {

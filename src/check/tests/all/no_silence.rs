@@ -246,7 +246,13 @@ fn judge(dialect: &str, text: &str) -> Result<(), TestCaseError> {
         found: None,
     };
     run(&program, dialect, &setup, &mut silent);
-    let report = check(&program, &Settings::new(dialect, Some(machine), setup));
+    let report = check(
+        &program,
+        &Settings {
+            assume: trunnion_check::Assume::ALL,
+            ..Settings::new(dialect, Some(machine), setup)
+        },
+    );
     let open = |found: &Diagnostic| found.status == Status::Unknown || found.severity != Severity::Info;
     let told = report.diagnostics.iter().any(open);
     let silent = silent.found.filter(|_| !told);

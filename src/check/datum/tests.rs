@@ -1,0 +1,139 @@
+//! What is left open while a zero point or a tool length is not declared. Travel of mill-3axis: X 0 to 750 mm or as its file says; the tests
+//! read it from the machine.
+use crate::fixture::Fixture;
+use crate::{Diagnostic, Report, Status, ValueKey};
+use trunnion_machine::Limits;
+
+fn check(info: &str, text: &str) -> Report {
+    Fixture::parse(&format!("{info} undeclared"), text).check().unwrap()
+}
+
+fn travel(axis: usize) -> [f64; 2] {
+    match trunnion_machine::builtin("mill-3axis").unwrap().axes[axis].limits {
+        Limits::Range(low, high) => [low, high],
+        Limits::Unbounded => panic!("an axis without travel limits"),
+    }
+}
+
+fn of<'r>(report: &'r Report, rule: &str) -> Vec<&'r Diagnostic> {
+    report.diagnostics.iter().filter(|found| found.rule == rule).collect()
+}
+
+fn number(found: &Diagnostic, key: &str) -> Option<f64> {
+    found
+        .values
+        .iter()
+        .find(|(known, _)| *known == key)
+        .map(|(_, value)| match value {
+            ValueKey::Number(value) => *value,
+            ValueKey::Text(_) => panic!("{key} is text"),
+        })
+}
+
+#[test]
+fn the_zero_points_that_fit_are_reported_and_the_verdict_is_unknown() {
+    let [low, high] = travel(0);
+    let report = check(
+        "gcode fanuc-30i mill-3axis",
+        "G21 G90 G54\nG0 X-10. Y0. Z20.\nX40. Y5.\nG1 Z-3. F100.\nM30\n",
+    );
+    let found = of(&report, "axis-limit");
+    assert_eq!(found.len(), 1, "{:?}", report.diagnostics);
+    assert_eq!(found[0].status, Status::Unknown);
+    assert_eq!(number(found[0], "fits_x_min_mm"), Some(low + 10.0));
+    assert_eq!(number(found[0], "fits_x_max_mm"), Some(high - 40.0));
+    assert_eq!(number(found[0], "fits_z_min_mm"), Some(travel(2)[0] + 3.0));
+    assert_eq!(number(found[0], "fits_z_max_mm"), Some(travel(2)[1] - 20.0));
+    assert_eq!(report.summary.unknown, 1);
+}
+
+#[test]
+fn a_span_of_the_travel_fits_one_zero_and_a_longer_one_none() {
+    let [low, high] = travel(0);
+    let width = high - low;
+    let text = |last: f64| format!("G21 G90 G55\nG0 X100. Y0. Z0.\nX{last:.4}\nX300.\nM30\n");
+    let fits = check("gcode fanuc-30i mill-3axis", &text(100.0 + width));
+    assert_eq!(number(of(&fits, "axis-limit")[0], "fits_x_min_mm"), Some(low - 100.0));
+    let fails = check("gcode fanuc-30i mill-3axis", &text(100.01 + width));
+    let found = of(&fails, "axis-limit");
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].status, Status::Fail);
+    assert!(
+        found[0].message.contains("no value of G55 fits"),
+        "{}",
+        found[0].message
+    );
+    assert!((number(found[0], "excess_mm").unwrap() - 0.01).abs() < 1e-9);
+}
+
+#[test]
+fn an_arc_spans_beyond_its_ends() {
+    let report = check(
+        "gcode fanuc-30i mill-3axis",
+        "G21 G90 G54\nG0 X0. Y0. Z0.\nG2 X20. Y0. I10. J0. F100.\nM30\n",
+    );
+    let found = of(&report, "axis-limit")[0];
+    assert!((number(found, "fits_y_max_mm").unwrap() - (travel(1)[1] - 10.0)).abs() < 1e-9);
+    assert_eq!(number(found, "fits_y_min_mm"), Some(travel(1)[0]));
+}
+
+/// Z0 of the machine is no place of the part, and the increments after it count from there.
+#[test]
+fn machine_coordinates_do_not_count_for_the_offset() {
+    let text = "G21 G90 G53 G0 Z0.\nG54 G0 X0. Y0.\nG91 G1 Z-5. F100.\nG90 Z100.\nZ90.\nM30\n";
+    let report = check("gcode fanuc-30i mill-3axis", text);
+    let found = of(&report, "axis-limit")[0];
+    assert_eq!(number(found, "fits_z_min_mm"), Some(travel(2)[0] - 90.0));
+    assert_eq!(number(found, "fits_z_max_mm"), Some(travel(2)[1] - 100.0));
+}
+
+#[test]
+fn what_the_program_writes_is_declared_axis_by_axis() {
+    let text = "G21 G90 G10 L2 P1 X300. Y200.\nG54 G0 X0. Y0. Z0.\nM30\n";
+    let report = check("gcode fanuc-30i mill-3axis", text);
+    let found = of(&report, "axis-limit")[0];
+    assert_eq!(number(found, "fits_x_min_mm"), None);
+    assert!(number(found, "fits_z_min_mm").is_some());
+}
+
+#[test]
+fn a_length_that_is_not_declared_is_named_with_its_range() {
+    let text = "G21 G90 G10 L2 P1 X300. Y200. Z-300.\nG54 G0 X0. Y0.\nG43 H3 Z50.\nG1 Z-5. F100.\nM30\n";
+    let report = check("gcode fanuc-30i mill-3axis", text);
+    assert!(of(&report, "axis-limit").is_empty(), "{:?}", report.diagnostics);
+    let found = of(&report, "tool-length-unset");
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].status, Status::Unknown);
+    assert!(found[0].message.starts_with("the length of tool 3 is not declared"));
+    assert_eq!(
+        number(found[0], "fits_length_max_mm"),
+        Some(travel(2)[1] + 300.0 - 50.0)
+    );
+}
+
+#[test]
+fn rotary_axes_leave_the_travel_unknown_and_the_rest_judged() {
+    let text = "G54\nTRAORI\nG1 X0 Y0 Z100 A0 C0 F1000\nX9000 A-40\nM30\n";
+    let report = check("gcode sinumerik-840d mikron-ucp710", text);
+    let unset = of(&report, "work-offset-unset");
+    assert_eq!(unset.len(), 1, "{:?}", report.diagnostics);
+    assert_eq!(unset[0].status, Status::Unknown);
+    // X is not judged, A is
+    let limits = of(&report, "axis-limit");
+    assert_eq!(limits.len(), 1, "{:?}", report.diagnostics);
+    assert!(limits[0].message.starts_with("A reaches -40 deg"));
+    assert_eq!(limits[0].status, Status::Fail);
+}
+
+#[test]
+fn what_is_assumed_is_listed_and_judged() {
+    let text = "G21 G90 G54\nG0 X0. Y0. Z0.\nG43 H2 Z10.\nM30\n";
+    let report = Fixture::parse("gcode fanuc-30i mill-3axis", text).check().unwrap();
+    assert_eq!(
+        report.assumptions,
+        ["G54 = 0 (not declared)", "the length of tool 2 = 0 (not declared)"]
+    );
+    assert_eq!(report.summary.unknown, 0);
+    let report = check("gcode fanuc-30i mill-3axis", text);
+    assert!(report.assumptions.is_empty());
+}

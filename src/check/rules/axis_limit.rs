@@ -89,18 +89,15 @@ fn what_fits(open: &Open, out: &mut Reporter<'_>) {
                 continue;
             };
             let [shown_low, shown_high] = [bound_up(low), bound_down(high)];
-            match fit.with_length {
-                Some(of) => {
-                    let length = Missing::Length(of).name(dialect);
-                    draft.note(format!(
-                        "{name} of {missing} plus {length}: {shown_low} to {shown_high}"
-                    ));
-                }
-                None => {
-                    ranges.push(format!("{name} {shown_low} to {shown_high}"));
-                    if let Some([low_key, high_key]) = fit_keys(fit.letter) {
-                        draft.value(low_key, low).value(high_key, high);
-                    }
+            if let Some(of) = fit.with_length {
+                let length = Missing::Length(of).name(dialect);
+                draft.note(format!(
+                    "{name} of {missing} plus {length}: {shown_low} to {shown_high}"
+                ));
+            } else {
+                ranges.push(format!("{name} {shown_low} to {shown_high}"));
+                if let Some([low_key, high_key]) = fit_keys(fit.letter) {
+                    draft.value(low_key, low).value(high_key, high);
                 }
             }
         }

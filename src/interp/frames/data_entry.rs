@@ -138,12 +138,11 @@ impl<'d> Iso<'d> {
                 }
             }
         }
-        match name {
-            Some(name) => self.store_offset(&name, zero),
-            None => {
-                self.memory.frames.external = zero.values;
-                self.refresh_zero();
-            }
+        if let Some(name) = name {
+            self.store_offset(&name, zero);
+        } else {
+            self.memory.frames.external = zero.values;
+            self.refresh_zero();
         }
     }
 

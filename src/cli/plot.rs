@@ -89,6 +89,15 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
             ),
         );
     }
+    if let Some(line) = record.coarse_from {
+        remark(
+            global.quiet,
+            &format!(
+                "{}: from line {line} on each motion is drawn by its ends alone; --lines FROM-TO draws a part in detail",
+                loaded.name
+            ),
+        );
+    }
     let text = draw(global, command, &loaded, machine, &record, lines).map_err(|error| named(&command.file, error))?;
     load::put(output.as_ref(), text.as_bytes())?;
     Ok(Done::Clean)

@@ -6,6 +6,7 @@ use crate::plan::{Out, Planner};
 use crate::setting::Setting;
 use crate::travel::{Beyond, Travel, travel, zeros_declared};
 use crate::{Options, Refused, Target};
+use std::cell::OnceCell;
 use trunnion_certify::Outcome;
 use trunnion_certify::conversion::{
     Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Why, converted_on, read,
@@ -83,6 +84,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         setup: source.setup,
         options,
         tolerance_mm,
+        known: OnceCell::new(),
     };
     setting.head_lengths(&reading, &job)?;
     let (outs, swaps) = planner.plan(&job)?;

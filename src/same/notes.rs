@@ -11,16 +11,17 @@ impl Steps<'_> {
     pub(super) fn note_situation(&mut self, before: Situation, effects: u32, lost: bool) {
         let own_code = |effect: &Effect| self.input.dialect.quirks.rs274() && is_own_code(effect);
         let counts = |effect: &Effect| matches!(effect, Effect::Unmodelled(_)) || own_code(effect);
-        let new = |index: u32| index >= effects;
-        let fresh = self.run.effects.iter().filter(|(index, ..)| new(*index));
+        // while motions are held back the effects before this block wait too
+        let new = self.run.effects.partition_point(|(index, ..)| *index < effects);
+        let fresh = self.run.effects.range(new..);
         let own = fresh.clone().any(|(_, placed, _)| own_code(&placed.effect));
         let opaque = fresh.clone().any(|(_, placed, _)| counts(&placed.effect));
         let first = fresh.map(|(_, placed, _)| placed.block).next();
         if opaque {
             let situation = Arc::new([before, self.interpreter.situation()]);
             let mut variables = (lost || own).then(|| self.interpreter.known_variables());
-            for (index, placed, at) in &mut self.run.effects {
-                if !new(*index) || !(matches!(placed.effect, Effect::Unmodelled(_)) || is_own_code(&placed.effect)) {
+            for (_, placed, at) in self.run.effects.range_mut(new..) {
+                if !(matches!(placed.effect, Effect::Unmodelled(_)) || is_own_code(&placed.effect)) {
                     continue;
                 }
                 *at = Some(Arc::clone(&situation));
@@ -31,15 +32,13 @@ impl Steps<'_> {
                 }
             }
         }
-        for (index, placed, _) in &mut self.run.effects {
-            if new(*index) {
-                match &mut placed.effect {
-                    Effect::Set { to: words, .. } if words.is_empty() => {}
-                    Effect::Set { to: words, .. } | Effect::Event(words) | Effect::Unmodelled(words) => {
-                        self.interpreter.add_values(words);
-                    }
-                    Effect::Store(_) | Effect::End(_) => {}
+        for (_, placed, _) in self.run.effects.range_mut(new..) {
+            match &mut placed.effect {
+                Effect::Set { to: words, .. } if words.is_empty() => {}
+                Effect::Set { to: words, .. } | Effect::Event(words) | Effect::Unmodelled(words) => {
+                    self.interpreter.add_values(words);
                 }
+                Effect::Store(_) | Effect::End(_) => {}
             }
         }
         if lost || own {

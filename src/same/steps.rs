@@ -11,9 +11,6 @@ use trunnion_interp::{
 use trunnion_machine::{Follower, Leg};
 use trunnion_syntax::BlockId;
 
-/// More items without a motion between them are not kept.
-const MOST_WAITING: usize = 1_000_000;
-
 /// A motion with everything that is in force.
 #[derive(Clone, Debug)]
 pub struct Step {
@@ -104,7 +101,8 @@ pub(crate) struct Run<'a> {
     process: Arc<Process>,
     stores: BTreeMap<String, Value>,
     stop: Option<Stop>,
-    /// So many motions of one block (a pecking cycle with a tiny Q) are kept, with all that is in force at each.
+    /// So many motions of one block (a pecking cycle with a tiny Q), and things without a motion between them, are kept, with all that is in
+    /// force at each.
     most_in_block: usize,
     /// A block does more than is kept: the run ends with it.
     given_up: bool,
@@ -305,9 +303,11 @@ impl<'a> Steps<'a> {
         if self.over {
             return None;
         }
-        if self.ready.len() > MOST_WAITING {
+        if self.ready.len() > self.run.most_in_block {
             let block = self.ready.back().map_or(BlockId(0), Item::block);
-            let why = format!("it does more than {MOST_WAITING} things without a motion");
+            let most = self.run.most_in_block;
+            let why =
+                format!("it does more than {most} things without a motion: raise `held` of [limits] in trunnion.toml");
             self.run.stop.get_or_insert(Stop { block, why });
             self.over = true;
             return None;

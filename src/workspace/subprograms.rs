@@ -1,5 +1,6 @@
 //! Programs that a program calls: looked for beside it, then in the folders of `subprogram_path`, and nowhere else.
 use std::{
+    collections::BTreeMap,
     fs::{self, File},
     io::Read,
     path::{Path, PathBuf},
@@ -16,10 +17,13 @@ const MOST_ENTRIES: usize = 100_000;
 /// Extensions that are tried, in this order; the first is none.
 const EXTENSIONS: &[&str] = &["", "ngc", "nc", "tap", "mpf", "spf", "cnc", "eia", "gcode"];
 
+/// File names of a folder by their lower-case forms, each list sorted, so that the answer does not depend on the file system's order.
+type Names = BTreeMap<String, Vec<String>>;
+
 /// A folder that is searched, and its file names once they were needed.
 struct Folder {
     path: PathBuf,
-    names: OnceLock<Vec<String>>,
+    names: OnceLock<Names>,
 }
 
 impl Folder {
@@ -30,17 +34,21 @@ impl Folder {
         }
     }
 
-    /// Names of the files in it, sorted, so that the answer does not depend on the file system's order.
-    fn names(&self) -> &[String] {
+    /// Names of the files in it.
+    fn names(&self) -> &Names {
         self.names.get_or_init(|| {
-            let mut names: Vec<String> = fs::read_dir(&self.path)
+            let mut names = Names::new();
+            let entries = fs::read_dir(&self.path)
                 .into_iter()
                 .flatten()
                 .take(MOST_ENTRIES)
-                .flatten()
-                .filter_map(|entry| entry.file_name().into_string().ok())
-                .collect();
-            names.sort();
+                .flatten();
+            for name in entries.filter_map(|entry| entry.file_name().into_string().ok()) {
+                names.entry(name.to_ascii_lowercase()).or_default().push(name);
+            }
+            for alike in names.values_mut() {
+                alike.sort();
+            }
             names
         })
     }
@@ -55,8 +63,8 @@ impl Folder {
                 } else {
                     format!("{stem}.{extension}")
                 };
-                let exact = names.iter().find(|name| **name == wanted);
-                let found = exact.or_else(|| names.iter().find(|name| name.eq_ignore_ascii_case(&wanted)));
+                let alike = names.get(&wanted.to_ascii_lowercase());
+                let found = alike.and_then(|alike| alike.iter().find(|name| **name == wanted).or(alike.first()));
                 if let Some(path) = found.map(|name| self.path.join(name)).filter(|path| path.is_file()) {
                     return Some(path);
                 }

@@ -37,6 +37,7 @@ mod trail;
 mod unreadable;
 mod view;
 mod visited;
+mod waiting;
 mod wake;
 mod words;
 

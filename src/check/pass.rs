@@ -8,48 +8,13 @@ use crate::time::CycleTime;
 use crate::trail::{Trail, axes_chord};
 use crate::view::{InForce, LegView, MotionView, Overview};
 use crate::visited::Visited;
+use crate::waiting::Waiting;
 use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
 use trunnion_dialect::Dialect;
 use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, ProgramRun, Refusal, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
 use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
-
-/// Rules that wait for facts, and those of them that the last motion or leg may have woken: one is like the other in most programs.
-#[derive(Default)]
-struct Waiting {
-    rules: Vec<Active>,
-    /// The facts that were possible, and the rules of these facts.
-    awake: (Option<u32>, Vec<Active>),
-}
-
-impl Waiting {
-    /// The rules that may have something to say where these facts are possible.
-    #[inline]
-    fn awake(&mut self, possible: u32) -> &[Active] {
-        let (of, awake) = &mut self.awake;
-        if *of != Some(possible) {
-            *of = Some(possible);
-            awake.clear();
-            awake.extend(self.rules.iter().filter(|rule| rule.wake.is_in(possible)));
-        }
-        awake
-    }
-
-    /// A debug build asks also the rules that were not woken, and sees that they are silent.
-    fn see_silent(&self, reporter: &mut Reporter<'_>, at: (BlockId, u64), ask: impl Fn(Wake, &mut Reporter<'_>)) {
-        if !cfg!(debug_assertions) {
-            return;
-        }
-        let asleep = |rule: &&Active| !self.awake.0.is_some_and(|possible| rule.wake.is_in(possible));
-        for rule in self.rules.iter().filter(asleep) {
-            reporter.enter(rule, Some(at.0), at.1);
-            ask(rule.wake, reporter);
-            debug_assert!(reporter.is_silent(), "{} was not woken", rule.name);
-            reporter.leave();
-        }
-    }
-}
 
 /// One pass over a program.
 pub(crate) struct Pass<'a> {

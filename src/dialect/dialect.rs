@@ -57,6 +57,8 @@ pub struct Quirks {
     pub delete_rest: bool,
     /// Axes in the block of a dwell move after it.
     pub dwell_then_moves: bool,
+    /// A rapid runs on a straight line; else each axis may run for itself.
+    pub straight_rapids: bool,
     /// Machine data decide whether a block in machine coordinates is without the tool's length (Sinumerik 10760 MN_G53_TOOLCORR);
     /// else it is without.
     pub machine_data_suppress_length: bool,

@@ -29,6 +29,7 @@ pub(crate) struct QuirksRow {
     offset_compensation: Option<bool>,
     cutter_offset_ambiguous: Option<bool>,
     dwell_then_moves: Option<bool>,
+    straight_rapids: Option<bool>,
 }
 
 impl QuirksRow {
@@ -56,6 +57,7 @@ impl QuirksRow {
             offset_compensation: self.offset_compensation.unwrap_or(base.offset_compensation),
             cutter_offset_ambiguous: self.cutter_offset_ambiguous.unwrap_or(base.cutter_offset_ambiguous),
             dwell_then_moves: self.dwell_then_moves.unwrap_or(base.dwell_then_moves),
+            straight_rapids: self.straight_rapids.unwrap_or(base.straight_rapids),
             machine_data_suppress_length: self
                 .machine_data_suppress_length
                 .unwrap_or(base.machine_data_suppress_length),

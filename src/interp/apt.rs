@@ -83,7 +83,13 @@ impl<'d> Engine<'d> for Apt<'d> {
 
 impl<'d> Apt<'d> {
     /// At the start of a program.
-    pub(crate) fn new(core: Core<'d>) -> Self {
+    /// CL data name no work offset: the part's zero is where the settings declare that G54 is.
+    pub(crate) fn new(mut core: Core<'d>) -> Self {
+        let setup = std::sync::Arc::clone(&core.setup);
+        if let Some(offset) = setup.work_offset("G54") {
+            core.state.zero = offset.values;
+            core.state.undeclared.zero = 0;
+        }
         Self {
             core,
             kept: AptState::default(),

@@ -1,6 +1,7 @@
 //! The effects of an ISO block: which of its codes and words are held neither by its motions nor by the modal state.
 mod assignments;
 mod collected;
+mod lengths;
 mod lines;
 mod parts;
 mod situation;
@@ -10,14 +11,17 @@ use crate::codes::{BlockCodes, Found, dwell_reads};
 use crate::iso::Iso;
 use crate::words::{Said, Words};
 use crate::written::{Keep, written};
-use crate::{Argument, Effect};
+use crate::{Argument, Effect, Reach};
 use crate::{FaultKind, Motion, MotionKind};
-use assignments::{comments, named_effects, reads_machine_position, system_assignment, unknown_assignment};
+use assignments::{
+    comments, declarations, named_effects, reads_machine_position, system_assignment, unknown_assignment,
+};
 pub(crate) use collected::Effects;
+use lengths::{in_lengths, to_mm};
 pub use situation::Situation;
 use sort::{
-    READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, letter_bit, name_of, said, sort,
-    takes_axes, uncouples,
+    READ_COMMENTS, Sort, all_arguments, arguments, chosen, coolant, couples, is_frame, is_modal_call, is_plain_cycle,
+    letter_bit, name_of, said, sort, takes_axes, tells, uncouples,
 };
 use trunnion_dialect::{Action, Macros, Role};
 use trunnion_syntax::Block;
@@ -57,6 +61,10 @@ impl Iso<'_> {
         self.cycle_effects(codes, words, view);
         let mut opaque = Vec::new();
         for found in codes {
+            if tells(found) {
+                let to = [name_of(found, view)];
+                self.core.effects.add(block, Effect::set("message", to));
+            }
             match sort(found, words) {
                 Sort::Held => free &= !crate::unused::letters(found.code),
                 Sort::Setting("speed limit") => {
@@ -150,7 +158,11 @@ impl Iso<'_> {
         if coordinates {
             event.retain(|argument| argument.name.len() > 1);
             event.extend(all_arguments(words));
-            if self.core.state.length_unit_mm != 1.0 {
+            if in_lengths(&alone, words) {
+                for argument in &mut event {
+                    to_mm(argument, self.core.state.length_unit_mm);
+                }
+            } else if self.core.state.length_unit_mm != 1.0 {
                 event.push(Argument::number("mm per unit", self.core.state.length_unit_mm));
             }
             if self.core.state.incremental {
@@ -163,8 +175,12 @@ impl Iso<'_> {
     /// The cycle that a block begins or ends.
     fn cycle_effects(&mut self, codes: &[Found<'_>], words: &Words, view: &Block<'_>) {
         let block = self.core.main_block(view.id());
+        let plain = codes.iter().any(|found| is_plain_cycle(found.code));
         for found in codes {
-            if couples(found.code.action) {
+            if is_modal_call(found.code) && (plain || !found.with_arguments && codes.len() == 1) {
+                // it is in the motions, or ends
+                self.core.effects.add(block, Effect::set("cycle", []));
+            } else if couples(found.code.action) && !is_plain_cycle(found.code) {
                 let mut to = vec![name_of(found, view)];
                 let letters = match found.code.action {
                     Action::VariableThread | Action::Thread => letter_bit(b'Q') | letter_bit(b'K'),
@@ -275,6 +291,15 @@ impl Iso<'_> {
                 Keep::All
             };
             let mut arguments = written(view, self, words, keep);
+            // the cycle that runs after each motion
+            arguments.extend(
+                self.memory
+                    .cycle
+                    .call
+                    .as_ref()
+                    .filter(|_| does_more)
+                    .map(|call| call.said.clone()),
+            );
             if !arguments.is_empty()
                 && codes
                     .iter()
@@ -294,8 +319,14 @@ impl Iso<'_> {
             let words = vec![Argument::text("", &crate::canonical_text(&text))];
             self.core.effects.add(block, Effect::Unmodelled(words));
         }
-        if let Some(arguments) = system_assignment(self, view) {
-            self.core.effects.add(block, Effect::Event(arguments));
+        if words.declares && self.core.dialect.quirks.user_names() {
+            let arguments = declarations(self, view);
+            if !arguments.is_empty() {
+                self.core.effects.add(block, Effect::Unmodelled(arguments));
+            }
+        }
+        if let Some(effect) = system_assignment(self, view) {
+            self.core.effects.add(block, effect);
         }
         self.after_motion(codes, words, view);
     }
@@ -317,7 +348,8 @@ impl Iso<'_> {
                     if READ_COMMENTS.contains(&found.code.id.as_str()) {
                         event.extend(comments(view));
                     }
-                    self.core.effects.add(block, Effect::Event(event));
+                    // the operator may do anything at a stop; the control goes on from where it was
+                    self.core.effects.add_with(block, Effect::Event(event), Reach::Itself);
                 }
                 Sort::Group => {
                     for (key, _) in coolant(found.code).into_iter().flatten().filter(|(_, on)| !*on) {

@@ -189,6 +189,9 @@ impl<'d> Iso<'d> {
         }
         let ends_data = |found: &Found<'_>| matches!(found.code.action, Action::DataEntryEnd | Action::ProgramEnd);
         if self.memory.frames.entering_data && !codes.iter().any(ends_data) {
+            if self.core.effects.wanted() {
+                self.data_effect(&report.program.block(report.block));
+            }
             return None;
         }
         let block = self.apply(codes, words, report);

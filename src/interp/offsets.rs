@@ -18,7 +18,11 @@ impl Iso<'_> {
             .index()
             .filter(|_| found.code.words.iter().any(|word| word == "P"))
         {
-            name = format!("{name} P{p}");
+            // G54 P5 is G54.1 P5 (Series 30i operator's manual, additional workpiece coordinate systems)
+            let code = self
+                .additional_offsets()
+                .filter(|code| code.split('.').next() == Some(&name));
+            name = format!("{} P{p}", code.unwrap_or(&name));
         }
         let zero = self.offset_values(&name);
         if zero.is_none() && self.core.offsets_reported.first(&name) {

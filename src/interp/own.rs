@@ -164,6 +164,12 @@ impl Own {
         let named = (self.others.iter().chain(&self.scope.values)).map(|(name, value)| (name.clone(), *value));
         parameters.chain(named).collect()
     }
+    /// R parameters with the values that are known: they outlive the program.
+    pub(crate) fn parameters(&self) -> impl Iterator<Item = (String, f64)> {
+        self.parameters
+            .iter()
+            .map(|(number, value)| (format!("R{number}"), *value))
+    }
     /// Notes what is written to a name whose value is not followed.
     pub(crate) fn note_text(&mut self, name: &str, text: &str) {
         let name: Box<str> = crate::written::packed(name).to_ascii_lowercase().into();

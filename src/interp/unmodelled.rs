@@ -18,6 +18,10 @@ impl<'d> Iso<'d> {
     ) {
         not_modelled(found, report);
         block.not_modelled = true;
+        if found.code.kind == CodeKind::Name && found.with_arguments {
+            // a cycle is a program of the control: it may leave other settings behind
+            self.core.losses += 1;
+        }
         let group = found.code.group.as_deref();
         if group.is_some() && group == self.motion_group() {
             self.core.state.motion = Some(Action::NotModelled);

@@ -69,14 +69,7 @@ fn is_held(run: &impl Values, view: &Block<'_>, word: &Word) -> bool {
 fn is_geometry(role: Role) -> bool {
     matches!(
         role,
-        Role::Axis
-            | Role::Increment
-            | Role::ArcCentre
-            | Role::ArcRadius
-            | Role::ArcTurns
-            | Role::ToolVector
-            | Role::PostureStatus
-            | Role::PostureTurn
+        Role::Axis | Role::Increment | Role::ArcCentre | Role::ArcRadius | Role::ArcTurns | Role::ToolVector
     )
 }
 
@@ -89,6 +82,31 @@ pub(crate) fn stem(view: &Block<'_>, word: &Word) -> String {
             let name = packed(&view.program().text(name));
             name.split('[').next().unwrap_or_default().to_owned()
         }
+    }
+}
+
+/// The name of a word that is written with `=`, with its index: `R[2+3]` is R5, `FIELD[N,1]` is FIELD[4,1] where N is 4. And whether the
+/// index is known.
+pub(crate) fn full_name(run: &impl Values, view: &Block<'_>, word: &Word) -> (String, bool) {
+    let Address::Named(name) = word.address else {
+        return (stem(view, word), true);
+    };
+    let name = packed(&view.program().text(name));
+    let inside = name
+        .split_once('[')
+        .and_then(|(stem, rest)| Some((stem, rest.strip_suffix(']')?)));
+    let Some((stem, inside)) = inside.filter(|_| run.dialect().quirks.user_names()) else {
+        return (name, true);
+    };
+    let parts: Vec<Option<f64>> = crate::own::arguments(inside)
+        .iter()
+        .map(|part| run.value(part))
+        .collect();
+    let shown: Option<Vec<String>> = parts.iter().map(|part| part.map(|value| value.to_string())).collect();
+    match shown {
+        None => (format!("{stem}[{}]", resolved(run, inside)), false),
+        Some(indices) if stem == "R" && indices.len() == 1 => (format!("R{}", indices[0]), true),
+        Some(indices) => (format!("{stem}[{}]", indices.join(",")), true),
     }
 }
 
@@ -108,8 +126,7 @@ fn word_argument(view: &Block<'_>, run: &impl Values, words: &Words, word: &Word
             Some(Role::BlockNumber | Role::ProgramNumber) => return None,
             _ => char::from(letter.to_ascii_uppercase()).to_string(),
         },
-        Address::Named(name) => packed(&program.text(name)),
-        Address::Indexed(..) => stem(view, word),
+        Address::Named(_) | Address::Indexed(..) => full_name(run, view, word).0,
     };
     let letter = match word.address {
         Address::Letter(letter) => words.letter(letter.to_ascii_uppercase()),

@@ -32,6 +32,9 @@ pub(crate) fn first_difference(
         frees_feed: false,
         path_only: false,
         across: false,
+        straight_rapids: false,
+        plane_counts: true,
+        no_rotary: false,
         cuts: false,
         exact: Some(Exact {
             frees_block_numbers: renumbered,

@@ -2,14 +2,15 @@
 //!
 //! What counts is interface section 8.3: geometry, feed, spindle, tool and offsets, coolant, clamps, dwell, stops, path control, outputs,
 //! stored data, and the words of everything that is not modelled.
-use crate::cut::{cut, is_idle};
+use crate::cut::{cut, is_idle, repeats_place};
+use crate::ending::{at_end, stopped};
 use crate::exact::{self, Exact};
-use crate::process::{Process, motion_difference, shown};
-use crate::since::is_after_loss;
-use crate::steps::{Item, Sort, Step, Steps};
+use crate::item::{Item, Sort, Step};
+use crate::process::{motion_difference, shown, stops, unlike};
+use crate::steps::Steps;
 use crate::twins::Twins;
 use crate::verdict::{Difference, Verdict};
-use trunnion_interp::{MotionKind, same_number};
+use trunnion_interp::{MotionKind, Orientation, same_number};
 
 /// What is claimed to be the same.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +25,12 @@ pub struct Claim {
     pub path_only: bool,
     /// The programs are in two languages (APT and G code): what one of them cannot say does not count. Set by [`compare`].
     pub across: bool,
+    /// Rapids of both controls run on straight lines. Set by [`compare`].
+    pub straight_rapids: bool,
+    /// The working plane counts along straight lines too, as the length of the tool lies across it. Set by [`compare`].
+    pub plane_counts: bool,
+    /// Neither program is for a machine with rotary axes, as far as is known. Set by [`compare`].
+    pub no_rotary: bool,
     /// Motions may be cut: a line in two is the line. Off, both programs must have the same motions one by one.
     pub cuts: bool,
     /// Nothing may differ but the layout of the text, or its block numbers: to the last bit, and no tolerance counts.
@@ -48,8 +55,14 @@ pub fn compare(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, jud
     }
     let twins = Twins::of(before.input(), after.input());
     let format = |steps: &Steps<'_>| steps.input().dialect.lex.format;
+    let user_names = |steps: &Steps<'_>| steps.input().dialect.quirks.user_names();
+    let no_rotary = |steps: &Steps<'_>| steps.input().machine.is_none_or(|machine| machine.rotary.is_empty());
+    let straight = |steps: &Steps<'_>| steps.input().dialect.quirks.straight_rapids;
     let claim = &Claim {
         across: claim.across || format(before) != format(after),
+        plane_counts: user_names(before) || user_names(after),
+        no_rotary: no_rotary(before) && no_rotary(after),
+        straight_rapids: straight(before) && straight(after),
         ..*claim
     };
     match walk(before, after, claim, judge, &twins) {
@@ -75,7 +88,7 @@ fn walk(
             Ok(Paired::FirstInPart) => (true, false),
             Ok(Paired::SecondInPart) => (false, true),
             Err(verdict) => {
-                twins.judge(was, is, Err(verdict))?;
+                twins.judge(was, is, Err(undecided(was, is, verdict)))?;
                 (true, true)
             }
         };
@@ -99,6 +112,23 @@ fn walk(
     Ok(())
 }
 
+/// Where one program repeats the place of the motion before, after something that may have moved the machine, that may be no motion at all:
+/// what else is found there is not decided.
+fn undecided(was: &Item, is: &Item, verdict: Verdict) -> Verdict {
+    let repeats = |item: &Item| matches!(item, Item::Motion(step) if repeats_place(step));
+    match verdict {
+        Verdict::Differs(mut found) if repeats(was) != repeats(is) => {
+            let which = if repeats(was) { "before" } else { "after" };
+            found.what = format!(
+                "{}; the program {which} repeats its last place here, and whether that moves the machine is not known",
+                found.what
+            );
+            Verdict::Unknown(found)
+        }
+        verdict => verdict,
+    }
+}
+
 /// How far a comparison of two things got.
 enum Paired {
     /// Both are done.
@@ -114,11 +144,11 @@ fn pair(was: &mut Item, is: &mut Item, claim: &Claim, judge: &mut dyn Judge) -> 
         (Item::Motion(was), Item::Motion(is)) => {
             held(was, is, claim)?;
             if claim.cuts && !ends_together(was, is, claim) {
-                if let Some(off) = cut(is, was, (claim.mm, claim.deg)) {
+                if let Some(off) = cut(is, was, claim) {
                     judge.cut(off);
                     return Ok(Paired::FirstInPart);
                 }
-                if let Some(off) = cut(was, is, (claim.mm, claim.deg)) {
+                if let Some(off) = cut(was, is, claim) {
                     judge.cut(off);
                     return Ok(Paired::SecondInPart);
                 }
@@ -150,13 +180,13 @@ fn at(was: Option<&Item>, is: Option<&Item>, what: String) -> Difference {
 /// What must be the same at two motions before their paths are looked at.
 fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
     let (a, b) = (&was.motion, &is.motion);
-    let differs = |what: String| {
-        Err(Verdict::Differs(Difference {
-            before: Some(a.block),
-            after: Some(b.block),
-            what,
-        }))
+    let place = |what: String| Difference {
+        before: Some(a.block),
+        after: Some(b.block),
+        what,
     };
+    let differs = |what: String| Err(Verdict::Differs(place(what)));
+    let unknown = |what: String| Err(Verdict::Unknown(place(what)));
     if core::mem::discriminant(&a.kind) != core::mem::discriminant(&b.kind) {
         let lost = [a, b].iter().any(|motion| motion.kind == MotionKind::Unknown);
         let verdict = if lost { Verdict::Unknown } else { Verdict::Differs };
@@ -180,32 +210,27 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
     if claim.path_only {
         return Ok(());
     }
-    let held = was.held.difference(&is.held).filter(|_| !claim.across);
+    let straight = |kind: &MotionKind| matches!(kind, MotionKind::Rapid | MotionKind::Linear | MotionKind::Dwell(_));
+    let plane = claim.plane_counts || !straight(&a.kind) || was.held.compensation != 0;
+    let held = was.held.difference(&is.held, plane).filter(|_| !claim.across);
     if let Some((name, from, to)) = held.or_else(|| motion_difference(a, b, !claim.frees_feed)) {
         return differs(format!("{name} differs: {from} and {to}"));
     }
-    match setting(&was.process, &is.process, claim) {
-        Some((key, from, to)) if is_after_loss(&key) => Err(Verdict::Unknown(Difference {
-            before: Some(a.block),
-            after: Some(b.block),
-            what: format!("{key}: {from} and {to}"),
-        })),
-        Some((key, from, to)) => differs(format!("{key} differs: {from} and {to}")),
-        None => Ok(()),
+    if let Some(found) = unlike(&was.process, &is.process, claim.across) {
+        let what = format!("{} differs: {} and {}", found.key, found.from, found.to);
+        if !found.is_restated {
+            return differs(what);
+        }
+        return unknown(what);
     }
-}
-
-/// The first setting that differs and counts.
-fn setting(was: &Process, is: &Process, claim: &Claim) -> Option<(String, String, String)> {
-    let found = if claim.across {
-        was.shared_differences(is)
-    } else {
-        was.differences(is)
-    };
-    found
-        .into_iter()
-        .next()
-        .map(|(key, from, to)| (key.to_owned(), from, to))
+    let turns = a.orientation == Orientation::Words && b.orientation == Orientation::Words;
+    if was.held.vector_mode != is.held.vector_mode && turns && !claim.across {
+        return unknown("only one of them programs the tool's direction by vectors".to_owned());
+    }
+    if a.tcp != b.tcp && claim.no_rotary && !claim.across {
+        return unknown("only one of them is under tool centre point control, and no rotary axes are known".to_owned());
+    }
+    Ok(())
 }
 
 /// A kind of motion in words.
@@ -240,14 +265,14 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
             sort,
             words,
             process,
-            situation,
+            around,
             ..
         },
         Item::Happens {
             sort: other_sort,
             words: other_words,
             process: other_process,
-            situation: other_situation,
+            around: other_around,
             ..
         },
     ) = (was, is)
@@ -272,25 +297,40 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
     if claim.path_only {
         return Ok(());
     }
-    if let (Some(was), Some(is), false) = (situation, other_situation, claim.across) {
-        let found = was.iter().zip(is.iter());
-        let mut found = found;
-        let found = found.find_map(|(was, is)| was.difference(is, !claim.frees_feed));
-        if let Some((name, from, to)) = found {
+    if let (Some(was), Some(is), false) = (around, other_around, claim.across) {
+        let mut pairs = was.situations.iter().zip(&is.situations);
+        let found = pairs.find_map(|(was, is)| was.difference(is, !claim.frees_feed));
+        let found = found.map(|(name, from, to)| (name.to_owned(), from, to));
+        let set = || unlike(&was.process, &is.process, false).map(|found| (found.key, found.from, found.to));
+        if let Some((name, from, to)) = found.or_else(set) {
             return Err(Verdict::Unknown(place(format!(
                 "{name} differs at `{}`, whose effect is not modelled: {from} and {to}",
                 shown(words)
             ))));
         }
     }
-    match setting(process, other_process, claim) {
-        Some((key, from, to)) if is_after_loss(&key) => Err(Verdict::Unknown(place(format!("{key}: {from} and {to}")))),
-        Some((key, from, to)) => Err(Verdict::Differs(place(format!(
-            "{key} differs at `{}`: {from} and {to}",
-            shown(words)
-        )))),
-        None => Ok(()),
+    if let Some(found) = unlike(process, other_process, claim.across) {
+        let what = format!(
+            "{} differs at `{}`: {} and {}",
+            found.key,
+            shown(words),
+            found.from,
+            found.to
+        );
+        return Err(if found.is_restated {
+            Verdict::Unknown(place(what))
+        } else {
+            Verdict::Differs(place(what))
+        });
     }
+    if stops(words) && process.message() != other_process.message() {
+        return Err(Verdict::Unknown(place(format!(
+            "the operator reads another message at the stop: {} and {}",
+            shown(process.message()),
+            shown(other_process.message())
+        ))));
+    }
+    Ok(())
 }
 
 /// One program does something where the other does something else, or nothing more.
@@ -315,61 +355,5 @@ fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
         Verdict::Unknown(place)
     } else {
         Verdict::Differs(place)
-    }
-}
-
-/// Both were followed to their ends.
-fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
-    for (which, steps) in [("before", before), ("after", after)] {
-        if let Some(stop) = steps.stop() {
-            let block = Some(stop.block);
-            return Err(Verdict::Unknown(Difference {
-                before: block.filter(|_| which == "before"),
-                after: block.filter(|_| which == "after"),
-                what: format!("the program {which} was not followed to its end: {}", stop.why),
-            }));
-        }
-    }
-    Ok(())
-}
-
-/// What both leave behind.
-fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
-    let nowhere = |what: String| {
-        Err(Verdict::Differs(Difference {
-            before: None,
-            after: None,
-            what,
-        }))
-    };
-    let (a, b) = (before.stored(), after.stored());
-    for name in a.keys().chain(b.keys().filter(|name| !a.contains_key(*name))) {
-        if a.get(name) != b.get(name) {
-            let value = |value: Option<&trunnion_interp::Value>| match value {
-                None | Some(trunnion_interp::Value::Nothing) => "nothing".to_owned(),
-                Some(trunnion_interp::Value::Number(value)) => value.to_string(),
-                Some(trunnion_interp::Value::Text(text)) => text.to_string(),
-            };
-            return nowhere(format!(
-                "{name} outlives the program and holds {} and {}",
-                value(a.get(name)),
-                value(b.get(name))
-            ));
-        }
-    }
-    if before.leads_tip() != after.leads_tip() {
-        return nowhere("tool centre point control is on at the end of only one of the programs".into());
-    }
-    if let Some((name, from, to)) = before.held().difference(&after.held()) {
-        return nowhere(format!("{name} at the end differs: {from} and {to}"));
-    }
-    match before.process().differences(after.process()).first() {
-        Some((key, from, to)) if is_after_loss(key) => Err(Verdict::Unknown(Difference {
-            before: None,
-            after: None,
-            what: format!("{key}: {from} and {to}"),
-        })),
-        Some((key, from, to)) => nowhere(format!("{key} at the end differs: {from} and {to}")),
-        None => Ok(()),
     }
 }

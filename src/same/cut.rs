@@ -1,5 +1,6 @@
 //! Motions that do nothing, and motions that another program makes in several pieces.
-use crate::steps::Step;
+use crate::compare::Claim;
+use crate::item::Step;
 use trunnion_geometry::arc::Arc;
 use trunnion_interp::{Feed, MotionKind, Orientation, Position, Swivel};
 
@@ -8,8 +9,17 @@ const STANDS: f64 = 1e-9;
 
 /// Whether a motion moves nothing and takes no time of its own: a block that repeats the place before it.
 pub(crate) fn is_idle(step: &Step) -> bool {
+    step.may_repeat && stays(step)
+}
+
+/// Whether a motion repeats the place before it, after something that may have moved the machine.
+pub(crate) fn repeats_place(step: &Step) -> bool {
+    !step.may_repeat && stays(step)
+}
+
+fn stays(step: &Step) -> bool {
     let motion = &step.motion;
-    let stays = |a: &Position, b: &Position| {
+    let same_place = |a: &Position, b: &Position| {
         a.known == b.known
             && (0..9).all(|axis| a.known & (1 << axis) == 0 || (a.values[axis] - b.values[axis]).abs() <= STANDS)
     };
@@ -18,8 +28,7 @@ pub(crate) fn is_idle(step: &Step) -> bool {
         Orientation::Vector(start, end) => start != Some(end),
     };
     let open = step.leg.as_ref().is_some_and(|leg| leg.open.is_some());
-    step.may_repeat
-        && matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear)
+    matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear)
         && !matches!(motion.feed, Feed::InverseTime(_))
         && motion.tilt.swivel == Swivel::No
         && motion.tilt.free == 0
@@ -29,7 +38,7 @@ pub(crate) fn is_idle(step: &Step) -> bool {
         && !motion.machine_coordinates
         && step.process.get("coordinates").is_empty()
         && !open
-        && stays(&motion.start, &motion.end)
+        && same_place(&motion.start, &motion.end)
         && !is_coupled(step)
 }
 
@@ -52,7 +61,8 @@ fn may_be_cut(step: &Step) -> bool {
 
 /// Cuts `long` where `short` ends, if that lies on it within `mm` and `deg`: then `long` becomes what is left of it, and the largest
 /// distance of the point from it is returned (mm or deg).
-pub(crate) fn cut(long: &mut Step, short: &Step, (mm, deg): (f64, f64)) -> Option<f64> {
+pub(crate) fn cut(long: &mut Step, short: &Step, claim: &Claim) -> Option<f64> {
+    let (mm, deg) = (claim.mm, claim.deg);
     if !may_be_cut(long) || !may_be_cut(short) {
         return None;
     }
@@ -70,7 +80,7 @@ pub(crate) fn cut(long: &mut Step, short: &Step, (mm, deg): (f64, f64)) -> Optio
         (MotionKind::Rapid, MotionKind::Rapid) => {
             // axes of a rapid may run each for itself: then its path is straight only where one axis moves
             let moving = (0..9).filter(|axis| (motion.end.values[*axis] - motion.start.values[*axis]).abs() > STANDS);
-            if moving.count() != 1 {
+            if !claim.straight_rapids && moving.count() != 1 {
                 return None;
             }
             straight_share(motion.start, motion.end, point)

@@ -7,8 +7,10 @@
 //! It does not know rules, rewrites or text for people beyond the one sentence of a [`Difference`].
 mod compare;
 mod cut;
+mod ending;
 mod exact;
 mod input;
+mod item;
 mod near;
 mod notes;
 mod process;
@@ -20,8 +22,9 @@ mod verdict;
 pub use compare::{Claim, Judge, compare};
 pub use exact::Exact;
 pub use input::Input;
+pub use item::{Item, Sort, Step, Stop};
 pub use near::{Near, arcs_apart};
 pub use process::{Held, Process, offset_name, shown};
-pub use steps::{Item, Sort, Step, Steps, Stop};
+pub use steps::Steps;
 pub use twins::run_alike;
 pub use verdict::{Difference, Verdict};

@@ -1,6 +1,6 @@
 //! Two motions that lead the same way within tolerances, by what is programmed and, with a machine, by what the machine does.
 use crate::compare::Judge;
-use crate::steps::Step;
+use crate::item::Step;
 use crate::verdict::{Difference, Verdict};
 use trunnion_geometry::arc::Arc;
 use trunnion_geometry::math::angle_between;

@@ -1,58 +1,70 @@
 //! What is noted at a block beside its effects: what something that is not modelled could read, and words that restate what may be lost.
-use crate::since::{is_own_code, keeps_place, writes_control};
+use crate::item::{Around, Waits};
+use crate::process::Process;
+use crate::since::{keeps_place, writes_control};
 use crate::steps::Steps;
 use std::sync::Arc;
 use trunnion_dialect::Role;
-use trunnion_interp::{Argument, Effect, Placed, Sink as _, Situation};
+use trunnion_interp::{Argument, Effect, Situation};
 use trunnion_syntax::{Address, BlockId, Format, Item as AnyItem, Value as SyntaxValue};
 
 impl Steps<'_> {
-    /// Gives the effects of a block that something else may decide what that may read. `effects`: how many there were before the block.
-    pub(super) fn note_situation(&mut self, before: Situation, effects: u32, lost: bool) {
-        let own_code = |effect: &Effect| self.input.dialect.quirks.rs274() && is_own_code(effect);
-        let counts = |effect: &Effect| matches!(effect, Effect::Unmodelled(_)) || own_code(effect);
-        // while motions are held back the effects before this block wait too
-        let new = self.run.effects.partition_point(|(index, ..)| *index < effects);
-        let fresh = self.run.effects.range(new..);
-        let own = fresh.clone().any(|(_, placed, _)| own_code(&placed.effect));
-        let opaque = fresh.clone().any(|(_, placed, _)| counts(&placed.effect));
-        let first = fresh.map(|(_, placed, _)| placed.block).next();
+    /// Gives the effects of a block that something else may decide what that may read. `before`: what was in force and set before the
+    /// block; `effects`: how many effects there were; `own_locals`: what runs there begins with local variables of its own.
+    pub(super) fn note_situation(
+        &mut self,
+        before: (Situation, Arc<Process>),
+        effects: u32,
+        lost: bool,
+        own_locals: bool,
+    ) {
+        // in order of `before`; while motions are held back, what came before this block waits too
+        let new = self.run.waiting.partition_point(|waiting| waiting.before <= effects);
+        let mut own = false;
+        let mut opaque = false;
+        for waiting in self.run.waiting.range(new..) {
+            own |= waiting.is_own_code();
+            opaque |= waiting.is_unmodelled() || waiting.is_own_code();
+        }
         if opaque {
-            let situation = Arc::new([before, self.interpreter.situation()]);
+            let around = Arc::new(Around {
+                situations: [before.0, self.interpreter.situation()],
+                process: before.1,
+            });
             let mut variables = (lost || own).then(|| self.interpreter.known_variables());
-            for (_, placed, at) in self.run.effects.range_mut(new..) {
-                if !(matches!(placed.effect, Effect::Unmodelled(_)) || is_own_code(&placed.effect)) {
+            if let Some(variables) = variables.as_mut().filter(|_| own_locals) {
+                variables.retain(|variable| !is_local(&variable.name));
+            }
+            for waiting in self.run.waiting.range_mut(new..) {
+                if !(waiting.is_unmodelled() || waiting.is_own_code()) {
                     continue;
                 }
-                *at = Some(Arc::clone(&situation));
-                if let (Effect::Unmodelled(words) | Effect::Event(words), Some(variables)) =
-                    (&mut placed.effect, variables.take())
+                waiting.around = Some(Arc::clone(&around));
+                if let (Waits::Effect(Effect::Unmodelled(words) | Effect::Event(words), _), Some(variables)) =
+                    (&mut waiting.what, variables.take())
                 {
                     words.extend(variables);
                 }
             }
         }
-        for (_, placed, _) in self.run.effects.range_mut(new..) {
-            match &mut placed.effect {
-                Effect::Set { to: words, .. } if words.is_empty() => {}
-                Effect::Set { to: words, .. } | Effect::Event(words) | Effect::Unmodelled(words) => {
+        for waiting in self.run.waiting.range_mut(new..) {
+            match &mut waiting.what {
+                Waits::Effect(Effect::Set { to: words, .. }, _) if words.is_empty() => {}
+                Waits::Effect(Effect::Set { to: words, .. } | Effect::Event(words) | Effect::Unmodelled(words), _) => {
                     self.interpreter.add_values(words);
                 }
-                Effect::Store(_) | Effect::End(_) => {}
+                Waits::Effect(Effect::Store(_) | Effect::End(_), _) | Waits::Restated(..) | Waits::Lost => {}
             }
         }
         if lost || own {
-            let block = first.unwrap_or(BlockId(0));
-            for key in self.since.lose() {
-                let effect = Effect::set(key, []);
-                self.run.effect(Placed { block, effect });
-            }
+            self.since.lost = true;
+            self.run.wait(self.run.count + 1, BlockId(0), Waits::Lost);
         }
     }
 
     /// Words of a block of the main program: what they restate counts where everything was unknown, and what they change may move the
     /// coordinates.
-    pub(super) fn note_block(&mut self, block: BlockId, lost: bool) {
+    pub(super) fn note_block(&mut self, block: BlockId, effects: u32, lost: bool) {
         let (program, dialect) = (self.input.program, self.input.dialect);
         if program.options().format == Format::Apt {
             return;
@@ -77,7 +89,7 @@ impl Steps<'_> {
                             Some(Role::G) => dialect.g(tenths),
                             _ => dialect.m(tenths),
                         });
-                        self.since.disturbed |= code.is_none_or(|code| !keeps_place(code));
+                        self.since.disturbed |= code.is_none_or(|code| !keeps_place(code, dialect));
                         let Some(code) = code else { continue };
                         let key = code.group.clone().unwrap_or_else(|| code.id.clone());
                         (key, code.id.clone())
@@ -91,7 +103,7 @@ impl Steps<'_> {
                 }
                 AnyItem::Call(call) => {
                     let code = dialect.name(&program.text(call.name));
-                    self.since.disturbed |= code.is_none_or(|code| !keeps_place(code));
+                    self.since.disturbed |= code.is_none_or(|code| !keeps_place(code, dialect));
                     let Some(code) = code else { continue };
                     let key = code.group.clone().unwrap_or_else(|| code.id.clone());
                     (key, code.id.clone())
@@ -102,10 +114,73 @@ impl Steps<'_> {
                 }
                 _ => continue,
             };
-            if !lost && let Some(key) = self.since.restated(&key) {
-                let effect = Effect::set(key, [Argument::text("", &trunnion_interp::canonical_text(&to))]);
-                self.run.effect(Placed { block, effect });
+            if !lost && self.since.lost {
+                let to = vec![Argument::text("", &trunnion_interp::canonical_text(&to))];
+                // before the motion of its block
+                self.run.wait(effects, block, Waits::Restated(key, to));
             }
         }
+    }
+}
+
+/// #1 to #33 of Macro B.
+fn is_local(name: &str) -> bool {
+    let number = name.strip_prefix('#').and_then(|digits| digits.parse::<u32>().ok());
+    number.is_some_and(|number| number <= 33)
+}
+
+/// A text in which variables of Macro B with a known value are replaced by it.
+pub(super) fn with_values(text: &str, known: &[Argument]) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find('#') {
+        let digits = rest[at + 1..].bytes().take_while(u8::is_ascii_digit).count();
+        let (name, after) = rest[at..].split_at(1 + digits);
+        out.push_str(&rest[..at]);
+        match known
+            .iter()
+            .find(|variable| variable.name == name)
+            .map(|variable| &variable.value)
+        {
+            Some(trunnion_interp::Value::Number(value)) => out.push_str(&value.to_string()),
+            _ => out.push_str(name),
+        }
+        rest = after;
+    }
+    out + rest
+}
+
+/// The words of a macro call in one order. I, J and K keep theirs, which says to which variables they go (Series 30i operator's manual,
+/// custom macro, argument specification II).
+pub(super) fn arguments_in_order(text: &str) -> String {
+    let mut words: Vec<String> = Vec::new();
+    let mut deep = 0;
+    for sign in text.chars() {
+        match words.last_mut() {
+            Some(word) if deep > 0 || !sign.is_ascii_alphabetic() => word.push(sign),
+            _ => words.push(sign.to_string()),
+        }
+        deep += i32::from(sign == '[') - i32::from(sign == ']');
+    }
+    // the code and its program come first, as people write a call
+    let key = |word: &String| match word.as_bytes().first() {
+        Some(b'G') => 0,
+        Some(b'P') => 1,
+        Some(b'I' | b'J' | b'K') => b'I',
+        first => first.copied().unwrap_or_default(),
+    };
+    words.sort_by_key(key);
+    words.concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::arguments_in_order;
+
+    #[test]
+    fn arguments_of_a_macro_have_no_order_but_i_j_k() {
+        let [one, other] = ["G65P100B[#500*ABS[2]]A1", "G65A1P100B[#500*ABS[2]]"].map(arguments_in_order);
+        assert_eq!(one, other);
+        assert_ne!(arguments_in_order("G65P1I1J2"), arguments_in_order("G65P1J2I1"));
     }
 }

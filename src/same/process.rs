@@ -9,6 +9,21 @@ use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, Posture, sam
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Process {
     settings: BTreeMap<Cow<'static, str>, Vec<Argument>>,
+    /// Words by their group that were said after something ran that may have changed everything modal: with or without them, something
+    /// else may be in force.
+    restated: BTreeMap<String, Vec<Argument>>,
+}
+
+/// The text on the screen: it counts where the program stops with it.
+const MESSAGE: &str = "message";
+
+/// A setting that differs.
+pub(crate) struct Unlike {
+    pub(crate) key: String,
+    pub(crate) from: String,
+    pub(crate) to: String,
+    /// What is in force is not known: the words were said after something ran that may have changed it.
+    pub(crate) is_restated: bool,
 }
 
 impl Process {
@@ -26,6 +41,25 @@ impl Process {
         true
     }
 
+    /// A word of a group was said again; see [`Self::restated`].
+    pub(crate) fn restate(this: &mut Arc<Self>, group: String, to: Vec<Argument>) {
+        if this.restated.get(&group) != Some(&to) {
+            Arc::make_mut(this).restated.insert(group, to);
+        }
+    }
+
+    /// Everything modal is unknown from here on.
+    pub(crate) fn lose_restated(this: &mut Arc<Self>) {
+        if !this.restated.is_empty() {
+            Arc::make_mut(this).restated.clear();
+        }
+    }
+
+    /// The message on the screen.
+    pub(crate) fn message(&self) -> &[Argument] {
+        self.get(MESSAGE)
+    }
+
     /// What a key is set to; empty where it is not set.
     pub fn get(&self, key: &str) -> &[Argument] {
         self.settings.get(key).map_or(&[], Vec::as_slice)
@@ -33,10 +67,8 @@ impl Process {
 
     /// All settings as people read them, in the order of their keys.
     pub fn settings(&self) -> Vec<(String, String)> {
-        self.settings
-            .iter()
-            .map(|(key, to)| (key.to_string(), shown(to)))
-            .collect()
+        let settings = self.settings.iter().filter(|(key, _)| *key != MESSAGE);
+        settings.map(|(key, to)| (key.to_string(), shown(to))).collect()
     }
 
     /// Whether the spindle is known to stand still: then its speed does nothing.
@@ -63,11 +95,45 @@ impl Process {
             .keys()
             .chain(other.settings.keys().filter(|key| !self.settings.contains_key(*key)));
         let idle = self.spindle_stands() && other.spindle_stands();
-        keys.filter(|key| self.get(key) != other.get(key))
+        keys.filter(|key| *key != MESSAGE && self.get(key) != other.get(key))
             .filter(|key| !(idle && (key.starts_with("speed") && !key.contains('$'))))
             .map(|key| (key.as_ref(), shown(self.get(key)), shown(other.get(key))))
             .collect()
     }
+}
+
+/// The first setting that differs and counts; `shared`: only those that APT and G code share do.
+pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike> {
+    let found = if shared {
+        was.shared_differences(is)
+    } else {
+        was.differences(is)
+    };
+    if let Some((key, from, to)) = found.into_iter().next() {
+        return Some(Unlike {
+            key: key.to_owned(),
+            from,
+            to,
+            is_restated: false,
+        });
+    }
+    let groups = was.restated.keys().chain(is.restated.keys());
+    let mut groups = groups.filter(|group| was.restated.get(*group) != is.restated.get(*group));
+    let group = groups.next().filter(|_| !shared)?;
+    let said = |process: &Process| shown(process.restated.get(group).map_or(&[], Vec::as_slice));
+    Some(Unlike {
+        key: format!("{group} after a program that is not known"),
+        from: said(was),
+        to: said(is),
+        is_restated: true,
+    })
+}
+
+/// Whether an event stops the program, so that the operator reads the message on the screen.
+pub(crate) fn stops(words: &[Argument]) -> bool {
+    words
+        .first()
+        .is_some_and(|word| matches!(word.name.as_ref(), "M0" | "M1"))
 }
 
 /// Words as people read them.
@@ -91,6 +157,8 @@ pub struct Held {
     pub plane: Plane,
     /// Radius of the tool if it is declared to be a ball, mm.
     pub ball_radius: Option<f64>,
+    /// I, J and K are the tool's direction (Fanuc G43.5).
+    pub vector_mode: bool,
 }
 
 /// A work offset by one name: G110 to G129 of a Haas are G154 P1 to P20 (Haas mill operator's manual, G154).
@@ -110,6 +178,7 @@ impl Held {
             compensation: state.compensation,
             length_of: state.length_of,
             plane: state.plane,
+            vector_mode: state.vector_mode,
             ball_radius: match state.tool_shape() {
                 Some((trunnion_interp::ToolShape::Ball, diameter)) => Some(0.5 * diameter),
                 _ => None,
@@ -117,8 +186,8 @@ impl Held {
         }
     }
 
-    /// The first field that differs: name, before, after.
-    pub(crate) fn difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
+    /// The first field that differs: name, before, after. `plane`: whether the working plane counts.
+    pub(crate) fn difference(&self, other: &Self, plane: bool) -> Option<(&'static str, String, String)> {
         let offset = |held: &Self| held.work_offset.as_deref().unwrap_or("none").to_owned();
         let side = |held: &Self| match held.compensation {
             0 => "off".to_owned(),
@@ -128,7 +197,7 @@ impl Held {
             Some(("the work offset", offset(self), offset(other)))
         } else if self.compensation != other.compensation {
             Some(("the side of the cutter radius compensation", side(self), side(other)))
-        } else if self.plane != other.plane {
+        } else if plane && self.plane != other.plane {
             let name = |plane| match plane {
                 Plane::Xy => "G17",
                 Plane::Zx => "G18",

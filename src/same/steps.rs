@@ -1,85 +1,17 @@
 //! A program as a stream of what it does: nothing is kept but what the block in hand has brought.
 use crate::input::Input;
+use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
+use crate::notes::{arguments_in_order, with_values};
 use crate::process::{Held, Process};
-use crate::since::{Since, disturbs};
+use crate::since::Since;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
-use trunnion_interp::Situation;
 use trunnion_interp::{
-    Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, Placed, ProgramRun as _, Sink, Value,
+    Argument, Effect, Fault, FaultKind, Frame, Interpreter, ModalState, Motion, Placed, ProgramRun as _, Reach, Sink,
+    Value,
 };
 use trunnion_machine::{Follower, Leg};
 use trunnion_syntax::BlockId;
-
-/// A motion with everything that is in force.
-#[derive(Clone, Debug)]
-pub struct Step {
-    /// As programmed.
-    pub motion: Motion,
-    /// What the machine does; `None` without a machine.
-    pub leg: Option<Leg>,
-    /// What the modal state holds.
-    pub held: Held,
-    /// What else is in force.
-    pub process: Arc<Process>,
-    /// Since the motion before, nothing may have changed where its coordinates lie: a block that repeats the place does not move.
-    pub may_repeat: bool,
-    /// It is a part of a motion of the program, up to a point at which the other program has one.
-    pub is_part: bool,
-}
-
-/// What an [`Item::Happens`] is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sort {
-    /// A stop, an output, data written to the control.
-    Event,
-    /// The program's end.
-    End,
-    /// Words whose effect is not modelled.
-    Unmodelled,
-}
-
-/// What a program does.
-#[derive(Clone, Debug)]
-pub enum Item {
-    /// A motion.
-    Motion(Box<Step>),
-    /// Something else.
-    Happens {
-        /// The block.
-        block: BlockId,
-        /// What it is.
-        sort: Sort,
-        /// Its words.
-        words: Vec<Argument>,
-        /// What is in force.
-        process: Arc<Process>,
-        /// What something that is not modelled may read: before and after its block.
-        situation: Option<Arc<[Situation; 2]>>,
-    },
-}
-
-impl Item {
-    /// The block of the main program.
-    pub fn block(&self) -> BlockId {
-        match self {
-            Self::Motion(step) => step.motion.block,
-            Self::Happens { block, .. } => *block,
-        }
-    }
-}
-
-/// Where and why a run stopped before the end of its program.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Stop {
-    /// The block.
-    pub block: BlockId,
-    /// Why.
-    pub why: String,
-}
-
-/// What is in force before and after the block of an effect, where something that is not modelled may read it.
-pub(crate) type Around = Option<Arc<[Situation; 2]>>;
 
 /// Runs a program and yields what it does.
 pub struct Steps<'a> {
@@ -95,10 +27,10 @@ pub struct Steps<'a> {
 pub(crate) struct Run<'a> {
     follower: Option<Follower<'a>>,
     motions: VecDeque<(Motion, Option<Leg>, Held)>,
-    pub(crate) effects: VecDeque<(u32, Placed, Around)>,
+    pub(crate) waiting: VecDeque<Waiting>,
     /// Effects so far.
-    count: u32,
-    process: Arc<Process>,
+    pub(crate) count: u32,
+    pub(crate) process: Arc<Process>,
     stores: BTreeMap<String, Value>,
     stop: Option<Stop>,
     /// So many motions of one block (a pecking cycle with a tiny Q), and things without a motion between them, are kept, with all that is in
@@ -142,12 +74,27 @@ impl Sink for Run<'_> {
         if let Some(log) = &mut self.log {
             log.push((self.count, effect.clone()));
         }
-        self.effects.push_back((self.count, effect, None));
         self.count += 1;
+        let Placed { block, effect, reach } = effect;
+        self.wait(self.count, block, Waits::Effect(effect, reach));
     }
 }
 
 impl Run<'_> {
+    /// Keeps something until the motions before it are known; `before`: how many effects come before the motions that follow it.
+    pub(crate) fn wait(&mut self, before: u32, block: BlockId, what: Waits) {
+        let at = self.waiting.partition_point(|other| other.before <= before);
+        let around = None;
+        self.waiting.insert(
+            at,
+            Waiting {
+                before,
+                block,
+                what,
+                around,
+            },
+        );
+    }
     /// The block makes more motions than are kept: the run ends with it, and those who watch faults get one.
     #[cold]
     fn give_up(&mut self, block: BlockId) {
@@ -192,7 +139,7 @@ impl<'a> Steps<'a> {
             run: Run {
                 follower: input.machine.map(Follower::new),
                 motions: VecDeque::new(),
-                effects: VecDeque::new(),
+                waiting: VecDeque::new(),
                 count: 0,
                 process: Arc::default(),
                 stores: BTreeMap::new(),
@@ -314,6 +261,7 @@ impl<'a> Steps<'a> {
         }
         let before = self.interpreter.situation();
         let (losses, effects) = (self.interpreter.losses(), self.run.count);
+        let settings = Arc::clone(&self.run.process);
         let block = self.interpreter.advance(self.input.program, &mut self.run);
         self.over = block.is_none() || self.run.given_up;
         if let Some(block) = block
@@ -321,7 +269,7 @@ impl<'a> Steps<'a> {
         {
             *word |= 1 << (block.0 % 64);
         }
-        let mut missing = false;
+        let (mut missing, mut own_locals) = (false, false);
         for block in std::mem::take(&mut self.run.missing) {
             let text = self.input.program.text(self.input.program.block(block).range());
             let text = if self.input.dialect.quirks.user_names() {
@@ -330,16 +278,25 @@ impl<'a> Steps<'a> {
                     .resolved_text(text.split(';').next().unwrap_or_default())
             } else {
                 let text = trunnion_interp::canonical_text(&text);
-                self.interpreter.resolved_text(&text)
+                let text = self.interpreter.resolved_text(&text);
+                let macro_call = self.input.dialect.quirks.macro_b() && text.contains("G65");
+                own_locals |= macro_call;
+                if macro_call {
+                    arguments_in_order(&with_values(&text, &self.interpreter.known_variables()))
+                } else {
+                    text
+                }
             };
             let effect = Effect::Unmodelled(vec![Argument::text("", &text)]);
-            self.run.effect(Placed { block, effect });
+            // after the motion of its block
+            self.run
+                .wait(self.run.count + 1, block, Waits::Effect(effect, Reach::Place));
             missing = true;
         }
         let lost = missing || self.interpreter.losses() != losses;
-        self.note_situation(before, effects, lost);
+        self.note_situation((before, settings), effects, lost, own_locals);
         if let Some(block) = block {
-            self.note_block(block, lost);
+            self.note_block(block, effects, lost);
         }
         while let Some((motion, leg, held)) = self.run.motions.pop_front() {
             self.effects_before(motion.effects);
@@ -359,14 +316,25 @@ impl<'a> Steps<'a> {
         block
     }
 
-    /// Applies the effects that come before the motion that was made after so many.
+    /// Applies what comes before a motion that was made after so many effects.
     fn effects_before(&mut self, count: u32) {
         let run = &mut self.run;
-        while run.effects.front().is_some_and(|(index, ..)| *index < count) {
-            let Some((_, Placed { block, effect }, situation)) = run.effects.pop_front() else {
-                return;
+        while let Some(next) = run.waiting.pop_front_if(|next| next.before <= count) {
+            let Waiting {
+                block, what, around, ..
+            } = next;
+            let (effect, reach) = match what {
+                Waits::Effect(effect, reach) => (effect, reach),
+                Waits::Restated(group, to) => {
+                    Process::restate(&mut run.process, group, to);
+                    continue;
+                }
+                Waits::Lost => {
+                    Process::lose_restated(&mut run.process);
+                    continue;
+                }
             };
-            self.since.disturbed |= disturbs(&effect);
+            self.since.disturbed |= reach != Reach::Itself;
             let (sort, words) = match effect {
                 Effect::Set { key, to } => {
                     // a spindle that starts, stops or reverses does so at once, whether or not a motion follows
@@ -389,7 +357,7 @@ impl<'a> Steps<'a> {
                 sort,
                 words,
                 process: Arc::clone(&run.process),
-                situation,
+                around,
             });
         }
     }

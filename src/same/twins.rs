@@ -1,7 +1,8 @@
 //! Two programs with the same text: what is unknown in both is unknown for one reason, and is no difference between them.
 use crate::exact::same_motion;
 use crate::input::Input;
-use crate::steps::{Item, Steps};
+use crate::item::Item;
+use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
 use trunnion_syntax::Format;
 

@@ -115,6 +115,27 @@ impl Effect {
     }
 }
 
+/// What an effect may change beside what it says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// Nothing.
+    Itself,
+    /// Where the machine is, or where its coordinates lie.
+    Place,
+    /// It runs a program of the user, which may read and change whatever is modal.
+    Everything,
+}
+
+impl Effect {
+    /// What an effect may change where its code does not say otherwise: a setting and a stored value are only what they say.
+    pub fn usual_reach(&self) -> Reach {
+        match self {
+            Self::Set { .. } | Self::Store(_) | Self::End(_) => Reach::Itself,
+            Self::Event(_) | Self::Unmodelled(_) => Reach::Place,
+        }
+    }
+}
+
 /// An effect and where it comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
@@ -122,4 +143,6 @@ pub struct Placed {
     pub block: trunnion_syntax::BlockId,
     /// What happens.
     pub effect: Effect,
+    /// What it may change.
+    pub reach: Reach,
 }

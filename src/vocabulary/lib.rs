@@ -2,6 +2,7 @@
 //!
 //! It knows neither dialects nor machines, and runs nothing.
 mod action;
+mod action_kind;
 mod chain;
 mod clamps;
 mod effect;
@@ -15,7 +16,7 @@ mod sink;
 pub use action::{Action, Plane};
 pub use chain::{ChainId, Frame};
 pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
-pub use effect::{Argument, Effect, Placed, Value, same_number};
+pub use effect::{Argument, Effect, Placed, Reach, Value, same_number};
 pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
 pub use library::{Files, Limits, Loaded};
 pub use modal::{FeedMode, LengthOf, ModalState};

@@ -193,6 +193,13 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// A declared work offset by its name, in either case.
+    pub fn work_offset(&self, name: &str) -> Option<&WorkOffset> {
+        self.work_offsets
+            .iter()
+            .find(|offset| offset.name.eq_ignore_ascii_case(name))
+    }
+
     /// By how much 1 mm of tool length shifts the words of X, Y and Z while they are joints.
     pub fn length_along(&self) -> [f64; 3] {
         self.control.length_along.unwrap_or([0.0, 0.0, 1.0])

@@ -3,7 +3,7 @@
 //! Each strategy is five blocks, printed as Sinumerik words and as APT vectors. Angles deg, lengths mm, feeds mm/min.
 use std::fmt::Write;
 use std::path::Path;
-use trunnion::check::{Diagnostic, Settings, ValueKey, check};
+use trunnion::check::{Assume, Diagnostic, Settings, ValueKey, check};
 use trunnion::dialect::{Dialect, builtin as dialect};
 use trunnion::interp::{ModalState, Motion, Setup, Sink, run};
 use trunnion::machine::{Follower, Leg, Machine, Row, builtin as machine, row, tip_deviation};
@@ -55,7 +55,8 @@ fn named(name: &str) -> &'static Dialect {
 fn found(text: &str, name: &str, machine: &Machine) -> Vec<Diagnostic> {
     let dialect = named(name);
     let program = parse(text.as_bytes().to_vec(), dialect.lex);
-    let settings = Settings::new(dialect, Some(machine), Setup::default());
+    let mut settings = Settings::new(dialect, Some(machine), Setup::default());
+    settings.assume = Assume::ALL;
     check(&program, &settings).diagnostics
 }
 

@@ -64,6 +64,7 @@ impl Encode for Quirks {
             cutter_offset_ambiguous,
             delete_rest,
             dwell_then_moves,
+            straight_rapids,
             machine_data_suppress_length,
         } = self;
         let has = |wanted: Language| *language == wanted;
@@ -95,7 +96,8 @@ impl Encode for Quirks {
                 .field(24, dwell_then_moves)
                 .field(25, &has(Language::MacroB))
                 .field(26, machine_data_suppress_length)
-                .field(27, &(*macros == Macros::Fanuc).then_some(true));
+                .field(27, &(*macros == Macros::Fanuc).then_some(true))
+                .field(28, &straight_rapids.then_some(true));
         });
     }
 }

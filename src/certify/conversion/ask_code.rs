@@ -43,7 +43,7 @@ fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
         return judged;
     }
     match code.action {
-        action if in_motions(action) => Motions,
+        action if action.is_in_motions() => Motions,
         Action::BoreCycle | Action::BoreStopCycle | Action::DrillCycle => Motions,
         Action::SpindleStop if head(text) == "M5" => Motions,
         Action::SpindleStop => Own(Why::Oriented),
@@ -88,96 +88,6 @@ fn why(code: &Code, held: Held, text: &str, dialect: &Dialect) -> Judged {
         Action::PathMode | Action::NoMotion => quiet(code, held, text),
         _ => Own(Why::Machine),
     }
-}
-
-/// Actions whose whole effect is in the motions and in the feeds, tools, offsets and spindle speeds that are compared with them.
-#[expect(clippy::too_many_lines, reason = "one row for each action")]
-fn in_motions(action: Action) -> bool {
-    matches!(
-        action,
-        Action::Rapid
-            | Action::Linear
-            | Action::ArcClockwise
-            | Action::ArcCounterClockwise
-            | Action::Dwell
-            | Action::PlaneXy
-            | Action::PlaneZx
-            | Action::PlaneYz
-            | Action::Absolute
-            | Action::Incremental
-            | Action::ArcCentreAbsolute
-            | Action::ArcCentreIncremental
-            | Action::Inch
-            | Action::InchLengthsOnly
-            | Action::Metric
-            | Action::FeedInverseTime
-            | Action::FeedPerMinute
-            | Action::FeedPerRevolution
-            | Action::CompensationOff
-            | Action::CompensationLeft
-            | Action::CompensationRight
-            | Action::ToolLengthOn
-            | Action::ToolLengthOff
-            | Action::TcpOn
-            | Action::TcpVectorOn
-            | Action::TcpOff
-            | Action::Kinematics
-            | Action::MachineCoordinates
-            | Action::WorkOffset
-            | Action::WorkOffsetNone
-            | Action::SpindleClockwise
-            | Action::SpindleCounterClockwise
-            | Action::ToolChange
-            | Action::ProgramEnd
-            | Action::FrameChange
-            | Action::FrameLost
-            | Action::DiameterSwitch
-            | Action::ProgrammableShift
-            | Action::FrameReset
-            | Action::TiltedPlane
-            | Action::TiltedPlaneTurn
-            | Action::TiltedPlaneTurnTip
-            | Action::SwivelCycle
-            | Action::Declaration
-            | Action::DrillDwellCycle
-            | Action::PeckCycle
-            | Action::ChipBreakCycle
-            | Action::ReturnInitial
-            | Action::ReturnToR
-            | Action::LocalShift
-            | Action::PositionPreset
-            | Action::RotationOn
-            | Action::RotationOff
-            | Action::ScalingOn
-            | Action::ScalingOff
-            | Action::MirrorOn
-            | Action::MirrorOff
-            | Action::PolarOn
-            | Action::PolarOff
-            | Action::ReferenceCheck
-            | Action::ReferenceReturn
-            | Action::ReferenceReturnOther
-            | Action::ReferenceFrom
-            | Action::CirclePocket
-            | Action::BoltCircle
-            | Action::BoltArc
-            | Action::BoltLine
-            | Action::TurningCycle
-            | Action::FacingCycle
-            | Action::FinishCycle
-            | Action::RoughTurnCycle
-            | Action::RoughFaceCycle
-            | Action::PatternRepeatCycle
-            | Action::FacePeckCycle
-            | Action::GroovePeckCycle
-            | Action::CycleOff
-            | Action::SubprogramCall
-            | Action::OrientationAxes
-            | Action::OrientationVector
-            | Action::PointToPoint
-            | Action::PointToPointRapid
-            | Action::ContinuousPath
-    )
 }
 
 /// Whether a code that is not modelled couples the motion to the spindle.

@@ -7,7 +7,7 @@ use trunnion_dialect::Dialect;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{
     AllClampCodes, ChainId, Fault, FaultKind, Feed, Interpreter, LengthOf, ModalState, Motion, MotionKind, Orientation,
-    ProgramRun, Refusal, Setup, Sink, Swivel, Tilt, Tool, WorkOffset,
+    ProgramRun, Refusal, Setup, Sink, Swivel, Tilt, Tool,
 };
 use trunnion_machine::{Follower, Joints, Leg, Machine, Pose, forward};
 use trunnion_syntax::{BlockId, Format, Program, parse};
@@ -240,7 +240,7 @@ impl Sink for Collector<'_> {
             length_of: state.length_of,
             square,
             counter_clockwise: None,
-            shift: shift(motion, state, self.setup),
+            shift: shift(motion, state, self.setup, if self.is_apt { "G54" } else { "G500" }),
             work_offset: state.work_offset.clone(),
         });
     }
@@ -308,13 +308,10 @@ impl Collector<'_> {
     }
 }
 
-/// What the zero point has beside the declared values of the work offset.
-fn shift(motion: &Motion, state: &ModalState, setup: &Setup) -> [f64; 9] {
-    let declared = state.work_offset.as_deref().and_then(|name| {
-        let known = |offset: &&WorkOffset| offset.name.eq_ignore_ascii_case(name);
-        setup.work_offsets.iter().find(known)
-    });
-    let base = declared.map_or([0.0; 9], |offset| offset.values);
+/// What the zero point has beside the declared values of the work offset; `unnamed`: the offset in force where the program names none.
+fn shift(motion: &Motion, state: &ModalState, setup: &Setup, unnamed: &str) -> [f64; 9] {
+    let name = state.work_offset.as_deref().unwrap_or(unnamed);
+    let base = setup.work_offset(name).map_or([0.0; 9], |offset| offset.values);
     core::array::from_fn(|axis| motion.zero[axis] - base[axis])
 }
 

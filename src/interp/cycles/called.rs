@@ -10,7 +10,7 @@ use crate::codes::{BlockCodes, Found, not_modelled};
 use crate::core::Report;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{FaultKind, Feed, FeedMode, Motion, MotionKind};
+use crate::{Argument, FaultKind, Feed, FeedMode, Motion, MotionKind};
 use std::sync::Arc;
 use trunnion_syntax::TextRange;
 
@@ -76,11 +76,13 @@ pub(crate) struct HoleCall {
     numbers: Vec<Given>,
     /// Numbers that are there have no meaning here.
     further: bool,
+    /// The call as it is compared where its motions are not known.
+    pub(crate) said: Argument,
 }
 
 impl HoleCall {
     /// The call of a cycle; `None`: none of those that are known.
-    pub(crate) fn new(id: &str, numbers: Vec<Given>) -> Option<Self> {
+    pub(crate) fn new(id: &str, numbers: Vec<Given>, said: Argument) -> Option<Self> {
         let (id, sort, known) = *CYCLES.iter().find(|(name, ..)| *name == id)?;
         let rest = numbers.get(known..).unwrap_or_default();
         let further = rest.iter().any(|given| given.or_zero() != Some(0.0));
@@ -89,6 +91,7 @@ impl HoleCall {
             sort,
             numbers,
             further,
+            said,
         })
     }
     fn number(&self, place: usize) -> Given {
@@ -121,8 +124,10 @@ impl Iso<'_> {
         report: &mut Report<'_>,
     ) {
         if let Some(found) = block.hole_call.and_then(|at| codes.get(at)) {
-            let numbers = self.call_numbers(&report.program.text(found.range));
-            let call = HoleCall::new(&found.code.id, numbers).filter(|_| !words.axes.any());
+            let text = report.program.text(found.range);
+            let numbers = self.call_numbers(&text);
+            let said = crate::written::call_argument(&found.code.id, &crate::written::resolved(self, &text));
+            let call = HoleCall::new(&found.code.id, numbers, said).filter(|_| !words.axes.any());
             let Some(call) = call else {
                 not_modelled(found, report);
                 self.core.forget_position();

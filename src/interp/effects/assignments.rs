@@ -2,9 +2,9 @@
 use crate::engine::Engine;
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::written::{Keep, Values, named_role, names, packed, resolved, stem, written};
-use crate::{Argument, Effect};
-use trunnion_dialect::{CodeKind, Role};
+use crate::written::{Keep, Values, full_name, named_role, names, packed, resolved, stem, written};
+use crate::{Argument, Effect, Reach};
+use trunnion_dialect::{Action, CodeKind, Role};
 use trunnion_syntax::{Address, Block, BlockId, Item, Value};
 
 /// What words that are written with `=` set: `ADIS=0.5`, `LIMS=2000`, `R1=5`.
@@ -28,16 +28,19 @@ pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId)
                 },
             }
         };
-        let full = match word.address {
-            Address::Named(name) => packed(&view.program().text(name)),
-            _ => stem.clone(),
-        };
+        let (full, index_known) = full_name(run, view, &word);
         // the block has written its variables by now
         let stored = |name: String| match run.memory.own.held(&name) {
             Some(value) => Argument::number(name, value),
             None => argument(name),
         };
         match named_role(run, view, &word) {
+            Some(Role::Variable) if !index_known => {
+                // it may be any of them
+                let mut words = vec![argument(full)];
+                words.extend(run.memory.own.all());
+                effects.push(Effect::Unmodelled(words));
+            }
             Some(Role::Variable) => effects.push(Effect::Store(stored(full))),
             Some(Role::Parameter) => {
                 let key = match stem.as_str() {
@@ -68,7 +71,10 @@ pub(crate) fn named_effects(run: &mut Iso<'_>, view: &Block<'_>, block: BlockId)
         }
     }
     for effect in effects {
-        run.core.effects.add(block, effect);
+        // a setting of one axis or frame: `POS[X]=5`
+        let of_axis = matches!(&effect, Effect::Set { key, .. } if key.contains('['));
+        let reach = if of_axis { Reach::Place } else { effect.usual_reach() };
+        run.core.effects.add_with(block, effect, reach);
     }
 }
 
@@ -81,13 +87,67 @@ pub(crate) fn comments(view: &Block<'_>) -> Vec<Argument> {
     texts.map(|text| Argument::text("comment", &text)).collect()
 }
 
+/// Declarations whose values are not followed: texts, axes, frames, fields, unknown expressions, and names that stand for words (DEFINE).
+pub(crate) fn declarations(run: &Iso<'_>, view: &Block<'_>) -> Vec<Argument> {
+    let mut found = Vec::new();
+    for item in view.items() {
+        let Item::Call(call) = item else { continue };
+        let name = packed(&view.program().text(call.name));
+        let text = view.program().text(call.range);
+        let rest = text.trim_start().get(name.len()..).unwrap_or_default().trim();
+        if run
+            .core
+            .dialect
+            .name(&name)
+            .is_none_or(|code| code.action != Action::Declaration)
+        {
+            continue;
+        }
+        match name.as_str() {
+            "DEFINE" => {
+                let defined = rest.split(char::is_whitespace).next().unwrap_or_default();
+                if is_used(view, defined) {
+                    found.push(Argument::text(name, &crate::canonical_text(rest)));
+                }
+            }
+            "DEF" => {
+                let Some((kind, names)) = rest.split_once(char::is_whitespace) else {
+                    continue;
+                };
+                for one in crate::own::arguments(names) {
+                    let Some((variable, value)) = one.split_once('=') else {
+                        continue;
+                    };
+                    let stem = variable.split('[').next().unwrap_or_default().trim();
+                    if run.memory.own.held(variable.trim()).is_none() && is_used(view, stem) {
+                        let text = format!("{} {}={}", packed(kind), packed(variable), resolved(run, value));
+                        found.push(Argument::text("DEF", &text));
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Whether a name that the block declares is in the text of the program anywhere else.
+fn is_used(view: &Block<'_>, name: &str) -> bool {
+    let text = view.program().source().to_ascii_uppercase();
+    let name = name.to_ascii_uppercase();
+    memchr::memmem::find_iter(&text, name.as_bytes()).nth(1).is_some()
+}
+
 /// The words of a block that writes a variable of the control (Fanuc and Haas: #1000 and above), with the operator's message in its
 /// comment. A number that is computed may be any.
-pub(crate) fn system_assignment(run: &Iso<'_>, view: &Block<'_>) -> Option<Vec<Argument>> {
+pub(crate) fn system_assignment(run: &Iso<'_>, view: &Block<'_>) -> Option<Effect> {
     if !run.core.dialect.quirks.macro_b() {
         return None;
     }
     let mut found = Vec::new();
+    // a computed number, as the engine has found it
+    let computed = run.flow.deep.as_ref().and_then(|deep| deep.assigned);
+    let mut index_known = true;
     for item in view.items() {
         let range = match item {
             Item::Word(word) if matches!(word.address, Address::Named(_)) => word.range,
@@ -98,16 +158,29 @@ pub(crate) fn system_assignment(run: &Iso<'_>, view: &Block<'_>) -> Option<Vec<A
         let Some((name, value)) = text.strip_prefix('#').and_then(|rest| rest.split_once('=')) else {
             continue;
         };
-        let is_own = name.parse::<u32>().is_ok_and(|number| number < 1000) || name.starts_with('<');
-        if !is_own {
-            found.push(Argument::text(format!("#{name}"), &resolved(run, value)));
-        }
+        let number = name.parse::<i64>().ok();
+        let number = number.or_else(|| name.starts_with('[').then_some(computed)?);
+        let name = match number {
+            Some(0..=999) => continue,
+            Some(number) => number.to_string(),
+            None if name.starts_with('<') => continue,
+            None => {
+                index_known = false;
+                resolved(run, name)
+            }
+        };
+        found.push(Argument::text(format!("#{name}"), &resolved(run, value)));
     }
     if found.is_empty() {
         return None;
     }
     found.extend(comments(view));
-    Some(found)
+    if index_known {
+        return Some(Effect::Event(found));
+    }
+    // it may be any of them
+    found.extend(run.flow.all_variables());
+    Some(Effect::Unmodelled(found))
 }
 
 /// Whether a block reads the present machine coordinates (Series 30i operator's manual, custom macro: #5021 and following).
@@ -131,14 +204,15 @@ pub(crate) fn unknown_assignment(run: &Iso<'_>, view: &Block<'_>, words: &Words)
         Item::Word(word) => match word.address {
             Address::Named(_) | Address::Indexed(..) if run.core.dialect.quirks.user_names() => {
                 let variable = matches!(named_role(run, view, &word), None | Some(Role::Variable));
-                let name = match word.address {
-                    Address::Named(name) => packed(&view.program().text(name)),
-                    _ => stem(view, &word),
+                let (name, _) = full_name(run, view, &word);
+                let unknown = || {
+                    !matches!(word.value, Value::Number(_))
+                        && run.value(&view.program().text(word.value_range)).is_none()
                 };
+                // fields and texts of the program are not followed
                 variable
-                    && !matches!(word.value, Value::Number(_))
                     && run.memory.own.held(&name).is_none()
-                    && run.value(&view.program().text(word.value_range)).is_none()
+                    && (run.memory.own.is_declared(&stem(view, &word)) || unknown())
             }
             _ => unknown(&view.program().text(word.range)),
         },

@@ -1,5 +1,5 @@
 //! Effects that a run has collected.
-use crate::{Argument, Effect, Placed};
+use crate::{Argument, Effect, Placed, Reach};
 
 /// Blocks of shifts and turns that wait for a motion that needs their words.
 const MOST_FRAMES: usize = 1000;
@@ -32,8 +32,13 @@ impl Effects {
         self.count
     }
     pub(crate) fn add(&mut self, block: trunnion_syntax::BlockId, effect: Effect) {
+        let reach = effect.usual_reach();
+        self.add_with(block, effect, reach);
+    }
+    /// One that reaches further, or less far, than others of its sort.
+    pub(crate) fn add_with(&mut self, block: trunnion_syntax::BlockId, effect: Effect, reach: Reach) {
         self.count += 1;
-        self.ready.push(Placed { block, effect });
+        self.ready.push(Placed { block, effect, reach });
     }
     /// One that was handed on already.
     pub(crate) fn skip(&mut self) {

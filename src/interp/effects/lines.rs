@@ -18,6 +18,15 @@ impl Iso<'_> {
         }
     }
 
+    /// A line of data between G10 and G11: N names a parameter there.
+    #[cold]
+    pub(crate) fn data_effect(&mut self, view: &Block<'_>) {
+        let text = crate::canonical_text(&format!("data:{}", view.program().text(view.range())));
+        let block = self.core.main_block(view.id());
+        let words = vec![Argument::text("", &text)];
+        self.core.effects.add(block, Effect::Unmodelled(words));
+    }
+
     /// What a block of a contour does beside the contour: the control does it in the finishing cut, or in every cut.
     #[cold]
     pub(crate) fn contour_effects(&mut self, view: &Block<'_>, sink: &mut impl crate::Sink) {
@@ -38,7 +47,8 @@ impl Iso<'_> {
     fn unmodelled_line(&mut self, view: &Block<'_>, words: Vec<Argument>, sink: &mut impl crate::Sink) {
         let block = self.core.main_block(view.id());
         let effect = Effect::Unmodelled(words);
-        sink.effect(crate::Placed { block, effect });
+        let reach = effect.usual_reach();
+        sink.effect(crate::Placed { block, effect, reach });
         self.core.effects.skip();
     }
 }

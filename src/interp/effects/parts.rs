@@ -2,7 +2,7 @@
 use crate::codes::{BlockCodes, Found};
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{Argument, Effect};
+use crate::{Argument, Effect, Reach};
 use trunnion_dialect::{Action, CodeKind};
 use trunnion_syntax::{Block, Item};
 
@@ -41,10 +41,17 @@ impl Iso<'_> {
         let mut rest = String::new();
         for item in view.items() {
             match item {
-                Item::Skip(level, _) => {
-                    // the switch decides whether the block runs at all
+                Item::Skip(level, range) => {
+                    // the switch decides whether the block runs at all; a Sinumerik counts its levels from 0 (Programming Manual,
+                    // Fundamentals, skipping blocks)
+                    let bare = view.program().text(range).trim() == "/";
+                    let level = if bare && self.core.dialect.quirks.user_names() {
+                        0
+                    } else {
+                        level
+                    };
                     let words = vec![Argument::number("/", f64::from(level))];
-                    self.core.effects.add(block, Effect::Event(words));
+                    self.core.effects.add_with(block, Effect::Event(words), Reach::Itself);
                 }
                 Item::Other(range) if view.program().text(range).starts_with('/') => {
                     after_slash = true;

@@ -32,6 +32,22 @@ pub(super) fn couples(action: Action) -> bool {
     )
 }
 
+/// Whether a code calls a cycle whose whole effect is in its motions; the others tap, orient the spindle, or wait.
+pub(super) fn is_plain_cycle(code: &trunnion_dialect::Code) -> bool {
+    let plain = ["CYCLE81", "CYCLE82", "CYCLE83", "CYCLE85", "CYCLE89"];
+    code.action == Action::HoleCall && plain.contains(&code.id.as_str())
+}
+
+/// Whether a code repeats the cycle that is called beside it after each motion; alone it ends that.
+pub(super) fn is_modal_call(code: &trunnion_dialect::Code) -> bool {
+    code.action == Action::CannedCycle && code.id == "MCALL"
+}
+
+/// Whether a code writes a text on the screen.
+pub(super) fn tells(found: &Found<'_>) -> bool {
+    found.code.kind == CodeKind::Name && NEUTRAL.contains(&found.code.id.as_str())
+}
+
 /// Whether a code ends what a code that [`couples`] began.
 pub(super) fn uncouples(action: Action) -> bool {
     action.is_hole_cycle()
@@ -59,7 +75,7 @@ pub(super) enum Sort {
 pub(super) fn sort(found: &Found<'_>, words: &Words) -> Sort {
     let code = found.code;
     match code.action {
-        _ if code.kind == CodeKind::Name && NEUTRAL.contains(&code.id.as_str()) => Sort::Held,
+        _ if tells(found) => Sort::Held,
         Action::SpindleClockwise | Action::SpindleCounterClockwise | Action::SpindleStop => Sort::Setting("spindle"),
         Action::ConstantSurfaceSpeed | Action::ConstantSpindleSpeed => Sort::Setting("speed mode"),
         Action::ProgramStop => Sort::After,

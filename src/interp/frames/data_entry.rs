@@ -44,7 +44,7 @@ impl crate::frames::Frames {
     pub(crate) fn offset_values(&self, name: &str, setup: &Setup) -> Option<OffsetValues> {
         let same = |known: &str| known.eq_ignore_ascii_case(name);
         let written = self.written.iter().find(|(known, _)| same(known));
-        let declared = || setup.work_offsets.iter().find(|known| same(&known.name));
+        let declared = || setup.work_offset(name);
         match written {
             Some((_, zero)) => Some(*zero),
             None => declared().map(|offset| OffsetValues::declared(offset.values)),
@@ -110,11 +110,11 @@ impl<'d> Iso<'d> {
     }
 
     /// The code that selects additional work offsets by P: G54.1, G154.
-    fn additional_offsets(&self) -> Option<&'d str> {
+    pub(crate) fn additional_offsets(&self) -> Option<&'d str> {
         let codes = self.core.dialect.codes();
-        let code = codes
-            .iter()
-            .find(|code| code.action == Action::WorkOffset && code.words.iter().any(|word| word == "P"))?;
+        let code = codes.iter().find(|code| {
+            code.action == Action::WorkOffset && code.words.iter().any(|word| word == "P") && code.id != "G54"
+        })?;
         Some(&code.id)
     }
 

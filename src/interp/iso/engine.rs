@@ -62,7 +62,19 @@ impl<'d> Engine<'d> for Iso<'d> {
         if self.core.dialect.quirks.user_names() {
             return self.memory.own.named_in(text);
         }
-        crate::written::values(text, |name| self.variable(name))
+        let mut found = Vec::new();
+        for argument in crate::written::values(text, |name| self.variable(name)) {
+            let lost = matches!(argument.value, crate::Value::Text(_));
+            let name = argument.name.trim_start_matches("where ").to_owned();
+            found.push(argument);
+            if lost {
+                // what it held before it was lost may be what it holds
+                let mut before = self.flow.all_variables();
+                before.retain(|known| known.name == name);
+                found.extend(before);
+            }
+        }
+        found
     }
     fn resolved_text(&self, text: &str) -> String {
         crate::written::resolved(self, text)
@@ -77,7 +89,9 @@ impl<'d> Engine<'d> for Iso<'d> {
         self.flow.variable(text)
     }
     fn outliving(&self) -> Vec<(String, f64)> {
-        self.flow.outliving()
+        let mut kept = self.flow.outliving();
+        kept.extend(self.memory.own.parameters());
+        kept
     }
 }
 
@@ -106,11 +120,10 @@ impl<'d> Iso<'d> {
             cycle_motions: 0,
         };
         let setup = std::sync::Arc::clone(&engine.core.setup);
-        if engine.core.dialect.quirks.first_offset_at_start {
-            let mut offsets = setup.work_offsets.iter();
-            if let Some(offset) = offsets.find(|offset| offset.name.eq_ignore_ascii_case("G54")) {
-                engine.set_zero(Some("G54".into()), OffsetValues::declared(offset.values));
-            }
+        if engine.core.dialect.quirks.first_offset_at_start
+            && let Some(offset) = setup.work_offset("G54")
+        {
+            engine.set_zero(Some("G54".into()), OffsetValues::declared(offset.values));
         }
         engine.memory.tcp_used = engine.core.state.tcp && setup.control.tcp_codes.is_some();
         engine

@@ -12,6 +12,7 @@ mod finish;
 mod index;
 mod name;
 mod read;
+mod statement;
 mod system;
 mod variables;
 mod words;
@@ -38,6 +39,8 @@ pub(crate) struct Deep {
     pub(crate) pending: Option<Transfer>,
     /// A code of the block in hand that calls or returns.
     pub(crate) code: Option<(FlowCode, TextRange)>,
+    /// The number of the variable that was assigned last, where it is known.
+    pub(crate) assigned: Option<i64>,
     /// The block in hand assigns a variable or decides something.
     pub(crate) statement: Option<TextRange>,
     modal: Vec<Modal>,

@@ -1,6 +1,7 @@
 //! Reads macro statements as the reader meets them: assignments, IF, WHILE, GOTO, DO, END, and values that are expressions.
 use super::alarms::{Mistake, is_fanuc, rejected};
 use super::evaluate::{Assigned, Compiled, Form, Trouble, View, assigned, evaluate, only_read};
+use super::statement::{Statement, statement};
 use super::system::{Known, is_followed};
 use super::variables::{Class, Held, Variables, class};
 use super::{Deep, FlowCode};
@@ -34,33 +35,6 @@ pub(crate) struct Macros<'a> {
     pub(crate) state: &'a ModalState,
     pub(crate) setup: &'a Setup,
     pub(crate) frames: &'a Frames,
-}
-
-/// The words of macro statements.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Statement {
-    If,
-    Then,
-    Goto,
-    While,
-    Do,
-    End,
-}
-
-fn statement(name: &[u8]) -> Option<Statement> {
-    let known: [(&[u8], Statement); 7] = [
-        (b"IF", Statement::If),
-        (b"THEN", Statement::Then),
-        (b"GOTO", Statement::Goto),
-        (b"WHILE", Statement::While),
-        (b"WH", Statement::While),
-        (b"DO", Statement::Do),
-        (b"END", Statement::End),
-    ];
-    known
-        .iter()
-        .find(|(text, _)| name.eq_ignore_ascii_case(text))
-        .map(|row| row.1)
 }
 
 /// The code of a call or return that a G or M code is, number in tenths.
@@ -337,7 +311,12 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         });
         let Some(macros) = &mut self.macros else { return true };
         let (view, ..) = macros.view(self.dialect);
-        match assigned(self.dialect, self.program, name, &view) {
+        let target = assigned(self.dialect, self.program, name, &view);
+        macros.deep().assigned = match target {
+            Ok(Assigned::Number(index)) => index,
+            _ => None,
+        };
+        match target {
             _ if macros.mode == Mode::Text => {}
             Ok(Assigned::Name(name)) => macros.deep().variables.set_named(&name, held),
             Ok(Assigned::Number(Some(index))) => self.assign(index, held, reason.as_deref(), word.range),

@@ -1,6 +1,6 @@
 //! Effects of a LinuxCNC program: canonical calls that are no motion and are not held by the modal state.
 use super::bridge::Bridge;
-use crate::{Argument, Effect};
+use crate::{Argument, Effect, Reach};
 use crate::{Feed, MotionKind, Sink};
 use std::borrow::Cow;
 use trunnion_ngc::{At, Canon, Coolant, MotionMode, SpindleTurn, State, Stop, Switch};
@@ -11,7 +11,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
     pub(super) fn effect_of_call(&mut self, call: &Canon, at: At) {
         if let Some(effect) = effect(call) {
             let block = self.block(at);
-            self.core.effects.add(block, effect);
+            let reach = reach(call).unwrap_or(effect.usual_reach());
+            self.core.effects.add_with(block, effect, reach);
             if matches!(call, Canon::ChangeTool { .. } | Canon::ChangeToolNumber { .. }) {
                 let change = vec![Argument::code("tool change")];
                 self.core.effects.add(block, Effect::Event(change));
@@ -94,6 +95,19 @@ fn is_probe_file(text: &[u8]) -> bool {
         text.get(..word.len())
             .is_some_and(|head| head.eq_ignore_ascii_case(word))
     })
+}
+
+/// What an event may change; `None`: as others of its sort.
+fn reach(call: &Canon) -> Option<Reach> {
+    match call {
+        Canon::UserCode(..) => Some(Reach::Everything),
+        Canon::Stop(_)
+        | Canon::Log(_)
+        | Canon::DigitalOutput { .. }
+        | Canon::AnalogOutput { .. }
+        | Canon::WaitInput { .. } => Some(Reach::Itself),
+        _ => None,
+    }
 }
 
 /// What a call does beside moving. Calls that a [`crate::Motion`] or the modal state holds, and texts that do not stop the program, have
@@ -225,6 +239,7 @@ fn effect(call: &Canon) -> Option<Effect> {
         Canon::Stop(Stop::End) => Effect::End(vec![Argument::code("M2")]),
         Canon::Finish => Effect::End(vec![Argument::code("%")]),
         Canon::PalletShuttle => Effect::Event(vec![Argument::code("pallet shuttle")]),
+        Canon::Message(text) => Effect::set("message", [Argument::text("MSG", &String::from_utf8_lossy(text))]),
         Canon::Log(text) => Effect::Event(vec![Argument::text("LOG", &String::from_utf8_lossy(text))]),
         // files that the control writes
         Canon::Comment(text) if is_probe_file(text) => Effect::Event(vec![Argument::text(
@@ -246,7 +261,6 @@ fn effect(call: &Canon) -> Option<Effect> {
         | Canon::Reset
         | Canon::Plane(_)
         | Canon::Comment(_)
-        | Canon::Message(_)
         | Canon::Print(_)
         | Canon::FeedRate(_)
         | Canon::FeedMode(..)

@@ -10,6 +10,8 @@ mod modal;
 mod places;
 mod setup;
 mod steady;
+mod stored;
+mod told;
 
 use crate::core::Core;
 use crate::engine::Engine;
@@ -17,9 +19,11 @@ use crate::words::Words;
 use crate::written::{Keep, Values, resolved, written};
 use crate::{Argument, Effect};
 use crate::{FaultKind, Frame, Sink};
-use bridge::{Bridge, LINEAR_AXES, Told};
+use bridge::{Bridge, LINEAR_AXES};
 use frames::Shift;
 use std::sync::Arc;
+use stored::stored_offsets;
+use told::Told;
 use trunnion_dialect::Dialect;
 use trunnion_ngc::{FileId, Source, Step};
 use trunnion_syntax::{BlockId, Program, TextRange};
@@ -189,17 +193,19 @@ impl Ngc<'_> {
         };
         if let Some(level) = skip.filter(|_| at.file == FileId::MAIN) {
             let words = vec![Argument::number("/", f64::from(level))];
-            self.core.effects.add(block, Effect::Event(words));
+            self.core
+                .effects
+                .add_with(block, Effect::Event(words), crate::Reach::Itself);
             self.hand_on(sink);
         }
         let Some(run) = &mut self.run else { return };
         let codes = Codes::of(run.engine.block_at(at));
+        let upper = crate::written::packed(&text);
         // in the main program it starts again, or ends, as the control is set up
-        if codes.returns && run.told.places.chain(at) == crate::ChainId::MAIN {
+        if (codes.returns || is_return(&upper)) && run.told.places.chain(at) == crate::ChainId::MAIN {
             self.core.effects.add(block, Effect::End(vec![Argument::code("M99")]));
             self.hand_on(sink);
         }
-        let upper = crate::written::packed(&text);
         // which point it is, and that the control moves there even where no axis is named
         if ["G28", "G30", "G43.2", "M19"].iter().any(|code| upper.contains(code)) {
             let words = if at.file == FileId::MAIN {
@@ -216,6 +222,22 @@ impl Ngc<'_> {
         for store in stored_offsets(&upper, &names, |name| self.variable(name)) {
             self.core.effects.add(block, Effect::Store(store));
             self.hand_on(sink);
+        }
+        if codes.own && at.file == FileId::MAIN {
+            // what the machine's own codes do is not known: they may read any word of their line
+            let held = |word: &Argument| {
+                let letter = word.name.as_bytes();
+                matches!(
+                    letter,
+                    [b'G' | b'M' | b'F' | b'S' | b'T' | b'D' | b'H' | b'A'..=b'C' | b'U'..=b'Z']
+                )
+            };
+            let words = written(&program.block(block), self, &Words::default(), Keep::All);
+            let words: Vec<Argument> = words.into_iter().filter(|word| !held(word)).collect();
+            if !words.is_empty() {
+                self.core.effects.add(block, Effect::Unmodelled(words));
+                self.hand_on(sink);
+            }
         }
         let lost = codes.shifts && (codes.ninth || self.core.state.position.xyz().is_none());
         let unknown = lost || names.iter().any(|name| self.variable(name).is_some_and(f64::is_nan));
@@ -333,6 +355,8 @@ struct Codes {
     returns: bool,
     /// G10, G52, G53, G92: they count from the present position, or set where coordinates count from.
     shifts: bool,
+    /// The machine has codes of its own in it.
+    own: bool,
     /// G10 L11 counts from the ninth coordinate system, which may not be declared.
     ninth: bool,
 }
@@ -342,9 +366,22 @@ impl Codes {
         block.map_or_else(Self::default, |block| Self {
             returns: block.m_code(4) == Some(99),
             shifts: matches!(block.g_code(0), Some(100 | 520 | 530 | 920..=923)),
+            own: !block.own.is_empty(),
             ninth: block.g_code(0) == Some(100) && block.word(b'L') == Some(11.0),
         })
     }
+}
+
+/// Whether a line is M99, which is read as a line of the flow and not as a block.
+fn is_return(line: &str) -> bool {
+    let line = line.trim_start_matches('/');
+    let after_number = line.strip_prefix('N');
+    let line = after_number.map_or(line, |rest| {
+        rest.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.')
+    });
+    let digits = line.strip_prefix('M').unwrap_or_default();
+    let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+    digits[..end].parse() == Ok(99)
 }
 
 /// Axes are not known any more.
@@ -354,49 +391,4 @@ fn forget(engine: &mut trunnion_ngc::Engine, told: &mut Told, axes: &[usize]) {
         engine.state.compensated[axis] = f64::NAN;
         told.machine.forget(axis);
     }
-}
-
-/// What a line writes to the offsets that outlive the program: `G10 L2`, `G10 L20`, `#5221=0` (LinuxCNC user manual: numbered parameters).
-fn stored_offsets(line: &str, names: &[String], value: impl Fn(&str) -> Option<f64>) -> Vec<Argument> {
-    let is_offset = |name: &&String| {
-        let number = name.trim_start_matches('#').parse::<u32>();
-        number.is_ok_and(|number| (5161..=5390).contains(&number)) && line.contains(&format!("{name}="))
-    };
-    let mut stores: Vec<Argument> = names
-        .iter()
-        .filter(is_offset)
-        .map(|name| Argument::number(format!("written to {name}"), value(name).unwrap_or(f64::NAN)))
-        .collect();
-    if line.contains("G10") && line.contains("L2") {
-        stores.extend(written_by_g10(line));
-    }
-    stores
-}
-
-/// The values of a line `G10 L2 P2 X5`, each under a name of its own; with an expression the whole line.
-fn written_by_g10(line: &str) -> Vec<Argument> {
-    let text = crate::canonical_text(line);
-    let mut words: Vec<(char, f64)> = Vec::new();
-    let mut rest = text.as_str();
-    while let Some(letter) = rest.chars().next() {
-        let after = &rest[letter.len_utf8()..];
-        let end = after.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(after.len());
-        let Ok(value) = after[..end].parse::<f64>() else {
-            return vec![Argument::text("written by G10", &text)];
-        };
-        words.push((letter, value));
-        rest = &after[end..];
-    }
-    let of = |name: char| {
-        words
-            .iter()
-            .find(|(letter, _)| *letter == name)
-            .map_or(0.0, |(_, value)| *value)
-    };
-    let place = format!("G10 L{} P{}", of('L'), of('P'));
-    let data = words
-        .iter()
-        .filter(|(letter, _)| !matches!(letter, 'G' | 'L' | 'P' | 'N'));
-    data.map(|(letter, value)| Argument::number(format!("{place} {letter}"), *value))
-        .collect()
 }

@@ -130,7 +130,8 @@ fn deny_strict_and_allow_decide_the_exit_status() {
         "good.ngc",
         "G21 G90 G17 G94 G40\nS1000 M3\nG0 X0 Y0 Z5\nG1 X1 F100\nM5\nM2\n",
     );
-    let base = ["check", str(&good), "--machine", "mill-3axis"];
+    let assume = "work-offset,tool-length";
+    let base = ["check", str(&good), "--machine", "mill-3axis", "--assume", assume];
     let with = |more: &[&str]| status(&trunnion(&[&base[..], more].concat()));
     assert_eq!(with(&[]), 0);
     assert_eq!(with(&["--strict"]), 0, "nothing is unknown in a plain 3-axis program");

@@ -1,0 +1,73 @@
+//! What two programs leave behind when they end.
+use crate::process::unlike;
+use crate::steps::Steps;
+use crate::verdict::{Difference, Verdict};
+use trunnion_interp::same_number;
+
+/// Both were followed to their ends.
+pub(crate) fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
+    for (which, steps) in [("before", before), ("after", after)] {
+        if let Some(stop) = steps.stop() {
+            let block = Some(stop.block);
+            return Err(Verdict::Unknown(Difference {
+                before: block.filter(|_| which == "before"),
+                after: block.filter(|_| which == "after"),
+                what: format!("the program {which} was not followed to its end: {}", stop.why),
+            }));
+        }
+    }
+    Ok(())
+}
+
+/// What both leave behind.
+pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
+    let nowhere = |what: String| {
+        Err(Verdict::Differs(Difference {
+            before: None,
+            after: None,
+            what,
+        }))
+    };
+    let unknown = |what: String| {
+        Err(Verdict::Unknown(Difference {
+            before: None,
+            after: None,
+            what,
+        }))
+    };
+    let (a, b) = (before.stored(), after.stored());
+    for name in a.keys().chain(b.keys().filter(|name| !a.contains_key(*name))) {
+        if a.get(name) != b.get(name) {
+            let value = |value: Option<&trunnion_interp::Value>| match value {
+                None | Some(trunnion_interp::Value::Nothing) => "nothing".to_owned(),
+                Some(trunnion_interp::Value::Number(value)) => value.to_string(),
+                Some(trunnion_interp::Value::Text(text)) => text.to_string(),
+            };
+            return nowhere(format!(
+                "{name} outlives the program and holds {} and {}",
+                value(a.get(name)),
+                value(b.get(name))
+            ));
+        }
+    }
+    if before.leads_tip() != after.leads_tip() {
+        return nowhere("tool centre point control is on at the end of only one of the programs".into());
+    }
+    if let Some((name, from, to)) = before.held().difference(&after.held(), true) {
+        return nowhere(format!("{name} at the end differs: {from} and {to}"));
+    }
+    if let Some(found) = unlike(before.process(), after.process(), false) {
+        let what = format!("{} at the end differs: {} and {}", found.key, found.from, found.to);
+        return if found.is_restated {
+            unknown(what)
+        } else {
+            nowhere(what)
+        };
+    }
+    let (zero, other) = (before.state().zero, after.state().zero);
+    let same = |(a, b): (&f64, &f64)| same_number(*a, *b) || a.is_nan() && b.is_nan();
+    if !zero.iter().zip(&other).all(same) {
+        return unknown("the zero point at the end differs, and whether the control resets it is not known".to_owned());
+    }
+    Ok(())
+}

@@ -1,0 +1,111 @@
+//! What a program does, step by step: motions, events, stored data.
+use crate::process::{Held, Process};
+use std::sync::Arc;
+use trunnion_interp::{Argument, Effect, Motion, Reach, Situation};
+use trunnion_machine::Leg;
+use trunnion_syntax::BlockId;
+
+/// A motion with everything that is in force.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// As programmed.
+    pub motion: Motion,
+    /// What the machine does; `None` without a machine.
+    pub leg: Option<Leg>,
+    /// What the modal state holds.
+    pub held: Held,
+    /// What else is in force.
+    pub process: Arc<Process>,
+    /// Since the motion before, nothing may have changed where its coordinates lie: a block that repeats the place does not move.
+    pub may_repeat: bool,
+    /// It is a part of a motion of the program, up to a point at which the other program has one.
+    pub is_part: bool,
+}
+
+/// What an [`Item::Happens`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sort {
+    /// A stop, an output, data written to the control.
+    Event,
+    /// The program's end.
+    End,
+    /// Words whose effect is not modelled.
+    Unmodelled,
+}
+
+/// What a program does.
+#[derive(Clone, Debug)]
+pub enum Item {
+    /// A motion.
+    Motion(Box<Step>),
+    /// Something else.
+    Happens {
+        /// The block.
+        block: BlockId,
+        /// What it is.
+        sort: Sort,
+        /// Its words.
+        words: Vec<Argument>,
+        /// What is in force.
+        process: Arc<Process>,
+        /// What something that is not modelled may read: before and after its block.
+        around: Option<Arc<Around>>,
+    },
+}
+
+impl Item {
+    /// The block of the main program.
+    pub fn block(&self) -> BlockId {
+        match self {
+            Self::Motion(step) => step.motion.block,
+            Self::Happens { block, .. } => *block,
+        }
+    }
+}
+
+/// Where and why a run stopped before the end of its program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// The block.
+    pub block: BlockId,
+    /// Why.
+    pub why: String,
+}
+
+/// What is in force before and after the block of an effect, where something that is not modelled may read it.
+#[derive(Clone, Debug)]
+pub struct Around {
+    /// Before and after.
+    pub(crate) situations: [Situation; 2],
+    /// What was set before the block.
+    pub(crate) process: Arc<Process>,
+}
+
+/// Something that waits until the motions before it are known.
+pub(crate) struct Waiting {
+    /// It comes before motions that were made after so many effects.
+    pub(crate) before: u32,
+    pub(crate) block: BlockId,
+    pub(crate) what: Waits,
+    pub(crate) around: Option<Arc<Around>>,
+}
+
+/// See [`Waiting`].
+pub(crate) enum Waits {
+    Effect(Effect, Reach),
+    /// A word of a group was said after something ran that may have changed everything: see [`Process::restate`].
+    Restated(String, Vec<Argument>),
+    /// Such a thing ran.
+    Lost,
+}
+
+impl Waiting {
+    /// Whether it may read and change whatever is modal.
+    pub(crate) fn is_own_code(&self) -> bool {
+        matches!(self.what, Waits::Effect(_, Reach::Everything))
+    }
+    /// Whether its effect is not modelled.
+    pub(crate) fn is_unmodelled(&self) -> bool {
+        matches!(self.what, Waits::Effect(Effect::Unmodelled(_), _))
+    }
+}

@@ -5,6 +5,7 @@
 //! `TRUNNION_BOUNDS=full` runs large files in the same sample, `TRUNNION_BOUNDS=matrix` large files and every combination; both print the
 //! worst runs (CONTRIBUTING.md). `TRUNNION_BOUNDS_ONLY=TEXT` takes only programs and commands whose names have TEXT in them.
 #![cfg(unix)]
+#![expect(clippy::print_stdout, reason = "the long form prints a table")]
 mod commands;
 mod inputs;
 mod measure;

@@ -1,10 +1,10 @@
 //! Motions to words of the target: joints chosen, arcs kept or cut into lines, feeds carried over.
 use crate::job::{Event, Job};
+use crate::known::Known;
 use crate::posture::{Never, Wish, choose};
 use crate::sample::{Between, Frame, PartEnd, joints, words};
 use crate::{Options, Refused};
 use std::cell::OnceCell;
-use std::collections::BTreeMap;
 use trunnion_certify::conversion::{Posed, Reading, Track, rotary};
 use trunnion_dialect::Dialect;
 use trunnion_geometry::{Vec3, arc::Arc, deg};
@@ -88,28 +88,6 @@ pub(crate) struct Planner<'a> {
     pub(crate) tolerance_mm: f64,
     /// Where the known poses are, once it was asked.
     pub(crate) known: OnceCell<Known>,
-}
-
-/// Motions whose end is known.
-pub(crate) struct Known {
-    /// The first of each tool.
-    first: BTreeMap<Option<u32>, usize>,
-    /// The next one from each motion on, itself included.
-    next: Vec<Option<usize>>,
-}
-
-impl Known {
-    fn of(motions: &[Posed]) -> Self {
-        let (mut first, mut next, mut last) = (BTreeMap::new(), vec![None; motions.len()], None);
-        for (index, posed) in motions.iter().enumerate().rev() {
-            if posed.end.is_ok() && !matches!(posed.motion.kind, MotionKind::Dwell(_)) {
-                first.insert(posed.motion.tool, index);
-                last = Some(index);
-            }
-            next[index] = last;
-        }
-        Self { first, next }
-    }
 }
 
 /// The motions of the output for each motion before, and the blocks with a swap.

@@ -22,13 +22,13 @@ pub trait Files: Send + Sync {
 /// Bounds of a run: a program that does not end within them is reported, not awaited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Executed lines, and motions of cycles, of a run that keeps nothing (`check`, `stats`). The blocks that the program itself has are
-    /// not counted: a program without loops and calls is followed to its end.
+    /// Executed lines, and motions of cycles, of a run that keeps nothing (`check`). The blocks that the program itself has are not counted: a program without loops and calls is followed to its end.
     pub blocks: u64,
-    /// The same for a run whose every step is compared, proved, listed or drawn (`diff`, `certify`, `fix`, `trace`, `canon`, `plot`,
-    /// `surface`): a step takes ten times as long there.
+    /// The same for a run whose every step is compared, proved, listed or drawn (`diff`, `certify`, `fix`, `trace`, `canon`, `stats`,
+    /// `plot`, `surface`, the language server): a step takes ten times as long there.
     pub steps: u64,
-    /// Motions that are held in memory at once, with all that is known of them: `convert` and `plot`, and those of one block elsewhere.
+    /// Motions that are held in memory at once, with all that is known of them: of a whole program in `convert`; of one block, up to a quarter
+    /// of it, in a comparison.
     pub held: u64,
     /// Calls inside calls, where the control sets no lower bound itself: LinuxCNC stops at [`Limits::LINUXCNC_DEPTH`].
     pub depth: u32,

@@ -12,8 +12,8 @@ use std::{
 };
 use trunnion_files::{Outputs, Target};
 use trunnion_ngc::{
-    At, Canon, Engine, Error, FileId, Files, Ini, Listing, Loaded, Parameters, Setup, Sink, Source, State, Step,
-    ToolTable,
+    At, Canon, Engine, Error, FileId, Files, Ini, Listing, Loaded, Parameters, Searched, Setup, Sink, Source, State,
+    Step, ToolTable,
 };
 use trunnion_syntax::TextRange;
 
@@ -186,6 +186,15 @@ fn folders(command: &Command, ini: &Ini) -> Vec<PathBuf> {
     folders
 }
 
+/// A file that the control would take, and that is not read.
+fn refused(folder: &Path, why: String) -> Searched {
+    remark(false, &why);
+    Searched {
+        folder: folder.display().to_string(),
+        refused: Some(why),
+    }
+}
+
 /// Finds called programs in folders.
 struct Folders {
     folders: Vec<PathBuf>,
@@ -193,12 +202,22 @@ struct Folders {
 }
 
 impl Files for Folders {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         for folder in &self.folders {
             let endings = ENDINGS.map(|ending| folder.join(format!("{name}.{ending}")));
             for path in endings {
-                let Ok(Some(input)) = trunnion_files::read(&path, LARGEST) else {
+                if !path.is_file() {
                     continue;
+                }
+                let input = match trunnion_files::read(&path, LARGEST) {
+                    Ok(Some(input)) => input,
+                    Ok(None) => {
+                        return Err(vec![refused(
+                            folder,
+                            format!("{} is larger than 64 MB", path.display()),
+                        )]);
+                    }
+                    Err(error) => return Err(vec![refused(folder, error.to_string())]),
                 };
                 let bytes: Arc<[u8]> = input.bytes.into();
                 let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
@@ -207,7 +226,8 @@ impl Files for Folders {
                 return Ok(Loaded { path, bytes });
             }
         }
-        Err(self.folders.iter().map(|folder| folder.display().to_string()).collect())
+        let folders = self.folders.iter();
+        Err(folders.map(|folder| folder.display().to_string().into()).collect())
     }
 }
 

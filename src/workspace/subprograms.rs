@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
     sync::{Arc, OnceLock},
 };
-use trunnion_interp::{Files, Loaded};
+use trunnion_interp::{Files, Loaded, Searched};
 
 /// A larger file is no subprogram, bytes.
 const LARGEST: u64 = 64 << 20;
@@ -136,13 +136,13 @@ fn read(path: &Path, folder: &Path) -> Result<Arc<[u8]>, &'static str> {
 }
 
 impl Files for Subprograms {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         let mut searched = Vec::new();
         let stems = stems(name);
         for folder in &self.folders {
             let shown = folder.path.display().to_string();
             let Some(path) = stems.as_ref().and_then(|stems| folder.find(stems)) else {
-                searched.push(shown);
+                searched.push(shown.into());
                 continue;
             };
             match read(&path, &folder.path) {
@@ -152,7 +152,12 @@ impl Files for Subprograms {
                         bytes,
                     });
                 }
-                Err(why) => searched.push(format!("{shown} ({} {why})", path.display())),
+                // the control would take this file, so one of another folder is not taken in its place
+                Err(why) => {
+                    let refused = Some(format!("{} {why}", path.display()));
+                    searched.push(Searched { folder: shown, refused });
+                    return Err(searched);
+                }
             }
         }
         Err(searched)
@@ -218,7 +223,7 @@ mod tests {
     fn what_is_missing_names_the_folders() {
         let folder = Temporary::new();
         let searched = folder.files().load("77").expect_err("not there");
-        let folders = [folder.path(), folder.path().join("subs")].map(|path| path.display().to_string());
+        let folders = [folder.path(), folder.path().join("subs")].map(|path| path.display().to_string().into());
         assert_eq!(searched, folders);
     }
 
@@ -237,7 +242,8 @@ mod tests {
             let searched = Subprograms::new([folder.path().join("subs")])
                 .load("link")
                 .expect_err("it leads out");
-            assert!(searched[0].contains("is a link to outside the folder"), "{searched:?}");
+            let why = searched[0].refused.as_deref().expect("a reason");
+            assert!(why.ends_with("is a link to outside the folder"), "{searched:?}");
         }
     }
 
@@ -246,7 +252,11 @@ mod tests {
         let folder = Temporary::new();
         let file = File::create(folder.path().join("1.nc")).expect("created");
         file.set_len(LARGEST + 1).expect("sparse");
+        // the control would not look further
+        fs::write(folder.path().join("subs/1.nc"), "G0 X1\n").expect("written");
         let searched = folder.files().load("1").expect_err("too large");
-        assert!(searched[0].contains("is larger than 64 MB"), "{searched:?}");
+        let why = searched[0].refused.as_deref().expect("a reason");
+        assert!(why.ends_with("1.nc is larger than 64 MB"), "{searched:?}");
+        assert_eq!(searched.len(), 1);
     }
 }

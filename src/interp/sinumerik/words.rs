@@ -197,7 +197,12 @@ impl<'d> Iso<'d> {
         if self.memory.own.missing.contains(name) {
             return false;
         }
-        let found = files(key).iter().any(|file| library.load(file).is_ok());
+        // a file that is there and is not taken is reported where it is called
+        let is_there = |file: &String| match library.load(file) {
+            Ok(_) => true,
+            Err(searched) => searched.iter().any(|place| place.refused.is_some()),
+        };
+        let found = files(key).iter().any(is_there);
         if !found {
             self.memory.own.missing.insert(name.clone());
         }

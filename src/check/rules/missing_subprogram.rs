@@ -1,4 +1,4 @@
-//! A called program is not found, or its file cannot be read.
+//! A called program is not found.
 //!
 //! # Why
 //! The control stops at the call. What the subprogram would do is not known here, so nothing after the call is

@@ -6,10 +6,6 @@ use trunnion_check::Session;
 use trunnion_syntax::Program;
 use trunnion_workspace::{LoadError, Overrides, Resolved, resolve};
 
-/// Executed blocks after which a loop is given up while the user types, if the settings do not say otherwise: seconds less than
-/// the command line's ten million.
-const BLOCKS: u64 = 1_000_000;
-
 /// What an analysis found.
 pub(crate) struct Analysed {
     /// Document.
@@ -52,10 +48,8 @@ pub(crate) fn analyse(
     let outcome = match resolve(path.as_deref(), text.as_bytes(), overrides) {
         Err(error) => Err(error),
         Ok(mut resolved) => {
-            let limits = &mut resolved.setup.limits;
-            if *limits == trunnion_interp::Limits::default() {
-                limits.blocks = BLOCKS;
-            }
+            // a document is judged at every key stroke
+            resolved.setup.limits = resolved.setup.limits.of_steps();
             let program = trunnion_syntax::parse(text.as_bytes().to_vec(), resolved.dialect.lex);
             let session = Session::new(&program, &resolved.settings(), cancelled)?;
             Ok(Judged {

@@ -10,6 +10,7 @@ mod ask_iso;
 mod axis;
 mod claim;
 mod effects;
+mod posed;
 mod proof;
 mod reading;
 mod reason;

@@ -3,7 +3,7 @@ use crate::certificate::NamedDigest;
 use crate::digest::hex_sha256;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
-use trunnion_interp::{Files, Library, Loaded, Setup};
+use trunnion_interp::{Files, Library, Loaded, Searched, Setup};
 
 /// Stands for the digest of a program that was asked for and not found.
 const MISSING: &str = "missing";
@@ -43,7 +43,7 @@ impl Recorder {
 }
 
 impl Files for Recorder {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         let answer = match &self.library.0 {
             Some(files) => files.load(name),
             None => Err(Vec::new()),
@@ -65,7 +65,7 @@ mod tests {
     struct One;
 
     impl Files for One {
-        fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+        fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
             if name == "1" {
                 Ok(Loaded {
                     path: "1.nc".into(),

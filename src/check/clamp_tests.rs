@@ -1,7 +1,7 @@
 //! Rule clamped-axis-moves: axes that must not move, and clamp codes.
 use crate::fixture::{assert_drawn, check_with, machine};
 use std::sync::Arc;
-use trunnion_interp::{Files, Library, Loaded, Setup};
+use trunnion_interp::{Files, Library, Loaded, Searched, Setup};
 
 #[test]
 fn a_run_of_blocks_is_told_once_and_the_free_axis_may_turn() {
@@ -87,7 +87,7 @@ fn a_code_by_an_expression_counts_where_its_value_is_known() {
 struct OneFile(&'static str);
 
 impl Files for OneFile {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         let bytes = self.0.as_bytes().into();
         Ok(Loaded {
             path: format!("{name}.nc"),

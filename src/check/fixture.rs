@@ -10,7 +10,7 @@
 //! `;^` there means a width of 1 or 2.
 use crate::{Assume, Report, RuleLevel, Settings, check};
 use std::sync::Arc;
-use trunnion_interp::{Files, Library, Limits, Loaded, Setup};
+use trunnion_interp::{Files, Library, Limits, Loaded, Searched, Setup};
 use trunnion_machine::Machine;
 use trunnion_syntax::LineIndex;
 
@@ -198,7 +198,7 @@ impl Fixture {
 struct NoFiles;
 
 impl Files for NoFiles {
-    fn load(&self, _: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, _: &str) -> Result<Loaded, Vec<Searched>> {
         Err(Vec::new())
     }
 }

@@ -205,7 +205,10 @@ impl<'a> Pass<'a> {
             let blanks = before.iter().rev().take_while(|byte| matches!(byte, b' ' | b'\t'));
             let start = fault.range.start - blanks.count() as u32;
             let from = errors.partition_point(|error| error.range.end < start);
-            errors[from..].iter().any(|error| error.range.start <= fault.range.end)
+            // they are sorted: if the first of them begins later, so do all
+            errors
+                .get(from)
+                .is_some_and(|error| error.range.start <= fault.range.end)
         }
     }
 

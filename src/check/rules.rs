@@ -264,7 +264,7 @@ mod tests {
             },
             FaultKind::MissingSubprogram {
                 name: text(),
-                searched: vec![text()],
+                searched: vec![text().into()],
                 alarm: Some(text()),
                 caller: Some(text()),
             },

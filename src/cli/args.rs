@@ -51,11 +51,15 @@ pub(crate) struct Global {
     #[arg(long, global = true, value_name = "RULE", action = ArgAction::Append)]
     pub(crate) allow: Vec<String>,
     /// Refuse to read a program larger than this, in megabytes (all its blocks are kept in memory).
-    #[arg(long, global = true, value_name = "N", default_value_t = 128, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, global = true, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_file_mb: u64,
     /// Refuse to read a program of more lines than this (every line takes memory, empty ones too).
-    #[arg(long, global = true, value_name = "N", default_value_t = 5_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, global = true, value_name = "N", default_value_t = 2_000_000, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_lines: u64,
+    /// Give up a run that is compared, proved, converted, listed or drawn after this many executed blocks beside those of the text.
+    /// Default: `steps` of [limits] in trunnion.toml, else 1000000.
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) max_steps: Option<u64>,
     /// When to use colours.
     #[arg(long, global = true, value_enum, default_value = "auto")]
     pub(crate) color: Color,

@@ -12,8 +12,8 @@ use std::{
 };
 use trunnion_files::{Outputs, Target};
 use trunnion_ngc::{
-    At, Canon, Engine, Error, FileId, Files, Ini, Listing, Loaded, Parameters, Setup, Sink, Source, State, Step,
-    ToolTable,
+    At, Canon, Engine, Error, FileId, Files, Ini, Listing, Loaded, Parameters, Searched, Setup, Sink, Source, State,
+    Step, ToolTable,
 };
 use trunnion_syntax::TextRange;
 
@@ -26,7 +26,7 @@ const ENDINGS: [&str; 2] = ["ngc", "nc"];
 
 /// Runs `canon`. An error of the program makes the exit status 1.
 pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
-    let bytes: Arc<[u8]> = load::read(&command.file)?.into();
+    let bytes: Arc<[u8]> = load::read_program(global, &command.file)?.0.into();
     let main = Arc::new(Source::new(command.file.display().to_string(), bytes));
     let sources: Sources = Arc::new(Mutex::new(vec![Arc::clone(&main)]));
     let mut outputs = Outputs::new();
@@ -41,7 +41,11 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
         .as_ref()
         .map(|path| Kept::read(path, &mut outputs))
         .transpose()?;
-    let setup = setup(command, global, &sources, kept.as_ref())?;
+    let mut setup = setup(command, global, &sources, kept.as_ref())?;
+    let lines = memchr::memchr_iter(b'\n', main.bytes()).count() as u64;
+    setup.limits = load::limits(global, setup.limits).of_steps();
+    // the lines of the text itself are always read
+    setup.limits.blocks = setup.limits.blocks.saturating_add(lines);
     remark(false, "executing");
     let mut engine = Engine::new(main, &setup);
     let mut out = Printer {
@@ -62,7 +66,11 @@ pub(super) fn run(global: &Global, command: &Command) -> Result<Done, Failure> {
         return Err(Failure::file(&command.file, format!("cannot be decided: {why}")));
     }
     if let Step::OutOfFuel(at) = last {
-        let text = format!("does not end: the loop or call at line {} was stopped", at.line + 1);
+        let text = format!(
+            "does not end: the loop or call at line {} was stopped after {} executed lines; if it is only long, use --max-steps N",
+            at.line + 1,
+            setup.limits.blocks
+        );
         return Err(Failure::file(&command.file, text));
     }
     if let Step::Endless(at, _) = last {
@@ -178,6 +186,15 @@ fn folders(command: &Command, ini: &Ini) -> Vec<PathBuf> {
     folders
 }
 
+/// A file that the control would take, and that is not read.
+fn refused(folder: &Path, why: String) -> Searched {
+    remark(false, &why);
+    Searched {
+        folder: folder.display().to_string(),
+        refused: Some(why),
+    }
+}
+
 /// Finds called programs in folders.
 struct Folders {
     folders: Vec<PathBuf>,
@@ -185,12 +202,22 @@ struct Folders {
 }
 
 impl Files for Folders {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         for folder in &self.folders {
             let endings = ENDINGS.map(|ending| folder.join(format!("{name}.{ending}")));
             for path in endings {
-                let Ok(Some(input)) = trunnion_files::read(&path, LARGEST) else {
+                if !path.is_file() {
                     continue;
+                }
+                let input = match trunnion_files::read(&path, LARGEST) {
+                    Ok(Some(input)) => input,
+                    Ok(None) => {
+                        return Err(vec![refused(
+                            folder,
+                            format!("{} is larger than 64 MB", path.display()),
+                        )]);
+                    }
+                    Err(error) => return Err(vec![refused(folder, error.to_string())]),
                 };
                 let bytes: Arc<[u8]> = input.bytes.into();
                 let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
@@ -199,7 +226,8 @@ impl Files for Folders {
                 return Ok(Loaded { path, bytes });
             }
         }
-        Err(self.folders.iter().map(|folder| folder.display().to_string()).collect())
+        let folders = self.folders.iter();
+        Err(folders.map(|folder| folder.display().to_string().into()).collect())
     }
 }
 

@@ -1,26 +1,29 @@
 //! Runs a program on its machine and hands on each motion with its joints and its line.
-use super::load::Loaded;
+use super::load::{Loaded, not_followed};
 use trunnion_interp::{Fault, ModalState, Motion, Sink};
 use trunnion_machine::{Follower, Leg, Machine};
 use trunnion_syntax::LineIndex;
 
 /// Calls `take`, with the line and what is in force, for each motion of the blocks between two lines (from 1, both included; `None`: of all), in the order of execution.
+/// Why the run did not come to the end of the program, where it was given up.
 pub(super) fn each_leg(
     loaded: &Loaded,
     machine: &Machine,
     index: &LineIndex,
     lines: Option<(u32, u32)>,
     take: impl FnMut(&Leg, u32, &ModalState),
-) {
+) -> Option<String> {
     let mut legs = Legs {
         loaded,
         index,
         follower: Follower::new(machine),
         lines,
         take,
+        given_up: None,
     };
     let resolved = &loaded.resolved;
     trunnion_interp::run(&loaded.program, resolved.dialect, &resolved.setup, &mut legs);
+    legs.given_up
 }
 
 struct Legs<'a, F> {
@@ -29,6 +32,7 @@ struct Legs<'a, F> {
     follower: Follower<'a>,
     lines: Option<(u32, u32)>,
     take: F,
+    given_up: Option<String>,
 }
 
 impl<F: FnMut(&Leg, u32, &ModalState)> Sink for Legs<'_, F> {
@@ -41,5 +45,7 @@ impl<F: FnMut(&Leg, u32, &ModalState)> Sink for Legs<'_, F> {
             (self.take)(&leg, line, state);
         }
     }
-    fn fault(&mut self, _fault: Fault) {}
+    fn fault(&mut self, fault: Fault) {
+        self.given_up = self.given_up.take().or_else(|| not_followed(self.loaded, &fault));
+    }
 }

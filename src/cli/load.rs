@@ -10,9 +10,10 @@ use std::{
 use trunnion_check::assumptions;
 use trunnion_dialect::Foreign;
 use trunnion_files::{Outputs, Seen, Target};
+use trunnion_interp::{Fault, FaultKind, Limits};
 use trunnion_machine::Machine;
 use trunnion_same::Input;
-use trunnion_syntax::Program;
+use trunnion_syntax::{LineIndex, Program};
 use trunnion_workspace::{Overrides, Resolved, resolve};
 
 /// A program with everything it is checked with.
@@ -208,7 +209,8 @@ pub(crate) fn load(global: &Global, path: &Path) -> Result<Loaded, Failure> {
 pub(crate) fn load_any(global: &Global, path: &Path) -> Result<Loaded, Failure> {
     let (source, seen) = read_program(global, path)?;
     let stdin = is_stdin(path);
-    let resolved = resolve((!stdin).then_some(path), &source, &overrides(global))?;
+    let mut resolved = resolve((!stdin).then_some(path), &source, &overrides(global))?;
+    resolved.setup.limits = limits(global, resolved.setup.limits);
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let program = trunnion_syntax::parse_on(source, resolved.dialect.lex, threads);
     let name = if stdin {
@@ -221,6 +223,44 @@ pub(crate) fn load_any(global: &Global, path: &Path) -> Result<Loaded, Failure> 
         program,
         resolved,
         seen,
+    })
+}
+
+/// [`load`] for a command that lists or draws every step.
+pub(crate) fn load_for_steps(global: &Global, path: &Path) -> Result<Loaded, Failure> {
+    let mut loaded = load(global, path)?;
+    let limits = &mut loaded.resolved.setup.limits;
+    *limits = limits.of_steps();
+    Ok(loaded)
+}
+
+/// The bounds of a run with what the command line says of them.
+pub(crate) fn limits(global: &Global, mut limits: Limits) -> Limits {
+    if let Some(steps) = global.max_steps {
+        limits.steps = steps;
+        limits.blocks = limits.blocks.max(steps);
+    }
+    limits
+}
+
+/// Why a run ended early, and what to do.
+pub(crate) fn not_followed(loaded: &Loaded, fault: &Fault) -> Option<String> {
+    let FaultKind::EndlessLoop { blocks, proved } = fault.kind else {
+        return None;
+    };
+    let lines = LineIndex::new(loaded.program.source());
+    let (line, _) = lines.line_column(loaded.program.source(), fault.range.start);
+    Some(if proved {
+        format!(
+            "{}:{line}: this loop never ends; what comes after it is left out",
+            loaded.name
+        )
+    } else {
+        format!(
+            "{}:{line}: given up: no end within {blocks} executed blocks; if the program is only long, use --max-steps N or raise `steps` \
+             of [limits] in trunnion.toml",
+            loaded.name
+        )
     })
 }
 

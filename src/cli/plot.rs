@@ -67,7 +67,7 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
             "--around-pole {angle}: must be between 0 and 90 deg"
         )));
     }
-    let loaded = load::load(global, &command.file)?;
+    let loaded = load::load_for_steps(global, &command.file)?;
     let machine = loaded.machine_or_fail("plot")?;
     let mut outputs = loaded.outputs();
     if let Some(after) = &command.after {
@@ -85,6 +85,15 @@ pub(super) fn run(global: &Global, command: &Plot) -> Result<Done, Failure> {
             global.quiet,
             &format!(
                 "{}: {count} motions with an unknown path are not drawn; see `trunnion check`",
+                loaded.name
+            ),
+        );
+    }
+    if let Some(line) = record.coarse_from {
+        remark(
+            global.quiet,
+            &format!(
+                "{}: from line {line} on each motion is drawn by its ends alone; --lines FROM-TO draws a part in detail",
                 loaded.name
             ),
         );

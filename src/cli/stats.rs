@@ -25,7 +25,7 @@ pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
     let found = walk::programs(&command.paths)?;
     found.remark(global.quiet, global.verbose);
     for (number, path) in found.files.iter().enumerate() {
-        let loaded = load::load(global, path)?;
+        let loaded = load::load_for_steps(global, path)?;
         let tally = Tally::of(loaded.input());
         let machine = loaded.resolved.machine.is_some();
         let cycle_time_s = machine.then(|| check(&loaded.program, &loaded.resolved.settings()).cycle_time_s);

@@ -66,7 +66,7 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
             )));
         }
     }
-    let loaded = load::load(global, &command.file)?;
+    let loaded = load::load_for_steps(global, &command.file)?;
     let machine = loaded.machine_or_fail("surface")?;
     let mut outputs = loaded.outputs();
     outputs.input(&command.required);
@@ -181,9 +181,13 @@ fn judge(
     };
     let lines = command.lines.as_deref().map(plot::span).transpose()?;
     let mut judge = Judge::new(surface, machine, options);
-    each_leg(loaded, machine, index, lines, |leg, _, state| {
+    let given_up = each_leg(loaded, machine, index, lines, |leg, _, state| {
         judge.leg(leg, leg.motion.other_length(state.own_length_mm()).is_none());
     });
+    if let Some(why) = given_up {
+        // a part of the path says nothing about the whole
+        return Err(Failure::new(why));
+    }
     Ok(judge.finish())
 }
 

@@ -33,7 +33,7 @@ const COLUMNS: [&str; 17] = [
 
 /// Runs `trace`.
 pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
-    let loaded = load::load(global, &command.file)?;
+    let loaded = load::load_for_steps(global, &command.file)?;
     if global.verbose {
         remark(false, &loaded.explanation());
     }
@@ -48,6 +48,7 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
         writer: Rows::new(command.format, out, machine)?,
         error: None,
         faults: 0,
+        given_up: None,
     };
     trunnion_interp::run(
         &loaded.program,
@@ -69,6 +70,10 @@ pub(super) fn run(global: &Global, command: &Trace) -> Result<Done, Failure> {
             ),
         );
     }
+    if let Some(why) = tracer.given_up {
+        remark(false, &why);
+        return Ok(Done::Found);
+    }
     // A trace shows what the machine does and judges nothing: it never reports a finding, whatever `check` would report.
     Ok(Done::Clean)
 }
@@ -81,6 +86,8 @@ struct Tracer<'a, W: Write> {
     writer: Rows<W>,
     error: Option<Failure>,
     faults: usize,
+    /// Why it is not whole.
+    given_up: Option<String>,
 }
 
 impl<W: Write> Sink for Tracer<'_, W> {
@@ -94,7 +101,8 @@ impl<W: Write> Sink for Tracer<'_, W> {
             self.error = Some(failure);
         }
     }
-    fn fault(&mut self, _fault: Fault) {
+    fn fault(&mut self, fault: Fault) {
+        self.given_up = self.given_up.take().or_else(|| load::not_followed(self.loaded, &fault));
         self.faults += 1;
     }
 }

@@ -6,6 +6,7 @@ use crate::plan::{Out, Planner};
 use crate::setting::Setting;
 use crate::travel::{Beyond, Travel, travel, zeros_declared};
 use crate::{Options, Refused, Target};
+use std::cell::OnceCell;
 use trunnion_certify::Outcome;
 use trunnion_certify::conversion::{
     Ask, Assume, ConversionClaim, ConversionProof, Own, Part, Posed, Reading, Run, Terms, Why, converted_on, read,
@@ -61,6 +62,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         ..*source
     });
     understood(&reading, options)?;
+    held(&reading, source.setup)?;
     let setting = Setting::new(target, options)?;
     // clamps are closed and opened anew for the machine that it is written for
     let rewritten =
@@ -82,6 +84,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         setup: source.setup,
         options,
         tolerance_mm,
+        known: OnceCell::new(),
     };
     setting.head_lengths(&reading, &job)?;
     let (outs, swaps) = planner.plan(&job)?;
@@ -197,6 +200,17 @@ fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
     Err(Refused::range(program, fault.range, wording(program, fault)))
 }
 
+/// Refuses a program with more motions than are held.
+fn held(reading: &Reading, setup: &trunnion_interp::Setup) -> Result<(), Refused> {
+    let Some(block) = reading.given_up else { return Ok(()) };
+    let most = setup.limits.held;
+    let message = format!(
+        "given up: a conversion holds all motions in memory, and there are more than {most}; raise `held` of [limits] in trunnion.toml (a \
+         motion takes up to 4 kB)"
+    );
+    Err(Refused::at(&reading.program, block, message))
+}
+
 fn wording(program: &Program, fault: &Fault) -> String {
     let text: String = program.text(fault.range).chars().take(40).collect();
     match &fault.kind {
@@ -217,6 +231,10 @@ fn wording(program: &Program, fault: &Fault) -> String {
             "a number without a point: a parameter of the control decides what it means; say so in trunnion.toml"
                 .to_owned()
         }
+        FaultKind::EndlessLoop { blocks, proved: false } => format!(
+            "given up: no end within {blocks} executed blocks; if the program is only long, raise `steps` and `held` of [limits] in \
+             trunnion.toml"
+        ),
         _ => format!("the program has an error at `{text}`; `trunnion check` says which"),
     }
 }
@@ -241,6 +259,7 @@ fn prove(
         setup: &setup,
         assume: Assume::default(),
     });
+    held(&after, source.setup)?;
     if let Some(error) = after.program.errors().first() {
         let (line, column) = LineIndex::new(text.as_bytes()).line_column(text.as_bytes(), error.range.start);
         return Err(Refused::new(format!(

@@ -60,7 +60,7 @@ impl<'a> AptWriter<'a> {
             match &placed.event {
                 Event::Motion(index) => self.motion(&outs[*index]),
                 Event::Tool(number) => {
-                    let tool = job.tools.iter().find(|(known, _)| known == number);
+                    let tool = job.tool(*number);
                     self.tool(*number, tool.and_then(|(_, tool)| tool.as_ref()));
                 }
                 Event::WorkOffset(_) => {}

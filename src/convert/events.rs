@@ -178,15 +178,10 @@ impl Teller<'_> {
         if let Some(number) = ran.tool.filter(|_| ran.tool != self.tool) {
             self.tool = ran.tool;
             self.job.push(Event::Tool(number), block);
-            if !self.job.tools.iter().any(|(known, _)| *known == number) {
-                self.job.tools.push((number, None));
-            }
+            self.job.tool_mut(number);
         }
         if let (Some(number), Some(data)) = (ran.tool, ran.tool_data) {
-            let known = self.job.tools.iter_mut().find(|(known, _)| *known == number);
-            if let Some((_, slot)) = known {
-                *slot = Some(Tool { number, ..data });
-            }
+            *self.job.tool_mut(number) = Some(Tool { number, ..data });
         }
         let name = ran.work_offset.as_deref();
         if name.is_some() && name != self.work_offset.as_deref() {

@@ -1,4 +1,5 @@
 //! What a program says, apart from any language: events in order, motions among them.
+use std::collections::{BTreeMap, BTreeSet};
 pub(crate) use trunnion_certify::conversion::Coolant;
 use trunnion_interp::Tool;
 use trunnion_syntax::BlockId;
@@ -41,16 +42,33 @@ pub(crate) struct Job {
     pub(crate) events: Vec<Placed>,
     /// Tools in the order of their first use, with what is declared of them.
     pub(crate) tools: Vec<(u32, Option<Tool>)>,
+    /// Places in `tools` by number.
+    pub(crate) places: BTreeMap<u32, usize>,
     /// What is left out, once each, with its place.
     pub(crate) left_out: Vec<(String, BlockId)>,
+    /// The names in it.
+    pub(crate) known_left_out: BTreeSet<String>,
 }
 
 impl Job {
     pub(crate) fn push(&mut self, event: Event, block: BlockId) {
         self.events.push(Placed { event, block });
     }
+    /// What is declared of a tool of the program.
+    pub(crate) fn tool(&self, number: u32) -> Option<&(u32, Option<Tool>)> {
+        self.places.get(&number).map(|&place| &self.tools[place])
+    }
+    /// The same, to write; the tool is added where it is new.
+    pub(crate) fn tool_mut(&mut self, number: u32) -> &mut Option<Tool> {
+        let next = self.tools.len();
+        let place = *self.places.entry(number).or_insert(next);
+        if place == next {
+            self.tools.push((number, None));
+        }
+        &mut self.tools[place].1
+    }
     pub(crate) fn leave_out(&mut self, what: &str, block: BlockId) {
-        if !self.left_out.iter().any(|(known, _)| known == what) {
+        if self.known_left_out.insert(what.to_owned()) {
             self.left_out.push((what.to_owned(), block));
         }
     }

@@ -1,8 +1,10 @@
 //! Motions to words of the target: joints chosen, arcs kept or cut into lines, feeds carried over.
 use crate::job::{Event, Job};
+use crate::known::Known;
 use crate::posture::{Never, Wish, choose};
 use crate::sample::{Between, Frame, PartEnd, joints, words};
 use crate::{Options, Refused};
+use std::cell::OnceCell;
 use trunnion_certify::conversion::{Posed, Reading, Track, rotary};
 use trunnion_dialect::Dialect;
 use trunnion_geometry::{Vec3, arc::Arc, deg};
@@ -84,6 +86,8 @@ pub(crate) struct Planner<'a> {
     pub(crate) setup: &'a Setup,
     pub(crate) options: &'a Options,
     pub(crate) tolerance_mm: f64,
+    /// Where the known poses are, once it was asked.
+    pub(crate) known: OnceCell<Known>,
 }
 
 /// The motions of the output for each motion before, and the blocks with a swap.
@@ -198,7 +202,7 @@ impl Planner<'_> {
             known.next().map_or([0.0; 9], |offset| offset.values)
         };
         let length_of = |number: u32| {
-            let declared = job.tools.iter().find(|(known, _)| *known == number);
+            let declared = job.tool(number);
             let own = declared.and_then(|(_, tool)| tool.as_ref()?.length_mm);
             own.filter(|_| self.compensates).unwrap_or(0.0)
         };
@@ -262,12 +266,10 @@ impl Planner<'_> {
     fn may_leave(&self, index: usize) -> bool {
         let motions = &self.reading.motions;
         let posed = &motions[index];
-        let known = |other: &Posed| other.end.is_ok() && !matches!(other.motion.kind, MotionKind::Dwell(_));
         let tool = posed.motion.tool;
-        let first = !motions[..index]
-            .iter()
-            .any(|other| other.motion.tool == tool && known(other));
-        let next = motions[index..].iter().find(|other| known(other));
+        let known = self.known.get_or_init(|| Known::of(motions));
+        let first = known.first.get(&tool).is_none_or(|&first| first >= index);
+        let next = known.next[index].map(|next| &motions[next]);
         posed.motion.kind == MotionKind::Rapid && (first || next.is_none_or(|next| next.motion.tool != tool))
     }
 

@@ -59,7 +59,12 @@ pub struct Found {
     pub one_by_one: bool,
     /// Where the runs stopped before the end of their programs.
     pub stops: [Option<Stop>; 2],
+    /// Place of each change in `techs`.
+    places: HashMap<Parts, usize>,
 }
+
+/// Name, before, after of each part of a change.
+type Parts = Vec<(String, String, String)>;
 
 impl Found {
     fn new(verdict: Verdict) -> Self {
@@ -74,6 +79,7 @@ impl Found {
             too_different: false,
             one_by_one: false,
             stops: [None, None],
+            places: HashMap::new(),
         }
     }
     /// Whether the programs are the same.
@@ -274,13 +280,12 @@ impl TechChange {
 
 impl Found {
     /// Notes that a motion has another feed or the like; where it stands in the list.
-    fn note(&mut self, parts: Vec<(String, String, String)>, blocks: (BlockId, BlockId)) -> Option<usize> {
+    fn note(&mut self, parts: Parts, blocks: (BlockId, BlockId)) -> Option<usize> {
         if parts.is_empty() {
             return None;
         }
-        // the same change in motions of other tools is one change; the newest groups are the likeliest
-        let known = self.techs.iter().rposition(|change| change.parts == parts);
-        if let Some(place) = known {
+        // the same change in motions of other tools is one change
+        if let Some(&place) = self.places.get(&parts) {
             self.techs[place].add(blocks);
             return Some(place);
         }
@@ -288,6 +293,7 @@ impl Found {
             self.techs_not_listed += 1;
             return None;
         }
+        self.places.insert(parts.clone(), self.techs.len());
         self.techs.push(TechChange {
             parts,
             first: blocks,

@@ -3,6 +3,7 @@ use crate::Key;
 use std::collections::HashMap;
 use std::sync::Arc;
 use trunnion_syntax::{LexOptions, Program, parse};
+use trunnion_vocabulary::Searched;
 
 /// Another file that is called.
 #[derive(Debug)]
@@ -20,7 +21,7 @@ pub struct Called {
 pub struct Library {
     files: Vec<Arc<Called>>,
     /// Names that are not there, with the folders that were searched.
-    missing: HashMap<Key, Vec<String>>,
+    missing: HashMap<Key, Vec<Searched>>,
 }
 
 impl Library {
@@ -32,14 +33,14 @@ impl Library {
     /// The file of a program: one that was called before, else the first that `load` finds of the file names `tried`.
     ///
     /// # Errors
-    /// The folders that were searched, as people are shown them.
+    /// The folders that were searched.
     pub fn find<T>(
         &mut self,
         name: &Key,
         tried: impl Iterator<Item = String>,
         lex: LexOptions,
-        load: impl Fn(&str) -> Result<(String, T), Vec<String>>,
-    ) -> Result<u16, Vec<String>>
+        load: impl Fn(&str) -> Result<(String, T), Vec<Searched>>,
+    ) -> Result<u16, Vec<Searched>>
     where
         T: AsRef<[u8]>,
     {
@@ -61,7 +62,13 @@ impl Library {
                     return Ok(self.files.len() as u16);
                 }
                 Ok(_) => break,
-                Err(folders) => searched = folders,
+                Err(folders) => {
+                    searched = folders;
+                    // the control would take that file: another name is not tried
+                    if searched.iter().any(|place| place.refused.is_some()) {
+                        break;
+                    }
+                }
             }
         }
         self.missing.insert(name.clone(), searched.clone());

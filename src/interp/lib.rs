@@ -50,7 +50,7 @@ pub use trunnion_vocabulary::{
     AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, ChainId, Clamp, ClampCodes, Clamps, ControlData, Effect, Fault,
     FaultKind, Feed, FeedMode, Files, Frame, ImplicitDecimals, LengthOf, LengthUnit, Library, Limits, Loaded,
     ModalState, Motion, MotionKind, Orientation, OuterCorner, Placed, Position, Posture, ProgramRun, Reach, Refusal,
-    RollPitchYaw, RoughingEscape, Setup, Sink, Swivel, TcpCodes, TcpMistake, Tilt, Tool, ToolShape, Undeclared, Value,
-    WorkOffset, same_number,
+    RollPitchYaw, RoughingEscape, Searched, Setup, Sink, Swivel, TcpCodes, TcpMistake, Tilt, Tool, ToolShape,
+    Undeclared, Value, WorkOffset, same_number,
 };
 pub use written::canonical_text;

@@ -8,7 +8,7 @@ mod words;
 use crate::Argument;
 use crate::flow::Transfer;
 use std::cell::RefCell;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use trunnion_formula::{FormulaErrorKind, ValueError};
 use trunnion_syntax::{Call, TextRange};
 
@@ -87,9 +87,11 @@ pub(crate) struct Own {
     /// The last values of FOR loops, by file and block.
     pub(crate) counted_to: HashMap<(u16, u32), f64>,
     /// Names that are no programs of the library.
-    pub(crate) missing: Vec<Box<str>>,
+    pub(crate) missing: BTreeSet<Box<str>>,
+    /// Whether a file has heads of programs (`%_N_`), by its number.
+    pub(crate) headed: HashMap<u16, bool>,
     /// Names that EXTERN declares as subprograms.
-    pub(crate) declared: Vec<Box<str>>,
+    pub(crate) declared: BTreeSet<Box<str>>,
 }
 
 /// What formulas read from, and the first name whose value was not known.
@@ -288,9 +290,7 @@ impl Own {
         let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let name = text.trim().split(|c| !is_name(c)).next().unwrap_or_default();
         let name: Box<str> = name.to_ascii_uppercase().into();
-        if !self.declared.contains(&name) {
-            self.declared.push(name);
-        }
+        self.declared.insert(name);
     }
     /// The value of an expression; `None`: it is not known, or not of this language.
     pub(crate) fn value(&self, text: &str) -> Option<f64> {

@@ -1,15 +1,17 @@
 //! What was reported, so that it is reported once.
 
+use std::collections::BTreeSet;
+
 /// Names of what was reported.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Reported(Vec<Box<str>>);
+pub(crate) struct Reported(BTreeSet<Box<str>>);
 
 impl Reported {
     /// Whether this is the first time; from then on it is not.
     pub(crate) fn first(&mut self, what: &str) -> bool {
-        let first = !self.0.iter().any(|known| &**known == what);
+        let first = !self.0.contains(what);
         if first {
-            self.0.push(what.into());
+            self.0.insert(what.into());
         }
         first
     }

@@ -40,7 +40,7 @@ pub struct Missing {
     /// As it is called.
     pub name: String,
     /// Folders that were searched, after the rest of the program.
-    pub searched: Vec<String>,
+    pub searched: Vec<crate::Searched>,
 }
 
 impl Error {

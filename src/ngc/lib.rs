@@ -27,4 +27,4 @@ pub use print::Listing;
 pub use setup::{BadLine, Ini, Parameters, Setup, Start, ToolEntry, ToolTable};
 pub use source::{FileId, Source};
 pub use state::{CycleWords, DistanceMode, Plane, RetractMode, SpindleMode, State, Units};
-pub use trunnion_vocabulary::{FeedMode, Files, Limits, Loaded, Refusal as Class};
+pub use trunnion_vocabulary::{FeedMode, Files, Limits, Loaded, Refusal as Class, Searched};

@@ -118,9 +118,10 @@ fn draw_marks(
     rules: &[(String, RGBColor, usize)],
 ) -> Result<(), PlotError> {
     let mut written: Vec<u32> = Vec::new();
+    let lines = record.by_line();
     for (place, (rule, colour, _)) in rules.iter().enumerate() {
         for mark in marks.iter().filter(|mark| mark.rule == *rule) {
-            for block in record.on_line(mark.line) {
+            for block in lines.get(&mark.line).into_iter().flatten() {
                 let Some(end) = record.of(block).last() else { continue };
                 let (x, y) = plane.see(&end.axis);
                 panel.ring(x, y, *colour, 6.0 + 2.5 * place as f64)?;

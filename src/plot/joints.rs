@@ -202,11 +202,12 @@ fn draw_marks(
     along: Along,
     joint: usize,
 ) -> Result<(), PlotError> {
+    let lines = record.by_line();
     // the rarest on top, each a little smaller
     for (place, (rule, colour, _)) in rules.iter().enumerate() {
         let mut dots = Vec::new();
         for mark in marks.iter().filter(|mark| mark.rule == *rule) {
-            for block in record.on_line(mark.line) {
+            for block in lines.get(&mark.line).into_iter().flatten() {
                 if let Some(end) = record.of(block).last() {
                     dots.push((along.of(end), end.joints[joint]));
                 }

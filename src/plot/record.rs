@@ -1,5 +1,6 @@
 //! What is kept of a run for pictures: samples along the real path, block by block.
 use core::ops::Range;
+use std::collections::BTreeMap;
 use trunnion_geometry::{Vec3, deg};
 use trunnion_machine::{AxisKind, BlockPath, Joints, Leg, Machine, block_duration_s, tip_deviation};
 
@@ -53,6 +54,8 @@ pub struct Record {
     pub blocks: Vec<Block>,
     /// Motions whose path is not known.
     pub unknown: usize,
+    /// The first line whose block is drawn by its ends alone, because the record holds [`MOST_SAMPLES`] samples.
+    pub coarse_from: Option<u32>,
 }
 
 impl Record {
@@ -60,9 +63,13 @@ impl Record {
     pub(crate) fn of(&self, block: &Block) -> &[Sample] {
         &self.samples[block.samples.clone()]
     }
-    /// Blocks of a line.
-    pub(crate) fn on_line(&self, line: u32) -> impl Iterator<Item = &Block> {
-        self.blocks.iter().filter(move |block| block.line == line)
+    /// Blocks by their lines: those of a line in the order of the run.
+    pub(crate) fn by_line(&self) -> BTreeMap<u32, Vec<&Block>> {
+        let mut lines = BTreeMap::<u32, Vec<&Block>>::new();
+        for block in &self.blocks {
+            lines.entry(block.line).or_default().push(block);
+        }
+        lines
     }
 }
 
@@ -77,6 +84,8 @@ pub struct Recorder<'m> {
 
 /// Most samples of a block.
 const MOST: f64 = 240.0;
+/// Samples of a whole record, some hundred bytes each. Blocks after them are recorded by their ends.
+const MOST_SAMPLES: usize = 1_000_000;
 /// How far the tip may lie off the line between two samples, mm.
 const NEAR: f64 = 0.02;
 /// How far a rotary axis may turn between two samples, rad.
@@ -112,6 +121,12 @@ impl<'m> Recorder<'m> {
             .max(turn / TURN)
             .ceil()
             .clamp(1.0, MOST) as usize;
+        let pieces = if self.record.samples.len() + pieces < MOST_SAMPLES {
+            pieces
+        } else {
+            self.record.coarse_from.get_or_insert(line);
+            1
+        };
         let duration = block_duration_s(self.machine, leg).unwrap_or(f64::NAN);
         let first = self.record.samples.len();
         let mut before = None;

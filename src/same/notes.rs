@@ -1,5 +1,5 @@
 //! What is noted at a block beside its effects: what something that is not modelled could read, and words that restate what may be lost.
-use crate::item::{Around, Waiting, Waits};
+use crate::item::{Around, Waits};
 use crate::process::Process;
 use crate::since::{keeps_place, writes_control};
 use crate::steps::Steps;
@@ -18,10 +18,11 @@ impl Steps<'_> {
         lost: bool,
         own_locals: bool,
     ) {
-        let fresh = |waiting: &&mut Waiting| waiting.before > effects;
+        // in order of `before`; while motions are held back, what came before this block waits too
+        let new = self.run.waiting.partition_point(|waiting| waiting.before <= effects);
         let mut own = false;
         let mut opaque = false;
-        for waiting in self.run.waiting.iter().filter(|waiting| waiting.before > effects) {
+        for waiting in self.run.waiting.range(new..) {
             own |= waiting.is_own_code();
             opaque |= waiting.is_unmodelled() || waiting.is_own_code();
         }
@@ -34,7 +35,7 @@ impl Steps<'_> {
             if let Some(variables) = variables.as_mut().filter(|_| own_locals) {
                 variables.retain(|variable| !is_local(&variable.name));
             }
-            for waiting in self.run.waiting.iter_mut().filter(fresh) {
+            for waiting in self.run.waiting.range_mut(new..) {
                 if !(waiting.is_unmodelled() || waiting.is_own_code()) {
                     continue;
                 }
@@ -46,7 +47,7 @@ impl Steps<'_> {
                 }
             }
         }
-        for waiting in self.run.waiting.iter_mut().filter(fresh) {
+        for waiting in self.run.waiting.range_mut(new..) {
             match &mut waiting.what {
                 Waits::Effect(Effect::Set { to: words, .. }, _) if words.is_empty() => {}
                 Waits::Effect(Effect::Set { to: words, .. } | Effect::Event(words) | Effect::Unmodelled(words), _) => {

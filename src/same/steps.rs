@@ -13,12 +13,6 @@ use trunnion_interp::{
 use trunnion_machine::{Follower, Leg};
 use trunnion_syntax::BlockId;
 
-/// More items without a motion between them are not kept.
-const MOST_WAITING: usize = 1_000_000;
-
-/// More motions of one block (a pecking cycle with a tiny Q) are not kept: with all that is in force at each, they would fill the memory.
-const MOST_IN_BLOCK: usize = 100_000;
-
 /// Runs a program and yields what it does.
 pub struct Steps<'a> {
     pub(crate) input: Input<'a>,
@@ -39,6 +33,9 @@ pub(crate) struct Run<'a> {
     pub(crate) process: Arc<Process>,
     stores: BTreeMap<String, Value>,
     stop: Option<Stop>,
+    /// So many motions of one block (a pecking cycle with a tiny Q), and things without a motion between them, are kept, with all that is in
+    /// force at each.
+    most_in_block: usize,
     /// A block does more than is kept: the run ends with it.
     given_up: bool,
     /// Blocks of the main program whose called program is missing.
@@ -51,7 +48,7 @@ pub(crate) struct Run<'a> {
 
 impl Sink for Run<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
-        if self.motions.len() >= MOST_IN_BLOCK {
+        if self.motions.len() >= self.most_in_block {
             self.give_up(motion.block);
             return;
         }
@@ -102,7 +99,8 @@ impl Run<'_> {
     #[cold]
     fn give_up(&mut self, block: BlockId) {
         if !std::mem::replace(&mut self.given_up, true) {
-            let why = format!("one block makes more than {MOST_IN_BLOCK} motions");
+            let most = self.most_in_block;
+            let why = format!("one block makes more than {most} motions: raise `held` of [limits] in trunnion.toml");
             let what = why.clone();
             self.stop.get_or_insert(Stop { block, why });
             if let Some(faults) = &mut self.faults {
@@ -118,7 +116,10 @@ impl Run<'_> {
 fn ends(kind: &FaultKind) -> Option<String> {
     Some(match kind {
         FaultKind::EndlessLoop { proved: true, .. } => "it never ends: a loop comes back to the same values".to_owned(),
-        FaultKind::EndlessLoop { blocks, .. } => format!("it does not end within {blocks} executed blocks"),
+        FaultKind::EndlessLoop { blocks, .. } => format!(
+            "it does not end within {blocks} executed blocks; if it is only long, use --max-steps N or raise `steps` of [limits] in \
+             trunnion.toml"
+        ),
         FaultKind::NotDecided { what } => format!("what runs next depends on {what}"),
         FaultKind::Rejected { message, .. } => format!("the control refuses it: {message}"),
         _ => return None,
@@ -128,7 +129,9 @@ fn ends(kind: &FaultKind) -> Option<String> {
 impl<'a> Steps<'a> {
     /// At the program's start.
     pub fn new(input: Input<'a>) -> Self {
-        let mut interpreter = Interpreter::new(input.dialect, input.setup);
+        let mut setup = input.setup.clone();
+        setup.limits = setup.limits.of_steps();
+        let mut interpreter = Interpreter::new(input.dialect, &setup);
         interpreter.watch_effects();
         Self {
             input,
@@ -141,6 +144,8 @@ impl<'a> Steps<'a> {
                 process: Arc::default(),
                 stores: BTreeMap::new(),
                 stop: None,
+                // two programs are compared, and a step holds twice what a motion does
+                most_in_block: (setup.limits.held / 4).max(1) as usize,
                 given_up: false,
                 missing: Vec::new(),
                 faults: None,
@@ -245,9 +250,11 @@ impl<'a> Steps<'a> {
         if self.over {
             return None;
         }
-        if self.ready.len() > MOST_WAITING {
+        if self.ready.len() > self.run.most_in_block {
             let block = self.ready.back().map_or(BlockId(0), Item::block);
-            let why = format!("it does more than {MOST_WAITING} things without a motion");
+            let most = self.run.most_in_block;
+            let why =
+                format!("it does more than {most} things without a motion: raise `held` of [limits] in trunnion.toml");
             self.run.stop.get_or_insert(Stop { block, why });
             self.over = true;
             return None;

@@ -1,6 +1,6 @@
 //! The error of the trajectory surface: how far the real path strays from the required surface, in three senses.
 use crate::mesh::{Required, Uv};
-use crate::search::{Climb, Top, top};
+use crate::search::{Climb, SAMPLES, Top, top};
 use crate::sheet::Sheet;
 use trunnion_geometry::Vec3;
 use trunnion_machine::{BlockPath, Leg, Machine, tip_deviation};
@@ -78,12 +78,17 @@ pub struct Errors {
     pub spots: Vec<Spot>,
 }
 
+/// Samples of all blocks of a run together. Where they are used up, bounds stay sound but are loose, and the verdict may be unknown.
+const SAMPLES_OF_ALL: usize = 5_000_000;
+
 /// Judges legs one by one.
 pub struct Judge<'a> {
     required: &'a Required,
     machine: &'a Machine,
     options: Options,
     errors: Errors,
+    /// Samples that all blocks together may still take beyond a few of their own.
+    left: usize,
 }
 
 impl<'a> Judge<'a> {
@@ -94,6 +99,7 @@ impl<'a> Judge<'a> {
             machine,
             options,
             errors: Errors::default(),
+            left: SAMPLES_OF_ALL,
         }
     }
 
@@ -125,7 +131,14 @@ impl<'a> Judge<'a> {
         self.errors.judged += 1;
         let reached = |known: &Option<Found>| known.as_ref().map_or(0.0, |found| found.sampled);
         let pieces = first_pieces(&way);
-        let found = top(&near, pieces, reached(&self.errors.from_surface), options.close);
+        let found = top(
+            &near,
+            pieces,
+            self.most(),
+            reached(&self.errors.from_surface),
+            options.close,
+        );
+        self.left = self.left.saturating_sub(found.samples);
         let found = Found {
             bound: found.bound + required.off,
             ..self.found(block, &way, found, true)
@@ -135,7 +148,14 @@ impl<'a> Judge<'a> {
         let same = SamePlace::new(&way, required).filter(|_| options.offset == 0.0);
         if let Some(same) = &same {
             self.errors.placed += 1;
-            let found = top(same, pieces, reached(&self.errors.same_place), options.close);
+            let found = top(
+                same,
+                pieces,
+                self.most(),
+                reached(&self.errors.same_place),
+                options.close,
+            );
+            self.left = self.left.saturating_sub(found.samples);
             let found = self.found(block, &way, found, false);
             keep(&mut self.errors.same_place, found);
         }
@@ -144,6 +164,7 @@ impl<'a> Judge<'a> {
                 sampled: deviation.sampled_mm,
                 at: deviation.at,
                 bound: deviation.bound_mm,
+                samples: 0,
             };
             let found = self.found(block, &way, found, false);
             keep(&mut self.errors.from_segment, found);
@@ -151,6 +172,11 @@ impl<'a> Judge<'a> {
         if options.spots > 0 {
             self.spots(&way, &near, same.as_ref(), index);
         }
+    }
+
+    /// Samples that the next block may take.
+    fn most(&self) -> usize {
+        self.left.min(SAMPLES)
     }
 
     /// Samples for a picture.

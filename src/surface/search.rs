@@ -22,6 +22,8 @@ pub(crate) struct Top {
     pub(crate) at: f64,
     /// Never below the truth.
     pub(crate) bound: f64,
+    /// Samples that it took.
+    pub(crate) samples: usize,
 }
 
 struct Piece<S> {
@@ -51,7 +53,7 @@ impl<S> Ord for Piece<S> {
 }
 
 /// Most samples of a block; the bound stays sound when they run out, but may be loose.
-const SAMPLES: usize = 50_000;
+pub(crate) const SAMPLES: usize = 50_000;
 
 fn piece<C: Climb>(climb: &C, from: (f64, C::Sample, f64), to: (f64, C::Sample, f64)) -> Piece<C::Sample> {
     let (way, more) = climb.way(&from.1, &to.1, to.0 - from.0);
@@ -62,8 +64,8 @@ fn piece<C: Climb>(climb: &C, from: (f64, C::Sample, f64), to: (f64, C::Sample, 
 }
 
 /// Halves the piece with the largest bound until no bound is above `reached` (or the largest sample) by more than `close`. Between two
-/// samples a value is at most where the two slopes of 1 that fall from them meet.
-pub(crate) fn top<C: Climb>(climb: &C, first_pieces: usize, reached: f64, close: f64) -> Top {
+/// samples a value is at most where the two slopes of 1 that fall from them meet. `most`: no more samples, beside those of the first pieces.
+pub(crate) fn top<C: Climb>(climb: &C, first_pieces: usize, most: usize, reached: f64, close: f64) -> Top {
     let at = |t: f64| {
         let (sample, value) = climb.sample(t);
         (t, sample, value)
@@ -85,7 +87,7 @@ pub(crate) fn top<C: Climb>(climb: &C, first_pieces: usize, reached: f64, close:
     }
     let mut samples = first_pieces + 1;
     while let Some(open) = heap.peek() {
-        if open.bound <= best.0.max(reached) + close || samples >= SAMPLES || open.bound == f64::INFINITY {
+        if open.bound <= best.0.max(reached) + close || samples >= most || open.bound == f64::INFINITY {
             break;
         }
         let Some(open) = heap.pop() else { break };
@@ -101,6 +103,7 @@ pub(crate) fn top<C: Climb>(climb: &C, first_pieces: usize, reached: f64, close:
         sampled: best.0,
         at: best.1,
         bound: heap.peek().map_or(best.0, |open| open.bound.max(best.0)),
+        samples,
     }
 }
 
@@ -123,14 +126,14 @@ mod tests {
 
     #[test]
     fn the_top_lies_between_sample_and_bound() {
-        let found = top(&Hill, 1, 0.0, 1e-6);
+        let found = top(&Hill, 1, SAMPLES, 0.0, 1e-6);
         assert!(
             found.sampled <= 2.0 && found.bound >= 2.0 && found.bound - found.sampled < 2e-6,
             "{found:?}"
         );
         assert!((found.at - 1.0 / 3.0).abs() < 1e-5);
         // what is reached elsewhere need not be looked for here
-        let found = top(&Hill, 1, 5.0, 1e-6);
+        let found = top(&Hill, 1, SAMPLES, 5.0, 1e-6);
         assert!(found.bound < 5.0 && found.bound >= 2.0);
     }
 }

@@ -5,18 +5,27 @@
 pub struct LineIndex {
     /// Byte offset of the start of each line (lines end with `\n`, `\r\n` or a lone `\r`).
     pub starts: Vec<u32>,
+    /// Inside lines longer than [`STEP`]: byte offset of a character, and how many characters of its line come before it. A line may be as
+    /// long as the file, and a file may have a finding at each of its bytes.
+    marks: Vec<(u32, u32)>,
 }
+
+/// Bytes of a line between two marks, up to a character more.
+const STEP: usize = 1024;
 
 impl LineIndex {
     /// Line starts of `source`. The first is 0; a text that ends with a line end has an empty last line.
     pub fn new(source: &[u8]) -> Self {
-        let mut starts = vec![0];
+        let (mut starts, mut marks, mut start) = (vec![0], Vec::new(), 0);
         for at in memchr::memchr2_iter(b'\n', b'\r', source) {
             if source[at] == b'\n' || source.get(at + 1) != Some(&b'\n') {
-                starts.push(at as u32 + 1);
+                mark(source, start, at + 1, &mut marks);
+                start = at + 1;
+                starts.push(start as u32);
             }
         }
-        Self { starts }
+        mark(source, start, source.len(), &mut marks);
+        Self { starts, marks }
     }
 
     /// Line and column of a byte, both from 1; the column counts Unicode characters (invalid bytes count one each).
@@ -25,7 +34,20 @@ impl LineIndex {
         let offset = (offset as usize).min(source.len());
         let line = self.starts.partition_point(|&start| start as usize <= offset).max(1);
         let start = (self.starts.get(line - 1).copied().unwrap_or(0) as usize).min(offset);
-        (line as u32, 1 + characters(&source[start..offset], &source[offset..]))
+        let (from, before) = self.mark(start, offset);
+        (
+            line as u32,
+            1 + before + characters(&source[from..offset], &source[offset..]),
+        )
+    }
+
+    /// The last mark of the line between its start and `offset`; the start itself where there is none.
+    fn mark(&self, start: usize, offset: usize) -> (usize, u32) {
+        let after = self.marks.partition_point(|&(at, _)| at as usize <= offset);
+        match after.checked_sub(1).map(|last| self.marks[last]) {
+            Some((at, count)) if at as usize >= start => (at as usize, count),
+            _ => (start, 0),
+        }
     }
 
     /// The byte offset of a line and column as [`Self::line_column`] counts them; `None` where the text has no such line.
@@ -47,6 +69,20 @@ impl LineIndex {
             at += character(&text[at..]);
         }
         Some((start + at) as u32)
+    }
+}
+
+/// Adds the marks of the line from `start` to `end`.
+fn mark(source: &[u8], start: usize, end: usize, marks: &mut Vec<(u32, u32)>) {
+    let (mut from, mut count) = (start, 0);
+    while end - from > STEP {
+        let mut at = from + STEP;
+        // not inside a character: the mark moves back to its first byte
+        let back = (1..=3).find(|&back| source.get(at - back..).is_some_and(|text| character(text) > back));
+        at -= back.unwrap_or(0);
+        count += characters(&source[from..at], &[]);
+        marks.push((at as u32, count));
+        from = at;
     }
 }
 
@@ -89,4 +125,55 @@ fn completes(head: &[u8], tail: &[u8]) -> bool {
     joined[..head.len()].copy_from_slice(head);
     joined[head.len()..length].copy_from_slice(tail);
     character(&joined[..length]) > head.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lines of every length around the marks, with characters of one to four bytes and bytes that are none.
+    fn long_lines() -> Vec<u8> {
+        let mut text = Vec::new();
+        for i in 0..4000_usize {
+            let piece: &[u8] = [
+                &b"a"[..],
+                "\u{e4}".as_bytes(),
+                "\u{20ac}".as_bytes(),
+                "\u{1f600}".as_bytes(),
+                b"\xe4",
+                b"\xf0\x9f",
+            ][i * i % 6];
+            text.extend_from_slice(piece);
+            if i % 1500 == 1499 {
+                text.extend_from_slice(b"\r\n");
+            }
+        }
+        text
+    }
+
+    #[test]
+    fn columns_of_long_lines_are_those_that_counting_from_the_start_gives() {
+        let text = long_lines();
+        let index = LineIndex::new(&text);
+        assert!(index.marks.len() > 4, "{:?}", index.marks);
+        let plain = LineIndex {
+            starts: index.starts.clone(),
+            marks: Vec::new(),
+        };
+        for offset in 0..=text.len() as u32 {
+            assert_eq!(
+                index.line_column(&text, offset),
+                plain.line_column(&text, offset),
+                "byte {offset}"
+            );
+        }
+    }
+
+    #[test]
+    fn no_place_of_a_long_line_is_far_from_a_mark() {
+        let text = vec![b'x'; 100 * STEP];
+        let index = LineIndex::new(&text);
+        let farthest = (0..text.len()).map(|offset| offset - index.mark(0, offset).0).max();
+        assert!(farthest.is_some_and(|bytes| bytes <= STEP), "{farthest:?}");
+    }
 }

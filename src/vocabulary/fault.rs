@@ -87,7 +87,7 @@ pub enum FaultKind {
         /// As written.
         name: String,
         /// Folders that were searched.
-        searched: Vec<String>,
+        searched: Vec<crate::Searched>,
         /// The control's own sentence, where it has one.
         alarm: Option<String>,
         /// File and line of the call, where that is not the main program.

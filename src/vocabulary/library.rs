@@ -15,15 +15,52 @@ pub trait Files: Send + Sync {
     /// The program of a name (`name`, without folder; the implementor tries extensions), or the folders that were searched.
     ///
     /// # Errors
-    /// The folders that were searched, as people are shown them.
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>>;
+    /// The folders that were searched.
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>>;
+}
+
+/// A folder in which a called program was looked for.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Searched {
+    /// As people are shown it.
+    pub folder: String,
+    /// A file of that name is there, and it is not taken: which, and why. The control would take it, so no other place is searched.
+    pub refused: Option<String>,
+}
+
+impl From<String> for Searched {
+    fn from(folder: String) -> Self {
+        Self { folder, refused: None }
+    }
+}
+
+impl From<&str> for Searched {
+    fn from(folder: &str) -> Self {
+        folder.to_owned().into()
+    }
+}
+
+impl core::fmt::Debug for Searched {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match &self.refused {
+            None => write!(f, "{:?}", self.folder),
+            Some(why) => write!(f, "{:?} ({why:?})", self.folder),
+        }
+    }
 }
 
 /// Bounds of a run: a program that does not end within them is reported, not awaited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Executed lines.
+    /// Executed lines, and motions of cycles, of a run that keeps nothing (`check`). The blocks that the program itself has are
+    /// not counted: a program without loops and calls is followed to its end.
     pub blocks: u64,
+    /// The same for a run whose every step is compared, proved, listed or drawn (`diff`, `certify`, `fix`, `trace`, `canon`, `stats`,
+    /// `plot`, `surface`, the language server): a step takes ten times as long there.
+    pub steps: u64,
+    /// Motions that are held in memory at once, with all that is known of them: of a whole program in `convert`; of one block, up to a quarter
+    /// of it, in a comparison.
+    pub held: u64,
     /// Calls inside calls, where the control sets no lower bound itself: LinuxCNC stops at [`Limits::LINUXCNC_DEPTH`].
     pub depth: u32,
 }
@@ -32,6 +69,8 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             blocks: 10_000_000,
+            steps: 1_000_000,
+            held: 250_000,
             depth: 100,
         }
     }
@@ -40,4 +79,22 @@ impl Default for Limits {
 impl Limits {
     /// So many levels of calls LinuxCNC has, the main program's among them.
     pub const LINUXCNC_DEPTH: u32 = 10;
+
+    /// For a run whose motions are held.
+    #[must_use]
+    pub fn of_held(self) -> Self {
+        Self {
+            blocks: self.blocks.min(self.steps).min(self.held),
+            ..self
+        }
+    }
+
+    /// For a run whose every step is compared, proved, listed or drawn.
+    #[must_use]
+    pub fn of_steps(self) -> Self {
+        Self {
+            blocks: self.blocks.min(self.steps),
+            ..self
+        }
+    }
 }

@@ -1,11 +1,12 @@
 //! Programs that a program calls: looked for beside it, then in the folders of `subprogram_path`, and nowhere else.
 use std::{
+    collections::BTreeMap,
     fs::{self, File},
     io::Read,
     path::{Path, PathBuf},
     sync::{Arc, OnceLock},
 };
-use trunnion_interp::{Files, Loaded};
+use trunnion_interp::{Files, Loaded, Searched};
 
 /// A larger file is no subprogram, bytes.
 const LARGEST: u64 = 64 << 20;
@@ -16,10 +17,13 @@ const MOST_ENTRIES: usize = 100_000;
 /// Extensions that are tried, in this order; the first is none.
 const EXTENSIONS: &[&str] = &["", "ngc", "nc", "tap", "mpf", "spf", "cnc", "eia", "gcode"];
 
+/// File names of a folder by their lower-case forms, each list sorted, so that the answer does not depend on the file system's order.
+type Names = BTreeMap<String, Vec<String>>;
+
 /// A folder that is searched, and its file names once they were needed.
 struct Folder {
     path: PathBuf,
-    names: OnceLock<Vec<String>>,
+    names: OnceLock<Names>,
 }
 
 impl Folder {
@@ -30,17 +34,21 @@ impl Folder {
         }
     }
 
-    /// Names of the files in it, sorted, so that the answer does not depend on the file system's order.
-    fn names(&self) -> &[String] {
+    /// Names of the files in it.
+    fn names(&self) -> &Names {
         self.names.get_or_init(|| {
-            let mut names: Vec<String> = fs::read_dir(&self.path)
+            let mut names = Names::new();
+            let entries = fs::read_dir(&self.path)
                 .into_iter()
                 .flatten()
                 .take(MOST_ENTRIES)
-                .flatten()
-                .filter_map(|entry| entry.file_name().into_string().ok())
-                .collect();
-            names.sort();
+                .flatten();
+            for name in entries.filter_map(|entry| entry.file_name().into_string().ok()) {
+                names.entry(name.to_ascii_lowercase()).or_default().push(name);
+            }
+            for alike in names.values_mut() {
+                alike.sort();
+            }
             names
         })
     }
@@ -55,8 +63,8 @@ impl Folder {
                 } else {
                     format!("{stem}.{extension}")
                 };
-                let exact = names.iter().find(|name| **name == wanted);
-                let found = exact.or_else(|| names.iter().find(|name| name.eq_ignore_ascii_case(&wanted)));
+                let alike = names.get(&wanted.to_ascii_lowercase());
+                let found = alike.and_then(|alike| alike.iter().find(|name| **name == wanted).or(alike.first()));
                 if let Some(path) = found.map(|name| self.path.join(name)).filter(|path| path.is_file()) {
                     return Some(path);
                 }
@@ -128,13 +136,13 @@ fn read(path: &Path, folder: &Path) -> Result<Arc<[u8]>, &'static str> {
 }
 
 impl Files for Subprograms {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         let mut searched = Vec::new();
         let stems = stems(name);
         for folder in &self.folders {
             let shown = folder.path.display().to_string();
             let Some(path) = stems.as_ref().and_then(|stems| folder.find(stems)) else {
-                searched.push(shown);
+                searched.push(shown.into());
                 continue;
             };
             match read(&path, &folder.path) {
@@ -144,7 +152,12 @@ impl Files for Subprograms {
                         bytes,
                     });
                 }
-                Err(why) => searched.push(format!("{shown} ({} {why})", path.display())),
+                // the control would take this file, so one of another folder is not taken in its place
+                Err(why) => {
+                    let refused = Some(format!("{} {why}", path.display()));
+                    searched.push(Searched { folder: shown, refused });
+                    return Err(searched);
+                }
             }
         }
         Err(searched)
@@ -210,7 +223,7 @@ mod tests {
     fn what_is_missing_names_the_folders() {
         let folder = Temporary::new();
         let searched = folder.files().load("77").expect_err("not there");
-        let folders = [folder.path(), folder.path().join("subs")].map(|path| path.display().to_string());
+        let folders = [folder.path(), folder.path().join("subs")].map(|path| path.display().to_string().into());
         assert_eq!(searched, folders);
     }
 
@@ -229,7 +242,8 @@ mod tests {
             let searched = Subprograms::new([folder.path().join("subs")])
                 .load("link")
                 .expect_err("it leads out");
-            assert!(searched[0].contains("is a link to outside the folder"), "{searched:?}");
+            let why = searched[0].refused.as_deref().expect("a reason");
+            assert!(why.ends_with("is a link to outside the folder"), "{searched:?}");
         }
     }
 
@@ -238,7 +252,11 @@ mod tests {
         let folder = Temporary::new();
         let file = File::create(folder.path().join("1.nc")).expect("created");
         file.set_len(LARGEST + 1).expect("sparse");
+        // the control would not look further
+        fs::write(folder.path().join("subs/1.nc"), "G0 X1\n").expect("written");
         let searched = folder.files().load("1").expect_err("too large");
-        assert!(searched[0].contains("is larger than 64 MB"), "{searched:?}");
+        let why = searched[0].refused.as_deref().expect("a reason");
+        assert!(why.ends_with("1.nc is larger than 64 MB"), "{searched:?}");
+        assert_eq!(searched.len(), 1);
     }
 }

@@ -1,4 +1,5 @@
 //! All tests of the whole program in one binary: one link instead of many. `cargo test --test all NAME` runs those whose path has NAME in it.
+mod bounds;
 mod canon;
 mod cli;
 mod differential;
@@ -11,7 +12,9 @@ mod independent;
 mod lsp;
 mod lsp_client;
 mod mutated_formats;
+mod mutated_programs;
 mod mutations;
+mod random;
 mod real_files;
 mod rewrites;
 mod rules;

@@ -1,5 +1,6 @@
 //! Files beside the program (machine, settings, dialect table, certificate, surface, STL, INI, FreeCAD machine, tool table, parameters),
 //! changed at random places: each is read or refused with a message, and nothing panics. `fuzz/fuzz_targets/formats.rs` is the long form.
+use crate::random::Random;
 use std::{fs, path::Path};
 use trunnion::{certify::Certificate, check::Config, dialect::Dialect, machine, ngc, surface};
 
@@ -11,18 +12,7 @@ fn mutations() -> usize {
         .unwrap_or(400)
 }
 
-/// splitmix64: deterministic, so that a failure can be repeated.
-struct Random(u64);
-
 impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % n.max(1) as u64) as usize
-    }
-
     /// One to four places changed: a byte, a scrap put in, a stretch taken out or said twice.
     fn mutate(&mut self, source: &[u8]) -> Vec<u8> {
         const SCRAPS: [&str; 16] = [
@@ -80,8 +70,9 @@ fn text(bytes: &[u8]) -> Result<&str, String> {
 
 fn formats() -> Vec<(&'static str, Vec<u8>, Reader)> {
     let stl = b"solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 10 0 0\nvertex 0 10 1\nendloop\nendfacet\nendsolid s\n";
-    let grid = b"[[grid]]\npoints = [[[0, 0, 0], [10, 0, 0]], [[0, 10, 0], [10, 10, 1]]]\n";
-    let ini = b"[KINS]\nKINEMATICS = xyzac-trt-kins\nJOINTS = 5\n[TRAJ]\nCOORDINATES = XYZAC\nLINEAR_UNITS = mm\n[AXIS_X]\nMIN_LIMIT = -100\nMAX_LIMIT = 100\nMAX_VELOCITY = 50\n";
+    let grid =
+        b"schema = \"trunnion-surface/1\"\n[[grid]]\nrows = [[[0, 0, 0], [10, 0, 0]], [[0, 10, 0], [10, 10, 1]]]\n";
+    let ini = b"[KINS]\nKINEMATICS = xyzac-trt-kins\nJOINTS = 5\n[TRAJ]\nCOORDINATES = XYZAC\nLINEAR_UNITS = mm\nANGULAR_UNITS = degree\n[AXIS_X]\nMIN_LIMIT = -100\nMAX_LIMIT = 100\nMAX_VELOCITY = 50\n";
     let fcm = br#"{"machine": {"name": "m", "units": "metric", "axes": {"X": {"type": "linear", "min": 0, "max": 500}, "C": {"type": "rotary"}}}}"#;
     vec![
         ("machine", file("samples/machines/mikron-ucp710.toml"), |bytes| {

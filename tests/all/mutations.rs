@@ -1,5 +1,6 @@
 //! Ten thousand random mutations of the samples: no panic, every finding has its range inside the file, tokens stay lossless,
 //! and whatever a rewrite proposes is certified or refused.
+use crate::random::Random;
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -15,20 +16,7 @@ use trunnion::{
 
 const MUTATIONS: usize = 10_000;
 
-/// splitmix64: deterministic, so that a failure can be repeated.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % n.max(1) as u64) as usize
-    }
-}
-
-fn samples() -> Vec<(PathBuf, Vec<u8>)> {
+pub(crate) fn samples() -> Vec<(PathBuf, Vec<u8>)> {
     fn walk(folder: &Path, out: &mut Vec<(PathBuf, Vec<u8>)>) {
         let mut entries: Vec<_> = fs::read_dir(folder)
             .expect("samples")
@@ -51,7 +39,7 @@ fn samples() -> Vec<(PathBuf, Vec<u8>)> {
     out
 }
 
-fn mutate(random: &mut Random, source: &[u8]) -> Vec<u8> {
+pub(crate) fn mutate(random: &mut Random, source: &[u8]) -> Vec<u8> {
     const SCRAPS: [&[u8]; 24] = [
         b"(",
         b")",

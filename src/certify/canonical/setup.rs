@@ -27,6 +27,8 @@ record! {
     Limits {
         blocks = 1, depth = 2,
     }
+    // they decide whether a proof is attempted to its end, not what it proves
+    without { steps, held }
 }
 
 record! {

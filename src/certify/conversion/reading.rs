@@ -1,15 +1,16 @@
 //! A program run from scratch, with the pose of the tool at both ends of every motion.
 use super::ask::{Asked, asks};
+use super::posed::keeps_lengths;
 use super::reason::reason;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use trunnion_dialect::Dialect;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{
-    AllClampCodes, ChainId, Fault, FaultKind, Feed, Interpreter, LengthOf, ModalState, Motion, MotionKind, Orientation,
-    ProgramRun, Refusal, Setup, Sink, Swivel, Tilt, Tool,
+    AllClampCodes, ChainId, Fault, FaultKind, Interpreter, LengthOf, ModalState, Motion, MotionKind, Orientation,
+    ProgramRun, Refusal, Setup, Sink, Tilt, Tool,
 };
-use trunnion_machine::{Follower, Joints, Leg, Machine, Pose, forward};
+use trunnion_machine::{Follower, Leg, Machine, Pose, forward};
 use trunnion_syntax::{BlockId, Format, Program, parse};
 
 /// What holds at the start of a program that does not say it: an excerpt.
@@ -96,6 +97,8 @@ pub struct Reading {
     pub motions: Vec<Posed>,
     /// Blocks in the order the control runs them.
     pub blocks: Vec<Ran>,
+    /// The block with which the run was given up, because it made more motions than are held ([`trunnion_interp::Limits::held`]).
+    pub given_up: Option<BlockId>,
     /// What is wrong.
     pub faults: Vec<Fault>,
     /// The first block that leads into another file.
@@ -127,8 +130,11 @@ pub fn read(run: &Run<'_>) -> Reading {
         chains: BTreeSet::new(),
         elsewhere: None,
         setup: run.setup,
+        given_up: None,
     };
-    let mut interpreter = Interpreter::new(run.dialect, run.setup);
+    let mut setup = run.setup.clone();
+    setup.limits = setup.limits.of_held();
+    let mut interpreter = Interpreter::new(run.dialect, &setup);
     if run.assume.tcp {
         interpreter.state_mut().tcp = true;
     }
@@ -137,12 +143,16 @@ pub fn read(run: &Run<'_>) -> Reading {
     }
     while let Some(block) = interpreter.advance(&program, &mut sink) {
         sink.block_done(block, &interpreter);
+        if sink.given_up.is_some() {
+            break;
+        }
     }
     let Collector {
         mut motions,
         mut blocks,
         faults,
         elsewhere,
+        given_up,
         ..
     } = sink;
     let clamp_codes = run.setup.control.clamp_codes;
@@ -162,6 +172,7 @@ pub fn read(run: &Run<'_>) -> Reading {
         program,
         motions,
         blocks,
+        given_up,
         faults,
         elsewhere,
         tells_lengths: is_apt || run.dialect.quirks.edge_at_tool_change || run.dialect.g(430).is_some(),
@@ -184,10 +195,15 @@ struct Collector<'m> {
     chains: BTreeSet<ChainId>,
     elsewhere: Option<BlockId>,
     setup: &'m Setup,
+    given_up: Option<BlockId>,
 }
 
 impl Sink for Collector<'_> {
     fn motion(&mut self, motion: &Motion, state: &ModalState) {
+        if self.motions.len() as u64 >= self.setup.limits.held {
+            self.given_up.get_or_insert(motion.block);
+            return;
+        }
         if self.length.0 != motion.tool || motion.tool_length_mm != 0.0 {
             self.length = (motion.tool, motion.tool_length_mm);
         }
@@ -298,80 +314,6 @@ fn shift(motion: &Motion, state: &ModalState, setup: &Setup, unnamed: &str) -> [
     let name = state.work_offset.as_deref().unwrap_or(unnamed);
     let base = setup.work_offset(name).map_or([0.0; 9], |offset| offset.values);
     core::array::from_fn(|axis| motion.zero[axis] - base[axis])
-}
-
-impl Posed {
-    /// Whether X Y Z are the tip: under tool centre point control, with vectors, or where no machine is needed to read them.
-    pub fn tip_words(&self) -> bool {
-        let motion = &self.motion;
-        let tilted = motion.tilt.normal.is_some();
-        let words = motion.tcp || matches!(motion.orientation, Orientation::Vector(..)) || tilted;
-        let stays = matches!(motion.tilt.swivel, Swivel::No | Swivel::TipStays);
-        self.leg.is_none() || words && !motion.machine_coordinates && stays
-    }
-
-    /// Whether F counts along the tip's way: as tip words, or where no rotary axis turns and X Y Z run as far as the tip does. Where linear
-    /// axes stand askew, or a rotary axis between them does, they run farther or less far.
-    pub fn feeds_the_tip(&self) -> bool {
-        let (false, Some(leg)) = (self.tip_words(), &self.leg) else {
-            return true;
-        };
-        if leg.rotary_change != [0.0; 2] {
-            return false;
-        }
-        match (&self.motion.kind, &self.start, &self.end) {
-            (MotionKind::Rapid | MotionKind::Linear, Some(start), Ok(end)) => {
-                let way = (end.tip - start.tip).norm();
-                (leg.length - way).abs() <= 1e-6 * way + 1e-9
-            }
-            (MotionKind::Arc(_), ..) => self.square,
-            _ => true,
-        }
-    }
-
-    /// How long the motion takes at the programmed feed, without regard to what axes can do, s; `None`: not known, or a rapid. Feeds
-    /// count along the tip's path (tip words) or that of X Y Z.
-    pub fn duration_s(&self) -> Option<f64> {
-        let way = match (&self.leg, &self.motion.kind) {
-            (_, MotionKind::Arc(Some(arc))) => arc.length(),
-            (Some(leg), _) => leg.length,
-            (None, _) => (self.end.as_ref().ok()?.tip - self.start?.tip).norm(),
-        };
-        match self.motion.feed {
-            Feed::PerMinute(feed) if way > 0.0 => Some(way / feed * 60.0),
-            // where nothing but rotary axes moves, F counts degrees (RS274/NGC)
-            Feed::PerMinute(feed) if !self.tip_words() => {
-                let [first, second] = self.leg.as_ref()?.rotary_change.map(trunnion_geometry::deg);
-                let turned = (first * first + second * second).sqrt();
-                (turned > 0.0).then(|| turned / feed * 60.0)
-            }
-            Feed::PerRevolution(feed) if way > 0.0 => {
-                let rpm = self.motion.spindle_rpm.filter(|rpm| *rpm > 0.0)?;
-                Some(way / (feed * rpm) * 60.0)
-            }
-            Feed::InverseTime(per_minute) if per_minute > 0.0 => Some(60.0 / per_minute),
-            _ => None,
-        }
-    }
-}
-
-/// Whether X, Y and Z move the tip by as much as themselves, at right angles to each other.
-fn keeps_lengths(machine: &Machine, joints: &Joints) -> bool {
-    let at = |joints: &Joints| forward(machine, joints, 0.0).tip;
-    let here = at(joints);
-    let ways: Vec<Vec3> = machine
-        .joint_of_letter
-        .iter()
-        .take(3)
-        .flatten()
-        .map(|&joint| {
-            let mut moved = *joints;
-            moved[usize::from(joint)] += 1.0;
-            at(&moved) - here
-        })
-        .collect();
-    let is_square = |i: usize, j: usize| (ways[i].dot(&ways[j]) - f64::from(u8::from(i == j))).abs() < 1e-9;
-    (0..ways.len()).all(|i| (i..ways.len()).all(|j| is_square(i, j)))
 }
 
 /// What of a fault makes it unsafe to tell what the program does; `None` where poses do not depend on it.

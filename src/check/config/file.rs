@@ -47,6 +47,8 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct FileLimits {
     blocks: Option<Spanned<i64>>,
+    steps: Option<Spanned<i64>>,
+    held: Option<Spanned<i64>>,
     depth: Option<Spanned<i64>>,
 }
 
@@ -101,6 +103,12 @@ pub(super) fn parse(text: &str) -> Result<Config, ConfigError> {
     config.setup.variables = super::variables::variables(&file.variables)?;
     if let Some(blocks) = &file.limits.blocks {
         config.setup.limits.blocks = limit("blocks", blocks, MOST_BLOCKS)?;
+    }
+    if let Some(steps) = &file.limits.steps {
+        config.setup.limits.steps = limit("steps", steps, MOST_BLOCKS)?;
+    }
+    if let Some(held) = &file.limits.held {
+        config.setup.limits.held = limit("held", held, MOST_BLOCKS)?;
     }
     if let Some(depth) = &file.limits.depth {
         // within bounds of u32 by `limit`

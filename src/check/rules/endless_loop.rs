@@ -52,7 +52,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
             format!("this did not end within {blocks} executed blocks"),
         )
         .note("what comes after it was not checked")
-        .help("change, inside the loop, a value that its condition tests; if the program is only long, raise `blocks` of [limits] in trunnion.toml")
+        .help("change, inside the loop, a value that its condition tests; if the program is only long, raise `blocks` (in an editor also `steps`) of [limits] in trunnion.toml")
         .value("executed_blocks", blocks as f64);
     }
 }

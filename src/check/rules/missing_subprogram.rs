@@ -36,18 +36,30 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         let caller = caller
             .as_ref()
             .map_or_else(String::new, |place| format!(", called in {place}"));
-        let draft = out.report(fault.range, format!("program `{name}` not found{caller}"));
+        let refused = searched.iter().find_map(|place| place.refused.as_ref());
+        let draft = out.report(
+            fault.range,
+            match refused {
+                None => format!("program `{name}` not found{caller}"),
+                Some(why) => format!("program `{name}`{caller} is not read: {why}"),
+            },
+        );
+        let folders: Vec<&str> = searched.iter().map(|place| place.folder.as_str()).collect();
         draft.note(if searched.is_empty() {
             "only the program itself was searched".to_owned()
         } else {
-            format!("searched: the program itself, {}", searched.join(", "))
+            format!("searched: the program itself, {}", folders.join(", "))
         });
         if let Some(alarm) = alarm {
             draft.note(format!("the control says: {alarm}"));
             draft.value_text("alarm", alarm.clone());
         }
         draft
-            .help("put it in the folder of the program, or name its folder in trunnion.toml: subprogram_path = [\"subs\"]")
+            .help(if refused.is_some() {
+                "give the program its own small, readable file in the folder of the program or of `subprogram_path`"
+            } else {
+                "put it in the folder of the program, or name its folder in trunnion.toml: subprogram_path = [\"subs\"]"
+            })
             .merge(Merge::once(hash(name)));
     }
 }

@@ -8,7 +8,7 @@ use trunnion_flow::{Ends, Going, Key};
 use trunnion_syntax::{BlockId, TextRange};
 
 /// Where a called program was found: file and block; else the folders that were searched.
-pub(crate) type Found = Result<(u16, u32), Vec<String>>;
+pub(crate) type Found = Result<(u16, u32), Vec<trunnion_vocabulary::Searched>>;
 
 /// The text of the block `from`, where that is one of the main program's file.
 pub(crate) fn main_range(running: &Running<'_>, from: u32) -> TextRange {

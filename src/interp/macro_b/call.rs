@@ -51,7 +51,7 @@ impl Iso<'_> {
         with: &With,
         running: &Running<'_>,
         from: u32,
-    ) -> Option<Result<(u16, u32), Vec<String>>> {
+    ) -> Option<Result<(u16, u32), Vec<trunnion_vocabulary::Searched>>> {
         if with.code == FlowCode::CallLocal && matches!(calling.program, Key::Number(_)) {
             let file = self.flow.file();
             let index = self.sequence_numbers(running.program());

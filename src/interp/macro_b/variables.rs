@@ -27,6 +27,9 @@ pub(crate) struct Variables {
     pub(crate) changes: u64,
 }
 
+/// Bytes of a reason that are kept of the one that it comes from.
+const LONGEST_REASON: usize = 240;
+
 impl Default for Variables {
     fn default() -> Self {
         Self {
@@ -174,7 +177,10 @@ impl Variables {
             return format!("#{index}: jumps or calls before it are not followed");
         }
         if let Some(reason) = self.reasons.get(&index) {
-            return format!("#{index}: from {reason}");
+            // in a loop a value may depend on itself again and again; what it began with is at the end
+            let from = reason.ceil_char_boundary(reason.len().saturating_sub(LONGEST_REASON));
+            let cut = if from == 0 { "" } else { "... " };
+            return format!("#{index}: from {cut}{}", &reason[from..]);
         }
         match class(index) {
             Class::System(system) => format!("#{index}: {}", super::system::what(system)),

@@ -56,7 +56,9 @@ fn blocks_of_lines(program: &Program) -> Option<std::sync::Arc<[u32]>> {
 
 impl Rs274 {
     fn begin(program: &Program, core: &Core<'_>) -> Self {
-        let told = setup::told(&core.setup, core.tools.declared(), core.dialect);
+        let mut told = setup::told(&core.setup, core.tools.declared(), core.dialect);
+        // as for all controls, the blocks of the text itself are not counted
+        told.limits.blocks = told.limits.blocks.saturating_add(program.block_count() as u64);
         let source = Source::shared(String::new(), program.shared_source());
         Self {
             engine: trunnion_ngc::Engine::new(Arc::new(source), &told),

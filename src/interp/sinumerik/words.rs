@@ -178,7 +178,9 @@ impl<'d> Iso<'d> {
     /// Whether a program of a name is there: in this file, or in the library.
     fn is_program(&mut self, key: &Key, program: &trunnion_syntax::Program) -> bool {
         let Key::Name(name) = key else { return false };
-        let headed = memchr::memmem::find(program.source(), b"%_N_").is_some();
+        // the text is searched once, not at every call
+        let look = || memchr::memmem::find(program.source(), b"%_N_").is_some();
+        let headed = *self.memory.own.headed.entry(self.flow.file()).or_insert_with(look);
         if headed {
             let (dialect, file) = (self.core.dialect, self.flow.file());
             let index = match &mut self.flow.trail {
@@ -195,9 +197,14 @@ impl<'d> Iso<'d> {
         if self.memory.own.missing.contains(name) {
             return false;
         }
-        let found = files(key).iter().any(|file| library.load(file).is_ok());
+        // a file that is there and is not taken is reported where it is called
+        let is_there = |file: &String| match library.load(file) {
+            Ok(_) => true,
+            Err(searched) => searched.iter().any(|place| place.refused.is_some()),
+        };
+        let found = files(key).iter().any(is_there);
         if !found {
-            self.memory.own.missing.push(name.clone());
+            self.memory.own.missing.insert(name.clone());
         }
         found
     }

@@ -40,7 +40,7 @@ impl<T> Piece<T> {
 }
 
 /// Most samples; the bound stays sound when they run out, but may be loose.
-const SAMPLES: u32 = 20_000;
+pub(crate) const SAMPLES: u32 = 20_000;
 
 /// A piece below this length is not halved further: beyond any resolution of a block.
 const SHORTEST: f64 = 1e-12;

@@ -193,7 +193,7 @@ pub(crate) struct Flow {
     /// Passes of loops without a word to the machine.
     watch: endless::Watch,
     /// Where the last subprogram was looked for in vain.
-    searched: Vec<String>,
+    searched: Vec<crate::Searched>,
     /// What the last refused line named.
     refused: Refused,
     /// Lines in their read form.

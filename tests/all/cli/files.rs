@@ -3,6 +3,7 @@
 mod killed;
 mod streams;
 mod walking;
+mod writers;
 
 use super::tools::{FLIP, status, str, text, trunnion, write};
 use std::{

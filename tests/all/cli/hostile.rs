@@ -260,3 +260,36 @@ fn input_without_an_end_is_refused() {
         assert!(text(&output.stderr).contains(wanted), "{}", text(&output.stderr));
     }
 }
+
+#[test]
+fn a_called_program_that_is_too_large_is_not_said_to_be_missing() {
+    let folder = TempDir::new().expect("works");
+    let subs = folder.path().join("subs");
+    fs::create_dir(&subs).expect("made");
+    fs::write(folder.path().join("trunnion.toml"), "subprogram_path = [\"subs\"]\n").expect("writable");
+    for (dialect, main, called) in [
+        ("fanuc-30i", "G21 G90\nM98 P50\nM30\n", "O0050.nc"),
+        ("sinumerik-840d", "G71 G90\nPOCKET\nM30\n", "POCKET.SPF"),
+        ("linuxcnc", "o<pocket> call\nM2\n", "pocket.ngc"),
+    ] {
+        fs::write(folder.path().join("main.nc"), main).expect("writable");
+        let large = fs::File::create(folder.path().join(called)).expect("created");
+        large.set_len((64 << 20) + 1).expect("sparse");
+        // another folder has a small one, which the control would not take
+        fs::write(subs.join(called), "M17\n").expect("writable");
+        let output = run(&folder, &["check", "--dialect", dialect, "main.nc"]);
+        let said = text(&output.stdout);
+        assert_eq!(status(&output), 1, "{dialect}: {said}");
+        let lines: Vec<&str> = said
+            .lines()
+            .filter(|line| line.contains("missing-subprogram"))
+            .collect();
+        assert_eq!(lines.len(), 1, "{dialect}: {said}");
+        assert!(
+            lines[0].contains(called) && lines[0].contains("is larger than 64 MB"),
+            "{dialect}: {said}"
+        );
+        assert!(!said.contains("not found"), "{dialect}: {said}");
+        fs::remove_file(folder.path().join(called)).expect("removed");
+    }
+}

@@ -31,6 +31,15 @@ pub(crate) fn trunnion(arguments: &[&str]) -> Output {
         .expect("runs")
 }
 
+/// Runs in a folder, with relative names.
+pub(crate) fn trunnion_in(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_trunnion"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("runs")
+}
+
 pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).expect("UTF-8")
 }

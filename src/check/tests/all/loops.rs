@@ -1,20 +1,20 @@
 //! Programs with loops and calls: a finding is reported once, at its first pass, with its count and the calls that led to it.
 use std::sync::Arc;
 use trunnion_check::{Diagnostic, Report, Session, Settings, Severity, check};
-use trunnion_interp::{Files, Library, Loaded, Setup};
+use trunnion_interp::{Files, Library, Loaded, Searched, Setup};
 use trunnion_syntax::{BlockId, Program, parse};
 
 /// Holds one program.
 struct One(&'static str, &'static str);
 
 impl Files for One {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         if name.trim_start_matches(['O', 'o', '0']) == self.0 {
             let bytes = Arc::from(self.1.as_bytes());
             let path = format!("subs/{name}.nc");
             Ok(Loaded { path, bytes })
         } else {
-            Err(vec!["subs".to_owned()])
+            Err(vec!["subs".into()])
         }
     }
 }

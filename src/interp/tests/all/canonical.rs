@@ -1,13 +1,13 @@
 //! LinuxCNC's canonical calls as motions: what compensation of the cutter radius holds back keeps what was in force with it.
 use crate::support::{faults, line, lines, run_bytes};
 use std::sync::Arc;
-use trunnion_interp::{FaultKind, Feed, Files, Library, Loaded, ModalState, ProgramRun, Setup, Tool};
+use trunnion_interp::{FaultKind, Feed, Files, Library, Loaded, ModalState, ProgramRun, Searched, Setup, Tool};
 
 /// One file under any name.
 struct OneFile(&'static str);
 
 impl Files for OneFile {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         Ok(Loaded {
             path: format!("{name}.ngc"),
             bytes: self.0.as_bytes().into(),
@@ -237,9 +237,9 @@ fn a_spline_is_run_as_chords_and_said_to_be_unknown() {
 struct Several(&'static [(&'static str, &'static str)]);
 
 impl Files for Several {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         let found = self.0.iter().find(|(own, _)| *own == name);
-        let (_, text) = found.ok_or_else(|| vec!["subs".to_owned()])?;
+        let (_, text) = found.ok_or_else(|| vec!["subs".into()])?;
         Ok(Loaded {
             path: format!("subs/{name}.ngc"),
             bytes: text.as_bytes().into(),

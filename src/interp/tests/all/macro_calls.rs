@@ -1,17 +1,17 @@
 //! What calls report: where motions of other files are, programs that are missing, M99 of the main program.
 use crate::support::{Log, fault_line, run_bytes};
 use std::sync::Arc;
-use trunnion_interp::{FaultKind, Files, Interpreter, Library, Loaded, ProgramRun, Setup};
+use trunnion_interp::{FaultKind, Files, Interpreter, Library, Loaded, ProgramRun, Searched, Setup};
 
 struct Folder;
 
 impl Files for Folder {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         let text: &[u8] = match name {
             "O0001.nc" => b"%\nO1\nG0X1.\nG65P2A5.\nG0X2.\nM99\n%\n",
             "O0002" => b"G1X#1F9.\nM99\n",
             "CUT.NC" => b"%\nO<CUT>\nG0X7.\nM99\n%\n",
-            _ => return Err(vec!["subs".to_owned()]),
+            _ => return Err(vec!["subs".into()]),
         };
         Ok(Loaded {
             path: format!("subs/{name}"),

@@ -1,7 +1,7 @@
 //! The sample programs with macros, and programs in other files: motion by motion, reckoned by hand.
 use crate::support::{Log, line, run_bytes};
 use std::sync::Arc;
-use trunnion_interp::{FaultKind, Files, Library, Limits, Loaded, Setup};
+use trunnion_interp::{FaultKind, Files, Library, Limits, Loaded, Searched, Setup};
 
 const FANUC: &str = "fanuc-30i";
 
@@ -124,14 +124,14 @@ fn engraved_number() {
 struct Folder(Vec<(&'static str, &'static str)>);
 
 impl Files for Folder {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         let found = self.0.iter().find(|file| file.0 == name);
         found
             .map(|file| Loaded {
                 path: format!("lib/{}", file.0),
                 bytes: file.1.as_bytes().into(),
             })
-            .ok_or_else(|| vec!["lib".to_owned()])
+            .ok_or_else(|| vec!["lib".into()])
     }
 }
 
@@ -170,7 +170,7 @@ fn a_program_that_is_nowhere_names_the_folders() {
         log.faults[0].kind,
         FaultKind::MissingSubprogram {
             name: "O0077".to_owned(),
-            searched: vec!["lib".to_owned()],
+            searched: vec!["lib".into()],
             alarm: None,
             caller: None,
         }

@@ -2,12 +2,12 @@
 use crate::sinumerik_flow::{SINUMERIK, clean, said, said_with};
 use crate::support::{line, lines, run_bytes};
 use std::sync::Arc;
-use trunnion_interp::{Files, Library, Loaded, Setup};
+use trunnion_interp::{Files, Library, Loaded, Searched, Setup};
 
 struct Folder;
 
 impl Files for Folder {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
         let text: &str = match name {
             "CUT.SPF" => "PROC CUT(REAL DEPTH, INT CNT=2, VAR REAL OUT)\nG0 Z=DEPTH\nZ=CNT\nOUT=DEPTH+CNT\nM17\n",
             "L20.SPF" => "R1=R1+1\nG0 X=R1\nM17\n",
@@ -19,7 +19,7 @@ impl Files for Folder {
             "OPEN.SPF" => "G0 Y3\n",
             "KEEPS.SPF" => "PROC KEEPS SAVE\nG0 Y3\nM17\n",
             "LOOPS.SPF" => "DEF INT ROW\nFOR ROW=1 TO 2\nG0 Y=ROW\nENDFOR\nIF R1==0 GOTOF OUT\nG0 Y99\nOUT: RET\n",
-            _ => return Err(vec!["subs".to_owned()]),
+            _ => return Err(vec!["subs".into()]),
         };
         Ok(Loaded {
             path: format!("subs/{name}"),

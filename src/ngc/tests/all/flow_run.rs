@@ -2,7 +2,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::Arc;
-use trunnion_ngc::{At, Canon, Engine, Error, FileId, Files, Limits, Loaded, Setup, Sink, Source, Start, State, Step};
+use trunnion_ngc::{
+    At, Canon, Engine, Error, FileId, Files, Limits, Loaded, Searched, Setup, Sink, Source, Start, State, Step,
+};
 
 #[derive(Default)]
 struct Heard {
@@ -32,8 +34,8 @@ impl Sink for Heard {
 struct Folder(BTreeMap<&'static str, &'static str>);
 
 impl Files for Folder {
-    fn load(&self, name: &str) -> Result<Loaded, Vec<String>> {
-        let text = self.0.get(name).ok_or_else(|| vec!["folder".to_owned()])?;
+    fn load(&self, name: &str) -> Result<Loaded, Vec<Searched>> {
+        let text = self.0.get(name).ok_or_else(|| vec!["folder".into()])?;
         Ok(Loaded {
             path: format!("{name}.ngc"),
             bytes: Arc::from(text.as_bytes()),
@@ -160,7 +162,7 @@ fn a_missing_subprogram_tells_the_folders_and_an_error_its_file() {
     let missing = missing.missing.as_ref().expect("the subprogram is named");
     assert_eq!(
         (missing.name.as_str(), &missing.searched[..]),
-        ("b", &["folder".to_owned()][..])
+        ("b", &["folder".into()][..])
     );
 }
 

@@ -31,7 +31,7 @@ fn called_programs_are_found_beside_the_program_and_on_the_path() {
     let searched = files.load("300").expect_err("not there");
     assert_eq!(searched.len(), 2, "{searched:?}");
     assert!(
-        searched[0].ends_with("jobs") && searched[1].ends_with("subs"),
+        searched[0].folder.ends_with("jobs") && searched[1].folder.ends_with("subs"),
         "{searched:?}"
     );
     assert_eq!(resolved.port_to, ["linuxcnc", "iso-6983"]);

@@ -1,8 +1,10 @@
-//! A command that is killed at any moment, beside others, or on a file that changes meanwhile leaves whole files.
+//! A command that is killed at any moment, beside others, on a file that changes meanwhile, or where nothing can be written, leaves whole files.
+use super::writers::{WRITERS, Writer, fill, finished, outputs, prepared, temporaries};
 use super::{LOOSE, content, folder, names};
-use crate::cli::tools::{status, str, text, trunnion, write};
+use crate::cli::tools::{status, str, text, trunnion, trunnion_in, write};
 use std::{
-    fmt::Write,
+    fs,
+    os::unix::fs::PermissionsExt,
     path::Path,
     process::{Child, Command, Stdio},
     time::Duration,
@@ -13,62 +15,73 @@ fn kills() -> u32 {
     std::env::var("TRUNNION_KILLS")
         .ok()
         .and_then(|n| n.parse().ok())
-        .unwrap_or(12)
+        .unwrap_or(6)
 }
 
-fn start(arguments: &[&str]) -> Child {
+fn start(folder: &Path, arguments: &[&str]) -> Child {
     Command::new(env!("CARGO_BIN_EXE_trunnion"))
         .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
         .expect("runs")
 }
 
-/// A program large enough that a run takes some hundredths of a second.
-fn large() -> String {
-    let mut program = String::from("%\nO1\nG21G90G17G54\nT1M6\nS1000M3\nG1Z-1F100\n");
-    for i in 0..4000 {
-        let _ = writeln!(program, "X{}Y{}", i % 300, i % 170);
-    }
-    program.push_str("M30\n%\n");
-    program
+fn has_ending(name: &str, ending: &str) -> bool {
+    Path::new(name).extension().is_some_and(|own| own == ending)
 }
 
-fn is_temporary(name: &str) -> bool {
-    name.starts_with('.') && name.ends_with(".trunnion-tmp")
-}
+/// Lines of the large inputs: a run takes some hundredths of a second.
+const LARGE: usize = 4000;
 
 #[test]
-fn a_killed_fmt_leaves_the_old_file_or_the_new_one() {
-    let old = large();
-    let folder = folder();
-    let path = write(&folder, "p.nc", &old);
-    let begun = std::time::Instant::now();
-    assert_eq!(status(&trunnion(&["fmt", str(&path)])), 0);
-    let whole = begun.elapsed();
-    let new = content(&path);
-    assert_ne!(new, old);
-    let runs = kills();
-    for run in 0..runs {
-        std::fs::write(&path, &old).expect("written");
-        let mut child = start(&["fmt", str(&path)]);
-        // spread over the whole of a run
-        std::thread::sleep(Duration::from_micros(
-            whole.as_micros() as u64 * u64::from(run + 1) / u64::from(runs),
-        ));
-        child.kill().expect("killed");
-        child.wait().expect("ended");
-        let now = content(&path);
-        assert!(now == old || now == new, "run {run}: {} bytes", now.len());
-        let left = names(folder.path())
-            .into_iter()
-            .filter(|name| is_temporary(name))
-            .count();
-        assert!(left <= 1, "run {run}: {left} temporary files");
+fn a_killed_command_leaves_each_file_old_or_new() {
+    for writer in WRITERS {
+        let folder = prepared(LARGE);
+        let old = outputs(writer, folder.path());
+        let begun = std::time::Instant::now();
+        let new = finished(writer, folder.path());
+        let whole = begun.elapsed();
+        assert_ne!(old, new, "{}", writer.name);
+        let expected = names(folder.path());
+        let runs = kills();
+        for run in 0..runs {
+            fill(folder.path(), LARGE);
+            for (name, old) in writer.outputs.iter().zip(&old) {
+                if old.is_none() {
+                    let _ = fs::remove_file(folder.path().join(name));
+                }
+            }
+            let mut child = start(folder.path(), writer.arguments);
+            // spread over the whole of a run
+            let moment = whole.as_micros() as u64 * u64::from(run + 1) / u64::from(runs);
+            std::thread::sleep(Duration::from_micros(moment));
+            child.kill().expect("killed");
+            child.wait().expect("ended");
+            for (at, now) in outputs(writer, folder.path()).into_iter().enumerate() {
+                let name = writer.outputs[at];
+                assert!(
+                    now == old[at] || now == new[at],
+                    "{}, run {run}: {name} is in pieces",
+                    writer.name
+                );
+            }
+            let left = temporaries(folder.path());
+            assert!(left <= 1, "{}, run {run}: {left} temporary files", writer.name);
+        }
+        fill(folder.path(), LARGE);
+        for name in writer
+            .outputs
+            .iter()
+            .filter(|name| !has_ending(name, "nc") && **name != "parameters")
+        {
+            let _ = fs::remove_file(folder.path().join(name));
+        }
+        assert_eq!(finished(writer, folder.path()), new, "{}", writer.name);
+        assert_eq!(names(folder.path()), expected, "{}", writer.name);
     }
-    assert_eq!(status(&trunnion(&["fmt", str(&path)])), 0);
-    assert_eq!((content(&path), names(folder.path())), (new, vec!["p.nc".to_owned()]));
 }
 
 #[test]
@@ -83,69 +96,130 @@ fn a_run_that_has_nothing_to_write_removes_what_a_killed_one_left() {
 
 #[test]
 fn four_processes_on_one_file_leave_it_whole() {
-    let old = large();
-    let folder = folder();
-    let path = write(&folder, "p.nc", &old);
-    let children: Vec<Child> = (0..4).map(|_| start(&["fmt", str(&path)])).collect();
-    for mut child in children {
-        let status = child.wait().expect("ended").code();
-        // done by another already, or refused because another was first
-        assert!(matches!(status, Some(0 | 2)), "{status:?}");
+    for writer in WRITERS {
+        let folder = prepared(LARGE);
+        let new = finished(writer, folder.path());
+        fill(folder.path(), LARGE);
+        let expected = names(folder.path());
+        let children: Vec<Child> = (0..4).map(|_| start(folder.path(), writer.arguments)).collect();
+        for mut child in children {
+            let status = child.wait().expect("ended").code();
+            // done by another already, or refused because another was first
+            assert!(matches!(status, Some(0..=2)), "{}: {status:?}", writer.name);
+        }
+        let now = outputs(writer, folder.path());
+        // a backup may be that of a file which another process had already replaced
+        let whole = writer
+            .outputs
+            .iter()
+            .enumerate()
+            .filter(|(_, name)| !has_ending(name, "bak"));
+        for (at, name) in whole {
+            assert_eq!(now[at], new[at], "{}: {name}", writer.name);
+        }
+        assert_eq!(names(folder.path()), expected, "{}", writer.name);
     }
-    let now = content(&path);
-    assert_eq!(status(&trunnion(&["fmt", "--check", str(&path)])), 0);
-    assert_ne!(now, old);
-    assert_eq!(names(folder.path()), ["p.nc"]);
 }
 
 #[test]
-fn an_edit_that_is_saved_while_fmt_runs_stays() {
-    let old = large();
-    let folder = folder();
-    let path = write(&folder, "p.nc", &old);
-    let edited = format!("(edited)\n{old}");
-    for _ in 0..5 {
-        std::fs::write(&path, &old).expect("written");
-        let mut child = start(&["fmt", str(&path)]);
-        std::thread::sleep(Duration::from_millis(5));
-        std::fs::write(&path, &edited).expect("written");
-        child.wait().expect("ended");
-        // fmt was refused, or it began after the edit
-        let now = content(&path);
-        assert!(now.contains("(edited)") || now.contains("(EDITED)"), "the edit is lost");
+fn an_edit_that_is_saved_while_a_command_runs_stays() {
+    for writer in WRITERS
+        .iter()
+        .filter(|writer| matches!(writer.name, "fmt" | "fix --write"))
+    {
+        let name = writer.outputs[0];
+        let folder = prepared(LARGE);
+        let path = folder.path().join(name);
+        let edited = format!("(edited)\n{}", content(&path));
+        for run in 0..5 {
+            fill(folder.path(), LARGE);
+            let mut child = start(folder.path(), writer.arguments);
+            std::thread::sleep(Duration::from_millis(3 * run));
+            fs::write(&path, &edited).expect("written");
+            child.wait().expect("ended");
+            // it was refused, or it began after the edit
+            let now = content(&path).to_uppercase();
+            assert!(now.contains("(EDITED)"), "{}: the edit is lost", writer.name);
+        }
+    }
+}
+
+/// What a command may do that cannot write: say so and leave everything as it was.
+fn refused(writer: &Writer, folder: &Path, output: &std::process::Output, old: &[Option<String>], before: &[String]) {
+    let said = text(&output.stderr);
+    assert_eq!(status(output), 2, "{}: {said}", writer.name);
+    assert!(said.contains("error:"), "{}: {said}", writer.name);
+    assert_eq!(outputs(writer, folder), old, "{}: {said}", writer.name);
+    assert_eq!(names(folder), before, "{}: {said}", writer.name);
+}
+
+#[test]
+fn a_file_that_cannot_be_written_to_its_end_stays_as_it_was() {
+    for writer in WRITERS {
+        let folder = prepared(LARGE);
+        let (old, before) = (outputs(writer, folder.path()), names(folder.path()));
+        // no file may grow at all; without the trap the system would end the process
+        let output = Command::new("bash")
+            .args([
+                "-c",
+                "trap '' XFSZ; ulimit -f 0; exec \"$0\" \"$@\"",
+                env!("CARGO_BIN_EXE_trunnion"),
+            ])
+            .args(writer.arguments)
+            .current_dir(folder.path())
+            .stdin(Stdio::null())
+            .output()
+            .expect("bash runs");
+        refused(writer, folder.path(), &output, &old, &before);
+    }
+}
+
+#[test]
+fn a_folder_that_may_not_be_written_to_is_named() {
+    for writer in WRITERS {
+        let folder = prepared(10);
+        let (old, before) = (outputs(writer, folder.path()), names(folder.path()));
+        fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o555)).expect("a mode");
+        let is_obeyed = fs::write(folder.path().join("probe"), "").is_err();
+        let output = is_obeyed.then(|| trunnion_in(folder.path(), writer.arguments));
+        fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).expect("a mode");
+        let Some(output) = output else {
+            println!("skipped: this user may write to read-only folders");
+            return;
+        };
+        refused(writer, folder.path(), &output, &old, &before);
     }
 }
 
 #[test]
 fn a_full_disk_leaves_the_old_file() {
-    // a file system of 64 KiB, where this process may mount one
+    // a file system of 200 KiB, where this process may mount one
     let folder = folder();
     let disk = folder.path().join("disk");
-    std::fs::create_dir(&disk).expect("a folder");
+    fs::create_dir(&disk).expect("a folder");
     let mounted = Command::new("mount")
-        .args(["-t", "tmpfs", "-o", "size=64k", "tmpfs", str(&disk)])
+        .args(["-t", "tmpfs", "-o", "size=200k", "tmpfs", str(&disk)])
         .stderr(Stdio::null())
         .status();
     if !mounted.is_ok_and(|status| status.success()) {
         println!("skipped: this process may not mount a small file system");
         return;
     }
-    let outcome = std::panic::catch_unwind(|| on_a_full_disk(&disk));
+    let outcome = std::panic::catch_unwind(|| {
+        for writer in WRITERS {
+            fill(&disk, 2000);
+            let rest = disk.join("rest");
+            // what is left of it
+            let mut size = 200_000;
+            while fs::write(&rest, vec![0; size]).is_err() && size > 0 {
+                size -= 4096;
+            }
+            let (old, before) = (outputs(writer, &disk), names(&disk));
+            let output = trunnion_in(&disk, writer.arguments);
+            refused(writer, &disk, &output, &old, &before);
+            fs::remove_file(rest).expect("removed");
+        }
+    });
     let _ = Command::new("umount").arg(&disk).status();
     assert!(outcome.is_ok());
-}
-
-fn on_a_full_disk(disk: &Path) {
-    let path = disk.join("p.nc");
-    let old = large();
-    std::fs::write(&path, &old).expect("there is room for one");
-    let output = trunnion(&["fmt", str(&path)]);
-    assert_eq!(status(&output), 2, "{}", text(&output.stderr));
-    assert!(
-        text(&output.stderr).contains("was not changed"),
-        "{}",
-        text(&output.stderr)
-    );
-    assert_eq!(content(&path), old);
-    assert_eq!(names(disk), ["p.nc"]);
 }

@@ -1,0 +1,66 @@
+//! Hostile programs, made by code: each takes a size, so that CI runs them small and the long form large.
+mod bytes;
+mod cycles;
+mod flow;
+mod many;
+mod nesting;
+
+/// A hostile program.
+pub(super) struct Input {
+    /// Its name, as the table of the long form prints it.
+    pub(super) name: &'static str,
+    /// Makes it: `size` elements of whatever it has many of, cut off at [`Input::MOST_BYTES`].
+    make: fn(usize) -> Vec<u8>,
+}
+
+impl Input {
+    /// No file is larger: `--max-file-mb` refuses more.
+    const MOST_BYTES: usize = 32_000_000;
+
+    const fn new(name: &'static str, make: fn(usize) -> Vec<u8>) -> Self {
+        Self { name, make }
+    }
+
+    /// The program.
+    pub(super) fn bytes(&self, size: usize) -> Vec<u8> {
+        let mut bytes = (self.make)(size);
+        bytes.truncate(Self::MOST_BYTES);
+        bytes
+    }
+}
+
+/// All of them.
+pub(super) fn all() -> Vec<Input> {
+    let mut all = nesting::inputs();
+    all.extend(bytes::inputs());
+    all.extend(many::inputs());
+    all.extend(flow::inputs());
+    all.extend(cycles::inputs());
+    all
+}
+
+/// What a program starts with so that positions, feed and tool are known.
+const HEAD: &str = "G21 G90 G17 G94 G54\nT1 M6\nS1000 M3\nG43 H1\nF100.\nG1 X0. Y0. Z50.\n";
+
+/// A program with a known position, then `body`.
+fn cut(body: &str) -> Vec<u8> {
+    format!("{HEAD}{body}\nM30\n").into_bytes()
+}
+
+/// `size` lines, each made from its number, no more than the largest file holds.
+fn lines(size: usize, line: impl Fn(usize) -> String) -> String {
+    let mut out = String::new();
+    for i in 0..size {
+        out.push_str(&line(i));
+        out.push('\n');
+        if out.len() > Input::MOST_BYTES {
+            break;
+        }
+    }
+    out
+}
+
+/// As often as asked, or as the largest file holds.
+fn repeat(text: &str, size: usize) -> String {
+    text.repeat(size.min(Input::MOST_BYTES / text.len()))
+}

@@ -162,8 +162,8 @@ fn declared_by(machine: &Machine, control: &mut ControlData) {
     control.units = control.units.or(of.units);
     control.peck_clearance_mm = control.peck_clearance_mm.or(of.peck_clearance_mm);
     control.chip_break_retract_mm = control.chip_break_retract_mm.or(of.chip_break_retract_mm);
-    if control.reference_points.is_empty() {
-        control.reference_points.clone_from(&of.reference_points);
+    if let (true, Some(points)) = (control.reference_points.is_empty(), &of.reference_points) {
+        control.reference_points.clone_from(points);
     }
 }
 

@@ -317,7 +317,7 @@ fn every_fact_of_a_machine_counts() {
             |m| m.control.posture_words.status = Some((1, sign())),
             |m| m.control.posture_words.solutions.push((1, sign())),
             |m| m.control.units = None,
-            |m| m.control.reference_points.push(Position::default()),
+            |m| m.control.reference_points = Some(vec![Position::default()]),
             |m| m.control.peck_clearance_mm = Some(1.0),
             |m| m.control.chip_break_retract_mm = Some(1.0),
             |m| m.tolerances.tip_mm += 1.0,

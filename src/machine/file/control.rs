@@ -64,7 +64,10 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
             Some(_) => Some(LengthUnit::Millimetre),
             None => None,
         },
-        reference_points: reference_points(&raw.reference_points, axes)?,
+        reference_points: match &raw.reference_points {
+            Some(points) => Some(reference_points(points, axes)?),
+            None => None,
+        },
         peck_clearance_mm: non_negative("peck_clearance", raw.peck_clearance.as_ref())?,
         chip_break_retract_mm: non_negative("chip_break_retract", raw.chip_break_retract.as_ref())?,
     };

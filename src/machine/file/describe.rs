@@ -311,7 +311,7 @@ fn notes(axis: &Axis, unit: &str, plain: impl Fn(f64) -> f64) -> Vec<String> {
 /// Reference points, and the retracts of drilling cycles.
 fn places(control: &crate::Control) -> Vec<String> {
     let mut lines = Vec::new();
-    for (index, point) in control.reference_points.iter().enumerate() {
+    for (index, point) in control.reference_points.iter().flatten().enumerate() {
         let axes = AXIS_LETTERS.iter().enumerate();
         let known = axes.filter_map(|(axis, letter)| Some(format!("{}{}", char::from(*letter), point.get(axis)?)));
         let place = known.collect::<Vec<_>>().join(" ");

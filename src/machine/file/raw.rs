@@ -178,8 +178,7 @@ pub(crate) struct RawControl {
     #[serde(default)]
     pub(crate) posture_words: RawPostureWords,
     pub(crate) units: Option<Word>,
-    #[serde(default)]
-    pub(crate) reference_points: Vec<BTreeMap<Word, Number>>,
+    pub(crate) reference_points: Option<Vec<BTreeMap<Word, Number>>>,
     pub(crate) peck_clearance: Option<Number>,
     pub(crate) chip_break_retract: Option<Number>,
 }

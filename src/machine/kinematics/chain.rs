@@ -191,8 +191,8 @@ pub struct Control {
     pub posture_words: crate::PostureWords,
     /// Unit of lengths before a program says one; `None`: not declared.
     pub units: Option<trunnion_interp::LengthUnit>,
-    /// Reference points of G28, G30 P2, ... in the order of their numbers: machine coordinates, mm and deg. Empty: not declared.
-    pub reference_points: Vec<trunnion_interp::Position>,
+    /// Reference points of G28, G30 P2, ... in the order of their numbers: machine coordinates, mm and deg; `None`: not declared.
+    pub reference_points: Option<Vec<trunnion_interp::Position>>,
     /// Where the rapid back into a hole ends, above the last depth (G83), mm; `None`: not declared.
     pub peck_clearance_mm: Option<f64>,
     /// How far G73 retracts to break the chip, mm; `None`: not declared.

@@ -341,6 +341,10 @@ impl<'a> Steps<'a> {
                     run.stores.insert(argument.name.into_owned(), argument.value);
                     continue;
                 }
+                // LinuxCNC's motions do not say whether they were in machine coordinates
+                Effect::Event(words) if !self.input.dialect.quirks.rs274() && self.since.is_set_plainly(&words) => {
+                    continue;
+                }
                 Effect::Event(words) => (Sort::Event, words),
                 Effect::End(words) => (Sort::End, words),
                 Effect::Unmodelled(words) => (Sort::Unmodelled, words),

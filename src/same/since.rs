@@ -39,7 +39,7 @@ impl Since {
     /// is not declared comes into it.
     pub(crate) fn is_set_plainly(&self, words: &[Argument]) -> bool {
         let [name, offset, length] = words else { return false };
-        name.name == "zero point set from here"
+        name.name == FROM_HERE
             && self.last.as_ref().is_some_and(|(last, held)| {
                 let text = |word: &Argument, to: &str| word.value == Argument::text("", to).value;
                 !last.machine_coordinates
@@ -47,6 +47,14 @@ impl Since {
                     && text(length, &held.length_of.to_string())
             })
     }
+}
+
+/// The event of a zero point that is set from where the machine stands (G92).
+const FROM_HERE: &str = "zero point set from here";
+
+/// Whether an event is that one.
+pub(crate) fn sets_from_here(words: &[Argument]) -> bool {
+    words.first().is_some_and(|word| word.name == FROM_HERE)
 }
 
 /// Whether the text of a statement may write a variable of the control (#1000 and above, `$...`), where offsets may be kept.

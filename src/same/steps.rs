@@ -345,6 +345,8 @@ impl<'a> Steps<'a> {
                 Effect::Event(words) if !self.input.dialect.quirks.rs274() && self.since.is_set_plainly(&words) => {
                     continue;
                 }
+                // where it differs, the programs may still do the same
+                Effect::Event(words) if crate::since::sets_from_here(&words) => (Sort::Unmodelled, words),
                 Effect::Event(words) => (Sort::Event, words),
                 Effect::End(words) => (Sort::End, words),
                 Effect::Unmodelled(words) => (Sort::Unmodelled, words),

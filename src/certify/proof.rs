@@ -29,11 +29,15 @@ impl Judge for Proof<'_> {
             } else {
                 Verdict::Differs
             };
+            let what = match &outcome {
+                Outcome::Refuted(witness) => witness.message.clone(),
+                _ => String::new(),
+            };
             self.failed = Some(outcome);
             verdict(Difference {
-                before: None,
-                after: None,
-                what: String::new(),
+                before: Some(before.motion.block),
+                after: Some(after.motion.block),
+                what,
             })
         })
     }

@@ -186,7 +186,9 @@ fn prove(
     };
     let verdict = compare(old_steps, new_steps, &asked, &mut proof);
     if verdict != Verdict::Same {
-        if let Some(outcome) = proof.failed.take() {
+        // the comparison may take a refutation back: where it is not known whether a block moves the machine at all
+        let taken_back = |outcome: &Outcome| matches!((outcome, &verdict), (Outcome::Refuted(_), Verdict::Unknown(_)));
+        if let Some(outcome) = proof.failed.take().filter(|outcome| !taken_back(outcome)) {
             return Err(outcome);
         }
         return Err(proof.outcome(verdict, &old));

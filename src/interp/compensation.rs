@@ -53,6 +53,8 @@ pub(crate) struct Compensation {
     pub(crate) radius: f64,
     /// D in force.
     pub(crate) d: Option<u32>,
+    /// The coordinates are mirrored, so that left and right change places.
+    pub(crate) mirrored: bool,
     plane: Option<Plane>,
     held: Option<Box<Held>>,
     /// Motions without a path in the plane, after the held one.

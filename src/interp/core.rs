@@ -4,7 +4,8 @@ use crate::reported::Reported;
 use crate::tools::Tools;
 use crate::unknown::Unknown;
 use crate::{
-    ChainId, Fault, FaultKind, Feed, FeedMode, ModalState, Motion, MotionKind, Orientation, Position, Setup, Sink, Tilt,
+    Argument, ChainId, Effect, Fault, FaultKind, Feed, FeedMode, ModalState, Motion, MotionKind, Orientation, Position,
+    Setup, Sink, Tilt,
 };
 use std::sync::Arc;
 use trunnion_dialect::Dialect;
@@ -109,6 +110,21 @@ impl<'d> Core<'d> {
     #[inline]
     pub(crate) fn main_block(&self, block: BlockId) -> BlockId {
         self.called_at.unwrap_or(block)
+    }
+
+    /// A zero point is set from where the machine stands. Where that depends on what is not declared, the order counts: the same words
+    /// after another offset, another length, or a motion in machine coordinates mean another place.
+    #[cold]
+    pub(crate) fn set_from_here(&mut self, block: BlockId) {
+        if self.effects.wanted() && self.state.undeclared.any() {
+            let offset = self.state.work_offset.as_deref().unwrap_or("no work offset");
+            let words = vec![
+                Argument::code("zero point set from here"),
+                Argument::text("in", offset),
+                Argument::text("with", &self.state.length_of.to_string()),
+            ];
+            self.effects.add(block, Effect::Event(words));
+        }
     }
 
     /// Nothing is known of the position any more.

@@ -113,6 +113,7 @@ impl Iso<'_> {
             arguments(words, free).collect()
         };
         self.reference_effects(codes, words, block);
+        self.mirrored_compensation(block);
         if opaque.is_empty() && !rest.is_empty() {
             self.core.effects.add(block, Effect::Event(rest));
         } else if let [found] = opaque[..]

@@ -7,6 +7,7 @@ use crate::ending::{at_end, stopped};
 use crate::exact::{self, Exact};
 use crate::item::{Item, Sort, Step};
 use crate::process::{motion_difference, shown, stops, unlike};
+use crate::since::sets_from_here;
 use crate::steps::Steps;
 use crate::twins::Twins;
 use crate::verdict::{Difference, Verdict};
@@ -357,7 +358,9 @@ fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
     };
     let what = format!("{what}the program before {}, the one after {}", name(was), name(is));
     let place = at(was, is, what);
-    if unmodelled(was) || unmodelled(is) {
+    let from_here = |item: Option<&Item>| matches!(item, Some(Item::Happens { words, .. }) if sets_from_here(words));
+    let ends_elsewhere = part(was) != part(is) && (from_here(was) || from_here(is));
+    if !ends_elsewhere && (unmodelled(was) || unmodelled(is)) {
         Verdict::Unknown(place)
     } else {
         Verdict::Differs(place)

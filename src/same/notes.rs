@@ -1,11 +1,11 @@
 //! What is noted at a block beside its effects: what something that is not modelled could read, and words that restate what may be lost.
 use crate::item::{Around, Waits};
 use crate::process::Process;
-use crate::since::{keeps_place, writes_control};
+use crate::since::{keeps_place, only_steers, writes_control};
 use crate::steps::Steps;
 use std::sync::Arc;
 use trunnion_dialect::Role;
-use trunnion_interp::{Argument, Effect, Situation};
+use trunnion_interp::{Argument, Effect, Reach, Situation};
 use trunnion_syntax::{Address, BlockId, Format, Item as AnyItem, Value as SyntaxValue};
 
 impl Steps<'_> {
@@ -62,6 +62,23 @@ impl Steps<'_> {
         }
     }
 
+    /// LinuxCNC's G10 L20 sets a zero point from where the machine stands, and is compared by the values that it stores: where these
+    /// depend on what is not declared, its place among the motions and offsets counts, too.
+    fn note_data_entry(&mut self, block: BlockId, effects: u32) {
+        let text = trunnion_interp::canonical_text(&self.input.program.text(self.input.program.block(block).range()));
+        if !text.contains("L20") || !self.state().undeclared.any() {
+            return;
+        }
+        let held = self.held();
+        let words = vec![
+            Argument::code("zero point set from here"),
+            Argument::text("in", held.work_offset.as_deref().unwrap_or("no work offset")),
+            Argument::text("with", &held.length_of.to_string()),
+        ];
+        let what = Waits::Effect(Effect::Event(words), Reach::Place);
+        self.run.wait(effects, block, what);
+    }
+
     /// Words of a block of the main program: what they restate counts where everything was unknown, and what they change may move the
     /// coordinates.
     pub(super) fn note_block(&mut self, block: BlockId, effects: u32, lost: bool) {
@@ -70,6 +87,9 @@ impl Steps<'_> {
             return;
         }
         let view = program.block(block);
+        if only_steers(&program.text(view.range())) {
+            return;
+        }
         for item in view.items() {
             let (key, to) = match item {
                 AnyItem::Word(word) => {
@@ -85,6 +105,9 @@ impl Steps<'_> {
                             _ => -1.0,
                         };
                         let known = (0.0..1e6).contains(&number).then_some(number as u32);
+                        if known == Some(100) && role == Some(Role::G) && dialect.quirks.rs274() {
+                            self.note_data_entry(block, effects);
+                        }
                         let code = known.and_then(|tenths| match role {
                             Some(Role::G) => dialect.g(tenths),
                             _ => dialect.m(tenths),

@@ -1,7 +1,7 @@
 //! What happened since the last motion, and since something ran that may have changed everything modal.
 use crate::process::Held;
 use trunnion_dialect::{Action, Code, Dialect};
-use trunnion_interp::Motion;
+use trunnion_interp::{Argument, Motion};
 
 /// See the module.
 #[derive(Default)]
@@ -34,10 +34,85 @@ impl Since {
         self.last = Some((*motion, held.clone()));
         !std::mem::take(&mut self.disturbed) && same
     }
+
+    /// Whether an event only says that a zero point is set from here, with the offset and the length of the last motion: then nothing that
+    /// is not declared comes into it.
+    pub(crate) fn is_set_plainly(&self, words: &[Argument]) -> bool {
+        let [name, offset, length] = words else { return false };
+        name.name == FROM_HERE
+            && self.last.as_ref().is_some_and(|(last, held)| {
+                let text = |word: &Argument, to: &str| word.value == Argument::text("", to).value;
+                !last.machine_coordinates
+                    && text(offset, held.work_offset.as_deref().unwrap_or("no work offset"))
+                    && text(length, &held.length_of.to_string())
+            })
+    }
 }
 
-/// Whether the text of an assignment may write a variable of the control (#1000 and above, `$...`), where offsets may be kept.
+/// The event of a zero point that is set from where the machine stands (G92).
+const FROM_HERE: &str = "zero point set from here";
+
+/// Whether an event is that one.
+pub(crate) fn sets_from_here(words: &[Argument]) -> bool {
+    words.first().is_some_and(|word| word.name == FROM_HERE)
+}
+
+/// Whether the text of a statement may write a variable of the control (#1000 and above, `$...`), where offsets may be kept.
 pub(crate) fn writes_control(text: &str) -> bool {
+    let text: String = text
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ")
+        .to_ascii_uppercase();
+    if let Some((_, then)) = text.split_once("THEN") {
+        return writes_control(then);
+    }
+    !steers(&text) && assigns_control(&text)
+}
+
+/// Whether a block only decides which block runs next: `N10 IF [#1 EQ 1] GOTO 20`.
+pub(crate) fn only_steers(text: &str) -> bool {
+    let text = text.trim().to_ascii_uppercase();
+    let numbered = text
+        .strip_prefix('N')
+        .map(|rest| rest.trim_start_matches(|sign: char| sign.is_ascii_digit()));
+    let text = numbered
+        .filter(|rest| text.len() > rest.len() + 1)
+        .unwrap_or(&text)
+        .trim();
+    match text.split_once("THEN") {
+        Some((_, then)) => then.contains('=') && !writes_control(then),
+        None => steers(text),
+    }
+}
+
+/// Whether a statement only decides which block runs next.
+fn steers(text: &str) -> bool {
+    let assigns = ["==", "<=", ">=", "<>"]
+        .iter()
+        .fold(text.to_owned(), |text, sign| text.replace(sign, " "))
+        .contains('=');
+    let name = |text: &str| -> String { text.chars().take_while(char::is_ascii_alphabetic).collect() };
+    // a block of LinuxCNC: `o100 while [...]`, `o<name> if [...]`
+    let labelled = text.strip_prefix('O').and_then(|rest| match rest.strip_prefix('<') {
+        Some(rest) => rest.split_once('>').map(|(_, rest)| rest),
+        None => {
+            Some(rest.trim_start().trim_start_matches(|sign: char| sign.is_ascii_digit())).filter(|left| *left != rest)
+        }
+    });
+    let word = name(labelled.unwrap_or(text).trim_start());
+    let loops = ["IF", "WHILE", "DO", "ELSE", "ENDIF", "ENDWHILE", "REPEAT"];
+    let found = match labelled {
+        Some(_) => ["ELSEIF", "ENDREPEAT", "BREAK", "CONTINUE"].contains(&word.as_str()),
+        None => [
+            "END", "GOTO", "GOTOF", "GOTOB", "GOTOC", "LOOP", "ENDLOOP", "UNTIL", "ENDFOR",
+        ]
+        .contains(&word.as_str()),
+    };
+    !assigns && (found || loops.contains(&word.as_str()))
+}
+
+fn assigns_control(text: &str) -> bool {
     let name: String = text.split('=').next().unwrap_or_default().split_whitespace().collect();
     match name.strip_prefix('#') {
         Some(rest) => !rest.starts_with('<') && rest.parse::<u32>().map_or(true, |number| number >= 1000),
@@ -52,4 +127,47 @@ pub(crate) fn keeps_place(code: &Code, dialect: &Dialect) -> bool {
     runs_cycles
         || code.action.keeps_place()
         || code.action == Action::NoMotion && matches!(code.group.as_deref(), Some("coolant" | "mist"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{only_steers, writes_control};
+
+    #[test]
+    fn what_only_steers_the_run_writes_nothing() {
+        let steer = [
+            "WHILE[#1LE2]DO1",
+            "END1",
+            "IF [#1 EQ 2] GOTO 10",
+            "GOTO10",
+            "IF[#5EQ1]THEN #2=7.",
+            "IF R1==1",
+            "WHILE I_1<=3",
+            "o100 while [#1 LT 3]",
+            "o<a> endif",
+            "#33=5",
+            "R5=3",
+        ];
+        for text in steer {
+            assert!(!writes_control(text), "{text}");
+            assert!(
+                text.starts_with(['#', 'R']) || only_steers(&format!("N10 {text}")),
+                "{text}"
+            );
+        }
+        let writes = [
+            "IF[#1EQ1]THEN #5221=7.",
+            "o<probe> call [1]",
+            "o100 call",
+            "#5221=0",
+            "$P_UIFR[1,X,TR]=0",
+            "POS[X]=5",
+            "ENDE_1=5",
+            "#[#1]=5",
+        ];
+        for text in writes {
+            assert!(writes_control(text), "{text}");
+            assert!(!only_steers(text), "{text}");
+        }
+    }
 }

@@ -217,7 +217,7 @@ impl<S: Sink> trunnion_ngc::Sink for Bridge<'_, '_, '_, S> {
             self.told.steady = None;
         }
         if self.core.effects.wanted() {
-            self.effect_of_call(call, at);
+            self.effect_of_call(call, at, state);
         }
         match call {
             Canon::Traverse(pose) => self.straight_motion(true, pose, at, state),

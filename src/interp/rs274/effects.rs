@@ -1,5 +1,6 @@
 //! Effects of a LinuxCNC program: canonical calls that are no motion and are not held by the modal state.
 use super::bridge::Bridge;
+use super::frames::Shift;
 use crate::{Argument, Effect, Reach};
 use crate::{Feed, MotionKind, Sink};
 use std::borrow::Cow;
@@ -8,7 +9,7 @@ use trunnion_ngc::{At, Canon, Coolant, MotionMode, SpindleTurn, State, Stop, Swi
 impl<S: Sink> Bridge<'_, '_, '_, S> {
     /// Hands the effect of a canonical call on, if it has one.
     #[cold]
-    pub(super) fn effect_of_call(&mut self, call: &Canon, at: At) {
+    pub(super) fn effect_of_call(&mut self, call: &Canon, at: At, state: &State) {
         if let Some(effect) = effect(call) {
             let block = self.block(at);
             let reach = reach(call).unwrap_or(effect.usual_reach());
@@ -17,6 +18,12 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                 let change = vec![Argument::code("tool change")];
                 self.core.effects.add(block, Effect::Event(change));
             }
+            self.hand_on();
+        }
+        if let Canon::G92Offset(offset) = call
+            && Shift::metric(offset, state.units.mm()) != self.told.g92
+        {
+            self.core.set_from_here(self.block(at));
             self.hand_on();
         }
     }

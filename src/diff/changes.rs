@@ -272,7 +272,6 @@ fn same_stretches(a: &Keys, b: &Keys, techs: &Techs, stretches: &[Stretch], foun
 impl TechChange {
     fn add(&mut self, blocks: (BlockId, BlockId)) {
         self.count += 1;
-        // the stretches that differ are looked at after those that do not
         self.first = self.first.min(blocks);
         self.last = self.last.max(blocks);
     }

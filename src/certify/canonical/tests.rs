@@ -265,7 +265,7 @@ fn every_fact_of_a_machine_counts() {
             |m| m.gauge_point.y += 1.0,
             |m| m.home.tool_axis.x += 1.0,
             |m| m.home.gauge_point.y += 1.0,
-            |m| m.gantries.push(gantry()),
+            |m| m.gantries.push(gantry([b'U', b'X'])),
             |m| m.axes[0].letter = b'B',
             |m| m.axes[0].kind = trunnion_machine::AxisKind::Linear,
             |m| m.axes[0].side = trunnion_machine::Side::Head,
@@ -317,7 +317,7 @@ fn every_fact_of_a_machine_counts() {
             |m| m.control.posture_words.status = Some((1, sign())),
             |m| m.control.posture_words.solutions.push((1, sign())),
             |m| m.control.units = None,
-            |m| m.control.reference_points = Some(vec![Position::default()]),
+            |m| m.control.reference_points = Some(vec![]),
             |m| m.control.peck_clearance_mm = Some(1.0),
             |m| m.control.chip_break_retract_mm = Some(1.0),
             |m| m.tolerances.tip_mm += 1.0,
@@ -326,16 +326,9 @@ fn every_fact_of_a_machine_counts() {
     );
 }
 
-fn gantry() -> Gantry {
-    let (letter, leader) = (b'U', b'X');
-    Gantry { letter, leader }
-}
-
 fn sign() -> trunnion_machine::AxisSign {
-    trunnion_machine::AxisSign {
-        letter: b'A',
-        negative: true,
-    }
+    let (letter, negative) = (b'A', true);
+    trunnion_machine::AxisSign { letter, negative }
 }
 
 #[test]
@@ -399,4 +392,8 @@ fn prose_does_not_count() {
     told.groups.clear();
     told.extensions.clear();
     assert_eq!(dialect_digest(&told), dialect_digest(dialect));
+}
+
+fn gantry([letter, leader]: [u8; 2]) -> Gantry {
+    Gantry { letter, leader }
 }

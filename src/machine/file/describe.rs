@@ -5,7 +5,7 @@ use crate::kinematics::reach::{pole, postures_by_tilt, reach};
 use crate::kinematics::uncertainty::{PIVOT_SENSITIVITY, worst_pivot_error};
 use crate::{Axis, AxisKind, Limits, Machine, RapidPath, Side};
 use trunnion_geometry::{Vec3, deg};
-use trunnion_interp::{AXIS_LETTERS, LengthUnit};
+use trunnion_interp::LengthUnit;
 
 /// One axis in words and numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -308,35 +308,6 @@ fn notes(axis: &Axis, unit: &str, plain: impl Fn(f64) -> f64) -> Vec<String> {
     notes
 }
 
-/// Reference points, and the retracts of drilling cycles.
-fn places(control: &crate::Control) -> Vec<String> {
-    let mut lines = Vec::new();
-    for (index, point) in control.reference_points.iter().flatten().enumerate() {
-        let axes = AXIS_LETTERS.iter().enumerate();
-        let known = axes.filter_map(|(axis, letter)| Some(format!("{}{}", char::from(*letter), point.get(axis)?)));
-        let place = known.collect::<Vec<_>>().join(" ");
-        lines.push(format!("reference point {} is {place} (mm and deg)", index + 1));
-    }
-    let retracts = [
-        (
-            "a rapid back into a deep hole (G83) ends",
-            control.peck_clearance_mm,
-            "above its last depth",
-        ),
-        (
-            "a chip is broken (G73) by a retract of",
-            control.chip_break_retract_mm,
-            "",
-        ),
-    ];
-    for (what, value, rest) in retracts {
-        if let Some(value) = value {
-            lines.push(format!("{what} {value} mm {rest}").trim_end().to_owned());
-        }
-    }
-    lines
-}
-
 fn control(machine: &Machine) -> Vec<String> {
     let control = &machine.control;
     let orientation = if control.tcp_great_circle {
@@ -360,7 +331,7 @@ fn control(machine: &Machine) -> Vec<String> {
         };
         lines.push(format!("lengths are in {name} until a program says otherwise"));
     }
-    lines.extend(places(control));
+    lines.extend(crate::file::places::places(control));
     if let Some(codes) = &control.tcp_codes {
         let list = |codes: &[String]| {
             if codes.is_empty() {

@@ -19,6 +19,7 @@ const STILL_COMPARED: &[(&str, &str)] = &[
 
 /// Places that print Debug text for people, and nothing else but values.
 const PRINTED: &[(&str, &str)] = &[
+    ("src/vocabulary/library.rs", "self.folder"),
     ("src/cli/parse.rs", "let kind = format!(\"{:?}\", tokens.kind(id));"),
     ("src/cli/parse.rs", "writeln!(out, \"{:>8} {kind:16} {:?}\""),
     (

@@ -1,0 +1,32 @@
+//! Places of a machine that its control knows, as people read them.
+use crate::Control;
+use trunnion_interp::AXIS_LETTERS;
+
+/// Reference points, and the retracts of drilling cycles.
+pub(crate) fn places(control: &Control) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (index, point) in control.reference_points.iter().flatten().enumerate() {
+        let axes = AXIS_LETTERS.iter().enumerate();
+        let known = axes.filter_map(|(axis, letter)| Some(format!("{}{}", char::from(*letter), point.get(axis)?)));
+        let place = known.collect::<Vec<_>>().join(" ");
+        lines.push(format!("reference point {} is {place} (mm and deg)", index + 1));
+    }
+    let retracts = [
+        (
+            "a rapid back into a deep hole (G83) ends",
+            control.peck_clearance_mm,
+            "above its last depth",
+        ),
+        (
+            "a chip is broken (G73) by a retract of",
+            control.chip_break_retract_mm,
+            "",
+        ),
+    ];
+    for (what, value, rest) in retracts {
+        if let Some(value) = value {
+            lines.push(format!("{what} {value} mm {rest}").trim_end().to_owned());
+        }
+    }
+    lines
+}

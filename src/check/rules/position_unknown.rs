@@ -36,9 +36,9 @@ fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
     let motion = lost.motion();
     // while words are joints, an axis that a rapid does not name stays where it is: where the tool change left it, for example
     let words_are_joints = !motion.tcp && motion.tilt.normal.is_none() && motion.orientation == Orientation::Words;
-    let nowhere = || {
-        (motion.start.known | motion.says_way) & !motion.end.known != 0 || !words_are_joints && lost.leg.start.is_some()
-    };
+    let stays = words_are_joints && matches!(lost.why, NoStance::PositionUnknown(_));
+    let nowhere =
+        || (motion.start.known | motion.says_way) & !motion.end.known != 0 || !stays && lost.leg.start.is_some();
     if !(motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()) {
         return;
     }

@@ -54,7 +54,7 @@ pub struct Record {
     pub blocks: Vec<Block>,
     /// Motions whose path is not known.
     pub unknown: usize,
-    /// The first line whose block is drawn by its ends alone, because the record holds [`MOST_SAMPLES`] samples.
+    /// The first line whose block is drawn by its ends alone, because the record holds as many samples as are kept.
     pub coarse_from: Option<u32>,
 }
 

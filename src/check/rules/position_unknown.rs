@@ -21,12 +21,12 @@
 //!
 //! # Guarantee
 //! Sound; reported once for each set of axes. Rapid moves before every axis has been positioned are normal and are
-//! not reported, nor are rapid moves without tool centre point control that do not name the axis: it stays where it is.
+//! not reported.
 //!
 //! # Sources
 //! * docs/contract.md#unknown-positions
 use crate::prelude::*;
-use trunnion_interp::{AXIS_LETTERS, MotionKind, Orientation};
+use trunnion_interp::{AXIS_LETTERS, MotionKind};
 use trunnion_machine::NoStance;
 
 pub(super) const RULE: Body = Body::sound(Info, &[Wake::LostEnd(check), Wake::LostArc(lost_arc)]);
@@ -34,11 +34,7 @@ pub(super) const RULE: Body = Body::sound(Info, &[Wake::LostEnd(check), Wake::Lo
 fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
     // a rapid that names places before everything is positioned is how programs begin
     let motion = lost.motion();
-    // while words are joints, an axis that a rapid does not name stays where it is: where the tool change left it, for example
-    let words_are_joints = !motion.tcp && motion.tilt.normal.is_none() && motion.orientation == Orientation::Words;
-    let stays = words_are_joints && matches!(lost.why, NoStance::PositionUnknown(_));
-    let nowhere =
-        || (motion.start.known | motion.says_way) & !motion.end.known != 0 || !stays && lost.leg.start.is_some();
+    let nowhere = || lost.leg.start.is_some() || motion.says_way & !motion.end.known != 0;
     if !(motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()) {
         return;
     }

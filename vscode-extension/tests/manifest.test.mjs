@@ -48,6 +48,10 @@ test('the problem pattern reads `check --format short`', () => {
   const match = new RegExp(pattern.regexp).exec('parts/strategy-2.mpf:9:48: warning[pole-flip] C turns 47.773 deg');
   const read = ['file', 'line', 'column', 'severity', 'code', 'message'].map((key) => match[pattern[key]]);
   assert.deepEqual(read, ['parts/strategy-2.mpf', '9', '48', 'warning', 'pole-flip', 'C turns 47.773 deg']);
+  const unknown = new RegExp(pattern.regexp).exec('a.nc:5:1: unknown[work-offset-unset] G54 is not declared');
+  assert.equal(unknown[pattern.code], 'work-offset-unset');
+  // VS Code knows no severity of that name and takes that of the matcher
+  assert.equal(contributes.problemMatchers[0].severity, 'info');
   const drive = new RegExp(pattern.regexp).exec('C:\\nc\\a.nc:1:2: error[syntax-error] x');
   assert.equal(drive[pattern.file], 'C:\\nc\\a.nc');
 });

@@ -10,6 +10,9 @@ pub(crate) struct Since {
     pub(crate) disturbed: bool,
     /// Something ran that may have changed everything modal: what is restated from then on counts.
     pub(crate) lost: bool,
+    /// Some motion was made in machine coordinates, or with another offset or length than the one after it: an axis may still be where
+    /// that motion put it.
+    strayed: bool,
     /// Frame of the last motion.
     last: Option<(Motion, Held)>,
 }
@@ -31,19 +34,27 @@ impl Since {
                 && last.radii == motion.radii
                 && last.tilt == motion.tilt
         });
+        // a new length counts along Z: a motion that goes there leaves nothing of the one before
+        let to_new_height = motion.start.get(2) != motion.end.get(2);
+        let other_frame = |(_, was): &(Motion, Held)| {
+            was.work_offset != held.work_offset || was.length_of != held.length_of && !to_new_height
+        };
+        // LinuxCNC's motions in machine coordinates rest on nothing undeclared, and do not say more
+        self.strayed |=
+            motion.machine_coordinates || !motion.undeclared.any() || self.last.as_ref().is_some_and(other_frame);
         self.last = Some((*motion, held.clone()));
         !std::mem::take(&mut self.disturbed) && same
     }
 
-    /// Whether an event only says that a zero point is set from here, with the offset and the length of the last motion: then nothing that
-    /// is not declared comes into it.
+    /// Whether an event only says that a zero point is set from here, with the offset and the length of all motions so far: then nothing
+    /// that is not declared comes into it.
     pub(crate) fn is_set_plainly(&self, words: &[Argument]) -> bool {
         let [name, offset, length] = words else { return false };
         name.name == FROM_HERE
-            && self.last.as_ref().is_some_and(|(last, held)| {
+            && !self.strayed
+            && self.last.as_ref().is_some_and(|(_, held)| {
                 let text = |word: &Argument, to: &str| word.value == Argument::text("", to).value;
-                !last.machine_coordinates
-                    && text(offset, held.work_offset.as_deref().unwrap_or("no work offset"))
+                text(offset, held.work_offset.as_deref().unwrap_or("no work offset"))
                     && text(length, &held.length_of.to_string())
             })
     }

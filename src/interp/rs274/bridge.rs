@@ -92,6 +92,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         if self.core.effects.wanted() {
             self.machine_frame(state.machine_frame, at);
         }
+        self.told.moved = true;
+        self.told.strayed |= state.machine_frame;
         let block = self.block(at);
         let start = shift.programmed(&self.told.machine);
         let [mut end, mut machine] = ends;

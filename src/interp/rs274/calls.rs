@@ -197,8 +197,14 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
                     }
                 }
             }
-            Canon::ToolOffset(ref offset) => self.tool_offset(offset, at, state),
-            Canon::G5xOffset(index, ref offset) => self.work_offset(index, offset, at),
+            Canon::ToolOffset(ref offset) => {
+                self.told.strayed |= self.told.moved;
+                self.tool_offset(offset, at, state);
+            }
+            Canon::G5xOffset(index, ref offset) => {
+                self.told.strayed |= self.told.moved;
+                self.work_offset(index, offset, at);
+            }
             Canon::Units(units) => {
                 // the first one is the control's own, before the program
                 let own = !std::mem::replace(&mut self.told.own_units, true);

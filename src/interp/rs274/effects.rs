@@ -22,6 +22,8 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
         if let Canon::G92Offset(offset) = call
             && Shift::metric(offset, state.units.mm()) != self.told.g92
+            // after motions that all rest on one offset and length, nothing undeclared comes into it
+            && (self.told.strayed || !self.told.moved)
         {
             self.core.set_from_here(self.block(at));
             self.hand_on();

@@ -45,6 +45,9 @@ pub(super) struct Told {
     pub(super) unknown_end: bool,
     /// The last motion was programmed in machine coordinates (G53).
     pub(super) machine_frame: bool,
+    /// Some motion was made; since the first one, some axis may stand where another offset, another length or G53 put it.
+    pub(super) moved: bool,
+    pub(super) strayed: bool,
     /// The kinematics were switched, and it is not known to which: X Y Z say nothing about the machine.
     pub(super) kinematics_unknown: bool,
 }

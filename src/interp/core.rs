@@ -47,6 +47,8 @@ pub(crate) struct Core<'d> {
     pub(crate) last_content: Option<BlockId>,
     /// A code or character that ends the program was seen.
     pub(crate) proper_end: bool,
+    /// Axes that are always at 0.
+    pub(crate) standing: crate::standing::Standing,
 }
 
 /// Where facts about the block in hand go.
@@ -88,6 +90,8 @@ impl<'d> Core<'d> {
             let mm = unit.mm();
             state.units(mm, mm);
         }
+        let standing = crate::standing::Standing::new(dialect, setup);
+        standing.hold(&mut state.position);
         Self {
             dialect,
             setup: Arc::new(setup.clone()),
@@ -103,6 +107,7 @@ impl<'d> Core<'d> {
             offsets_reported: Reported::default(),
             last_content: None,
             proper_end: false,
+            standing,
         }
     }
 
@@ -130,6 +135,7 @@ impl<'d> Core<'d> {
     /// Nothing is known of the position any more.
     pub(crate) fn forget_position(&mut self) {
         self.state.position.known = 0;
+        self.standing.hold(&mut self.state.position);
         self.state.orientation = Orientation::Words;
     }
     /// Coordinates have changed their meaning, if so.
@@ -141,10 +147,12 @@ impl<'d> Core<'d> {
     /// X Y Z U V W are not known any more.
     pub(crate) fn forget_linear(&mut self) {
         self.state.position.known &= !LINEAR;
+        self.standing.hold(&mut self.state.position);
     }
     /// A subprogram may have changed anything.
     pub(crate) fn forget_everything(&mut self) {
         self.losses += 1;
+        self.standing.end_unnamed();
         self.forget_position();
         self.state.clamps.lose();
         self.state.spindle_on = None;
@@ -163,6 +171,8 @@ impl<'d> Core<'d> {
         if self.tools.read_directives(program) {
             self.merge_tool();
         }
+        self.standing.read(program, self.dialect);
+        self.standing.hold(&mut self.state.position);
     }
 
     /// The feed of a motion; reports at `range` when there is none.
@@ -226,13 +236,15 @@ impl<'d> Core<'d> {
     pub(crate) fn new_motion(
         &self,
         kind: MotionKind,
-        start: Position,
-        end: Position,
+        mut start: Position,
+        mut end: Position,
         orientation: Orientation,
         feed: Feed,
         report: &Report<'_>,
     ) -> Motion {
         let state = &self.state;
+        self.standing.hold(&mut start);
+        self.standing.hold(&mut end);
         Motion {
             block: self.main_block(report.block),
             chain: self.chain,

@@ -31,6 +31,7 @@ mod reported;
 mod rs274;
 mod run;
 mod sinumerik;
+mod standing;
 mod start;
 mod system;
 mod tcp;

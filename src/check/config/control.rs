@@ -114,6 +114,7 @@ impl FileControl {
             }),
             clamp_codes: trunnion_interp::AllClampCodes::default(),
             further_axes: Vec::new(),
+            absent_axis: None,
             length_along: None,
             reference_points,
         })

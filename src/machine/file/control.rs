@@ -6,7 +6,7 @@ use crate::follow::requests::posture_words;
 use crate::{Axis, AxisKind, Branch, Control, Criterion, FeedMeaning, PoleAction, PostureRule, RapidPath};
 use std::collections::BTreeMap;
 use trunnion_geometry::{deg, rad};
-use trunnion_interp::{AxisLetter, LengthUnit, Position, TcpCodes};
+use trunnion_interp::{AxisLetter, LengthUnit, Position, RoughingEscape, TcpCodes};
 
 /// Names that `family` may have (docs/contract.md#machine-files).
 const FAMILIES: &[&str] = &[
@@ -70,6 +70,12 @@ pub(crate) fn control(raw: &RawControl, axes: &[Axis]) -> Result<Control, Fault>
         },
         peck_clearance_mm: non_negative("peck_clearance", raw.peck_clearance.as_ref())?,
         chip_break_retract_mm: non_negative("chip_break_retract", raw.chip_break_retract.as_ref())?,
+        roughing_escape: match one_of("roughing_escape", raw.roughing_escape.as_ref(), &["feed", "rapid"])?.as_deref() {
+            Some("feed") => Some(RoughingEscape::Feed),
+            Some(_) => Some(RoughingEscape::Rapid),
+            None => None,
+        },
+        thread_pull_out: non_negative("thread_pull_out", raw.thread_pull_out.as_ref())?,
     };
     if let Some(pole) = &raw.pole {
         let action = one_of("action", pole.action.as_ref(), &["through", "hold", "alarm"])?;

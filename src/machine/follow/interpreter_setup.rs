@@ -11,6 +11,13 @@ impl Machine {
         control.clamp_codes = machine.map(Self::clamp_codes).unwrap_or_default();
         control.further_axes = machine.map(Self::further_axes).unwrap_or_default();
         control.length_along = machine.and_then(Self::length_along);
+        control.absent_axis = machine.and_then(Self::absent_axis);
+    }
+
+    /// Index of the letter of the axis that it lacks.
+    fn absent_axis(&self) -> Option<u8> {
+        let letter = trunnion_interp::AxisLetter::new(self.absent?)?;
+        Some(letter.0)
     }
 
     /// How far 1 mm of tool length moves a joint while words are joints, mm: 0 for rotary axes.

@@ -67,7 +67,9 @@ impl Words {
             words.wraps |= axis.kind == AxisKind::Rotary && axis.extra.wrap != Wrap::Literal;
             if let Some(index) = AXIS_LETTERS.iter().position(|&letter| letter == axis.letter) {
                 words.letter[joint] = index as u8;
-                words.foreign &= !(1 << index);
+                if machine.absent != Some(axis.letter) {
+                    words.foreign &= !(1 << index);
+                }
                 words.letters |= 1 << index;
                 if index < 3 {
                     words.point_scale[index] = words.scale[joint];

@@ -147,10 +147,12 @@ impl<'d> Iso<'d> {
             Action::ConstantSurfaceSpeed => {
                 self.memory.surface_speed = true;
                 state.surface_speed = true;
+                state.cutting_speed_m_min = None;
                 state.spindle_rpm = None;
             }
             Action::ConstantSpindleSpeed => {
                 state.surface_speed = false;
+                state.cutting_speed_m_min = None;
                 if std::mem::replace(&mut self.memory.surface_speed, false) {
                     state.spindle_rpm = None;
                 }
@@ -287,11 +289,14 @@ impl<'d> Iso<'d> {
         };
         let limit = || codes.iter().any(limits);
         if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
-            self.core.state.spindle_rpm = words
-                .speed
-                .number()
-                .map(|number| number.value)
-                .filter(|_| !self.memory.surface_speed);
+            let value = words.speed.number().map(|number| number.value);
+            let state = &mut self.core.state;
+            if self.memory.surface_speed {
+                // S is in feet per minute where lengths are in inches
+                let unit = if state.length_unit_mm == 1.0 { 1.0 } else { 0.3048 };
+                state.cutting_speed_m_min = value.map(|value| value * unit);
+            }
+            state.spindle_rpm = value.filter(|_| !self.memory.surface_speed);
         }
     }
 }

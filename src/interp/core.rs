@@ -1,6 +1,7 @@
 //! What every engine has: the setting of the run, what is in force, tools, unknown coordinates, effects.
 use crate::effects::Effects;
 use crate::reported::Reported;
+use crate::spin::spin;
 use crate::tools::Tools;
 use crate::unknown::Unknown;
 use crate::{
@@ -258,6 +259,7 @@ impl<'d> Core<'d> {
             feed,
             spindle_on: state.spindle_on,
             spindle_rpm: state.spindle_rpm,
+            spin: spin(state, self.dialect.quirks.diameter, kind, [&start, &end]),
             zero: state.zero,
             tool_length_mm: state.tool_length_mm.unwrap_or(0.0),
             undeclared: state.undeclared,
@@ -267,6 +269,12 @@ impl<'d> Core<'d> {
             tilt: Tilt::default(),
             effects: self.effects.count(),
         }
+    }
+
+    /// Gives a motion the spindle's state in force.
+    pub(crate) fn spindle_of(&self, motion: &mut Motion) {
+        (motion.spindle_on, motion.spindle_rpm) = (self.state.spindle_on, self.state.spindle_rpm);
+        motion.spin = spin(&self.state, motion.radii, motion.kind, [&motion.start, &motion.end]);
     }
 
     /// The same, its coordinates unknown where a frame is not modelled.

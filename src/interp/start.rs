@@ -24,6 +24,7 @@ pub(crate) fn at_start(dialect: &Dialect) -> ModalState {
         spindle_on: None,
         spindle_rpm: None,
         surface_speed: false,
+        cutting_speed_m_min: None,
         spindle_limit_rpm: None,
         work_offset: None,
         zero: [0.0; 9],

@@ -235,7 +235,7 @@ impl Counting<'_> {
                 length.filter(|_| known > 0.0 && feed > 0.0).map(|length| length / feed),
             ),
             Feed::PerRevolution(feed) => {
-                let rate = motion.spindle_rpm.map(|rpm| rpm * feed).filter(|rate| *rate > 0.0);
+                let rate = motion.mean_rpm().map(|rpm| rpm * feed).filter(|rate| *rate > 0.0);
                 (1, feed, length.zip(rate).map(|(length, rate)| length / rate))
             }
             Feed::InverseTime(rate) => (2, rate, (rate > 0.0).then(|| 1.0 / rate)),

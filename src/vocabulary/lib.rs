@@ -21,7 +21,7 @@ pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
 pub use library::{Files, Limits, Loaded, Searched};
 pub use modal::{FeedMode, LengthOf, ModalState};
 pub use motion::{
-    AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt, Undeclared,
+    AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Spin, Swivel, Tilt, Undeclared,
 };
 pub use setup::{
     ControlData, ImplicitDecimals, LengthUnit, Library, OuterCorner, RollPitchYaw, RoughingEscape, Setup, TcpCodes,

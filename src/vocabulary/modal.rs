@@ -63,6 +63,8 @@ pub struct ModalState {
     pub spindle_rpm: Option<f64>,
     /// G96: S is a cutting speed.
     pub surface_speed: bool,
+    /// The cutting speed of G96, m/min; `None` where it is off or its value is not known.
+    pub cutting_speed_m_min: Option<f64>,
     /// Highest spindle speed that the program allows (G50 S, G92 S), 1/min; NaN where its value could not be read.
     pub spindle_limit_rpm: Option<f64>,
     /// Active work offset's name.

@@ -65,7 +65,7 @@ mod tests {
         ] {
             let machine = machine(axes).expect("two axes are enough");
             assert_eq!(machine.absent, Some(lacks));
-            assert_eq!(machine.axes[2].direction, direction.into());
+            assert_eq!(<[f64; 3]>::from(machine.axes[2].direction), direction);
             assert_eq!(machine.own_axes().count(), 2);
         }
     }

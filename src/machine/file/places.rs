@@ -36,7 +36,9 @@ pub(crate) fn places(control: &Control) -> Vec<String> {
         lines.push(format!("a turning tool leaves the cuts of G71 and G72 {how}"));
     }
     if let Some(leads) = control.thread_pull_out {
-        lines.push(format!("a thread of one pass (G92) is left {leads} leads before its end"));
+        lines.push(format!(
+            "a thread of one pass (G92) is left {leads} leads before its end"
+        ));
     }
     lines
 }

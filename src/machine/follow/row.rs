@@ -75,7 +75,7 @@ pub fn row(machine: &Machine, leg: &Leg) -> Row {
         feed_mm_min: match motion.feed {
             _ if !motion.is_feed() => None,
             Feed::PerMinute(feed) => Some(feed),
-            Feed::PerRevolution(feed) => motion.spindle_rpm.map(|rpm| feed * rpm),
+            Feed::PerRevolution(feed) => motion.mean_rpm().map(|rpm| feed * rpm),
             Feed::InverseTime(per_minute) => (leg.length > 0.0).then_some(per_minute * leg.length),
             Feed::Unknown | Feed::Rapid => None,
         },

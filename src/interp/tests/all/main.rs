@@ -2,6 +2,7 @@
 #![expect(clippy::print_stderr, reason = "a test that finds no data says so")]
 #![expect(clippy::format_push_string, reason = "texts of tests are short")]
 mod apt;
+mod apt_holes;
 mod arcs;
 mod by_hand;
 mod by_hand_paths;

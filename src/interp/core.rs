@@ -50,6 +50,8 @@ pub(crate) struct Core<'d> {
     pub(crate) proper_end: bool,
     /// Axes that are always at 0.
     pub(crate) standing: crate::standing::Standing,
+    /// What A and C of a lathe mean.
+    pub(crate) drawing: crate::drawing::Drawing,
 }
 
 /// Where facts about the block in hand go.
@@ -109,6 +111,7 @@ impl<'d> Core<'d> {
             last_content: None,
             proper_end: false,
             standing,
+            drawing: crate::drawing::Drawing::new(dialect, setup),
         }
     }
 
@@ -173,6 +176,7 @@ impl<'d> Core<'d> {
             self.merge_tool();
         }
         self.standing.read(program, self.dialect);
+        self.drawing.read(program);
         self.standing.hold(&mut self.state.position);
     }
 

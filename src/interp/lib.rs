@@ -14,6 +14,7 @@ mod core;
 mod corner;
 mod cycles;
 mod directive;
+mod drawing;
 mod dwell;
 mod effects;
 mod emit;

@@ -170,6 +170,8 @@ pub struct ControlData {
     pub further_axes: Vec<u8>,
     /// The axis that a machine with two linear axes lacks, an index into [`crate::AXIS_LETTERS`]: it is always at 0.
     pub absent_axis: Option<u8>,
+    /// The machine has rotary axes; `false` also where no machine is known.
+    pub has_rotary: bool,
     /// By how much 1 mm of tool length shifts the words of X, Y and Z without tool centre point control: the tool axis at home, as the
     /// machine says; `None`: Z by 1 mm. LinuxCNC takes it along Z whatever the machine is.
     pub length_along: Option<[f64; 3]>,

@@ -1,6 +1,6 @@
 //! What an interpreter learns about the machine that a program runs on.
-use crate::Machine;
 use crate::follow::words::Words;
+use crate::{AxisKind, Machine};
 use trunnion_interp::ControlData;
 
 impl Machine {
@@ -12,10 +12,12 @@ impl Machine {
         control.further_axes = machine.map(Self::further_axes).unwrap_or_default();
         control.length_along = machine.and_then(Self::length_along);
         control.absent_axis = machine.and_then(Self::absent_axis);
+        control.has_rotary =
+            machine.is_some_and(|machine| machine.axes.iter().any(|axis| axis.kind == AxisKind::Rotary));
     }
 
     /// Index of the letter of the axis that it lacks.
-    fn absent_axis(&self) -> Option<u8> {
+    pub(crate) fn absent_axis(&self) -> Option<u8> {
         let letter = trunnion_interp::AxisLetter::new(self.absent?)?;
         Some(letter.0)
     }

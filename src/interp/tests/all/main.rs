@@ -14,6 +14,7 @@ mod cycles;
 mod cycles_given_up;
 mod cycles_steps;
 mod directives;
+mod drawing;
 mod faults;
 mod files;
 mod fold_samples;

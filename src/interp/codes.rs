@@ -164,6 +164,9 @@ impl<'d> Iso<'d> {
             Action::OrientationAxes => state.great_circle = Some(false),
             Action::OrientationVector => state.great_circle = Some(true),
             Action::ProgramEnd => block.end = true,
+            Action::NoMotion if found.code.group.as_deref() == Some("thread-chamfer") => {
+                self.memory.thread_chamfer_off = found.code.id == "M24";
+            }
             Action::NoMotion | Action::PathMode | Action::ProgramStop | Action::Declaration => {}
             _ => self.apply_rare(found, words, block, report),
         }

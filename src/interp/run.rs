@@ -37,7 +37,7 @@ impl<'d> Interpreter<'d> {
     pub fn new(dialect: &'d Dialect, setup: &Setup) -> Self {
         let mut core = Core::new(dialect, setup);
         if setup.control.tcp_codes.as_ref().is_some_and(|codes| codes.at_start) {
-            core.state.tcp = true;
+            core.state.tool_axis.set_tcp(true);
         }
         core.merge_tool();
         let engine = match (dialect.lex.format, dialect.quirks.language) {
@@ -132,7 +132,7 @@ impl<'d> Interpreter<'d> {
 
     /// What is declared about the tool in use, merged; `None` when nothing is declared and its number is not known.
     pub fn tool(&self) -> Option<Tool> {
-        self.state().tool_data
+        self.state().tool.data()
     }
 }
 

@@ -176,7 +176,7 @@ impl<'a> Steps<'a> {
 
     /// Whether tool centre point control is on now.
     pub(crate) fn leads_tip(&self) -> bool {
-        self.state().tcp
+        self.state().tool_axis.tcp()
     }
 
     /// What the modal state holds now.
@@ -210,9 +210,9 @@ impl<'a> Steps<'a> {
 
     /// An excerpt: what is in force before its first block. `feed` in mm/min.
     pub fn assume(&mut self, tcp: bool, feed: Option<f64>) {
-        self.interpreter.state_mut().tcp |= tcp;
         let state = self.interpreter.state_mut();
-        state.feed = feed.or(state.feed);
+        state.tool_axis.set_tcp(state.tool_axis.tcp() || tcp);
+        state.feed.set(feed.or(state.feed.value()));
     }
 
     /// Whether motions are held back until a later one is known.

@@ -28,14 +28,14 @@ impl Sink for Listed {
         if !motion.undeclared.any() {
             return;
         }
-        let offset = state.work_offset.as_deref().map(OffsetName::new).unwrap_or_default();
-        let own = (motion.undeclared, offset, state.length_of);
+        let offset = state.zero.offset().map(OffsetName::new).unwrap_or_default();
+        let own = (motion.undeclared, offset, state.length.of());
         if self.last == Some(own) {
             return;
         }
         self.last = Some(own);
         let zero = (motion.undeclared.zero != 0).then_some(Missing::Offset(offset));
-        let length = motion.undeclared.length.then_some(Missing::Length(state.length_of));
+        let length = motion.undeclared.length.then_some(Missing::Length(state.length.of()));
         for missing in zero.into_iter().chain(length) {
             if !self.missing.contains(&missing) {
                 self.missing.push(missing);

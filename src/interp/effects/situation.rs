@@ -30,11 +30,14 @@ impl Situation {
         let flag = |is_on: bool| vec![Argument::code(if is_on { "on" } else { "off" })];
         let number = |value: Option<f64>| vec![Argument::number("", value.unwrap_or(f64::NAN))];
         let mut settings = vec![
-            ("incremental programming", flag(state.incremental)),
-            ("absolute arc centres", flag(state.arc_centre_absolute)),
-            ("the unit of lengths", number(Some(state.length_unit_mm))),
-            ("the unit of feeds", number(Some(state.feed_unit_mm))),
-            ("the working plane", vec![Argument::code(plane(state.plane))]),
+            ("incremental programming", flag(state.coordinates.incremental())),
+            ("absolute arc centres", flag(state.coordinates.arc_centre_absolute())),
+            ("the unit of lengths", number(Some(state.coordinates.unit_mm()))),
+            ("the unit of feeds", number(Some(state.feed.unit_mm()))),
+            (
+                "the working plane",
+                vec![Argument::code(plane(state.coordinates.plane()))],
+            ),
             (
                 "the motion code",
                 vec![Argument::code(
@@ -51,27 +54,30 @@ impl Situation {
             ),
             (
                 "the work offset",
-                vec![Argument::code(
-                    state.work_offset.as_deref().unwrap_or("none").to_owned(),
-                )],
+                vec![Argument::code(state.zero.offset().unwrap_or("none").to_owned())],
             ),
             (
                 "the zero point",
-                state.zero.iter().map(|value| Argument::number("", *value)).collect(),
+                state
+                    .zero
+                    .values()
+                    .iter()
+                    .map(|value| Argument::number("", *value))
+                    .collect(),
             ),
-            ("the tool length in force", number(state.tool_length_mm)),
+            ("the tool length in force", number(state.length.mm())),
             (
                 "whose tool length is in force",
-                vec![Argument::code(state.length_of.to_string())],
+                vec![Argument::code(state.length.of().to_string())],
             ),
-            ("the tool", number(state.tool.map(f64::from))),
-            ("tool centre point control", flag(state.tcp)),
-            ("programming by tool vectors", flag(state.vector_mode)),
-            ("the spindle's speed", number(state.spindle_rpm)),
+            ("the tool", number(state.tool.number().map(f64::from))),
+            ("tool centre point control", flag(state.tool_axis.tcp())),
+            ("programming by tool vectors", flag(state.tool_axis.vectors())),
+            ("the spindle's speed", number(state.spindle.rpm())),
         ];
         if feed_counts {
-            settings.push(("the meaning of F", vec![Argument::code(mode(state.feed_mode))]));
-            settings.push(("the feed", number(state.feed)));
+            settings.push(("the meaning of F", vec![Argument::code(mode(state.feed.mode()))]));
+            settings.push(("the feed", number(state.feed.value())));
         }
         settings
     }

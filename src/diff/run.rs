@@ -41,3 +41,59 @@ impl Iterator for Events<'_> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::{Pair, Tolerance, compare};
+    use std::sync::{
+        Arc,
+        atomic::{AtomicU32, Ordering},
+    };
+    use trunnion_interp::{Files, Library, Loaded, Searched, Setup};
+    use trunnion_same::Input;
+
+    /// Has no programs, and counts how often one is looked for: once a run, as a run remembers what is missing.
+    struct Nothing(Arc<AtomicU32>);
+
+    impl Files for Nothing {
+        fn load(&self, _: &str) -> Result<Loaded, Vec<Searched>> {
+            self.0.fetch_add(1, Ordering::Relaxed);
+            Err(Vec::new())
+        }
+    }
+
+    /// How often the two programs are run, both together, until their difference is listed.
+    fn runs(before: &str, after: &str) -> u32 {
+        let dialect = trunnion_dialect::builtin("linuxcnc").expect("built in");
+        let looked_for = Arc::new(AtomicU32::new(0));
+        let setup = Setup {
+            library: Library(Some(Arc::new(Nothing(Arc::clone(&looked_for))))),
+            ..Setup::default()
+        };
+        let programs = [before, after].map(|text| trunnion_syntax::parse(text.as_bytes().to_vec(), dialect.lex));
+        let [before, after] = programs.each_ref().map(|program| Input {
+            program,
+            dialect,
+            setup: &setup,
+            machine: None,
+        });
+        let pair = Pair {
+            before,
+            after,
+            one_setup: true,
+        };
+        let found = compare(&pair, Tolerance { mm: 0.001, deg: 0.001 }, false);
+        assert_eq!(found.motions, [2, 2]);
+        let all = looked_for.swap(0, Ordering::Relaxed);
+        crate::run::Events::new(before).for_each(drop);
+        all / looked_for.load(Ordering::Relaxed)
+    }
+
+    #[test]
+    fn programs_that_are_the_same_are_run_once_each() {
+        let text = "G21 G90 F100\nG0 X0 Y0 Z0\nG1 X1\no<missing> call\nM2\n";
+        assert_eq!(runs(text, text), 2);
+        // with a difference they are run again, to list it
+        assert!(runs(text, &text.replace("X1", "X2")) > 2);
+    }
+}

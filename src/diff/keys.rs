@@ -1,11 +1,12 @@
 //! The first pass over a program: a key per motion, 16 bytes each.
 use crate::changes::Found;
-use crate::event::{Body, Tech};
+use crate::event::Tech;
 use crate::point::{Point, Tolerance};
 use crate::run::Events;
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use trunnion_same::{Input, Step};
+use trunnion_interp::Value;
+use trunnion_same::{Input, Item, Step};
 
 /// What the first pass keeps of a program.
 #[derive(Default)]
@@ -37,23 +38,32 @@ pub(crate) fn keys(input: Input<'_>, tolerance: Tolerance, techs: &mut Techs, to
     let (side, found) = to;
     let mut keys = Keys::default();
     let mut events = Events::new(input);
-    for event in &mut events {
+    while let Some(item) = events.next_item() {
         let mut state = DefaultHasher::new();
-        let tech = match &event.body {
-            Body::Motion(point, tech) => {
+        let tech = match &item {
+            Item::Motion(step) => {
+                let (point, tech) = events.motion(step);
                 found.motions[side] += 1;
-                found.unknown += u64::from(side == 0 && is_unknown(point));
+                found.unknown += u64::from(side == 0 && is_unknown(&point));
                 point.hash(tolerance, &mut state);
-                techs.number(tech)
+                techs.number(&tech)
             }
-            Body::Statement(text) => {
-                text.hash(&mut state);
+            Item::Happens { words, .. } => {
+                // two that hash alike are put into the same words
+                for word in words {
+                    word.name.hash(&mut state);
+                    match &word.value {
+                        Value::Nothing => 0.hash(&mut state),
+                        Value::Number(value) => (1, value.to_bits()).hash(&mut state),
+                        Value::Text(text) => (2, text).hash(&mut state),
+                    }
+                }
                 u32::MAX
             }
         };
         keys.hashes.push(state.finish());
         keys.techs.push(tech);
-        keys.blocks.push(event.block.0);
+        keys.blocks.push(item.block().0);
     }
     found.stops[side] = events.stop().cloned();
     keys

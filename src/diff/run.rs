@@ -1,13 +1,16 @@
 //! A program as a stream of events that can be aligned with those of another.
-use crate::event::{Body, Event, Tech};
+use crate::event::{Body, Event, Settings, Tech};
 use crate::point::Point;
+use std::sync::Arc;
 use trunnion_machine::Machine;
-use trunnion_same::{Input, Item, Steps, shown};
+use trunnion_same::{Input, Item, Process, Step, Steps, shown};
 
 /// Runs a program event by event.
 pub(crate) struct Events<'a> {
     steps: Steps<'a>,
     machine: Option<&'a Machine>,
+    /// What was in force last, and how people read it: it changes seldom.
+    last: Option<(Arc<Process>, Settings)>,
 }
 
 impl<'a> Events<'a> {
@@ -15,7 +18,27 @@ impl<'a> Events<'a> {
         Self {
             steps: Steps::new(input),
             machine: input.machine,
+            last: None,
         }
+    }
+
+    /// What happens next, not yet put into words.
+    pub(crate) fn next_item(&mut self) -> Option<Item> {
+        self.steps.next()
+    }
+
+    /// Where a motion leads, and what is in force in it.
+    pub(crate) fn motion(&mut self, step: &Step) -> (Point, Tech) {
+        let point = Point::new(&step.motion, self.machine.zip(step.leg.as_ref()));
+        let settings = match &self.last {
+            Some((process, settings)) if Arc::ptr_eq(process, &step.process) => Arc::clone(settings),
+            _ => {
+                let settings: Settings = step.process.settings().into();
+                self.last = Some((Arc::clone(&step.process), Arc::clone(&settings)));
+                settings
+            }
+        };
+        (point, Tech::new(step, settings))
     }
 
     /// Where the run stopped before the end of its program; asked when there are no more events.
@@ -28,14 +51,14 @@ impl Iterator for Events<'_> {
     type Item = Event;
 
     fn next(&mut self) -> Option<Event> {
-        let item = self.steps.next()?;
+        let item = self.next_item()?;
         Some(Event {
             block: item.block(),
             body: match item {
-                Item::Motion(step) => Body::Motion(
-                    Point::new(&step.motion, self.machine.zip(step.leg.as_ref())),
-                    Tech::new(&step),
-                ),
+                Item::Motion(step) => {
+                    let (point, tech) = self.motion(&step);
+                    Body::Motion(point, tech)
+                }
                 Item::Happens { words, .. } => Body::Statement(shown(&words)),
             },
         })

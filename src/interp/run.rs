@@ -120,6 +120,13 @@ impl<'d> Interpreter<'d> {
 
     /// Adds the values of the variables that words name.
     pub fn add_values(&self, words: &mut Vec<crate::Argument>) {
+        let hashed = |word: &crate::Argument| {
+            word.name.contains('#') || matches!(&word.value, crate::Value::Text(text) if text.contains('#'))
+        };
+        let names = with_engine!(&self.engine, engine => engine.core().dialect.quirks.user_names());
+        if !names && !words.iter().any(hashed) {
+            return;
+        }
         let text: Vec<String> = words.iter().map(ToString::to_string).collect();
         let text = text.join(" ");
         words.extend(with_engine!(&self.engine, engine => engine.values_in(&text)));

@@ -1,4 +1,5 @@
 //! A program as a stream of what it does: nothing is kept but what the block in hand has brought.
+use crate::counted::Counted;
 use crate::input::Input;
 use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
 use crate::notes::{arguments_in_order, with_values};
@@ -22,6 +23,7 @@ pub struct Steps<'a> {
     pub(crate) since: Since,
     ran: Vec<u64>,
     over: bool,
+    pub(crate) counted: Option<Counted>,
 }
 
 pub(crate) struct Run<'a> {
@@ -155,6 +157,7 @@ impl<'a> Steps<'a> {
             since: Since::default(),
             ran: vec![0; input.program.block_count().div_ceil(64)],
             over: false,
+            counted: None,
         }
     }
 
@@ -376,6 +379,10 @@ impl Iterator for Steps<'_> {
         while self.ready.is_empty() && !self.over {
             self.advance();
         }
-        self.ready.pop_front()
+        let item = self.ready.pop_front()?;
+        if let Some(counted) = &mut self.counted {
+            counted.take(&item, &self.input);
+        }
+        Some(item)
     }
 }

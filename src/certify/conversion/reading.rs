@@ -97,9 +97,10 @@ pub struct Reading {
     pub motions: Vec<Posed>,
     /// Blocks in the order the control runs them.
     pub blocks: Vec<Ran>,
-    /// The block with which the run was given up, because it made more motions than are held ([`trunnion_interp::Limits::held`]).
+    /// The block with which the run was given up, because it made more motions, or had more grave faults, than are held
+    /// ([`trunnion_interp::Limits::held`]).
     pub given_up: Option<BlockId>,
-    /// What is wrong.
+    /// Faults because of which it is not known what the program does.
     pub faults: Vec<Fault>,
     /// The first block that leads into another file.
     pub elsewhere: Option<BlockId>,
@@ -247,6 +248,13 @@ impl Sink for Collector<'_> {
     }
 
     fn fault(&mut self, fault: Fault) {
+        if !is_grave(&fault.kind) {
+            return;
+        }
+        if self.faults.len() as u64 >= self.setup.limits.held {
+            self.given_up.get_or_insert(fault.block);
+            return;
+        }
         self.faults.push(fault);
     }
 
@@ -334,6 +342,6 @@ pub(super) fn is_grave(kind: &FaultKind) -> bool {
 impl Reading {
     /// Faults because of which it is not known what the program does.
     pub fn grave(&self) -> impl Iterator<Item = &Fault> {
-        self.faults.iter().filter(|fault| is_grave(&fault.kind))
+        self.faults.iter()
     }
 }

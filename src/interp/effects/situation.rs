@@ -17,11 +17,49 @@ impl Situation {
 
     /// The first setting that differs: name, before, after. `feed_counts`: whether F may not differ.
     pub fn difference(&self, other: &Self, feed_counts: bool) -> Option<(&'static str, String, String)> {
+        if self.equals(other) {
+            return None;
+        }
         let (a, b) = (self.settings(feed_counts), other.settings(feed_counts));
         a.into_iter()
             .zip(b)
             .find(|((_, a), (_, b))| a != b)
             .map(|((name, a), (_, b))| (name, written(&a), written(&b)))
+    }
+
+    /// Whether every setting is the same to the last bit, as it is nearly always: nothing is put into words for that.
+    fn equals(&self, other: &Self) -> bool {
+        let (a, b) = (&self.state, &other.state);
+        let bits = |value: Option<f64>| value.map(f64::to_bits);
+        let numbers = |state: &ModalState| {
+            let length = bits(state.tool_length_mm);
+            let units = [state.length_unit_mm.to_bits(), state.feed_unit_mm.to_bits()];
+            (units, length, bits(state.spindle_rpm), bits(state.feed))
+        };
+        let flags = |state: &ModalState| {
+            (
+                state.incremental,
+                state.arc_centre_absolute,
+                state.tcp,
+                state.vector_mode,
+            )
+        };
+        let words = |state: &ModalState| {
+            (
+                state.plane,
+                state.motion,
+                state.compensation,
+                state.tool,
+                state.feed_mode,
+            )
+        };
+        self.to_r == other.to_r
+            && flags(a) == flags(b)
+            && words(a) == words(b)
+            && numbers(a) == numbers(b)
+            && a.zero.map(f64::to_bits) == b.zero.map(f64::to_bits)
+            && a.length_of == b.length_of
+            && a.work_offset == b.work_offset
     }
 
     /// Each setting by name. Numbers compare to 1e-9 of their size, what is unknown is like what is unknown.

@@ -13,6 +13,8 @@ pub(crate) struct Draft<'p> {
     place: Option<TextRange>,
     diagnostic: Diagnostic,
     merge: Option<Merge>,
+    /// How many motions it holds of, and the block of the last.
+    spans: Option<(u32, BlockId)>,
 }
 
 impl<'p> Draft<'p> {
@@ -46,6 +48,7 @@ impl<'p> Draft<'p> {
                 origin,
             },
             merge: None,
+            spans: None,
         }
     }
 
@@ -56,7 +59,17 @@ impl<'p> Draft<'p> {
         let start = range.start.min(end);
         self.diagnostic.range = TextRange::new(start, range.end.clamp(start, end));
         self.diagnostic.last = self.diagnostic.range;
+        if let Some((count, last)) = self.spans {
+            self.diagnostic.count = count;
+            self.diagnostic.last = code_range(self.program, last);
+        }
         (self.diagnostic, self.merge)
+    }
+
+    /// It holds of so many motions, the last of them in this block.
+    pub(crate) fn spans(&mut self, count: u32, last: BlockId) -> &mut Self {
+        self.spans = Some((count, last));
+        self
     }
 
     /// Shows it at these bytes.

@@ -9,10 +9,12 @@ mod again;
 mod analysis;
 mod apart;
 mod both;
+mod caller;
 #[cfg(test)]
 mod clamp_tests;
 pub mod config;
 mod coverage;
+mod cuts;
 mod datum;
 mod diagnostic;
 mod facts;

@@ -1,6 +1,8 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
+use crate::caller::part;
 use crate::config::Scope;
 use crate::coverage::Tally;
+use crate::cuts::Cuts;
 use crate::datum::{Assume, Datum};
 use crate::look::Looker;
 use crate::report::Summary;
@@ -48,6 +50,8 @@ pub(crate) struct Pass<'a> {
     last_ran: Option<BlockId>,
     executed: u64,
     tally: Tally,
+    /// `None` where motions are not judged.
+    cuts: Option<Cuts>,
 }
 
 impl<'a> Pass<'a> {
@@ -88,6 +92,7 @@ impl<'a> Pass<'a> {
             last_ran: None,
             executed: 0,
             tally: Tally::new(settings.dialect),
+            cuts: (settings.scope() >= Scope::Motion).then(Cuts::default),
         }
     }
 
@@ -238,6 +243,19 @@ impl<'a> Pass<'a> {
         let assumed = self.datum.as_ref().map(Datum::assumed).unwrap_or_default();
         let assumptions = assumed.iter().map(|missing| missing.assumption(self.dialect)).collect();
         let mut reporter = self.reporter;
+        if let Some(cuts) = &self.cuts {
+            for still in cuts.finish(
+                part(reporter.program(), self.dialect),
+                interpreter.state().spindle_started,
+            ) {
+                reporter.origin(false, still.chain);
+                ask(&self.rules, &mut reporter, (Some(still.first), 0), |wake, out| {
+                    if let Wake::Still(rule) = wake {
+                        rule(&still, out);
+                    }
+                });
+            }
+        }
         reporter.origin(false, ChainId::MAIN);
         ask(&self.rules, &mut reporter, (None, 0), |wake, out| {
             if let Wake::End(rule) = wake {
@@ -369,6 +387,10 @@ impl Pass<'_> {
             self.last_cut = motion.tool;
         }
         let (block, number) = (motion.block, self.summary.motions);
+        if let Some(cuts) = &mut self.cuts {
+            let allowed = || self.suppressions.allows("spindle-off-cut", block);
+            cuts.add(motion, in_force, allowed);
+        }
         for rule in self.motions.awake(possible_of_motion(&view)) {
             self.reporter.enter(rule, Some(block), number);
             rule.wake.read_motion(&view, &mut self.reporter);

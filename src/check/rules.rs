@@ -54,6 +54,7 @@ mod program_alarm;
 mod rejected_block;
 mod repeated_word;
 mod spindle_off_cut;
+mod spindle_unset;
 mod swept_deviation;
 mod syntax_error;
 mod tcp_state;
@@ -146,6 +147,7 @@ static RULES: &[&Rule] = table![
     rejected_block,
     repeated_word,
     spindle_off_cut,
+    spindle_unset,
     swept_deviation,
     syntax_error,
     tcp_state,

@@ -69,6 +69,10 @@ pub(crate) struct InForce {
     pub(crate) spindle_limit_rpm: Option<f64>,
     /// Something says whether lengths are inch or mm.
     pub(crate) units_said: bool,
+    /// The program has given an S.
+    pub(crate) speed_said: bool,
+    /// Something that is not modelled may have switched the spindle or given S.
+    pub(crate) spindle_unread: bool,
     /// Clamps of rotary axes.
     pub(crate) clamps: Clamps,
     /// Work offset.
@@ -88,6 +92,8 @@ impl InForce {
             surface_speed: state.surface_speed,
             spindle_limit_rpm: state.spindle_limit_rpm,
             units_said: state.units_said,
+            speed_said: state.speed_said,
+            spindle_unread: state.spindle_unread,
             clamps: state.clamps,
             offset: state.work_offset.as_deref().map(OffsetName::new).unwrap_or_default(),
             length_of: state.length_of,

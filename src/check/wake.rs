@@ -1,10 +1,11 @@
 //! What wakes a rule: the type that its function reads. This list is all that there is to choose from.
 use crate::coverage::Coverage;
+use crate::cuts::StillCuts;
 use crate::datum::{Open, Overrun};
 use crate::facts::{
-    Arrival, CableAxis, ClampedTurn, CutSpindleOff, CutSpindleUnlimited, FarCut, FirstCut, HeldBackCut, LongTurn,
-    LostArc, LostEnd, NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, PoleCrossing, PolePass, PostureSwap,
-    StrayingCut, UncertainCut, UnsaidUnits, VectorCut, WindingCut,
+    Arrival, CableAxis, ClampedTurn, CutSpindleUnlimited, FarCut, FirstCut, HeldBackCut, LongTurn, LostArc, LostEnd,
+    NearPole, OneSidedCut, OpenPosture, OtherLength, OverTravel, PoleCrossing, PolePass, PostureSwap, StrayingCut,
+    UncertainCut, UnsaidUnits, VectorCut, WindingCut,
 };
 use crate::finding::Draft;
 use crate::look::Look;
@@ -48,6 +49,8 @@ macro_rules! wakes {
             Open(fn(&Open, &mut Reporter<'_>)),
             /// On a machine: each axis that leaves its travel wherever an undeclared zero lies, at the end.
             Overrun(fn(&Overrun, &mut Reporter<'_>)),
+            /// Each stretch of feed motions in which the spindle does not turn, at the end.
+            Still(fn(&StillCuts, &mut Reporter<'_>)),
             /// What is known at the end, once.
             End(fn(&Ending<'_>, &mut Reporter<'_>)),
             /// What of the program was looked at, once, after everything else.
@@ -64,7 +67,7 @@ macro_rules! wakes {
                 match self {
                     Self::Unreadable(_) | Self::Foreign(_) | Self::Text(_) | Self::End(_) => "text",
                     Self::Program(_) | Self::Port(_) | Self::Coverage(_) => "program",
-                    Self::Fault(_) | Self::Refused(..) $(| Self::$motion(_))* => "motion",
+                    Self::Fault(_) | Self::Refused(..) | Self::Still(_) $(| Self::$motion(_))* => "motion",
                     Self::Open(_) | Self::Overrun(_) => "machine",
                     $(Self::$leg(_))|* => "machine",
                 }
@@ -137,8 +140,6 @@ wakes! {
     motions {
         /// The first feed motion with a tool.
         FirstCut,
-        /// A feed motion with the spindle off.
-        CutSpindleOff,
         /// A feed motion under constant surface speed without a limit of the spindle speed, where the control wants one.
         CutSpindleUnlimited,
         /// A length of which nothing says whether it is inch or mm.

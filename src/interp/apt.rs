@@ -304,8 +304,9 @@ impl Apt<'_> {
             self.core.state.spindle_on = Some(false);
             return;
         }
-        self.core.state.spindle_on = Some(true);
+        self.core.state.switch_spindle(true);
         if let Some(&speed) = args.numbers().first() {
+            self.core.state.speed_said = true;
             let cutting_speed = args.has(program, "SFM") || args.has(program, "SMM");
             self.core.state.spindle_rpm = Some(speed).filter(|_| !cutting_speed && !args.odd);
             if speed == 0.0 {

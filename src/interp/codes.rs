@@ -155,8 +155,8 @@ impl<'d> Iso<'d> {
                     state.spindle_rpm = None;
                 }
             }
-            Action::SpindleClockwise | Action::SpindleCounterClockwise => state.spindle_on = Some(true),
-            Action::SpindleStop => state.spindle_on = Some(false),
+            Action::SpindleClockwise | Action::SpindleCounterClockwise => state.switch_spindle(true),
+            Action::SpindleStop => state.switch_spindle(false),
             Action::ToolChange => self.change_tool(report),
             Action::MachineCoordinates => block.machine_coordinates = true,
             Action::OrientationAxes => state.great_circle = Some(false),
@@ -287,6 +287,7 @@ impl<'d> Iso<'d> {
         };
         let limit = || codes.iter().any(limits);
         if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
+            self.core.state.speed_said = true;
             self.core.state.spindle_rpm = words
                 .speed
                 .number()

@@ -147,7 +147,7 @@ impl<'d> Core<'d> {
         self.losses += 1;
         self.forget_position();
         self.state.clamps.lose();
-        self.state.spindle_on = None;
+        self.state.lose_spindle();
         self.state.spindle_rpm = None;
         self.state.feed = None;
         self.feed_unread = true;

@@ -207,7 +207,10 @@ impl<'d> Iso<'d> {
             self.cutter_number(words, report);
         }
         if words.other_spindle {
-            self.core.state.spindle_on = None;
+            self.core.state.lose_spindle();
+        }
+        if words.builder_code {
+            self.core.state.may_start_spindle();
         }
         if self.core.effects.wanted() {
             self.code_effects(codes, words, &block, &report.program.block(report.block));

@@ -61,6 +61,12 @@ pub struct ModalState {
     pub spindle_on: Option<bool>,
     /// 1/min; `None` before the first S, and under constant cutting speed.
     pub spindle_rpm: Option<f64>,
+    /// The program has given an S.
+    pub speed_said: bool,
+    /// Something that is not modelled may have switched the spindle or given S: a builder's code, a program that is missing.
+    pub spindle_unread: bool,
+    /// The program has started a spindle, or something that is not modelled may have.
+    pub spindle_started: bool,
     /// G96: S is a cutting speed.
     pub surface_speed: bool,
     /// Highest spindle speed that the program allows (G50 S, G92 S), 1/min; NaN where its value could not be read.
@@ -108,6 +114,23 @@ impl ModalState {
     pub fn units(&mut self, length_mm: f64, feed_mm: f64) {
         (self.length_unit_mm, self.feed_unit_mm) = (length_mm, feed_mm);
         self.units_said = true;
+    }
+    /// Switches the spindle on or off.
+    pub fn switch_spindle(&mut self, on: bool) {
+        self.spindle_on = Some(on);
+        self.spindle_started |= on;
+    }
+    /// What is not modelled may have switched the spindle: whether it turns is unknown.
+    pub fn lose_spindle(&mut self) {
+        self.spindle_on = None;
+        self.spindle_unread = true;
+        self.spindle_started = true;
+    }
+    /// What is not modelled may have started the spindle: it is not known to stand still any more.
+    pub fn may_start_spindle(&mut self) {
+        if self.spindle_on != Some(true) {
+            self.lose_spindle();
+        }
     }
     /// Declared length of the tool in use, mm.
     pub fn own_length_mm(&self) -> Option<f64> {

@@ -211,7 +211,10 @@ impl Iso<'_> {
         if call.sort == Sort::Tap {
             // direction after the cycle: 3, 4, otherwise the spindle is off
             let after = call.number(6).or_zero();
-            self.core.state.spindle_on = after.map(|code| code == 3.0 || code == 4.0);
+            match after {
+                Some(code) => self.core.state.switch_spindle(code == 3.0 || code == 4.0),
+                None => self.core.state.lose_spindle(),
+            }
         }
     }
 
@@ -262,9 +265,10 @@ impl Iso<'_> {
     fn call_spindle(&mut self, call: &HoleCall) {
         match call.sort {
             Sort::Tap => {
-                self.core.state.spindle_on = Some(true);
+                self.core.state.switch_spindle(true);
                 let speed = call.number(10).or_zero().filter(|speed| *speed > 0.0);
                 self.core.state.spindle_rpm = speed;
+                self.core.state.speed_said = true;
             }
             Sort::Bore | Sort::BoreStop => {
                 let place = match (call.sort, call.id) {
@@ -273,10 +277,10 @@ impl Iso<'_> {
                 };
                 if let Some(code) = call.number(place).or_zero() {
                     if code == 3.0 || code == 4.0 {
-                        self.core.state.spindle_on = Some(true);
+                        self.core.state.switch_spindle(true);
                     }
                 } else {
-                    self.core.state.spindle_on = None;
+                    self.core.state.lose_spindle();
                 }
             }
             _ => {}
@@ -323,7 +327,7 @@ impl Iso<'_> {
         }
         self.down(plan, MotionKind::Rapid, plan.back, report);
         if call.sort == Sort::BoreStop {
-            self.core.state.spindle_on = None;
+            self.core.state.lose_spindle();
         }
     }
 

@@ -302,7 +302,7 @@ impl Ngc<'_> {
                 let named: Vec<usize> = (0..9).filter(|axis| refused.axes & (1 << axis) != 0).collect();
                 forget(engine, bridge.told, &named);
                 if refused.spindle {
-                    bridge.core.state.spindle_on = None;
+                    bridge.core.state.lose_spindle();
                 }
             }
             Step::Ended => *done = true,

@@ -42,6 +42,7 @@ impl<'p> Draft<'p> {
                 help: None,
                 values: Vec::new(),
                 fixes: Vec::new(),
+                replacement: None,
                 related: Vec::new(),
                 count: 1,
                 last: nowhere,
@@ -64,6 +65,23 @@ impl<'p> Draft<'p> {
             self.diagnostic.last = code_range(self.program, last);
         }
         (self.diagnostic, self.merge)
+    }
+
+    /// The text that its place should have instead.
+    pub(crate) fn replace_with(&mut self, text: String) -> &mut Self {
+        self.diagnostic.replacement = Some(text);
+        self
+    }
+
+    /// As [`Self::replace_with`], where such a text is known.
+    pub(crate) fn replace_with_some(&mut self, text: Option<String>) -> &mut Self {
+        self.diagnostic.replacement = text;
+        self
+    }
+
+    /// What it says so far.
+    pub(crate) fn message(&self) -> &str {
+        &self.diagnostic.message
     }
 
     /// It holds of so many motions, the last of them in this block.

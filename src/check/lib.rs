@@ -34,6 +34,7 @@ mod rules;
 mod runs;
 mod session;
 mod sink;
+mod slip;
 mod suppress;
 mod time;
 mod trail;

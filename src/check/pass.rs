@@ -1,5 +1,4 @@
 //! One pass over a program: takes what the run finds and shows it to the rules.
-use crate::caller::part;
 use crate::config::Scope;
 use crate::coverage::Tally;
 use crate::cuts::Cuts;
@@ -15,10 +14,11 @@ use crate::visited::Visited;
 use crate::waiting::Waiting;
 use crate::wake::{Ending, Wake, possible_of_leg, possible_of_motion};
 use crate::{Report, Settings};
+use std::collections::BTreeSet;
 use trunnion_dialect::{Dialect, Foreign};
-use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, ModalState, Motion, ProgramRun, Refusal, Sink};
+use trunnion_interp::{ChainId, Fault, FaultKind, Interpreter, Lacks, ModalState, Motion, ProgramRun, Refusal, Sink};
 use trunnion_machine::{Follower, Leg, Sine};
-use trunnion_syntax::{BlockId, Program, SyntaxErrorKind};
+use trunnion_syntax::{BlockId, Program, SyntaxError, SyntaxErrorKind};
 
 /// One pass over a program.
 pub(crate) struct Pass<'a> {
@@ -50,6 +50,8 @@ pub(crate) struct Pass<'a> {
     last_ran: Option<BlockId>,
     executed: u64,
     tally: Tally,
+    /// Radii that are taken as zero.
+    assumed_radii: BTreeSet<String>,
     /// `None` where motions are not judged.
     cuts: Option<Cuts>,
 }
@@ -68,7 +70,8 @@ impl<'a> Pass<'a> {
             awake: (None, Vec::new()),
         };
         Self {
-            reporter: Reporter::new(program, settings.dialect, suppressions),
+            reporter: Reporter::new(program, settings.dialect, suppressions)
+                .judging_machine(settings.judged_machine().is_some()),
             dialect: settings.dialect,
             rules,
             motions: waiting(motions),
@@ -92,6 +95,7 @@ impl<'a> Pass<'a> {
             last_ran: None,
             executed: 0,
             tally: Tally::new(settings.dialect),
+            assumed_radii: BTreeSet::new(),
             cuts: (settings.scope() >= Scope::Motion).then(Cuts::default),
         }
     }
@@ -202,6 +206,17 @@ impl<'a> Pass<'a> {
                 ..
             }
         );
+        let lacks_feed = matches!(fault.kind, FaultKind::MissingFeed { .. });
+        let bracket = |errors: &[SyntaxError]| {
+            let open = |error: &SyntaxError| error.kind == SyntaxErrorKind::UnbalancedBracket;
+            let in_block =
+                |error: &SyntaxError| self.reporter.program().block_at(error.range.start) == Some(fault.block);
+            errors.iter().any(|error| open(error) && in_block(error))
+        };
+        // what follows a bracket that is not closed is not read as it was meant
+        if (refused || lacks_feed) && bracket(self.reporter.program().errors()) {
+            return true;
+        }
         refused && {
             let program = self.reporter.program();
             let errors = program.errors();
@@ -241,13 +256,11 @@ impl<'a> Pass<'a> {
             unused: self.suppressions.unused(&looked_for),
         };
         let assumed = self.datum.as_ref().map(Datum::assumed).unwrap_or_default();
-        let assumptions = assumed.iter().map(|missing| missing.assumption(self.dialect)).collect();
+        let listed = assumed.iter().map(|missing| missing.assumption(self.dialect));
+        let assumptions = listed.chain(self.assumed_radii).collect();
         let mut reporter = self.reporter;
         if let Some(cuts) = &self.cuts {
-            for still in cuts.finish(
-                part(reporter.program(), self.dialect),
-                interpreter.state().spindle_started,
-            ) {
+            for still in cuts.finish(reporter.part(), interpreter.state().spindle_started) {
                 reporter.origin(false, still.chain);
                 ask(&self.rules, &mut reporter, (Some(still.first), 0), |wake, out| {
                     if let Wake::Still(rule) = wake {
@@ -335,6 +348,11 @@ impl Sink for Pass<'_> {
 
     fn fault(&mut self, fault: Fault) {
         if self.text_has_told(&fault) {
+            return;
+        }
+        if let (true, Some(Lacks::Radius(number))) = (self.assume.tool_length, fault.kind.lacks()) {
+            self.assumed_radii
+                .insert(format!("the radius of {number} = 0 (not declared)"));
             return;
         }
         self.tally.fault(&fault);

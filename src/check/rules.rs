@@ -239,6 +239,7 @@ mod tests {
                 end: 2.0,
                 tolerance: 0.1,
             },
+            FaultKind::ArcFitsAbsolute { start: 1.0, end: 2.0 },
             FaultKind::ArcRadiusTooSmall {
                 radius: 1.0,
                 half_chord: 2.0,
@@ -256,6 +257,7 @@ mod tests {
             FaultKind::TcpState(TcpMistake::NoLength),
             FaultKind::TcpState(TcpMistake::ToolChange),
             FaultKind::TcpState(TcpMistake::MachineCoordinates),
+            FaultKind::TcpState(TcpMistake::NoLengthNumber),
             FaultKind::EndlessLoop {
                 blocks: 3,
                 proved: false,

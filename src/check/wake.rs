@@ -97,6 +97,13 @@ macro_rules! wakes {
                 match self {
                     Self::Fault(rule) => rule(fault, out),
                     Self::Refused(sort, add) => {
+                        let misread = matches!(
+                            sort,
+                            Refusal::Syntax | Refusal::Number | Refusal::Expression | Refusal::UnknownWord
+                        );
+                        if misread && out.is_refusal(fault, sort) && out.is_slip(fault.range) {
+                            return;
+                        }
                         if let Some(draft) = out.refused(fault, sort) {
                             add(draft);
                         }

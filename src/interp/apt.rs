@@ -300,14 +300,14 @@ impl Apt<'_> {
     fn spindl(&mut self, args: &Args, report: &Report<'_>) {
         let program = report.program;
         if args.has(program, "OFF") {
-            self.core.state.spindle.turn(Some(false));
+            self.core.state.spindle.switch(false);
             return;
         }
         if args.has(program, "LOCK") || args.has(program, "ORIENT") {
-            self.core.state.spindle.turn(Some(false));
+            self.core.state.spindle.switch(false);
             return;
         }
-        self.core.state.spindle.turn(Some(true));
+        self.core.state.spindle.switch(true);
         if let Some(&speed) = args.numbers().first() {
             let cutting_speed = args.has(program, "SFM") || args.has(program, "SMM");
             self.core
@@ -315,7 +315,7 @@ impl Apt<'_> {
                 .spindle
                 .set_rpm(Some(speed).filter(|_| !cutting_speed && !args.odd));
             if speed == 0.0 {
-                self.core.state.spindle.turn(Some(false));
+                self.core.state.spindle.switch(false);
             }
         }
     }

@@ -147,7 +147,7 @@ impl<'d> Core<'d> {
         self.losses += 1;
         self.forget_position();
         self.state.clamps.lose();
-        self.state.spindle.lose();
+        self.state.spindle.forget();
         self.state.feed.set(None);
         self.feed_unread = true;
     }

@@ -17,7 +17,7 @@ pub use action::{Action, Plane};
 pub use chain::{ChainId, Frame};
 pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
 pub use effect::{Argument, Effect, Placed, Reach, Value, same_number};
-pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
+pub use fault::{Fault, FaultKind, Lacks, Refusal, TcpMistake};
 pub use library::{Files, Limits, Loaded, Searched};
 pub use modal::{
     Coordinates, FeedMode, FeedWord, LengthOf, ModalState, Spindle, ToolAxis, ToolInUse, ToolLength, Zero,

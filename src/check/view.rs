@@ -299,11 +299,11 @@ impl<'a> LegView<'a> {
     }
 
     /// Programmed feed in its unit ([`Self::feed_unit`]); `None` where it is not known or the block is no feed motion.
-    /// Per revolution: times the spindle speed. Inverse time: the length of the path times F (RS274/NGC, G93).
+    /// Per revolution: times the spindle speed, the highest one of the motion. Inverse time: the length of the path times F (RS274/NGC, G93).
     pub(crate) fn programmed_feed(&self) -> Option<f64> {
         match self.motion().feed {
             Feed::PerMinute(feed) => Some(feed),
-            Feed::PerRevolution(feed) => Some(feed * self.motion().spindle_rpm?),
+            Feed::PerRevolution(feed) => Some(feed * self.motion().most_rpm()?),
             Feed::InverseTime(per_minute) => Some(per_minute * self.way()),
             Feed::Unknown | Feed::Rapid => None,
         }

@@ -289,10 +289,19 @@ impl<'d> Iso<'d> {
         };
         let limit = || codes.iter().any(limits);
         if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
-            self.core
-                .state
-                .spindle
-                .set_rpm(words.speed.number().map(|number| number.value));
+            let value = words.speed.number().map(|number| number.value);
+            let state = &mut self.core.state;
+            if state.spindle.surface_speed() {
+                // S is in feet per minute where lengths are in inches
+                let unit = if state.coordinates.unit_mm() == 1.0 {
+                    1.0
+                } else {
+                    0.3048
+                };
+                state.spindle.set_cutting_speed(value.map(|value| value * unit));
+            } else {
+                state.spindle.set_rpm(value);
+            }
         }
     }
 }

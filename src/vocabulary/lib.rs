@@ -23,7 +23,7 @@ pub use modal::{
     Coordinates, FeedMode, FeedWord, LengthOf, ModalState, Spindle, ToolAxis, ToolInUse, ToolLength, Zero,
 };
 pub use motion::{
-    AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt, Undeclared,
+    AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Spin, Swivel, Tilt, Undeclared,
 };
 pub use setup::{
     ControlData, ImplicitDecimals, LengthUnit, Library, OuterCorner, RollPitchYaw, RoughingEscape, Setup, TcpCodes,

@@ -68,7 +68,11 @@ pub(crate) struct InForce {
     /// Limit of the spindle's speed, 1/min.
     pub(crate) spindle_limit_rpm: Option<f64>,
     /// Something says whether lengths are inch or mm.
-    pub(crate) units_said: bool,
+    pub(crate) unit_programmed: bool,
+    /// The program has given an S.
+    pub(crate) speed_programmed: bool,
+    /// Something that is not modelled may have switched the spindle or given S.
+    pub(crate) spindle_unread: bool,
     /// Clamps of rotary axes.
     pub(crate) clamps: Clamps,
     /// Work offset.
@@ -82,15 +86,17 @@ impl InForce {
     #[inline]
     pub(crate) fn of(state: &ModalState) -> Self {
         Self {
-            tool_length_mm: state.tool_length_mm,
-            own_length_mm: state.own_length_mm(),
-            frame_unknown: state.frame_unknown,
-            surface_speed: state.surface_speed,
-            spindle_limit_rpm: state.spindle_limit_rpm,
-            units_said: state.units_said,
+            tool_length_mm: state.length.mm(),
+            own_length_mm: state.tool.own_length_mm(),
+            frame_unknown: state.zero.is_lost(),
+            surface_speed: state.spindle.surface_speed(),
+            spindle_limit_rpm: state.spindle.limit_rpm(),
+            unit_programmed: state.coordinates.unit_programmed(),
+            speed_programmed: state.spindle.speed_programmed(),
+            spindle_unread: state.spindle.is_unread(),
             clamps: state.clamps,
-            offset: state.work_offset.as_deref().map(OffsetName::new).unwrap_or_default(),
-            length_of: state.length_of,
+            offset: state.zero.offset().map(OffsetName::new).unwrap_or_default(),
+            length_of: state.length.of(),
         }
     }
 }

@@ -123,7 +123,7 @@ impl Travel {
         };
         if let Some((was, axis, turn)) = self.turned {
             let what = turn.map_or_else(
-                || format!("nobody knows how this cut would turn {axis} on its way"),
+                || format!("how far this cut would turn {axis} is unknown"),
                 |turn| format!("this cut would turn {axis} by {:.3} deg", deg(turn)),
             );
             let message = format!(

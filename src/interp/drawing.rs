@@ -120,10 +120,10 @@ impl Core<'_> {
     fn way_of(&self, words: &Words, axis: usize) -> Option<f64> {
         let value = words.axes.values[axis];
         let bit = 1 << axis;
-        if words.axes.incremental & bit != 0 || self.state.incremental && words.axes.absolute & bit == 0 {
+        if words.axes.incremental & bit != 0 || self.state.coordinates.incremental() && words.axes.absolute & bit == 0 {
             return Some(value);
         }
-        Some(value - self.state.position.get(axis)? / self.state.length_unit_mm)
+        Some(value - self.state.position.get(axis)? / self.state.coordinates.unit_mm())
     }
 
     /// Whether the block is a straight cut.

@@ -52,7 +52,7 @@ pub use effects::Situation;
 pub use run::{Interpreter, run};
 pub use trunnion_vocabulary::{
     AXIS_LETTERS, AllClampCodes, Argument, AxisLetter, ChainId, Clamp, ClampCodes, Clamps, ControlData, Effect, Fault,
-    FaultKind, Feed, FeedMode, Files, Frame, ImplicitDecimals, LengthOf, LengthUnit, Library, Limits, Loaded,
+    FaultKind, Feed, FeedMode, Files, Frame, ImplicitDecimals, Lacks, LengthOf, LengthUnit, Library, Limits, Loaded,
     ModalState, Motion, MotionKind, Orientation, OuterCorner, Placed, Position, Posture, ProgramRun, Reach, Refusal,
     RollPitchYaw, RoughingEscape, Searched, Setup, Sink, Spin, Swivel, TcpCodes, TcpMistake, Tilt, Tool, ToolShape,
     Undeclared, Value, WorkOffset, same_number,

@@ -11,11 +11,11 @@ const PIECES: u32 = 64;
 
 /// The spindle speed of a motion with what is in force; `None`: no such speed, or not known. `radii`: X is a radius here.
 pub(crate) fn spin(state: &ModalState, radii: bool, kind: MotionKind, [start, end]: [&Position; 2]) -> Option<Spin> {
-    if !state.surface_speed || !radii {
+    if !state.spindle.surface_speed() || !radii {
         return None;
     }
-    let speed = state.cutting_speed_m_min.filter(|speed| *speed > 0.0)? * 1000.0;
-    let limit = state.spindle_limit_rpm.filter(|limit| *limit > 0.0)?;
+    let speed = state.spindle.cutting_speed_m_min().filter(|speed| *speed > 0.0)? * 1000.0;
+    let limit = state.spindle.limit_rpm().filter(|limit| *limit > 0.0)?;
     let (from, to) = (start.get(X)?, end.get(X)?);
     // time of a turn, minutes, at this radius: 1 / n
     let turn = |radius: f64| (TAU * radius.abs() / speed).max(1.0 / limit);

@@ -104,6 +104,10 @@ impl Engine {
             turning: None,
         }
     }
+    /// Whether the run passes over the definition of a subroutine.
+    pub fn is_defining(&self) -> bool {
+        self.flow.is_defining()
+    }
     /// How many files the run has opened, the main program among them.
     pub fn file_count(&self) -> usize {
         self.files.len()

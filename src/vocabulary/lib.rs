@@ -17,9 +17,11 @@ pub use action::{Action, Plane};
 pub use chain::{ChainId, Frame};
 pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
 pub use effect::{Argument, Effect, Placed, Reach, Value, same_number};
-pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
+pub use fault::{Fault, FaultKind, Lacks, Refusal, TcpMistake};
 pub use library::{Files, Limits, Loaded, Searched};
-pub use modal::{FeedMode, LengthOf, ModalState};
+pub use modal::{
+    Coordinates, FeedMode, FeedWord, LengthOf, ModalState, Spindle, ToolAxis, ToolInUse, ToolLength, Zero,
+};
 pub use motion::{
     AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Spin, Swivel, Tilt, Undeclared,
 };

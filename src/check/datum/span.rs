@@ -4,7 +4,7 @@ use trunnion_interp::{ChainId, LengthOf};
 use trunnion_syntax::BlockId;
 
 /// What a joint's position rests on that is not declared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Basis {
     pub(super) offset: Option<OffsetName>,
     pub(super) length: Option<LengthOf>,

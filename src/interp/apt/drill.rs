@@ -140,7 +140,7 @@ impl Apt<'_> {
         let seconds = match stay {
             Stay::Seconds(seconds) => Some(seconds),
             Stay::Turns(turns) => {
-                let rpm = self.core.state.spindle_rpm.filter(|&rpm| rpm > 0.0);
+                let rpm = self.core.state.spindle.rpm().filter(|&rpm| rpm > 0.0);
                 rpm.map(|rpm| turns / rpm * 60.0)
             }
         };

@@ -91,7 +91,7 @@ fn origin_and_axes(numbers: &[f64], unit: f64) -> Option<Placed> {
 impl Apt<'_> {
     /// A record that sets a part of the frame; `false`: it is none, or none that can be followed.
     pub(crate) fn frame_record(&mut self, record: &Record<'_>, args: &Args, report: &mut Report<'_>) -> bool {
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let before = self.kept.frame;
         let frame = &mut self.kept.frame;
         let numbers = if args.odd || !args.words().is_empty() {
@@ -136,8 +136,8 @@ impl Apt<'_> {
         if unread {
             self.core.forget_position();
         }
-        self.core.state.frame_unknown = self.core.unknown.any() || unread;
-        if (now - before).norm() > 0.0 && !self.core.state.multax && !unread {
+        self.core.state.zero.lose(self.core.unknown.any() || unread);
+        if (now - before).norm() > 0.0 && !self.core.state.tool_axis.multax() && !unread {
             self.kept.axis_lost = false;
             let last = match self.core.state.orientation {
                 Orientation::Vector(_, last) => Some(last),

@@ -124,9 +124,9 @@ impl Iso<'_> {
             self.memory.out.push(motion);
         }
         self.rapid_straight(start, report);
-        if contour.feed != self.core.state.feed {
+        if contour.feed != self.core.state.feed.value() {
             // the sources do not say whether F of the contour stays
-            self.core.state.feed = None;
+            self.core.state.feed.set(None);
             self.core.feed_unread = true;
         }
     }

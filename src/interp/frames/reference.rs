@@ -113,8 +113,7 @@ impl Iso<'_> {
             return;
         }
         if !std::mem::replace(&mut self.memory.frames.reference_said, true) {
-            let what = format!("reference point {number}: its position is not declared");
-            report.fault(range, FaultKind::NotModelled { what });
+            report.fault(range, FaultKind::reference_lacks(number));
         }
         let start = self.core.state.position;
         self.core.state.position.known &= !named;

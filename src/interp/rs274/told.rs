@@ -48,6 +48,8 @@ pub(super) struct Told {
     /// Some motion was made; since the first one, some axis may stand where another offset, another length or G53 put it.
     pub(super) moved: bool,
     pub(super) strayed: bool,
+    /// The line that set `#<_value>` to something unknown.
+    pub(super) returned: Option<Vec<crate::Argument>>,
     /// The kinematics were switched, and it is not known to which: X Y Z say nothing about the machine.
     pub(super) kinematics_unknown: bool,
 }

@@ -154,7 +154,7 @@ struct Call {
 }
 
 /// Where the run is.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Flow {
     here: Place,
     /// The line that ran last.
@@ -200,43 +200,15 @@ pub(crate) struct Flow {
     texts: texts::Texts,
 }
 
-impl Clone for Flow {
-    fn clone(&self) -> Self {
-        Self {
-            here: self.here,
-            at: self.at,
-            started: self.started,
-            ended: self.ended,
-            end: self.end,
-            percent: self.percent,
-            no_fanuc: self.no_fanuc,
-            sub: self.sub,
-            chain: self.chain,
-            calls: self.calls.clone(),
-            style: self.style,
-            called: self.called,
-            seeking: self.seeking,
-            did: self.did,
-            first_sub: self.first_sub,
-            broken: self.broken,
-            looping: self.looping,
-            labels: self.labels.clone(),
-            chains: self.chains.clone(),
-            lines: self.lines.clone(),
-            fuel: self.fuel,
-            context: self.context.clone(),
-            watch: self.watch.clone(),
-            searched: self.searched.clone(),
-            refused: self.refused,
-            texts: self.texts.clone(),
-        }
-    }
-}
-
 impl Flow {
     /// A motion of a cycle counts as a line that runs.
     pub(crate) fn spend(&mut self) {
         self.fuel = self.fuel.saturating_sub(1);
+    }
+    /// Whether the definition of a subroutine is passed over.
+    pub(crate) fn is_defining(&self) -> bool {
+        self.seeking
+            .is_some_and(|seeking| matches!(seeking.goal, Goal::Definition(_)))
     }
     /// Whether the bound on lines is reached.
     pub(crate) fn is_spent(&self) -> bool {

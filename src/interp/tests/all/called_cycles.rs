@@ -53,7 +53,7 @@ fn the_other_cycles_are_what_the_manual_says() {
         ]
     );
     assert_eq!(log.motions[2].spindle_rpm, Some(300.0));
-    assert_eq!(log.state.expect("ran").spindle_on, Some(true));
+    assert_eq!(log.state.expect("ran").spindle.on(), Some(true));
     assert_eq!(
         cycle("CYCLE85(10,0,3,-20,,0,60,120)"),
         ["R X0 Y0 Z3", "L X0 Y0 Z-20 F60", "L X0 Y0 Z3 F120", "R X0 Y0 Z10"]
@@ -110,6 +110,42 @@ fn what_a_cycle_does_not_tell_is_unknown() {
         ["R X0 Y0 Z3", "U X0 Y0 Z-20", "R X0 Y0 Z10"]
     );
     assert_eq!(cycle("CYCLE81(10,0,3,R7)\nX5"), ["U -", "R X5"]);
+}
+
+#[test]
+fn modes_at_the_end_of_a_call_say_which_depth_counts() {
+    let drilled = ["R X0 Y0 Z3", "L X0 Y0 Z-20 F100", "R X0 Y0 Z10"];
+    for call in [
+        "CYCLE81(10,0,3,-20,0,0,0,1,12)",
+        "CYCLE81(10,0,3,-20,5,0,0,1,2)",
+        "CYCLE81(10,0,3,,20,0,0,1,11)",
+        "CYCLE81(10,0,3,-7,20,0,0,0,1)",
+        "CYCLE82(10,0,3,-20,0,0,0,1,12)",
+    ] {
+        assert_eq!(cycle(call), drilled, "{call}");
+    }
+    assert_eq!(
+        cycle("CYCLE83(10,0,3,,20,,5,100,0,0.5,100,1,0,1.2,1.4,0,1.6,0,1,11211111)"),
+        ["R X0 Y0 Z3", "U X0 Y0 Z-20", "R X0 Y0 Z10"]
+    );
+    for call in [
+        // another plane, a depth of the shank, revolutions, an expression
+        "CYCLE81(10,0,3,-20,0,0,0,2,12)",
+        "CYCLE82(10,0,3,-20,0,0,10,1,12)",
+        "CYCLE82(10,0,3,-20,0,3,0,1,22)",
+        "CYCLE82(10,0,3,-20,0,3,0,1,R7)",
+    ] {
+        let got = faults("sinumerik-840d", &format!("{HEAD}{call}\n"));
+        assert!(
+            got.iter().any(|fault| fault.contains("other meanings")),
+            "{call}: {got:?}"
+        );
+    }
+    let got = faults("sinumerik-840d", &format!("{HEAD}CYCLE81(10,0,3,,20,0,0,1,12)\n"));
+    assert!(
+        got.iter().any(|fault| fault.contains("without known levels")),
+        "{got:?}"
+    );
 }
 
 #[test]

@@ -137,7 +137,9 @@ impl Apt<'_> {
             self.core.forget_position();
         }
         self.core.state.zero.lose(self.core.unknown.any() || unread);
-        if (now - before).norm() > 0.0 && !self.core.state.tool_axis.multax() && !unread {
+        // a system that is named again says where Z is, also after the tool axis was lost
+        let told = (now - before).norm() > 0.0 || self.kept.axis_lost;
+        if told && !self.core.state.tool_axis.multax() && !unread {
             self.kept.axis_lost = false;
             let last = match self.core.state.orientation {
                 Orientation::Vector(_, last) => Some(last),

@@ -177,6 +177,14 @@ fn a_system_turns_points_and_the_tool() {
     );
 }
 
+/// A text for the machine may have turned the tool; the system that is named after it says where Z is.
+#[test]
+fn a_system_says_where_the_tool_is_after_an_insert() {
+    let text = "FEDRAT/9\nGOTO/1,2,3\nINSERT/TURN IT\nCSYS/1,0,0,0,0,1,0,0,0,0,1,0\nGOTO/1,2,9\n";
+    assert_eq!(lines("apt", text)[1], "L X1 Y2 Z9 F9 tcp <0 0 1>");
+    assert_eq!(lines("apt", &text.replace("CSYS", "PPRINT"))[1], "L X1 Y2 Z9 F9 tcp");
+}
+
 /// From one set-up to the next the tool stays where it is, and turns with the next motion.
 #[test]
 fn a_change_of_the_system_moves_nothing() {

@@ -125,7 +125,7 @@ impl Pair<'_> {
 
     fn no_pose(&self, which: &str, why: &NoStance) -> Outcome {
         let why = match why {
-            NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown: program it before"),
+            NoStance::PositionUnknown(letters) => format!("the position of {letters} is unknown: program it first"),
             NoStance::Unreachable(_) | NoStance::OutsideLimits { .. } | NoStance::PostureRefused { .. } => {
                 "the machine cannot reach the pose".into()
             }
@@ -133,7 +133,7 @@ impl Pair<'_> {
             NoStance::HeldElsewhere { axis, .. } => {
                 format!("axis {} is held elsewhere by the machine file", char::from(*axis))
             }
-            NoStance::PlaneMisaligned(_) => "the tool does not stand on the tilted plane".into(),
+            NoStance::PlaneMisaligned(_) => "the tool is not perpendicular to the tilted plane".into(),
             NoStance::RotaryOffset(letter) => {
                 format!(
                     "a work offset in {} under tool centre point control is not modelled",
@@ -257,13 +257,13 @@ impl Pair<'_> {
         if above(change.point_shift_mm, mm) {
             let shift = change.point_shift_mm;
             return self.refute(format!(
-                "the {point} shifts by {shift:.6} mm at the block's end, allowed is {mm} mm"
+                "the {point} shifts by {shift:.6} mm at the block's end; {mm} mm is allowed"
             ));
         }
         if above(change.axis_change_deg, degrees) {
             let turn = change.axis_change_deg;
             return self.refute(format!(
-                "the tool axis turns by {turn:.6} deg at the block's end, allowed is {degrees} deg"
+                "the tool axis turns by {turn:.6} deg at the block's end; {degrees} deg is allowed"
             ));
         }
         let off = change
@@ -289,7 +289,7 @@ impl Pair<'_> {
         let (sampled_axis, bound_axis) = (deg(way.sampled_axis), deg(way.bound_axis));
         if claimed && (above(way.sampled_mm, mm) || above(sampled_axis, degrees)) {
             return self.refute(format!(
-                "inside the block the tips lie {:.6} mm and the tool axes {sampled_axis:.6} deg apart; allowed are {mm} mm, {degrees} deg",
+                "inside the block the tips lie {:.6} mm and the tool axes {sampled_axis:.6} deg apart; {mm} mm and {degrees} deg are allowed",
                 way.sampled_mm
             ));
         }

@@ -94,17 +94,17 @@ fn inputs_match(
 ) -> Result<(), Outcome> {
     let refuse = |what: &str| {
         Err(Outcome::refuted(format!(
-            "the certificate was made for {what}: its SHA-256 differs"
+            "the certificate was made for {what}: the SHA-256 values differ"
         )))
     };
     if let Some(why) = other_schema(&certificate.schema) {
         return Err(Outcome::refuted(why));
     }
     if certificate.before != text_digest(before) {
-        return refuse("another text before");
+        return refuse("another original program");
     }
     if certificate.after != text_digest(after) {
-        return refuse("another text after");
+        return refuse("another changed program");
     }
     if certificate.dialect.name != dialect.name || certificate.dialect.sha256 != dialect_digest(dialect) {
         return refuse(&format!(

@@ -51,10 +51,10 @@ impl Pair<'_> {
         };
         let still = stand(start.0, end.0) && stand(start.1, end.1) && stand(start.0, start.1);
         let (MotionKind::Arc(Some(from)), MotionKind::Arc(Some(to))) = (&a.kind, &b.kind) else {
-            return Err(self.unknown("how far an arc and another motion lie apart is not modelled"));
+            return Err(self.unknown("the distance between an arc and a motion of another kind is not modelled"));
         };
         if !still || a.tcp != b.tcp {
-            return Err(self.unknown("how far two different arcs lie apart while rotary axes move is not modelled"));
+            return Err(self.unknown("the distance between two different arcs is not modelled while rotary axes move"));
         }
         let off = trunnion_same::arcs_apart(from, to, a, b);
         Ok(Apart {

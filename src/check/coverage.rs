@@ -47,9 +47,9 @@ impl NotRunReason {
         match self {
             Self::SubprogramNotCalled => "nothing in this file calls their subprogram",
             Self::AfterEnd => "they come after the end of the program",
-            Self::JumpedOver => "a jump or branch leads past them",
+            Self::JumpedOver => "a jump or branch skips them",
             Self::BlockDelete => "block delete skips them",
-            Self::GivenUp => "the run could not be followed so far",
+            Self::GivenUp => "the run could not be followed that far",
         }
     }
 }

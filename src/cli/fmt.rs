@@ -33,7 +33,7 @@ pub(crate) struct Fmt {
     /// Write nothing; print the new text (one file).
     #[arg(long, conflicts_with = "check")]
     stdout: bool,
-    /// Replace the files safely (the default): write new files beside them, flush them, rename them.
+    /// Replace the files safely (the default): write new files next to them, flush them, rename them.
     #[arg(long, conflicts_with_all = ["check", "diff", "stdout"])]
     write: bool,
     /// Renumber the blocks from START in steps of STEP (default 10). Jumps, M99 P, M97 P and turning contours follow. Each

@@ -50,7 +50,7 @@ pub(crate) struct Sample {
     /// Side of the S-wall (default left); its faces are 3 mm apart.
     #[arg(long, value_enum)]
     side: Option<WallSide>,
-    /// Chord error of the S-wall's points, mm (default 0.01).
+    /// Chord error of the points of the S-wall, mm (default 0.01).
     #[arg(long, value_name = "MM")]
     chord: Option<f64>,
     /// Diameter of the tool, mm (cone, s-wall: default 20; circle-diamond-square: 10; 0: the tip runs on the wall itself).

@@ -31,7 +31,7 @@ pub(crate) struct Surface {
     /// The distance that the tip keeps from the surface, for a ball centre or a flank, in mm.
     #[arg(long, value_name = "MM", default_value_t = 0.0)]
     offset: f64,
-    /// Feed blocks that start or end farther than this from the surface count as approach or retract, in mm.
+    /// Feed blocks that start or end farther than this from the surface are taken as approach or retract, in mm.
     #[arg(long, value_name = "MM", default_value_t = 1.0)]
     reach: f64,
     /// Judge only the blocks of these lines, for example 100-250.

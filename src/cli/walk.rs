@@ -38,7 +38,7 @@ impl Found {
                 if fs::canonicalize(&link).is_ok_and(|target| real.insert(target)) {
                     files.push(link);
                 } else {
-                    self.left_out.push((link, "a link to a file that is taken already"));
+                    self.left_out.push((link, "a link to a file that is in the list already"));
                 }
             }
             files.sort();
@@ -125,7 +125,7 @@ impl<'f> Walk<'f> {
     fn folder(&mut self, path: &Path) {
         let real = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         if !self.seen.insert(real.clone()) {
-            self.leave(path, "a link to a folder that is walked already");
+            self.leave(path, "a link to a folder that was searched already");
             return;
         }
         let entries = fs::read_dir(path).and_then(Iterator::collect::<Result<Vec<_>, _>>);
@@ -149,7 +149,7 @@ impl<'f> Walk<'f> {
     fn entry(&mut self, path: &Path, folder: &Path) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let Ok(metadata) = fs::metadata(path) else {
-            return self.leave(path, "a link that leads nowhere, or a file that cannot be looked at");
+            return self.leave(path, "a broken link, or a file that cannot be inspected");
         };
         if name.starts_with('.') {
             // what git keeps for itself is no news
@@ -163,7 +163,7 @@ impl<'f> Walk<'f> {
         }
         let linked = fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_symlink());
         if linked && !fs::canonicalize(path).is_ok_and(|real| real.starts_with(&self.root)) {
-            return self.leave(path, "a link that leads out of the folder");
+            return self.leave(path, "a link to outside the folder");
         }
         if metadata.is_dir() {
             self.folder(path);
@@ -172,11 +172,11 @@ impl<'f> Walk<'f> {
         } else if trunnion_dialect::is_program_file_name(&name) {
             self.found.files.push(path.to_owned());
         } else if path.extension().is_some() {
-            self.leave(path, "its extension names no program");
+            self.leave(path, "its extension is not one of a program");
         } else {
             match head(path) {
                 Ok(head) if trunnion_dialect::looks_like_program(&head) => self.found.files.push(path.to_owned()),
-                Ok(_) => self.leave(path, "no extension, and its first lines show no program"),
+                Ok(_) => self.leave(path, "it has no extension, and its first lines do not look like a program"),
                 Err(error) => self.found.failures.push(Failure::io(path, "read the file", &error)),
             }
         }

@@ -149,11 +149,11 @@ pub(crate) fn remark(machine: &Machine, letter: char) -> String {
     let axis = machine.axes.iter().find(|axis| char::from(axis.letter) == letter);
     let known = axis.is_some_and(|axis| axis.extra.clamp_codes.is_some());
     let why = if known {
-        "this control has no word for its codes"
+        "the target control has no such codes"
     } else {
-        "the machine file names no codes"
+        "the machine file does not name its codes"
     };
-    format!("{letter} has a clamp. It is not written here: {why}")
+    format!("{letter} has a clamp. This program does not operate it: {why}")
 }
 
 #[cfg(test)]

@@ -53,7 +53,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     let machine = source.machine.filter(|_| source.dialect.lex.format != Format::Apt);
     if source.assume != Assume::default() && source.dialect.quirks.rs274() {
         return Err(Refused::new(
-            "what holds at the start of an excerpt cannot be said of a LinuxCNC program: write it into the program",
+            "the state at the start of an excerpt cannot be given for a LinuxCNC program: write it into the program",
         ));
     }
     let reading = read(&Run {
@@ -135,11 +135,11 @@ fn swaps_are_allowed(
     if let Some(&index) = turned.first().filter(|_| !options.allow_swap) {
         let block = reading.motions[index].motion.block;
         let message = format!(
-            "in this cut the control {} ({} such places in all): retract there, or say --allow-swap",
+            "in this cut the control {} ({} such places in all): retract there, or add --allow-swap",
             if setting.vectors {
                 "turns to the other posture for the vector"
             } else {
-                "leads the tool axis on a great circle past the pole, on which the machine cannot turn to the posture at its end"
+                "moves the tool axis along a great circle past the pole, where the machine cannot turn to the posture at the end"
             },
             turned.len()
         );
@@ -185,7 +185,7 @@ fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
         }
     }
     if let Some(error) = program.errors().first() {
-        let message = "the text is not understood here; `trunnion check` says more";
+        let message = "this text is not understood; `trunnion check` explains it";
         return Err(Refused::range(program, error.range, message));
     }
     let dropped = |fault: &&Fault| {
@@ -215,27 +215,27 @@ fn wording(program: &Program, fault: &Fault) -> String {
     let text: String = program.text(fault.range).chars().take(40).collect();
     match &fault.kind {
         FaultKind::NotModelled { what } if what.starts_with("INSERT") => {
-            format!("{what}; where INSERT only carries remarks, say --insert-is-remark")
+            format!("{what}; if INSERT only carries remarks, add --insert-is-remark")
         }
         FaultKind::NotModelled { what } => {
-            format!("{what} is not modelled, so that it is not known what the tool does from here on")
+            format!("{what} is not modelled, so the motion of the tool is unknown from here on")
         }
         FaultKind::Rejected { message, .. } => format!("the control refuses this block: {message}"),
-        FaultKind::NotDecided { what } => format!("what runs next depends on {what}, which is not known"),
+        FaultKind::NotDecided { what } => format!("what runs next depends on {what}, which is unknown"),
         FaultKind::AptUnknownRecord => "an unknown record: it may move the tool".to_owned(),
         FaultKind::UnknownCode { .. } => format!("{text} is an unknown code"),
         FaultKind::ProgramAlarm { .. } => {
-            format!("{text} stops the program with an alarm, which is not carried over: take it away")
+            format!("{text} stops the program with an alarm, which is not carried over: remove it")
         }
         FaultKind::AmbiguousDecimal => {
-            "a number without a point: a parameter of the control decides what it means; say so in trunnion.toml"
+            "a number without a decimal point: a parameter of the control decides what it means; declare it in trunnion.toml"
                 .to_owned()
         }
         FaultKind::EndlessLoop { blocks, proved: false } => format!(
             "given up: no end within {blocks} executed blocks; if the program is only long, raise `steps` and `held` of [limits] in \
              trunnion.toml"
         ),
-        _ => format!("the program has an error at `{text}`; `trunnion check` says which"),
+        _ => format!("the program has an error at `{text}`; `trunnion check` names it"),
     }
 }
 
@@ -263,7 +263,7 @@ fn prove(
     if let Some(error) = after.program.errors().first() {
         let (line, column) = LineIndex::new(text.as_bytes()).line_column(text.as_bytes(), error.range.start);
         return Err(Refused::new(format!(
-            "what was written is not understood in its line {line}, column {column}: mend the templates of the post"
+            "line {line}, column {column} of the output is not understood: correct the templates of the post"
         )));
     }
     let parts = if setting.post.is_some() {

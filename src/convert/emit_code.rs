@@ -121,7 +121,7 @@ impl<'a> Writer<'a> {
     ) -> Result<(), Refused> {
         let Some(template) = self.post.template(key) else {
             let message = format!(
-                "the post for {} has no `{key}`: write it into a post of your own (--post), or leave it out of the program",
+                "the post for {} has no `{key}`: add it in a post of your own (--post), or remove it from the program",
                 self.post.dialect
             );
             return Err(self.refuse(block, message));
@@ -135,7 +135,7 @@ impl<'a> Writer<'a> {
             };
             self.refuse(
                 block,
-                format!("the post's `{key}` needs {what}, which the program does not say"),
+                format!("the post's `{key}` needs {what}, which the program does not give"),
             )
         })?;
         for line in filled.lines().map(str::trim).filter(|line| !line.is_empty()) {
@@ -235,7 +235,7 @@ impl<'a> Writer<'a> {
             Some(Some(off)) => self.line(off),
             Some(None) if matches!(self.mode, Mode::Joints(_)) => {
                 let message = format!(
-                    "{} leads the tip from the start of a program, and its file names no code that ends it: leave --no-tcp out",
+                    "{} starts programs with tool centre point control on, and its file names no code that switches it off: remove --no-tcp",
                     machine.id
                 );
                 return Err(self.refuse(None, message));

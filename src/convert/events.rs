@@ -139,7 +139,7 @@ impl Teller<'_> {
         let block = ran.block;
         let heard = |events: &[Event]| events.iter().any(|event| !matches!(event, Event::Comment(_)));
         if ran.motions_wait && (heard(&said.before) || heard(&asked) || heard(&after)) {
-            let message = "an M code inside a contour with cutter radius compensation: where on the offset path it belongs is not known";
+            let message = "an M code inside a contour with cutter radius compensation: where it belongs on the offset path is unknown";
             return Err(Refused::at(self.program, block, message));
         }
         self.job.name = self.job.name.take().or(said.name);
@@ -172,7 +172,7 @@ impl Teller<'_> {
     fn tool(&mut self, ran: &Ran, change: bool) -> Result<(), Refused> {
         let block = ran.block;
         if change && ran.tool.is_none() {
-            let message = "a tool without number: its place in the magazine of another control is not known";
+            let message = "a tool without a number: its place in the magazine of the other machine is unknown";
             return Err(Refused::at(self.program, block, message));
         }
         if let Some(number) = ran.tool.filter(|_| ran.tool != self.tool) {
@@ -199,7 +199,7 @@ impl Teller<'_> {
             (Some(true), Some(rpm)) => Spindle::On(turns, rpm),
             (Some(true), None) => {
                 let message =
-                    "the spindle turns with a speed that is not known (none is programmed, or a cutting speed)";
+                    "the spindle turns at an unknown speed (none is programmed, or a cutting speed is)";
                 return Err(Refused::at(self.program, block, message));
             }
         };
@@ -275,7 +275,7 @@ fn said(block: &Block<'_>, dialect: &Dialect) -> Result<Said, Cannot> {
             }
             Item::Skip(_, range) => {
                 let message =
-                    "block delete: whether the block runs depends on a switch; take the `/` or the block away";
+                    "block delete: whether the block runs depends on a switch; remove the `/` or the block";
                 return Err((range, message.to_owned()));
             }
             Item::Word(word) => said.tool_change |= changes_tool(&word, dialect),

@@ -29,7 +29,7 @@ pub(crate) fn said(block: &Block<'_>, options: &Options) -> Result<Said, Cannot>
             }
         }
         "DWELL" => {
-            let message = "DWELL is not read as a dwell: write DELAY/seconds";
+            let message = "DWELL is not supported as a dwell: write DELAY/seconds";
             return Err((record.range, message.to_owned()));
         }
         _ => {}

@@ -172,7 +172,7 @@ impl Planner<'_> {
         if let Some(&index) = swaps.first().filter(|_| !self.options.allow_swap) {
             let message = format!(
                 "in this cut the table must turn to the other posture, or wind back ({} such places in all): retract there, turn and come \
-                 back, or say --allow-swap",
+                 back, or add --allow-swap",
                 swaps.len()
             );
             return Err(self.refuse(&motions[index], message));
@@ -194,7 +194,7 @@ impl Planner<'_> {
             .all(|posed| posed.leg.is_some() && words(posed))
     }
 
-    /// Zero point and tool length in force at each motion of the output.
+    /// Zero point and active tool length at each motion of the output.
     fn frames(&self, job: &Job) -> Vec<Frame> {
         let zero_of = |name: &str| {
             let known = self.setup.work_offsets.iter();
@@ -224,7 +224,7 @@ impl Planner<'_> {
 
     fn out(&self, index: usize, posed: &Posed, q: ([f64; 2], [f64; 2]), frame: &Frame) -> Result<Out, Refused> {
         if let MotionKind::Dwell(seconds) = posed.motion.kind {
-            let why = "a dwell of a length that is not known";
+            let why = "a dwell of unknown length";
             return seconds
                 .map(Out::Dwell)
                 .ok_or_else(|| self.refuse(posed, why.to_owned()));
@@ -233,16 +233,16 @@ impl Planner<'_> {
             if self.may_leave(index) {
                 return self.partial(index, posed, frame);
             }
-            return Err(self.refuse(posed, format!("where this motion ends is not known: {why}")));
+            return Err(self.refuse(posed, format!("the end of this motion is unknown: {why}")));
         }
         let is_rapid = posed.motion.kind == MotionKind::Rapid;
         let track = Track::new(posed, self.source);
         let Some(track) = track.filter(|_| !is_rapid) else {
             if !is_rapid && !matches!(posed.motion.kind, MotionKind::Linear) {
-                return Err(self.refuse(posed, "an arc from a position that is not known".to_owned()));
+                return Err(self.refuse(posed, "an arc from an unknown position".to_owned()));
             }
             if !is_rapid && posed.start.is_some() {
-                return Err(self.refuse(posed, "how the tool gets there is not known".to_owned()));
+                return Err(self.refuse(posed, "the path of the tool to this point is unknown".to_owned()));
             }
             return self.at_once(posed, q.1, frame, is_rapid).map(Out::Moves);
         };

@@ -31,8 +31,8 @@ impl Planner<'_> {
         if self.apt || !self.merges(index, &moved) {
             return Ok(Out::Left);
         }
-        let message = "this rapid moves some axes before the others are known. In the program that is written it would run together with \
-             the next one, in all axes at once: program a complete position here, or take the block away";
+        let message = "this rapid moves some axes before the others are known. In the output it would be joined with the next rapid, in \
+             all axes at once: program a complete position here, or remove the block";
         Err(self.refuse(posed, message.to_owned()))
     }
 

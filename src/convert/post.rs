@@ -208,7 +208,7 @@ pub fn load_post(text: &str) -> Result<Post, PostError> {
     post.tcp_off = words.tcp_off.or(post.tcp_off);
     for key in &raw.without.templates {
         if post.templates.remove(key.get_ref()).is_none() {
-            let message = format!("there is no template {:?} to do without", key.get_ref());
+            let message = format!("there is no template {:?} to leave out", key.get_ref());
             return Err(fault(key.span(), message));
         }
     }

@@ -4,7 +4,7 @@ use trunnion_certify::conversion::{Track, joint_bend};
 use trunnion_geometry::Vec3;
 use trunnion_machine::{Joints, MAX_AXES, Machine, inverse};
 
-/// What turns joints into words: zero point and tool length in force in the program that is written.
+/// What turns joints into words: zero point and active tool length in the program that is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Frame {
     /// Work offset, mm and deg, order of `AXIS_LETTERS`.

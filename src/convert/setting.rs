@@ -45,14 +45,14 @@ impl<'a> Setting<'a> {
         let rotary = machine.is_some_and(|machine| !machine.rotary.is_empty());
         let lacks = |key: &str, what: &str| {
             let message = format!(
-                "the post for {} has no {what} (`{key}`); use --no-tcp, or write one into a post of your own (--post)",
+                "the post for {} has no {what} (`{key}`); use --no-tcp, or add one in a post of your own (--post)",
                 post.dialect
             );
             Err(Refused::new(message))
         };
         if vectors && !options.tcp {
             return Err(Refused::new(
-                "tool vectors need tool centre point control: leave --no-tcp out",
+                "tool vectors need tool centre point control: remove --no-tcp",
             ));
         }
         if vectors && (post.template("tcp-vectors-on").is_none() || post.template("vector").is_none()) {
@@ -153,8 +153,8 @@ impl<'a> Setting<'a> {
         if turns && (unknown.is_some() || job.tools.is_empty()) {
             let which = unknown.map_or_else(|| "the tool".to_owned(), |(number, _)| format!("tool {number}"));
             let message = format!(
-                "{} turns the tool, so that joints depend on the length of {which}, which is not declared: \
-                 (trunnion: tool 1 ball diameter 10 length 100)",
+                "{} turns the tool, so axis positions depend on the length of {which}, which is not declared: \
+                 add (trunnion: tool 1 ball diameter 10 length 100)",
                 machine.id
             );
             return match reading.motions.first() {

@@ -128,7 +128,7 @@ impl Travel {
             );
             let message = format!(
                 "{what}, but the machine file of {} says clamp = true at {axis}: it must stand still while cutting. Cut with a fixed tool \
-                 axis, position {axis} in rapid motions, or take a machine whose axis is not clamped",
+                 axis, position {axis} in rapid motions, or use a machine that can cut while this axis turns",
                 machine.map_or("", |machine| machine.id.as_str())
             );
             return Err(Refused::at(&reading.program, block(was), message));

@@ -79,7 +79,7 @@ impl Tech {
         let mm = |bits| format!("{} mm", f64::from_bits(bits));
         pair("tool length", mm(self.length), mm(other.length));
         pair(
-            "tool length in force",
+            "active tool length",
             self.length_of.to_string(),
             other.length_of.to_string(),
         );

@@ -51,5 +51,5 @@ pub(crate) fn special(metadata: &Metadata) -> Option<&'static str> {
             return Some("a device");
         }
     }
-    Some("no regular file")
+    Some("not a regular file")
 }

@@ -121,7 +121,7 @@ impl trunnion_formula::Variables for View<'_> {
         let reason = if fresh {
             "written in the same block"
         } else {
-            "its value is not known here"
+            "its value is unknown here"
         };
         Ok(self.give(value, || format!("R{index}: {reason}")))
     }
@@ -130,11 +130,11 @@ impl trunnion_formula::Variables for View<'_> {
         let value = self.own.read(name);
         Ok(self.give(value, || match name.as_bytes() {
             [b'$', ..] => format!("{}: a variable of the control", shown()),
-            [.., b'['] => format!("{}[]: elements of fields are not followed", shown()),
+            [.., b'['] => format!("{}[]: array elements are not followed", shown()),
             [.., b'('] => format!("{}(): the function is not modelled", shown()),
-            [b'"'] => "texts are not followed".to_owned(),
+            [b'"'] => "strings are not followed".to_owned(),
             _ if self.own.is_fresh(name) => format!("{}: written in the same block", shown()),
-            _ if self.own.is_declared(name) => format!("{}: its value is not known here", shown()),
+            _ if self.own.is_declared(name) => format!("{}: its value is unknown here", shown()),
             _ => format!("{}: not declared in this program", shown()),
         }))
     }

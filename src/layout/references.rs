@@ -189,7 +189,7 @@ impl Reader<'_, '_> {
             {
                 let range = table.range(id).cover(table.range(next));
                 let why = format!(
-                    "`{}` reads a block number, and it is not known what the program does with it",
+                    "`{}` reads a block number, and it is unknown what the program does with it",
                     self.text(range)
                 );
                 self.obstacle(range, why);

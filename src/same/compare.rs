@@ -121,7 +121,7 @@ fn undecided(was: &Item, is: &Item, verdict: Verdict) -> Verdict {
         Verdict::Differs(mut found) if repeats(was) != repeats(is) => {
             let which = if repeats(was) { "before" } else { "after" };
             found.what = format!(
-                "{}; the program {which} repeats its last place here, and whether that moves the machine is not known",
+                "{}; the program {which} repeats its last position here, and it is unknown whether that moves the machine",
                 found.what
             );
             Verdict::Unknown(found)
@@ -229,7 +229,7 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
         return unknown("only one of them programs the tool's direction by vectors".to_owned());
     }
     if a.tcp != b.tcp && claim.no_rotary && !claim.across {
-        return unknown("only one of them is under tool centre point control, and no rotary axes are known".to_owned());
+        return unknown("only one of them is under tool centre point control, and the rotary axes are unknown".to_owned());
     }
     Ok(())
 }
@@ -326,7 +326,7 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
     }
     if stops(words) && process.message() != other_process.message() {
         return Err(Verdict::Unknown(place(format!(
-            "the operator reads another message at the stop: {} and {}",
+            "the operator message at the stop differs: {} and {}",
             shown(process.message()),
             shown(other_process.message())
         ))));
@@ -338,7 +338,7 @@ fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdict> {
 fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
     let name = |item: Option<&Item>| match item {
         None => "ends".to_owned(),
-        Some(Item::Motion(step)) if step.is_part => format!("goes on with {}", kind(&step.motion.kind)),
+        Some(Item::Motion(step)) if step.is_part => format!("continues with {}", kind(&step.motion.kind)),
         Some(Item::Motion(step)) => format!("makes {}", kind(&step.motion.kind)),
         Some(Item::Happens { words, .. }) => format!("does `{}`", shown(words)),
     };
@@ -353,7 +353,7 @@ fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
     };
     let part = |item: Option<&Item>| matches!(item, Some(Item::Motion(step)) if step.is_part);
     let what = match (part(was), part(is)) {
-        (true, false) | (false, true) => "a motion ends elsewhere: ",
+        (true, false) | (false, true) => "a motion ends at another position: ",
         _ => "",
     };
     let what = format!("{what}the program before {}, the one after {}", name(was), name(is));

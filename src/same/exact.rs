@@ -73,7 +73,7 @@ pub(crate) fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, exact: Exact) 
         }
         match (left, right) {
             (None, None) if a.is_compared() && b.is_compared() => return Ok(()),
-            (None, None) => return at("one program does more at its end"),
+            (None, None) => return at("one program does more than the other at its end"),
             (Some(x), Some(y)) if a.ordinal(x) == b.ordinal(y) => {}
             _ => return at("the order in which blocks run differs"),
         }
@@ -185,7 +185,7 @@ fn item_difference(
             };
             let same = |(a, b): (&Argument, &Argument)| same_word(a, b) || free(a) && a.name == b.name;
             if sort != other_sort || words.len() != others.len() || !words.iter().zip(others).all(same) {
-                return Some("what a block does beside motions differs");
+                return Some("what a block does apart from motions differs");
             }
             // elsewhere a message only passes over the screen, and the number of its line may be in it
             if stops(words) && process.message() != other.message() {

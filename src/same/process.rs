@@ -122,7 +122,7 @@ pub(crate) fn unlike(was: &Process, is: &Process, shared: bool) -> Option<Unlike
     let group = groups.next().filter(|_| !shared)?;
     let said = |process: &Process| shown(process.restated.get(group).map_or(&[], Vec::as_slice));
     Some(Unlike {
-        key: format!("{group} after a program that is not known"),
+        key: format!("{group} after a called program that could not be read"),
         from: said(was),
         to: said(is),
         is_restated: true,
@@ -209,7 +209,7 @@ impl Held {
                 name(other.plane).to_owned(),
             ))
         } else if self.length_of != other.length_of {
-            let name = "whose tool length is in force";
+            let name = "which tool's length is active";
             Some((name, self.length_of.to_string(), other.length_of.to_string()))
         } else {
             None
@@ -255,7 +255,7 @@ pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Op
         Some(("the tool", tool(a), tool(b)))
     } else if !same_number(a.tool_length_mm, b.tool_length_mm) {
         let mm = |motion: &Motion| format!("{} mm", motion.tool_length_mm);
-        Some(("the tool length in force", mm(a), mm(b)))
+        Some(("the active tool length", mm(a), mm(b)))
     } else if a.machine_coordinates != b.machine_coordinates {
         Some((
             "machine coordinates",
@@ -275,7 +275,7 @@ pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Op
                     .to_owned()
             }
         };
-        Some(("the posture or turn that is asked for", asked(a), asked(b)))
+        Some(("the requested posture or turn", asked(a), asked(b)))
     } else if a.tcp && b.tcp && a.great_circle != b.great_circle {
         Some(("the interpolation of the tool axis", circle(a), circle(b)))
     } else if feed_counts && a.is_feed() && !same_feed(a.feed, b.feed) {

@@ -115,7 +115,7 @@ impl Run<'_> {
 /// Why a run is not followed to the end of its program, where a fault means that.
 fn ends(kind: &FaultKind) -> Option<String> {
     Some(match kind {
-        FaultKind::EndlessLoop { proved: true, .. } => "it never ends: a loop comes back to the same values".to_owned(),
+        FaultKind::EndlessLoop { proved: true, .. } => "it never ends: a loop returns to the same values".to_owned(),
         FaultKind::EndlessLoop { blocks, .. } => format!(
             "it does not end within {blocks} executed blocks; if it is only long, use --max-steps N or raise `steps` of [limits] in \
              trunnion.toml"
@@ -254,7 +254,7 @@ impl<'a> Steps<'a> {
             let block = self.ready.back().map_or(BlockId(0), Item::block);
             let most = self.run.most_in_block;
             let why =
-                format!("it does more than {most} things without a motion: raise `held` of [limits] in trunnion.toml");
+                format!("it does more than {most} actions without a motion: raise `held` of [limits] in trunnion.toml");
             self.run.stop.get_or_insert(Stop { block, why });
             self.over = true;
             return None;

@@ -46,14 +46,14 @@ impl Twins {
         let what = if setup != *new.setup {
             "tools, work offsets, variables or control parameters differ"
         } else if old.setup.library != new.setup.library && may_call(old) {
-            "the programs that it may call lie in two places"
+            "the programs that it may call come from different folders"
         } else {
             return Ok(true);
         };
         Err(Verdict::Unknown(Difference {
             before: Some(stop.block),
             after: Some(stop.block),
-            what: format!("the run is not followed from here on ({}), and {what}", stop.why),
+            what: format!("the run cannot be followed from here on ({}), and {what}", stop.why),
         }))
     }
 }

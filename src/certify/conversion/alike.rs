@@ -52,7 +52,7 @@ impl Proof<'_> {
         let told = !by_hand && self.before.0.tells_lengths && self.after.0.tells_lengths;
         if told && new.motion.is_feed() && (old.tool_length - new.tool_length).abs() > LENGTH_MM {
             let why = format!(
-                "{:.4} mm of tool length are in force where it was {:.4} mm: switch on the length of the tool that cuts",
+                "{:.4} mm of tool length are active, but the original program has {:.4} mm: activate the length of the tool that cuts",
                 new.tool_length, old.tool_length
             );
             return self.refute(is, why);
@@ -61,7 +61,7 @@ impl Proof<'_> {
         let blind = new.tool_length.abs() <= LENGTH_MM || new.leg.is_none();
         if told && blind && new.motion.is_feed() && old.length_of != new.length_of {
             let why = format!(
-                "the tool length in force is {} where it was {}: switch on the length of the tool that cuts, or declare the lengths and \
+                "the active tool length is {}, but the original program has {}: activate the length of the tool that cuts, or declare the lengths and \
                  name the machine",
                 new.length_of, old.length_of
             );
@@ -81,12 +81,12 @@ impl Proof<'_> {
             .zip(&new.shift)
             .any(|(was, is)| above((was - is).abs(), SHIFT));
         if apart {
-            let why = "the program shifts the zero point (G52, G92, G10, TRANS), and the one after does not";
+            let why = "the original program shifts the zero point (G52, G92, G10, TRANS), but the converted one does not";
             return self.refute(is, why.to_owned());
         }
         match (&old.work_offset, &new.work_offset) {
             (Some(was), Some(now)) if was != now => {
-                self.refute(is, format!("the work offset is {now} where it was {was}"))
+                self.refute(is, format!("the work offset is {now}, but the original program has {was}"))
             }
             // one of them names none (CL data): then the other may not change it
             (Some(name), None) | (None, Some(name)) if self.offset.get_or_insert_with(|| name.clone()) != name => {

@@ -97,23 +97,23 @@ impl Why {
     pub fn sentence(self) -> &'static str {
         match self {
             Self::Synchronised => {
-                "couples the motion to the spindle (tapping, threading): as plain feed motions it would break the tool. \
-                 Program it by hand in the words of the other control"
+                "couples the motion to the spindle (tapping, threading): plain feed motions would break the tool. Program \
+                 it by hand for the other control"
             }
             Self::Oriented => "stops the spindle at an angle, which is not carried over",
             Self::SurfaceSpeed => {
                 "is a constant cutting speed, which is not carried over: program a spindle speed (G97)"
             }
             Self::SpindleLimit => "limits the spindle speed, which is not carried over",
-            Self::Stored => "stores data in the control that outlive the program, which is not carried over",
+            Self::Stored => "stores data that stay in the control after the program ends, which is not carried over",
             Self::PathControl => "sets how exactly the control follows the path, and has no counterpart",
             Self::Waits => "waits for the operator or raises an alarm, and has no counterpart",
-            Self::Switch => "depends on a switch of the machine: take the `/` or the block away",
+            Self::Switch => "depends on a switch of the machine: remove the `/` or the block",
             Self::Repeats => {
-                "starts the program again or returns to one that calls it, and what is written ends: write M30"
+                "restarts the program or returns to its caller, but the converted program ends here: write M30"
             }
-            Self::Motion => "is not carried over: what it does on the way is not known well enough",
-            Self::Machine => "has no counterpart: what it does is up to the machine",
+            Self::Motion => "is not carried over: its motion is not known exactly enough",
+            Self::Machine => "has no counterpart: what it does depends on the machine",
         }
     }
 }

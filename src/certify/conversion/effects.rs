@@ -109,7 +109,7 @@ pub(super) fn same_requests(
         if let Some(block) = reading.elsewhere {
             let line = line(reading, block);
             return Err(Outcome::unknown(format!(
-                "line {line} {which} leads into another file, whose requests beside motions are not compared"
+                "line {line} of the program {which} continues in another file, where only motions are compared"
             )));
         }
     }
@@ -118,7 +118,7 @@ pub(super) fn same_requests(
         if let Some(asked) = reading.asks.iter().find(switch) {
             let line = line(reading, asked.block);
             return Err(Outcome::unknown(format!(
-                "line {line} {which}: whether it runs depends on a switch"
+                "line {line} of the program {which}: whether it runs depends on a switch"
             )));
         }
     }
@@ -139,7 +139,7 @@ pub(super) fn same_requests(
                     return Err(Outcome::refuted_at(
                         at_is - 1,
                         line,
-                        "something is asked for in the middle of what was one motion".to_owned(),
+                        "a function runs in the middle of what was one motion".to_owned(),
                     ));
                 }
             }
@@ -169,12 +169,12 @@ fn both(was: &mut Side<'_>, is: &mut Side<'_>, at_was: usize, at_is: usize) -> R
         let line = line(was.reading, *old_block);
         return refute(
             Some(*new_block),
-            format!("{other} comes where {one} (line {line} before) comes, or in another state of spindle or coolant"),
+            format!("{other} takes the place of {one} (line {line} of the original), or spindle or coolant are in a different state there"),
         );
     }
     if let Some((lost, block)) = old.get(new.len()) {
         let line = line(was.reading, *block);
-        return refute(None, format!("{lost} (line {line} before) is lost"));
+        return refute(None, format!("{lost} (line {line} of the original) is lost"));
     }
     if let Some((more, block)) = new.get(old.len()) {
         return refute(Some(*block), format!("{more} is added"));
@@ -184,7 +184,7 @@ fn both(was: &mut Side<'_>, is: &mut Side<'_>, at_was: usize, at_is: usize) -> R
     if was.coolants != is.coolants && !ended {
         return refute(
             None,
-            format!("the coolant is {} where it was {}", is.coolants, was.coolants),
+            format!("the coolant is {}, but the original program has {}", is.coolants, was.coolants),
         );
     }
     Ok(())

@@ -281,23 +281,23 @@ impl Collector<'_> {
         let rotary = motion.end.known & 0b11_1000 != 0;
         let axis = match motion.orientation {
             _ if motion.tilt != Tilt::default() => {
-                Err("a tilted plane is turned to by a machine: add --machine".to_owned())
+                Err("turning to a tilted plane depends on the machine: add --machine".to_owned())
             }
             Orientation::Vector(_, axis) => Ok(axis),
-            Orientation::Words if self.is_apt => Err("the tool axis is not known: program i, j, k".to_owned()),
+            Orientation::Words if self.is_apt => Err("the tool axis is unknown: program i, j, k".to_owned()),
             Orientation::Words if rotary => {
-                Err("rotary words say where the tool points only together with a machine: add --machine".to_owned())
+                Err("where the tool points for given rotary words depends on the machine: add --machine".to_owned())
             }
             Orientation::Words => Ok(Vec3::z()),
         };
         let end = match (motion.kind, motion.end.xyz(), axis) {
             (MotionKind::Unknown, ..) => Err("the motion is not modelled".to_owned()),
-            (MotionKind::Dwell(_), ..) => self.last.ok_or_else(|| "the position is not known".to_owned()),
+            (MotionKind::Dwell(_), ..) => self.last.ok_or_else(|| "the position is unknown".to_owned()),
             (_, Some(_), Ok(_)) if motion.machine_coordinates => {
-                Err("machine coordinates have a meaning only together with a machine: add --machine".to_owned())
+                Err("where machine coordinates are in the part depends on the machine: add --machine".to_owned())
             }
             (_, Some(tip), Ok(axis)) => Ok(Pose { tip, axis }),
-            (_, None, _) => Err("the position of X, Y or Z is not known".to_owned()),
+            (_, None, _) => Err("the position of X, Y or Z is unknown".to_owned()),
             (_, _, Err(why)) => Err(why),
         };
         let start = match (motion.start.xyz(), motion.orientation) {

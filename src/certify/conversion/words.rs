@@ -5,7 +5,7 @@ use trunnion_interp::{MotionKind, Orientation, Tilt};
 use trunnion_machine::{Joints, MAX_AXES, Machine, forward};
 
 /// The axes that a rapid moves to known places, by index (X Y Z A B C U V W), with the place in mm or deg. `None`: it is no plain rapid in
-/// words (machine coordinates, a tilted plane), or it moves an axis to an unknown place.
+/// words (machine coordinates, a tilted plane), or it moves an axis to an unknown position.
 pub fn moved_axes(posed: &Posed) -> Option<Vec<(usize, f64)>> {
     let motion = &posed.motion;
     let plain = motion.kind == MotionKind::Rapid

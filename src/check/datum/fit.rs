@@ -23,7 +23,7 @@ impl Missing {
             },
             Self::Length(LengthOf::Tool(Some(number))) => format!("the length of tool {number}"),
             Self::Length(LengthOf::Tool(None)) => "the length of the tool in use".to_owned(),
-            Self::Length(LengthOf::Nothing | LengthOf::Other) => "the tool length in force".to_owned(),
+            Self::Length(LengthOf::Nothing | LengthOf::Other) => "the active tool length".to_owned(),
         }
     }
 

@@ -23,7 +23,7 @@ pub(super) fn rounding(line: &Line<'_>, route: &Route<'_>, hits: &mut Vec<Hit>) 
             "FIX",
             [
                 "rounds down: FIX[-2.8] is -3 there, -2 here",
-                "cuts toward zero: FIX[-2.8] is -2 there, -3 here",
+                "truncates toward zero: FIX[-2.8] is -2 there, -3 here",
             ],
         ),
         (

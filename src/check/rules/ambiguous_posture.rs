@@ -101,7 +101,7 @@ fn cause(open: &Open, family: &str) -> (String, &'static str) {
             "declare the ranges in the machine file: [control] branch = { range = { A = [-30, 120] } }",
         ),
         OpenCause::StartUnknown => (
-            text("the control starts from the previous posture, which is not known here"),
+            text("the control starts from the previous posture, which is unknown here"),
             "position the rotary axes before the first vector",
         ),
         OpenCause::Direction => (

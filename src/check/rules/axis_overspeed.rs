@@ -102,7 +102,7 @@ fn check(cut: &facts::HeldBackCut<'_>, out: &mut Reporter<'_>) {
 /// The fastest reading of F overruns an axis, another one may not.
 const AMBIGUOUS: [&str; 3] = [
     "linear and rotary axes move together: a parameter of this control decides whether F is mm/min along X Y Z or sqrt(mm2+deg2); speeds are not judged",
-    "if F counts along X Y Z, an axis is too fast here",
+    "if F is the speed along X Y Z, an axis is too fast here",
     "switch tool centre point control on, or program inverse time (G93)",
 ];
 
@@ -131,12 +131,12 @@ fn undecided(cut: &facts::Cut<'_>, out: &mut Reporter<'_>) {
         // the faults that removed the feed or the centre of the arc are reported by their own rules
         (Feed::Unknown | Feed::Rapid, _) | (_, MotionKind::Arc(None)) => return,
         (Feed::PerRevolution(_), _) if cut.motion().spindle_rpm.is_none() => {
-            "the feed is per revolution and the spindle speed is not known"
+            "the feed is per revolution and the spindle speed is unknown"
         }
         _ if cut.leg.length <= 0.0 && cut.rotary_turns() => {
             "the tip does not move while rotary axes turn: what F means then depends on the control"
         }
-        _ if cut.leg.length <= 0.0 => "linear axes move although X Y Z stay the same: what F means there is not known",
+        _ if cut.leg.length <= 0.0 => "linear axes move although X Y Z stay the same: what F means there is unknown",
         _ => "the motion is not modelled",
     };
     out.unknown(cut, Merge::once(hash(why)), |draft| {

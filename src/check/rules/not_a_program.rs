@@ -7,7 +7,7 @@
 //! # Example
 //! ```gcode detected
 //! Dear colleague,
-//! ;^^^^^^^^^^^^^^ not-a-program: this is text that is no program
+//! ;^^^^^^^^^^^^^^ not-a-program: this is text that is not a program
 //! here is the program that you asked for.
 //! Please run it slowly the first time.
 //! ```

@@ -68,7 +68,7 @@ fn check(cut: &facts::VectorCut<'_>, out: &mut Reporter<'_>) {
             out,
             &deviation,
             length,
-            "the tool length is not known, and a 1 m tool would exceed the tolerance",
+            "the tool length is unknown, and a 1 m tool would exceed the tolerance",
             "declare the tool's length in trunnion.toml: [[tool]] number = ..., length = ...",
         );
     } else if cut.orientation_is_assumed() {

@@ -46,7 +46,7 @@ fn check(fault: &Fault, out: &mut Reporter<'_>) {
         );
         draft
             .severity(Warning)
-            .note("the control ignores it, or uses it in a way that is not known here")
+            .note("the control ignores it, or uses it in an unknown way")
             .merge(Merge::runs(hash(text), 0.0));
         help(draft);
     }

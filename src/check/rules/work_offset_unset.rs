@@ -36,8 +36,8 @@ fn check(open: &Open, out: &mut Reporter<'_>) {
     out.event(|draft| {
         draft
             .unknown()
-            .say(format!("{missing} is not declared: the travel of the linear axes is not known"))
-            .note("where rotary axes turn, the speed of the linear axes and, without tool centre point control, the path of the tip are not known either; what depends on the tool axis alone is judged")
+            .say(format!("{missing} is not declared: it is unknown whether the linear axes stay within their travel"))
+            .note("where rotary axes turn, the speed of the linear axes is unknown too and, without tool centre point control, the path of the tip; what depends only on the tool axis is judged")
             .help(help);
     });
 }

@@ -53,7 +53,7 @@ pub(super) fn text(before: &Loaded, after: &Loaded, found: &Found, tolerance: To
     let machine = before.resolved.machine.as_ref();
     out.push_str(&summary(&lines, found, tolerance));
     let on = machine.map_or_else(String::new, |machine| {
-        format!("  on {}, coordinates are its joints", machine.id)
+        format!("  on {}; coordinates are the positions of its axes", machine.id)
     });
     let _ = writeln!(out, "{} -> {}{on}", lines.name(0), lines.name(1));
     if let Some(line) = assuming(&[before, after]) {
@@ -124,7 +124,7 @@ fn position(point: &Point) -> String {
         .map(|axis| format!("{}{}", letter(axis), short(point.values[axis])))
         .collect();
     if parts.is_empty() {
-        "to an unknown place".to_owned()
+        "to an unknown position".to_owned()
     } else {
         format!("to {}", parts.join(" "))
     }
@@ -280,7 +280,7 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
         String::new()
     } else {
         format!(
-            "; compared by their words alone, because their ends are not known: {}",
+            "; compared only by their words, because their ends are unknown: {}",
             counted(found.unknown, "motion")
         )
     };

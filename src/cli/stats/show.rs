@@ -98,7 +98,7 @@ fn path(tally: &Tally) -> String {
     if tally.spindle_off_mm > 0.0 {
         let _ = write!(
             text,
-            " (of which {} mm with the spindle not known to turn)",
+            " ({} mm of it with the spindle off or in an unknown state)",
             decimal(tally.spindle_off_mm, 3)
         );
     }

@@ -89,7 +89,7 @@ pub(super) fn prose(text: &str, signs: u32) -> Option<&'static str> {
     }
     // a text about programs has their words in it
     if sentences >= 3 && sentences > blocks + (words - sentences) / 2 {
-        return Some("text that is no program");
+        return Some("text that is not a program");
     }
     if signs >= 10 || words == 0 || blocks * 4 > words {
         return None;
@@ -98,7 +98,7 @@ pub(super) fn prose(text: &str, signs: u32) -> Option<&'static str> {
     (words >= 3 || blocks == 0).then_some(if braces * 3 > words {
         "data or source code"
     } else {
-        "text that is no program"
+        "text that is not a program"
     })
 }
 
@@ -156,7 +156,7 @@ mod tests {
     fn a_text_about_programs_is_none() {
         let text = "The program begins with TRAORI and needs G43.4 on other controls.\nAfter it the tip is led along the path.\n\
                     M428 does the same on the machines of that maker.\nWrite G0 before the first motion and nothing else.\n";
-        assert_eq!(prose(&text.to_ascii_uppercase(), 30), Some("text that is no program"));
+        assert_eq!(prose(&text.to_ascii_uppercase(), 30), Some("text that is not a program"));
         let program = "PROGRAM FOR THE SMALL PART OF JOB 12\nG21\nG0 X1\nG1 Z-1 F100\nM30\n";
         assert_eq!(prose(program, 0), None);
     }
@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(is("#include <stdio.h>\nint main() {\n}\n"), Some("source code"));
         assert_eq!(
             is("Dear colleague,\nplease look at the program of last week.\nIt runs G1 too fast.\n"),
-            Some("text that is no program")
+            Some("text that is not a program")
         );
         assert_eq!(is("{\n  \"a\": 1,\n  \"b\": [1, 2]\n}\n"), Some("data or source code"));
         for program in [

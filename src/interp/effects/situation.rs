@@ -59,9 +59,9 @@ impl Situation {
                 "the zero point",
                 state.zero.iter().map(|value| Argument::number("", *value)).collect(),
             ),
-            ("the tool length in force", number(state.tool_length_mm)),
+            ("the active tool length", number(state.tool_length_mm)),
             (
-                "whose tool length is in force",
+                "which tool's length is active",
                 vec![Argument::code(state.length_of.to_string())],
             ),
             ("the tool", number(state.tool.map(f64::from))),

@@ -95,7 +95,7 @@ impl Iso<'_> {
         if !self.core.dialect.quirks.user_names() {
             index.loops.entered(from, to, |_| true)?;
             let Key::Number(number) = label else { return None };
-            let message = format!("GOTO {number} leads into a loop from outside: its DO has not run");
+            let message = format!("GOTO {number} jumps into a loop from outside: its DO has not run");
             return Some(rejected(
                 self.core.dialect,
                 Mistake::Unnumbered,

@@ -150,7 +150,7 @@ impl Iso<'_> {
             Some((_, Some(to))) if to > from => self.jump(to),
             _ => {
                 if !has_end(running.main, self.core.dialect) {
-                    let what = "M99 of the main program, which begins it anew: one pass is run".to_owned();
+                    let what = "M99 in the main program, which restarts it: one pass is run".to_owned();
                     self.tell_of_flow(running, from, (back.range, FaultKind::NotModelled { what }), sink);
                 }
                 self.stop();
@@ -170,7 +170,7 @@ impl Iso<'_> {
             }
             _ => (place.main, place.main_range),
         };
-        let message = "the program that is called ends without M99".to_owned();
+        let message = "the called program ends without M99".to_owned();
         let kind: FaultKind = rejected(self.core.dialect, Mistake::EndOfRecord, Refusal::ProgramEnd, message);
         sink.fault(Fault { block, range, kind });
         self.stop();

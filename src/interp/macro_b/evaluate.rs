@@ -93,7 +93,7 @@ impl View<'_> {
     pub(crate) fn reason(&self, text: &str) -> String {
         match self.unknown.get() {
             Some(index) => self.variables.reason(index),
-            None if self.unknown_name.get() => format!("{text}: a named variable whose value is not known"),
+            None if self.unknown_name.get() => format!("{text}: a named variable with an unknown value"),
             None => text.to_owned(),
         }
     }

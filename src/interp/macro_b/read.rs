@@ -282,7 +282,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                     let label = Label::number(number, range);
                     return self.pend(Transfer::Jump(label, Search::ForwardThenStart));
                 }
-                let message = format!("`{}` is no sequence number", self.program.text(range).trim());
+                let message = format!("`{}` is not a sequence number", self.program.text(range).trim());
                 let kind = rejected(self.dialect, Mistake::SequenceNumber, Refusal::Label, message);
                 Some((range, kind))
             }

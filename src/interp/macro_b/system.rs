@@ -16,7 +16,7 @@ pub(crate) fn what(number: u32) -> &'static str {
         3901 | 3902 => "a counter of parts",
         4000..=4199 => "modal information that the run does not keep",
         5001..=5160 if is_probing(number) => "the result of probing",
-        5001..=5160 => "a position that is not known here",
+        5001..=5160 => "a position that is unknown here",
         5201..=5324 | 7001..=7960 => "a work offset of the control",
         _ => "a value of the control",
     }

@@ -67,7 +67,7 @@ impl<'d> Iso<'d> {
         self.core.state.clamps = clamps;
         if let Some(range) = words.rest_deleted.filter(|_| words.flow) {
             // statements are read as a whole
-            let what = "`/` behind a statement of a macro".to_owned();
+            let what = "`/` after a macro statement".to_owned();
             report.fault(range, FaultKind::NotModelled { what });
             words.forgets_all = true;
         }
@@ -113,7 +113,7 @@ impl<'d> Iso<'d> {
         if let Some((code, range)) = deep.code.take() {
             self.flow_code(&mut deep, (code, range), block, words, report);
         } else if let Some(range) = statement.filter(|_| is_fanuc(self.core.dialect) && mixes(codes, words)) {
-            let message = "a macro statement and words of the control stand in one block".to_owned();
+            let message = "a macro statement and ordinary words are in one block".to_owned();
             let kind = rejected(self.core.dialect, Mistake::MixedBlock, Refusal::Structure, message);
             report.fault(range, kind);
         }
@@ -252,7 +252,7 @@ fn target(
         }
         let fits = value >= 0.0 && value.fract() == 0.0 && value <= 99_999_999.0;
         fits.then_some(value as u32).ok_or_else(|| {
-            let message = format!("{value} is no number of a program or of repetitions");
+            let message = format!("{value} is not a program number or a number of repeats");
             rejected(dialect, Mistake::NumberNotFound, Refusal::Number, message)
         })
     };
@@ -261,7 +261,7 @@ fn target(
         return Ok((name, repeats.unwrap_or(1)));
     }
     let Some(number) = number else {
-        let message = "the call has no P that says which program".to_owned();
+        let message = "the call has no P with the program number".to_owned();
         let kind = rejected(dialect, Mistake::ProgramWordMissing, Refusal::MissingWord, message);
         return Err(kind);
     };

@@ -66,7 +66,7 @@ impl Statement<'_> {
         if self.text.is_at_end() {
             return Ok(());
         }
-        not_decided(self.text.rest(), "a statement of the flow that is not understood")
+        not_decided(self.text.rest(), "a flow statement that is not understood")
     }
 
     /// The value of an expression that stands here, and its place.
@@ -79,7 +79,7 @@ impl Statement<'_> {
             }
             Ok((None, why, end)) => not_decided(self.text.range(from, end), why.unwrap_or_default()),
             Err(FormulaErrorKind::ParameterOutOfRange(number)) => {
-                let message = format!("there is no R parameter of the number {number}");
+                let message = format!("there is no R parameter with the number {number}");
                 let kind = FaultKind::Rejected {
                     refusal: Refusal::Variable,
                     message,
@@ -101,7 +101,7 @@ impl Statement<'_> {
         if value.fract() == 0.0 && value.abs() < 2_147_483_647.0 {
             return Ok(value);
         }
-        not_decided(range, format!("{what}: {value} is no whole number"))
+        not_decided(range, format!("{what}: {value} is not a whole number"))
     }
 
     /// IF: alone it opens a branch; with GOTO behind it, several in one block, the first that holds jumps.
@@ -145,7 +145,7 @@ impl Statement<'_> {
             "GOTOC" => (Search::ForwardThenBackward, true),
             "GOTOS" => {
                 let what =
-                    "GOTOS: it jumps only if the PLC asks for it; the run goes on with the next block".to_owned();
+                    "GOTOS: it jumps only if the PLC asks for it; the run continues with the next block".to_owned();
                 let range = self.text.range(from, from + 5);
                 self.remarks.push((range, FaultKind::NotModelled { what }));
                 return Ok(Some(Transfer::Next));
@@ -205,7 +205,7 @@ impl Statement<'_> {
             self.text.go_to(end.map_or(from + equals + 1, |found| found.2));
             match self.own.value(&name) {
                 Some(value) => value + 1.0,
-                None => return not_decided(counter, format!("{name}: the counter of FOR is not known")),
+                None => return not_decided(counter, format!("{name}: the counter of FOR is unknown")),
             }
         } else {
             self.whole("the first value of FOR")?
@@ -218,7 +218,7 @@ impl Statement<'_> {
         if first.fract() != 0.0 {
             return not_decided(
                 counter,
-                format!("{name}: the counter of FOR is {first}, no whole number"),
+                format!("{name}: the counter of FOR is {first}, not a whole number"),
             );
         }
         let known = if self.again {
@@ -342,7 +342,7 @@ impl Statement<'_> {
                 range,
                 super::no_label(format!("there is no label {name} in this program")),
             )),
-            (Some(_), Some(_)) => not_decided(range, format!("{name}: the label stands before and after REPEAT")),
+            (Some(_), Some(_)) => not_decided(range, format!("{name}: the label is defined both before and after REPEAT")),
         }
     }
 }

@@ -111,7 +111,7 @@ impl<'d> Iso<'d> {
             remarks: Vec::new(),
         };
         let asked = if beside {
-            let what = "words beside a statement of the flow".to_owned();
+            let what = "other words in the block of a flow statement".to_owned();
             Err((range, FaultKind::NotDecided { what }))
         } else {
             statement.read()

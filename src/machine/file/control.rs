@@ -304,9 +304,9 @@ pub(crate) fn in_words(control: &Control) -> Vec<String> {
         _ => {}
     }
     match control.feed {
-        Some(FeedMeaning::Xyz) => lines.push("without tool centre point control F counts along X Y Z".to_owned()),
+        Some(FeedMeaning::Xyz) => lines.push("without tool centre point control F is the speed along X Y Z".to_owned()),
         Some(FeedMeaning::Combined) => {
-            lines.push("without tool centre point control F counts along the root of mm2 + deg2".to_owned());
+            lines.push("without tool centre point control F is the speed along sqrt(mm2 + deg2)".to_owned());
         }
         // RS274/NGC says it, Sinumerik counts along the geometry axes
         None if matches!(control.family.as_str(), "linuxcnc" | "grbl" | "sinumerik-840d" | "generic" | "apt") => {}

@@ -42,7 +42,7 @@ fn the_length_of_another_tool_is_a_difference() {
     let with = |number: u32| BEFORE.replace("N10 G0", &format!("N10 G43 H{number} G0"));
     let (code, shown) = differ(&folder, &with(1), &with(5), &[]);
     assert_eq!(code, 1);
-    let told = "tool length in force that of tool 1 -> that of tool 5";
+    let told = "active tool length that of tool 1 -> that of tool 5";
     assert!(shown.contains(told), "{shown}");
 }
 
@@ -183,7 +183,7 @@ fn with_a_machine_joints_are_compared() {
     assert_eq!(status(&output), 1);
     let shown = text(&output.stdout);
     assert!(
-        shown.contains("on mikron-ucp710, coordinates are its joints"),
+        shown.contains("on mikron-ucp710; coordinates are the positions of its axes"),
         "{shown}"
     );
     assert!(shown.contains("C 52.595 -> 50.595 deg"), "{shown}");

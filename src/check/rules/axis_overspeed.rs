@@ -24,8 +24,8 @@
 //! # Guarantee
 //! Sound for axes with a declared speed, at the worst moment inside the block. An axis that moves and has no
 //! declared speed is reported as unknown, once. Where linear and rotary axes move together without tool centre
-//! point control, a parameter of some controls (Fanuc and similar) decides whether F counts along X Y Z or along
-//! all axes. Silence then holds for both meanings. Where an axis is too fast if F counts along X Y Z, which is the
+//! point control, a parameter of some controls (Fanuc and similar) decides whether F is the speed along X Y Z or
+//! along all axes. Silence then holds for both meanings. Where an axis is too fast if F is the speed along X Y Z, which is the
 //! faster case, this rule says unknown, once, and `feed-drop` is silent. Where only rotary axes turn on a Haas,
 //! whose settings decide what F means, it says unknown, once. Up to 8 consecutive blocks are reported one by one; a
 //! longer run is reported as one finding with its worst block.

@@ -39,8 +39,8 @@
 //!
 //! # Guarantee
 //! Sound for motions between known positions. The finding is unknown where it is not known whether a motion turns a
-//! clamped axis, and where the state of the clamp is not known: before the first clamp code, in the block of a
-//! clamp code, and after a code or call with an unknown effect. Codes in called files count. On a great circle an
+//! clamped axis, and where the state of the clamp is unknown: before the first clamp code, in the block of a
+//! clamp code, and after a code or call with an unknown effect. Codes in called files are included. On a great circle an
 //! axis that leaves its value and returns to it has turned; over the pole, where its path is not known, it may have
 //! turned.
 //!

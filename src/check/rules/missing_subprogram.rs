@@ -12,7 +12,7 @@
 //! ```
 //!
 //! # Use instead
-//! Put the program beside the one that calls it, or name its folder in `trunnion.toml`: `subprogram_path = ["subs"]`.
+//! Put the program in the folder of the one that calls it, or name its folder in `trunnion.toml`: `subprogram_path = ["subs"]`.
 //!
 //! # Guarantee
 //! Sound for the calls that are modelled. Only the program itself, its folder and the folders in the settings are

@@ -21,7 +21,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound: a file that is recognised as none has this finding and no other. A text counts as prose if hardly any line is
+//! Sound: a file that is recognised as not being a program gets this finding and no other. A text counts as prose if hardly any line is
 //! a block and no sign of a control is in it; a dialect named in the settings or on the command line says that it is a program
 //! (but not of a picture or a binary).
 //!

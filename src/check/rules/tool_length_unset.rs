@@ -19,7 +19,7 @@
 //! zero, use `--assume tool-length` or `assume = ["tool-length"]`: the verdict lists it.
 //!
 //! # Guarantee
-//! Sound; reported once per tool, at the first motion that rests on its length.
+//! Sound; reported once per tool, at the first motion that depends on its length.
 //!
 //! # Sources
 //! * docs/contract.md#offsets-and-tool-lengths

@@ -17,7 +17,7 @@
 //! undeclared offsets as zero, use `--assume work-offset` or `assume = ["work-offset"]`: the verdict lists it.
 //!
 //! # Guarantee
-//! Sound; reported once per offset, on machines with rotary axes, at the first motion that rests on it. On a chain
+//! Sound; reported once per offset, on machines with rotary axes, at the first motion that depends on it. On a chain
 //! of linear axes `axis-limit` reports the offsets that fit.
 //!
 //! # Sources

@@ -89,7 +89,7 @@ fn o_word(program: &Program, block: &Block<'_>, at: u32) -> Option<(String, Text
     }
     let written = program.text(word);
     let mut text = match lines.iter().find(|(_, keyword)| keyword == "sub") {
-        Some((line, _)) => format!("**{written}** subprogram, starts in line {line}"),
+        Some((line, _)) => format!("**{written}** subprogram, starts on line {line}"),
         None if lines.iter().any(|(_, keyword)| keyword == "call") => {
             format!("**{written}** is not defined in this file")
         }

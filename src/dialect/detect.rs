@@ -142,7 +142,7 @@ fn by_name_or_machine(extension: Option<&str>, head: &[u8], known: Surroundings<
         && let Some(line) = foreign_comment(head, detected.dialect)
     {
         return core(format!(
-            "content: a comment in line {line} of a kind that {family} does not have"
+            "content: a comment on line {line} of a kind that {family} does not have"
         ));
     }
     detected

@@ -53,7 +53,7 @@ pub(super) fn text(loaded: &Loaded, tally: &Tally, cycle_time_s: Option<[f64; 2]
         } else {
             format!(", {} times", number(call.count))
         };
-        format!("{} in line {}{times}", call.name, call.line)
+        format!("{} on line {}{times}", call.name, call.line)
     });
     rows(&mut row, "calls", &calls.collect::<Vec<_>>());
     let unmodelled = tally.not_modelled.iter().map(|(what, count)| match count {

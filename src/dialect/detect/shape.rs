@@ -77,7 +77,7 @@ impl Shape {
         }
         let found = |reason: &str, line: usize, system_b| {
             Some(Lathe {
-                reason: format!("{reason} in line {line}"),
+                reason: format!("{reason} on line {line}"),
                 strong: true,
                 system_b,
             })

@@ -10,7 +10,7 @@ pub(super) type Name = &'static str;
 pub(super) struct Vote {
     pub(super) name: Name,
     pub(super) weight: u32,
-    /// What was seen, with its place: `G43.4 in line 1`.
+    /// What was seen, with its place: `G43.4 on line 1`.
     pub(super) sign: String,
 }
 
@@ -33,7 +33,7 @@ impl Votes {
         self.all.push(Vote {
             name,
             weight,
-            sign: format!("{sign} in line {}", self.line),
+            sign: format!("{sign} on line {}", self.line),
         });
     }
 

@@ -1,4 +1,4 @@
-//! What a variable is worth and where an O-word leads, for the hover.
+//! The value of a variable and the target of an O-word, for the hover.
 use std::fmt::Write;
 use trunnion_check::BlockInfo;
 use trunnion_syntax::{Block, Program, TextRange};

@@ -1,4 +1,4 @@
-//! The proof in hand: what comparing pairs of motions has found so far.
+//! The proof so far: what comparing pairs of motions has found.
 use crate::certificate::{MotionCounts, RotaryChange, Worst, WorstChanges};
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
 use crate::{Claim, Outcome};

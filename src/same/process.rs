@@ -151,7 +151,7 @@ pub struct Held {
     pub work_offset: Option<Arc<str>>,
     /// Side of the cutter radius compensation: 0 off, 41, 42.
     pub compensation: u8,
-    /// Whose length is in force.
+    /// Which tool's length is active.
     pub length_of: LengthOf,
     /// Working plane: arcs, cycles and compensation lie in it.
     pub plane: Plane,

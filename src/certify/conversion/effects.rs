@@ -1,4 +1,4 @@
-//! The requests of two programs held against each other: each stands between the same motions, in the same order and state.
+//! Compares the requests of two programs: each must be between the same motions, in the same order and state.
 use super::ask::{Ask, Asked, Coolant, Own, Why};
 use super::{Part, Reading};
 use crate::Outcome;
@@ -6,13 +6,13 @@ use core::fmt;
 use trunnion_interp::AllClampCodes;
 use trunnion_syntax::{Address, BlockId, LineIndex};
 
-/// What a comparison may take for granted beside both texts.
+/// What a comparison may assume in addition to both texts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Terms<'a> {
     /// Requests that the user leaves out, by name (`M64`); only those that [`super::Why::may_be_dropped`].
     pub dropped: &'a [String],
     /// What own codes of the control mean in the program after, as its post says: the text of a request, and the request. `None`: it
-    /// belongs to the frame of every program.
+    /// belongs to the header or footer of every program.
     pub meanings: &'a [(String, Option<Ask>)],
 }
 
@@ -77,13 +77,13 @@ impl fmt::Display for Event {
     }
 }
 
-/// How the spindle turns: counter-clockwise, 1/min. `None`: it stands, or nothing was said.
+/// How the spindle turns: counter-clockwise, 1/min. `None`: it is stopped, or nothing was programmed.
 type Turning = Option<(bool, Option<f64>)>;
 
-/// Events with the block that asks for each.
+/// Events with the block that requests each.
 type Events = Vec<(Event, BlockId)>;
 
-/// One program's requests on the way through its motions.
+/// One program's requests while its motions are compared.
 struct Side<'a> {
     reading: &'a Reading,
     next: usize,
@@ -98,7 +98,7 @@ struct Side<'a> {
 /// Compares the requests of both programs.
 ///
 /// # Errors
-/// Refuted where a request is lost, added or stands elsewhere; unknown where what a program asks for is not all seen.
+/// Refuted where a request is lost, added or in another place; unknown where not all requests of a program are known.
 pub(super) fn same_requests(
     before: &Reading,
     after: &Reading,
@@ -245,7 +245,7 @@ impl<'a> Side<'a> {
         }
     }
 
-    /// Runs all requests in front of the motion with this index.
+    /// Runs all requests before the motion with this index.
     fn until(&mut self, motion: usize) -> Events {
         let mut events = Vec::new();
         while let Some(asked) = self.reading.asks.get(self.next).filter(|asked| asked.at <= motion) {

@@ -1,4 +1,4 @@
-//! Two readings held against each other.
+//! Compares two readings.
 use super::axis::axes_apart;
 use super::effects::{Terms, same_requests};
 use super::words::{same_words, words_apart};
@@ -11,7 +11,7 @@ use trunnion_interp::{Fault, Feed, MotionKind};
 use trunnion_machine::{Machine, Pose};
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
-/// Most moments at which two ways are compared.
+/// Most moments at which two paths are compared.
 const MOST_SAMPLES: f64 = 4096.0;
 
 pub(super) struct Proof<'a> {
@@ -23,7 +23,7 @@ pub(super) struct Proof<'a> {
     pub(super) offset: Option<Arc<str>>,
 }
 
-/// Proves that `after` is what `before` says. The readings must be fresh: [`super::read`] of the texts.
+/// Proves that `after` does what `before` says. The readings must be fresh: [`super::read`] of the texts.
 ///
 /// # Errors
 /// Refuted with a witness, or unknown with the reason. Lines are those of the program after.
@@ -36,7 +36,7 @@ pub fn converted(
     converted_on(before, after, parts, claim, &Terms::default())
 }
 
-/// As [`converted`], with what the user leaves out and what the post says of its own codes.
+/// As [`converted`], with what the user leaves out and what the post declares about its own codes.
 ///
 /// # Errors
 /// As [`converted`].
@@ -130,7 +130,7 @@ impl Proof<'_> {
             .ok_or_else(|| Outcome::unknown(format!("the original has no motion {was}")))
     }
 
-    /// A motion that is left out: a rapid to nowhere known, in front of all known poses of its tool or behind the last.
+    /// A motion that is left out: a rapid to an unknown position, before all known poses of its tool or after the last.
     fn left(&mut self, was: usize) -> Result<(), Outcome> {
         let motions = &self.before.0.motions;
         let posed = self.motion(was)?;
@@ -163,7 +163,7 @@ impl Proof<'_> {
         }
     }
 
-    /// Motions that only position, where nothing is said of where the tool comes from.
+    /// Motions that only position, where the start of the tool is unknown.
     fn added(&mut self, was: usize, is: usize, count: usize) -> Result<(), Outcome> {
         let open = self
             .before
@@ -203,7 +203,7 @@ impl Proof<'_> {
         let track = Track::new(old, self.before.1);
         match (&track, old.start) {
             (None, None) if count == 1 && !matches!(old.motion.kind, MotionKind::Arc(_)) => {
-                // from nowhere: only the end is said
+                // from an unknown start: only the end is compared
                 return self.end(end, &new[0], is);
             }
             (None, _) => return Err(Outcome::unknown(format!("motion {was} of the original: its path is unknown"))),
@@ -243,7 +243,7 @@ impl Proof<'_> {
         Ok(())
     }
 
-    /// The way of one motion after, against its share of the one before: for the difference of the two points, bent by at most Q, the
+    /// The path of one motion of the output, compared with its share of the original one: for the difference of the two points, bent by at most Q, the
     /// largest sample + Q / (8 m^2) at m equal steps. Gives the bound of the angle between the tool axes, deg; 0 for rapids.
     fn way(
         &mut self,
@@ -298,7 +298,7 @@ impl Proof<'_> {
         Ok(degrees)
     }
 
-    /// Where the program says how the tool axis runs between the ends (ORIAXES, ORIVECT), it runs so after, or no differently.
+    /// Where the program says how the tool axis runs between the ends (ORIAXES, ORIVECT), it must do the same in the output, or the same by default.
     fn same_orientation(&self, old: &Posed, new: &Posed, degrees: f64, is: usize) -> Result<(), Outcome> {
         let (Some(asked), Some(machine)) = (old.motion.great_circle, self.after.1) else {
             return Ok(());
@@ -355,7 +355,7 @@ impl Proof<'_> {
                 }
                 self.found.time_share = self.found.time_share.max(share);
             }
-            // no way is made: the feed has no time
+            // the tip does not move: the feed has no time
             (None, _) => self.found.feeds_not_compared += 1,
             _ => return self.refute(is, "the feed is lost".to_owned()),
         }

@@ -245,7 +245,7 @@ mod tests {
         );
     }
 
-    /// The same in a rapid: whether a Sinumerik moves its axes together then is a matter of G-code group 55 and machine data.
+    /// The same in a rapid: whether a Sinumerik moves its axes together then depends on G-code group 55 and machine data.
     #[test]
     fn a_limit_between_the_ends_of_a_rapid_is_a_matter_of_its_path() {
         let text = "TRAORI\nG0 X0 Y0 Z410 A-25 C0\nG0 X200 A40\nM30\n";

@@ -106,14 +106,14 @@ const AMBIGUOUS: [&str; 3] = [
     "switch tool centre point control on, or program inverse time (G93)",
 ];
 
-/// A Haas counts F of a turn along circles whose diameters are settings.
+/// On a Haas F of a turn is the speed along circles whose diameters are settings.
 const BY_DIAMETER: [&str; 3] = [
     "only rotary axes move: this control measures F along circles with the diameters in its settings 34 and 79; speeds are not judged",
     "the axes may turn faster than F in degrees per minute",
     "program inverse time (G93), or declare [control] feed = \"xyz\" if F is in degrees per minute",
 ];
 
-/// What F means is not settled: message, note and help, once.
+/// What F means is ambiguous: message, note and help, once.
 fn unsettled(view: &LegView<'_>, out: &mut Reporter<'_>, [message, note, help]: [&str; 3]) {
     out.unknown(view, Merge::once(hash(message)), |draft| {
         draft.say(message).note(note).help(help);
@@ -189,7 +189,7 @@ mod tests {
         );
     }
 
-    /// Haas counts F of a turn along a circle of a set diameter, so that C may run faster than by F in degrees: 7100 are within its speed.
+    /// On a Haas F of a turn is the speed along a circle of a set diameter, so that C may run faster than by F in degrees: 7100 are within its speed.
     #[test]
     fn on_a_haas_the_feed_of_a_turn_is_a_setting() {
         let said = |info: &str, block: &str| -> Vec<String> {

@@ -238,7 +238,7 @@ pub(crate) fn other_schema(schema: &str) -> Option<String> {
         SCHEMA => None,
         SCHEMA_1 => Some(format!(
             "this certificate was made by an older version of trunnion (schema \"{SCHEMA_1}\"), whose digests this version cannot check; make a new \
-             one from the program before: `trunnion fix BEFORE -o AFTER --certificate FILE`, with the same machine, tools and rewrite"
+             one from the original program: `trunnion fix BEFORE -o AFTER --certificate FILE`, with the same machine, tools and rewrite"
         )),
         _ => Some(format!(
             "certificate schema is {}, and this version of trunnion reads only \"{SCHEMA}\"",

@@ -62,8 +62,8 @@ impl Pair<'_> {
             (Ok(was), Ok(is)) => (was, is),
             (Err(_), Err(_)) if alike => return Ok(Compared::UnknownAlike),
             (Err(_), Err(_)) if !self.claim.is_rewrite() => return self.by_words(),
-            (Err(why), _) => return Err(self.no_pose("before", why)),
-            (_, Err(why)) => return Err(self.no_pose("after", why)),
+            (Err(why), _) => return Err(self.no_pose("original", why)),
+            (_, Err(why)) => return Err(self.no_pose("changed", why)),
         };
         if was == is && alike {
             return Ok(Compared::Same);
@@ -142,7 +142,7 @@ impl Pair<'_> {
             }
             NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
         };
-        self.unknown(&format!("in the program {which}, {why}"))
+        self.unknown(&format!("in the {which} program, {why}"))
     }
 
     /// What must be equal in a rewrite in addition to what `trunnion_same` compares.

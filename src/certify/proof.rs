@@ -86,9 +86,9 @@ impl<'a> Proof<'a> {
             .before
             .map(|block| lines.line_column(before.source(), before.block(block).range().start).0);
         let place = match (old, line) {
-            (Some(old), Some(new)) => format!("line {old} of the program before and line {new} of the one after: "),
-            (Some(old), None) => format!("line {old} before: "),
-            (None, Some(new)) => format!("line {new} after: "),
+            (Some(old), Some(new)) => format!("line {old} of the original program and line {new} of the changed one: "),
+            (Some(old), None) => format!("line {old} of the original program: "),
+            (None, Some(new)) => format!("line {new} of the changed program: "),
             (None, None) => String::new(),
         };
         if refuted {

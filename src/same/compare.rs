@@ -119,9 +119,9 @@ fn undecided(was: &Item, is: &Item, verdict: Verdict) -> Verdict {
     let repeats = |item: &Item| matches!(item, Item::Motion(step) if repeats_place(step));
     match verdict {
         Verdict::Differs(mut found) if repeats(was) != repeats(is) => {
-            let which = if repeats(was) { "before" } else { "after" };
+            let which = if repeats(was) { "original" } else { "changed" };
             found.what = format!(
-                "{}; the program {which} repeats its last position here, and it is unknown whether that moves the machine",
+                "{}; the {which} program repeats its last position here, and it is unknown whether that moves the machine",
                 found.what
             );
             Verdict::Unknown(found)
@@ -356,7 +356,7 @@ fn only_one(was: Option<&Item>, is: Option<&Item>) -> Verdict {
         (true, false) | (false, true) => "a motion ends at another position: ",
         _ => "",
     };
-    let what = format!("{what}the program before {}, the one after {}", name(was), name(is));
+    let what = format!("{what}the original program {}, the changed one {}", name(was), name(is));
     let place = at(was, is, what);
     let from_here = |item: Option<&Item>| matches!(item, Some(Item::Happens { words, .. }) if sets_from_here(words));
     let ends_elsewhere = part(was) != part(is) && (from_here(was) || from_here(is));

@@ -6,13 +6,13 @@ use trunnion_interp::same_number;
 
 /// Both were followed to their ends.
 pub(crate) fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
-    for (which, steps) in [("before", before), ("after", after)] {
+    for (which, steps) in [("original", before), ("changed", after)] {
         if let Some(stop) = steps.stop() {
             let block = Some(stop.block);
             return Err(Verdict::Unknown(Difference {
-                before: block.filter(|_| which == "before"),
-                after: block.filter(|_| which == "after"),
-                what: format!("the program {which} was not followed to its end: {}", stop.why),
+                before: block.filter(|_| which == "original"),
+                after: block.filter(|_| which == "changed"),
+                what: format!("the {which} program was not followed to its end: {}", stop.why),
             }));
         }
     }

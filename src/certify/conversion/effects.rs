@@ -105,20 +105,20 @@ pub(super) fn same_requests(
     parts: &[Part],
     terms: &Terms<'_>,
 ) -> Result<(), Outcome> {
-    for (reading, which) in [(before, "before"), (after, "after")] {
+    for (reading, which) in [(before, "original"), (after, "converted")] {
         if let Some(block) = reading.elsewhere {
             let line = line(reading, block);
             return Err(Outcome::unknown(format!(
-                "line {line} of the program {which} continues in another file, where only motions are compared"
+                "line {line} of the {which} program continues in another file, where only motions are compared"
             )));
         }
     }
-    for (reading, which) in [(before, "before"), (after, "after")] {
+    for (reading, which) in [(before, "original"), (after, "converted")] {
         let switch = |asked: &&Asked| matches!(&asked.ask, Ask::Own(own) if own.why == Why::Switch);
         if let Some(asked) = reading.asks.iter().find(switch) {
             let line = line(reading, asked.block);
             return Err(Outcome::unknown(format!(
-                "line {line} of the program {which}: whether it runs depends on a switch"
+                "line {line} of the {which} program: whether it runs depends on a switch"
             )));
         }
     }

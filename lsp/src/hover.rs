@@ -1,4 +1,4 @@
-//! Hover: the code under the cursor, what is in force, and what the machine does in the block.
+//! Hover: the code under the cursor, what is in effect, and what the machine does in the block.
 use crate::{
     analysis::{Analysed, Judged},
     names,

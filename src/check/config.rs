@@ -30,7 +30,7 @@ pub struct Config {
     pub machine: Option<String>,
     /// `dialect = "NAME"`.
     pub dialect: Option<String>,
-    /// `dialect_table = "FILE"`: a dialect table of one's own, relative to the file, with its bytes in the file.
+    /// `dialect_table = "FILE"`: a dialect table of your own, relative to the file, with its bytes in the file.
     pub dialect_table: Option<(String, core::ops::Range<usize>)>,
     /// `[rules]`.
     pub rules: Vec<(String, RuleLevel)>,

@@ -307,7 +307,7 @@ impl Sink for Pass<'_> {
         debug_assert!(
             self.in_force
                 .is_none_or(|own| format!("{own:?}") == format!("{:?}", InForce::of(state))),
-            "what is in force changed with a line"
+            "what is in effect changed with a line"
         );
         if self.in_force.is_none() {
             return self.motion(motion, state);

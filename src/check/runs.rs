@@ -114,7 +114,7 @@ pub(crate) struct Log {
     /// Per rule: how many are listed, and the rest.
     listed: BTreeMap<&'static str, (u32, Option<Diagnostic>)>,
     passes: Passes,
-    /// The block in hand ran before.
+    /// The current block ran before.
     pub(crate) again: bool,
 }
 

@@ -15,9 +15,9 @@ const LATE: u64 = 64;
 /// What is known about one block.
 #[derive(Clone, Debug)]
 pub struct BlockInfo {
-    /// In force before it.
+    /// In effect before it.
     pub before: ModalState,
-    /// In force after it.
+    /// In effect after it.
     pub after: ModalState,
     /// What the machine does in it (empty without motion or machine), the first time it runs.
     pub rows: Vec<Row>,
@@ -45,7 +45,7 @@ impl Variables {
     }
 }
 
-/// What is in force between two blocks.
+/// What is in effect between two blocks.
 #[derive(Clone)]
 struct CheckPoint {
     /// How many blocks ran before.

@@ -35,7 +35,7 @@ pub(crate) struct Reporter<'a> {
     /// The block it looks at; `None`: the block of what it reports.
     block: Option<BlockId>,
     sequence: u64,
-    /// The calls in which the block in hand runs.
+    /// The calls in which the current block runs.
     chain: ChainId,
     pending: Vec<Draft<'a>>,
     told: Vec<(&'static str, u64)>,

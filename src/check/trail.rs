@@ -16,11 +16,11 @@ pub(crate) struct Trail {
     window: Window,
     rapids: Rapids,
     state: State,
-    /// Clamps of the rotary axes with the leg in hand.
+    /// Clamps of the rotary axes with the current leg.
     pub(crate) clamps: Clamps,
-    /// Declared length of the tool in use with the leg in hand, mm.
+    /// Declared length of the tool in use with the current leg, mm.
     pub(crate) own_length_mm: Option<f64>,
-    /// What the leg in hand rests on that is not declared.
+    /// What the current leg rests on that is not declared.
     pub(crate) undeclared: Undeclared,
 }
 

@@ -42,11 +42,11 @@ pub(crate) struct LegView<'a> {
     deviation: OnceCell<Option<Deviation>>,
 }
 
-/// A motion as programmed, and what is in force with it.
+/// A motion as programmed, and what is in effect with it.
 pub(crate) struct MotionView<'a> {
     /// The motion.
     pub(crate) motion: &'a Motion,
-    /// What is in force.
+    /// What is in effect.
     pub(crate) in_force: &'a InForce,
     /// The tool of the last feed motion.
     pub(crate) last_cut: Option<u32>,

@@ -236,7 +236,7 @@ struct Printer<W: Write> {
     out: W,
     listing: Listing,
     sources: Sources,
-    /// Digits of the sequence number of the line in hand, and which line that is.
+    /// Digits of the sequence number of the current line, and which line that is.
     number: Vec<u8>,
     place: Option<At>,
     /// The calls before the first line have been printed.

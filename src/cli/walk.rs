@@ -100,7 +100,7 @@ struct Walk<'f> {
     root: PathBuf,
     /// Folders that were walked, links followed: a link cannot lead round for ever.
     seen: BTreeSet<PathBuf>,
-    /// `.gitignore` files in force, the outermost first.
+    /// `.gitignore` files in effect, the outermost first.
     ignores: Vec<Gitignore>,
     found: &'f mut Found,
 }

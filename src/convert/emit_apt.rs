@@ -9,7 +9,7 @@ use trunnion_certify::conversion::Reading;
 use trunnion_geometry::Vec3;
 use trunnion_interp::{Feed, Tool, ToolShape};
 
-/// Digits behind the point: lengths mm and inch, vectors, feeds.
+/// Digits after the decimal point: lengths mm and inch, vectors, feeds.
 pub(crate) const LENGTH: [usize; 2] = [6, 7];
 pub(crate) const VECTOR: usize = 9;
 pub(crate) const FEED: usize = 6;

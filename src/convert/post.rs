@@ -1,4 +1,4 @@
-//! How a control is written for: number formats and templates, as a TOML table in `grammar/posts` or a file of one's own.
+//! How a control is written for: number formats and templates, as a TOML table in `grammar/posts` or a file of your own.
 use crate::template::{fill, names};
 use core::ops::Range;
 use serde::Deserialize;
@@ -148,7 +148,7 @@ pub struct Post {
     pub dialect: String,
     /// Extension of its files.
     pub extension: String,
-    /// Digits behind the point: mm, inch.
+    /// Digits after the decimal point: mm, inch.
     pub(crate) length: [usize; 2],
     pub(crate) angle: usize,
     pub(crate) vector: usize,
@@ -172,7 +172,7 @@ pub fn builtin_post(name: &str) -> Option<&'static Post> {
     LOADED[index].get_or_init(|| load_post(TEXTS[index]).ok()).as_ref()
 }
 
-/// The text of a built-in post, as a start for one of one's own.
+/// The text of a built-in post, as a start for one of your own.
 pub fn builtin_post_source(name: &str) -> Option<&'static str> {
     let index = BUILTIN_POSTS.iter().position(|&known| known == name)?;
     Some(TEXTS[index])

@@ -20,13 +20,13 @@ pub struct Quirks {
     pub tool_word: ToolWord,
     /// What numbers without a decimal point mean.
     pub whole_numbers: WholeNumbers,
-    /// Motion code in force at the start of a program (Sinumerik: `linear`); `None`: none until one is programmed.
+    /// Motion code in effect at the start of a program (Sinumerik: `linear`); `None`: none until one is programmed.
     pub motion_at_start: Option<Action>,
     /// The length of a programmed tool vector must be 1 (I J K of G43.5; not A3= B3= C3=).
     pub unit_vectors: bool,
     /// A second `%` is a program end (LinuxCNC); else it only ends the text.
     pub percent_ends_program: bool,
-    /// G54 is in force from the start (LinuxCNC, Fanuc); else no settable offset (Sinumerik G500).
+    /// G54 is in effect from the start (LinuxCNC, Fanuc); else no settable offset (Sinumerik G500).
     pub first_offset_at_start: bool,
     /// A tool change makes its first cutting edge (D1), and so its length, active.
     pub edge_at_tool_change: bool,

@@ -24,7 +24,7 @@ pub enum Change {
     Only(bool, BlockId, Box<Body>),
 }
 
-/// A change of what is in force, with all motions that have it.
+/// A change of what is in effect, with all motions that have it.
 #[derive(Clone, Debug)]
 pub struct TechChange {
     /// Name, before, after.
@@ -92,12 +92,12 @@ impl Found {
 #[derive(Default)]
 struct Keys {
     hashes: Vec<u64>,
-    /// Index into the common list of what is in force; `u32::MAX` for statements.
+    /// Index into the common list of what is in effect; `u32::MAX` for statements.
     techs: Vec<u32>,
     blocks: Vec<u32>,
 }
 
-/// What was in force in any motion, each once.
+/// What was in effect in any motion, each once.
 #[derive(Default)]
 struct Techs {
     list: Vec<Tech>,
@@ -244,7 +244,7 @@ impl Techs {
     }
 }
 
-/// What is in force in motions that lead to the same place.
+/// What is in effect in motions that lead to the same place.
 fn same_stretches(a: &Keys, b: &Keys, techs: &Techs, stretches: &[Stretch], found: &mut Found) {
     let mut groups: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     for stretch in stretches {

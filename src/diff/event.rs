@@ -1,4 +1,4 @@
-//! What a program does, in order: motions with what is in force, and everything else by its words.
+//! What a program does, in order: motions with what is in effect, and everything else by its words.
 use crate::point::Point;
 use std::sync::Arc;
 use trunnion_interp::{Feed, LengthOf, Motion};
@@ -19,13 +19,13 @@ pub(crate) struct Event {
     reason = "nearly all events are motions, and a box for each would cost more"
 )]
 pub enum Body {
-    /// A motion, and what is in force in it.
+    /// A motion, and what is in effect in it.
     Motion(Point, Tech),
     /// Words: stops, ends, outputs, what is recognised and not modelled.
     Statement(String),
 }
 
-/// What is in force in a motion. Numbers as bits, so that it can be looked up.
+/// What is in effect in a motion. Numbers as bits, so that it can be looked up.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Tech {
     feed: (&'static str, u64),

@@ -20,7 +20,7 @@ pub(crate) struct AptState {
     pub(crate) circle: Option<Circle>,
     /// TLAXIS: the orientation of the next motion.
     pub(crate) axis: Option<Orientation>,
-    /// The last vector could not be read, so no orientation is in force.
+    /// The last vector could not be read, so no orientation is in effect.
     pub(crate) axis_lost: bool,
     /// CSYS is not the identity.
     pub(crate) csys: bool,

@@ -163,7 +163,7 @@ impl Apt<'_> {
             .motion_in_frame(MotionKind::Unknown, [start, end], orientation, Feed::Unknown, report)
     }
 
-    /// The orientation of a GOTO: its vector, else the one in force, else straight along Z.
+    /// The orientation of a GOTO: its vector, else the one in effect, else straight along Z.
     fn goto_orientation(&mut self, vector: Option<Vec3>, range: TextRange, report: &mut Report<'_>) -> Orientation {
         let set = self.kept.axis.take();
         if let Some(vector) = vector {

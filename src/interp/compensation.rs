@@ -15,7 +15,7 @@ use corner::{Join, Link, Trouble, join};
 use element::{Element, Point};
 use trunnion_dialect::Plane;
 
-/// A motion and what was in force after its block.
+/// A motion and what was in effect after its block.
 pub(crate) type Told = (Motion, ModalState);
 
 /// The state of the compensation.
@@ -51,7 +51,7 @@ pub(crate) struct Compensation {
     pub(crate) side: f64,
     /// mm.
     pub(crate) radius: f64,
-    /// D in force.
+    /// D in effect.
     pub(crate) d: Option<u32>,
     /// The coordinates are mirrored, so that left and right change places.
     pub(crate) mirrored: bool,

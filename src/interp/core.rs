@@ -1,4 +1,4 @@
-//! What every engine has: the setting of the run, what is in force, tools, unknown coordinates, effects.
+//! What every engine has: the setting of the run, what is in effect, tools, unknown coordinates, effects.
 use crate::effects::Effects;
 use crate::reported::Reported;
 use crate::tools::Tools;
@@ -24,9 +24,9 @@ const UNIT_NORM: f64 = 1e-5;
 pub(crate) struct Core<'d> {
     pub(crate) dialect: &'d Dialect,
     pub(crate) setup: Arc<Setup>,
-    /// What is in force.
+    /// What is in effect.
     pub(crate) state: ModalState,
-    /// The calls in which the block in hand runs.
+    /// The calls in which the current block runs.
     pub(crate) chain: ChainId,
     /// The block of the main program whose call led to the other file that runs.
     pub(crate) called_at: Option<BlockId>,
@@ -49,7 +49,7 @@ pub(crate) struct Core<'d> {
     pub(crate) proper_end: bool,
 }
 
-/// Where facts about the block in hand go.
+/// Where facts about the current block go.
 pub(crate) struct Report<'a> {
     pub(crate) program: &'a Program,
     pub(crate) block: BlockId,
@@ -185,7 +185,7 @@ impl<'d> Core<'d> {
         }
     }
 
-    /// The orientation that is in force with nothing programmed.
+    /// The orientation that is in effect with nothing programmed.
     pub(crate) fn held_orientation(&self) -> Orientation {
         match self.state.orientation {
             Orientation::Words => Orientation::Words,
@@ -221,7 +221,7 @@ impl<'d> Core<'d> {
         Orientation::Vector(before, vector / norm)
     }
 
-    /// A motion with what is in force.
+    /// A motion with what is in effect.
     #[inline]
     pub(crate) fn new_motion(
         &self,

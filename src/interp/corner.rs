@@ -26,7 +26,7 @@ struct Waiting {
 /// See the module.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Corners {
-    /// What the block in hand says: letter and mm.
+    /// What the current block says: letter and mm.
     pub(crate) word: Option<(u8, f64)>,
     waiting: Option<Box<Waiting>>,
 }

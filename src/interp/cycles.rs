@@ -91,7 +91,7 @@ impl<'d> Iso<'d> {
         self.core.state.motion = Some(Action::CannedCycle);
     }
 
-    /// Ends a cycle: where it belongs to the motion group (LinuxCNC) no motion code is in force then, else the one before.
+    /// Ends a cycle: where it belongs to the motion group (LinuxCNC) no motion code is in effect then, else the one before.
     pub(crate) fn cycle_off(&mut self, code: &Code) {
         self.memory.cycle.call = None;
         let of_motion_group = code.group.is_some() && code.group.as_deref() == self.motion_group();

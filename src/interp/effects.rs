@@ -231,7 +231,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Letters of parameters in the block that no cycle in force reads.
+    /// Letters of parameters in the block that no cycle in effect reads.
     fn free_letters(&self, words: &Words) -> u32 {
         let parameters = (b'A'..=b'Z')
             .filter(|letter| self.core.dialect.role(*letter) == Some(Role::Parameter))

@@ -1,4 +1,4 @@
-//! The motion of an ISO block, from its words and what is in force.
+//! The motion of an ISO block, from its words and what is in effect.
 use crate::arc::{ArcSetting, arc};
 use crate::codes::BlockCodes;
 use crate::core::Report;

@@ -37,7 +37,7 @@ pub(crate) struct Frames {
     pub(crate) polar: Option<Polar>,
     /// The tilted working plane in whose coordinates everything is expressed until motions are emitted.
     pub(crate) tilt: Option<Tilted>,
-    /// The position as the words have it, while a shape is in force; good as long as the work position is `synced`.
+    /// The position as the words have it, while a shape is in effect; good as long as the work position is `synced`.
     programmed: Position,
     synced: Position,
     /// Axes of a plane that was turned and that no word has given since.

@@ -122,7 +122,7 @@ impl Iso<'_> {
         Some(offset.length.or_else(declared)? + offset.length_wear)
     }
 
-    /// D: the cutting edge in force. Edge 1 has the tool's declared length, 0 none.
+    /// D: the cutting edge in effect. Edge 1 has the tool's declared length, 0 none.
     pub(crate) fn edge_word(&mut self, edge: Said, report: &mut Report<'_>) {
         let range = edge.number().map_or(TextRange::default(), |number| number.range);
         self.memory.edge = edge.index();
@@ -135,7 +135,7 @@ impl Iso<'_> {
     }
 
     /// A feed motion while T has chosen the first tool and nothing has brought it: where T alone changes tools the length of the tool is in
-    /// force, elsewhere it is not (machine data 22550 TOOL_CHANGE_MODE of a Sinumerik 840D sl: trade knowledge, not read in a manual).
+    /// effect, elsewhere it is not (machine data 22550 TOOL_CHANGE_MODE of a Sinumerik 840D sl: trade knowledge, not read in a manual).
     pub(crate) fn tool_never_changed(&mut self, words: &Words, report: &mut Report<'_>) {
         let waits = *self.core.tools.in_spindle() == Chosen::Nothing
             && self.core.dialect.quirks.edge_at_tool_change

@@ -68,7 +68,7 @@ pub(crate) struct Own {
     texts: BTreeMap<Box<str>, Box<str>>,
     /// What was known when it was lost.
     before_loss: BTreeMap<Box<str>, f64>,
-    /// Written in the block in hand: when the control writes is not documented, so they are not read in the same block.
+    /// Written in the current block: when the control writes is not documented, so they are not read in the same block.
     fresh: Vec<Box<str>>,
     /// Grows with whatever may make a decision come out otherwise than before.
     pub(crate) changes: u64,
@@ -76,13 +76,13 @@ pub(crate) struct Own {
     pub(crate) follows: bool,
     /// A subprogram runs, so that M17, M2 and M30 return.
     pub(crate) is_called: bool,
-    /// Where a statement of the flow begins in the block in hand.
+    /// Where a statement of the flow begins in the current block.
     pub(crate) statement: Option<TextRange>,
-    /// A name in the block in hand that no code has: a subprogram, it may be.
+    /// A name in the current block that no code has: a subprogram, it may be.
     pub(crate) called: Option<Call>,
-    /// `L20` in the block in hand.
+    /// `L20` in the current block.
     pub(crate) called_by_number: Option<TextRange>,
-    /// What the block in hand asks for, done when it has run.
+    /// What the current block asks for, done when it has run.
     pub(crate) pending: Option<Transfer>,
     /// The last values of FOR loops, by file and block.
     pub(crate) counted_to: HashMap<(u16, u32), f64>,

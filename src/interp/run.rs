@@ -87,7 +87,7 @@ impl<'d> Interpreter<'d> {
         with_engine!(&mut self.engine, engine => engine.advance(program, sink))
     }
 
-    /// What is in force.
+    /// What is in effect.
     #[inline]
     pub fn state(&self) -> &ModalState {
         with_engine!(&self.engine, engine => &engine.core().state)
@@ -103,7 +103,7 @@ impl<'d> Interpreter<'d> {
         with_engine!(&mut self.engine, engine => engine.core_mut().effects.watch());
     }
 
-    /// What is in force now, for something that is not modelled.
+    /// What is in effect now, for something that is not modelled.
     pub fn situation(&self) -> crate::Situation {
         with_engine!(&self.engine, engine => crate::Situation::new(&engine.core().state, engine.returns_to_r()))
     }

@@ -77,7 +77,7 @@ enum Token {
 struct Tokens<'p> {
     program: &'p Program,
     next: TokenId,
-    /// The line in hand holds something.
+    /// The current line holds something.
     content: bool,
 }
 

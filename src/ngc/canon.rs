@@ -190,7 +190,7 @@ pub enum Canon {
         /// From 1; what `rs274` prints.
         row: i32,
     },
-    /// Tool offset in force.
+    /// Tool offset in effect.
     ToolOffset(Pose),
     /// A row of the tool table is written (G10 L1, L10, L11): row (0: the spindle) and what it holds now.
     SetToolEntry(i32, crate::ToolEntry),

@@ -33,7 +33,7 @@ pub struct At {
 
 /// Receives what a run does, in order.
 pub trait Sink {
-    /// A canonical call; `state` is what is in force after the part of the line that made it.
+    /// A canonical call; `state` is what is in effect after the part of the line that made it.
     fn call(&mut self, call: &Canon, at: At, state: &State);
     /// [`Canon::Traverse`] (`rapid`) or [`Canon::Feed`] to a pose, which [`Self::call`] emits differently.
     fn straight(&mut self, rapid: bool, end: &crate::Pose, at: At, state: &State) {
@@ -73,7 +73,7 @@ pub enum Step {
 pub struct Engine {
     pub(crate) setup: Arc<Setup>,
     pub(crate) files: Vec<Arc<Source>>,
-    /// What is in force.
+    /// What is in effect.
     pub state: State,
     /// The order of execution.
     pub(crate) flow: Flow,

@@ -93,7 +93,7 @@ pub struct Setup {
     pub user_codes: bool,
     /// Codes of the machine's own (remaps) beside those of the control: letter and ten times the number, ascending.
     pub own_codes: Arc<[(u8, u32)]>,
-    /// Which G codes among them are motions, so that they stay in force: ten times the number, ascending.
+    /// Which G codes among them are motions, so that they stay in effect: ten times the number, ascending.
     pub own_motions: Arc<[u32]>,
     /// The tool table may lack tools that the machine has: any number exists, with offset and diameter zero.
     pub any_tool: bool,

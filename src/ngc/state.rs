@@ -1,4 +1,4 @@
-//! What is in force between lines.
+//! What is in effect between lines.
 use crate::{Canon, FeedMode, MotionMode, Pose, Side};
 
 /// Length units.
@@ -81,10 +81,10 @@ pub struct State {
     pub feed_rate: f64,
     /// F of the last motion under G93, 1/min.
     pub inverse_time: f64,
-    /// Motion code in force, ten times its number; -1 before the first, 800 for G80.
+    /// Motion code in effect, ten times its number; -1 before the first, 800 for G80.
     pub motion: i16,
     /// Ten times the number of a G code that is not modelled (`u32::MAX`: one that was refused) and may be the motion
-    /// code in force; never set while only canonical calls are listed, since the run ends there.
+    /// code in effect; never set while only canonical calls are listed, since the run ends there.
     pub unmodelled: Option<u32>,
     /// Last motion code, for canned cycles that lean on it.
     pub last_motion: i16,
@@ -94,13 +94,13 @@ pub struct State {
     pub compensated: Pose,
     /// G92 / G52 offset.
     pub axis_offset: Pose,
-    /// Offset of the coordinate system in force.
+    /// Offset of the coordinate system in effect.
     pub origin_offset: Pose,
     /// 1-9.
     pub origin_index: i32,
-    /// Rotation of the coordinate system in force, deg.
+    /// Rotation of the coordinate system in effect, deg.
     pub rotation_xy: f64,
-    /// Tool offset in force.
+    /// Tool offset in effect.
     pub tool_offset: Pose,
     /// Whose it is: H of G43, 0 for the tool in the spindle; -1: not one tool's alone (G43.1, G43.2); `None`: G49.
     pub length_of: Option<i32>,
@@ -162,7 +162,7 @@ pub struct State {
     pub adaptive_feed: bool,
     /// See above.
     pub feed_hold: bool,
-    /// Axes with words in the block in hand: bit i is axis i of a [`Pose`].
+    /// Axes with words in the current block: bit i is axis i of a [`Pose`].
     pub named_axes: u16,
     /// The line that runs while compensation emits what it has held back: the listing numbers calls by it.
     pub told_by: Option<crate::At>,

@@ -58,7 +58,7 @@ impl Writer<'_> {
     }
 
     /// Writes the pose of `stance`, turned so that the rotary joint is `q` (rad), into its block. `current` holds the coordinates
-    /// in force before the block in the program after, and those after it on return. Gives the rotary joint that is
+    /// in effect before the block in the program after, and those after it on return. Gives the rotary joint that is
     /// written, rad: `q` but for rounding.
     pub(crate) fn turn(
         &self,
@@ -90,7 +90,7 @@ impl Writer<'_> {
         Ok(q)
     }
 
-    /// Makes the block say the pose of `stance` as it is, whatever was in force before.
+    /// Makes the block say the pose of `stance` as it is, whatever was in effect before.
     pub(crate) fn restore(
         &self,
         block: BlockId,
@@ -240,7 +240,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Edits that make the block say `numbers`: a number that differs is replaced, a missing word is inserted if another value is in force.
+    /// Edits that make the block say `numbers`: a number that differs is replaced, a missing word is inserted if another value is in effect.
     fn edit(
         &self,
         block: &Block<'_>,

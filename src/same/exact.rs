@@ -81,7 +81,7 @@ pub(crate) fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, exact: Exact) 
             // what the end of the text brings comes with the last block, or with an empty one after it
             let more = a.advance().is_some() || b.advance().is_some();
             if more || !same_state(a.steps.state(), b.steps.state()) {
-                return at("what is in force after the block differs");
+                return at("what is in effect after the block differs");
             }
         }
     }

@@ -5,7 +5,7 @@ use trunnion_interp::{Argument, Effect, Motion, Reach, Situation};
 use trunnion_machine::Leg;
 use trunnion_syntax::BlockId;
 
-/// A motion with everything that is in force.
+/// A motion with everything that is in effect.
 #[derive(Clone, Debug)]
 pub struct Step {
     /// As programmed.
@@ -14,7 +14,7 @@ pub struct Step {
     pub leg: Option<Leg>,
     /// What the modal state holds.
     pub held: Held,
-    /// What else is in force.
+    /// What else is in effect.
     pub process: Arc<Process>,
     /// Since the motion before, nothing may have changed where its coordinates lie: a block that repeats the place does not move.
     pub may_repeat: bool,
@@ -46,7 +46,7 @@ pub enum Item {
         sort: Sort,
         /// Its words.
         words: Vec<Argument>,
-        /// What is in force.
+        /// What is in effect.
         process: Arc<Process>,
         /// What something that is not modelled may read: before and after its block.
         around: Option<Arc<Around>>,
@@ -72,7 +72,7 @@ pub struct Stop {
     pub why: String,
 }
 
-/// What is in force before and after the block of an effect, where something that is not modelled may read it.
+/// What is in effect before and after the block of an effect, where something that is not modelled may read it.
 #[derive(Clone, Debug)]
 pub struct Around {
     /// Before and after.

@@ -1,6 +1,6 @@
 //! Floor 5: whether two programs do the same, motion for motion.
 //!
-//! [`Steps`] runs a program and yields what it does, in order: motions with everything that is in force, and whatever else happens.
+//! [`Steps`] runs a program and yields what it does, in order: motions with everything that is in effect, and whatever else happens.
 //! [`compare`] holds two such streams against each other and names the first difference. It is the one place that decides what "the same"
 //! means; whoever compares programs (proofs, `diff`, layout) asks it.
 //!

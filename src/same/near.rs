@@ -115,7 +115,7 @@ fn same_sort(a: &Motion, b: &Motion) -> bool {
     core::mem::discriminant(&a.orientation) == core::mem::discriminant(&b.orientation) && a.tilt == b.tilt
 }
 
-/// A coordinate with the zero point in force.
+/// A coordinate with the zero point in effect.
 fn placed(motion: &Motion, axis: usize, value: f64) -> f64 {
     if motion.machine_coordinates {
         value

@@ -9,7 +9,7 @@ use trunnion_interp::{Argument, Effect, Reach, Situation};
 use trunnion_syntax::{Address, BlockId, Format, Item as AnyItem, Value as SyntaxValue};
 
 impl Steps<'_> {
-    /// Gives the effects of a block that something else may decide what that may read. `before`: what was in force and set before the
+    /// Gives the effects of a block that something else may decide what that may read. `before`: what was in effect and set before the
     /// block; `effects`: how many effects there were; `own_locals`: what runs there begins with local variables of its own.
     pub(super) fn note_situation(
         &mut self,

@@ -1,4 +1,4 @@
-//! What is in force at a moment of a run, beside where the tool is.
+//! What is in effect at a moment of a run, beside where the tool is.
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use trunnion_interp::{Argument, Feed, LengthOf, ModalState, Motion, Posture, sam
 pub struct Process {
     settings: BTreeMap<Cow<'static, str>, Vec<Argument>>,
     /// Words by their group that were said after something ran that may have changed everything modal: with or without them, something
-    /// else may be in force.
+    /// else may be in effect.
     restated: BTreeMap<String, Vec<Argument>>,
 }
 
@@ -22,7 +22,7 @@ pub(crate) struct Unlike {
     pub(crate) key: String,
     pub(crate) from: String,
     pub(crate) to: String,
-    /// What is in force is not known: the words were said after something ran that may have changed it.
+    /// What is in effect is not known: the words were said after something ran that may have changed it.
     pub(crate) is_restated: bool,
 }
 

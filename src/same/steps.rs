@@ -1,4 +1,4 @@
-//! A program as a stream of what it does: nothing is kept but what the block in hand has brought.
+//! A program as a stream of what it does: nothing is kept but what the current block has brought.
 use crate::input::Input;
 use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
 use crate::notes::{arguments_in_order, with_values};
@@ -34,7 +34,7 @@ pub(crate) struct Run<'a> {
     stores: BTreeMap<String, Value>,
     stop: Option<Stop>,
     /// So many motions of one block (a pecking cycle with a tiny Q), and things without a motion between them, are kept, with all that is in
-    /// force at each.
+    /// effect at each.
     most_in_block: usize,
     /// A block does more than is kept: the run ends with it.
     given_up: bool,
@@ -184,7 +184,7 @@ impl<'a> Steps<'a> {
         Held::new(self.state())
     }
 
-    /// What is in force now.
+    /// What is in effect now.
     pub fn process(&self) -> &Arc<Process> {
         &self.run.process
     }
@@ -208,7 +208,7 @@ impl<'a> Steps<'a> {
         self.run.log.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
-    /// An excerpt: what is in force before its first block. `feed` in mm/min.
+    /// An excerpt: what is in effect before its first block. `feed` in mm/min.
     pub fn assume(&mut self, tcp: bool, feed: Option<f64>) {
         self.interpreter.state_mut().tcp |= tcp;
         let state = self.interpreter.state_mut();

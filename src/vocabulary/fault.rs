@@ -53,7 +53,7 @@ pub enum Refusal {
 pub enum TcpMistake {
     /// Rotary words in a feed motion with TCP off, after it was on in the same tool's work.
     RotaryWithout,
-    /// A feed motion under TCP while no tool length is in force.
+    /// A feed motion under TCP while no tool length is in effect.
     NoLength,
     /// The tool is changed under TCP.
     ToolChange,
@@ -124,7 +124,7 @@ pub enum FaultKind {
     },
     /// A word is given twice.
     RepeatedWord,
-    /// No code of the block and none in force reads the word at the range; the control skips it.
+    /// No code of the block and none in effect reads the word at the range; the control skips it.
     UnusedWord,
     /// A feed motion while no feed is known (or F0; or G93 without F in the block).
     MissingFeed {

@@ -1,4 +1,4 @@
-//! The modal state: what is in force between blocks.
+//! The modal state: what is in effect between blocks.
 use crate::{Action, Orientation, Plane, Position, Tool, ToolShape, Undeclared};
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ pub enum FeedMode {
 /// Whose length is compensated. It distinguishes lengths that are not declared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum LengthOf {
-    /// None is in force.
+    /// None is in effect.
     #[default]
     Nothing,
     /// That of the tool with this number; `None`: of a tool in use whose number is not known.
@@ -36,10 +36,10 @@ impl core::fmt::Display for LengthOf {
     }
 }
 
-/// What is in force between blocks.
+/// What is in effect between blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalState {
-    /// Motion code in force (`Rapid`, `Linear`, arcs, `CannedCycle`, `NotModelled`), `None` before the first.
+    /// Motion code in effect (`Rapid`, `Linear`, arcs, `CannedCycle`, `NotModelled`), `None` before the first.
     pub motion: Option<Action>,
     /// Plane.
     pub plane: Plane,

@@ -153,7 +153,7 @@ pub enum MotionKind {
 pub struct Undeclared {
     /// Axes whose zero point is not declared, bits as in [`Position::known`].
     pub zero: u16,
-    /// The length of the tool in force is not declared.
+    /// The length of the tool in effect is not declared.
     pub length: bool,
     /// The zero point was set from where the machine stood (G92).
     pub set_here: bool,
@@ -205,9 +205,9 @@ pub struct Motion {
     pub spindle_on: Option<bool>,
     /// Spindle speed, 1/min.
     pub spindle_rpm: Option<f64>,
-    /// Work offset in force, mm / deg, order of [`AXIS_LETTERS`]; to be added unless the words are machine coordinates.
+    /// Work offset in effect, mm / deg, order of [`AXIS_LETTERS`]; to be added unless the words are machine coordinates.
     pub zero: [f64; 9],
-    /// Length of the tool that is compensated, mm: G43 H / active D / TCP. Zero when off or undeclared. In force also where the words are
+    /// Length of the tool that is compensated, mm: G43 H / active D / TCP. Zero when off or undeclared. In effect also where the words are
     /// machine coordinates, which it does not shift.
     pub tool_length_mm: f64,
     /// What of the two is not declared; nothing of machine coordinates.

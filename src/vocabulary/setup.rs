@@ -141,7 +141,7 @@ pub enum RollPitchYaw {
 /// Parameters of the control that programs depend on; what is not declared is unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ControlData {
-    /// Unit in force before the program says one (G20, G21); `None`: not known, mm is taken.
+    /// Unit in effect before the program says one (G20, G21); `None`: not known, mm is taken.
     pub units: Option<LengthUnit>,
     /// What X10 means; `None`: it is read as 10 mm and each such word is reported.
     pub implicit_decimals: Option<ImplicitDecimals>,

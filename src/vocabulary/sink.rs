@@ -7,7 +7,7 @@ pub trait Sink {
     /// A motion; `state` is the modal state after its block.
     fn motion(&mut self, motion: &Motion, state: &ModalState);
     /// A rapid or linear motion that begins where the motion before it ended and differs from it in block, chain, kind, places and feed
-    /// only: what is in force is the same but for the motion code and F.
+    /// only: what is in effect is the same but for the motion code and F.
     fn next_line(&mut self, motion: &Motion, state: &ModalState) {
         self.motion(motion, state);
     }
@@ -26,7 +26,7 @@ pub trait Sink {
 
 /// A run of a program between two blocks.
 pub trait ProgramRun {
-    /// What is in force.
+    /// What is in effect.
     fn state(&self) -> &ModalState;
     /// The calls that led to a motion, outermost first; empty in the main program.
     fn chain(&self, chain: ChainId) -> Vec<Frame>;

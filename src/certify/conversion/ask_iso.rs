@@ -21,7 +21,7 @@ const ACTIVE: &[(&str, bool)] = &[
     ("PY", false),
 ];
 
-/// Reads block after block: what words mean depends on the codes in force.
+/// Reads block after block: what words mean depends on the codes in effect.
 pub(super) struct Blocks<'a> {
     program: &'a Program,
     dialect: &'a Dialect,

@@ -186,7 +186,7 @@ struct Collector<'m> {
     is_apt: bool,
     /// Where the last motion ended, without a machine.
     last: Option<Pose>,
-    /// Tool and its length that was last in force.
+    /// Tool and its length that was last in effect.
     length: (Option<u32>, f64),
     motions: Vec<Posed>,
     blocks: Vec<Ran>,

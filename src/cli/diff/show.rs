@@ -134,7 +134,7 @@ pub(super) fn letter(axis: usize) -> char {
     char::from(AXIS_LETTERS[axis])
 }
 
-/// Up to six digits behind the point, no zeros at the end.
+/// Up to six digits after the decimal point, no zeros at the end.
 fn short(value: f64) -> String {
     let text = format!("{:.6}", tidy(value));
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

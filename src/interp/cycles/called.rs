@@ -221,7 +221,7 @@ impl Iso<'_> {
         match call.sort {
             Sort::Ream => self.own_feed(call.number(6)),
             Sort::Tap => {
-                // PIT in mm, or in the units in force; threads per inch and MPIT are other numbers
+                // PIT in mm, or in the units in effect; threads per inch and MPIT are other numbers
                 let pitch = match (call.number(7), call.number(8), call.number(13).or_zero()) {
                     (size, Given::Number(pitch), Some(unit_of_pitch)) if size.or_zero() == Some(0.0) => {
                         let mm = match unit_of_pitch as i64 {

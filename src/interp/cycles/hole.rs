@@ -25,7 +25,7 @@ pub(super) struct Plan {
 }
 
 impl Iso<'_> {
-    /// Runs the cycle in force at the places that the block says.
+    /// Runs the cycle in effect at the places that the block says.
     pub(crate) fn hole_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
         let axis = plane_axes(self.core.state.plane)[2];
         self.store_hole(words, axis);
@@ -77,7 +77,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Whether the block in hand, or the cycles of the run together, have made more motions than are worked out.
+    /// Whether the current block, or the cycles of the run together, have made more motions than are worked out.
     pub(super) fn is_full(&self) -> bool {
         self.memory.out.len() > MOST_MOTIONS || self.cycle_motions > self.core.setup.limits.blocks
     }

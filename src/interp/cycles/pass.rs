@@ -13,7 +13,7 @@ const X: usize = 0;
 const Z: usize = 2;
 
 impl Iso<'_> {
-    /// Runs the pass in force with what the block changes of it. X is a radius here; R is the difference of radii (or of Z when facing).
+    /// Runs the pass in effect with what the block changes of it. X is a radius here; R is the difference of radii (or of Z when facing).
     pub(crate) fn pass_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
         let position = self.core.state.position;
         let start = self.memory.frames.programmed(&position);
@@ -84,7 +84,7 @@ impl Iso<'_> {
         }
     }
 
-    /// What the block changes of the pass in force.
+    /// What the block changes of the pass in effect.
     fn keep_pass(&mut self, words: &Words) {
         for (slot, axis) in [(0, X), (1, Z)] {
             let bit = 1 << axis;

@@ -34,7 +34,7 @@ pub(crate) struct Kept {
     pub(super) thread: Thread,
 }
 
-/// A cycle in the block in hand.
+/// A cycle in the current block.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Repeated {
     pub(crate) action: Action,

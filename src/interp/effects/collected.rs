@@ -4,7 +4,7 @@ use crate::{Argument, Effect, Placed, Reach};
 /// Blocks of shifts and turns that wait for a motion that needs their words.
 const MOST_FRAMES: usize = 1000;
 
-/// Effects of the block in hand, collected only where somebody asks for them.
+/// Effects of the current block, collected only where somebody asks for them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Effects {
     wanted: bool,

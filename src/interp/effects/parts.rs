@@ -67,7 +67,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Parameters of the block that neither its codes nor what is in force reads. The machine, or a macro that a code calls, may read them.
+    /// Parameters of the block that neither its codes nor what is in effect reads. The machine, or a macro that a code calls, may read them.
     pub(super) fn untaken(&self, codes: &[Found<'_>], words: &Words, taken: &BlockCodes) -> u32 {
         let opaque = words.builder_code || words.unknown_code || words.forgets_all || words.flow;
         if opaque || self.core.dialect.quirks.user_names() {

@@ -114,7 +114,7 @@ impl Iso<'_> {
         }
     }
 
-    /// What the block in hand asks for, whichever language it is in.
+    /// What the current block asks for, whichever language it is in.
     fn asked_for(&mut self) -> Option<Transfer> {
         let deep = self.flow.deep.as_mut().and_then(|deep| deep.pending.take());
         deep.or_else(|| self.memory.own.pending.take())

@@ -146,7 +146,7 @@ impl<'d> Iso<'d> {
         }
     }
 
-    /// The program writes a work offset; it acts at once where it is in force.
+    /// The program writes a work offset; it acts at once where it is in effect.
     pub(crate) fn store_offset(&mut self, name: &str, zero: OffsetValues) {
         let written = &mut self.memory.frames.written;
         match written.iter_mut().find(|(known, _)| **known == *name) {

@@ -7,7 +7,7 @@ use crate::{FaultKind, Feed, MotionKind, Position};
 use trunnion_dialect::Action;
 use trunnion_syntax::TextRange;
 
-/// A return in the block in hand.
+/// A return in the current block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Return {
     /// G27.

@@ -5,7 +5,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 
 impl<'d> Iso<'d> {
-    /// The zero point in force from its parts. The machine stays where it is.
+    /// The zero point in effect from its parts. The machine stays where it is.
     pub(crate) fn refresh_zero(&mut self) {
         let frames = &self.memory.frames;
         let mut zero = frames.selected;

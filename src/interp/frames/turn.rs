@@ -7,7 +7,7 @@ use crate::iso::Iso;
 use crate::words::Words;
 
 impl<'d> Iso<'d> {
-    /// Whether nothing is in force that would make a new frame's place unclear.
+    /// Whether nothing is in effect that would make a new frame's place unclear.
     fn frames_are_plain(&self) -> bool {
         !self.core.state.frame_unknown
             && !self.core.state.tcp

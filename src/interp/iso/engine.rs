@@ -15,7 +15,7 @@ use trunnion_syntax::{BlockId, Program};
 pub(crate) struct Iso<'d> {
     pub(crate) core: Core<'d>,
     pub(crate) memory: Memory<'d>,
-    /// Codes of the block in hand: kept only for its storage.
+    /// Codes of the current block: kept only for its storage.
     pub(crate) codes: Vec<Found<'d>>,
     pub(crate) flow: Flow,
     /// Motions of cycles so far: they have a bound as executed blocks have.

@@ -100,7 +100,7 @@ impl Known<'_> {
         Some(code)
     }
 
-    /// 54 to 59: the work offset in force.
+    /// 54 to 59: the work offset in effect.
     fn offset_code(&self) -> Option<f64> {
         let name = self.state.work_offset.as_deref()?;
         name.strip_prefix('G')?.parse().ok()

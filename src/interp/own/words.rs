@@ -7,7 +7,7 @@ use trunnion_dialect::Code;
 use trunnion_syntax::{TextRange, Value, Word};
 
 impl super::Own {
-    /// What a variable holds now, also where the block in hand has written it.
+    /// What a variable holds now, also where the current block has written it.
     pub(crate) fn held(&self, name: &str) -> Option<f64> {
         let name = name.to_ascii_lowercase();
         match super::r_parameter(&name) {

@@ -130,7 +130,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         self.told.lost = true;
     }
 
-    /// The first code of the block in hand that `is` says, ten times its number; the whole block where it is not written as a number.
+    /// The first code of the current block that `is` says, ten times its number; the whole block where it is not written as a number.
     pub(super) fn code_range(&mut self, at: At, letter: u8, is: impl Fn(i64) -> bool) -> TextRange {
         let block = self.block(at);
         let mut words = self.program.block(block).words();

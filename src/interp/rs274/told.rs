@@ -36,11 +36,11 @@ pub(super) struct Told {
     pub(super) lost: bool,
     /// The same of A B C.
     pub(super) lost_rotary: bool,
-    /// A tilted plane that is not modelled is in force: X Y Z say nothing about the machine.
+    /// A tilted plane that is not modelled is in effect: X Y Z say nothing about the machine.
     pub(super) hidden: bool,
     /// While lines are motions and nothing else, which no offset can change: the offsets, and the last of them.
     pub(super) steady: Option<Box<Steady>>,
-    /// Of the line in hand: it does more than its motions and calls hold; where a motion ends, or how it gets there, is unknown.
+    /// Of the current line: it does more than its motions and calls hold; where a motion ends, or how it gets there, is unknown.
     pub(super) does_more: bool,
     pub(super) unknown_end: bool,
     /// The last motion was programmed in machine coordinates (G53).

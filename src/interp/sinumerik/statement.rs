@@ -10,7 +10,7 @@ use trunnion_syntax::TextRange;
 /// A place and what is wrong or not known there.
 pub(super) type Trouble = (TextRange, FaultKind);
 
-/// One statement of the block in hand.
+/// One statement of the current block.
 pub(super) struct Statement<'a> {
     pub(super) text: Text,
     pub(super) own: &'a mut Own,

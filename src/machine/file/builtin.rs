@@ -69,7 +69,7 @@ pub fn builtin(name: &str) -> Option<&'static Machine> {
     LOADED[index].get_or_init(|| load(name, FILES[index]).ok()).as_ref()
 }
 
-/// The text of a built-in machine's file, as a start for a machine of one's own.
+/// The text of a built-in machine's file, as a start for a machine of your own.
 pub fn builtin_source(name: &str) -> Option<&'static str> {
     BUILTIN_MACHINES
         .iter()

@@ -38,7 +38,7 @@ impl Modes {
             named_axes: state.named_axes,
         }
     }
-    /// Puts these in force; what was in force before comes back.
+    /// Puts these in effect; what was in effect before comes back.
     fn swap(self, state: &mut State) -> Self {
         let before = Self::of(state);
         state.motion = self.motion;

@@ -134,7 +134,7 @@ fn check(work: &Work<'_>, code: i16, before: i16, axes: Axes) -> Result<(), Erro
     Ok(())
 }
 
-/// The words of the block, or those of the blocks before it. They keep the meaning of the distance mode in force.
+/// The words of the block, or those of the blocks before it. They keep the meaning of the distance mode in effect.
 fn words(work: &Work<'_>, axes: Axes, code: i16, new_code: bool) -> Result<CycleWords, Error> {
     let block = work.block;
     let mut words = work.engine.state.cycle;

@@ -18,7 +18,7 @@ pub(crate) struct Spline {
     tail: Option<(Pose, [f64; 2])>,
 }
 
-/// What G5 and G5.1 need. Motion codes of splines do not stay in force.
+/// What G5 and G5.1 need. Motion codes of splines do not stay in effect.
 fn check(work: &mut Work<'_>) -> Result<(), Error> {
     let block = work.block;
     let state = &work.engine.state;
@@ -48,7 +48,7 @@ fn bezier(work: &mut Work<'_>, points: &[[f64; 2]], end: Pose) -> Result<(), Err
     let order = points.len();
     let mut knots = vec![0.0; order];
     knots.resize(2 * order, 1.0);
-    // the motion code in force stays
+    // the motion code in effect stays
     work.engine.state.current = end;
     work.emit(Canon::Nurbs {
         order: order as u32,

@@ -1,4 +1,4 @@
-//! Numbered parameters that the control keeps in step with what is in force.
+//! Numbered parameters that the control keeps in step with what is in effect.
 use super::ends::word;
 use crate::{Block, Engine, Pose, Units};
 
@@ -6,7 +6,7 @@ use crate::{Block, Engine, Pose, Units};
 pub(crate) const HOME: usize = 5161;
 /// See [`HOME`].
 pub(crate) const SECOND_HOME: usize = 5181;
-/// 1: G92 is in force.
+/// 1: G92 is in effect.
 pub(crate) const G92_ON: usize = 5210;
 /// See [`HOME`].
 pub(crate) const G92: usize = 5211;

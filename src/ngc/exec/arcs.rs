@@ -120,7 +120,7 @@ pub(crate) fn run(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sin
     sweep(engine, end, centre, turns, block, at, sink)
 }
 
-/// One arc in the plane in force to `end` (program coordinates, contour).
+/// One arc in the plane in effect to `end` (program coordinates, contour).
 pub(crate) fn sweep(
     engine: &mut Engine,
     end: Pose,

@@ -18,7 +18,7 @@ pub(crate) fn codes(block: &Block) -> Result<(), Error> {
     Ok(())
 }
 
-/// Finds out which motion applies to the block: the code given, or the one in force where axis words ask for it.
+/// Finds out which motion applies to the block: the code given, or the one in effect where axis words ask for it.
 pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Error> {
     let polar = block.radius.is_some() || block.angle.is_some();
     if polar && state.plane != Plane::Xy {
@@ -56,7 +56,7 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
             return Err(Error::new(&problems::AXES_WITH_G80, block.range));
         }
     } else if axes && block.g[8] == 432 && !setting {
-        // observed: polar words lead in the mode in force, which uses the other words, too; axis words are refused later
+        // observed: polar words lead in the mode in effect, which uses the other words, too; axis words are refused later
         block.motion = state.motion;
     } else if setting || tool_offset {
         // the axis words are theirs
@@ -72,7 +72,7 @@ pub(crate) fn choose_motion(block: &mut Block, state: &State) -> Result<(), Erro
     Ok(())
 }
 
-/// Axis words without a motion code, while the one in force may be one that is not modelled: what they do is not known.
+/// Axis words without a motion code, while the one in effect may be one that is not modelled: what they do is not known.
 pub(crate) fn modelled(block: &Block, state: &State) -> Result<(), Error> {
     let Some(tenths) = state.unmodelled else { return Ok(()) };
     let setting = matches!(block.g[0], 100 | 280 | 300 | 520 | 920) || matches!(block.g[8], 431 | 432);

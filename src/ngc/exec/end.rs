@@ -19,7 +19,7 @@ pub(crate) fn start(engine: &mut Engine, sink: &mut dyn Sink) {
         engine.set_parameter(access::G92_ON, 0.0);
     }
     let index = engine.parameter(5220);
-    // 0: not known which one is in force
+    // 0: not known which one is in effect
     engine.state.origin_index = if index.is_nan() { 0 } else { (index as i32).clamp(1, 9) };
     let (origin, mut rotation) = engine.stored_origin(engine.state.origin_index.max(1));
     if !engine.setup.g92_persists() {

@@ -20,7 +20,7 @@ pub(crate) fn made_straight(
     motion::feed(engine, end, block, at, sink)
 }
 
-/// G2 (`turns` -1) or G3 (1) in the plane in force to a pose in program coordinates.
+/// G2 (`turns` -1) or G3 (1) in the plane in effect to a pose in program coordinates.
 pub(crate) fn made_arc(
     engine: &mut Engine,
     (end, centre, turns): (Pose, [f64; 2], i32),

@@ -98,7 +98,7 @@ fn own_codes(engine: &mut Engine, block: &Block, at: At, sink: &mut dyn Sink) {
     engine.emit(Canon::OwnCodes(block.own.clone()), at, sink);
     for own in &block.own {
         let motion = engine.setup.own_motions.binary_search(&own.tenths).is_ok();
-        // what a remap runs may leave a motion code in force
+        // what a remap runs may leave a motion code in effect
         if own.letter == b'G' && (motion || engine.state.motion == 800) {
             engine.state.unmodelled = Some(own.tenths);
         }

@@ -96,7 +96,7 @@ impl Engine {
             }
         }
     }
-    /// The last line of the file in hand.
+    /// The last line of the current file.
     fn last_line(&self) -> (FileId, TextRange) {
         let file = self.flow.here.file();
         let bytes = self.files[file.0 as usize].bytes();
@@ -105,7 +105,7 @@ impl Engine {
         (file, TextRange::new(start as u32, end as u32))
     }
     /// A file that only defines subprograms is one that another program calls: in a check its missing end is no mistake. Says so,
-    /// and makes the first definition the line in hand.
+    /// and makes the first definition the current line.
     fn only_subprograms(&mut self) -> Option<String> {
         let idle = !self.flow.did && !self.flow.called && !self.flow.percent;
         let name = self

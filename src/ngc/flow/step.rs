@@ -315,7 +315,7 @@ impl Engine {
         self.flow.ended = true;
         Step::OutOfFuel(self.endless())
     }
-    /// The line that opens what does not end: the innermost structure around the line in hand that has used half of the bound since it
+    /// The line that opens what does not end: the innermost structure around the current line that has used half of the bound since it
     /// was entered; else the innermost call; else the line itself.
     fn endless(&self) -> At {
         let here = self.flow.here;

@@ -1,4 +1,4 @@
-//! Names the control sets itself: what is in force, where the program is (values and names observed from `rs274`).
+//! Names the control sets itself: what is in effect, where the program is (values and names observed from `rs274`).
 use super::Values;
 use crate::exec;
 use crate::{DistanceMode, FeedMode, Plane, RetractMode, Side, SpindleMode, Units};

@@ -35,7 +35,7 @@ fn text_alone_is_no_difference() {
     );
 }
 
-/// Neither length is declared: that another one is in force is seen by its number.
+/// Neither length is declared: that another one is in effect is seen by its number.
 #[test]
 fn the_length_of_another_tool_is_a_difference() {
     let folder = TempDir::new().expect("works");

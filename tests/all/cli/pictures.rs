@@ -140,7 +140,7 @@ fn an_stl_is_a_surface_too() {
     assert!(errors["same_place"].is_null());
 }
 
-/// The tip of a tool whose length is not in force is elsewhere than X Y Z say: nothing is judged from them.
+/// The tip of a tool whose length is not in effect is elsewhere than X Y Z say: nothing is judged from them.
 #[test]
 fn a_tool_of_another_length_is_not_held_against_a_surface() {
     let folder = TempDir::new().expect("works");

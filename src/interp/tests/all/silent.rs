@@ -113,7 +113,7 @@ fn h_and_d_are_modal() {
         tools: vec![tool(1, 100.0), tool(2, 150.0)],
         ..Setup::default()
     };
-    // H2 alone changes the length in force: the same place is 50 mm lower in the words
+    // H2 alone changes the length in effect: the same place is 50 mm lower in the words
     let (_, log) = run_bytes("fanuc-30i", b"G43 H1\nG0 Z200.\nH2\nG91 Z0.\nM30\n", &setup);
     assert_eq!(log.motions.iter().map(line).collect::<Vec<_>>(), ["R Z200", "R Z150"]);
     assert_eq!(log.motions[1].tool_length_mm, 150.0);

@@ -18,7 +18,7 @@ pub(crate) struct Stats {
     format: ListFormat,
 }
 
-/// Runs `stats`. Nothing is judged: the exit status is 0 whatever the program holds.
+/// Runs `stats`. Nothing is judged: the exit status is 0 whatever the program contains.
 pub(super) fn run(global: &Global, command: &Stats) -> Result<Done, Failure> {
     let mut out = Out::standard();
     let mut files = Vec::new();

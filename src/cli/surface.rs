@@ -1,4 +1,4 @@
-//! `surface`: how far the real path of the tool strays from a required surface.
+//! `surface`: how far the real path of the tool deviates from a required surface.
 use super::{
     Done,
     args::{Global, ListFormat},
@@ -116,7 +116,7 @@ fn nothing(command: &Surface, errors: &Errors) -> String {
     "no feed motion's path is known, so nothing can be compared".to_owned()
 }
 
-/// With a tolerance: above it is found; between it and the bound, or with blocks that are not judged, it is not known.
+/// With a tolerance: above it is found; between it and the bound, or with blocks that are not judged, it is unknown.
 fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
     let (Some(tolerance), Some(found)) = (command.tolerance, &errors.from_surface) else {
         return Done::Clean;
@@ -185,7 +185,7 @@ fn judge(
         judge.leg(leg, leg.motion.other_length(state.own_length_mm()).is_none());
     });
     if let Some(why) = given_up {
-        // a part of the path says nothing about the whole
+        // a part of the path proves nothing about the whole
         return Err(Failure::new(why));
     }
     Ok(judge.finish())

@@ -11,7 +11,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// How much of a file without an extension is looked at, bytes.
+/// How much of a file without an extension is read to recognise it, bytes.
 const HEAD: u64 = 8192;
 
 /// What a command runs on.
@@ -19,9 +19,9 @@ const HEAD: u64 = 8192;
 pub(crate) struct Found {
     /// Files, folders walked in name order.
     pub(crate) files: Vec<PathBuf>,
-    /// Files and folders that were passed over, with the reason.
+    /// Files and folders that were skipped, with the reason.
     pub(crate) left_out: Vec<(PathBuf, &'static str)>,
-    /// Folders and files that could not be looked at.
+    /// Folders and files that could not be inspected.
     pub(crate) failures: Vec<Failure>,
     /// A folder was among the arguments.
     pub(crate) walked: bool,
@@ -46,7 +46,7 @@ impl Found {
         self.files.extend(files);
     }
 
-    /// Says what was left out: each with `verbose`, otherwise how many.
+    /// Reports what was left out: each with `verbose`, otherwise how many.
     pub(crate) fn remark(&self, quiet: bool, verbose: bool) {
         if self.left_out.is_empty() {
             return;
@@ -67,7 +67,7 @@ impl Found {
     }
 }
 
-/// Files named by `paths`; folders are walked for programs, which their names or, without an extension, their first lines show. Links are
+/// Files named by `paths`; folders are walked for programs, which are recognised by their names or, without an extension, by their first lines. Links are
 /// followed inside the folder; hidden files and what `.gitignore` names are left out. A folder without any program is a failure.
 pub(crate) fn programs(paths: &[PathBuf]) -> Result<Found, Failure> {
     let mut found = Found::default();
@@ -98,7 +98,7 @@ pub(crate) fn programs(paths: &[PathBuf]) -> Result<Found, Failure> {
 /// A walk through one folder.
 struct Walk<'f> {
     root: PathBuf,
-    /// Folders that were walked, links followed: a link cannot lead round for ever.
+    /// Folders that were walked, links followed: links cannot form an endless loop.
     seen: BTreeSet<PathBuf>,
     /// `.gitignore` files in effect, the outermost first.
     ignores: Vec<Gitignore>,
@@ -152,7 +152,7 @@ impl<'f> Walk<'f> {
             return self.leave(path, "a broken link, or a file that cannot be inspected");
         };
         if name.starts_with('.') {
-            // what git keeps for itself is no news
+            // git's own files are not mentioned
             if name != ".git" && name != ".gitignore" {
                 self.leave(path, "hidden");
             }
@@ -205,7 +205,7 @@ fn rules(folder: &Path, real: &Path) -> Option<Gitignore> {
         return None;
     }
     let mut builder = GitignoreBuilder::new(real);
-    // a rule that is not understood is passed over, as git does
+    // a rule that is not understood is ignored, as git does
     let _ = builder.add(file);
     builder.build().ok()
 }

@@ -34,13 +34,13 @@ pub struct Converted {
     pub left_out: Vec<(String, u32)>,
     /// Lines of cuts in which the table turns to the other posture or winds back (only with `allow_swap`).
     pub swaps: Vec<u32>,
-    /// Axes that leave their travel, each limit once, reckoned from a zero point that nobody has declared. Where it is declared, such a
-    /// program is refused.
+    /// Axes that leave their travel, each limit once, computed from an undeclared zero point. Where it is declared, such a program is
+    /// refused.
     pub beyond: Vec<Beyond>,
     /// Lines of motions between whose ends the travel could not be decided.
     pub travel_undecided: Vec<u32>,
     /// Axes with a clamp whose codes are not written, because the machine names none or the control has no word for them. A remark at
-    /// the head of the text says so too.
+    /// the start of the text says so too.
     pub clamps: Vec<char>,
 }
 
@@ -64,7 +64,7 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
     understood(&reading, options)?;
     held(&reading, source.setup)?;
     let setting = Setting::new(target, options)?;
-    // clamps are closed and opened anew for the machine that it is written for
+    // clamps are closed and opened again for the target machine
     let rewritten =
         Some(&source.setup.control.clamp_codes).filter(|_| setting.clamp_codes() != AllClampCodes::default());
     let job = job(&reading, source.dialect, options, rewritten)?;
@@ -155,7 +155,7 @@ fn place(program: &Program, block: trunnion_syntax::BlockId) -> u32 {
         .0
 }
 
-/// The text; where INSERT is to be a remark, every such record is one, byte for byte as long.
+/// The text; where INSERT is to be a remark, every such record becomes one of the same length.
 fn prepared(source: &Source<'_>, options: &Options) -> Vec<u8> {
     let mut text = source.text.to_vec();
     if !options.insert_is_remark || source.dialect.lex.format != Format::Apt {
@@ -170,10 +170,10 @@ fn prepared(source: &Source<'_>, options: &Options) -> Vec<u8> {
     text
 }
 
-/// Refuses a program of which it is not known what it does.
+/// Refuses a program whose effect is unknown.
 fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
     let program = &reading.program;
-    // the worst first: what becomes of a tap, not only that its cycle is not modelled
+    // the worst first: what happens to a tap, not only that its cycle is not modelled
     for asked in &reading.asks {
         if let Ask::Own(Own {
             name,
@@ -194,7 +194,7 @@ fn understood(reading: &Reading, options: &Options) -> Result<(), Refused> {
     };
     let feed_only = |fault: &&Fault| matches!(fault.kind, FaultKind::MissingFeed { .. });
     let mut faults: Vec<&Fault> = reading.grave().filter(|fault| !dropped(fault)).collect();
-    // a missing feed is told where the cut is planned
+    // a missing feed is reported where the cut is planned
     faults.retain(|fault| !feed_only(fault));
     let Some(fault) = faults.first() else { return Ok(()) };
     Err(Refused::range(program, fault.range, wording(program, fault)))
@@ -250,7 +250,7 @@ fn prove(
     // vectors say by themselves where the tool points
     let machine = setting.mode.machine().or(setting.machine.filter(|_| setting.vectors));
     let mut setup = source.setup.clone();
-    // codes of the builder of the machine that it is written for
+    // codes of the builder of the target machine
     Machine::tell(setting.machine, &mut setup.control);
     let after = read(&Run {
         text: text.as_bytes(),
@@ -289,8 +289,8 @@ fn prove(
     Ok((proof, turned, travel))
 }
 
-/// Motions before in whose cut a control that is given vectors turns to the other posture, as rule branch-swap counts it, or one that
-/// leads the tool axis on a great circle would have to, off the pole, which no machine can.
+/// Original motions in whose cut a control that reads vectors turns to the other posture, as rule branch-swap measures it, or in which
+/// one that moves the tool axis along a great circle would have to away from the pole, which no machine can.
 fn control_swaps(after: &Reading, parts: &[Part], machine: Option<&Machine>, vectors: bool) -> Vec<usize> {
     let Some(machine) = machine else { return Vec::new() };
     let swaps_in = |posed: &Posed| {

@@ -1,4 +1,4 @@
-//! Events of a program: what its blocks say beside motions, in the order the control runs them.
+//! Events of a program: what its blocks contain apart from motions, in the order the control runs them.
 use crate::job::{Coolant, Event, Job, Placed};
 use crate::{Options, Refused};
 use trunnion_certify::conversion::{Ask, Asked, Ran, Reading, Why};
@@ -6,7 +6,7 @@ use trunnion_dialect::{Action, Dialect};
 use trunnion_interp::{AllClampCodes, Tool};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, Value, Word};
 
-/// What a block says beside its motions.
+/// What a block contains apart from its motions.
 #[derive(Debug, Default)]
 pub(crate) struct Said {
     /// Comments and messages.
@@ -76,7 +76,7 @@ pub(crate) fn job(
     Ok(job)
 }
 
-/// What was last said of the spindle.
+/// The last command to the spindle.
 #[derive(Clone, Copy, PartialEq)]
 enum Spindle {
     Unknown,
@@ -94,8 +94,8 @@ struct Teller<'p> {
 }
 
 impl Teller<'_> {
-    /// What is asked for beside motions: events before and after those of the block. What cannot be carried over is refused by name, or
-    /// left out where the user says so.
+    /// What is requested apart from motions: events before and after those of the block. What cannot be carried over is refused by name, or
+    /// left out where the user wants it.
     fn asked(
         &mut self,
         asks: &[Asked],
@@ -168,7 +168,7 @@ impl Teller<'_> {
         }
     }
 
-    /// Tool and work offset, where they are others now.
+    /// Tool and work offset, if they changed.
     fn tool(&mut self, ran: &Ran, change: bool) -> Result<(), Refused> {
         let block = ran.block;
         if change && ran.tool.is_none() {
@@ -215,7 +215,7 @@ impl Teller<'_> {
     }
 }
 
-/// A comment as an event; machine-readable marks and what speaks of another dialect are left out.
+/// A comment as an event; machine-readable marks and comments about another dialect are left out.
 pub(crate) fn comment(text: &str) -> Option<Event> {
     let text = text.trim();
     let lower = text.to_ascii_lowercase();
@@ -240,7 +240,7 @@ pub(crate) fn refusal(name: &str, text: &str, why: Why) -> String {
     format!("{text} {}{way_out}", why.sentence())
 }
 
-/// The words by which a comment speaks to LinuxCNC.
+/// The keywords of comments that LinuxCNC acts on.
 pub(crate) const ACTIVE: &[&str] = &[
     "MSG",
     "DEBUG",
@@ -254,7 +254,7 @@ pub(crate) const ACTIVE: &[&str] = &[
     "ABORT",
 ];
 
-/// What an ISO block says.
+/// The events of an ISO block.
 fn said(block: &Block<'_>, dialect: &Dialect) -> Result<Said, Cannot> {
     let program = block.program();
     let mut said = Said::default();

@@ -1,4 +1,4 @@
-//! What the control remembers between blocks: words that stay as they were are left out.
+//! What the control remembers between blocks: words that do not change are left out.
 use std::collections::BTreeMap;
 
 /// Texts in effect, by the letter (or name) of their word.
@@ -20,7 +20,7 @@ impl Modal {
     pub(crate) fn set(&mut self, key: &'static str, text: String) {
         self.known.insert(key, text);
     }
-    /// Nothing is known of the word.
+    /// The word is unknown.
     pub(crate) fn forget(&mut self, key: &'static str) {
         self.known.remove(key);
     }

@@ -33,7 +33,7 @@ pub(crate) fn significant(value: f64, digits: usize, point: bool) -> String {
     number(value, decimals, point)
 }
 
-/// Half of the last of so many digits after the decimal point.
+/// Half of the last of this many digits after the decimal point.
 pub(crate) fn rounding(decimals: usize) -> f64 {
     0.5 / 10f64.powi(decimals as i32)
 }

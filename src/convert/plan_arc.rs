@@ -1,4 +1,4 @@
-//! Of a motion's plan: its feed, and whether it stays an arc.
+//! Part of a motion's plan: its feed, and whether it stays an arc.
 use crate::Refused;
 use crate::plan::{Mode, Move, Planner, Shape};
 use crate::sample::{Frame, PartEnd, joints, words};
@@ -32,7 +32,7 @@ impl Planner<'_> {
     /// The feed of one of `count` equal parts by the time that the motion takes: inverse time, or mm/min where the control has none.
     pub(crate) fn timed(&self, posed: &Posed, way: f64, count: usize, end: &PartEnd) -> Result<Feed, Refused> {
         let turned = || {
-            // a turn on the spot: F counts degrees (RS274/NGC)
+            // a turn on the spot: F is in degrees (RS274/NGC)
             let before = posed.start?.axis;
             let angle = deg(trunnion_geometry::math::angle_between(&before, &end.axis));
             match posed.motion.feed {

@@ -87,7 +87,7 @@ impl<'a> Setting<'a> {
         })
     }
 
-    /// Codes of the clamps of the machine, as far as they can be written: not where the control means something else by them.
+    /// Codes of the clamps of the machine, as far as they can be written: not if they mean something else on the control.
     pub(crate) fn clamp_codes(&self) -> AllClampCodes {
         let mut codes = self.machine.map(Machine::clamp_codes).unwrap_or_default();
         for slot in &mut codes {
@@ -122,7 +122,7 @@ impl<'a> Setting<'a> {
         self.post.is_none_or(|post| post.template(key).is_some())
     }
 
-    /// What the post says of codes that the dialect leaves to the builder of the machine.
+    /// What the post declares about codes that the dialect leaves to the machine builder.
     pub(crate) fn meanings(&self) -> Vec<(String, Option<Ask>)> {
         self.post.map(|post| post.meanings(self.dialect)).unwrap_or_default()
     }
@@ -189,7 +189,7 @@ impl<'a> Setting<'a> {
         write(Clamping::planned(&codes, &written.clamping))
     }
 
-    /// What the digits of the output can hold.
+    /// The precision of the digits of the output.
     pub(crate) fn claim(&self, options: &Options, path_mm: f64) -> ConversionClaim {
         let unit = options.units.mm();
         let (length, angle, vector, feed) = match self.post {

@@ -3,7 +3,7 @@ use crate::{Dialect, Quirks};
 use serde::Deserialize;
 use trunnion_syntax::Format;
 
-/// What a language has beside words and codes.
+/// What a language has in addition to words and codes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Language {

@@ -8,8 +8,8 @@ use trunnion_syntax::LexOptions;
 /// Slots of the look-up of G and of M codes: 0 to 999.9 in tenths.
 pub(crate) const G_SLOTS: usize = 10_000;
 
-/// Facts of a control that are neither letters nor codes. In TOML: table `[quirks]`, each key optional: what a table does not say stays as in
-/// the table that it extends.
+/// Facts of a control that are neither letters nor codes. In TOML: table `[quirks]`, each key optional: missing keys stay as in the table that
+/// it extends.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quirks {
     /// What the language has beside words and codes.

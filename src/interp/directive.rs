@@ -15,8 +15,8 @@ use trunnion_syntax::{Program, TextRange};
 pub enum Directive {
     /// Declares a tool.
     Tool(Tool),
-    /// `allow RULE because REASON` (reason may be empty: the check floor says so). On a line of its own it holds for the
-    /// whole program, beside words for its block.
+    /// `allow RULE because REASON` (reason may be empty: the check floor says so). On a line of its own it applies to the
+    /// whole program, next to words to its block.
     Allow {
         /// Rule's name.
         rule: String,

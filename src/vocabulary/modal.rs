@@ -13,7 +13,7 @@ pub enum FeedMode {
     InverseTime,
 }
 
-/// Whose length is compensated. It distinguishes lengths that are not declared.
+/// Which tool's length is compensated. It distinguishes lengths that are not declared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum LengthOf {
     /// None is in effect.

@@ -23,7 +23,7 @@ impl<'v> PostureSwap<'v> {
     }
 }
 
-/// A posture that is open.
+/// An undecided posture.
 pub(crate) struct OpenPosture<'v> {
     view: &'v LegView<'v>,
     pub(crate) open: Open,

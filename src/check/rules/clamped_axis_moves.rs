@@ -133,7 +133,7 @@ fn turn(view: &LegView<'_>, axis: usize) -> Turn {
     match (motion.kind, motion.orientation) {
         (MotionKind::Dwell(_), _) => Turn::No,
         (MotionKind::Unknown, _) | (_, Orientation::Vector(..)) => Turn::Perhaps,
-        // neither before nor after this block does the program know it: the block does not name it
+        // the position is unknown both before and after this block: the block does not name it
         _ if to.is_none() || from == to => Turn::No,
         _ => Turn::Perhaps,
     }

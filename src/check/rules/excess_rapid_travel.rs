@@ -45,7 +45,7 @@ use trunnion_geometry::rad;
 
 pub(super) const RULE: Body = Body::heuristic(Warning, &[Wake::Arrival(check)]);
 
-/// A shorter direct distance counts as this, mm or deg.
+/// A shorter direct distance is taken as this, mm or deg.
 const LEAST: f64 = 0.1;
 
 /// A smaller detour is not reported, mm or deg.

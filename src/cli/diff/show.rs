@@ -134,7 +134,7 @@ pub(super) fn letter(axis: usize) -> char {
     char::from(AXIS_LETTERS[axis])
 }
 
-/// Up to six digits after the decimal point, no zeros at the end.
+/// Up to six digits after the decimal point, without trailing zeros.
 fn short(value: f64) -> String {
     let text = format!("{:.6}", tidy(value));
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -260,7 +260,7 @@ pub(super) fn farthest(lines: &Lines<'_>, found: &Found) -> Option<(f64, u32)> {
     worst
 }
 
-/// How many of each sort: moved, only before, only after, motions with other feed and the like.
+/// How many of each kind: moved, only before, only after, motions with other feed and the like.
 pub(super) fn counts(found: &Found) -> [u64; 4] {
     let mut counts = [0; 4];
     for change in &found.changes {
@@ -336,7 +336,7 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
     text + &stops
 }
 
-/// The first difference, or what cannot be said, with the lines.
+/// The first difference, or what is unknown, with the lines.
 pub(super) fn first(lines: &Lines<'_>, found: &Found) -> String {
     let (Verdict::Differs(difference) | Verdict::Unknown(difference)) = &found.verdict else {
         return String::new();

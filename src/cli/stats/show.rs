@@ -143,7 +143,7 @@ fn joints(tally: &Tally) -> Vec<String> {
         .collect()
 }
 
-/// A B C of the letters of axes.
+/// The letters of axes with blanks between them.
 fn is_rotary(axis: usize) -> bool {
     (3..6).contains(&axis)
 }

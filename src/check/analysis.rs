@@ -14,7 +14,7 @@ use trunnion_interp::{Interpreter, directives};
 use trunnion_machine::Follower;
 use trunnion_syntax::{BlockId, Program};
 
-/// Executed blocks between two check-points, and between two questions whether to go on.
+/// Executed blocks between two check-points, and between two questions whether to continue.
 pub(crate) const CHECK_POINT_BLOCKS: u64 = 1024;
 
 /// Observes the run of a program.
@@ -352,7 +352,7 @@ mod tests {
         let text = "G21 G17 G90 F100\nG0 X0 Y0 Z0\nG41.1 D2\nG1 X20\nG1 X40\n(there)\nG1 Y40\nG40\nM2\n";
         let program = parse(text.as_bytes().to_vec(), settings.dialect.lex);
         let session = Session::new(&program, &settings, &|| false).expect("nobody cancels");
-        // 1 mm beside the contour, and round the inside corner
+        // 1 mm beside the contour, and around the inside corner
         for (block, place) in [(3, [20.0, 1.0]), (4, [39.0, 1.0]), (6, [39.0, 40.0])] {
             let info = session.describe(&program, &settings, BlockId(block));
             let tips: Vec<_> = info

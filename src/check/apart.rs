@@ -228,7 +228,7 @@ pub(crate) fn run(
         // there is room for all of them
         _ = empty.send(Batch::default());
     }
-    // both channel ends are dropped on a panic, so that neither thread waits for ever
+    // both channel ends are dropped on a panic, so that neither thread waits forever
     std::thread::scope(move |scope| {
         let runner = scope.spawn(move || {
             let foresight = machine.and_then(Lookahead::new);

@@ -38,7 +38,7 @@ impl core::fmt::Debug for Variables {
 }
 
 impl Variables {
-    /// The value of a variable as it is written (`#1`, `#<name>`), before and after the block; NaN where it is not known, `None` where
+    /// The value of a variable as it is written (`#1`, `#<name>`), before and after the block; NaN where it is unknown, `None` where
     /// there is none or it is vacant.
     pub fn value(&self, text: &str) -> [Option<f64>; 2] {
         [0, 1].map(|at| self.0[at].variable(text))

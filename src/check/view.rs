@@ -292,7 +292,7 @@ impl<'a> LegView<'a> {
             .get_or_init(|| tip_deviation(self.machine, self.leg, self.machine.tolerances.tip_mm))
     }
 
-    /// Programmed feed in its unit ([`Self::feed_unit`]); `None` where it is not known or the block is no feed motion.
+    /// Programmed feed in its unit ([`Self::feed_unit`]); `None` where it is unknown or the block is no feed motion.
     /// Per revolution: times the spindle speed. Inverse time: the length of the path times F (RS274/NGC, G93).
     pub(crate) fn programmed_feed(&self) -> Option<f64> {
         match self.motion().feed {

@@ -181,9 +181,9 @@ wakes! {
         ClampedTurn,
         /// A feed motion to which rapid motions led.
         Arrival,
-        /// An end at which the machine's position is not known, or that it cannot reach.
+        /// An end at which the machine's position is unknown, or that it cannot reach.
         LostEnd,
-        /// An arc from a start that is not known.
+        /// An arc from a start that is unknown.
         LostArc,
     }
 }

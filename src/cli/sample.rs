@@ -99,7 +99,7 @@ pub(super) enum Kind {
     Cone,
     /// Ruled wall along an S whose lean changes sign.
     SWall,
-    /// Tip on a circle, turning axis once round.
+    /// Tip on a circle, turning axis one full turn.
     CircleC,
     /// Tip on an arc, tilting axis through the pole.
     CircleA,

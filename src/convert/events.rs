@@ -21,7 +21,7 @@ pub(crate) struct Said {
 pub(crate) type Cannot = (TextRange, String);
 
 /// All events of a program.
-/// `clamps`: the codes of clamps, where they are written anew.
+/// `clamps`: the codes of clamps, where they are written again.
 pub(crate) fn job(
     reading: &Reading,
     dialect: &Dialect,

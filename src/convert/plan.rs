@@ -297,7 +297,7 @@ impl Planner<'_> {
         }
     }
 
-    /// A rapid, or a line from a position that is not known.
+    /// A rapid, or a line from a position that is unknown.
     fn at_once(&self, posed: &Posed, q: [f64; 2], frame: &Frame, is_rapid: bool) -> Result<Vec<Move>, Refused> {
         let Ok(pose) = &posed.end else { return Ok(Vec::new()) };
         let end = PartEnd {

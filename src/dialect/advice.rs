@@ -1,4 +1,4 @@
-//! `[check]` of a table: what a check says of a control. No run depends on it, so it is no part of a certificate.
+//! `[check]` of a table: what a check says of a control. No run depends on it, so it is not part of a certificate.
 use serde::Deserialize;
 
 /// What decides what F means in a block that moves rotary axes, without tool centre point control.

@@ -73,7 +73,7 @@ pub enum WholeNumbers {
 }
 
 impl WholeNumbers {
-    /// Whether lengths without a point have two meanings.
+    /// Whether lengths without a decimal point have two meanings.
     #[inline]
     pub fn lengths_ambiguous(self) -> bool {
         match self {
@@ -81,7 +81,7 @@ impl WholeNumbers {
             Self::AmbiguousLengths | Self::AmbiguousLengthsAndFeeds => true,
         }
     }
-    /// Whether F without a point has.
+    /// Whether F without a decimal point has.
     #[inline]
     pub fn feeds_ambiguous(self) -> bool {
         match self {

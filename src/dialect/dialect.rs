@@ -30,7 +30,7 @@ pub struct Quirks {
     pub first_offset_at_start: bool,
     /// A tool change makes its first cutting edge (D1), and so its length, active.
     pub edge_at_tool_change: bool,
-    /// In a dwell P without a decimal point is ms (Fanuc); else s. X and U without a point then are ms too.
+    /// In a dwell P without a decimal point is ms (Fanuc); else s. X and U without a decimal point then are ms too.
     pub dwell_in_ms: bool,
     /// Radii of an arc's start and end that differ by less than this part of the radius agree, whatever [`Dialect::arc`] says
     /// (LinuxCNC 0.001). In TOML: `relative` in `[arc-tolerance]`.
@@ -153,7 +153,7 @@ impl Dialect {
             }
         })
     }
-    /// Whether the builder of the machine may give the code, unknown to the control, a meaning (number in tenths).
+    /// Whether the machine builder may give the code, unknown to the control, a meaning (number in tenths).
     pub fn builder_may_own(&self, kind: CodeKind, tenths: u32) -> bool {
         self.builder_codes
             .iter()

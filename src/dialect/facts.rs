@@ -12,7 +12,7 @@ pub struct DialectFacts<'a> {
     pub lex: LexOptions,
     /// How far the radii of an arc's start and end may differ.
     pub arc: &'a ArcTolerance,
-    /// Codes that the builder of the machine may own: kind, first and last number in tenths.
+    /// Codes that the machine builder may own: kind, first and last number in tenths.
     pub builder_codes: Vec<(CodeKind, u32, u32)>,
     /// Codes: G by number, then M by number, then names by text.
     pub codes: &'a [Code],

@@ -1,4 +1,4 @@
-//! A user's own table: one TOML file that extends a built-in dialect by what the builder of the machine has added.
+//! A user's own table: one TOML file that extends a built-in dialect by what the machine builder has added.
 use crate::{Dialect, load};
 
 /// Why a table of your own could not be read, with its place.

@@ -10,7 +10,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use trunnion_same::{Claim, Input, Near, Steps, Stop, Verdict, run_alike};
 use trunnion_syntax::BlockId;
 
-/// So many motions are compared in detail; more are only counted.
+/// This many motions are compared in detail; more are only counted.
 const MOST_DETAILS: usize = 50_000;
 /// So many different changes of feed, speed and the like are kept.
 const MOST_TECHS: usize = 10_000;
@@ -51,7 +51,7 @@ pub struct Found {
     pub not_compared: u64,
     /// Motions whose other feed and the like are not listed.
     pub techs_not_listed: u64,
-    /// Motions whose end is not known in numbers: they are the same only as far as their words are.
+    /// Motions whose end is unknown in numbers: they are the same only as far as their words are.
     pub unknown: u64,
     /// The two have too little in common to be aligned.
     pub too_different: bool,

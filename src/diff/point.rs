@@ -23,7 +23,7 @@ pub enum Way {
     Linear,
     /// Centre (mm) and signed sweep (deg) with the axis it turns about; `None` where the centre is not known.
     Arc(Option<([f64; 3], [f64; 3], f64)>),
-    /// Seconds; `None`: not known.
+    /// Seconds; `None`: unknown.
     Dwell(Option<f64>),
     /// It is not modelled.
     Unknown,
@@ -52,7 +52,7 @@ impl Way {
 pub struct Point {
     /// How.
     pub way: Way,
-    /// mm or deg; 0 where it is not known.
+    /// mm or deg; 0 where it is unknown.
     pub values: [f64; 9],
     /// Bit mask of those that are known.
     pub known: u16,
@@ -110,7 +110,7 @@ impl Point {
                 self.tip = Some(stance.tip.into());
                 (stance.joints, u16::MAX)
             }
-            // joints that are not known say nothing; the words still do
+            // joints that are unknown say nothing; the words still do
             Err(_) => return,
         };
         (self.values, self.known, self.frame) = ([0.0; 9], 0, 0);

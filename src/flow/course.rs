@@ -74,14 +74,14 @@ struct Turns {
     changes: u64,
 }
 
-/// Whether a run may go on.
+/// Whether a run may continue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fuel {
     /// It may.
     Left,
-    /// A loop goes on for ever, or the bound of executed blocks is reached.
+    /// A loop runs forever, or the bound of executed blocks is reached.
     Out {
-        /// The loop that is proved endless, or began anew most often: file, opening block.
+        /// The loop that is proved endless, or began again most often: file, opening block.
         most: Option<(u16, u32)>,
         /// It is proved.
         proved: bool,
@@ -94,7 +94,7 @@ pub enum Fuel {
 const LOOPS: usize = 1 << 16;
 
 /// See the module. The language hands over, as `changes`, a number that grows with whatever may make a decision come out otherwise
-/// than before (assignments, values of the control): a loop that begins anew without any change never ends.
+/// than before (assignments, values of the control): a loop that begins again without any change never ends.
 #[derive(Clone, Debug)]
 pub struct Course<L> {
     calls: Vec<Call<L>>,
@@ -104,7 +104,7 @@ pub struct Course<L> {
     executed: u64,
     /// The opening block to which the end of a loop has just gone back.
     again: Option<u32>,
-    /// How often each loop, by file and opening block, began anew since it was entered.
+    /// How often each loop, by file and opening block, began again since it was entered.
     turns: HashMap<(u16, u32), Turns>,
     endless: Option<(u16, u32)>,
 }
@@ -182,7 +182,7 @@ impl<L> Course<L> {
         }
     }
 
-    /// The run goes on at `to`, which comes back; `end`: one past the last block that has run.
+    /// The run continues at `to`, which comes back; `end`: one past the last block that has run.
     pub fn jump(&mut self, end: u32, to: u32) -> u32 {
         if self.place.file == 0 {
             self.ran.jump(end, to);
@@ -190,7 +190,7 @@ impl<L> Course<L> {
         to
     }
 
-    /// The same to a block in front of the jump, which may go on for ever.
+    /// The same to a block before the jump, which may run forever.
     pub fn jump_back(&mut self, end: u32, to: u32, changes: u64) -> u32 {
         let key = (self.place.file, to);
         if self.turns.len() < LOOPS || self.turns.contains_key(&key) {
@@ -263,14 +263,14 @@ impl<L> Course<L> {
         inner
     }
 
-    /// What is called begins anew, if it is to: its first block, and what the language keeps of the call.
+    /// What is called begins again, if it is to: its first block, and what the language keeps of the call.
     pub fn once_more(&mut self) -> Option<(u32, &mut L)> {
         let call = self.calls.last_mut().filter(|call| call.times > 0)?;
         call.times -= 1;
         Some((call.start, &mut call.level))
     }
 
-    /// The last call ends; `end`: one past the last block that has run. The run goes on at [`Call::back`].
+    /// The last call ends; `end`: one past the last block that has run. The run continues at [`Call::back`].
     pub fn leave(&mut self, end: u32) -> Option<Call<L>> {
         let call = self.calls.pop()?;
         if self.place.file == 0 {

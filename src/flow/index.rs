@@ -17,7 +17,7 @@ pub enum Search {
     Forward,
     /// Backward from the jump's own block to the start of the program (GOTOB).
     Backward,
-    /// Forward, then backward from the jump (Sinumerik's GOTO): the nearest one in front of it.
+    /// Forward, then backward from the jump (Sinumerik's GOTO): the nearest one before it.
     ForwardThenBackward,
     /// Forward, then from the start of the program (Macro B's GOTO): the first one of it.
     ForwardThenStart,

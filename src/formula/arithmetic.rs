@@ -1,4 +1,4 @@
-//! What the operations compute. NaN is a number that is not known; `<vacant>` is a NaN of its own.
+//! What the operations compute. NaN is a number that is unknown; `<vacant>` is a NaN of its own.
 use crate::FormulaErrorKind as Kind;
 use crate::code::{Binary, Unary};
 use crate::{degrees, sinumerik};
@@ -73,7 +73,7 @@ fn truth(holds: bool) -> f64 {
     if holds { 1.0 } else { 0.0 }
 }
 
-/// The result of a comparison; not known where an operand is not, false where one has no result (observed for all six).
+/// The result of a comparison; unknown where an operand is not, false where one has no result (observed for all six).
 #[inline]
 fn compared(a: f64, b: f64, holds: bool) -> f64 {
     if a.is_nan() || b.is_nan() {
@@ -86,7 +86,7 @@ fn compared(a: f64, b: f64, holds: bool) -> f64 {
     truth(holds)
 }
 
-/// Whether `value` counts as true; `None` where it is not known. What has no result is not zero (observed).
+/// Whether `value` counts as true; `None` where it is unknown. What has no result is not zero (observed).
 #[inline]
 fn holds(value: f64) -> Option<bool> {
     if value.is_nan() && !is_undefined(value) {

@@ -7,7 +7,7 @@ use crate::{FormulaError, FormulaErrorKind, Name, ValueError, Variables};
 const SHALLOW: usize = 8;
 
 impl Formula {
-    /// The value; NaN if it depends on something that is not known. A `<vacant>` variable of Macro B counts as zero.
+    /// The value; NaN if it depends on something that is unknown. A `<vacant>` variable of Macro B counts as zero.
     #[inline]
     pub fn eval(&self, variables: &(impl Variables + ?Sized)) -> Result<f64, FormulaError> {
         let value = self.run(variables)?;
@@ -64,7 +64,7 @@ impl Room for Vec<f64> {
     }
 }
 
-/// The stack of values; the last one is at hand, what was in its place before the first one waits below all.
+/// The stack of values; the last one is available, what was in its place before the first one waits below all.
 struct Stack<R> {
     waiting: R,
     height: usize,
@@ -197,7 +197,7 @@ fn no_value(name: &Name, error: ValueError) -> FormulaErrorKind {
     }
 }
 
-/// The steps that take the number of a variable from the stack. Of a number that is not known the variable is not known either.
+/// The steps that take the number of a variable from the stack. Of a number that is unknown the variable is not known either.
 #[inline(never)]
 fn at_index(op: &Op, variables: &(impl Variables + ?Sized), index: f64) -> Result<f64, FormulaErrorKind> {
     let index = if is_vacant(index) { 0.0 } else { index };

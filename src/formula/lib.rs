@@ -1,7 +1,7 @@
 //! Floor 0: expressions of RS274/NGC, of Fanuc's Macro B and of Sinumerik: compiled once, evaluated many times.
 //!
 //! Reading never recurses: a hundred thousand nested brackets need memory in proportion, and no stack. Evaluation needs no memory
-//! for formulas that keep at most eight values at once. A value that is not known is NaN and stays so through arithmetic.
+//! for formulas that keep at most eight values at once. A value that is unknown is NaN and stays so through arithmetic.
 //! *It does not know what a word, a block or a variable means.*
 mod arithmetic;
 mod brackets;

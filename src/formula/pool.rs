@@ -2,7 +2,7 @@
 use crate::code::{Code, Formula, Step};
 use crate::{Cursor, FormulaError, Grammar, compile};
 
-/// So many pieces are kept at most.
+/// This many pieces are kept at most.
 const KEPT: usize = 16;
 
 /// Kept storage.

@@ -249,7 +249,7 @@ impl<'s> Reader<'s> {
         Ok(Behind::Closed)
     }
 
-    /// The operator at hand, its rank and its length.
+    /// The operator available, its rank and its length.
     fn binary(&self) -> Option<(Binary, u8, usize)> {
         let rest = self.rest();
         let sign = |binary, rank| Some((binary, rank, 1));

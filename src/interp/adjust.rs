@@ -81,7 +81,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Coordinates without a point count 0.001 mm or degrees, 0.0001 inch; F 1 mm/min, 0.01 inch/min, 0.01 mm/turn, 0.0001 inch/turn
+    /// Coordinates without a decimal point count 0.001 mm or degrees, 0.0001 inch; F 1 mm/min, 0.01 inch/min, 0.01 mm/turn, 0.0001 inch/turn
     /// (Fanuc Series 30i operator's manual, least input increment IS-B).
     fn least_increments(&self, codes: &[Found<'_>], words: &mut Words, inch: bool) {
         let divisor = if inch { 10_000.0 } else { 1000.0 };

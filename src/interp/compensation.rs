@@ -130,7 +130,7 @@ impl Iso<'_> {
         }
     }
 
-    /// A motion that does not move in the plane, or whose path is not known.
+    /// A motion that does not move in the plane, or whose path is unknown.
     fn without_way(&mut self, told: Told, report: &mut Report<'_>) {
         let motion = &told.0;
         let still = Element::rests(motion, self.memory.compensation.plane.unwrap_or(self.core.state.plane));

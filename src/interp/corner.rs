@@ -46,7 +46,7 @@ struct Cut {
     by: f64,
 }
 
-/// A place in the plane; a height that is not known counts as 0, as Y of a lathe that has none.
+/// A place in the plane; a height that is unknown counts as 0, as Y of a lathe that has none.
 fn point(position: &Position, axes: [usize; 3]) -> Option<Vec3> {
     let mut point = Vec3::zeros();
     for axis in &axes[..2] {

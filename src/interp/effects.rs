@@ -347,7 +347,7 @@ impl Iso<'_> {
                     if READ_COMMENTS.contains(&found.code.id.as_str()) {
                         event.extend(comments(view));
                     }
-                    // the operator may do anything at a stop; the control goes on from where it was
+                    // the operator may do anything at a stop; the control continues from where it was
                     self.core.effects.add_with(block, Effect::Event(event), Reach::Itself);
                 }
                 Sort::Group => {
@@ -365,7 +365,7 @@ impl Iso<'_> {
     }
 }
 
-/// Whether a word of the block has a value that is not known.
+/// Whether a word of the block has a value that is unknown.
 fn has_unread(words: &Words) -> bool {
     let values = [
         words.feed,

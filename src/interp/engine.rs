@@ -3,7 +3,7 @@ use crate::core::Core;
 use crate::{Argument, ChainId, Frame, Sink};
 use trunnion_syntax::{BlockId, Program};
 
-/// A language engine between two blocks. Cloning it makes a check-point to go on from.
+/// A language engine between two blocks. Cloning it makes a check-point to continue from.
 pub(crate) trait Engine<'d>: Clone {
     /// What every engine has.
     fn core(&self) -> &Core<'d>;

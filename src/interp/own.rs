@@ -39,7 +39,7 @@ impl Sort {
         Some(found.1)
     }
 
-    /// What a variable holds when a value is written to it; `None`: not known.
+    /// What a variable holds when a value is written to it; `None`: unknown.
     fn takes(self, value: f64) -> Option<f64> {
         match self {
             Self::Real => Some(value),
@@ -176,7 +176,7 @@ impl Own {
         let text = crate::written::packed(text);
         self.texts.insert(name, text.into());
     }
-    /// All that is known of the variables: values, those from before they were lost, and what was written where the value is not known.
+    /// All that is known of the variables: values, those from before they were lost, and what was written where the value is unknown.
     pub(crate) fn all(&self) -> Vec<Argument> {
         let mut values = self.before_loss.clone();
         values.extend(self.known());
@@ -211,7 +211,7 @@ impl Own {
         self.changes += 1;
         std::mem::take(&mut self.scope)
     }
-    /// The caller goes on with its variables; those of the subprogram come back.
+    /// The caller continues with its variables; those of the subprogram come back.
     pub(crate) fn end_scope(&mut self, caller: Scope) -> Scope {
         self.changes += 1;
         std::mem::replace(&mut self.scope, caller)
@@ -298,7 +298,7 @@ impl Own {
         let whole = text.get(end..).is_some_and(|rest| rest.trim().is_empty());
         value.filter(|value| whole && value.is_finite())
     }
-    /// The expression that begins at `from`, as far as it goes: its value or why that is not known, and where it ends.
+    /// The expression that begins at `from`, as far as it goes: its value or why that is unknown, and where it ends.
     pub(crate) fn evaluate(
         &self,
         text: &[u8],

@@ -8,7 +8,7 @@ use crate::{ChainId, Frame, ModalState, ProgramRun, Setup, Sink, Tool};
 use trunnion_dialect::{Dialect, Language};
 use trunnion_syntax::{BlockId, Format, Program};
 
-/// An interpreter between two blocks. Cloning it makes a check-point to go on from.
+/// An interpreter between two blocks. Cloning it makes a check-point to continue from.
 #[derive(Clone)]
 pub struct Interpreter<'d> {
     engine: Engines<'d>,
@@ -130,7 +130,7 @@ impl<'d> Interpreter<'d> {
         with_engine!(&self.engine, engine => engine.resolved_text(text))
     }
 
-    /// What is declared about the tool in use, merged; `None` when nothing is declared and its number is not known.
+    /// What is declared about the tool in use, merged; `None` when nothing is declared and its number is unknown.
     pub fn tool(&self) -> Option<Tool> {
         self.state().tool_data
     }

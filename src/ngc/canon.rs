@@ -227,7 +227,7 @@ pub enum Canon {
         /// Q, s.
         timeout: f64,
     },
-    /// The codes of the machine's own of one block were run, in which order is not known; what they do is not known here.
+    /// The codes of the machine's own of one block were run, in which order is not known; what they do is unknown here.
     OwnCodes(Vec<crate::OwnCode>),
     /// M100-M199 with P and Q.
     UserCode(i32, f64, f64),

@@ -57,7 +57,7 @@ pub enum Step {
     Line,
     /// The program has ended (M2, M30, `%`), or the file has: then an error was reported before.
     Ended,
-    /// The line was refused; `Engine::step` may be called to go on with the next line as if it had not been there.
+    /// The line was refused; `Engine::step` may be called to continue with the next line as if it had not been there.
     Refused,
     /// A condition, call or jump depends on something unknown: what runs next is not known.
     Undecided(String),
@@ -116,7 +116,7 @@ impl Engine {
     pub fn path(&self, file: FileId) -> &str {
         self.files.get(file.0 as usize).map_or("", |source| &source.path)
     }
-    /// The value of a parameter as it is written, `#1` or `#<name>`, between two lines; NaN where it is not known, `None` where there is none.
+    /// The value of a parameter as it is written, `#1` or `#<name>`, between two lines; NaN where it is unknown, `None` where there is none.
     pub fn variable(&self, text: &str) -> Option<f64> {
         let name = text.trim().strip_prefix('#')?;
         let values = crate::parameters::Values::new(self);

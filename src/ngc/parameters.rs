@@ -130,7 +130,7 @@ impl Store {
     pub(crate) fn set(&mut self, slot: Slot, value: f64) {
         self.numbers[slot.0] = value;
     }
-    /// A parameter was set whose number is not known: none is known any more that a program may set.
+    /// A parameter was set whose number is unknown: none is known any more that a program may set.
     pub(crate) fn forget(&mut self) {
         for index in 1..=LAST {
             if let Ok(slot) = Slot::writable(index as i64) {

@@ -37,7 +37,7 @@ pub struct ConeAnswers {
     pub rate_min: f64,
     /// |dC/dpsi| where the tilt is largest: sin th / sin(th + ph).
     pub rate_far: f64,
-    /// Whether C turns once round with each turn of the path.
+    /// Whether C turns one full turn with each turn of the path.
     pub winds: bool,
     /// Radius of the tip circle, mm.
     pub tip_radius: f64,

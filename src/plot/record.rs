@@ -52,7 +52,7 @@ pub struct Record {
     pub samples: Vec<Sample>,
     /// Blocks in the order of the run.
     pub blocks: Vec<Block>,
-    /// Motions whose path is not known.
+    /// Motions whose path is unknown.
     pub unknown: usize,
     /// The first line whose block is drawn by its ends alone, because the record holds as many samples as are kept.
     pub coarse_from: Option<u32>,

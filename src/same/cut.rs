@@ -59,7 +59,7 @@ fn may_be_cut(step: &Step) -> bool {
         && step.motion.tilt.swivel == Swivel::No
 }
 
-/// Cuts `long` where `short` ends, if that lies on it within `mm` and `deg`: then `long` becomes what is left of it, and the largest
+/// Cuts `long` where `short` ends, if that is on it within `mm` and `deg`: then `long` becomes what is left of it, and the largest
 /// distance of the point from it is returned (mm or deg).
 pub(crate) fn cut(long: &mut Step, short: &Step, claim: &Claim) -> Option<f64> {
     let (mm, deg) = (claim.mm, claim.deg);

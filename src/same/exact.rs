@@ -16,7 +16,7 @@ use trunnion_syntax::{BlockId, Program, TokenKind};
 pub struct Exact {
     /// The numbers of blocks may differ, and what names them: texts in faults, and the words of blocks that are not modelled.
     pub frees_block_numbers: bool,
-    /// So many blocks are run at most; an endless loop is the same as far as it was followed. The bound of the interpreters must be
+    /// This many blocks are run at most; an endless loop is the same as far as it was followed. The bound of the interpreters must be
     /// larger: empty blocks of one side would make its interpreter stop before the other.
     pub most_blocks: u64,
 }
@@ -131,7 +131,7 @@ impl<'r, 'a> Side<'r, 'a> {
         }
     }
 
-    /// Of a line only the first mistake counts: what else is found after it depends on the blanks, because reading goes on at what looks
+    /// Of a line only the first mistake counts: what else is found after it depends on the blanks, because reading continues at what looks
     /// like a word. The control stops at the first. LinuxCNC's reader does not look at blanks.
     fn fault(&mut self, fault: Fault) {
         let ordinal = self.ordinal(fault.block);

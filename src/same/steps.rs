@@ -33,7 +33,7 @@ pub(crate) struct Run<'a> {
     pub(crate) process: Arc<Process>,
     stores: BTreeMap<String, Value>,
     stop: Option<Stop>,
-    /// So many motions of one block (a pecking cycle with a tiny Q), and things without a motion between them, are kept, with all that is in
+    /// This many motions of one block (a pecking cycle with a tiny Q), and things without a motion between them, are kept, with all that is in
     /// effect at each.
     most_in_block: usize,
     /// A block does more than is kept: the run ends with it.

@@ -55,7 +55,7 @@ pub struct Tally {
     pub feed_mm: f64,
     /// Of `feed_mm`, with the spindle off.
     pub spindle_off_mm: f64,
-    /// Motions whose length is not known.
+    /// Motions whose length is unknown.
     pub unmeasured: u64,
     /// Time of feed motions at the programmed feed.
     pub feed_s: f64,

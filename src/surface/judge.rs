@@ -62,7 +62,7 @@ pub struct Errors {
     pub from_segment: Option<Found>,
     /// Feed blocks that were judged.
     pub judged: u32,
-    /// Feed blocks whose path is not known.
+    /// Feed blocks whose path is unknown.
     pub not_judged: u32,
     /// Feed blocks that start or end farther from the surface than [`Options::reach`].
     pub apart: u32,

@@ -72,7 +72,7 @@ impl Clamps {
         any
     }
 
-    /// An M code runs whose number is not known.
+    /// An M code runs whose number is unknown.
     pub fn hear_unread(&mut self, codes: &AllClampCodes) {
         for (axis, codes) in codes.iter().enumerate() {
             if codes.is_some() {

@@ -77,7 +77,7 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// So many levels of calls LinuxCNC has, the main program's among them.
+    /// This many levels of calls LinuxCNC has, the main program's among them.
     pub const LINUXCNC_DEPTH: u32 = 10;
 
     /// For a run whose motions are held.

@@ -19,7 +19,7 @@ pub enum LengthOf {
     /// None is in effect.
     #[default]
     Nothing,
-    /// That of the tool with this number; `None`: of a tool in use whose number is not known.
+    /// That of the tool with this number; `None`: of a tool in use whose number is unknown.
     Tool(Option<u32>),
     /// One that is no tool's own (another edge than the first, a sum of several), or whose number could not be read.
     Other,

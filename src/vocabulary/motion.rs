@@ -190,7 +190,7 @@ pub struct Motion {
     /// Programmed coordinates after, without work offset.
     pub end: Position,
     /// Letters whose words are not plain positions. Incremental ones and those with a direction (`ACP`) define the direction themselves: no control turns
-    /// such a rotary word in another direction. Where such a letter, or one whose value is not known, has no known end, the block moved the
+    /// such a rotary word in another direction. Where such a letter, or one whose value is unknown, has no known end, the block moved the
     /// axis to an unknown position; other letters without a known end were not named. Bits as in [`Position::known`].
     pub says_way: u16,
     /// Words or vector.

@@ -141,7 +141,7 @@ pub enum RollPitchYaw {
 /// Parameters of the control that programs depend on; what is not declared is unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ControlData {
-    /// Unit in effect before the program says one (G20, G21); `None`: not known, mm is taken.
+    /// Unit in effect before the program says one (G20, G21); `None`: unknown, mm is taken.
     pub units: Option<LengthUnit>,
     /// What X10 means; `None`: it is read as 10 mm and each such word is reported.
     pub implicit_decimals: Option<ImplicitDecimals>,
@@ -154,11 +154,11 @@ pub struct ControlData {
     pub bore_shift: Option<(usize, f64)>,
     /// G71 and G72 of a lathe: how the tool leaves its cuts; `None`: not declared, that short motion is not known.
     pub roughing_escape: Option<RoughingEscape>,
-    /// How many leads before its end the tool leaves a thread of one pass (Fanuc parameter 5130); 0: at its end. `None`: not known.
+    /// How many leads before its end the tool leaves a thread of one pass (Fanuc parameter 5130); 0: at its end. `None`: unknown.
     pub thread_pull_out: Option<f64>,
     /// Way of cutter compensation around outer corners.
     pub outer_corner: OuterCorner,
-    /// Whether the switch for block delete (`/`) is on, so that such blocks are skipped; `None`: not known, they are run.
+    /// Whether the switch for block delete (`/`) is on, so that such blocks are skipped; `None`: unknown, they are run.
     pub block_delete: Option<bool>,
     /// What the angles of G68.2 P1 turn about; `None`: not declared, planes with two or three of them are not known.
     pub roll_pitch_yaw: Option<RollPitchYaw>,

@@ -1,4 +1,4 @@
-//! A dialect table of your own (`dialect_table` in `trunnion.toml`): what the builder of the machine has added to a control.
+//! A dialect table of your own (`dialect_table` in `trunnion.toml`): what the machine builder has added to a control.
 use crate::LoadError;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};

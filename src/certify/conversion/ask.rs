@@ -79,7 +79,7 @@ pub enum Why {
     Switch,
     /// The program starts again, or returns to its caller.
     Repeats,
-    /// The motions of the code are not known well enough.
+    /// The motions of the code are unknown well enough.
     Motion,
     /// What it does depends on the control or the machine builder.
     Machine,

@@ -33,7 +33,7 @@ impl Posed {
         }
     }
 
-    /// How long the motion takes at the programmed feed, ignoring what the axes can do, s; `None`: not known, or a rapid. Feeds
+    /// How long the motion takes at the programmed feed, ignoring what the axes can do, s; `None`: unknown, or a rapid. Feeds
     /// apply along the path of the tip (tip words) or of X Y Z.
     pub fn duration_s(&self) -> Option<f64> {
         let way = match (&self.leg, &self.motion.kind) {

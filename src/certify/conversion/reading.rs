@@ -46,7 +46,7 @@ pub struct Posed {
     /// Where the tool is before, workpiece frame without work offset, mm; `None`: unknown. Of a tool whose length is switched off, where
     /// the tip would be with the length that was last active for it.
     pub start: Option<Pose>,
-    /// Where the tool is after, or why that is not known.
+    /// Where the tool is after, or why that is unknown.
     pub end: Result<Pose, String>,
     /// What the machine does, where there is one.
     pub leg: Option<Box<Leg>>,

@@ -1,7 +1,7 @@
 //! A called program is not found.
 //!
 //! # Why
-//! The control stops at the call. What the subprogram would do is not known here, so nothing after the call is
+//! The control stops at the call. What the subprogram would do is unknown here, so nothing after the call is
 //! proved.
 //!
 //! # Example

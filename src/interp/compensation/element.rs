@@ -64,7 +64,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// `None` for motions that do not move in the plane or whose path is not known.
+    /// `None` for motions that do not move in the plane or whose path is unknown.
     pub(super) fn of(motion: &Motion, plane: Plane) -> Option<Self> {
         let axes = plane_axes(plane);
         let at = |position: &Position| Some([position.get(axes[0])?, position.get(axes[1])?]);

@@ -10,7 +10,7 @@ pub(crate) enum Stored {
     /// Not given yet.
     #[default]
     Nothing,
-    /// Given, but its value is not known.
+    /// Given, but its value is unknown.
     Unknown,
     /// mm as a coordinate.
     At(f64),

@@ -176,7 +176,7 @@ impl Iso<'_> {
         }
     }
 
-    /// U (a diameter) and W of the block with P and Q: what is left for finishing, mm in X (radius) and Z; `None`: not known.
+    /// U (a diameter) and W of the block with P and Q: what is left for finishing, mm in X (radius) and Z; `None`: unknown.
     pub(super) fn allowance(&self, words: &Words) -> Option<[f64; 2]> {
         let diameter = self.memory.diameter.unwrap_or(self.core.dialect.quirks.diameter);
         let [x, z] = self.lengths(words)?;

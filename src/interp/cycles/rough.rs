@@ -7,7 +7,7 @@
 //!
 //! Sources: Robur concise guide to Fanuc lathe cycles, page 48; GSK988T user manual, G71, page 69 (the same cycle, with the order of its motions);
 //! Rockwell 9/Series lathe manual, page 24-9. Fanuc's own (Series 30i operator's manual, lathe system, stock removal in turning and facing) was
-//! not at hand. They differ in whether the tool leaves its cuts at the feed or in rapid, and say nothing of cuts that miss the contour, run along a part of it, or are
+//! not available. They differ in whether the tool leaves its cuts at the feed or in rapid, and say nothing of cuts that miss the contour, run along a part of it, or are
 //! shorter than the escape: there the path is unknown, and what follows is known again.
 use super::contour::Contour;
 use super::levels::{Frame, Path};

@@ -7,7 +7,7 @@
 //! allowance the finishing passes follow at the whole height. In in rapid, along the thread by the lead, out and back in rapid.
 //!
 //! Sources: HUST H6D-T manual, pages 3-59 and 3-60 (the same cycle: the least depth, and rapids everywhere but along the thread). Fanuc's own (Series
-//! 30i operator's manual, lathe system, multiple threading cycle) was not at hand. Where in Z a cut begins that goes in along the flank (angle above 0), and
+//! 30i operator's manual, lathe system, multiple threading cycle) was not available. Where in Z a cut begins that goes in along the flank (angle above 0), and
 //! the shape of the pull-out (parameter 5131), are shown in pictures only: unknown.
 use crate::core::Report;
 use crate::iso::Iso;

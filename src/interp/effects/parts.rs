@@ -88,7 +88,7 @@ impl Iso<'_> {
 }
 
 impl Iso<'_> {
-    /// Under a mirror G41 is on the right: the side that counts where the radius is not known, and motions are the programmed ones.
+    /// Under a mirror G41 is on the right: the side that counts where the radius is unknown, and motions are the programmed ones.
     pub(super) fn mirrored_compensation(&mut self, block: trunnion_syntax::BlockId) {
         let state = &self.core.state;
         let mirrored = state.compensation != 0 && self.memory.frames.shape.flips(state.plane);

@@ -137,7 +137,7 @@ impl Iso<'_> {
         self.flow.next >= end
     }
 
-    /// The run cannot go on: nothing after it is followed.
+    /// The run cannot continue: nothing after it is followed.
     pub(crate) fn stop(&mut self) {
         self.core.state.ended = true;
         // what is missing is said already
@@ -169,7 +169,7 @@ impl Iso<'_> {
         trail.told = through.told;
     }
 
-    /// A loop is proved to be endless, or the bounds of the run are reached: then the loop that began anew most often does not end.
+    /// A loop is proved to be endless, or the bounds of the run are reached: then the loop that began again most often does not end.
     fn out_of_fuel(&mut self, fuel: Fuel, main: &Program, sink: &mut impl Sink) {
         self.stop();
         if let (Some(trail), Fuel::Out { most, proved, blocks }) = (&self.flow.trail, fuel) {

@@ -164,7 +164,7 @@ impl Iso<'_> {
         self.flow.next = to;
     }
 
-    /// The same to a block in front of the jump.
+    /// The same to a block before the jump.
     pub(crate) fn jump_back(&mut self, to: u32) {
         let (end, changes) = (self.flow.next, self.changes());
         if let Some(trail) = &mut self.flow.trail {
@@ -198,7 +198,7 @@ impl Iso<'_> {
         self.flow.next = first;
     }
 
-    /// The last block of a repeated section has run: the section begins anew, or the run goes on after its REPEAT.
+    /// The last block of a repeated section has run: the section begins again, or the run continues after its REPEAT.
     pub(crate) fn section_ends(&mut self) {
         while let Some(trail) = &mut self.flow.trail
             && trail

@@ -4,7 +4,7 @@ use crate::words::Words;
 use crate::{ModalState, Position};
 use trunnion_geometry::math::sin_cos;
 
-/// What was given last; `None`: not known.
+/// What was given last; `None`: unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Polar {
     radius: Option<f64>,

@@ -28,14 +28,14 @@ pub(crate) struct With {
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
     modal_active: usize,
-    /// A macro call: the caller's variables, and the arguments, for each time anew.
+    /// A macro call: the caller's variables, and the arguments, for each time again.
     variables_of_call: Option<Box<(Locals, Locals)>>,
     /// The modal call that this is.
     modal: Option<usize>,
 }
 
 impl Level {
-    /// The called program begins anew.
+    /// The called program begins again.
     pub(crate) fn again(&self, variables: &mut Variables) {
         if let Some(level) = &self.variables_of_call {
             variables.locals = level.1;
@@ -105,7 +105,7 @@ impl Iso<'_> {
         (depth >= limit).then(|| rejected(self.core.dialect, Mistake::Nesting, Refusal::Subprogram, message))
     }
 
-    /// M99 has left a call: the caller's variables are back, and the run goes on at a sequence number if M99 names one.
+    /// M99 has left a call: the caller's variables are back, and the run continues at a sequence number if M99 names one.
     pub(crate) fn leave_macro(
         &mut self,
         level: &Level,
@@ -138,7 +138,7 @@ impl Iso<'_> {
         }
     }
 
-    /// M99 of the main program begins it anew for ever: one pass is run. M99 P jumps; forward, that is followed.
+    /// M99 of the main program begins it again forever: one pass is run. M99 P jumps; forward, that is followed.
     pub(crate) fn leave_main(&mut self, back: Back, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
         let target = back.label.map(|label| {
             let index = self.sequence_numbers(running.main);

@@ -42,7 +42,7 @@ pub(crate) struct View<'a> {
     pub(crate) known: Known<'a>,
     /// The first variable that was asked for and is not known.
     pub(crate) unknown: Cell<Option<i64>>,
-    /// A named variable was asked for that is not known.
+    /// A named variable was asked for that is unknown.
     pub(crate) unknown_name: Cell<bool>,
     /// A variable of the control was asked for, whose value changes without being assigned.
     pub(crate) asked_control: Cell<bool>,
@@ -171,7 +171,7 @@ pub(crate) fn evaluate(
     value
 }
 
-/// The variable that an assignment names: its number (`None`: not known), or its name.
+/// The variable that an assignment names: its number (`None`: unknown), or its name.
 pub(crate) enum Assigned {
     Number(Option<i64>),
     Name(Box<str>),

@@ -217,7 +217,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         }
     }
 
-    /// `<SUB>` names the program of the call in front of it; elsewhere it has no meaning.
+    /// `<SUB>` names the program of the call before it; elsewhere it has no meaning.
     pub(crate) fn program_name(&mut self, range: TextRange) {
         let calls = self.macros.as_mut().is_some_and(|macros| {
             let code = macros.deep.as_ref().and_then(|deep| deep.code);
@@ -337,7 +337,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
                 return;
             }
             Class::System(3000) if macros.mode == Mode::Follow => return self.alarm(held),
-            // a stop with a message: the operator goes on
+            // a stop with a message: the operator continues
             Class::System(3006) if macros.mode == Mode::Follow => return,
             Class::System(number) if is_followed(number) && held.is_some_and(f64::is_finite) => {
                 macros.deep().writes.push((number, held.unwrap_or(0.0)));

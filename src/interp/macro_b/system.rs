@@ -7,7 +7,7 @@ use crate::iso::Iso;
 use crate::{FeedMode, ModalState, Setup};
 use trunnion_dialect::{Action, Plane};
 
-/// What a variable of the control is, for people who ask why its value is not known.
+/// What a variable of the control is, for people who ask why its value is unknown.
 pub(crate) fn what(number: u32) -> &'static str {
     match number {
         1000..=1999 => "a signal of the machine",
@@ -38,7 +38,7 @@ pub(crate) struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// The value of a system variable, NaN where it is not known.
+    /// The value of a system variable, NaN where it is unknown.
     pub(crate) fn read(&self, number: u32) -> f64 {
         let unknown = f64::NAN;
         match number {

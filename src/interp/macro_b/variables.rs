@@ -1,7 +1,7 @@
-//! The variables of a program: local, common and named ones. `None` is `<vacant>`, NaN is a value that is not known.
+//! The variables of a program: local, common and named ones. `None` is `<vacant>`, NaN is a value that is unknown.
 use std::collections::BTreeMap;
 
-/// A variable's content: `None` is `<vacant>`, NaN a value that is not known.
+/// A variable's content: `None` is `<vacant>`, NaN a value that is unknown.
 pub(crate) type Held = Option<f64>;
 
 /// #1 to #33 of one level of macro calls.
@@ -106,7 +106,7 @@ impl Variables {
         };
         Some(if self.lost { Some(f64::NAN) } else { held })
     }
-    /// Assigns a local or common variable. `reason`: why its value is not known, where it is not.
+    /// Assigns a local or common variable. `reason`: why its value is unknown, where it is not.
     pub(crate) fn set(&mut self, index: i64, held: Held, reason: Option<&str>) {
         self.changes += 1;
         match class(index) {
@@ -126,7 +126,7 @@ impl Variables {
             }
         }
     }
-    /// A local, common or named variable as it is written; NaN where it is not known, `None` where it is vacant or there is none.
+    /// A local, common or named variable as it is written; NaN where it is unknown, `None` where it is vacant or there is none.
     pub(crate) fn written(&self, text: &str) -> Option<f64> {
         let name = text.trim().strip_prefix('#')?;
         match name.parse() {

@@ -178,7 +178,7 @@ impl Values for Ngc<'_> {
 impl Ngc<'_> {
     fn hand_on(&mut self, sink: &mut impl Sink) {
         if let Some(run) = &mut self.run {
-            // the next motion says anew how many effects came before it
+            // the next motion says again how many effects came before it
             run.told.steady = None;
         }
         self.core.hand_on_effects(sink);

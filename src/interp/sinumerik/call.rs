@@ -60,7 +60,7 @@ pub(crate) struct Level {
 }
 
 impl Level {
-    /// The subprogram begins anew; its parameters were handed over for the first run only.
+    /// The subprogram begins again; its parameters were handed over for the first run only.
     pub(crate) fn again(&mut self, own: &mut Own) {
         own.begin_scope();
         for (name, sort) in &self.parameters {

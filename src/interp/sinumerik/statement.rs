@@ -326,7 +326,7 @@ impl Statement<'_> {
         }
     }
 
-    /// The block of a label that REPEAT names. Where it stands in front of the statement and behind it, which one counts is not documented.
+    /// The block of a label that REPEAT names. Where it stands before the statement and behind it, which one counts is not documented.
     fn only(&self, index: &Index, name: &str, range: TextRange) -> Result<u32, Trouble> {
         let here = self.place.1;
         let section = index.section(here);

@@ -9,7 +9,7 @@ pub struct Memory {
 }
 
 impl<'m> Follower<'m> {
-    /// A check-point to go on from with [`Follower::resume`].
+    /// A check-point to continue from with [`Follower::resume`].
     pub fn memory(&self) -> Memory {
         Memory { state: self.state }
     }

@@ -23,7 +23,7 @@ pub(crate) struct Before {
     pub(crate) q: [f64; 2],
     /// Whether they are known.
     pub(crate) known: bool,
-    /// Sign of the posture; 0 at the pole or where it is not known.
+    /// Sign of the posture; 0 at the pole or where it is unknown.
     pub(crate) sign: i8,
     /// Angle to the pole, rad.
     pub(crate) pole_angle: f64,

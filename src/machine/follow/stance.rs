@@ -192,7 +192,7 @@ pub struct Leg {
     pub pole_angle_min: f64,
     /// Rotary excess over the cheapest move of the start's posture, rad, when the posture sign changes; else 0.
     pub rotary_excess: f64,
-    /// Length of the tip path with TCP or vectors, of the programmed X Y Z path without, mm; 0 where it is not known. A
+    /// Length of the tip path with TCP or vectors, of the programmed X Y Z path without, mm; 0 where it is unknown. A
     /// coordinate that the program does not know at the start (first words after TCP was switched) counts with the travel of its axis.
     pub length: f64,
 }

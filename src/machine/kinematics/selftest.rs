@@ -48,7 +48,7 @@ pub fn self_test(machine: &Machine, poses: usize, seed: u64) -> SelfTest {
     result
 }
 
-/// So many poses are tried before held axes change between their own value and another.
+/// This many poses are tried before held axes change between their own value and another.
 const HELD_FOR: usize = 64;
 
 /// One pose: joints, pose, all postures, joints again, pose again.

@@ -38,7 +38,7 @@ impl Follower<'_> {
         }
     }
 
-    /// Length of the tip path (TCP) or of the programmed X Y Z path, mm; 0 where it is not known.
+    /// Length of the tip path (TCP) or of the programmed X Y Z path, mm; 0 where it is unknown.
     pub(crate) fn length(&self, leg: &Leg) -> f64 {
         let motion = &leg.motion;
         match &motion.kind {

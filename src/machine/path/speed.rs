@@ -129,7 +129,7 @@ enum Changes {
 }
 
 impl Changes {
-    /// `None` where the path is not known.
+    /// `None` where the path is unknown.
     fn of(machine: &Machine, leg: &Leg) -> Option<Self> {
         match leg.motion.kind {
             MotionKind::Dwell(_) | MotionKind::Unknown | MotionKind::Arc(None) => return None,

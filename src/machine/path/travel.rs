@@ -30,7 +30,7 @@ pub struct Excursion {
 /// Relative width to which the length is closed in.
 const TIGHT: f64 = 1e-3;
 
-/// So many pieces are enough where the length is known to be more than asked for, or has no bound.
+/// This many pieces are enough where the length is known to be more than asked for, or has no bound.
 const COARSE: u32 = 1024;
 
 /// Most pieces a block is cut into, to decide on which side of a threshold its length is.

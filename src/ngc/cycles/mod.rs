@@ -13,7 +13,7 @@ use crate::{At, Block, Engine, Error, Sink};
 pub(crate) use spline::Spline;
 pub(crate) use turning::Turning;
 
-/// What a cycle needs at hand.
+/// What a cycle needs available.
 pub(super) struct Work<'a> {
     engine: &'a mut Engine,
     block: &'a Block,

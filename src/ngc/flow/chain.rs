@@ -45,7 +45,7 @@ impl Known {
             Err(_) => self.others.get(key).copied(),
         }
     }
-    /// Adds one that is not known.
+    /// Adds one that is unknown.
     fn add(&mut self, key: Key, id: ChainId) {
         if self.is_next(&key) {
             self.in_order.push((key, id));

@@ -25,7 +25,7 @@ impl Engine {
     pub(super) fn undecided_word(letter: char, what: &str) -> String {
         format!("{what} depends on {letter}, whose value is not known before the program runs")
     }
-    /// The variables of a formula that are not known.
+    /// The variables of a formula that are unknown.
     fn reasons(&self, formula: &Formula) -> Vec<String> {
         let values = self.values();
         let mut reasons: Vec<String> = Vec::new();
@@ -53,7 +53,7 @@ impl Engine {
     }
 }
 
-/// Where a numbered parameter that is not known gets its value.
+/// Where a numbered parameter that is unknown gets its value.
 fn numbered(index: i64) -> &'static str {
     match index {
         5061..=5069 => "the position where the probe touched",

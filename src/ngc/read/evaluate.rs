@@ -150,7 +150,7 @@ fn value(formula: &Formula, variables: &impl Variables) -> Result<f64, Error> {
     formula.eval(variables).map_err(|error| problems::formula(&error))
 }
 
-/// Where a numbered assignment goes; `None` for a name, and where the number is not known.
+/// Where a numbered assignment goes; `None` for a name, and where the number is unknown.
 fn slot(assignment: &Assignment, values: &Created<'_>) -> Result<Option<Slot>, Error> {
     let Target::Numbered(number) = &assignment.target else {
         return Ok(None);

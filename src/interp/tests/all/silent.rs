@@ -96,7 +96,7 @@ fn a_lathe_without_y_has_corners_too() {
         ["L X10 Z-18 F0.1/rev", "A? X12 Z-20 F0.1/rev", "L X20 Z-20 F0.1/rev"]
     );
     assert_eq!(faults("fanuc-30i-lathe-a", source), [""; 0]);
-    // what is not known is no mistake
+    // what is unknown is no mistake
     let unknown = faults("fanuc-30i-lathe-a", "G1 Z-20. R2. F.1\nX40.\n");
     assert!(unknown.len() == 1 && unknown[0].contains("NotModelled"), "{unknown:?}");
 }

@@ -125,7 +125,7 @@ fn a_label_is_looked_for_in_the_direction_of_the_jump() {
         ["1"],
         "then backward"
     );
-    // the nearest in front of the jump, not the first of the program
+    // the nearest before the jump, not the first of the program
     let nearest = "G0\nGOTOF IN\nLA: X1\nM30\nLA: X2\nM30\nIN: GOTO LA\nM30\n";
     assert_eq!(places(nearest), ["2"]);
     assert_eq!(

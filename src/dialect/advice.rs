@@ -44,7 +44,7 @@ pub(crate) struct AdviceRow {
 }
 
 impl AdviceRow {
-    /// Lays what the table says over `base`.
+    /// Applies the table to `base`.
     pub(crate) fn over(self, base: &Advice) -> Advice {
         Advice {
             rotary_feed: self.rotary_feed.unwrap_or(base.rotary_feed),

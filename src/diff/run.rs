@@ -18,7 +18,7 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Where the run stopped before the end of its program; asked when there are no more events.
+    /// Where the run stopped before the end of its program; called when there are no more events.
     pub(crate) fn stop(&self) -> Option<&trunnion_same::Stop> {
         self.steps.stop()
     }

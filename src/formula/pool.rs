@@ -1,4 +1,4 @@
-//! Storage of formulas that are not needed any more, for the next ones: reading a line need not ask for memory.
+//! Storage of formulas that are not needed any more, for the next ones: reading a line needs no new memory.
 use crate::code::{Code, Formula, Step};
 use crate::{Cursor, FormulaError, Grammar, compile};
 
@@ -28,7 +28,7 @@ impl Pool {
     }
 }
 
-/// A copy has nothing in it.
+/// A copy is empty.
 impl Clone for Pool {
     fn clone(&self) -> Self {
         Self::default()

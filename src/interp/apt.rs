@@ -11,7 +11,7 @@ use trunnion_dialect::Action;
 use trunnion_geometry::Vec3;
 use trunnion_syntax::{Block, BlockId, Program, Record, TextRange};
 
-/// What APT keeps between records beside the modal state.
+/// What APT keeps between records in addition to the modal state.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct AptState {
     /// RAPID: the next motion is a rapid.
@@ -199,7 +199,7 @@ impl Apt<'_> {
         self.core.state.frame_unknown = self.core.unknown.any() || self.kept.csys;
     }
 
-    /// A record without meaning may move the tool or the coordinates: neither is known until the end of the program.
+    /// An unknown record may move the tool or the coordinates: neither is known until the end of the program.
     fn unknown_record(&mut self, what: String, report: &mut Report<'_>) {
         report.fault(report.whole(), FaultKind::NotModelled { what });
         self.lose_place();

@@ -51,7 +51,7 @@ impl Apt<'_> {
         }
     }
 
-    /// FROM: where the tool is, without a motion.
+    /// FROM: the position of the tool, without a motion.
     pub(crate) fn from(&mut self, args: &Args, report: &mut Report<'_>) {
         let numbers = args.numbers();
         if args.odd || !matches!(numbers.len(), 3 | 6) {

@@ -36,7 +36,7 @@ pub(crate) struct Cycle {
     pub(crate) reads: [bool; 3],
     /// G99: back to the R level, else to the level before the cycle.
     pub(crate) to_r: bool,
-    /// The place of the hole while the tool is off it by an unknown distance.
+    /// The position of the hole while the tool is off it by an unknown distance.
     pub(crate) hole_place: [Option<f64>; 2],
     /// Data of drilling cycles.
     pub(crate) hole: Hole,

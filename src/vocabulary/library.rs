@@ -4,7 +4,7 @@ use std::sync::Arc;
 /// A program that another one calls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {
-    /// Where it was found, as people are shown it.
+    /// Where it was found, for messages.
     pub path: String,
     /// Its bytes.
     pub bytes: Arc<[u8]>,

@@ -38,7 +38,7 @@
 //! ```
 //!
 //! # Guarantee
-//! Sound for motions between known positions. The finding is unknown where it is unknown whether a motion turns a
+//! Sound for motions between known positions. The finding is unknown where it is uncertain whether a motion turns a
 //! clamped axis, and where the state of the clamp is unknown: before the first clamp code, in the block of a
 //! clamp code, and after a code or call with an unknown effect. Codes in called files are included. On a great circle an
 //! axis that leaves its value and returns to it has turned; over the pole, where its path is unknown, it may have

@@ -33,7 +33,7 @@
 //! at a constant rate on the great circle. Without tool centre point control the tip itself deviates, and
 //! `path-deviation` judges it. Where the length of the tool is not known, silence holds for tools up to 1 m long;
 //! where a 1 m tool would exceed the tolerance, the rule says unknown (tool length not known), once, with the
-//! amount. It also says unknown where it is unknown how the control turns the axes between vectors.
+//! amount. It also says unknown where it is uncertain how the control turns the axes between vectors.
 //!
 //! # Thresholds
 //! `swept`: 0.05 mm.

@@ -2,8 +2,8 @@
 //! MCALL, after every motion.
 //!
 //! Order of the numbers and of the motions: Sinumerik 840D sl Programming Manual, Cycles (drilling cycles). All begin with RTP, RFP, SDIS,
-//! DP, DPR: level of the retraction, level of the surface, clearance above it, depth as a coordinate, depth below the surface; where both
-//! depths are there the last one counts.
+//! DP, DPR: level of the retraction, level of the surface, clearance above it, depth as a coordinate, depth below the surface; if both
+//! depths are given the last one is used.
 use super::hole::Plan;
 use crate::arc::plane_axes;
 use crate::codes::{BlockCodes, Found, not_modelled};
@@ -55,7 +55,7 @@ enum Sort {
     BoreFeed,
 }
 
-/// The cycles with how many numbers of theirs are known here.
+/// The cycles, and how many of their numbers are known here.
 const CYCLES: [(&str, Sort, usize); 9] = [
     ("CYCLE81", Sort::Drill, 6),
     ("CYCLE82", Sort::Drill, 6),
@@ -74,7 +74,7 @@ pub(crate) struct HoleCall {
     id: &'static str,
     sort: Sort,
     numbers: Vec<Given>,
-    /// Numbers that are there have no meaning here.
+    /// It has numbers that have no meaning here.
     further: bool,
     /// The call as it is compared where its motions are not known.
     pub(crate) said: Argument,

@@ -5,9 +5,9 @@ use crate::{Motion, MotionKind, Position};
 use trunnion_geometry::Vec3;
 use trunnion_geometry::arc::Arc;
 
-/// Levels nearer than this to a part of the contour along the cut are the same for a control or not, mm: below its least increment.
+/// Levels nearer than this to a part of the contour along the cut may or may not be the same to a control, mm: below its least increment.
 const SAME: f64 = 1e-4;
-/// What rounded ends and centres of arcs may be off, mm.
+/// How far rounded ends and centres of arcs may be off, mm.
 const ROUNDED: f64 = 2e-3;
 
 /// Axes, directions and origin of the plane.

@@ -11,7 +11,7 @@ pub(crate) enum Event {
     Comment(String),
     /// A text for the operator's screen.
     Message(String),
-    /// A tool comes into the spindle.
+    /// A tool is loaded into the spindle.
     Tool(u32),
     /// The spindle turns: counter-clockwise, and its speed, 1/min.
     SpindleOn(bool, f64),

@@ -23,7 +23,7 @@ pub enum Directive {
         /// Text after `because`.
         reason: String,
     },
-    /// `dialect NAME` or `machine NAME`: read before parsing; here only so that it is no error.
+    /// `dialect NAME` or `machine NAME`: read before parsing; here only so that it is not an error.
     Mode {
         /// `dialect` or `machine`.
         key: String,
@@ -39,7 +39,7 @@ const MARK: &[u8] = b"trunnion:";
 
 /// All directives of a program with the range of their comment.
 pub fn directives(program: &Program) -> Vec<(TextRange, Directive)> {
-    // most programs have none: look for the mark before looking at comments
+    // most programs have none: search for the mark before reading comments
     let source = program.source();
     let mut found = Vec::new();
     for at in memchr::memchr_iter(b':', source) {

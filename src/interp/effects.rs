@@ -1,4 +1,4 @@
-//! The effects of an ISO block: which of its codes and words are held neither by its motions nor by the modal state.
+//! The effects of an ISO block: those of its codes and words that are neither in its motions nor in the modal state.
 mod assignments;
 mod collected;
 mod lengths;
@@ -26,7 +26,7 @@ use sort::{
 use trunnion_dialect::{Action, Macros, Role};
 use trunnion_syntax::Block;
 
-/// Whether a fault means that its block does more than its motions and the modal state hold.
+/// Whether a fault means that its block does more than its motions and the modal state contain.
 pub(crate) fn does_more(kind: &FaultKind) -> bool {
     !matches!(
         kind,
@@ -128,7 +128,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Several codes that are compared by their words, or one that happens once: the codes in an order of their own, with all words that
+    /// Several codes that are compared by their words, or one that happens once: the codes in a fixed order, with all words that
     /// nothing else reads.
     fn several(&mut self, opaque: &[&Found<'_>], rest: Vec<Argument>, words: &Words, view: &Block<'_>) {
         let block = self.core.main_block(view.id());
@@ -231,7 +231,7 @@ impl Iso<'_> {
         }
     }
 
-    /// Letters of parameters in the block that no cycle in effect reads.
+    /// Letters of parameters in the block that no active cycle reads.
     fn free_letters(&self, words: &Words) -> u32 {
         let parameters = (b'A'..=b'Z')
             .filter(|letter| self.core.dialect.role(*letter) == Some(Role::Parameter))

@@ -1,9 +1,9 @@
-//! What is in effect before the first block.
+//! The modal state before the first block.
 use crate::{FeedMode, LengthOf, ModalState, Orientation, Position, Undeclared};
 use trunnion_dialect::{Dialect, Plane};
 use trunnion_syntax::Format;
 
-/// What is in effect before the first block: nothing is known of the position, lengths are mm, F is per minute, of a lathe per turn.
+/// The modal state before the first block: the position is unknown, lengths are mm, F is per minute, on a lathe per revolution.
 pub(crate) fn at_start(dialect: &Dialect) -> ModalState {
     ModalState {
         motion: dialect.quirks.motion_at_start,

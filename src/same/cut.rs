@@ -4,7 +4,7 @@ use crate::item::Step;
 use trunnion_geometry::arc::Arc;
 use trunnion_interp::{Feed, MotionKind, Orientation, Position, Swivel};
 
-/// A coordinate that differs by no more has not moved, mm or deg: sums of offsets round.
+/// A coordinate that differs by no more has not moved, mm or deg: sums of offsets are rounded.
 const STANDS: f64 = 1e-9;
 
 /// Whether a motion moves nothing and takes no time of its own: a block that repeats the place before it.

@@ -32,12 +32,12 @@ pub(crate) struct Thread {
     allowance: Option<f64>,
 }
 
-/// A thread that can be worked out, mm.
+/// A thread that can be computed, mm.
 struct Plan {
     start: Position,
     /// Root of the thread at its end.
     root: [f64; 2],
-    /// Which way X leads out of the work: 1 or -1.
+    /// Direction of X out of the work: 1 or -1.
     out: f64,
     taper: f64,
     height: f64,
@@ -91,7 +91,7 @@ impl Iso<'_> {
         }
     }
 
-    /// The thread, or why it cannot be worked out.
+    /// The thread, or why it cannot be computed.
     fn plan_thread(&self, start: Position, lead: Feed, words: &Words) -> Result<Plan, &'static str> {
         if [b'A', b'D', b'I', b'K']
             .iter()

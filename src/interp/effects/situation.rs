@@ -15,7 +15,7 @@ impl Situation {
         Self { state, to_r }
     }
 
-    /// The first setting that differs: name, before, after. `feed_counts`: whether F may not differ.
+    /// The first setting that differs: name, before, after. `feed_counts`: whether F must be the same.
     pub fn difference(&self, other: &Self, feed_counts: bool) -> Option<(&'static str, String, String)> {
         let (a, b) = (self.settings(feed_counts), other.settings(feed_counts));
         a.into_iter()
@@ -24,7 +24,7 @@ impl Situation {
             .map(|((name, a), (_, b))| (name, written(&a), written(&b)))
     }
 
-    /// Each setting by name. Numbers compare to 1e-9 of their size, what is unknown is like what is unknown.
+    /// Each setting by name. Numbers are compared to a relative 1e-9; unknown values are equal.
     fn settings(&self, feed_counts: bool) -> Vec<(&'static str, Vec<Argument>)> {
         let state = &self.state;
         let flag = |is_on: bool| vec![Argument::code(if is_on { "on" } else { "off" })];

@@ -53,7 +53,7 @@ impl Iso<'_> {
         }
     }
 
-    /// The present point becomes a reference point; what is unknown of it stays unknown.
+    /// The present point becomes a reference point; its unknown coordinates stay unknown.
     pub(crate) fn store_reference(&mut self, place: usize) {
         let mut position = self.core.state.position;
         self.to_machine(&mut position, 1.0);

@@ -24,18 +24,18 @@ pub(crate) struct With {
     pub(crate) modal: Option<usize>,
 }
 
-/// What is kept of a call.
+/// What is stored for a call.
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
     modal_active: usize,
-    /// A macro call: the caller's variables, and the arguments, for each time again.
+    /// A macro call: the caller's variables, and the arguments, for each repetition.
     variables_of_call: Option<Box<(Locals, Locals)>>,
     /// The modal call that this is.
     modal: Option<usize>,
 }
 
 impl Level {
-    /// The called program begins again.
+    /// The called program starts again.
     pub(crate) fn again(&self, variables: &mut Variables) {
         if let Some(level) = &self.variables_of_call {
             variables.locals = level.1;
@@ -44,7 +44,7 @@ impl Level {
 }
 
 impl Iso<'_> {
-    /// Where the program of a call stands; `None`: M97 to a sequence number that is not there.
+    /// Where the program of a call is; `None`: M97 to a sequence number that does not exist.
     pub(crate) fn find_macro(
         &mut self,
         calling: &Calling,
@@ -138,7 +138,7 @@ impl Iso<'_> {
         }
     }
 
-    /// M99 of the main program begins it again forever: one pass is run. M99 P jumps; forward, that is followed.
+    /// M99 of the main program restarts it forever: one pass is run. M99 P jumps; forward, that is followed.
     pub(crate) fn leave_main(&mut self, back: Back, running: &Running<'_>, from: u32, sink: &mut impl Sink) {
         let target = back.label.map(|label| {
             let index = self.sequence_numbers(running.main);
@@ -193,7 +193,7 @@ fn has_end(program: &Program, dialect: &Dialect) -> bool {
 }
 
 impl Deep {
-    /// Puts the variables of the caller back. Those of a modal call stay for its next time.
+    /// Puts the variables of the caller back. Those of a modal call are kept for its next run.
     fn end_level(&mut self, level: &Level) {
         let Some(kept) = &level.variables_of_call else { return };
         let used = std::mem::replace(&mut self.variables.locals, kept.0);

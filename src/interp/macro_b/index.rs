@@ -1,11 +1,11 @@
-//! Where jumps of a program may lead: sequence numbers, programs in the file, loops.
+//! Targets of the jumps of a program: sequence numbers, programs in the file, loops.
 use super::alarms::Mistake;
 use super::name::bracketed;
 use crate::flow::{Broken, Index};
 use trunnion_flow::{Key, Loop, Loops};
 use trunnion_syntax::{Address, Block, BlockId, Call, Item, Program, TextRange, Value};
 
-/// What is found on the way through a file.
+/// What is found while a file is read.
 #[derive(Default)]
 struct Builder {
     labels: Vec<(Key, u32)>,
@@ -14,7 +14,7 @@ struct Builder {
     broken: Vec<Broken>,
 }
 
-/// A DO that waits for its END.
+/// A DO whose END was not read yet.
 struct Open {
     number: u32,
     block: u32,

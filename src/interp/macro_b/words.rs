@@ -1,4 +1,4 @@
-//! What a block with macro statements or calls asks for, once all its words are read.
+//! What a block with macro statements or calls requests, once all its words are read.
 use super::alarms::{Mistake, is_fanuc, rejected};
 use super::arguments;
 use super::name::bracketed;
@@ -17,7 +17,7 @@ use trunnion_flow::Key;
 use trunnion_syntax::{Block, Item, TextRange};
 
 impl<'d> Iso<'d> {
-    /// Reads the words of a block; what macro statements ask for is done when it has run.
+    /// Reads the words of a block; what macro statements request is done when it has run.
     pub(crate) fn read(
         &mut self,
         block: &Block<'_>,
@@ -56,7 +56,7 @@ impl<'d> Iso<'d> {
             own.begin_block();
         }
         for item in block.items() {
-            // who jumps there may bring other values
+            // a jump to this block may bring other values
             if let (Item::Label(_), Some(own)) = (&item, &mut reader.own)
                 && !own.follows
             {
@@ -120,7 +120,7 @@ impl<'d> Iso<'d> {
         self.flow.deep = Some(deep);
     }
 
-    /// Whether the O word of a block begins a program behind the one that runs.
+    /// Whether the O word of a block begins a program after the one that runs.
     fn begins_another(&self, block: &Block<'_>) -> bool {
         let inside = self.flow.trail.as_ref().is_some_and(|trail| {
             let section = trail.course.place().section;

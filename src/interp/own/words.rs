@@ -23,7 +23,7 @@ impl super::Own {
 }
 
 impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
-    /// An assignment to a name of the program's own.
+    /// An assignment to a name that the program defines.
     pub(crate) fn own_assignment(&mut self, name: TextRange, word: &Word) {
         self.words.has_values = true;
         let name = self.text(name);

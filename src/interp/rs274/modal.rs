@@ -1,4 +1,4 @@
-//! What is in effect, as the rules read it.
+//! The modal state for rules.
 use super::frames::Shift;
 use crate::{FeedMode, ModalState};
 use trunnion_dialect::Action;
@@ -17,7 +17,7 @@ fn motion(code: i16) -> Option<Action> {
     })
 }
 
-/// Takes over what the interpreter has in effect but feed, spindle, tool and offsets, which calls tell in step with motions.
+/// Copies the modal state of the interpreter except feed, spindle, tool and offsets, which calls set in step with motions.
 pub(super) fn refresh(modal: &mut ModalState, state: &State, shift: &Shift) {
     modal.motion = motion(state.motion);
     modal.incremental = state.distance == DistanceMode::Incremental;

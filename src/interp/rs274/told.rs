@@ -1,4 +1,4 @@
-//! What the calls of the interpreter leave behind for the motions that follow.
+//! State that the calls of the interpreter set for the motions that follow.
 use super::feed::Rate;
 use super::places::Places;
 use super::steady::Steady;
@@ -28,7 +28,7 @@ pub(super) struct Told {
     pub(super) blocks: Option<std::sync::Arc<[u32]>>,
     /// Where lines are and from where the main program called them.
     pub(super) places: Places,
-    /// The files of the run as people are shown them; the main program first.
+    /// The files of the run for messages; the main program first.
     pub(super) paths: Vec<std::sync::Arc<str>>,
     /// Compensation of the cutter radius was on after the last line.
     pub(super) compensated: bool,
@@ -45,7 +45,7 @@ pub(super) struct Told {
     pub(super) unknown_end: bool,
     /// The last motion was programmed in machine coordinates (G53).
     pub(super) machine_frame: bool,
-    /// Some motion was made; since the first one, some axis may stand where another offset, another length or G53 put it.
+    /// Some motion was made; since the first one, some axis may be where another offset, another length or G53 put it.
     pub(super) moved: bool,
     pub(super) strayed: bool,
     /// The line that set `#<_value>` to something unknown.

@@ -1,4 +1,4 @@
-//! Reads one statement of the flow, decides it with the values that are known, and says what it asks for.
+//! Reads one statement of the flow, decides it with the known values, and returns what it requests.
 use super::text::Text;
 use crate::flow::{Back, Index, Label, Transfer};
 use crate::own::Own;
@@ -7,7 +7,7 @@ use trunnion_flow::{Key, Search};
 use trunnion_formula::FormulaErrorKind;
 use trunnion_syntax::TextRange;
 
-/// A place and what is wrong or not known there.
+/// A place and what is wrong or unknown there.
 pub(super) type Trouble = (TextRange, FaultKind);
 
 /// One statement of the current block.
@@ -16,7 +16,7 @@ pub(super) struct Statement<'a> {
     pub(super) own: &'a mut Own,
     /// File and block.
     pub(super) place: (u16, u32),
-    /// Where labels of the file stand.
+    /// The labels of the file.
     pub(super) index: &'a mut dyn FnMut() -> std::sync::Arc<Index>,
     /// The end of the loop that the block opens has led here.
     pub(super) again: bool,
@@ -29,7 +29,7 @@ fn not_decided<T>(range: TextRange, what: impl Into<String>) -> Result<T, Troubl
 }
 
 impl Statement<'_> {
-    /// What the statement asks for.
+    /// What the statement requests.
     pub(super) fn read(&mut self) -> Result<Transfer, Trouble> {
         let from = self.text.at();
         let keyword = self.text.letters();
@@ -61,7 +61,7 @@ impl Statement<'_> {
         Ok(transfer)
     }
 
-    /// Nothing may stand behind a statement.
+    /// Nothing may follow a statement.
     fn end(&mut self) -> Result<(), Trouble> {
         if self.text.is_at_end() {
             return Ok(());
@@ -69,7 +69,7 @@ impl Statement<'_> {
         not_decided(self.text.rest(), "a flow statement that is not understood")
     }
 
-    /// The value of an expression that stands here, and its place.
+    /// The value of the expression at this point, and its place.
     fn value(&mut self) -> Result<(f64, TextRange), Trouble> {
         let from = self.text.at();
         match self.own.evaluate(self.text.bytes(), from) {
@@ -104,7 +104,7 @@ impl Statement<'_> {
         not_decided(range, format!("{what}: {value} is not a whole number"))
     }
 
-    /// IF: alone it opens a branch; with GOTO behind it, several in one block, the first that holds jumps.
+    /// IF: alone it opens a branch; with GOTO after it, several in one block, the first true one jumps.
     fn branch(&mut self) -> Result<Transfer, Trouble> {
         let mut holds = self.condition()?;
         if self.text.is_at_end() {
@@ -127,7 +127,7 @@ impl Statement<'_> {
                 self.text.go_to(at);
                 self.end()?;
             }
-            // once a jump is taken the conditions behind it are not asked
+            // once a jump is taken the conditions after it are not tested
             if taken.is_some() {
                 return Ok(taken.unwrap_or(Transfer::Next));
             }
@@ -135,7 +135,7 @@ impl Statement<'_> {
         }
     }
 
-    /// GOTOF, GOTOB, GOTO, GOTOC with its target, GOTOS; `None`: another word stands here.
+    /// GOTOF, GOTOB, GOTO, GOTOC with its target, GOTOS; `None`: there is another word.
     fn jump(&mut self) -> Result<Option<Transfer>, Trouble> {
         let from = self.text.at();
         let (search, may_miss) = match self.text.letters().as_str() {
@@ -160,7 +160,7 @@ impl Statement<'_> {
         Ok(Some(Transfer::Jump(label, search)))
     }
 
-    /// A label, `N100`, `100`, or either as a text.
+    /// A label, `N100`, `100`, or either as a string.
     fn target(&mut self) -> Result<Label, Trouble> {
         let from = self.text.at();
         let quoted = self.text.quoted();
@@ -200,7 +200,7 @@ impl Statement<'_> {
         let counter = self.text.range(from, from + equals);
         self.text.go_to(from + equals + 1);
         let first = if self.again {
-            // what it begins with is not asked again
+            // its first value is not read again
             let end = self.own.evaluate(self.text.bytes(), from + equals + 1);
             self.text.go_to(end.map_or(from + equals + 1, |found| found.2));
             match self.own.value(&name) {
@@ -326,7 +326,7 @@ impl Statement<'_> {
         }
     }
 
-    /// The block of a label that REPEAT names. Where it stands before the statement and behind it, which one counts is not documented.
+    /// The block of a label that REPEAT names. If it is both before and after the statement, it is not documented which one is used.
     fn only(&self, index: &Index, name: &str, range: TextRange) -> Result<u32, Trouble> {
         let here = self.place.1;
         let section = index.section(here);

@@ -201,7 +201,7 @@ pub struct Settings<'a> {
     pub setup: Setup,
     /// Rule levels, last wins (config, then command line).
     pub rules: Vec<(String, RuleLevel)>,
-    /// Dialects that the program is to be carried over to: the rule `porting` says what would change its meaning there.
+    /// Dialects that the program is to be ported to: the rule `porting` says what would change its meaning there.
     pub port_to: Vec<String>,
     /// How much is judged, if somebody says so. Default: all that the machine allows, and without a machine the motions.
     pub scope: Option<Scope>,

@@ -46,7 +46,7 @@ pub struct Fixture {
     /// Name of a built-in machine, if any; `NAME+clamp` is one whose first rotary axis has `clamp = true`, `NAME+A.cable` one whose A
     /// has `cable = true`.
     pub machine: Option<String>,
-    /// Dialects to carry the program over to.
+    /// Dialects to port the program to.
     pub port_to: Vec<String>,
     /// Work offsets and tool lengths that are not declared are unknown; else they are taken as zero.
     pub undeclared: bool,

@@ -30,7 +30,7 @@ pub struct Error {
     pub read_last: Option<(FileId, TextRange)>,
     /// The file as people are shown it; empty for the main program. Filled in by the engine.
     pub path: Arc<str>,
-    /// A subprogram that is not there.
+    /// A missing subprogram.
     pub missing: Option<Box<Missing>>,
 }
 

@@ -1,4 +1,4 @@
-//! What two programs leave behind when they end.
+//! The state that two programs leave when they end.
 use crate::process::unlike;
 use crate::steps::Steps;
 use crate::verdict::{Difference, Verdict};
@@ -19,7 +19,7 @@ pub(crate) fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdi
     Ok(())
 }
 
-/// What both leave behind.
+/// The state that both leave.
 pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
     let nowhere = |what: String| {
         Err(Verdict::Differs(Difference {

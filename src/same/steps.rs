@@ -1,4 +1,4 @@
-//! A program as a stream of what it does: nothing is kept but what the current block has brought.
+//! A program as a stream of what it does: only the steps of the current block are kept.
 use crate::input::Input;
 use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
 use crate::notes::{arguments_in_order, with_values};
@@ -40,9 +40,9 @@ pub(crate) struct Run<'a> {
     given_up: bool,
     /// Blocks of the main program whose called program is missing.
     pub(crate) missing: Vec<BlockId>,
-    /// What is wrong, where somebody asks for it.
+    /// Faults, if they are requested.
     faults: Option<Vec<Fault>>,
-    /// Effects with their numbers in the run, where somebody asks for them.
+    /// Effects with their numbers in the run, if they are requested.
     log: Option<Vec<(u32, Placed)>>,
 }
 
@@ -95,7 +95,7 @@ impl Run<'_> {
             },
         );
     }
-    /// The block makes more motions than are kept: the run ends with it, and those who watch faults get one.
+    /// The block makes more motions than are kept: the run ends with it, and a fault is reported.
     #[cold]
     fn give_up(&mut self, block: BlockId) {
         if !std::mem::replace(&mut self.given_up, true) {
@@ -169,7 +169,7 @@ impl<'a> Steps<'a> {
         word.is_some_and(|word| word >> (block.0 % 64) & 1 == 1)
     }
 
-    /// Where and why the run stopped before the end of its program; asked when there are no more items.
+    /// Where and why the run stopped before the end of its program; called when there are no more items.
     pub fn stop(&self) -> Option<&Stop> {
         self.run.stop.as_ref()
     }
@@ -189,7 +189,7 @@ impl<'a> Steps<'a> {
         &self.run.process
     }
 
-    /// Variables that outlive the program, with their values as far as they are known; asked when there are no more items.
+    /// Variables that keep their values after the program ends, as far as these are known; called when there are no more items.
     pub fn stored(&self) -> BTreeMap<String, Value> {
         let mut stores = self.run.stores.clone();
         let kept = self.interpreter.outliving().into_iter();

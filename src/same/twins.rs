@@ -1,4 +1,4 @@
-//! Two programs with the same text: what is unknown in both is unknown for one reason, and is no difference between them.
+//! Two programs with the same text: what is unknown in both is unknown for the same reason, and is not a difference between them.
 use crate::exact::same_motion;
 use crate::input::Input;
 use crate::item::Item;
@@ -58,7 +58,7 @@ impl Twins {
     }
 }
 
-/// Whether two things are exactly the same but for what is unknown in both.
+/// Whether two items are exactly the same except for values that are unknown in both.
 fn alike(was: &Item, is: &Item) -> bool {
     match (was, is) {
         (Item::Motion(was), Item::Motion(is)) => {

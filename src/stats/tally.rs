@@ -1,4 +1,4 @@
-//! Counts what a run says.
+//! Counts what a run reports.
 use crate::calls::{Call, calls};
 use crate::stop::Stops;
 use std::collections::BTreeMap;
@@ -43,7 +43,7 @@ pub struct ToolUse {
 /// Everything counted. Lengths mm along the programmed X Y Z path, times s.
 #[derive(Default)]
 pub struct Tally {
-    /// Blocks that hold something.
+    /// Blocks with content.
     pub blocks: u64,
     /// Blocks that ran, repeated ones each time.
     pub run: u64,

@@ -2,7 +2,7 @@
 use crate::{Action, Orientation, Plane, Position, Tool, ToolShape, Undeclared};
 use std::sync::Arc;
 
-/// How F is meant.
+/// What F means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeedMode {
     /// G94.
@@ -21,7 +21,7 @@ pub enum LengthOf {
     Nothing,
     /// That of the tool with this number; `None`: of a tool in use whose number is unknown.
     Tool(Option<u32>),
-    /// One that is no tool's own (another edge than the first, a sum of several), or whose number could not be read.
+    /// One that belongs to no tool (another edge than the first, a sum of several), or whose number could not be read.
     Other,
 }
 
@@ -69,9 +69,9 @@ pub struct ModalState {
     pub work_offset: Option<Arc<str>>,
     /// Its values, mm and degrees.
     pub zero: [f64; 9],
-    /// What of zero and tool length is not declared.
+    /// Which of zero point and tool length is undeclared.
     pub undeclared: Undeclared,
-    /// Tool in the spindle; `None` unknown, or chosen by a name.
+    /// Tool in the spindle; `None`: unknown, or selected by a name.
     pub tool: Option<u32>,
     /// Tool prepared by T, waiting for M6.
     pub tool_prepared: Option<u32>,
@@ -104,7 +104,7 @@ pub struct ModalState {
 }
 
 impl ModalState {
-    /// What a length and a length of F count, mm.
+    /// The size of a unit of length and of a unit of F, mm.
     pub fn units(&mut self, length_mm: f64, feed_mm: f64) {
         (self.length_unit_mm, self.feed_unit_mm) = (length_mm, feed_mm);
         self.units_said = true;

@@ -11,7 +11,7 @@ static TABLES: Mutex<Vec<(String, &'static Dialect)>> = Mutex::new(Vec::new());
 /// The dialect of a table's file.
 ///
 /// # Errors
-/// The file cannot be read, or is no dialect table: with line and column.
+/// The file cannot be read, or is not a dialect table: with line and column.
 pub(crate) fn table(path: &Path) -> Result<&'static Dialect, LoadError> {
     let text = trunnion_files::read_text(path)?;
     let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);

@@ -30,7 +30,7 @@ enum Told {
         block: BlockId,
         /// Axes, as in [`trunnion_interp::Position`], whose places differ from those before: they are the next of [`Batch::places`].
         moved: u16,
-        /// Rotary axes of which something was foreseen: it is the next of [`Batch::sines`].
+        /// Rotary axes with a predicted sine: it is the next of [`Batch::sines`].
         foreseen: u8,
         /// After it the block has run.
         last: bool,

@@ -343,7 +343,7 @@ impl Pass<'_> {
         }
     }
 
-    /// What is foreseen of a rotary axis.
+    /// Sets the predicted sine of a rotary axis.
     #[inline]
     pub(crate) fn foresee(&mut self, index: usize, sine: Sine) {
         if let Some(follower) = &mut self.follower {

@@ -11,7 +11,7 @@ use trunnion_geometry::math::{angle_between, atan2, sin_cos};
 
 pub(crate) use bounds::RotaryPathBounds;
 
-/// Tool axes nearer than this are one: nothing runs on a great circle, rad.
+/// Tool axes nearer than this are the same: nothing moves on a great circle, rad.
 const SAME_AXIS: f64 = 1e-12;
 
 /// A turn of a rotary axis up to this is rounding, rad.

@@ -6,7 +6,7 @@ use crate::path::orientation::{Circle, axis_bend, strays};
 use crate::{Deviation, Leg, Machine, tool_axis_at};
 use trunnion_interp::MotionKind;
 
-/// Where sample and bound are this near, mm, more samples say nothing more.
+/// If sample and bound are this near, mm, more samples are useless.
 const CLOSE_MM: f64 = 1e-4;
 
 /// Samples spent on closeness; beyond them a bound within the ratio is enough.
@@ -18,7 +18,7 @@ const ROUNDING: f64 = 1e-13;
 /// Set distance of the point at `above_tip` mm above the tip, on the tool axis, to the path it should run on: the tip along its segment and
 /// the tool axis evenly on the great circle. `tolerance_mm`: the bound may be loose where it already proves this; above it, it is at most
 /// 1.2 times the truth. `None`: no path, an unknown stance, opposite tool axes at the ends, or a motion without tip coordinates, whose tip
-/// itself strays and the whole tool with it ([`crate::tip_deviation`]), or a rapid whose axes run each for itself.
+/// itself strays and the whole tool with it ([`crate::tip_deviation`]), or a rapid whose axes move independently.
 ///
 /// Zero where the axis does not stray ([`crate::orientation_deviation`]). At the same moment both points differ by at most
 /// L (Q + angle^2) / 8 with |u''| <= Q, L the distance above the tip; closer bounds by bisection. Source: docs/kinematics.md#deviation-of-the-tool-body.

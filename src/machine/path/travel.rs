@@ -41,7 +41,7 @@ const CLOSE_MM: f64 = 1e-3;
 
 /// Length of the path of the linear joints. Bounds may be coarse where they prove that it is at most `enough_mm`; else they are closed in
 /// until they prove that it is more, or until the block would be cut into more than 16 384 pieces: then `enough_mm` is between them.
-/// `None`: an unknown stance or path, or a rapid whose axes run each for itself.
+/// `None`: an unknown stance or path, or a rapid whose axes move independently.
 ///
 /// Without TCP along a line the joints run straight. Else, on a piece of length h with |q''| <= Q the path is at least its chord and at most
 /// root(chord^2 + Q^2 h^4 / 12): by Cauchy and Schwarz length^2 <= h int |q'|^2 = chord^2 + h int |q' - mean|^2, and q' strays from its mean

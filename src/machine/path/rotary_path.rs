@@ -66,7 +66,7 @@ impl<'a> RotaryPath<'a> {
         }
         let circle = GreatCircle::new(machine, pair, [start.axis, side.normalize()], angle, start.branch);
         if circle.azimuth_turned(&end.axis).abs() > PI - ARRIVAL {
-            // over the pole: to which side the first axis turns is not known
+            // over the pole: the direction in which the first axis turns is unknown
             return None;
         }
         let (from, to) = (start.rotary(machine), end.rotary(machine));

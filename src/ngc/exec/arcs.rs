@@ -33,7 +33,7 @@ problems! {
     OTHER_PLANE Other "Cannot do an arc in planes G17.1, G18.1, or G19.1" "Write G17, G18 or G19."
 }
 
-/// What depends on the plane: places of first, second and third coordinate in a pose, letters, centre letters, problems.
+/// What depends on the plane: indices of first, second and third coordinate in a pose, letters, centre letters, problems.
 pub(super) struct Axes {
     pub(super) places: [usize; 3],
     centre: [u8; 2],

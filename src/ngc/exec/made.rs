@@ -1,4 +1,4 @@
-//! Motion that the control makes itself in a cycle: with the checks of a block that holds nothing but G0, G1, G2 or G3 and its end.
+//! Motion that the control makes itself in a cycle: with the checks of a block that contains only G0, G1, G2 or G3 and its end.
 use super::{arcs, motion, problems};
 use crate::{At, Block, Engine, Error, Pose, Sink};
 

@@ -1,4 +1,4 @@
-//! Why a block is refused, as the control says it (messages observed from `rs274`).
+//! Why a block is refused, in the words of the control (messages observed from `rs274`).
 use crate::{Class, Problem};
 
 macro_rules! problems {

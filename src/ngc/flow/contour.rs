@@ -1,5 +1,5 @@
-//! The subprogram of a turning cycle (G70 to G72.2): it is called like any other, but of its blocks only the motion counts, and that is
-//! not made but taken as the contour. Where it returns, the cycle runs.
+//! The subprogram of a turning cycle (G70 to G72.2): it is called like any other, but only the motion of its blocks is used, and taken
+//! as the contour instead of being made. Where it returns, the cycle runs.
 use super::label::Label;
 use super::labels::Style;
 use super::oline::{Keyword, OLine};

@@ -1,6 +1,6 @@
-//! Fewer points for the same line: what no eye sees is left out, so that a picture of a million blocks stays small.
+//! Fewer points for the same line: invisible points are left out, so that a picture of a million blocks stays small.
 
-/// How far a point that is left out may lie from the line, in tenths of a pixel.
+/// How far a point that is left out may be from the line, in tenths of a pixel.
 const UNSEEN: f64 = 2.5;
 
 /// The points of a polyline (in tenths of a pixel) that are needed to draw it (Douglas and Peucker, 1973). Ends stay; points that are not

@@ -38,7 +38,8 @@ impl Found {
                 if fs::canonicalize(&link).is_ok_and(|target| real.insert(target)) {
                     files.push(link);
                 } else {
-                    self.left_out.push((link, "a link to a file that is in the list already"));
+                    self.left_out
+                        .push((link, "a link to a file that is in the list already"));
                 }
             }
             files.sort();
@@ -176,7 +177,10 @@ impl<'f> Walk<'f> {
         } else {
             match head(path) {
                 Ok(head) if trunnion_dialect::looks_like_program(&head) => self.found.files.push(path.to_owned()),
-                Ok(_) => self.leave(path, "it has no extension, and its first lines do not look like a program"),
+                Ok(_) => self.leave(
+                    path,
+                    "it has no extension, and its first lines do not look like a program",
+                ),
                 Err(error) => self.found.failures.push(Failure::io(path, "read the file", &error)),
             }
         }

@@ -198,8 +198,7 @@ impl Teller<'_> {
             (Some(false), _) => Spindle::Off,
             (Some(true), Some(rpm)) => Spindle::On(turns, rpm),
             (Some(true), None) => {
-                let message =
-                    "the spindle turns at an unknown speed (none is programmed, or a cutting speed is)";
+                let message = "the spindle turns at an unknown speed (none is programmed, or a cutting speed is)";
                 return Err(Refused::at(self.program, block, message));
             }
         };
@@ -274,8 +273,7 @@ fn said(block: &Block<'_>, dialect: &Dialect) -> Result<Said, Cannot> {
                 }
             }
             Item::Skip(_, range) => {
-                let message =
-                    "block delete: whether the block runs depends on a switch; remove the `/` or the block";
+                let message = "block delete: whether the block runs depends on a switch; remove the `/` or the block";
                 return Err((range, message.to_owned()));
             }
             Item::Word(word) => said.tool_change |= changes_tool(&word, dialect),

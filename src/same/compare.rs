@@ -229,7 +229,9 @@ fn held(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
         return unknown("only one of them programs the tool's direction by vectors".to_owned());
     }
     if a.tcp != b.tcp && claim.no_rotary && !claim.across {
-        return unknown("only one of them is under tool centre point control, and the rotary axes are unknown".to_owned());
+        return unknown(
+            "only one of them is under tool centre point control, and the rotary axes are unknown".to_owned(),
+        );
     }
     Ok(())
 }

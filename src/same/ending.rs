@@ -67,7 +67,9 @@ pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdic
     let (zero, other) = (before.state().zero, after.state().zero);
     let same = |(a, b): (&f64, &f64)| same_number(*a, *b) || a.is_nan() && b.is_nan();
     if !zero.iter().zip(&other).all(same) {
-        return unknown("the zero point at the end differs, and it is unknown whether the control resets it".to_owned());
+        return unknown(
+            "the zero point at the end differs, and it is unknown whether the control resets it".to_owned(),
+        );
     }
     Ok(())
 }

@@ -81,13 +81,15 @@ impl Proof<'_> {
             .zip(&new.shift)
             .any(|(was, is)| above((was - is).abs(), SHIFT));
         if apart {
-            let why = "the original program shifts the zero point (G52, G92, G10, TRANS), but the converted one does not";
+            let why =
+                "the original program shifts the zero point (G52, G92, G10, TRANS), but the converted one does not";
             return self.refute(is, why.to_owned());
         }
         match (&old.work_offset, &new.work_offset) {
-            (Some(was), Some(now)) if was != now => {
-                self.refute(is, format!("the work offset is {now}, but the original program has {was}"))
-            }
+            (Some(was), Some(now)) if was != now => self.refute(
+                is,
+                format!("the work offset is {now}, but the original program has {was}"),
+            ),
             // one of them names none (CL data): then the other may not change it
             (Some(name), None) | (None, Some(name)) if self.offset.get_or_insert_with(|| name.clone()) != name => {
                 self.refute(is, "several work offsets became one".to_owned())

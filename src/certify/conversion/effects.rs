@@ -169,7 +169,9 @@ fn both(was: &mut Side<'_>, is: &mut Side<'_>, at_was: usize, at_is: usize) -> R
         let line = line(was.reading, *old_block);
         return refute(
             Some(*new_block),
-            format!("{other} takes the place of {one} (line {line} of the original), or spindle or coolant are in a different state there"),
+            format!(
+                "{other} takes the place of {one} (line {line} of the original), or spindle or coolant are in a different state there"
+            ),
         );
     }
     if let Some((lost, block)) = old.get(new.len()) {
@@ -184,7 +186,10 @@ fn both(was: &mut Side<'_>, is: &mut Side<'_>, at_was: usize, at_is: usize) -> R
     if was.coolants != is.coolants && !ended {
         return refute(
             None,
-            format!("the coolant is {}, but the original program has {}", is.coolants, was.coolants),
+            format!(
+                "the coolant is {}, but the original program has {}",
+                is.coolants, was.coolants
+            ),
         );
     }
     Ok(())

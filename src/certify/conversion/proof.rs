@@ -206,7 +206,11 @@ impl Proof<'_> {
                 // from an unknown start: only the end is compared
                 return self.end(end, &new[0], is);
             }
-            (None, _) => return Err(Outcome::unknown(format!("motion {was} of the original: its path is unknown"))),
+            (None, _) => {
+                return Err(Outcome::unknown(format!(
+                    "motion {was} of the original: its path is unknown"
+                )));
+            }
             (Some(_), _) => {}
         }
         let Some(track) = track else { return Ok(()) };

@@ -25,7 +25,9 @@ pub(super) fn reason(why: &NoStance) -> String {
         NoStance::HeldElsewhere { axis, .. } => {
             format!("the machine file holds axis {} at another position", char::from(*axis))
         }
-        NoStance::PlaneMisaligned(off) => format!("the tool is {:.4} deg off the normal of the tilted plane", deg(*off)),
+        NoStance::PlaneMisaligned(off) => {
+            format!("the tool is {:.4} deg off the normal of the tilted plane", deg(*off))
+        }
         NoStance::NoSuchAxis(letter) => format!("the machine has no axis {}", char::from(*letter)),
         NoStance::RotaryOffset(letter) => format!(
             "a work offset in {} under tool centre point control is not modelled",

@@ -156,7 +156,10 @@ mod tests {
     fn a_text_about_programs_is_none() {
         let text = "The program begins with TRAORI and needs G43.4 on other controls.\nAfter it the tip is led along the path.\n\
                     M428 does the same on the machines of that maker.\nWrite G0 before the first motion and nothing else.\n";
-        assert_eq!(prose(&text.to_ascii_uppercase(), 30), Some("text that is not a program"));
+        assert_eq!(
+            prose(&text.to_ascii_uppercase(), 30),
+            Some("text that is not a program")
+        );
         let program = "PROGRAM FOR THE SMALL PART OF JOB 12\nG21\nG0 X1\nG1 Z-1 F100\nM30\n";
         assert_eq!(prose(program, 0), None);
     }

@@ -96,7 +96,8 @@ impl Builder {
                 range,
             }),
             (true, Some(_)) => {
-                let message = format!("DO{number} is inside a loop of the same number; the END{number} of that loop is missing");
+                let message =
+                    format!("DO{number} is inside a loop of the same number; the END{number} of that loop is missing");
                 self.broken(at, range, Mistake::EndMissing, message);
             }
             (false, Some(place)) if place + 1 == open.len() => {
@@ -110,8 +111,7 @@ impl Builder {
             }
             (false, Some(place)) => {
                 let inner = open[place + 1].number;
-                let message =
-                    format!("loops cross: END{number} is inside the loop DO{inner}, which has not ended yet");
+                let message = format!("loops cross: END{number} is inside the loop DO{inner}, which has not ended yet");
                 open.truncate(place);
                 self.broken(at, range, Mistake::EndMissing, message);
             }

@@ -342,7 +342,10 @@ impl Statement<'_> {
                 range,
                 super::no_label(format!("there is no label {name} in this program")),
             )),
-            (Some(_), Some(_)) => not_decided(range, format!("{name}: the label is defined both before and after REPEAT")),
+            (Some(_), Some(_)) => not_decided(
+                range,
+                format!("{name}: the label is defined both before and after REPEAT"),
+            ),
         }
     }
 }

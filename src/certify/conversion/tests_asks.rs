@@ -131,8 +131,8 @@ fn a_lost_request_is_refuted() {
 
 #[test]
 fn a_request_with_other_words_or_in_another_place_is_refuted() {
-    lost("linuxcnc", "M62 P1", "M62 P2", "M62 P2 comes where M62 P1");
-    lost("linuxcnc", "G64 P0.1", "G64 P0.2", "comes where");
+    lost("linuxcnc", "M62 P1", "M62 P2", "M62 P2 takes the place of M62 P1");
+    lost("linuxcnc", "G64 P0.1", "G64 P0.2", "takes the place of");
     lost("linuxcnc", "M64 P1\nG1 X8 F100", "G1 X8 F100\nM64 P1", "is lost");
     lost(
         "linuxcnc",
@@ -140,7 +140,7 @@ fn a_request_with_other_words_or_in_another_place_is_refuted() {
         "G1 X8 F100\nM0",
         "a stop (line 5 of the original) is lost",
     );
-    lost("linuxcnc", "M0", "M1", "an optional stop comes where a stop");
+    lost("linuxcnc", "M0", "M1", "an optional stop takes the place of a stop");
     lost(
         "linuxcnc",
         "M8\nG1 X8 F100\nM9",
@@ -148,12 +148,17 @@ fn a_request_with_other_words_or_in_another_place_is_refuted() {
         "the coolant is mist, but the original program has flood",
     );
     // a stop with the spindle running, and one without
-    lost("linuxcnc", "M5\nM0\nM3", "M0", "in another state of spindle");
+    lost(
+        "linuxcnc",
+        "M5\nM0\nM3",
+        "M0",
+        "spindle or coolant are in a different state",
+    );
     lost(
         "linuxcnc",
         "M8\nM9\nM0\nM8",
         "M8\nM0",
-        "in another state of spindle or coolant",
+        "spindle or coolant are in a different state",
     );
     lost("linuxcnc", "M4", "M3", "the spindle differs");
 }

@@ -10,7 +10,7 @@
 //! ```gcode
 //! N10 G0 X0 Y0
 //! /N20 G0 X100
-//! ;^ block-delete-unset: 1 block begins with /, and the state of the block delete switch is not declared: judged both with the block run and with it skipped
+//! ;^ block-delete-unset: 1 block begins with /, but the state of the block delete switch is not declared: checked once with the block run, and once with it skipped
 //! ```
 //!
 //! # Use instead

@@ -111,7 +111,7 @@ fn for_counts_by_one_and_leaves_one_more() {
         "{:?}",
         said(changes)
     );
-    assert!(said("G0\nFOR R1=0.5 TO 3\nX1\nENDFOR\nM30\n")[0].contains("no whole number"));
+    assert!(said("G0\nFOR R1=0.5 TO 3\nX1\nENDFOR\nM30\n")[0].contains("not a whole number"));
 }
 
 #[test]
@@ -190,7 +190,7 @@ fn case_goes_to_the_label_of_its_value() {
     assert_eq!(places(&source("2", "")), ["2"]);
     assert_eq!(places(&source("5", "")), ["9"]);
     assert_eq!(places(&source("5", " DEFAULT GOTOF LC")), ["3"]);
-    assert!(said(&source("0.3", ""))[0].contains("no whole number"));
+    assert!(said(&source("0.3", ""))[0].contains("not a whole number"));
     assert_eq!(
         places("G0\nR1=2\nCASE R1 OF 1 GOTOF LBL1 2 GOTOF LBL2\nX9\nLBL1: X1\nLBL2: X2\nM30\n"),
         ["2"]

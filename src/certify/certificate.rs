@@ -212,7 +212,7 @@ impl Certificate {
             worst.path_axis_bound_deg.value
         );
         if self.motions.unknown > 0 {
-            text.push_str("; some positions are unknown, but both programs program them alike");
+            text.push_str("; some positions are unknown, but both programs program them in the same words");
         }
         if self.motions.process_changed > 0 {
             text.push_str("; feed or spindle speed differ");

@@ -131,7 +131,7 @@ impl Pair<'_> {
             }
             NoStance::NotModelled => "the motion is not modelled".into(),
             NoStance::HeldElsewhere { axis, .. } => {
-                format!("axis {} is held elsewhere by the machine file", char::from(*axis))
+                format!("the machine file holds axis {} at another position", char::from(*axis))
             }
             NoStance::PlaneMisaligned(_) => "the tool is not perpendicular to the tilted plane".into(),
             NoStance::RotaryOffset(letter) => {
@@ -289,7 +289,7 @@ impl Pair<'_> {
         let (sampled_axis, bound_axis) = (deg(way.sampled_axis), deg(way.bound_axis));
         if claimed && (above(way.sampled_mm, mm) || above(sampled_axis, degrees)) {
             return self.refute(format!(
-                "inside the block the tips lie {:.6} mm and the tool axes {sampled_axis:.6} deg apart; {mm} mm and {degrees} deg are allowed",
+                "inside the block the tips are {:.6} mm and the tool axes {sampled_axis:.6} deg apart; {mm} mm and {degrees} deg are allowed",
                 way.sampled_mm
             ));
         }

@@ -257,7 +257,7 @@ pub(crate) fn not_followed(loaded: &Loaded, fault: &Fault) -> Option<String> {
         )
     } else {
         format!(
-            "{}:{line}: given up: no end within {blocks} executed blocks; if the program is only long, use --max-steps N or raise `steps` \
+            "{}:{line}: stopped: no end within {blocks} executed blocks; if the program is only long, use --max-steps N or raise `steps` \
              of [limits] in trunnion.toml",
             loaded.name
         )

@@ -126,7 +126,7 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
     }
     if found.bound > tolerance || errors.not_judged > 0 || errors.apart > 0 {
         let why = if errors.not_judged > 0 {
-            "the path of some feed blocks is not known".to_owned()
+            "the path of some feed blocks is unknown".to_owned()
         } else if errors.apart > 0 {
             format!(
                 "{} feed blocks start or end off the surface; --lines FROM-TO leaves them out",

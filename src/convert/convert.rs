@@ -205,7 +205,7 @@ fn held(reading: &Reading, setup: &trunnion_interp::Setup) -> Result<(), Refused
     let Some(block) = reading.given_up else { return Ok(()) };
     let most = setup.limits.held;
     let message = format!(
-        "given up: a conversion holds all motions in memory, and there are more than {most}; raise `held` of [limits] in trunnion.toml (a \
+        "stopped: a conversion holds all motions in memory, and there are more than {most}; raise `held` of [limits] in trunnion.toml (a \
          motion takes up to 4 kB)"
     );
     Err(Refused::at(&reading.program, block, message))
@@ -232,7 +232,7 @@ fn wording(program: &Program, fault: &Fault) -> String {
                 .to_owned()
         }
         FaultKind::EndlessLoop { blocks, proved: false } => format!(
-            "given up: no end within {blocks} executed blocks; if the program is only long, raise `steps` and `held` of [limits] in \
+            "stopped: no end within {blocks} executed blocks; if the program is only long, raise `steps` and `held` of [limits] in \
              trunnion.toml"
         ),
         _ => format!("the program has an error at `{text}`; `trunnion check` names it"),

@@ -96,7 +96,7 @@ pub fn renumber(program: &Program, dialect: &Dialect, setup: &Setup, numbers: Nu
     if again.resolve(&after).ok().as_ref() != Some(&targets) {
         return refused(
             TextRange::default(),
-            "the new numbers would not lead to the same blocks".to_owned(),
+            "the new numbers would not refer to the same blocks".to_owned(),
         );
     }
     if let Some(difference) = first_difference(program, &after, dialect, setup, true) {

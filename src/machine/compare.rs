@@ -53,7 +53,7 @@ impl<'m> Comparison<'m> {
                 let [a, b]: [String; 2] = [only(&first, &second), only(&second, &first)];
                 let name = |text: String| if text.is_empty() { "no others".to_owned() } else { text };
                 Err(format!(
-                    "the machines have different axes: besides the common ones {} has {}, and {} has {}",
+                    "the machines have different axes: in addition to the common ones {} has {}, and {} has {}",
                     believed.id,
                     name(a),
                     truth.id,

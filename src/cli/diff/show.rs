@@ -326,7 +326,7 @@ fn summary(lines: &Lines<'_>, found: &Found, tolerance: Tolerance) -> String {
     let mut text = format!("{word} {first}\n{numbers}{listed}; other motions are the same {within}{unknown}\n");
     if found.too_different {
         text = format!(
-            "{word} {first}\n{numbers}: too little in common to say which motion is which; they part at the first line above\n"
+            "{word} {first}\n{numbers}: too little in common to say which motion is which; they differ from the first line above on\n"
         );
     } else if found.one_by_one {
         text.push_str(

@@ -151,7 +151,7 @@ impl Iso<'_> {
         let signs = ways.map(f64::signum);
         let moved = axes.map(|axis| allowance[usize::from(axis == Z)]);
         if (0..2).any(|i| moved[i] * signs[i] > 0.0) {
-            return Err("its finishing allowance leads beyond the contour");
+            return Err("its finishing allowance extends beyond the contour");
         }
         let full = ways[0].abs();
         if full / depth > MOST {

@@ -356,7 +356,7 @@ fn control(machine: &Machine) -> Vec<String> {
         RapidPath::Synchronous => lines.push("in rapid motions all axes arrive together".to_owned()),
         RapidPath::Dogleg => {
             lines.push(
-                "in rapid motions each axis runs at its own speed: the path between the ends is not known".to_owned(),
+                "in rapid motions each axis runs at its own speed: the path between the ends is unknown".to_owned(),
             );
         }
     }

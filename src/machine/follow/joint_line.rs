@@ -31,7 +31,7 @@ impl Follower<'_> {
             Some(leg) if self.lines.is_some() && self.goes_on(motion) => {
                 debug_assert!(
                     self.is_straight(motion),
-                    "a line that is not straight behind one that is"
+                    "a line that is not straight after one that is"
                 );
                 let own = &mut leg.motion;
                 (own.block, own.chain, own.feed) = (motion.block, motion.chain, motion.feed);
@@ -130,7 +130,7 @@ impl Follower<'_> {
         };
         leg.pole_angle_min = end.pole_angle;
         let from = self.state.rotary;
-        debug_assert_eq!(from, start.rotary(self.machine), "the machine stands elsewhere");
+        debug_assert_eq!(from, start.rotary(self.machine), "the machine is at another position");
         leg.rotary_change = [(to[0] - from[0]).abs(), (to[1] - from[1]).abs()];
         if let (Some(from), Some(to)) = (leg.motion.start.xyz(), leg.motion.end.xyz()) {
             leg.length = way((to - from).norm());

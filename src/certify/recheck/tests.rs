@@ -201,7 +201,7 @@ fn fanuc(before: &str, after: &str, setup: &Setup) -> Outcome {
     on("fanuc-30i", &one, &two, &PATH, setup)
 }
 
-/// Behind G92 it is unknown the zero of B, which was never positioned, and which the machine does not have.
+/// After G92 the zero of B is unknown, which was never positioned, and which the machine does not have.
 #[test]
 fn an_unknown_zero_of_an_axis_that_is_not_there_refutes_nothing() {
     let text = |line: &str| format!("G21 G90\nG0 X0 Y4 Z11 A24 C9\nG92 Y-12\n{line}\nM2\n");
@@ -210,7 +210,7 @@ fn an_unknown_zero_of_an_axis_that_is_not_there_refutes_nothing() {
     assert!(matches!(compare("G1 X-4.1 F100"), Outcome::Refuted(_)));
 }
 
-/// Behind TRAORI it is unknown Y, and so not the arc: that both ends are the same is no proof.
+/// After TRAORI Y is unknown, and so is the arc: equal ends prove nothing.
 #[test]
 fn arcs_that_are_not_known_are_compared_by_their_words() {
     let text = |k: &str| {

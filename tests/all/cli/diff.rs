@@ -46,7 +46,7 @@ fn the_length_of_another_tool_is_a_difference() {
     assert!(shown.contains(told), "{shown}");
 }
 
-/// What is not known of a motion is compared by its words: where a probe met, an arc from a place that it is unknown.
+/// What is not known of a motion is compared by its words: where a probe met, an arc from an unknown position.
 #[test]
 fn what_is_not_known_is_compared_by_its_words() {
     let folder = TempDir::new().expect("works");

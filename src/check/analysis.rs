@@ -389,7 +389,7 @@ mod tests {
                     Some(f64::from((block - 2) % 100)),
                     "{block}"
                 );
-                assert_eq!(info.before.feed, Some(500.0), "{block}");
+                assert_eq!(info.before.feed.value(), Some(500.0), "{block}");
             }
         }
         assert!(Session::new(&program, &settings, &|| true).is_none());

@@ -19,6 +19,7 @@ mod facts;
 mod finding;
 pub mod fixture;
 pub mod header;
+mod keyed;
 mod look;
 mod nearest;
 mod open;

@@ -235,8 +235,8 @@ impl<'a> Pass<'a> {
         let ending = Ending {
             unused: self.suppressions.unused(&looked_for),
         };
-        let assumed = self.datum.as_ref().map(Datum::assumed).unwrap_or_default();
-        let assumptions = assumed.iter().map(|missing| missing.assumption(self.dialect)).collect();
+        let assumed = self.datum.iter().flat_map(Datum::assumed);
+        let assumptions = assumed.map(|missing| missing.assumption(self.dialect)).collect();
         let mut reporter = self.reporter;
         reporter.origin(false, ChainId::MAIN);
         ask(&self.rules, &mut reporter, (None, 0), |wake, out| {

@@ -1,6 +1,7 @@
 //! Where rules report to: they write the messages; levels, suppression, block numbers and merging are handled here.
 use crate::diagnostic::Origin;
 use crate::finding::Draft;
+use crate::keyed::Keyed;
 use crate::runs::{Log, Merge, Repeat};
 use crate::suppress::Suppressions;
 use crate::view::LegView;
@@ -38,7 +39,7 @@ pub(crate) struct Reporter<'a> {
     /// The calls in which the current block runs.
     chain: ChainId,
     pending: Vec<Draft<'a>>,
-    told: Vec<(&'static str, u64)>,
+    told: Keyed<(u64, &'static str), ()>,
     /// A rule writes the message of a leg that it has found before.
     wording: bool,
     /// The running rule has reported or counted something.
@@ -59,7 +60,7 @@ impl<'a> Reporter<'a> {
             sequence: 0,
             chain: ChainId::MAIN,
             pending: Vec::new(),
-            told: Vec::new(),
+            told: Keyed::default(),
             wording: false,
             spoke: false,
         }
@@ -210,13 +211,7 @@ impl<'a> Reporter<'a> {
 
     /// True the first time the running rule asks about `cause`, so that one cause is reported once.
     pub(crate) fn once(&mut self, cause: u64) -> bool {
-        // causes differ more often than rules do, and are compared faster
-        let known = |told: &(&'static str, u64)| told.1 == cause && told.0 == self.name;
-        let first = !self.told.iter().any(known);
-        if first {
-            self.told.push((self.name, cause));
-        }
-        first
+        self.told.insert((cause, self.name), ())
     }
 
     /// Names the rule that runs next and the block it looks at. `sequence` counts blocks for merging.

@@ -82,15 +82,15 @@ impl InForce {
     #[inline]
     pub(crate) fn of(state: &ModalState) -> Self {
         Self {
-            tool_length_mm: state.tool_length_mm,
-            own_length_mm: state.own_length_mm(),
-            frame_unknown: state.frame_unknown,
-            surface_speed: state.surface_speed,
-            spindle_limit_rpm: state.spindle_limit_rpm,
-            units_said: state.units_said,
+            tool_length_mm: state.length.mm(),
+            own_length_mm: state.tool.own_length_mm(),
+            frame_unknown: state.zero.is_lost(),
+            surface_speed: state.spindle.surface_speed(),
+            spindle_limit_rpm: state.spindle.limit_rpm(),
+            units_said: state.coordinates.unit_programmed(),
             clamps: state.clamps,
-            offset: state.work_offset.as_deref().map(OffsetName::new).unwrap_or_default(),
-            length_of: state.length_of,
+            offset: state.zero.offset().map(OffsetName::new).unwrap_or_default(),
+            length_of: state.length.of(),
         }
     }
 }

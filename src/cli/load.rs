@@ -4,6 +4,7 @@ use super::{
     failure::Failure,
 };
 use std::{
+    collections::BTreeSet,
     io::{Read, Write},
     path::Path,
 };
@@ -59,7 +60,10 @@ impl Loaded {
         if self.resolved.machine.is_none() {
             return Vec::new();
         }
-        assumptions(&self.program, self.resolved.dialect, &self.resolved.setup)
+        // no further than the command itself follows the program
+        let mut setup = self.resolved.setup.clone();
+        setup.limits = setup.limits.of_steps();
+        assumptions(&self.program, self.resolved.dialect, &setup)
     }
     /// The files of a command that reads this program: none of its outputs may replace one of them.
     pub(crate) fn outputs(&self) -> Outputs {
@@ -108,13 +112,9 @@ pub(crate) fn assuming(programs: &[&Loaded]) -> Option<String> {
 
 /// What one or two programs assume, each once.
 pub(crate) fn assumed_by(programs: &[&Loaded]) -> Vec<String> {
-    let mut all = Vec::new();
-    for text in programs.iter().flat_map(|loaded| loaded.assumptions()) {
-        if !all.contains(&text) {
-            all.push(text);
-        }
-    }
-    all
+    let mut known = BTreeSet::new();
+    let all = programs.iter().flat_map(|loaded| loaded.assumptions());
+    all.filter(|text| known.insert(text.clone())).collect()
 }
 
 /// The global options.

@@ -182,7 +182,7 @@ fn judge(
     let lines = command.lines.as_deref().map(plot::span).transpose()?;
     let mut judge = Judge::new(surface, machine, options);
     let given_up = each_leg(loaded, machine, index, lines, |leg, _, state| {
-        judge.leg(leg, leg.motion.other_length(state.own_length_mm()).is_none());
+        judge.leg(leg, leg.motion.other_length(state.tool.own_length_mm()).is_none());
     });
     if let Some(why) = given_up {
         // a part of the path proves nothing about the whole

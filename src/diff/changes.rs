@@ -1,12 +1,12 @@
 //! From two runs to the list of differences. First pass: a key per motion, 16 bytes each, which are aligned. Second pass: the
 //! motions of the stretches that differ are produced again and compared in numbers, so that the first pass may be coarse.
 use crate::align::{Stretch, align};
-use crate::event::{Body, Event, Tech};
+use crate::event::{Body, Event};
+use crate::keys::{Keys, Techs, keys, place_unknown};
 use crate::match_up::match_up;
 use crate::point::{Point, Tolerance};
 use crate::run::Events;
 use std::collections::{BTreeMap, HashMap};
-use std::hash::{DefaultHasher, Hash, Hasher};
 use trunnion_same::{Claim, Input, Near, Steps, Stop, Verdict, run_alike};
 use trunnion_syntax::BlockId;
 
@@ -88,22 +88,6 @@ impl Found {
     }
 }
 
-/// What the first pass keeps of a program.
-#[derive(Default)]
-struct Keys {
-    hashes: Vec<u64>,
-    /// Index into the common list of what is in effect; `u32::MAX` for statements.
-    techs: Vec<u32>,
-    blocks: Vec<u32>,
-}
-
-/// What was in effect in any motion, each once.
-#[derive(Default)]
-struct Techs {
-    list: Vec<Tech>,
-    index: HashMap<Tech, u32>,
-}
-
 /// Two programs that are compared.
 #[derive(Clone, Copy)]
 pub struct Pair<'a> {
@@ -135,18 +119,28 @@ pub fn compare(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> Found 
         deg: tolerance.deg,
     };
     let mut sides = [Steps::new(before), Steps::new(after)];
+    for side in &mut sides {
+        side.count_motions(place_unknown);
+    }
     let [one, other] = &mut sides;
     let mut verdict = trunnion_same::compare(one, other, &claim, &mut near);
     if matches!(verdict, Verdict::Unknown(_)) && proved(pair, tolerance, path_only) {
         verdict = Verdict::Same;
     }
     let mut found = Found::new(verdict);
+    if found.same() {
+        // what the comparison has not come to is counted too; nothing is run a second time
+        for (side, steps) in sides.iter_mut().enumerate() {
+            steps.for_each(drop);
+            found.motions[side] = steps.counted()[0];
+            found.stops[side] = steps.stop().cloned();
+        }
+        found.unknown = sides[0].counted()[1];
+        return found;
+    }
     let mut techs = Techs::default();
     let a = keys(before, tolerance, &mut techs, (0, &mut found));
     let b = keys(after, tolerance, &mut techs, (1, &mut found));
-    if found.same() {
-        return found;
-    }
     let stretches = match align(&a.hashes, &b.hashes) {
         Some(stretches) => stretches,
         None if a.hashes.len() == b.hashes.len() => {
@@ -206,45 +200,7 @@ fn proved(pair: &Pair<'_>, tolerance: Tolerance, path_only: bool) -> bool {
     matches!(outcome, trunnion_certify::Outcome::Proved(_))
 }
 
-fn keys(input: Input<'_>, tolerance: Tolerance, techs: &mut Techs, to: (usize, &mut Found)) -> Keys {
-    let (side, found) = to;
-    let mut keys = Keys::default();
-    let mut events = Events::new(input);
-    for event in &mut events {
-        let mut state = DefaultHasher::new();
-        let tech = match &event.body {
-            Body::Motion(point, tech) => {
-                found.motions[side] += 1;
-                found.unknown += u64::from(side == 0 && point.known & 7 != 7 && point.way.is_a_move());
-                point.hash(tolerance, &mut state);
-                techs.number(tech)
-            }
-            Body::Statement(text) => {
-                text.hash(&mut state);
-                u32::MAX
-            }
-        };
-        keys.hashes.push(state.finish());
-        keys.techs.push(tech);
-        keys.blocks.push(event.block.0);
-    }
-    found.stops[side] = events.stop().cloned();
-    keys
-}
-
-impl Techs {
-    fn number(&mut self, tech: &Tech) -> u32 {
-        if let Some(&known) = self.index.get(tech) {
-            return known;
-        }
-        let number = self.list.len() as u32;
-        self.list.push(tech.clone());
-        self.index.insert(tech.clone(), number);
-        number
-    }
-}
-
-/// The modal state of motions that end at the same position.
+/// What is in effect in motions that lead to the same place.
 fn same_stretches(a: &Keys, b: &Keys, techs: &Techs, stretches: &[Stretch], found: &mut Found) {
     let mut groups: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     for stretch in stretches {

@@ -37,11 +37,15 @@ pub struct Tech {
     compensation: u8,
     machine_coordinates: bool,
     great_circle: Option<bool>,
-    settings: Vec<(String, String)>,
+    settings: Settings,
 }
 
+/// Settings as people read them, in the order of their keys.
+pub(crate) type Settings = Arc<[(String, String)]>;
+
 impl Tech {
-    pub(crate) fn new(step: &Step) -> Self {
+    /// `settings`: those of the step's process.
+    pub(crate) fn new(step: &Step, settings: Settings) -> Self {
         let motion: &Motion = &step.motion;
         let feed = match motion.feed {
             _ if !motion.is_feed() => ("", 0.0),
@@ -61,7 +65,7 @@ impl Tech {
             compensation: step.held.compensation,
             machine_coordinates: motion.machine_coordinates,
             great_circle: motion.great_circle.filter(|_| motion.tcp),
-            settings: step.process.settings(),
+            settings,
         }
     }
 
@@ -116,7 +120,7 @@ impl Tech {
         let mut keys: Vec<&str> = self
             .settings
             .iter()
-            .chain(&other.settings)
+            .chain(other.settings.iter())
             .map(|(key, _)| key.as_str())
             .collect();
         keys.sort_unstable();

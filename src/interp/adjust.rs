@@ -47,7 +47,7 @@ impl Iso<'_> {
                 let inch = if has(Action::Inch) || has(Action::Metric) {
                     has(Action::Inch)
                 } else {
-                    self.core.state.length_unit_mm != 1.0
+                    self.core.state.coordinates.unit_mm() != 1.0
                 };
                 self.least_increments(codes, words, inch);
             }
@@ -91,7 +91,7 @@ impl Iso<'_> {
             words.axes.values[axis] /= if linear { divisor } else { 1000.0 };
         }
         words.axes.point |= whole;
-        if !self.core.state.vector_mode {
+        if !self.core.state.tool_axis.vectors() {
             let whole = words.centre.given & !words.centre.point;
             for place in (0..3).filter(|place| whole & (1 << place) != 0) {
                 words.centre.values[place] /= divisor;
@@ -111,7 +111,7 @@ impl Iso<'_> {
         scale(&mut words.radius, if turns { 1000.0 } else { divisor });
         let mode = codes
             .iter()
-            .fold(self.core.state.feed_mode, |mode, found| match found.code.action {
+            .fold(self.core.state.feed.mode(), |mode, found| match found.code.action {
                 Action::FeedPerMinute => FeedMode::PerMinute,
                 Action::FeedPerRevolution => FeedMode::PerRevolution,
                 Action::FeedInverseTime => FeedMode::InverseTime,
@@ -128,7 +128,7 @@ impl Iso<'_> {
     /// Reports F without a decimal point, which a setting of the control reads as written or as least increments.
     pub(crate) fn whole_feed(&self, codes: &[Found<'_>], words: &Words, report: &mut Report<'_>) {
         let feed = words.feed.number().filter(|feed| !feed.has_point && feed.value != 0.0);
-        let Some(feed) = feed.filter(|_| self.core.state.feed_mode != FeedMode::InverseTime) else {
+        let Some(feed) = feed.filter(|_| self.core.state.feed.mode() != FeedMode::InverseTime) else {
             return;
         };
         if !dwell_reads(codes, "F") {

@@ -87,8 +87,8 @@ impl<'d> Apt<'d> {
     pub(crate) fn new(mut core: Core<'d>) -> Self {
         let setup = std::sync::Arc::clone(&core.setup);
         if let Some(offset) = setup.work_offset("G54") {
-            core.state.zero = offset.values;
-            core.state.undeclared.zero = 0;
+            core.state.zero.set(offset.values);
+            core.state.zero.declare_all();
         }
         Self {
             core,
@@ -148,7 +148,7 @@ impl Apt<'_> {
             b"DELAY" => return Some(self.delay(&args, report)),
             b"FEDRAT" => self.fedrat(&args, report),
             b"UNITS" | b"UNIT" => self.units(&args, report),
-            b"MULTAX" => self.core.state.multax = !args.has(program, "OFF"),
+            b"MULTAX" => self.core.state.tool_axis.set_multax(!args.has(program, "OFF")),
             b"TLAXIS" => self.tool_axis(&args, report),
             b"SPINDL" => self.spindl(&args, report),
             b"CUTTER" => self.cutter(&args, report),
@@ -196,7 +196,7 @@ impl Apt<'_> {
             }
             _ => {}
         }
-        self.core.state.frame_unknown = self.core.unknown.any() || self.kept.csys;
+        self.core.state.zero.lose(self.core.unknown.any() || self.kept.csys);
     }
 
     /// An unknown record may move the tool or the coordinates: neither is known until the end of the program.
@@ -204,7 +204,7 @@ impl Apt<'_> {
         report.fault(report.whole(), FaultKind::NotModelled { what });
         self.lose_place();
         self.core.unknown.for_good();
-        self.core.state.frame_unknown = true;
+        self.core.state.zero.lose(true);
     }
 
     /// Where the tool is, and along which axis, is not known until a GOTO says so.
@@ -280,14 +280,17 @@ impl Apt<'_> {
         };
         match (unit, args.numbers().first()) {
             (Some((mode, unit)), Some(value)) if !args.odd => {
-                self.core.state.feed_mode = mode;
-                self.core.state.feed = Some(value * unit.unwrap_or(self.core.state.feed_unit_mm));
+                self.core.state.feed.switch_mode(mode);
+                self.core
+                    .state
+                    .feed
+                    .set(Some(value * unit.unwrap_or(self.core.state.feed.unit_mm())));
                 self.core.feed_unread = false;
             }
             _ => {
                 let what = program.text(report.whole()).into_owned();
                 report.fault(TextRange::default(), FaultKind::NotModelled { what });
-                self.core.state.feed = None;
+                self.core.state.feed.set(None);
                 self.core.feed_unread = true;
             }
         }
@@ -297,19 +300,22 @@ impl Apt<'_> {
     fn spindl(&mut self, args: &Args, report: &Report<'_>) {
         let program = report.program;
         if args.has(program, "OFF") {
-            self.core.state.spindle_on = Some(false);
+            self.core.state.spindle.turn(Some(false));
             return;
         }
         if args.has(program, "LOCK") || args.has(program, "ORIENT") {
-            self.core.state.spindle_on = Some(false);
+            self.core.state.spindle.turn(Some(false));
             return;
         }
-        self.core.state.spindle_on = Some(true);
+        self.core.state.spindle.turn(Some(true));
         if let Some(&speed) = args.numbers().first() {
             let cutting_speed = args.has(program, "SFM") || args.has(program, "SMM");
-            self.core.state.spindle_rpm = Some(speed).filter(|_| !cutting_speed && !args.odd);
+            self.core
+                .state
+                .spindle
+                .set_rpm(Some(speed).filter(|_| !cutting_speed && !args.odd));
             if speed == 0.0 {
-                self.core.state.spindle_on = Some(false);
+                self.core.state.spindle.turn(Some(false));
             }
         }
     }
@@ -366,7 +372,7 @@ impl Apt<'_> {
         }
         if identity == self.kept.csys {
             self.kept.csys = !identity;
-            self.core.state.frame_unknown = self.core.unknown.any() || self.kept.csys;
+            self.core.state.zero.lose(self.core.unknown.any() || self.kept.csys);
             self.core.forget_position();
         }
     }

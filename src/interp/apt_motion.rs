@@ -19,10 +19,10 @@ impl Apt<'_> {
             return self.unreadable_goto(report);
         }
         if let Some(&feed) = numbers.get(6) {
-            self.core.state.feed = Some(feed * self.core.state.feed_unit_mm);
+            self.core.state.feed.set(Some(feed * self.core.state.feed.unit_mm()));
             self.core.feed_unread = false;
         }
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let target = Vec3::new(numbers[0], numbers[1], numbers[2]) * unit;
         let vector = (numbers.len() >= 6).then(|| Vec3::new(numbers[3], numbers[4], numbers[5]));
         self.go(target, vector, args.range, report)
@@ -31,7 +31,7 @@ impl Apt<'_> {
     /// GODLTA/dx,dy,dz from where the tool is; GODLTA/d along the tool axis.
     pub(crate) fn godlta(&mut self, args: &Args, report: &mut Report<'_>) -> Motion {
         let numbers = args.numbers();
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let delta = match (numbers.len(), self.core.held_orientation()) {
             _ if args.odd || !args.words().is_empty() => None,
             (3, _) => Some(Vec3::new(numbers[0], numbers[1], numbers[2]) * unit),
@@ -61,12 +61,15 @@ impl Apt<'_> {
             return;
         }
         self.core.state.position =
-            self.at(Vec3::new(numbers[0], numbers[1], numbers[2]) * self.core.state.length_unit_mm);
+            self.at(Vec3::new(numbers[0], numbers[1], numbers[2]) * self.core.state.coordinates.unit_mm());
         if numbers.len() == 6 {
             let vector = Vec3::new(numbers[3], numbers[4], numbers[5]);
             self.core.state.orientation = self.core.unit_vector(vector, true, args.range, report);
             self.kept.axis_lost = self.core.state.orientation == Orientation::Words;
-        } else if self.core.state.orientation == Orientation::Words && !self.core.state.multax && !self.kept.axis_lost {
+        } else if self.core.state.orientation == Orientation::Words
+            && !self.core.state.tool_axis.multax()
+            && !self.kept.axis_lost
+        {
             // as for GOTO: straight along Z while MULTAX is off
             self.core.state.orientation = Orientation::Vector(None, Vec3::z());
         }
@@ -91,7 +94,7 @@ impl Apt<'_> {
 
     /// CIRCLE/x,y,z,i,j,k[,r]: centre, axis (right-hand rule) and radius of the arc that the next GOTO ends.
     pub(crate) fn circle(&mut self, args: &Args, report: &mut Report<'_>) {
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let numbers = args.numbers();
         let readable = !args.odd && args.words().is_empty() && matches!(numbers.len(), 6 | 7);
         let axis = if readable {
@@ -120,7 +123,7 @@ impl Apt<'_> {
             .copied()
             .filter(|&value| value >= 0.0 && !args.odd);
         let seconds = if args.has(report.program, "REV") {
-            let rpm = self.core.state.spindle_rpm.filter(|&rpm| rpm > 0.0);
+            let rpm = self.core.state.spindle.rpm().filter(|&rpm| rpm > 0.0);
             value.zip(rpm).map(|(turns, rpm)| turns / rpm * 60.0)
         } else {
             value
@@ -169,7 +172,7 @@ impl Apt<'_> {
         if let Some(vector) = vector {
             return self.core.unit_vector(vector, true, range, report);
         }
-        if self.core.state.multax && set.is_none() {
+        if self.core.state.tool_axis.multax() && set.is_none() {
             report.fault(range, FaultKind::AptVectorMissing);
         }
         match (set, self.core.state.orientation) {
@@ -215,7 +218,7 @@ impl Apt<'_> {
             report.fault(TextRange::default(), FaultKind::ArcCentreMissing);
             return None;
         };
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let written = circle.radius.map(|radius| Arc {
             radius_start: radius,
             ..arc

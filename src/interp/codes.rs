@@ -110,7 +110,7 @@ impl<'d> Iso<'d> {
         if self.core.dialect.quirks.offset_compensation && self.core.state.compensation == 0 {
             self.cutter_number_ahead(words);
         }
-        self.core.state.frame_unknown = self.core.unknown.any();
+        self.core.state.zero.lose(self.core.unknown.any());
         block
     }
 
@@ -131,13 +131,13 @@ impl<'d> Iso<'d> {
                 }
             }
             Action::Dwell => block.dwell = true,
-            Action::PlaneXy => state.plane = Plane::Xy,
-            Action::PlaneZx => state.plane = Plane::Zx,
-            Action::PlaneYz => state.plane = Plane::Yz,
-            Action::Absolute => state.incremental = false,
-            Action::Incremental => state.incremental = true,
-            Action::ArcCentreAbsolute => state.arc_centre_absolute = true,
-            Action::ArcCentreIncremental => state.arc_centre_absolute = false,
+            Action::PlaneXy => state.coordinates.set_plane(Plane::Xy),
+            Action::PlaneZx => state.coordinates.set_plane(Plane::Zx),
+            Action::PlaneYz => state.coordinates.set_plane(Plane::Yz),
+            Action::Absolute => state.coordinates.set_incremental(false),
+            Action::Incremental => state.coordinates.set_incremental(true),
+            Action::ArcCentreAbsolute => state.coordinates.set_arc_centre_absolute(true),
+            Action::ArcCentreIncremental => state.coordinates.set_arc_centre_absolute(false),
             Action::Inch => state.units(25.4, 25.4),
             Action::InchLengthsOnly => state.units(25.4, 1.0),
             Action::Metric => state.units(1.0, 1.0),
@@ -145,22 +145,15 @@ impl<'d> Iso<'d> {
             Action::FeedPerMinute => self.feed_mode(FeedMode::PerMinute),
             Action::FeedPerRevolution => self.feed_mode(FeedMode::PerRevolution),
             Action::ConstantSurfaceSpeed => {
-                self.memory.surface_speed = true;
-                state.surface_speed = true;
-                state.spindle_rpm = None;
+                state.spindle.set_surface_speed(true);
             }
-            Action::ConstantSpindleSpeed => {
-                state.surface_speed = false;
-                if std::mem::replace(&mut self.memory.surface_speed, false) {
-                    state.spindle_rpm = None;
-                }
-            }
-            Action::SpindleClockwise | Action::SpindleCounterClockwise => state.spindle_on = Some(true),
-            Action::SpindleStop => state.spindle_on = Some(false),
+            Action::ConstantSpindleSpeed => state.spindle.set_surface_speed(false),
+            Action::SpindleClockwise | Action::SpindleCounterClockwise => state.spindle.turn(Some(true)),
+            Action::SpindleStop => state.spindle.turn(Some(false)),
             Action::ToolChange => self.change_tool(report),
             Action::MachineCoordinates => block.machine_coordinates = true,
-            Action::OrientationAxes => state.great_circle = Some(false),
-            Action::OrientationVector => state.great_circle = Some(true),
+            Action::OrientationAxes => state.tool_axis.set_great_circle(false),
+            Action::OrientationVector => state.tool_axis.set_great_circle(true),
             Action::ProgramEnd => block.end = true,
             Action::NoMotion | Action::PathMode | Action::ProgramStop | Action::Declaration => {}
             _ => self.apply_rare(found, words, block, report),
@@ -254,28 +247,30 @@ impl<'d> Iso<'d> {
     }
 
     fn feed_mode(&mut self, mode: FeedMode) {
-        if self.core.state.feed_mode != mode {
-            self.core.state.feed_mode = mode;
-            self.core.state.feed = None;
+        if self.core.state.feed.mode() != mode {
+            self.core.state.feed.switch_mode(mode);
             self.core.feed_unread = false;
         }
     }
 
     fn feed_word(&mut self, codes: &[Found<'_>], words: &Words) {
-        if self.core.state.feed_mode == FeedMode::InverseTime {
-            self.core.state.feed = None;
+        if self.core.state.feed.mode() == FeedMode::InverseTime {
+            self.core.state.feed.set(None);
             self.core.feed_unread = false;
         }
         if !words.feed.is_said() || dwell_reads(codes, "F") {
             return;
         }
-        let unit = if self.core.state.feed_mode == FeedMode::InverseTime {
+        let unit = if self.core.state.feed.mode() == FeedMode::InverseTime {
             1.0
         } else {
-            self.core.state.feed_unit_mm
+            self.core.state.feed.unit_mm()
         };
-        self.core.state.feed = words.feed.number().map(|number| number.value * unit);
-        self.core.feed_unread = self.core.state.feed.is_none();
+        self.core
+            .state
+            .feed
+            .set(words.feed.number().map(|number| number.value * unit));
+        self.core.feed_unread = self.core.state.feed.value().is_none();
     }
 
     fn speed_word(&mut self, codes: &[Found<'_>], words: &Words) {
@@ -287,11 +282,10 @@ impl<'d> Iso<'d> {
         };
         let limit = || codes.iter().any(limits);
         if words.speed.is_said() && !dwell_reads(codes, "S") && !limit() {
-            self.core.state.spindle_rpm = words
-                .speed
-                .number()
-                .map(|number| number.value)
-                .filter(|_| !self.memory.surface_speed);
+            self.core
+                .state
+                .spindle
+                .set_rpm(words.speed.number().map(|number| number.value));
         }
     }
 }

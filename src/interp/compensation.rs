@@ -103,7 +103,11 @@ impl Iso<'_> {
     pub(crate) fn compensate(&mut self, told: Told, report: &mut Report<'_>) {
         let motion = &told.0;
         let now = told.1.compensation;
-        let plane = *self.memory.compensation.plane.get_or_insert(self.core.state.plane);
+        let plane = *self
+            .memory
+            .compensation
+            .plane
+            .get_or_insert(self.core.state.coordinates.plane());
         let Some(element) = Element::of(motion, plane) else {
             self.without_way(told, report);
             return;
@@ -113,7 +117,7 @@ impl Iso<'_> {
         {
             self.lose("part of the path is unknown", report);
         }
-        if told.1.plane != plane && now != 0 && self.memory.compensation.stage == Stage::On {
+        if told.1.coordinates.plane() != plane && now != 0 && self.memory.compensation.stage == Stage::On {
             self.reject(
                 "the plane changes during cutter compensation: cancel it with G40 first",
                 "plane-change",
@@ -133,7 +137,13 @@ impl Iso<'_> {
     /// A motion that does not move in the plane, or whose path is unknown.
     fn without_way(&mut self, told: Told, report: &mut Report<'_>) {
         let motion = &told.0;
-        let still = Element::rests(motion, self.memory.compensation.plane.unwrap_or(self.core.state.plane));
+        let still = Element::rests(
+            motion,
+            self.memory
+                .compensation
+                .plane
+                .unwrap_or(self.core.state.coordinates.plane()),
+        );
         if still && self.memory.compensation.held.is_some() {
             self.memory.compensation.between.push(told);
             return;
@@ -166,7 +176,11 @@ impl Iso<'_> {
 
     /// Side with mirrored coordinates taken into account.
     fn side(&self) -> f64 {
-        let plane = self.memory.compensation.plane.unwrap_or(self.core.state.plane);
+        let plane = self
+            .memory
+            .compensation
+            .plane
+            .unwrap_or(self.core.state.coordinates.plane());
         if self.memory.frames.shape.flips(plane) {
             -self.memory.compensation.side
         } else {

@@ -116,12 +116,12 @@ impl<'d> Core<'d> {
     /// after another offset, another length, or a motion in machine coordinates mean another position.
     #[cold]
     pub(crate) fn set_from_here(&mut self, block: BlockId) {
-        if self.effects.wanted() && self.state.undeclared.any() {
-            let offset = self.state.work_offset.as_deref().unwrap_or("no work offset");
+        if self.effects.wanted() && self.state.undeclared().any() {
+            let offset = self.state.zero.offset().unwrap_or("no work offset");
             let words = vec![
                 Argument::code("zero point set from here"),
                 Argument::text("in", offset),
-                Argument::text("with", &self.state.length_of.to_string()),
+                Argument::text("with", &self.state.length.of().to_string()),
             ];
             self.effects.add(block, Effect::Event(words));
         }
@@ -147,15 +147,16 @@ impl<'d> Core<'d> {
         self.losses += 1;
         self.forget_position();
         self.state.clamps.lose();
-        self.state.spindle_on = None;
-        self.state.spindle_rpm = None;
-        self.state.feed = None;
+        self.state.spindle.lose();
+        self.state.feed.set(None);
         self.feed_unread = true;
     }
 
     /// To be called whenever the tool in use or what is declared about it changes.
     pub(crate) fn merge_tool(&mut self) {
-        self.state.tool_data = self.tools.data(self.state.tool, &self.setup);
+        self.state
+            .tool
+            .declare(self.tools.data(self.state.tool.number(), &self.setup));
     }
 
     /// The program's own declarations of tools apply to the whole program, wherever they are.
@@ -170,15 +171,15 @@ impl<'d> Core<'d> {
         if kind == MotionKind::Rapid {
             return Feed::Rapid;
         }
-        match self.state.feed {
-            Some(feed) if feed > 0.0 => match self.state.feed_mode {
+        match self.state.feed.value() {
+            Some(feed) if feed > 0.0 => match self.state.feed.mode() {
                 FeedMode::PerMinute => Feed::PerMinute(feed),
                 FeedMode::PerRevolution => Feed::PerRevolution(feed),
                 FeedMode::InverseTime => Feed::InverseTime(feed),
             },
             None if self.feed_unread => Feed::Unknown,
             feed => {
-                let (inverse_time, zero) = (self.state.feed_mode == FeedMode::InverseTime, feed.is_some());
+                let (inverse_time, zero) = (self.state.feed.mode() == FeedMode::InverseTime, feed.is_some());
                 report.fault(range(), FaultKind::MissingFeed { inverse_time, zero });
                 Feed::Unknown
             }
@@ -241,17 +242,17 @@ impl<'d> Core<'d> {
             end,
             says_way: 0,
             orientation,
-            tcp: state.tcp,
-            great_circle: state.great_circle,
+            tcp: state.tool_axis.tcp(),
+            great_circle: state.tool_axis.great_circle(),
             feed,
-            spindle_on: state.spindle_on,
-            spindle_rpm: state.spindle_rpm,
-            zero: state.zero,
-            tool_length_mm: state.tool_length_mm.unwrap_or(0.0),
-            undeclared: state.undeclared,
+            spindle_on: state.spindle.on(),
+            spindle_rpm: state.spindle.rpm(),
+            zero: state.zero.values(),
+            tool_length_mm: state.length.mm().unwrap_or(0.0),
+            undeclared: state.undeclared(),
             machine_coordinates: false,
             radii: self.dialect.quirks.diameter,
-            tool: state.tool,
+            tool: state.tool.number(),
             tilt: Tilt::default(),
             effects: self.effects.count(),
         }
@@ -267,7 +268,7 @@ impl<'d> Core<'d> {
         report: &Report<'_>,
     ) -> Motion {
         let mut motion = self.new_motion(kind, start, end, orientation, feed, report);
-        if self.state.frame_unknown {
+        if self.state.zero.is_lost() {
             self.hide(&mut motion);
         }
         motion

@@ -152,7 +152,7 @@ impl Iso<'_> {
 
     fn cut_corner(&mut self, waiting: Waiting, next: &mut Told, on: &mut Vec<Told>, report: &mut Report<'_>) {
         let mut before = waiting.told;
-        let axes = plane_axes(before.1.plane);
+        let axes = plane_axes(before.1.coordinates.plane());
         let arcs = matches!(before.0.kind, MotionKind::Arc(_)) || matches!(next.0.kind, MotionKind::Arc(_));
         let known = is_known(&before.0, axes) && is_known(&next.0, axes);
         let ways = (flat(&before.0, axes), flat(&next.0, axes));

@@ -61,7 +61,7 @@ impl<'d> Iso<'d> {
             }
             let position = self.core.state.position;
             let here = self.memory.frames.programmed(&position);
-            let axis = crate::arc::plane_axes(self.core.state.plane)[2];
+            let axis = crate::arc::plane_axes(self.core.state.coordinates.plane())[2];
             self.memory.cycle.hole = Hole::from(here.get(axis));
         }
         if action.is_pass_cycle() && self.core.state.motion != Some(action) {

@@ -67,7 +67,7 @@ impl Iso<'_> {
             return Some(f.value);
         }
         if let Some(turns) = words.speed.number().filter(|_| reads("S")) {
-            let rpm = self.core.state.spindle_rpm.filter(|&rpm| rpm > 0.0)?;
+            let rpm = self.core.state.spindle.rpm().filter(|&rpm| rpm > 0.0)?;
             return Some(turns.value / rpm * 60.0);
         }
         let axis = [(0, "X"), (6, "U")]

@@ -161,12 +161,12 @@ impl Iso<'_> {
             event.extend(all_arguments(words));
             if in_lengths(&alone, words) {
                 for argument in &mut event {
-                    to_mm(argument, self.core.state.length_unit_mm);
+                    to_mm(argument, self.core.state.coordinates.unit_mm());
                 }
-            } else if self.core.state.length_unit_mm != 1.0 {
-                event.push(Argument::number("mm per unit", self.core.state.length_unit_mm));
+            } else if self.core.state.coordinates.unit_mm() != 1.0 {
+                event.push(Argument::number("mm per unit", self.core.state.coordinates.unit_mm()));
             }
-            if self.core.state.incremental {
+            if self.core.state.coordinates.incremental() {
                 event.push(Argument::code("incremental"));
             }
         }
@@ -267,7 +267,7 @@ impl Iso<'_> {
         let unknown_end = motions.iter().any(|motion| ends_unknown(motion, named));
         let frame = codes.iter().any(|found| is_frame(found.code.action));
         let offset = codes.iter().any(|found| found.code.action == Action::WorkOffset);
-        let lost = self.core.state.zero.iter().any(|value| value.is_nan()) || self.core.state.frame_unknown;
+        let lost = self.core.state.zero.values().iter().any(|value| value.is_nan()) || self.core.state.zero.is_lost();
         let unknown_frame = (frame || offset) && lost || frame && self.core.state.position.xyz().is_none();
         let unread = has_unread(words);
         if frame && !unknown_frame {

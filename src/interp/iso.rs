@@ -202,12 +202,12 @@ impl<'d> Iso<'d> {
             .corner
             .or_else(|| self.turned_corner(words).filter(|_| words.axes.any()))
             .filter(|_| !block.takes_coordinates)
-            .map(|(letter, number)| (letter, number.value * self.core.state.length_unit_mm));
+            .map(|(letter, number)| (letter, number.value * self.core.state.coordinates.unit_mm()));
         if self.core.state.compensation != 0 && self.core.dialect.quirks.offset_compensation {
             self.cutter_number(words, report);
         }
         if words.other_spindle {
-            self.core.state.spindle_on = None;
+            self.core.state.spindle.turn(None);
         }
         if self.core.effects.wanted() {
             self.code_effects(codes, words, &block, &report.program.block(report.block));
@@ -270,7 +270,7 @@ impl<'d> Iso<'d> {
         {
             return self.cycle_motion(words, report);
         }
-        let by_vector = words.vector.any() || (self.core.state.vector_mode && !is_arc && words.centre.any());
+        let by_vector = words.vector.any() || (self.core.state.tool_axis.vectors() && !is_arc && words.centre.any());
         if block.takes_coordinates || !(words.axes.any() || by_vector || circle) {
             return None;
         }
@@ -352,7 +352,7 @@ impl<'d> Iso<'d> {
             let sized = match role {
                 Some(Role::Axis | Role::Increment | Role::ArcRadius) => true,
                 // under G43.5 I J K are a direction; K of a cycle counts
-                Some(Role::ArcCentre) => !self.core.state.vector_mode && (!cycle || letter != b'K'),
+                Some(Role::ArcCentre) => !self.core.state.tool_axis.vectors() && (!cycle || letter != b'K'),
                 Some(Role::Parameter) => cycle && letter == b'Q',
                 _ => false,
             };

@@ -24,8 +24,6 @@ pub(crate) struct Memory<'d> {
     pub(crate) contours_told: Vec<u32>,
     /// X by G10.9: a diameter, or a radius.
     pub(crate) diameter: Option<bool>,
-    /// S is a cutting speed (G96).
-    pub(crate) surface_speed: bool,
     /// A tool vector has turned the rotary axes.
     pub(crate) led_by_vector: bool,
     /// It was reported that no code loads the tool that T selected.

@@ -33,8 +33,7 @@ impl Iso<'_> {
 
     /// Selects a zero point; shifts by the program (G52, G92) are added to it.
     pub(crate) fn set_zero(&mut self, name: Option<Arc<str>>, zero: OffsetValues) {
-        self.core.state.work_offset = name;
-        self.core.state.undeclared.zero = Undeclared::ALL_ZEROS & !zero.known;
+        self.core.state.zero.choose(name, Undeclared::ALL_ZEROS & !zero.known);
         self.memory.frames.selected = zero.values;
         self.refresh_zero();
     }
@@ -53,15 +52,15 @@ impl Iso<'_> {
             .position
             .values
             .iter_mut()
-            .zip(self.core.state.zero)
+            .zip(self.core.state.zero.values())
             .zip(zero)
         {
             *value += old - new;
         }
-        if self.memory.frames.tilt.is_some() && zero != self.core.state.zero {
+        if self.memory.frames.tilt.is_some() && zero != self.core.state.zero.values() {
             self.core.forget_linear();
         }
-        self.core.state.zero = zero;
+        self.core.state.zero.set(zero);
     }
 
     /// G43 H: the length of the tool of that number; without H that of the tool in use.
@@ -71,9 +70,9 @@ impl Iso<'_> {
         }
         let (tool, key, of) = match (offset, self.memory.length_offset) {
             (Said::Nothing, None) => (
-                self.core.state.tool_data,
+                self.core.state.tool.data(),
                 self.core.tools.name(),
-                LengthOf::Tool(self.core.state.tool),
+                LengthOf::Tool(self.core.state.tool.number()),
             ),
             (Said::Nothing | Said::Number(_), Some(0)) => return self.set_length(Some(0.0), LengthOf::Nothing),
             (Said::Nothing | Said::Number(_), Some(number)) => {
@@ -103,7 +102,7 @@ impl Iso<'_> {
             .length_offset
             .number()
             .map_or(TextRange::default(), |number| number.range);
-        if self.core.state.tool_length_mm.is_some() {
+        if self.core.state.length.mm().is_some() {
             self.length_on(words.length_offset, range, report);
         } else if let Some(number) = words.length_offset.index() {
             self.memory.length_offset = Some(number);
@@ -141,7 +140,7 @@ impl Iso<'_> {
             && self.core.dialect.quirks.edge_at_tool_change
             && self.core.tools.waits_for_change()
             && self.memory.edge != Some(0)
-            && self.core.state.tool_length_mm.is_none();
+            && self.core.state.length.mm().is_none();
         if waits && !self.memory.tool_never_changed {
             self.memory.tool_never_changed = true;
             let what = "the length of a tool that T selects and no M6 loads (machine data 22550 decides whether T alone changes tools)";
@@ -158,8 +157,8 @@ impl Iso<'_> {
         match edge {
             Some(0) => self.set_length(None, LengthOf::Nothing),
             Some(1) => {
-                let of = LengthOf::Tool(self.core.state.tool);
-                self.take_length(self.core.state.tool_data, (&name, of), range, report);
+                let of = LengthOf::Tool(self.core.state.tool.number());
+                self.take_length(self.core.state.tool.data(), (&name, of), range, report);
             }
             Some(edge) => self.take_length(None, (&format!("{name} D{edge}"), LengthOf::Other), range, report),
             None => self.take_length(None, (&format!("{name} D"), LengthOf::Other), range, report),
@@ -179,18 +178,16 @@ impl Iso<'_> {
             report.fault(range, FaultKind::ToolLengthUnset { tool: key.to_owned() });
         }
         self.set_length(Some(length.unwrap_or(0.0)), of);
-        self.core.state.undeclared.length = length.is_none();
+        self.core.state.length.set_declared(length, of);
     }
 
     /// The machine stays where it is, so the programmed position moves: along the tool at home while the axes are joints; anywhere
     /// under tool centre point control.
     pub(crate) fn set_length(&mut self, length: Option<f64>, of: LengthOf) {
-        self.core.state.length_of = of;
-        self.core.state.undeclared.length = false;
-        let change = length.unwrap_or(0.0) - self.core.state.tool_length_mm.unwrap_or(0.0);
-        self.core.state.tool_length_mm = length;
+        let change = length.unwrap_or(0.0) - self.core.state.length.mm().unwrap_or(0.0);
+        self.core.state.length.set(length, of);
         if change != 0.0 {
-            if self.core.state.tcp {
+            if self.core.state.tool_axis.tcp() {
                 self.core.forget_linear();
             } else {
                 let along = self.core.setup.length_along();

@@ -37,7 +37,7 @@ impl<'d> Interpreter<'d> {
     pub fn new(dialect: &'d Dialect, setup: &Setup) -> Self {
         let mut core = Core::new(dialect, setup);
         if setup.control.tcp_codes.as_ref().is_some_and(|codes| codes.at_start) {
-            core.state.tcp = true;
+            core.state.tool_axis.set_tcp(true);
         }
         core.merge_tool();
         let engine = match (dialect.lex.format, dialect.quirks.language) {
@@ -120,6 +120,13 @@ impl<'d> Interpreter<'d> {
 
     /// Adds the values of the variables that words name.
     pub fn add_values(&self, words: &mut Vec<crate::Argument>) {
+        let hashed = |word: &crate::Argument| {
+            word.name.contains('#') || matches!(&word.value, crate::Value::Text(text) if text.contains('#'))
+        };
+        let names = with_engine!(&self.engine, engine => engine.core().dialect.quirks.user_names());
+        if !names && !words.iter().any(hashed) {
+            return;
+        }
         let text: Vec<String> = words.iter().map(ToString::to_string).collect();
         let text = text.join(" ");
         words.extend(with_engine!(&self.engine, engine => engine.values_in(&text)));
@@ -132,7 +139,7 @@ impl<'d> Interpreter<'d> {
 
     /// What is declared about the tool in use, merged; `None` when nothing is declared and its number is unknown.
     pub fn tool(&self) -> Option<Tool> {
-        self.state().tool_data
+        self.state().tool.data()
     }
 }
 

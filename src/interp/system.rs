@@ -58,6 +58,6 @@ impl Iso<'_> {
         self.core.unknown.for_good();
         self.memory.tool_data_written = true;
         self.core.forget_position();
-        self.core.state.frame_unknown = true;
+        self.core.state.zero.lose(true);
     }
 }

@@ -10,28 +10,28 @@ use trunnion_dialect::{Code, CodeKind};
 impl<'d> Iso<'d> {
     /// Begins tool centre point control.
     pub(crate) fn tcp_on(&mut self, code: &'d Code, vectors: bool) {
-        if !self.core.state.tcp {
+        if !self.core.state.tool_axis.tcp() {
             self.core.forget_linear();
         }
-        self.core.state.tcp = true;
+        self.core.state.tool_axis.set_tcp(true);
         self.memory.tcp_used = true;
-        self.core.state.vector_mode = vectors;
+        self.core.state.tool_axis.set_vectors(vectors);
         self.memory.tcp_group = code.group.as_deref();
     }
 
     /// Ends tool centre point control: X Y Z change their meaning, and rotary axes that were set by a vector are not known.
     pub(crate) fn tcp_off(&mut self) {
-        if self.core.state.tcp {
+        if self.core.state.tool_axis.tcp() {
             self.core.forget_linear();
         }
-        self.core.state.tcp = false;
-        self.core.state.vector_mode = false;
+        self.core.state.tool_axis.set_tcp(false);
+        self.core.state.tool_axis.set_vectors(false);
         self.core.state.orientation = Orientation::Words;
     }
 
     /// G43 and G49 end a tool centre point control that is a code of their own group (G43.4).
     pub(crate) fn end_tcp_of_group(&mut self, code: &Code) {
-        if self.core.state.tcp && code.group.is_some() && code.group.as_deref() == self.memory.tcp_group {
+        if self.core.state.tool_axis.tcp() && code.group.is_some() && code.group.as_deref() == self.memory.tcp_group {
             self.tcp_off();
         }
     }
@@ -49,14 +49,15 @@ impl Iso<'_> {
     /// The mistake of a motion that is about to be emitted.
     pub(crate) fn tcp_mistake(&mut self, motion: &Motion) -> Option<TcpMistake> {
         let state = &self.core.state;
-        if state.tcp {
+        if state.tool_axis.tcp() {
             if motion.machine_coordinates {
                 return Some(TcpMistake::MachineCoordinates);
             }
-            let without = motion.is_feed() && state.tool_length_mm.is_none() && state.tool.is_some_and(|tool| tool > 0);
-            let news = without && self.memory.tcp_length_said != state.tool;
+            let without =
+                motion.is_feed() && state.length.mm().is_none() && state.tool.number().is_some_and(|tool| tool > 0);
+            let news = without && self.memory.tcp_length_said != state.tool.number();
             if news {
-                self.memory.tcp_length_said = state.tool;
+                self.memory.tcp_length_said = state.tool.number();
             }
             return news.then_some(TcpMistake::NoLength);
         }
@@ -66,10 +67,10 @@ impl Iso<'_> {
 
     /// The tool in the spindle changes.
     pub(crate) fn tcp_at_tool_change(&mut self, report: &mut Report<'_>) {
-        if self.core.state.tcp {
+        if self.core.state.tool_axis.tcp() {
             report.fault(report.whole(), FaultKind::TcpState(TcpMistake::ToolChange));
         }
-        self.memory.tcp_used = self.core.state.tcp;
+        self.memory.tcp_used = self.core.state.tool_axis.tcp();
     }
 }
 

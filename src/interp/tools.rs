@@ -171,11 +171,11 @@ impl Iso<'_> {
             }),
             Said::Unread => Chosen::Unread,
         };
-        self.core.state.tool_prepared = if let Chosen::Number(number) = chosen {
+        self.core.state.tool.prepare(if let Chosen::Number(number) = chosen {
             Some(number)
         } else {
             None
-        };
+        });
         self.core.tools.prepare(chosen);
         if self.core.dialect.quirks.tool_word.changes() {
             self.change_tool(report);
@@ -189,7 +189,7 @@ impl Iso<'_> {
         if !self.core.tools.load_prepared() {
             return;
         }
-        self.core.state.tool = self.core.state.tool_prepared;
+        self.core.state.tool.load(self.core.state.tool.prepared());
         self.core.merge_tool();
         let edge = match (self.core.dialect.quirks.edge_at_tool_change, self.memory.edge) {
             (true, edge) => Some(edge.filter(|&edge| edge != 0).unwrap_or(1)),

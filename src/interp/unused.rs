@@ -133,7 +133,7 @@ impl Iso<'_> {
         if words.flow {
             read |= bit(b'P') | bit(b'L');
         }
-        if self.core.state.vector_mode {
+        if self.core.state.tool_axis.vectors() {
             read |= CENTRE;
         }
         let moves = !block.takes_coordinates && !block.dwell && (words.axes.any() || block.motion.is_some());
@@ -173,7 +173,7 @@ impl Iso<'_> {
         if self.is_spiral(words) {
             return code;
         }
-        let [first, second, _] = plane_axes(self.core.state.plane);
+        let [first, second, _] = plane_axes(self.core.state.coordinates.plane());
         let centre = bit(b'I' + first as u8) | bit(b'I' + second as u8);
         (code & !CENTRE) | centre
     }

@@ -78,9 +78,9 @@ impl Sink for Collector<'_> {
             feed: motion.is_feed(),
             tcp: motion.tcp || vector,
             vector,
-            incremental: state.incremental,
-            unit_mm: state.length_unit_mm,
-            tip: match state.tool_shape() {
+            incremental: state.coordinates.incremental(),
+            unit_mm: state.coordinates.unit_mm(),
+            tip: match state.tool.shape() {
                 None => Tip::Undeclared,
                 Some((ToolShape::Ball, diameter)) => Tip::Ball(0.5 * diameter),
                 Some(_) => Tip::Other,
@@ -134,7 +134,7 @@ impl Sink for Programmed {
         self.motions.push(ProgrammedMotion {
             block: motion.block,
             rotary,
-            incremental: state.incremental,
+            incremental: state.coordinates.incremental(),
             vector: matches!(motion.orientation, Orientation::Vector(..)),
         });
     }

@@ -64,7 +64,7 @@ pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdic
             nowhere(what)
         };
     }
-    let (zero, other) = (before.state().zero, after.state().zero);
+    let (zero, other) = (before.state().zero.values(), after.state().zero.values());
     let same = |(a, b): (&f64, &f64)| same_number(*a, *b) || a.is_nan() && b.is_nan();
     if !zero.iter().zip(&other).all(same) {
         return unknown(

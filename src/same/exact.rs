@@ -77,10 +77,10 @@ pub(crate) fn walk(before: &mut Steps<'_>, after: &mut Steps<'_>, exact: Exact) 
             (Some(x), Some(y)) if a.ordinal(x) == b.ordinal(y) => {}
             _ => return at("the order in which blocks run differs"),
         }
-        if !same_state(a.steps.state(), b.steps.state()) {
+        if !ModalState::is_alike(a.steps.state(), b.steps.state()) {
             // effects of the end of the text come with the last block, or with an empty one after it
             let more = a.advance().is_some() || b.advance().is_some();
-            if more || !same_state(a.steps.state(), b.steps.state()) {
+            if more || !ModalState::is_alike(a.steps.state(), b.steps.state()) {
                 return at("what is in effect after the block differs");
             }
         }
@@ -244,24 +244,6 @@ pub(crate) fn same_motion(a: &Motion, b: &Motion) -> bool {
         motion
     };
     comparable(a) == comparable(b)
-}
-
-/// Whether two modal states are the same.
-fn same_state(a: &ModalState, b: &ModalState) -> bool {
-    let comparable = |state: &ModalState| {
-        let mut state = state.clone();
-        known_place(&mut state.position);
-        state.zero.iter_mut().for_each(known);
-        let values = [
-            &mut state.feed,
-            &mut state.spindle_rpm,
-            &mut state.spindle_limit_rpm,
-            &mut state.tool_length_mm,
-        ];
-        values.into_iter().flatten().for_each(known);
-        state
-    };
-    a == b || comparable(a) == comparable(b)
 }
 
 /// Whether a control stops at the fault.

@@ -6,6 +6,7 @@
 //!
 //! It does not know rules, rewrites or text for people beyond the one sentence of a [`Difference`].
 mod compare;
+mod counted;
 mod cut;
 mod ending;
 mod exact;

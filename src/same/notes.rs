@@ -66,7 +66,7 @@ impl Steps<'_> {
     /// depend on undeclared values, its place among the motions and offsets matters too.
     fn note_data_entry(&mut self, block: BlockId, effects: u32) {
         let text = trunnion_interp::canonical_text(&self.input.program.text(self.input.program.block(block).range()));
-        if !text.contains("L20") || !self.state().undeclared.any() {
+        if !text.contains("L20") || !self.state().undeclared().any() {
             return;
         }
         let held = self.held();

@@ -174,12 +174,12 @@ impl Held {
     /// Of a modal state.
     pub fn new(state: &ModalState) -> Self {
         Self {
-            work_offset: state.work_offset.as_deref().map(offset_name),
+            work_offset: state.zero.offset().map(offset_name),
             compensation: state.compensation,
-            length_of: state.length_of,
-            plane: state.plane,
-            vector_mode: state.vector_mode,
-            ball_radius: match state.tool_shape() {
+            length_of: state.length.of(),
+            plane: state.coordinates.plane(),
+            vector_mode: state.tool_axis.vectors(),
+            ball_radius: match state.tool.shape() {
                 Some((trunnion_interp::ToolShape::Ball, diameter)) => Some(0.5 * diameter),
                 _ => None,
             },

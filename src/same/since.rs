@@ -70,15 +70,11 @@ pub(crate) fn sets_from_here(words: &[Argument]) -> bool {
 
 /// Whether the text of a statement may write a variable of the control (#1000 and above, `$...`), where offsets may be kept.
 pub(crate) fn writes_control(text: &str) -> bool {
-    let text: String = text
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ")
-        .to_ascii_uppercase();
-    if let Some((_, then)) = text.split_once("THEN") {
-        return writes_control(then);
-    }
-    !steers(&text) && assigns_control(&text)
+    let mut text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    text.make_ascii_uppercase();
+    // the statement that is run in the end
+    let then = text.rsplit_once("THEN").map_or(text.as_str(), |(_, then)| then.trim());
+    !steers(then) && assigns_control(then)
 }
 
 /// Whether a block only decides which block runs next: `N10 IF [#1 EQ 1] GOTO 20`.
@@ -99,11 +95,11 @@ pub(crate) fn only_steers(text: &str) -> bool {
 
 /// Whether a statement only decides which block runs next.
 fn steers(text: &str) -> bool {
-    let assigns = ["==", "<=", ">=", "<>"]
-        .iter()
-        .fold(text.to_owned(), |text, sign| text.replace(sign, " "))
-        .contains('=');
-    let name = |text: &str| -> String { text.chars().take_while(char::is_ascii_alphabetic).collect() };
+    let assigns = text.contains('=')
+        && ["==", "<=", ">=", "<>"]
+            .iter()
+            .fold(text.to_owned(), |text, sign| text.replace(sign, " "))
+            .contains('=');
     // a block of LinuxCNC: `o100 while [...]`, `o<name> if [...]`
     let labelled = text.strip_prefix('O').and_then(|rest| match rest.strip_prefix('<') {
         Some(rest) => rest.split_once('>').map(|(_, rest)| rest),
@@ -111,16 +107,18 @@ fn steers(text: &str) -> bool {
             Some(rest.trim_start().trim_start_matches(|sign: char| sign.is_ascii_digit())).filter(|left| *left != rest)
         }
     });
-    let word = name(labelled.unwrap_or(text).trim_start());
+    let statement = labelled.unwrap_or(text).trim_start();
+    let length = statement.bytes().take_while(u8::is_ascii_alphabetic).count();
+    let word = &statement[..length];
     let loops = ["IF", "WHILE", "DO", "ELSE", "ENDIF", "ENDWHILE", "REPEAT"];
     let found = match labelled {
-        Some(_) => ["ELSEIF", "ENDREPEAT", "BREAK", "CONTINUE"].contains(&word.as_str()),
+        Some(_) => ["ELSEIF", "ENDREPEAT", "BREAK", "CONTINUE"].contains(&word),
         None => [
             "END", "GOTO", "GOTOF", "GOTOB", "GOTOC", "LOOP", "ENDLOOP", "UNTIL", "ENDFOR",
         ]
-        .contains(&word.as_str()),
+        .contains(&word),
     };
-    !assigns && (found || loops.contains(&word.as_str()))
+    !assigns && (found || loops.contains(&word))
 }
 
 fn assigns_control(text: &str) -> bool {
@@ -143,6 +141,13 @@ pub(crate) fn keeps_place(code: &Code, dialect: &Dialect) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{only_steers, writes_control};
+
+    #[test]
+    fn a_line_of_conditions_needs_no_stack() {
+        let many = "IF[#1EQ1]THEN ".repeat(200_000);
+        assert!(writes_control(&format!("{many}#5221=7.")));
+        assert!(!writes_control(&format!("{many}GOTO 10")));
+    }
 
     #[test]
     fn what_only_steers_the_run_writes_nothing() {

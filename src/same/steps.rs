@@ -1,4 +1,5 @@
-//! A program as a stream of what it does: only the steps of the current block are kept.
+//! A program as a stream of what it does: nothing is kept but what the current block has brought.
+use crate::counted::Counted;
 use crate::input::Input;
 use crate::item::{Item, Sort, Step, Stop, Waiting, Waits};
 use crate::notes::{arguments_in_order, with_values};
@@ -22,6 +23,7 @@ pub struct Steps<'a> {
     pub(crate) since: Since,
     ran: Vec<u64>,
     over: bool,
+    pub(crate) counted: Option<Counted>,
 }
 
 pub(crate) struct Run<'a> {
@@ -155,6 +157,7 @@ impl<'a> Steps<'a> {
             since: Since::default(),
             ran: vec![0; input.program.block_count().div_ceil(64)],
             over: false,
+            counted: None,
         }
     }
 
@@ -176,7 +179,7 @@ impl<'a> Steps<'a> {
 
     /// Whether tool centre point control is on now.
     pub(crate) fn leads_tip(&self) -> bool {
-        self.state().tcp
+        self.state().tool_axis.tcp()
     }
 
     /// What the modal state holds now.
@@ -210,9 +213,9 @@ impl<'a> Steps<'a> {
 
     /// An excerpt: what is in effect before its first block. `feed` in mm/min.
     pub fn assume(&mut self, tcp: bool, feed: Option<f64>) {
-        self.interpreter.state_mut().tcp |= tcp;
         let state = self.interpreter.state_mut();
-        state.feed = feed.or(state.feed);
+        state.tool_axis.set_tcp(state.tool_axis.tcp() || tcp);
+        state.feed.set(feed.or(state.feed.value()));
     }
 
     /// Whether motions are held back until a later one is known.
@@ -376,6 +379,10 @@ impl Iterator for Steps<'_> {
         while self.ready.is_empty() && !self.over {
             self.advance();
         }
-        self.ready.pop_front()
+        let item = self.ready.pop_front()?;
+        if let Some(counted) = &mut self.counted {
+            counted.take(&item, &self.input);
+        }
+        Some(item)
     }
 }

@@ -268,8 +268,8 @@ impl Sink for Counting<'_> {
     fn block_done(&mut self, block: BlockId, run: &dyn ProgramRun) {
         self.stops.block_done();
         self.tally.run += u64::from(holds_something(&self.input.program.block(block)));
-        if run.state().tool != self.tool {
-            self.tool = run.state().tool;
+        if run.state().tool.number() != self.tool {
+            self.tool = run.state().tool.number();
             self.tally.tool_changes += 1;
         }
     }

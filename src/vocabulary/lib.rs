@@ -19,7 +19,9 @@ pub use clamps::{AllClampCodes, Clamp, ClampCodes, Clamps};
 pub use effect::{Argument, Effect, Placed, Reach, Value, same_number};
 pub use fault::{Fault, FaultKind, Refusal, TcpMistake};
 pub use library::{Files, Limits, Loaded, Searched};
-pub use modal::{FeedMode, LengthOf, ModalState};
+pub use modal::{
+    Coordinates, FeedMode, FeedWord, LengthOf, ModalState, Spindle, ToolAxis, ToolInUse, ToolLength, Zero,
+};
 pub use motion::{
     AXIS_LETTERS, AxisLetter, Feed, Motion, MotionKind, Orientation, Position, Posture, Swivel, Tilt, Undeclared,
 };

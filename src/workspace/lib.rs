@@ -4,6 +4,7 @@
 //!
 //! It reads files and never writes. It does not know terminals or LSP.
 mod error;
+mod listing;
 mod machine;
 mod resolve;
 mod subprograms;

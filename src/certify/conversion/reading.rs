@@ -97,9 +97,10 @@ pub struct Reading {
     pub motions: Vec<Posed>,
     /// Blocks in the order the control runs them.
     pub blocks: Vec<Ran>,
-    /// The block at which the run was stopped, because it made more motions than are held ([`trunnion_interp::Limits::held`]).
+    /// The block with which the run was given up, because it made more motions, or had more grave faults, than are held
+    /// ([`trunnion_interp::Limits::held`]).
     pub given_up: Option<BlockId>,
-    /// What is wrong.
+    /// Faults that make it unknown what the program does.
     pub faults: Vec<Fault>,
     /// The first block that continues in another file.
     pub elsewhere: Option<BlockId>,
@@ -136,10 +137,10 @@ pub fn read(run: &Run<'_>) -> Reading {
     setup.limits = setup.limits.of_held();
     let mut interpreter = Interpreter::new(run.dialect, &setup);
     if run.assume.tcp {
-        interpreter.state_mut().tcp = true;
+        interpreter.state_mut().tool_axis.set_tcp(true);
     }
     if let Some(feed) = run.assume.feed_mm_min {
-        interpreter.state_mut().feed = Some(feed);
+        interpreter.state_mut().feed.set(Some(feed));
     }
     while let Some(block) = interpreter.advance(&program, &mut sink) {
         sink.block_done(block, &interpreter);
@@ -238,15 +239,22 @@ impl Sink for Collector<'_> {
             end: posed.1,
             leg: posed.2,
             tool_length: self.length.1,
-            length_of: state.length_of,
+            length_of: state.length.of(),
             square,
             counter_clockwise: None,
             shift: shift(motion, state, self.setup, if self.is_apt { "G54" } else { "G500" }),
-            work_offset: state.work_offset.clone(),
+            work_offset: state.zero.offset_name(),
         });
     }
 
     fn fault(&mut self, fault: Fault) {
+        if !is_grave(&fault.kind) {
+            return;
+        }
+        if self.faults.len() as u64 >= self.setup.limits.held {
+            self.given_up.get_or_insert(fault.block);
+            return;
+        }
         self.faults.push(fault);
     }
 
@@ -265,12 +273,12 @@ impl Sink for Collector<'_> {
             block,
             motions: self.motions.len(),
             motions_wait: run.motions_wait(),
-            spindle_on: state.spindle_on,
-            spindle_rpm: state.spindle_rpm,
+            spindle_on: state.spindle.on(),
+            spindle_rpm: state.spindle.rpm(),
             counter_clockwise: None,
-            tool: state.tool,
-            tool_data: state.tool_data,
-            work_offset: state.work_offset.clone(),
+            tool: state.tool.number(),
+            tool_data: state.tool.data(),
+            work_offset: state.zero.offset_name(),
         });
     }
 }
@@ -311,7 +319,7 @@ impl Collector<'_> {
 
 /// What the zero point adds to the declared values of the work offset; `unnamed`: the active offset where the program names none.
 fn shift(motion: &Motion, state: &ModalState, setup: &Setup, unnamed: &str) -> [f64; 9] {
-    let name = state.work_offset.as_deref().unwrap_or(unnamed);
+    let name = state.zero.offset().unwrap_or(unnamed);
     let base = setup.work_offset(name).map_or([0.0; 9], |offset| offset.values);
     core::array::from_fn(|axis| motion.zero[axis] - base[axis])
 }
@@ -334,6 +342,6 @@ pub(super) fn is_grave(kind: &FaultKind) -> bool {
 impl Reading {
     /// Faults that make it unknown what the program does.
     pub fn grave(&self) -> impl Iterator<Item = &Fault> {
-        self.faults.iter().filter(|fault| is_grave(&fault.kind))
+        self.faults.iter()
     }
 }

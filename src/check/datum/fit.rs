@@ -5,7 +5,7 @@ use trunnion_interp::{ChainId, LengthOf};
 use trunnion_syntax::{BlockId, Format};
 
 /// Something that is not declared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Missing {
     Offset(OffsetName),
     Length(LengthOf),

@@ -1,5 +1,6 @@
 //! Undeclared values that a program depends on, for commands that take them as zero and judge nothing.
 use super::{Missing, OffsetName};
+use crate::keyed::Keyed;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{Fault, LengthOf, ModalState, Motion, Setup, Sink, Undeclared, run};
 use trunnion_syntax::Program;
@@ -11,14 +12,14 @@ pub fn assumptions(program: &Program, dialect: &Dialect, setup: &Setup) -> Vec<S
     run(program, dialect, setup, &mut listed);
     listed
         .missing
-        .iter()
+        .keys()
         .map(|missing| missing.assumption(dialect))
         .collect()
 }
 
 #[derive(Default)]
 struct Listed {
-    missing: Vec<Missing>,
+    missing: Keyed<Missing, ()>,
     /// What the last motion depended on, so that nothing is looked up twice.
     last: Option<(Undeclared, OffsetName, LengthOf)>,
 }
@@ -28,18 +29,16 @@ impl Sink for Listed {
         if !motion.undeclared.any() {
             return;
         }
-        let offset = state.work_offset.as_deref().map(OffsetName::new).unwrap_or_default();
-        let own = (motion.undeclared, offset, state.length_of);
+        let offset = state.zero.offset().map(OffsetName::new).unwrap_or_default();
+        let own = (motion.undeclared, offset, state.length.of());
         if self.last == Some(own) {
             return;
         }
         self.last = Some(own);
         let zero = (motion.undeclared.zero != 0).then_some(Missing::Offset(offset));
-        let length = motion.undeclared.length.then_some(Missing::Length(state.length_of));
+        let length = motion.undeclared.length.then_some(Missing::Length(state.length.of()));
         for missing in zero.into_iter().chain(length) {
-            if !self.missing.contains(&missing) {
-                self.missing.push(missing);
-            }
+            self.missing.insert(missing, ());
         }
     }
 

@@ -4,7 +4,7 @@ use trunnion_interp::{ChainId, LengthOf};
 use trunnion_syntax::BlockId;
 
 /// The undeclared values that a joint's position depends on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Basis {
     pub(super) offset: Option<OffsetName>,
     pub(super) length: Option<LengthOf>,

@@ -174,7 +174,7 @@ impl Iso<'_> {
 
     /// Runs a cycle at the present position.
     fn run_call(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) {
-        let axis = plane_axes(self.core.state.plane)[2];
+        let axis = plane_axes(self.core.state.coordinates.plane())[2];
         let other_axis = match call.sort {
             Sort::Deep | Sort::Tap => call.number(12).or_zero() != Some(0.0),
             _ => false,
@@ -195,7 +195,7 @@ impl Iso<'_> {
             self.memory.out.push(motion);
             return;
         };
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let feed = self.call_feed(call, words, report);
         let plan = Plan {
             axis,
@@ -211,13 +211,16 @@ impl Iso<'_> {
         if call.sort == Sort::Tap {
             // direction after the cycle: 3, 4, otherwise the spindle is off
             let after = call.number(6).or_zero();
-            self.core.state.spindle_on = after.map(|code| code == 3.0 || code == 4.0);
+            self.core
+                .state
+                .spindle
+                .turn(after.map(|code| code == 3.0 || code == 4.0));
         }
     }
 
     /// The feed that a cycle goes down with.
     fn call_feed(&mut self, call: &HoleCall, words: &Words, report: &mut Report<'_>) -> Feed {
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         match call.sort {
             Sort::Ream => self.own_feed(call.number(6)),
             Sort::Tap => {
@@ -249,8 +252,8 @@ impl Iso<'_> {
         let Given::Number(number) = given else {
             return Feed::Unknown;
         };
-        let feed = number * self.core.state.feed_unit_mm;
-        match self.core.state.feed_mode {
+        let feed = number * self.core.state.feed.unit_mm();
+        match self.core.state.feed.mode() {
             _ if feed <= 0.0 => Feed::Unknown,
             FeedMode::PerMinute => Feed::PerMinute(feed),
             FeedMode::PerRevolution => Feed::PerRevolution(feed),
@@ -262,9 +265,9 @@ impl Iso<'_> {
     fn call_spindle(&mut self, call: &HoleCall) {
         match call.sort {
             Sort::Tap => {
-                self.core.state.spindle_on = Some(true);
+                self.core.state.spindle.turn(Some(true));
                 let speed = call.number(10).or_zero().filter(|speed| *speed > 0.0);
-                self.core.state.spindle_rpm = speed;
+                self.core.state.spindle.set_rpm(speed);
             }
             Sort::Bore | Sort::BoreStop => {
                 let place = match (call.sort, call.id) {
@@ -273,10 +276,10 @@ impl Iso<'_> {
                 };
                 if let Some(code) = call.number(place).or_zero() {
                     if code == 3.0 || code == 4.0 {
-                        self.core.state.spindle_on = Some(true);
+                        self.core.state.spindle.turn(Some(true));
                     }
                 } else {
-                    self.core.state.spindle_on = None;
+                    self.core.state.spindle.turn(None);
                 }
             }
             _ => {}
@@ -313,23 +316,23 @@ impl Iso<'_> {
                 self.down(&out, MotionKind::Linear, plan.r, report);
             }
             Sort::Bore => {
-                self.core.state.spindle_on = Some(false);
+                self.core.state.spindle.turn(Some(false));
                 self.lift_off(call, 1.0, report);
                 self.down(plan, MotionKind::Rapid, plan.back, report);
                 self.lift_off(call, -1.0, report);
                 return;
             }
-            Sort::BoreStop => self.core.state.spindle_on = Some(false),
+            Sort::BoreStop => self.core.state.spindle.turn(Some(false)),
         }
         self.down(plan, MotionKind::Rapid, plan.back, report);
         if call.sort == Sort::BoreStop {
-            self.core.state.spindle_on = None;
+            self.core.state.spindle.turn(None);
         }
     }
 
     /// CYCLE86: RPA, RPO and RPAP off the wall (1), and RPA and RPO back over the hole (-1).
     fn lift_off(&mut self, call: &HoleCall, sign: f64, report: &mut Report<'_>) {
-        let axes = plane_axes(self.core.state.plane);
+        let axes = plane_axes(self.core.state.coordinates.plane());
         let position = self.core.state.position;
         let before = self.memory.frames.programmed(&position);
         let mut place = before;
@@ -338,7 +341,7 @@ impl Iso<'_> {
                 continue;
             }
             match (call.number(number).or_zero(), place.get(axis)) {
-                (Some(by), Some(at)) => place.set(axis, at + sign * by * self.core.state.length_unit_mm),
+                (Some(by), Some(at)) => place.set(axis, at + sign * by * self.core.state.coordinates.unit_mm()),
                 _ => place.forget(axis),
             }
         }
@@ -352,7 +355,7 @@ impl Iso<'_> {
         let seconds = match given {
             Given::Nothing => return,
             Given::Number(seconds) if seconds >= 0.0 => Some(seconds),
-            Given::Number(turns) => self.core.state.spindle_rpm.map(|rpm| -turns / rpm * 60.0),
+            Given::Number(turns) => self.core.state.spindle.rpm().map(|rpm| -turns / rpm * 60.0),
             Given::Unread => None,
         };
         if seconds != Some(0.0) {

@@ -64,7 +64,7 @@ impl Iso<'_> {
                 (report.faults)(fault);
             }
         }
-        let ends = self.memory.frames.active || self.memory.frames.tilt.is_some() || self.core.state.frame_unknown;
+        let ends = self.memory.frames.active || self.memory.frames.tilt.is_some() || self.core.state.zero.is_lost();
         let known = |motion: &Motion| {
             let path = matches!(motion.kind, MotionKind::Rapid | MotionKind::Linear | MotionKind::Arc(_));
             let place = |axis| motion.start.get(axis).is_some() && motion.end.get(axis).is_some();
@@ -137,7 +137,7 @@ impl Iso<'_> {
             }
         }
         found.ended = ghost.core.state.ended;
-        found.feed = ghost.core.state.feed;
+        found.feed = ghost.core.state.feed.value();
         ghost.put_out_rest(&program.block(BlockId(last)), &mut found);
         found
     }

@@ -68,7 +68,7 @@ impl Iso<'_> {
         let relieved = words.radius.is_said() && words.radius.number().is_none_or(|number| number.value != 0.0);
         let way = |place: usize| (end.values[axes[place]] - start.values[axes[place]]).abs();
         let count = |place: usize| way(place) / steps[place].filter(|step| *step > 0.0).unwrap_or(f64::MAX);
-        let why = if self.memory.frames.active || self.core.state.frame_unknown || !known {
+        let why = if self.memory.frames.active || self.core.state.zero.is_lost() || !known {
             Some("from or to an unknown position")
         } else if relieved {
             Some("with a relief at the bottom (R)")
@@ -155,7 +155,7 @@ impl Iso<'_> {
     /// P or Q of these cycles, mm: least increments (0.001 mm, 0.0001 inch) where it has no decimal point.
     pub(super) fn increment_word(&self, words: &Words, letter: u8) -> Option<f64> {
         let number = words.letter(letter).number()?;
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let least = if unit == 1.0 { 0.001 } else { 0.0001 };
         Some((number.value * if number.has_point { unit } else { least * unit }).abs())
     }

@@ -27,7 +27,7 @@ pub(super) struct Plan {
 impl Iso<'_> {
     /// Runs the cycle in effect at the places that the block says.
     pub(crate) fn hole_cycle(&mut self, words: &Words, report: &mut Report<'_>) {
-        let axis = plane_axes(self.core.state.plane)[2];
+        let axis = plane_axes(self.core.state.coordinates.plane())[2];
         self.store_hole(words, axis);
         let repeats = match words.letter(self.memory.cycle.repeats) {
             // L of a call repeats the call
@@ -272,9 +272,10 @@ impl Iso<'_> {
     }
 
     fn with_spindle_off(&mut self, run: impl FnOnce(&mut Self)) {
-        let before = self.core.state.spindle_on.replace(false);
+        let before = self.core.state.spindle.on();
+        self.core.state.spindle.turn(Some(false));
         run(self);
-        self.core.state.spindle_on = before;
+        self.core.state.spindle.turn(before);
     }
 
     /// How far the tool moves off the wall, first and second axis of the plane; `None`: a parameter of the control decides the direction, and
@@ -286,7 +287,7 @@ impl Iso<'_> {
         {
             return Some([i.unwrap_or(0.0), j.unwrap_or(0.0)]);
         }
-        let [a, b, _] = plane_axes(self.core.state.plane);
+        let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
         let declared = self
             .core
             .setup
@@ -309,7 +310,7 @@ impl Iso<'_> {
 
     /// Moves the tool off the wall (1) or back (-1).
     fn shift(&mut self, aside: Option<[f64; 2]>, sign: f64, report: &Report<'_>) {
-        let [a, b, _] = plane_axes(self.core.state.plane);
+        let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
         let position = self.core.state.position;
         let mut place = self.memory.frames.programmed(&position);
         let kept = self.memory.cycle.hole_place;

@@ -92,7 +92,7 @@ impl Iso<'_> {
                 self.memory.cycle.pass[slot] = Stored::Unknown;
             } else if let Some(value) = self.axis_value(words, axis) {
                 let incremental = words.axes.incremental & bit != 0
-                    || (self.core.state.incremental && words.axes.absolute & bit == 0);
+                    || (self.core.state.coordinates.incremental() && words.axes.absolute & bit == 0);
                 self.memory.cycle.pass[slot] = if incremental {
                     Stored::By(value)
                 } else {
@@ -104,7 +104,7 @@ impl Iso<'_> {
             let taper = words
                 .radius
                 .number()
-                .map(|number| number.value * self.core.state.length_unit_mm);
+                .map(|number| number.value * self.core.state.coordinates.unit_mm());
             self.memory.cycle.pass[2] = taper.map_or(Stored::Unknown, Stored::By);
         }
     }

@@ -124,9 +124,9 @@ impl Iso<'_> {
             self.memory.out.push(motion);
         }
         self.rapid_straight(start, report);
-        if contour.feed != self.core.state.feed {
+        if contour.feed != self.core.state.feed.value() {
             // the sources do not say whether F of the contour stays
-            self.core.state.feed = None;
+            self.core.state.feed.set(None);
             self.core.feed_unread = true;
         }
     }
@@ -167,7 +167,7 @@ impl Iso<'_> {
         for motion in motions {
             let mut motion = shifted(motion, by[0], by[1]);
             motion.block = self.core.main_block(report.block);
-            (motion.spindle_on, motion.spindle_rpm) = (self.core.state.spindle_on, self.core.state.spindle_rpm);
+            (motion.spindle_on, motion.spindle_rpm) = (self.core.state.spindle.on(), self.core.state.spindle.rpm());
             if motion.kind != MotionKind::Rapid {
                 motion.feed = feed;
             }

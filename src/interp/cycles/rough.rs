@@ -135,7 +135,7 @@ impl Iso<'_> {
         let depth = depth.ok_or("without a depth of cut above 0 in its first block (parameter 5132)")?;
         let escape = escape.ok_or("without an escape in its first block (parameter 5133)")?;
         let allowance = self.allowance(words).ok_or("its finishing allowance is unknown")?;
-        if self.core.state.plane != Plane::Zx {
+        if self.core.state.coordinates.plane() != Plane::Zx {
             return Err("a plane other than that of X and Z");
         }
         let motions = self.outline(contour, axes, start, report)?;
@@ -209,9 +209,9 @@ impl Iso<'_> {
         let same = |motion: &Motion| {
             (motion.tool, motion.zero, motion.tool_length_mm)
                 == (
-                    self.core.state.tool,
-                    self.core.state.zero,
-                    self.core.state.tool_length_mm.unwrap_or(0.0),
+                    self.core.state.tool.number(),
+                    self.core.state.zero.values(),
+                    self.core.state.length.mm().unwrap_or(0.0),
                 )
         };
         if !motions.iter().all(same) {

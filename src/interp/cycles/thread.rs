@@ -115,7 +115,7 @@ impl Iso<'_> {
         let known = [start, end]
             .iter()
             .all(|place| place.get(X).is_some() && place.get(Z).is_some());
-        if !known || self.memory.frames.active || self.core.state.frame_unknown {
+        if !known || self.memory.frames.active || self.core.state.zero.is_lost() {
             return Err("from or to an unknown position");
         }
         let taper = match self.length_word(words, b'R') {

@@ -91,7 +91,7 @@ impl Iso<'_> {
     /// Under a mirror G41 is on the right: the side that matters where the radius is unknown, and motions are the programmed ones.
     pub(super) fn mirrored_compensation(&mut self, block: trunnion_syntax::BlockId) {
         let state = &self.core.state;
-        let mirrored = state.compensation != 0 && self.memory.frames.shape.flips(state.plane);
+        let mirrored = state.compensation != 0 && self.memory.frames.shape.flips(state.coordinates.plane());
         if std::mem::replace(&mut self.memory.compensation.mirrored, mirrored) != mirrored {
             let to: Vec<Argument> = mirrored.then(|| Argument::code("mirrored")).into_iter().collect();
             let effect = Effect::set("side of the compensation", to);

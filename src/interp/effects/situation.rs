@@ -17,11 +17,49 @@ impl Situation {
 
     /// The first setting that differs: name, before, after. `feed_counts`: whether F must be the same.
     pub fn difference(&self, other: &Self, feed_counts: bool) -> Option<(&'static str, String, String)> {
+        if self.equals(other) {
+            return None;
+        }
         let (a, b) = (self.settings(feed_counts), other.settings(feed_counts));
         a.into_iter()
             .zip(b)
             .find(|((_, a), (_, b))| a != b)
             .map(|((name, a), (_, b))| (name, written(&a), written(&b)))
+    }
+
+    /// Whether every setting is the same to the last bit, as it is nearly always: nothing is put into words for that.
+    fn equals(&self, other: &Self) -> bool {
+        let (a, b) = (&self.state, &other.state);
+        let bits = |value: Option<f64>| value.map(f64::to_bits);
+        let numbers = |state: &ModalState| {
+            let length = bits(state.tool_length_mm);
+            let units = [state.length_unit_mm.to_bits(), state.feed_unit_mm.to_bits()];
+            (units, length, bits(state.spindle_rpm), bits(state.feed))
+        };
+        let flags = |state: &ModalState| {
+            (
+                state.incremental,
+                state.arc_centre_absolute,
+                state.tcp,
+                state.vector_mode,
+            )
+        };
+        let words = |state: &ModalState| {
+            (
+                state.plane,
+                state.motion,
+                state.compensation,
+                state.tool,
+                state.feed_mode,
+            )
+        };
+        self.to_r == other.to_r
+            && flags(a) == flags(b)
+            && words(a) == words(b)
+            && numbers(a) == numbers(b)
+            && a.zero.map(f64::to_bits) == b.zero.map(f64::to_bits)
+            && a.length_of == b.length_of
+            && a.work_offset == b.work_offset
     }
 
     /// Each setting by name. Numbers are compared to a relative 1e-9; unknown values are equal.
@@ -30,11 +68,14 @@ impl Situation {
         let flag = |is_on: bool| vec![Argument::code(if is_on { "on" } else { "off" })];
         let number = |value: Option<f64>| vec![Argument::number("", value.unwrap_or(f64::NAN))];
         let mut settings = vec![
-            ("incremental programming", flag(state.incremental)),
-            ("absolute arc centres", flag(state.arc_centre_absolute)),
-            ("the unit of lengths", number(Some(state.length_unit_mm))),
-            ("the unit of feeds", number(Some(state.feed_unit_mm))),
-            ("the working plane", vec![Argument::code(plane(state.plane))]),
+            ("incremental programming", flag(state.coordinates.incremental())),
+            ("absolute arc centres", flag(state.coordinates.arc_centre_absolute())),
+            ("the unit of lengths", number(Some(state.coordinates.unit_mm()))),
+            ("the unit of feeds", number(Some(state.feed.unit_mm()))),
+            (
+                "the working plane",
+                vec![Argument::code(plane(state.coordinates.plane()))],
+            ),
             (
                 "the motion code",
                 vec![Argument::code(
@@ -51,27 +92,30 @@ impl Situation {
             ),
             (
                 "the work offset",
-                vec![Argument::code(
-                    state.work_offset.as_deref().unwrap_or("none").to_owned(),
-                )],
+                vec![Argument::code(state.zero.offset().unwrap_or("none").to_owned())],
             ),
             (
                 "the zero point",
-                state.zero.iter().map(|value| Argument::number("", *value)).collect(),
+                state
+                    .zero
+                    .values()
+                    .iter()
+                    .map(|value| Argument::number("", *value))
+                    .collect(),
             ),
-            ("the active tool length", number(state.tool_length_mm)),
+            ("the active tool length", number(state.length.mm())),
             (
                 "which tool's length is active",
-                vec![Argument::code(state.length_of.to_string())],
+                vec![Argument::code(state.length.of().to_string())],
             ),
-            ("the tool", number(state.tool.map(f64::from))),
-            ("tool centre point control", flag(state.tcp)),
-            ("programming by tool vectors", flag(state.vector_mode)),
-            ("the spindle's speed", number(state.spindle_rpm)),
+            ("the tool", number(state.tool.number().map(f64::from))),
+            ("tool centre point control", flag(state.tool_axis.tcp())),
+            ("programming by tool vectors", flag(state.tool_axis.vectors())),
+            ("the spindle's speed", number(state.spindle.rpm())),
         ];
         if feed_counts {
-            settings.push(("the meaning of F", vec![Argument::code(mode(state.feed_mode))]));
-            settings.push(("the feed", number(state.feed)));
+            settings.push(("the meaning of F", vec![Argument::code(mode(state.feed.mode()))]));
+            settings.push(("the feed", number(state.feed.value())));
         }
         settings
     }

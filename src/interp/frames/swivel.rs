@@ -14,7 +14,7 @@ impl<'d> Iso<'d> {
     #[inline]
     pub(crate) fn untilted(&self, motion: &Motion) -> Motion {
         match &self.memory.frames.tilt {
-            Some(tilt) if !motion.machine_coordinates && !self.core.state.frame_unknown => tilt.motion_to_work(motion),
+            Some(tilt) if !motion.machine_coordinates && !self.core.state.zero.is_lost() => tilt.motion_to_work(motion),
             _ => *motion,
         }
     }
@@ -35,7 +35,7 @@ impl<'d> Iso<'d> {
             position = new.to_plane(&position);
         }
         self.memory.frames.tilt = tilt;
-        if !self.core.state.tcp {
+        if !self.core.state.tool_axis.tcp() {
             // without tool centre point control words are not positions of the tip if a rotary axis is turned, or if the tool is off the
             // zero of the axes; only the machine gives the position of the tip
             position.known &= !XYZ;
@@ -64,11 +64,13 @@ impl<'d> Iso<'d> {
     ) {
         let adds = found.code.id == "G68.4";
         let turns = self.plane_turns(words, report);
-        let clear = words.axes.unread == 0 && !self.core.state.incremental && self.memory.frames.shape.is_identity();
+        let clear = words.axes.unread == 0
+            && !self.core.state.coordinates.incremental()
+            && self.memory.frames.shape.is_identity();
         let outer = self.memory.frames.tilt.filter(|_| adds);
         let (Some(turns), true) = (
             turns,
-            clear && adds == outer.is_some() && !self.core.state.frame_unknown,
+            clear && adds == outer.is_some() && !self.core.state.zero.is_lost(),
         ) else {
             self.end_tilt(report);
             self.frame_change(found, words, block, report);
@@ -151,7 +153,7 @@ impl<'d> Iso<'d> {
             self.unmodelled_code(found, words, block, report);
             return;
         };
-        if self.memory.frames.tilt.is_none() || self.core.state.tcp {
+        if self.memory.frames.tilt.is_none() || self.core.state.tool_axis.tcp() {
             self.unmodelled_code(found, words, block, report);
             return;
         }
@@ -208,7 +210,7 @@ impl<'d> Iso<'d> {
         let ended = self.core.unknown.end(found.code);
         self.core.forget_if(ended);
         block.takes_coordinates = true;
-        let unit = self.core.state.length_unit_mm;
+        let unit = self.core.state.coordinates.unit_mm();
         let shifted = |by: [f64; 3]| Tilted::new(Vec3::from(by) * unit, &[]);
         let plane = shifted(call.before)
             .then(&Tilted::new(Vec3::zeros(), &call.turns))
@@ -225,7 +227,7 @@ impl<'d> Iso<'d> {
             (false, true) => Swivel::TipStays,
             (false, false) => Swivel::AxesStay,
         };
-        self.core.state.frame_unknown = self.core.unknown.any();
+        self.core.state.zero.lose(self.core.unknown.any());
         self.swivel(swivel, posture, report);
     }
 }

@@ -125,7 +125,7 @@ impl<'d> Iso<'d> {
         {
             engine.set_zero(Some("G54".into()), OffsetValues::declared(offset.values));
         }
-        engine.memory.tcp_used = engine.core.state.tcp && setup.control.tcp_codes.is_some();
+        engine.memory.tcp_used = engine.core.state.tool_axis.tcp() && setup.control.tcp_codes.is_some();
         engine
     }
 

@@ -117,7 +117,7 @@ fn spindle_and_delay() {
 
 /// Shape and diameter in use at the end.
 fn shape(source: &str) -> Option<(ToolShape, f64)> {
-    run_text("apt", source).state.expect("a record ran").tool_shape()
+    run_text("apt", source).state.expect("a record ran").tool.shape()
 }
 
 #[test]

@@ -55,7 +55,7 @@ struct Modes(Vec<(u32, bool)>);
 
 impl trunnion_interp::Sink for Modes {
     fn motion(&mut self, motion: &trunnion_interp::Motion, state: &trunnion_interp::ModalState) {
-        self.0.push((motion.block.0, state.incremental));
+        self.0.push((motion.block.0, state.coordinates.incremental()));
     }
     fn fault(&mut self, _: trunnion_interp::Fault) {}
 }

@@ -104,7 +104,7 @@ fn dwells() {
     let log = run_text("sinumerik-840d", "F200 S1000\nG4 F0.5\nG4 S3\n");
     let state = log.state.expect("a block ran");
     assert_eq!(
-        (state.feed, state.spindle_rpm),
+        (state.feed.value(), state.spindle.rpm()),
         (Some(200.0), Some(1000.0)),
         "the dwell's F and S are its own"
     );
@@ -176,7 +176,7 @@ fn work_offsets_move_the_programmed_position() {
         .collect();
     assert_eq!(got, want);
     assert_eq!(log.faults, []);
-    assert_eq!(log.state.expect("a block ran").work_offset, None);
+    assert_eq!(log.state.expect("a block ran").zero.offset(), None);
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn additional_work_offsets_are_named_with_their_p() {
 fn first_offset_is_in_force_from_the_start_where_the_control_says_so() {
     let (_, log) = run_bytes("fanuc-30i", b"G0 X1\nM30\n", &offsets());
     assert_eq!(log.motions[0].zero[0], 100.0);
-    assert_eq!(log.state.expect("a block ran").work_offset.as_deref(), Some("G54"));
+    assert_eq!(log.state.expect("a block ran").zero.offset(), Some("G54"));
 }
 
 #[test]

@@ -168,7 +168,10 @@ fn a_spindle_limit_is_no_speed() {
     );
     assert_eq!(log.motions[0].spindle_rpm, Some(500.0));
     let state = log.state.expect("blocks ran");
-    assert_eq!((state.surface_speed, state.spindle_limit_rpm), (true, Some(2000.0)));
+    assert_eq!(
+        (state.spindle.surface_speed(), state.spindle.limit_rpm()),
+        (true, Some(2000.0))
+    );
     assert_eq!(line(&log.motions[1]), "L X5 Z-5 F0.1/rev");
 }
 

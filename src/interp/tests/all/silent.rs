@@ -165,7 +165,10 @@ fn units_of_the_setup() {
             ..Setup::default()
         };
         let (_, log) = run_bytes("fanuc-30i", b"G1 X1. F2.\nM30\n", &setup);
-        (line(&log.motions[0]), log.state.is_some_and(|state| state.units_said))
+        (
+            line(&log.motions[0]),
+            log.state.is_some_and(|state| state.coordinates.unit_programmed()),
+        )
     };
     assert_eq!(run(None), ("L X1 F2".to_owned(), false));
     assert_eq!(run(Some(LengthUnit::Millimetre)), ("L X1 F2".to_owned(), true));

@@ -178,7 +178,8 @@ fn shape(dialect: &str, source: &str, setup: &Setup) -> Option<(ToolShape, f64)>
         .1
         .state
         .expect("a block ran")
-        .tool_shape()
+        .tool
+        .shape()
 }
 
 #[test]
